@@ -179,10 +179,37 @@ class Solution(Remembering):
 
     @cached_property
     def scales(self) -> dict[PlanKind, Scale]:
-        """Scales of the plans: given, the file's, or chosen from the series to fill the views."""
+        """Scales of the plans: given, the file's, or those of the series that most plans have."""
         if self._scales is not None:
             return dict(self._scales)
+        scales = dict(self._chosen)
+        for kind, own in self._own_scales.items():
+            if getattr(self.problem.scales, scales[kind].symbol) is None:
+                per_mm, counts = np.unique(own, return_counts=True)
+                scales[kind] = replace(scales[kind], per_mm=float(per_mm[counts.argmax()]))
+        return scales
+
+    @cached_property
+    def _chosen(self) -> dict[PlanKind, Scale]:
+        """The file's scales, else those of the series that fill the views."""
         return choose_scales(self.construction, self.si, self.views)
+
+    @cached_property
+    def _own_scales(self) -> dict[PlanKind, Reals]:
+        """Scales in every position, shape (n,), of the kinds of plans that have several.
+
+        At a scale that the file gives only a sheet leaves what goes beyond its views.
+        """
+        found: dict[PlanKind, Reals] = {}
+        drawn = self._scales is None and len(self.positions) <= MOST_DRAWN
+        for kind in RATES if drawn else ():
+            chosen = self._chosen[kind]
+            if self._views is None and getattr(self.problem.scales, chosen.symbol) is not None:
+                continue
+            own = own_scales(self.construction, self.si, self.views, chosen.per_mm, kind)
+            if (own != chosen.per_mm).any():
+                found[kind] = own
+        return found
 
     def own_scale(self, kind: PlanKind, index: int) -> Scale:
         """Return the scale at which a plan is drawn in one position.
@@ -190,9 +217,8 @@ class Solution(Remembering):
         It is the common one, but for a plan that would leave its view by far (near a dead
         position), or would be too small to be read. Scales that the solution was given are kept to.
         """
-        common = self.scales[kind]
-        per_mm = float(np.broadcast_to(self.per_mm[common.symbol], self.positions.shape)[index])
-        return common if per_mm == common.per_mm else Scale(common.symbol, per_mm, common.unit)
+        common, own = self.scales[kind], self._own_scales.get(kind)
+        return common if own is None else replace(common, per_mm=float(own[index]))
 
     def has_common(self, kind: PlanKind, indices: Sequence[int]) -> bool:
         """Tell whether at least half of the plans of some positions are drawn at the common scale.
@@ -211,19 +237,10 @@ class Solution(Remembering):
     def per_mm(self) -> dict[str, Number]:
         """Unit per millimetre of each plan, by the name that the program has for it.
 
-        Of several positions those of the plans of each, shape (n,), where one has its own: at a
-        scale that the file gives only a sheet leaves what goes beyond its views.
+        Of several positions those of the plans of each, shape (n,), where one has its own.
         """
-        found: dict[str, Number] = {s.symbol: s.per_mm for s in self.scales.values()}
-        drawn = self._scales is None and len(self.positions) <= MOST_DRAWN
-        for kind in RATES if drawn else ():
-            common = self.scales[kind]
-            if self._views is None and getattr(self.problem.scales, common.symbol) is not None:
-                continue
-            own = own_scales(self.construction, self.si, self.views, common.per_mm, kind)
-            if (own != common.per_mm).any():
-                found[common.symbol] = own
-        return found
+        own = self._own_scales
+        return {s.symbol: own.get(kind, s.per_mm) for kind, s in self.scales.items()}
 
     @cached_property
     def paper(self) -> Reading:
