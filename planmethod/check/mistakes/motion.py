@@ -11,9 +11,6 @@ from planmethod.mechanism.model import FRAME
 from planmethod.plans.model import PlanKind
 from planmethod.plans.motion.leads import Relative, Turning
 
-LITTLE = 0.05
-"""Share of a component below which it is as good as forgotten."""
-
 V, A = PlanKind.VELOCITY, PlanKind.ACCELERATION
 
 
@@ -291,7 +288,7 @@ def normal_by_wrong_formula(scene: Scene) -> Iterator[Change]:
         ]
         for powers in wrong:
             made = steps.Compute(step.out, step.factor, powers, size=True)
-            if abs(scene.value(made)) > LITTLE * abs(scene.exact(step.out)):
+            if scene.value(made):
                 yield Change("N3", where, {step.out: (made,)})
 
 
