@@ -11,6 +11,9 @@ from planmethod.mechanism.model import FRAME
 from planmethod.plans.model import PlanKind
 from planmethod.plans.motion.leads import Relative, Turning
 
+LITTLE = 0.05
+"""Share of a component below which it is as good as forgotten."""
+
 V, A = PlanKind.VELOCITY, PlanKind.ACCELERATION
 
 
@@ -273,7 +276,8 @@ def normal_forgotten(scene: Scene) -> Iterator[Change]:
 
 
 def normal_by_wrong_formula(scene: Scene) -> Iterator[Change]:
-    """N3: aⁿ = ω²/l, ω·l, v·l, v²·l, or with the ω of another link."""
+    """N3: aⁿ = ω²/l, ω·l, v·l, v²·l, or with the ω of another link; hardly any only if asked."""
+    asked = {question.name for question in scene.sheet.asked}
     for where, step, _ in _normals(scene):
         rate, length = step.powers[0][0], step.powers[1:]
         inverse = tuple((name, -power) for name, power in length)
@@ -288,7 +292,8 @@ def normal_by_wrong_formula(scene: Scene) -> Iterator[Change]:
         ]
         for powers in wrong:
             made = steps.Compute(step.out, step.factor, powers, size=True)
-            if scene.value(made):
+            least = 0.0 if step.out in asked else LITTLE * abs(scene.exact(step.out))
+            if abs(scene.value(made)) > least:
                 yield Change("N3", where, {step.out: (made,)})
 
 
