@@ -32,7 +32,7 @@ class Asked:
 
 
 def parse(text: str, known: Collection[str]) -> Asked:
-    """Parse a name such as ``U_1_4^H``; also ``U_15``, ``n_H_2`` of H2, where that is read in one way only.
+    """Parse a name such as ``U_1_4^H``; also ``U_15``, ``n_H_2`` if read in one way only.
 
     Raises
     ------
