@@ -10,8 +10,7 @@ from collections import Counter
 from collections.abc import Sequence
 from typing import NamedTuple
 
-from planmethod.construct.compiled.blocks import EQUAL
-from planmethod.construct.compiled.straight import BINARY, used_by
+from planmethod.construct.compiled.straight import BINARY, EQUAL, used_by
 from planmethod.construct.compiled.symbolic import Guard
 from planmethod.construct.compiled.tape import Ref, Tape, same
 
