@@ -153,6 +153,9 @@ it takes so much of it at most."""
 LEAST = 30.0
 """Larger side below which a plan has a finer scale of its own, mm: half of what it shall have."""
 
+LESS = 0.8
+"""So much of its share a plan at a scale of its own keeps when the others get smaller."""
+
 FEW_FAR = 0.2
 """Part of the plans of a kind that may have scales of their own."""
 
@@ -280,7 +283,7 @@ class _Chosen:
         drawn = {kind: _Drawn(construction, si, views, kind) for kind in MOTION}
         given = {kind: getattr(asked, FACTS[kind].scale) for kind in MOTION}
         free = [kind for kind in MOTION if given[kind] is None and any(drawn[kind].size)]
-        per_mm = {kind: given[kind] or drawn[kind].alone() for kind in MOTION}
+        per_mm = {kind: given[kind] or drawn[kind].alone for kind in MOTION}
         own = cls(drawn, views, per_mm, tuple(kind for kind in free if kind not in views.kept))
         return own._filled(asked) if views.paper else own
 
@@ -338,6 +341,7 @@ class _Drawn:
     si: Reading
     views: Views
     kind: PlanKind
+    whole: bool = False  # plans at scales of their own have their share of the room, however small
 
     @cached_property
     def sizes(self) -> tuple[Reals, Reals]:
@@ -359,16 +363,17 @@ class _Drawn:
         """Whether it is many plans in rows."""
         return self.views.in_rows(self.kind)
 
+    @cached_property
     def alone(self) -> float:
-        """Return the finest scale of the series at which it has the room of its own.
+        """The finest scale of the series at which it has the room of its own.
 
         Where there is none, all plans having scales of their own, it is that of the largest alone.
         """
-        asked = self.construction.draft.problem.scales
+        asked, own = self.construction.draft.problem.scales, replace(self, whole=True)
         per_mm = first = _fitting(asked, self.box, self.size)
         drawn = np.maximum(*self.sizes) > 0.0
-        while self.rows and not (self.stretches(per_mm, 1.0) and self.share(per_mm) <= 1.0):
-            if (self.each(per_mm) != per_mm)[drawn].all():
+        while self.rows and not (own.stretches(per_mm, 1.0) and own.share(per_mm) <= 1.0):
+            if (own.each(per_mm) != per_mm)[drawn].all():
                 return first
             per_mm = _next(per_mm, asked, finer=False)
         return per_mm
@@ -420,13 +425,19 @@ class _Drawn:
         """Return the scale at which it is drawn in every position, shape (n,).
 
         It is the common one, but for a plan that would leave its view by far (near a dead
-        position), or would be too small to be read where the file gives no scale.
+        position), or would be too small to be read where the file gives no scale. As the common one
+        gets coarser to make room, these plans get smaller, too.
         """
-        own, count = self.views.plan_box(self.kind, self.si.count), self.si.count
-        width, height = self.sizes
-        over = np.maximum(width / own[0], height / own[1]) / per_mm
+        count = self.si.count
         asked = self.construction.draft.problem.scales
         given = getattr(asked, FACTS[self.kind].scale) is not None
+        less = 1.0
+        if self.rows and not (self.whole or given):
+            less = max(LESS, min(1.0, self.alone / per_mm))
+        across, up = self.views.plan_box(self.kind, count)
+        own = (less * across, less * up)
+        width, height = self.sizes
+        over = np.maximum(width / own[0], height / own[1]) / per_mm
         far, small = over > _far(count), over < NEAR
         small |= np.maximum(width, height) < LEAST * per_mm
         own_too = far if given or count == 1 else (far | small) & (over > 0.0)
