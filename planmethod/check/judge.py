@@ -371,7 +371,7 @@ def facts_of(sheet: Sheet, found: list[Examined], k: float) -> list[Fact]:
         if not strict and not one.limit.zero and one.sense_right is not None:
             sense = partial(_way, sheet, one)
         least = max(0.4 * min(one.limit.least, 0.02 * abs(one.limit.exact)), 1e-9) / k
-        least = max(least, 0.002 * abs(one.value))
+        least = max(least, 0.002 * abs(one.value)) if one.value else min(least, 1e-9)
         value = one.value if strict else abs(one.value)
         turned = one.signed and question.sign is Sign.TURN
         turn = math.copysign(1.0, one.value) if turned else 0.0

@@ -12,8 +12,8 @@ from planmethod.check.explain import Explanation
 from planmethod.check.judge import Examined
 from planmethod.check.key import SEGMENT_CODES
 from planmethod.check.mistakes.model import Change, times
-from planmethod.check.questions import Sign
-from planmethod.check.sheet import Sheet, scalar
+from planmethod.check.questions import Question, Sign
+from planmethod.check.sheet import Sheet, point, scalar
 from planmethod.construct.steps import Compute, NumberName, Step
 from planmethod.plans.model import FACTS, MOTION, PlanKind
 from planmethod.record import replace
@@ -30,6 +30,10 @@ CLOSE = 0.03
 
 READ = 0.15
 """How far off another segment may be read, a share of it: how likely that is, its errors tell."""
+
+
+ONE_END = 4.0
+"""How common it is to read the whole for its last part, beside any other segment."""
 
 
 class Slip(NamedTuple):
@@ -158,15 +162,32 @@ def _segments(sheet: Sheet, one: Examined, base: float, slack: float) -> Iterato
     if one.foreign and one.told is not None and not one.slip:
         yield Slip(SEGMENT_CODES[question.plan], one.foreign, one.value, 200.0)
         return
-    for segment in sheet.questions.construction.segments:
-        if segment.kind is not question.plan or segment.length not in sheet.trace.value:
-            continue
-        share = abs(scalar(sheet.trace.value[NumberName(segment.length)])) / length
+    for name, other, read in [*_listed(sheet, question), *_wholes(sheet, question)]:
+        share = other / length
         off = abs(abs(one.value / base) - share)
         if abs(share - 1.0) > slack and off <= (slack if one.told else READ) * share > 0:
-            value = base * share
+            prior = ONE_END if read is None else 0.5
+            yield Slip(SEGMENT_CODES[question.plan], name, base * share, prior, base, read)
+
+
+def _listed(sheet: Sheet, question: Question) -> Iterator[tuple[str, float, NumberName | None]]:
+    """Yield the segments of a plan that are measured: letters, length, what it is called."""
+    for segment in sheet.questions.construction.segments:
+        if segment.kind is question.plan and segment.length in sheet.trace.value:
             read = NumberName(segment.length)
-            yield Slip(SEGMENT_CODES[question.plan], segment.name, value, 0.5, base, read)
+            yield segment.name, abs(scalar(sheet.trace.value[read])), read
+
+
+def _wholes(sheet: Sheet, question: Question) -> Iterator[tuple[str, float, NumberName | None]]:
+    """Yield what the right segment is the end of: of (nc), which is aᵗ, (bc)."""
+    if question.ends is None:
+        return
+    part, head = question.ends
+    for plan in sheet.plans:
+        for vector in plan.vectors if plan.kind is question.plan else ():
+            if vector.head == part and vector.tail in sheet.trace.value:
+                ends = (sheet.trace.value[end] for end in (vector.tail, head))
+                yield f"{vector.tail}-{head}", abs(point(next(ends)) - point(next(ends))), None
 
 
 def put_explanation(

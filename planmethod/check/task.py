@@ -242,7 +242,7 @@ class Task:
     def scales(self, own: Mapping[str, float], position: int) -> dict[str, float]:
         """Return the scales of a sheet: a student's own, and those of the problem for the rest."""
         asked = self._asked.get(position, {}).values()
-        scales = dict(self.solution.per_mm)
+        scales = {scale.symbol: scale.per_mm for scale in self.solution.scales.values()}
         statics = self.questions(position).statics
         if statics is not None:
             needed = SCALE not in own and any(is_force(question.selector) for question in asked)

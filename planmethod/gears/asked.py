@@ -32,7 +32,7 @@ class Asked:
 
 
 def parse(text: str, known: Collection[str]) -> Asked:
-    """Parse a name such as ``U_1_4^H``; also ``U_15`` where that is read in one way only.
+    """Parse a name such as ``U_1_4^H``; also ``U_15``, ``n_H_2`` if read in one way only.
 
     Raises
     ------
@@ -43,6 +43,7 @@ def parse(text: str, known: Collection[str]) -> Asked:
     if name in PLAIN or name == "eta":
         return Asked(name)
     whole, hat, carrier = name.partition("^")
+    carrier = carrier if carrier in known else carrier.replace("_", "")
     kind = next((k for k in COUNTS if whole.startswith(f"{k}_")), None)
     if kind is None:
         raise AskedError(say("unknown quantity '{}'", short(text)))
@@ -59,9 +60,10 @@ def parse(text: str, known: Collection[str]) -> Asked:
 
 def _labels(text: str, count: int, known: Collection[str]) -> tuple[str, ...]:
     parts = tuple(text.split("_")) if count else ()
-    if count == 2 and len(parts) == 1:
-        pairs = [(text[:i], text[i:]) for i in range(1, len(text))]
-        found = [pair for pair in pairs if pair[0] in known and pair[1] in known]
+    if count and len(parts) != count:  # U_15, n_H_2
+        run = "".join(parts)
+        cuts = [(run,)] if count == 1 else [(run[:i], run[i:]) for i in range(1, len(run))]
+        found = [cut for cut in cuts if all(label in known for label in cut)]
         if len(found) == 1:
             return found[0]
     if len(parts) != count:

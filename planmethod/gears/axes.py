@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import field
 from fractions import Fraction
 from itertools import product
@@ -77,7 +77,7 @@ def _find_lines(train: Train, roles: Roles) -> _Lines:
     lines = _Lines({body: body for body in train.bodies})
     for carrier, bodies in roles.central.items():
         lines.join([carrier, *bodies])
-    for group in train.coaxial:
+    for group in (*train.coaxial, *_around_idlers(train)):
         lines.join(group)
     first = train.ends(train.meshes[0])[0]
     lines.main = lines.line[
@@ -95,6 +95,18 @@ def _find_lines(train: Train, roles: Roles) -> _Lines:
     for body in train.inputs:
         lines.below |= _beside(train, lines, body)
     return lines
+
+
+def _around_idlers(train: Train) -> Iterator[tuple[str, ...]]:
+    """Yield what an idler of unknown teeth runs between: a wheel and a ring, of one axis."""
+    told = {body for group in train.coaxial for body in group}
+    for label in train.unknown:
+        body = train.body_of[label]
+        meshes = [mesh for mesh in train.meshes if body in train.ends(mesh)]
+        kinds = {mesh.kind for mesh in meshes if label in (mesh.first, mesh.second)}
+        ends = {b for mesh in meshes for b in train.ends(mesh)}
+        if len(meshes) == 2 and kinds == {MeshKind.EXTERNAL, MeshKind.INTERNAL} and not ends & told:
+            yield tuple(ends - {body})
 
 
 def _place(

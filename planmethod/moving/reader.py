@@ -199,10 +199,9 @@ def _read_show(faults: Faults, value: object) -> tuple[float, float] | None:
 
 
 def _has_formula(value: object) -> bool:
-    parts = value.values() if isinstance(value, Mapping) else value
-    return isinstance(value, str) or (
-        not fields.is_number(value) and any(isinstance(part, str) for part in parts or ())  # type: ignore[attr-defined]
-    )
+    if isinstance(value, (list, Mapping)):
+        return any(map(_has_formula, value.values() if isinstance(value, Mapping) else value))
+    return isinstance(value, str)
 
 
 def _blur(times: tuple[float, ...], *, rounded: bool) -> tuple[float, ...]:

@@ -68,7 +68,8 @@ class _Writer(Steps):
         text = "; ".join(plain_text(line).replace(" ", NO_BREAK) for line in facts)
         self.lines += wrap(words.given.format(given=text))
         self.chapter(words.scales)
-        self.item([words.scales_text.format(scales="; ".join(scale_texts(self.solution, words)))])
+        scales = "; ".join(scale_texts(self.solution, words, self.index))
+        self.item([words.scales_text.format(scales=scales)])
         self.item([words.ruler.format(ruler=given(self.solution.hand.ruler, words))])
         kind: PlanKind | None = None
         for section in self.names.construction.sections:

@@ -161,6 +161,9 @@ OUTLIER = 5.0
 dead position and is drawn at a scale of its own."""
 
 
+MOST_DRAWN = 120
+"""Most positions drawn in one call: ten sheets of a dozen. Of more no plan has its own scale."""
+
 BETWEEN = 6.0
 """White between the plans of a row, and between rows, mm."""
 
@@ -213,11 +216,11 @@ def extent(construction: Construction, si: Reading, kind: PlanKind) -> Box:
     """Return the size of what is drawn, in its own unit: of plans the largest, without outliers."""
     width, height = sizes(construction, si, kind)
     size = np.maximum(width, height)
-    usual = size <= OUTLIER * _median(size)
+    usual = size <= OUTLIER * median(size)
     return float(np.max(width[usual])), float(np.max(height[usual]))
 
 
-def _median(sizes: Reals) -> float:
+def median(sizes: Reals) -> float:
     """Return the median of (N,) sizes; numpy's own would import its masked arrays."""
     ordered = np.sort(sizes)
     return float(ordered[(len(ordered) - 1) // 2] + ordered[len(ordered) // 2]) / 2
@@ -451,11 +454,7 @@ def _fitting(asked: Scales, box: Box, size: Box) -> float:
 
 
 def own_scales(
-    construction: Construction, si: Reading, views: Views, common: Scale, kind: PlanKind
-) -> tuple[Scale, ...]:
-    """Return the scales at which a plan is drawn in every position: the common one, mostly."""
-    each = _Drawn(construction, si, views, kind).each(common.per_mm).tolist()
-    return tuple(
-        common if per_mm == common.per_mm else Scale(common.symbol, per_mm, common.unit)
-        for per_mm in each
-    )
+    construction: Construction, si: Reading, views: Views, per_mm: float, kind: PlanKind
+) -> Reals:
+    """Return the scale of a plan in every position, shape (n,): the common one, mostly."""
+    return _Drawn(construction, si, views, kind).each(per_mm)

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from planmethod.construct.arithmetic import Arithmetic, Float64
+from planmethod.construct.arithmetic import Arithmetic, Float64, Number
 from planmethod.construct.drafting import PROFILES, Profile
 from planmethod.construct.evaluate import evaluate
 from planmethod.construct.hand import Hand
@@ -28,12 +28,19 @@ from planmethod.solved.enlarging import Knot, find_knots, least_shown, measured
 from planmethod.solved.failures import PositionError
 from planmethod.solved.impossible import explain, failing
 from planmethod.solved.reading import Complexes, Reading, Reals, Remembering
-from planmethod.solved.scaling import Views, choose_scales, choose_views, own_scales
+from planmethod.solved.scaling import MOST_DRAWN, Views, choose_scales, choose_views, own_scales
 
 UNIT_SCALES: Mapping[str, float] = MappingProxyType({"mu_l": 1.0, "mu_v": 1.0, "mu_a": 1.0})
 """Scales at which a millimetre of a plan is a metre, a metre per second, one per second squared."""
 
 EVERY = slice(None)
+
+
+def at_positions(
+    values: Mapping[str, Number], chosen: npt.NDArray[np.intp] | slice
+) -> dict[str, Number]:
+    """Return values of some positions: of columns, shape (n,), those, of single numbers all."""
+    return {name: value[chosen] if np.ndim(value) else value for name, value in values.items()}
 
 
 @dataclass(frozen=True, slots=True)
@@ -135,17 +142,18 @@ class Solution(Remembering):
 
     def data(
         self,
-        scales: Mapping[str, float] = UNIT_SCALES,
+        scales: Mapping[str, Number] = UNIT_SCALES,
         chosen: npt.NDArray[np.intp] | slice = EVERY,
     ) -> dict[str, Any]:
         """Return the data of the program at given scales (unit per mm), for some positions."""
         draft = self.construction.draft
-        data: dict[str, Any] = {**drive_data(self.problem, draft, self.positions[chosen]), **scales}
+        own = at_positions(scales, chosen)
+        data: dict[str, Any] = {**drive_data(self.problem, draft, self.positions[chosen]), **own}
         for name, place in draft.places.items():
             data[name] = place / scales["mu_l"]
         return data
 
-    def read(self, arithmetic: Arithmetic, scales: Mapping[str, float] = UNIT_SCALES) -> Reading:
+    def read(self, arithmetic: Arithmetic, scales: Mapping[str, Number] = UNIT_SCALES) -> Reading:
         """Read the whole program in an arithmetic at given scales (unit per mm)."""
         trace = evaluate(self.construction.program, self.data(scales), arithmetic)
         return Reading(trace, len(self.positions))
@@ -171,18 +179,46 @@ class Solution(Remembering):
 
     @cached_property
     def scales(self) -> dict[PlanKind, Scale]:
-        """Scales of the plans: given, the file's, or chosen from the series to fill the views."""
+        """Scales of the plans: given, the file's, or those of the series that most plans have."""
         if self._scales is not None:
             return dict(self._scales)
+        scales = dict(self._chosen)
+        for kind, own in self._own_scales.items():
+            if getattr(self.problem.scales, scales[kind].symbol) is None:
+                per_mm, counts = np.unique(own, return_counts=True)
+                scales[kind] = replace(scales[kind], per_mm=float(per_mm[counts.argmax()]))
+        return scales
+
+    @cached_property
+    def _chosen(self) -> dict[PlanKind, Scale]:
+        """The file's scales, else those of the series that fill the views."""
         return choose_scales(self.construction, self.si, self.views)
+
+    @cached_property
+    def _own_scales(self) -> dict[PlanKind, Reals]:
+        """Scales in every position, shape (n,), of the kinds of plans that have several.
+
+        At a scale that the file gives only a sheet leaves what goes beyond its views.
+        """
+        found: dict[PlanKind, Reals] = {}
+        drawn = self._scales is None and len(self.positions) <= MOST_DRAWN
+        for kind in RATES if drawn else ():
+            chosen = self._chosen[kind]
+            if self._views is None and getattr(self.problem.scales, chosen.symbol) is not None:
+                continue
+            own = own_scales(self.construction, self.si, self.views, chosen.per_mm, kind)
+            if (own != chosen.per_mm).any():
+                found[kind] = own
+        return found
 
     def own_scale(self, kind: PlanKind, index: int) -> Scale:
         """Return the scale at which a plan is drawn in one position.
 
         It is the common one, but for a plan that would leave its view by far (near a dead
-        position), or would be too small to be read.
+        position), or would be too small to be read. Scales that the solution was given are kept to.
         """
-        return self._own_scales[kind][index]
+        common, own = self.scales[kind], self._own_scales.get(kind)
+        return common if own is None else replace(common, per_mm=float(own[index]))
 
     def has_common(self, kind: PlanKind, indices: Sequence[int]) -> bool:
         """Tell whether at least half of the plans of some positions are drawn at the common scale.
@@ -193,20 +229,18 @@ class Solution(Remembering):
         return 2 * own <= len(indices)
 
     @cached_property
-    def _own_scales(self) -> dict[PlanKind, tuple[Scale, ...]]:
-        facts, scales = (self.construction, self.si, self.views), self.scales
-        own = {kind: own_scales(*facts, scales[kind], kind) for kind in RATES}
-        return {**own, PlanKind.POSITION: (scales[PlanKind.POSITION],) * self.si.count}
-
-    @cached_property
     def views(self) -> Views:
         """Boxes that the plans shall fill: those of the format that a sheet is tried on first."""
         return self._views or choose_views(self.construction, self.si)
 
-    @property
-    def per_mm(self) -> dict[str, float]:
-        """Unit per millimetre of each plan, by the name that the program has for it."""
-        return {scale.symbol: scale.per_mm for scale in self.scales.values()}
+    @cached_property
+    def per_mm(self) -> dict[str, Number]:
+        """Unit per millimetre of each plan, by the name that the program has for it.
+
+        Of several positions those of the plans of each, shape (n,), where one has its own.
+        """
+        own = self._own_scales
+        return {s.symbol: own.get(kind, s.per_mm) for kind, s in self.scales.items()}
 
     @cached_property
     def paper(self) -> Reading:

@@ -335,6 +335,15 @@ def test_the_key_has_every_position_and_hides_what_none_shows() -> None:
             assert all(where in key.hidden[code] for key in alone)
 
 
+def test_a_plan_that_is_too_small_to_be_read_has_a_key() -> None:
+    """ex3 at 2 1/s and its own scales: segments of a millimetre, some that only the ruler errs."""
+    problem = problem_of("linkages/ex3")
+    slow = replace(problem, drive=replace(problem.drive, rate=2.0))
+    entries = key_of(Solution(slow, positions=[140.0])).entries
+    assert all(math.isfinite(entry.tolerance) for entry in entries)
+    assert sum(entry.zero for entry in entries) > 1
+
+
 def test_the_numbers_of_another_variant_earn_nothing() -> None:
     """P2: those of Б where А was given; that they agree with one another is no work of his."""
     tasks = {

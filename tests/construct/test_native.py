@@ -106,6 +106,19 @@ def test_angles_are_good_to_the_last_place_and_exact_at_quadrants(
     assert np.abs(out[3] - theirs[3]).max() <= 6e-14
 
 
+def test_angles_of_equal_steps_are_turned_by_a_table() -> None:
+    """So are those equal to rounding; a block with one that is not is turned one by one."""
+    tape = Tape()
+    a = tape.input(0)
+    results = [tape.make("cosd", a), tape.make("sind", a)]
+    angles = np.linspace(-400.0, 700.0, 5 * BLOCK + 3)
+    angles[3 * BLOCK + 7] += 0.01
+    (out, _), _ = both(tape, results, [], [frozenset()] * 2, [angles])
+    turned = np.radians(angles.astype(np.longdouble))
+    for found, right in zip(out, (np.cos(turned), np.sin(turned)), strict=True):
+        assert np.abs(found - right).max() <= 4.5e-16
+
+
 def agree(problem: Problem, positions: Any, **asked: Any) -> Sweep:
     mine, theirs = Sweep(problem, native=True, **asked), Sweep(problem, native=False, **asked)
     assert not mine.uncompiled and theirs.uncompiled

@@ -86,6 +86,7 @@ def test_the_longest_formulas_are_read() -> None:
         ("title = 'x'", ["point: missing. For example: "]),
         ("point = 3", ["point: expected a table, got the integer 3. "]),
         ("[point]\nx = 't'\ny = 't'", ["point.t: missing. "]),
+        ("[point]\nx = 't'\ny = 't'\nt = true", ["point.t: expected a moment in seconds"]),
         ("[point]\nx = 't'\nt = 0", ["point.y: missing. "]),
         ("[point]\nt = 0", ["point: expected x and y, r and phi, or s, or a wheel and phi. "]),
         (

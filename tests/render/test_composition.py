@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
+from dataclasses import replace
 from itertools import combinations
 from pathlib import Path
 
@@ -539,3 +540,14 @@ def test_the_examples_of_the_document_can_be_read() -> None:
     for example in examples:
         whole = example if "[[blocks]]" in example else f'{example}\n[[blocks]]\nkind = "scheme"\n'
         assert made(whole).blocks
+
+
+def test_scales_of_the_file_for_another_position_do_not_stop_a_sheet() -> None:
+    """Near a dead position the plans at those scales have no room on A0."""
+    problem = problem_of("linkages/ex3")
+    (sheet,) = kinematics_sheets(problem, positions=(270.0,))
+    (found,) = (view.per_mm for view in sheet.views if view.kind == "acceleration")
+    assert problem.scales.mu_a is not None and found > problem.scales.mu_a
+    own = replace(problem, drive=replace(problem.drive, positions=(270.0,)))
+    with pytest.raises(LayoutError, match="coarser scales"):
+        kinematics_sheets(own)

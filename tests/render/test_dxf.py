@@ -9,7 +9,6 @@ import subprocess
 import sys
 from cmath import rect
 from collections import Counter
-from collections.abc import Callable
 from io import BytesIO, StringIO
 from math import pi, tau
 from pathlib import Path
@@ -22,7 +21,7 @@ from cases import each, thinned
 from click.testing import CliRunner, Result
 from PIL import Image
 from reading import Path as Painted
-from reading import Run, read_dxf
+from reading import Run, read_dxf, solved_while
 from worked import PROBLEMS, ROOT, SIX, drawn_sheets, every_file, path_of, problem_of
 
 from planmethod.cli import cli
@@ -37,7 +36,6 @@ from planmethod.render.ink.drawing import Arc, Disc, Drawing, Fill, Ink, Pen, St
 from planmethod.render.ink.lettering import in_use
 from planmethod.render.ink.style import PENS, sweep
 from planmethod.render.pictures.enlarged import ENLARGED
-from planmethod.render.sheets import kinematics
 from planmethod.render.sheets.kinematics import kinematics_sheets
 from planmethod.render.sheets.structure import structure_sheet
 from planmethod.render.symbols import arrowhead, revolute, turn_arrow, vector_arrow
@@ -175,18 +173,6 @@ def turn(angle: float) -> complex:
 # What is measured ---------------------------------------------------------------------------------
 
 
-def solved_while(draw: Callable[[], list[Drawing]], patch: pytest.MonkeyPatch) -> tuple[Any, Any]:
-    """Return the sheets and the last solution that was made for them."""
-    made: list[Solution] = []
-
-    def kept(*args: Any, **kwargs: Any) -> Solution:
-        made.append(Solution(*args, **kwargs))
-        return made[-1]
-
-    patch.setattr(kinematics, "Solution", kept)
-    return draw(), made[-1]
-
-
 @pytest.mark.parametrize("name", SIX)
 def test_a_segment_of_a_plan_is_one_line_as_long_as_the_table_says(
     name: str, monkeypatch: pytest.MonkeyPatch
@@ -202,7 +188,7 @@ def test_a_segment_of_a_plan_is_one_line_as_long_as_the_table_says(
         for line in read(render(drawing, "dxf")).modelspace().query('LINE[layer=="PLAN_VECTORS"]')
     ]
     exact = [
-        segment.exact[0] * solution.scales[kind].per_mm / solution.own_scale(kind, 0).per_mm
+        segment.exact[0]
         for kind in (PlanKind.VELOCITY, PlanKind.ACCELERATION)
         for segment in solution.segments(kind)
     ]

@@ -94,16 +94,14 @@ def test_every_point_of_an_ellipse_is_as_many_sigmas_off(a: float, b: float, c: 
 @pytest.mark.parametrize("many", [False, True])
 @pytest.mark.parametrize("name", SIX)
 def test_every_ellipse_is_that_of_a_point(name: str, many: bool) -> None:
-    """An ellipse stands around a letter point and is the covariance there, scaled as the plan."""
+    """An ellipse stands around a letter point and is the covariance there."""
     solution = solved(name, many=many)
     for kind in MOTION:
         for index in range(len(solution.positions)):
             view = error_ellipses(solution, kind, index)
             if kind is PlanKind.POSITION:
-                share, points = 1.0, set(solution.points)
+                points = set(solution.points)
             else:
-                own = solution.own_scale(kind, index).per_mm
-                share = solution.scales[kind].per_mm / own
                 points = set(solution.construction.plan(kind).letters)
             assert view.enlarged == 1 or kind is PlanKind.POSITION
             for stroke in view.strokes:
@@ -111,9 +109,9 @@ def test_every_ellipse_is_that_of_a_point(name: str, many: bool) -> None:
                     drafting_of(solution).ellipse(PointName(p), index)
                     for p in points
                     if p in solution.paper.value
-                    and abs(place(solution, p, index) * share - middle(stroke)) < 1e-6
+                    and abs(place(solution, p, index) - middle(stroke)) < 1e-6
                 ]
-                shown = spread(stroke) / (share * view.enlarged) ** 2
+                shown = spread(stroke) / view.enlarged**2
                 assert any(np.allclose(shown, each, rtol=1e-6, atol=1e-9) for each in near)
 
 
@@ -146,21 +144,6 @@ def test_of_random_drawings_so_many_fall_into_an_ellipse() -> None:
         inverse = np.linalg.inv(spread(stroke) / view.enlarged**2)
         inside = np.einsum("in,ij,jn->n", off, inverse, off) <= SIGMAS**2
         assert inside.mean() == pytest.approx(1 - exp(-(SIGMAS**2) / 2), abs=0.01)
-
-
-def test_a_plan_at_its_own_scale_has_smaller_ellipses() -> None:
-    solution, kind = solved("levers/six-link", many=True), PlanKind.VELOCITY
-    index = next(
-        i for i in range(12) if solution.own_scale(kind, i).per_mm > solution.scales[kind].per_mm
-    )
-    share = solution.scales[kind].per_mm / solution.own_scale(kind, index).per_mm
-    at = place(solution, "v:H", index) * share
-    (stroke,) = (
-        s for s in error_ellipses(solution, kind, index).strokes if abs(middle(s) - at) < 1e-6
-    )
-    length = max(abs(point - at) for point in stroke.points)
-    own = SIGMAS * half_axes(drafting_of(solution).ellipse(PointName("v:H"), index))[0]
-    assert length == pytest.approx(share * own, rel=1e-2)
 
 
 def test_what_is_thinner_than_the_pen_is_not_drawn() -> None:

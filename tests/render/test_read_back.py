@@ -8,9 +8,10 @@ import numpy as np
 import pytest
 from cases import thinned
 from lettered import closing_lines, lever_lines, moment_lines
-from reading import Path, read_svg
+from reading import Path, read_svg, solved_while
 from worked import PROBLEMS, SIX, problem_of
 
+from benchmarks.sheets import positions_of
 from planmethod.note.narrate.calculation import calculation
 from planmethod.note.plaintext import plain_text
 from planmethod.note.wording import language
@@ -70,6 +71,30 @@ def test_a_ruler_finds_on_the_sheet_what_the_calculation_says(name: str, layout:
                     assert span.length == pytest.approx(length, abs=0.2501), said
                     compared += 1
     assert compared >= 5 or layout == "homework"
+
+
+@pytest.mark.parametrize("count", [3, 12])
+@pytest.mark.parametrize("name", [*thinned(SIX, 3), *thinned(OTHERS, 40)])
+def test_a_ruler_finds_it_in_each_of_many_positions(
+    name: str, count: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """At whatever scale a plan is drawn: the calculation of each position is of that."""
+    problem = problem_of(name)
+    at = positions_of(problem, count)
+    sheets, solution = solved_while(lambda: kinematics_sheets(problem, positions=at), monkeypatch)
+    compared = 0
+    for view in (view for sheet in sheets for view in sheet.views if view.kind != "position"):
+        for index in {span.position for span in view.spans}:
+            if solution.margin[index] < 1e-6:
+                continue  # dead: a scale of 10¹² (m/s²)/mm
+            on_sheet = {span.name: span for span in view.spans if span.position == index}
+            for line in calculation(solution, PlanKind(view.kind), index, language("ru")):
+                said = plain_text(line).replace(",", ".")
+                for letters, value in LAID_OFF.findall(said) + READ.findall(said):
+                    if letters in on_sheet:
+                        assert on_sheet[letters].length == pytest.approx(float(value), abs=0.2501)
+                        compared += 1
+    assert compared >= 5 * count
 
 
 FORCES = re.compile(r"([FФR]\S*) = ([\d.]+)[·/]")

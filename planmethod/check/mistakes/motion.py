@@ -276,7 +276,8 @@ def normal_forgotten(scene: Scene) -> Iterator[Change]:
 
 
 def normal_by_wrong_formula(scene: Scene) -> Iterator[Change]:
-    """N3: aⁿ = ω²/l, ω·l, v·l, v²·l, or with the ω of another link."""
+    """N3: aⁿ = ω²/l, ω·l, v·l, v²·l, or with the ω of another link; hardly any only if asked."""
+    asked = {question.name for question in scene.sheet.asked}
     for where, step, _ in _normals(scene):
         rate, length = step.powers[0][0], step.powers[1:]
         inverse = tuple((name, -power) for name, power in length)
@@ -291,7 +292,8 @@ def normal_by_wrong_formula(scene: Scene) -> Iterator[Change]:
         ]
         for powers in wrong:
             made = steps.Compute(step.out, step.factor, powers, size=True)
-            if abs(scene.value(made)) > LITTLE * abs(scene.exact(step.out)):
+            least = 0.0 if step.out in asked else LITTLE * abs(scene.exact(step.out))
+            if abs(scene.value(made)) > least:
                 yield Change("N3", where, {step.out: (made,)})
 
 

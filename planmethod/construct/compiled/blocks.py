@@ -12,7 +12,7 @@ import numpy as np
 import numpy.typing as npt
 
 from planmethod.construct.arithmetic import unit_vectors
-from planmethod.construct.compiled.straight import used_by
+from planmethod.construct.compiled.straight import EQUAL, used_by
 from planmethod.construct.compiled.symbolic import Guard
 from planmethod.construct.compiled.tape import Ref, Tape
 
@@ -34,9 +34,6 @@ UFUNC: dict[str, np.ufunc] = {
     "max": np.maximum,
     "atan2": np.arctan2,
 }
-
-EQUAL = 1e-9
-"""Largest departure from equal steps, degrees, that the table of angles corrects."""
 
 
 class Blocks:

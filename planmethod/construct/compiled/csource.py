@@ -10,7 +10,7 @@ from collections import Counter
 from collections.abc import Sequence
 from typing import NamedTuple
 
-from planmethod.construct.compiled.straight import BINARY, used_by
+from planmethod.construct.compiled.straight import BINARY, EQUAL, used_by
 from planmethod.construct.compiled.symbolic import Guard
 from planmethod.construct.compiled.tape import Ref, Tape, same
 
@@ -26,7 +26,15 @@ WEIGHT = {"cosd": 30, "sind": 0, "atan2": 30}
 WORD = 63
 """Guards in one word of the margins that do not hold."""
 
-_HEAD = """#include <math.h>
+FEW = 64
+"""Positions below which a table of angles does not pay."""
+
+_HEAD = (
+    f"""#define BLOCK {BLOCK}
+#define FEW {FEW}
+#define EQUAL {EQUAL}
+"""
+    + """#include <math.h>
 #include <stdint.h>
 #include <string.h>
 #if defined(__clang__)
@@ -53,6 +61,35 @@ static inline void turn(double degrees, double *cosine, double *sine)
     *cosine = c * along - s * across;
     *sine = s * along + c * across;
 }
+/* The same of n degrees x of a row of so many: by a table where the steps of the row are equal. */
+static void turned(const double *x, long n, const double *row, long many, double *table,
+                   double *cosine, double *sine)
+{
+    const long last = (many < BLOCK ? many : BLOCK) - 1;
+    const double step = (row[last] - row[0]) / (double)(last + !last);
+    double *c = table + 1, *s = c + BLOCK, along, across;
+    uint64_t uneven = last < FEW;
+    for (int i = 0; i < (int)n; i++)
+        uneven |= fabs((x[i] - x[0]) - (double)i * step) < EQUAL ? 0 : UINT64_C(1);
+    if (uneven) {
+        INDEPENDENT
+        for (int i = 0; i < (int)n; i++) turn(x[i], cosine + i, sine + i);
+        return;
+    }
+    if (table[0] != step) {
+        INDEPENDENT
+        for (int i = 0; i < BLOCK; i++) turn((double)i * step, c + i, s + i);
+        table[0] = step;
+    }
+    turn(x[0], &along, &across);
+    INDEPENDENT
+    for (int i = 0; i < (int)n; i++) { /* what rounding makes of the steps is corrected */
+        const double rest = ((x[i] - x[0]) - (double)i * step) * (M_PI / 180.0);
+        const double u = c[i] * along - s[i] * across, v = c[i] * across + s[i] * along;
+        cosine[i] = u - v * rest;
+        sine[i] = v + u * rest;
+    }
+}
 static inline double angle(double y, double x)
 {
     const double a = fabs(x), b = fabs(y), small = a < b ? a : b, large = a < b ? b : a;
@@ -75,6 +112,7 @@ static inline double degrees(double radians)
     return d <= -180.0 ? 180.0 : d;
 }
 """
+)
 
 
 class Source(NamedTuple):
@@ -129,7 +167,9 @@ class _Lines:
         self.loops: list[list[str]] = []
         self.constants: dict[float, str] = {}
         self.inputs: list[int] = []
+        self.angles: dict[int, int] = {}  # which tables the inputs that are turned have
         self.buffers = 0
+        self.watched: set[int] = set()  # words of the margins that loops before have looked at
         self._home: dict[int, str] = {}  # where the next loops find a node
         stages = _stages(tape, used_by(tape, [*results, *(guard.margin for guard in guards)]))
         last = {ref: k for k, stage in enumerate(stages) for n in stage for ref in _used(tape, n)}
@@ -148,10 +188,15 @@ class _Lines:
                         self.buffers += 1
                     self._home[number] = free.pop()
                     self._text.append(f"{self._home[number]}[i] = {self._name(number)};")
+            self._end()
             free += [h for n, h in self._home.items() if last.get(n) == k and h[0] == "b"]
         for row, ref in enumerate(results):
             if type(ref) is float:
                 self._text.append(f"o{row}[i] = {self._name(ref)};")
+
+    def home(self, number: int) -> str:
+        """Return where a node is found."""
+        return self._home[number]
 
     def _begin(self, stage: Sequence[int]) -> None:
         """Begin a loop: nothing is at hand."""
@@ -161,7 +206,14 @@ class _Lines:
         self._turned: dict[str, int] = {}
         self._inverse: dict[str, str] = {}
         self._text: list[str] = []
+        self._here: list[int] = []  # words of the margins that this loop looks at
         self.loops.append(self._text)
+
+    def _end(self) -> None:
+        """End a loop: keep the margins that do not hold."""
+        for word in self._here:
+            self._text.append(f"bad{word}[i] = g{word}; any{word} |= g{word};")
+        self.watched.update(self._here)
 
     def _name(self, ref: Ref) -> str:
         """Return what an operand is called; a constant is a parameter from now on."""
@@ -181,11 +233,16 @@ class _Lines:
             return
         names = [self._name(ref) for ref in refs]
         self._said[number] = f"t{number}"
+        if kind in ("cosd", "sind") and _is_input(self.tape, refs[0]):
+            at = self.angles.setdefault(int(refs[0]), len(self.angles))
+            self._home[number] = f"{kind[0]}{at}"
+            self._said[number] = f"{kind[0]}{at}[i]"
+            return
         if kind in ("cosd", "sind"):
             if names[0] not in self._turned:
                 at = self._turned[names[0]] = len(self._turned)
-                self._text.append(f"double c{at}, s{at}; turn({names[0]}, &c{at}, &s{at});")
-            self._said[number] = f"{kind[0]}{self._turned[names[0]]}"
+                self._text.append(f"double u{at}, v{at}; turn({names[0]}, &u{at}, &v{at});")
+            self._said[number] = f"{'uv'[kind == 'sind']}{self._turned[names[0]]}"
             return
         said = _expression(kind, names)
         # One division for all by the same divisor; constants are divided by before the loop.
@@ -202,7 +259,15 @@ class _Lines:
             if same(guard.margin, number):
                 word, bit = divmod(place, WORD)
                 holds = f"{self._name(number)} > {self._name(float(guard.limit))}"
-                self._text.append(f"bad{word}[i] |= {holds} ? 0 : {_bits(1 << bit)};")
+                if word not in self._here:
+                    self._here.append(word)
+                    before = f"bad{word}[i]" if word in self.watched else "0"
+                    self._text.append(f"uint64_t g{word} = {before};")
+                self._text.append(f"g{word} |= {holds} ? 0 : {_bits(1 << bit)};")
+
+
+def _is_input(tape: Tape, ref: Ref) -> bool:
+    return type(ref) is int and tape.nodes[ref].kind == "input"
 
 
 def _used(tape: Tape, number: int) -> list[int]:
@@ -215,7 +280,8 @@ def _stages(tape: Tape, needed: Sequence[int]) -> list[list[int]]:
     stages: list[list[int]] = [[]]
     weight = 0
     for number in needed:
-        own = WEIGHT.get(tape.nodes[number].kind, 1)
+        kind, refs = tape.nodes[number]
+        own = 0 if kind == "cosd" and _is_input(tape, refs[0]) else WEIGHT.get(kind, 1)
         if weight + own > STAGE:
             stages.append([])
             weight = 0
@@ -235,22 +301,31 @@ def _whole(lines: _Lines, needs: Sequence[Sequence[str]], words: int) -> str:
     own += [f"double e{k}[{BLOCK}];" for k in range(len(lines.inputs))]
     own += [f"double b{k}[{BLOCK}];" for k in range(lines.buffers)]
     own += [f"uint64_t bad{w}[{BLOCK}];" for w in range(words)]
+    for at in lines.angles.values():
+        own.append(f"double c{at}[BLOCK], s{at}[BLOCK], table{at}[2 * BLOCK + 1] = {{NAN}};")
     here = [f"double *o{row} = out + {row} * f[3];" for row in rows]
-    here += [f"memset(bad{w}, 0, sizeof bad{w}); uint64_t any{w} = 0;" for w in range(words)]
+    here += [f"uint64_t any{w} = 0;" for w in range(words)]
+    here += [f"memset(bad{w}, 0, sizeof bad{w});" for w in range(words) if w not in lines.watched]
     for k in range(len(lines.inputs)):
         address, variant, position = (f"f[{8 + 3 * k + j}]" for j in range(3))
         here += [
-            f"const double *x{k} = (const double *){address} + v * {variant};",
-            f"if ({position}) x{k} += first;",
+            f"const double *x{k} = (const double *){address} + v * {variant}, *y{k} = x{k};",
+            f"(void)y{k}; if ({position}) x{k} += first;",
             f"else {{ for (long i = 0; i < n; i++) e{k}[i] = *x{k}; x{k} = e{k}; }}",
         ]
+    for number, at in lines.angles.items():
+        name = lines.home(number)
+        k = int(name[1:])
+        here.append(
+            f"turned({name}, n, f[{10 + 3 * k}] ? y{k} : {name}, f[{10 + 3 * k}] ? f[1] : n, "
+            f"table{at}, c{at}, s{at});"
+        )
     look = []
     if words:
         table = ", ".join(f"{{{', '.join(one)}}}" for one in needs)
         hit = " | ".join(f"(any{w} & need[{w}])" for w in range(words))
         here_too = " | ".join(f"(bad{w}[i] & need[{w}])" for w in range(words))
-        look = [f"for (long i = 0; i < n; i++) any{w} |= bad{w}[i];" for w in range(words)]
-        look += [
+        look = [
             f"if ({' | '.join(f'any{w}' for w in range(words))}) {{",
             f"    static const uint64_t needs[{len(needs)}][{words}] = {{{table}}};",
             f"    for (long row = 0; row < {len(needs)}; row++) {{",

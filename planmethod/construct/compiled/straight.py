@@ -14,6 +14,9 @@ from typing import Any
 from planmethod.construct.compiled.symbolic import Guard
 from planmethod.construct.compiled.tape import Ref, Tape
 
+EQUAL = 1e-9
+"""Largest departure from equal steps, degrees, that a table of angles corrects."""
+
 BINARY = {"add": "+", "sub": "-", "mul": "*", "div": "/"}
 
 

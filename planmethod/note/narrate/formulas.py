@@ -52,7 +52,7 @@ class Formulas:
 
     def per_mm(self, kind: PlanKind) -> float:
         """Return the scale of a plan, unit per mm."""
-        return self.solution.scales[kind].per_mm
+        return self.solution.own_scale(kind, self.index).per_mm
 
     # Formulas --------------------------------------------------------------------------------
 

@@ -167,7 +167,7 @@ def record(solution: Solution) -> dict[str, Any]:
     plans = {
         kind.value: rows(
             {
-                "mu": [solution.scales[kind].per_mm] * count,
+                "mu": [solution.own_scale(kind, k).per_mm for k in range(count)],
                 **({"pole": [poles[kind]] * count} if poles[kind] else {}),
                 "segments": _segments(solution, kind),
             }

@@ -6,7 +6,7 @@ import math
 
 from planmethod.note.narrate.given import told
 from planmethod.note.narrate.naming import Names
-from planmethod.note.narrate.scales import scale_inscription
+from planmethod.note.narrate.scales import common_scale, scale_inscription
 from planmethod.note.numbers import with_unit
 from planmethod.note.plaintext import (
     columns_text,
@@ -53,7 +53,9 @@ def result_tables(solution: Solution, lang: str = "ru", *, sigma: bool = False) 
     variant = f" ({solution.problem.variant})" if solution.problem.variant else ""
     lines = wrap(name + variant)
     lines += wrap(words.formula.format(formula=solution.structure.formula), rest="  ")
-    lines += wrap(f"{words.scales}: {'; '.join(scale_texts(solution, words))}", rest="  ")
+    every = range(len(solution.positions))
+    scales = (common_scale(solution, kind, every, language(words.lang)) for kind in MOTION)
+    lines += wrap(f"{words.scales}: {'; '.join(map(plain_text, scales))}", rest="  ")
     sigmas = Sigmas(solution, words, asked=sigma)
     if len(solution.positions) > FEW:
         lines += ["", *_many(solution, words, sigmas)]
@@ -95,10 +97,10 @@ def _causes(solution: Solution, words: Wording, index: int) -> list[str]:
     return ["", *lines] if lines else []
 
 
-def scale_texts(solution: Solution, words: Wording) -> list[str]:
-    """Return the scales as ``μ_v = 0,05 (м/с)/мм``, or in mm per unit where the file says so."""
+def scale_texts(solution: Solution, words: Wording, index: int) -> list[str]:
+    """Return the scales of a position as ``μ_v = 0,05 (м/с)/мм``, or in mm per unit."""
     say, convention = language(words.lang).say, solution.problem.scales.convention
-    scales = solution.scales.values()
+    scales = (solution.own_scale(kind, index) for kind in MOTION)
     return [plain_text(scale_inscription(scale, convention, say)) for scale in scales]
 
 
@@ -133,7 +135,7 @@ def position_tables(
         header = sigmas.header(words.columns_sliding, 2, 4, 6)
         parts.append((words.table_sliding, sigmas.table(header, sliding)))
     names = Names(solution, words)
-    for kind, scale in zip(MOTION, scale_texts(solution, words), strict=True):
+    for kind, scale in zip(MOTION, scale_texts(solution, words, index), strict=True):
         plan = words.plans[kind.value]
         title = words.table_segments.format(plan=plan[:1].lower() + plan[1:], scale=scale)
         rows = _segments(solution, names, kind, index, sigmas)

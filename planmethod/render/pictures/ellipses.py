@@ -94,19 +94,14 @@ def ellipse(centre: complex, covariance: Reals, pen: Pen = Pen.THIN) -> Stroke:
 @remembered
 def error_ellipses(solution: Solution, kind: PlanKind, index: int) -> Ellipses:
     """Return the ellipses of a view's moving points in one position."""
-    common, scheme = solution.scales[kind].per_mm, kind is PlanKind.POSITION
-    # A plan near a dead position is drawn smaller, and its ellipses with it.
-    per_mm = common if scheme else solution.own_scale(kind, index).per_mm
-    share = common / per_mm
+    scheme, per_mm = kind is PlanKind.POSITION, solution.own_scale(kind, index).per_mm
     construction, si = solution.construction, solution.si
     size = extent(construction, si, kind) if scheme else plan_extent(construction, si, kind, index)
-    places = {point: place * share for point, place in _places(solution, kind, index)}
     return shown_ellipses(
         drafting_of(solution),
         index,
-        places,
+        dict(_places(solution, kind, index)),
         max(size) / per_mm,
-        share=share,
         enlarged=ENLARGED if scheme else (1,),
     )
 

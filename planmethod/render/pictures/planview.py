@@ -47,19 +47,17 @@ def plan_places(
 ) -> dict[PointName, complex]:
     """Return where the points of a plan lie in one position, mm from its pole.
 
-    A plan near a dead position has a scale of its own: the same figure, smaller. ``by_hand`` gives
-    the plan as it comes out with the ruler, whose segments are those of the calculation; where one
-    of its points does not come out so, the exact plan.
+    ``by_hand`` gives the plan as it comes out with the ruler, whose segments are those of the
+    calculation; where one of its points does not come out so, the exact plan.
     """
     plan = solution.construction.plan(kind)
     assert plan.pole is not None
     ends = {e for v in plan.vectors for e in (v.tail, v.head)} | set(plan.letters) | {plan.pole}
-    share = solution.scales[kind].per_mm / solution.own_scale(kind, index).per_mm
     for reading in (solution.by_hand, solution.paper) if by_hand else (solution.paper,):
         at = {name: complex(reading.point(name)[index]) for name in ends}
         if all(isfinite(abs(place)) for place in at.values()):
             break
-    return {name: place * share for name, place in at.items()}
+    return at
 
 
 @remembered

@@ -18,6 +18,7 @@ import numpy as np
 from planmethod.construct.steps import PointName
 from planmethod.mechanism.model import FRAME
 from planmethod.note.narrate.given import point_name
+from planmethod.plans.model import PlanKind
 from planmethod.record import dataclass
 from planmethod.render.ink.drawing import Arc, Disc, Item, Pen
 from planmethod.render.ink.typeset import typeset
@@ -26,6 +27,7 @@ from planmethod.render.pictures.paths import Paths
 from planmethod.render.pictures.scheme import Scheme
 from planmethod.solved.reading import remembered
 from planmethod.solved.room import FEW
+from planmethod.solved.scaling import median
 from planmethod.solved.solution import Solution
 
 PRIMES = ("′", "″")
@@ -36,7 +38,7 @@ TOGETHER = 0.5
 
 _MARK = 0.7  # radius of the circle at a joint in another position, mm
 _APART = 0.3  # sine of the least angle between joined links of the bold position
-_TURNING = 12.0  # degrees of the crank between it and an extreme position
+_SMALL = 0.15  # part of its usual size that a velocity has in the bold position at least
 _LEAST_MARK = 0.45  # where circles would run into each other, mm
 
 
@@ -216,36 +218,26 @@ def shows_extremes(solution: Solution, indices: Sequence[int]) -> bool:
 def bold_position(solution: Solution, indices: tuple[int, ...]) -> int:
     """Return the position that shows the mechanism best.
 
-    Of those in which no two joined links lie nearly in one line, and the output link does not
-    nearly turn back, the furthest from a dead position.
+    Of those in which no two joined links stand nearly in one line, and no vector of the velocity
+    plan nearly vanishes, as it does where the output turns back, the furthest from a dead position.
     """
+    chosen = list(indices)
+    plan = solution.construction.plan(PlanKind.VELOCITY)
+    sizes = np.abs([solution.si.vector(v.tail, v.head)[chosen] for v in plan.vectors])
+    usual = [median(size[size > 0.0]) if size.any() else 0.0 for size in sizes]
+    moving = np.all(sizes >= _SMALL * np.asarray(usual)[:, None], axis=0)
+    apart = np.ones(len(chosen), dtype=bool)
     axes = {
-        link: np.exp(1j * np.radians(motion.phi_deg))
+        link: np.exp(1j * np.radians(motion.phi_deg[chosen]))
         for link, motion in solution.links.items()
         if len(solution.problem.bodies[link].points) > 1
     }
-    joined = [
-        pair
-        for joint in solution.problem.mechanism.revolutes
-        for pair in combinations([link for link in joint.links if link in axes], 2)
-    ]
-    joined += [
-        (slide.host, link)
-        for slide in solution.problem.slides.values()
-        for link in solution.problem.mechanism.links
-        if link != slide.host
-        and {slide.host, link} <= axes.keys()
-        and slide.pin in solution.problem.bodies[link].points
-    ]
-    apart = np.ones(solution.positions.shape)
-    for one, two in joined:
-        apart = np.minimum(apart, np.abs((axes[one] * np.conj(axes[two])).imag))
-    turning = np.zeros(solution.positions.shape, dtype=bool)
-    if solution.problem.drive.is_crank:
-        for extreme in Paths(solution).extremes:
-            turning |= np.abs((solution.positions - extreme + 180.0) % 360.0 - 180.0) < _TURNING
-    good = (apart > _APART) & ~turning
-    return max(indices, key=lambda i: (bool(good[i]), float(solution.margin[i])))
+    for joint in solution.problem.mechanism.revolutes:
+        for one, two in combinations([link for link in joint.links if link in axes], 2):
+            apart &= np.abs((axes[one] * np.conj(axes[two])).imag) > _APART
+    good = (moving.astype(int) + apart).tolist()
+    margins = solution.margin[chosen].tolist()
+    return max(zip(good, margins, indices, strict=True), key=lambda one: one[:2])[2]
 
 
 def written(point: str, numbers: Sequence[str], *, bold: bool = False, alone: bool = False) -> str:

@@ -24,13 +24,10 @@ from planmethod.render.sheets.growth import grown
 from planmethod.render.sheets.model import Composition, Extras
 from planmethod.render.sheets.pages import Page, Paper, pages_of, stamp_fields
 from planmethod.solved.room import FEW
-from planmethod.solved.scaling import Views
+from planmethod.solved.scaling import MOST_DRAWN, Views
 from planmethod.solved.selfcheck import verify
 from planmethod.solved.solution import Solution
 from planmethod.solved.turn.turn import turn_of
-
-MOST_POSITIONS = 120
-"""Most positions drawn in one call: ten sheets of a dozen plans."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -167,12 +164,12 @@ def kinematics_sheets(
     if positions is None and made is not None and made.turn:
         positions = turn_of(Solution(problem)).positions.tolist()
     asked = problem.drive.positions if positions is None else tuple(positions)
-    if len(asked) > MOST_POSITIONS:
+    if len(asked) > MOST_DRAWN:
         raise LayoutError(
             "{}: sheets are drawn for at most {} positions, {} are asked. Ask fewer "
             "(--phi 0:360:30); for tables take solve --csv.",
             problem.name,
-            MOST_POSITIONS,
+            MOST_DRAWN,
             len(asked),
         )
     if made is None:
@@ -189,11 +186,14 @@ def kinematics_sheets(
     scales = problem.scales
     # One decision: the scales stay on a larger paper, if the smaller one had no room after all.
     tasks = [task if views.kept else replace(task, views=views)]
-    if (made.turn or len(asked) > FEW) and (scales.mu_v, scales.mu_a) != (None, None):
-        # Scales for one position may be too fine for a dozen plans on one sheet.
-        free = replace(problem, scales=replace(scales, mu_v=None, mu_a=None))
-        tasks.append(replace(task, problem=free))
-    tries = chain(*(product(papers, made.at_most(len(asked)), some) for some in (tasks, [task])))
+    # Scales for one position may be too fine for a dozen plans on one sheet, or for another one.
+    free = replace(task, problem=replace(problem, scales=replace(scales, mu_v=None, mu_a=None)))
+    given = (scales.mu_v, scales.mu_a) != (None, None)
+    if given and (made.turn or len(asked) > FEW):
+        tasks.append(free)
+    last = [free] if given and task.positions != problem.drive.positions else []
+    turns = (product(papers, made.at_most(len(asked)), some) for some in (tasks, [task], last))
+    tries = chain.from_iterable(turns)
 
     def later(name: str) -> Room:
         return replace(furniture, form="2a").room(paper_format(name), 2)

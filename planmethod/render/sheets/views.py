@@ -9,7 +9,7 @@ from planmethod.construct.scale import Scale
 from planmethod.note.narrate.formulas import knot_letter, view_name
 from planmethod.note.narrate.given import point_name
 from planmethod.note.narrate.letters import shown_letters
-from planmethod.note.narrate.scales import scale_inscription
+from planmethod.note.narrate.scales import common_scale, scale_inscription
 from planmethod.note.narrate.turn import extremes_named
 from planmethod.note.numbers import Notation, is_nothing, with_unit
 from planmethod.note.plaintext import plain_text
@@ -209,20 +209,11 @@ def _with_knots(solution: Solution, kind: PlanKind, picture: Block, manner: Mann
 
 
 def shown_position(solution: Solution, indices: Sequence[int], manner: Manner) -> int:
-    """Return the position that stands for all: the asked one, else the clearest one.
-
-    It is rather one whose plans are drawn at the common scales, of which the calculation speaks.
-    """
+    """Return the position that stands for all: the asked one, else the clearest one."""
     asked = manner.entry.position
     if asked is not None and asked in indices:
         return asked
-    if len(indices) == 1:
-        return indices[0]
-    own = {
-        i: sum(solution.own_scale(k, i) != s for k, s in solution.scales.items()) for i in indices
-    }
-    least = min(own.values())
-    return bold_position(solution, tuple(i for i in indices if own[i] == least))
+    return indices[0] if len(indices) == 1 else bold_position(solution, tuple(indices))
 
 
 def _with_scale(
@@ -237,14 +228,9 @@ def _with_scale(
     one, many = words.sheets.views[kind.value]
     chosen = manner.entry.position is not None and kind is not PlanKind.POSITION
     title = manner.entry.title or (one if len(solution.positions) == 1 or chosen else many)
-    convention = solution.problem.scales.convention
-    common = solution.scales[kind]
-    said = [scale_inscription(common, convention, words.say)]
-    own = [i for i in ellipses if solution.own_scale(kind, i) != common]
-    if not solution.has_common(kind, ellipses):
-        said = []
-    elif own:
-        said[0] += words.sheets.but_for.format(numbers=", ".join(map(str, own)))
+    said = []
+    if solution.has_common(kind, ellipses):
+        said.append(common_scale(solution, kind, ellipses, words))
     if kind is PlanKind.POSITION and len(solution.positions) > 1:
         said += _extremes(solution, indices, manner)
     said += ellipse_inscription(solution, kind, ellipses, words) if manner.extras.errors else []

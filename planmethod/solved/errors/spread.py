@@ -218,11 +218,14 @@ class Errors:
         read = {name: part.leaves[name].at(chosen) for name in leaves}
         env: dict[Name, Any] = {name: dual.value[:, None] for name, dual in read.items()}
         off = [name for name, dual in read.items() if dual.part is not None]
-        size, turned = np.linalg.eigh(np.moveaxis(_covariance([read[name] for name in off]), -1, 0))
-        root = turned * np.sqrt(np.maximum(size, 0.0))[:, None, :]
         wide = {out: np.atleast_1d(k)[:, None] for out, k in self.drawing.times(chosen).items()}
         pencil = Even(self.profile, self.drawing.free, wide)
-        coordinates = iter(np.moveaxis(root @ pencil.normals(root.shape[-1]), 1, 0))
+        coordinates: Iterator[Reals] = iter(())
+        if off:  # else it errs by its own reading alone
+            spread = np.moveaxis(_covariance([read[name] for name in off]), -1, 0)
+            size, turned = np.linalg.eigh(spread)
+            root = turned * np.sqrt(np.maximum(size, 0.0))[:, None, :]
+            coordinates = iter(np.moveaxis(root @ pencil.normals(root.shape[-1]), 1, 0))
         for name in off:
             value = env[name]
             place = env[name] = np.empty((len(chosen), EVEN), value.dtype)

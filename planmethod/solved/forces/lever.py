@@ -103,14 +103,11 @@ class LeverReading:
         Of the forces of inertia that are moved off the centre of mass.
     """
 
-    def __init__(self, reading: ForceReading, *, common: bool = False) -> None:
+    def __init__(self, reading: ForceReading) -> None:
         solution, index = reading.solution, reading.index
         assert reading.statics.lever_plan is not None
         self.reading = reading
-        scale = solution.scales[PlanKind.VELOCITY]
-        shown = scale if common else solution.own_scale(PlanKind.VELOCITY, index)
-        self.per_mm = shown.per_mm
-        self._share = scale.per_mm / self.per_mm
+        self.per_mm = solution.own_scale(PlanKind.VELOCITY, index).per_mm
         self.forces: list[LeverForce] = []
         self.couples: list[LeverCouple] = []
         self.shifts: list[LeverShift] = []
@@ -128,7 +125,7 @@ class LeverReading:
                 assert given.force is not None and one.point is not None
                 way = reading.way(given.force)
                 force = way * (abs(force) / abs(way))
-                size, arm = reading.read_load(given), reading.read_number(hung.arm) * self._share
+                size, arm = reading.read_load(given), reading.read_number(hung.arm)
                 self.forces.append(LeverForce(one.name, place, force, arm, size, one.point))
                 self._shift(given, place)
         self._balance(reading.statics.lever_plan.balance)
@@ -154,12 +151,12 @@ class LeverReading:
         """Return a point of the velocity plan on the lever as the hand has it, mm from the pole."""
         solution, index = self.reading.solution, self.reading.index
         drawn, exact = (r.point(point)[index] for r in (solution.by_hand, solution.paper))
-        return 1j * complex(drawn if isfinite(abs(drawn)) else exact) * self._share
+        return 1j * complex(drawn if isfinite(abs(drawn)) else exact)
 
     def _hung(self, at: PointName, pole: PointName) -> complex:
         """Return where a force hangs as the hand has it, mm from the pole; else the exact place."""
         drawn = self.reading.by_hand(pole, at)
-        return (drawn if isfinite(abs(drawn)) else self.reading.end(at)) * self._share
+        return drawn if isfinite(abs(drawn)) else self.reading.end(at)
 
     def _couple(self, symbol: str, link: str, moment: float) -> LeverCouple:
         turned = -moment * self._omega(link) / self.per_mm

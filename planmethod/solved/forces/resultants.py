@@ -13,7 +13,6 @@ from enum import Enum
 import numpy as np
 
 from planmethod.plans.forces.loads import Applied, LoadKind
-from planmethod.plans.model import PlanKind
 from planmethod.problem.model import Problem
 from planmethod.record import dataclass
 from planmethod.solved.solution import Solution
@@ -93,8 +92,7 @@ def _hindrance(solution: Solution, force: Applied, reach: float) -> Hindrance | 
     assert force.point is not None
     accelerations = np.abs(solution.points[force.point].acceleration)
     largest = np.max([np.abs(point.acceleration) for point in solution.points.values()], axis=0)
-    scale = solution.scales[PlanKind.ACCELERATION].per_mm
-    unread = solution.hand.ruled(accelerations / scale) == 0
+    unread = solution.hand.ruled(accelerations / solution.per_mm["mu_a"]) == 0
     if np.any((accelerations <= FAINT * largest) | unread):
         return Hindrance.FAINT
     return Hindrance.FAR if reach > farthest(solution.problem) else None

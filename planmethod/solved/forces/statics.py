@@ -35,7 +35,7 @@ from planmethod.solved.forces.resultants import UnshiftedInertia, shifted_inerti
 from planmethod.solved.impossible import explain, failing
 from planmethod.solved.reading import Complexes, Reading, Reals, Remembering
 from planmethod.solved.room import Box
-from planmethod.solved.solution import EVERY, UNIT_SCALES, Solution
+from planmethod.solved.solution import EVERY, UNIT_SCALES, Solution, at_positions
 
 UNIT = FACTS[PlanKind.FORCE].unit
 COMMON_BOX: Box = (100.0, 100.0)
@@ -132,20 +132,16 @@ class Statics(Remembering):
             [self.lever_plan.balance, self.lever_plan.difference] if self.lever_plan else []
         )
 
-    def read(self, arithmetic: Arithmetic, scales: Mapping[str, float]) -> Reading:
+    def read(self, arithmetic: Arithmetic, scales: Mapping[str, Number]) -> Reading:
         """Read the force plans in an arithmetic, at scales of all plans (units per mm)."""
         trace = evaluate(self.program, self.data(scales, EVERY), arithmetic)
         return Reading(trace, len(self.solution.positions))
 
     def data(
-        self, scales: Mapping[str, float], chosen: npt.NDArray[np.intp] | slice
+        self, scales: Mapping[str, Number], chosen: npt.NDArray[np.intp] | slice
     ) -> dict[str, Number]:
         """Return the data of the program at given scales, for some positions."""
-        loads = {
-            name: value[chosen] if np.ndim(value) else value
-            for name, value in self.board.data.items()
-        }
-        return {**self.solution.data(scales, chosen), **loads}
+        return {**self.solution.data(scales, chosen), **at_positions(self.board.data, chosen)}
 
     @cached_property
     def si(self) -> Reading:
@@ -292,7 +288,7 @@ class Statics(Remembering):
         return replace(own, enlarged={**own.enlarged, **enlarged})
 
     @property
-    def per_mm(self) -> dict[str, float]:
+    def per_mm(self) -> dict[str, Number]:
         """Unit per millimetre of all plans, by the name that the program has for it."""
         return {**self.solution.per_mm, SCALE: self.scale.per_mm}
 

@@ -100,7 +100,7 @@ class Quantities:
         found = reading.go_on(asking.steps, asking.draft.numbers, hand)
         value = float(found.number(answer.name)[self.position])
         if answer.plan is not None and not by_hand:
-            value /= solution.scales[answer.plan].per_mm
+            value /= solution.own_scale(answer.plan, self.position).per_mm
         return value if answer.signed else abs(value)
 
     def _analogue(self, what: str, second: bool, name: str) -> float:

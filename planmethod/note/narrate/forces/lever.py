@@ -54,16 +54,13 @@ def expected(reading: ForceReading) -> float | None:
 
 
 class LeverNarrator:
-    """Tells the lever of one position, which the driver must not stand in.
-
-    A sheet has it at the scale at which it draws the velocity plan of that position.
-    """
+    """Tells the lever of one position, which the driver must not stand in."""
 
     def __init__(self, context: ForceContext) -> None:
         self.context, self.reading, self.said = context, context.reading, context.said
         self.names, self.found = context.names, context.found
         self.ruled, self.notation = context.ruled, context.notation
-        self.lever = LeverReading(context.reading, common=not context.names.on_sheet)
+        self.lever = LeverReading(context.reading)
         self.unit = context.units[context.reading.balancing.unit]
         self.balancing = context.symbol(context.reading.balancing_symbol)
 
