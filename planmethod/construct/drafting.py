@@ -20,7 +20,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from functools import cache
+from functools import cache, cached_property
 from types import MappingProxyType
 
 import numpy as np
@@ -256,12 +256,15 @@ class Sampled(Pencil, Float64):
         enlarged: Mapping[str, Number] = AS_SCALED,
     ) -> None:
         super().__init__(profile, free, enlarged)
-        self.draws = draws
-        self._random = np.random.default_rng(seed)
+        self.draws, self._seed = draws, seed
         self._hand = Hand(ruler=profile.ruler, enlarged=enlarged)
 
     nonzero = Float64.nonzero
     unless_zero = Float64.unless_zero
+
+    @cached_property
+    def _random(self) -> np.random.Generator:
+        return np.random.default_rng(self._seed)
 
     def error(self, out: str, sigma: float) -> npt.NDArray[np.float64]:
         """Return normal errors."""

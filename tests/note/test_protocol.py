@@ -6,13 +6,15 @@ from typing import get_args
 import pytest
 from cases import each, some
 from told import LANGUAGES, assert_readable, drawn, flat, told, worked
-from worked import SIX
+from worked import SIX, path_of
 
 from planmethod.construct.steps import Carry, MeasureArm, PointName, Step, Total, makes
 from planmethod.note.narrate.naming import Names
 from planmethod.note.protocol import protocol
 from planmethod.note.wording import UnknownLanguageError, wording
 from planmethod.plans.model import PlanKind
+from planmethod.problem import loads
+from planmethod.solved.solution import Solution
 
 SEEDS = range(some(60, few=12))
 """Random mechanisms: enough for every dyad, driver and kind of step."""
@@ -187,6 +189,14 @@ def test_each_of_many_positions_has_its_own_numbers() -> None:
     assert text.partition("Формула")[2] == flat(protocol(alone)).partition("Формула")[2]
     with pytest.raises(IndexError, match="position 3 of 3"):
         protocol(solution, position=3)
+
+
+def test_a_point_at_a_joint_coincides_with_it() -> None:
+    """S2 of task 59 at B, which is found on the plans from b and the corner e, a zero away."""
+    text = path_of("levers/task-59").read_text(encoding="utf-8").partition("[variants")[0]
+    text = text.replace('S2 = { on = "AB", at = 0.5 }', 'S2 = { on = "AB", at = 1 }')
+    problem = loads(text, name="at-b")
+    assert protocol(Solution(problem)).count("точка s₂ совпадает с точкой b.") == 2
 
 
 def test_an_unknown_language_is_refused() -> None:

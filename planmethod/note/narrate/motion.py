@@ -226,7 +226,7 @@ class MotionNarrator:
 
     def parts(self, step: Similar) -> list[str]:
         """Return the formulas of a point found by similarity: its distance from one end or two."""
-        is_corner = abs(self._ratio(step).imag) >= COLLINEAR * abs(self._ratio(step))
+        is_corner = abs(self._ratio(step).imag) > COLLINEAR * max(1.0, abs(self._ratio(step)))
         lines = []
         for start in (step.plan_b, step.plan_c)[: 1 + is_corner]:
             made = self.names.step[self._length(start, step.out)]

@@ -21,6 +21,7 @@ _LEAST = 3.0  # mm: a shorter arm is no line that an eye would find
 _SAME = 0.3  # mm: arms so near one another are one line
 _CORNER = 2.0  # mm: sides of the sign of a right angle
 _BEYOND = 3.0  # mm that a line of action goes on beyond its foot
+_MOST = 24  # arms on a picture: of more nobody finds one, and the equations tell them
 _HEIGHT = 3.5  # of the letters, mm, where others are larger
 
 
@@ -74,6 +75,7 @@ def arm_items(
     """Return the perpendiculars with what they measure, and the lines of action as far as there.
 
     ``placed`` are the arrows of the forces. Arms on one line have it together: ``h_{G5} = h_{Φ5}``.
+    None are drawn where they are more than a reader can tell apart.
     """
     lines: list[list[Arm]] = []
     for arm in arms:
@@ -84,6 +86,8 @@ def arm_items(
             lines.append([arm])
         else:
             same.append(arm)
+    if len(lines) > _MOST:
+        return [], []
     items: list[Item] = []
     labels: list[Label] = []
     for line in lines:

@@ -45,6 +45,12 @@ class Candidates:
     starts: Complexes
     ends: Complexes
 
+    def chosen(self, rows: NDArray[np.intp]) -> Candidates:
+        """Return some of the places."""
+        return Candidates(
+            self.label, self.boxes[rows], self.dislike[rows], self.starts[rows], self.ends[rows]
+        )
+
     @cached_property
     def led(self) -> NDArray[np.bool_]:
         """Which places are so far that they need a leader line."""

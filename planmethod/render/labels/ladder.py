@@ -96,9 +96,12 @@ def ladder(paper: Paper, series: _Series, standing: Standing) -> list[Candidates
     """
     columns = {side: [_Column(series, side, offset) for offset in _OFFSETS] for side in (-1, 1)}
     both = [*columns[-1], *columns[1]]
-    costs = iter(paper.costs([places for column in both for places in column.sets]))
+    sets = [places for column in both for places in column.sets]
+    free = paper.free(sets)
+    costs = paper.costs([places.chosen(rows) for places, rows in zip(sets, free, strict=True)])
+    known = zip(free, costs, strict=True)
     for column in both:
-        column.reckon(costs, standing)
+        column.reckon(known, standing)
     every = range(len(series.labels))
     best: tuple[float, list[Candidates | None]] = (np.inf, [])
     for parts in (
@@ -146,15 +149,14 @@ class _Column:
         ]
         self.costs: list[Floats] = []
 
-    def reckon(self, costs: Iterator[Floats], standing: Standing) -> None:
-        """Take the costs of its places, one array for each label, and add the other labels'."""
+    def reckon(self, known: Iterator[tuple[NDArray[np.intp], Floats]], standing: Standing) -> None:
+        """Take the free places of each label with their costs, and add the other labels'."""
         for places, window in zip(self.sets, self.windows, strict=True):
-            cost = next(costs)
-            rows = np.flatnonzero(cost < CROSSED)
-            if len(rows):
-                cost[rows] += standing(places, rows)
+            rows, cost = next(known)
             whole = np.full(len(self.slots), _BAD)
-            whole[window] = np.where(cost < CROSSED, cost, _BAD)
+            if len(rows):
+                cost = cost + standing(places, rows)
+                whole[window[rows]] = np.where(cost < CROSSED, cost, _BAD)
             self.costs.append(whole)
 
     def _candidates(self, label: Label, slots: Floats) -> Candidates:

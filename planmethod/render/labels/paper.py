@@ -28,6 +28,7 @@ CROSSED = 4000.0  # a label on a line, and its share per mm of line under it
 _PER_MM = 20.0
 _BETWEEN = 7.0  # per thin line between a label and what it names
 _THROUGH = 60.0  # per filled area, an arrowhead mostly, that the leader runs through
+_ROUND_LINES = CLEAR * np.array([-1, -1, 1, 1])
 _ROUND_AREAS = 0.54  # white between a label and a filled area, mm
 _BESIDE = 0.6  # more of it at the sides of letters, mm: nearer they would read as one word
 _ALONG_LINE = 25.0  # a leader line along a line
@@ -56,6 +57,30 @@ class Paper:
             self.segments, self.breakable = _chopped(self.segments, self.breakable)
         self._lines = STRtree(linestrings(self.segments)) if len(self.segments) else None
         self._areas = STRtree(areas) if areas else None
+
+    def free(self, many: Sequence[Candidates]) -> list[NDArray[np.intp]]:
+        """Return which places of each label are within the bounds, on no line and on no area."""
+        boxes = np.concatenate([c.boxes for c in many])
+        x0, y0, x1, y1 = self.bounds
+        within = (
+            (boxes[:, 0] >= x0) & (boxes[:, 1] >= y0) & (boxes[:, 2] <= x1) & (boxes[:, 3] <= y1)
+        )
+        ask = np.flatnonzero(within)
+        if self._lines is not None:
+            grown = boxes[ask] + _ROUND_LINES
+            which, line = self._lines.query(box(*grown.T))
+            on_line = np.zeros(len(ask), dtype=bool)
+            # Nearly every line whose box is met is met: after one of each few are left to look at.
+            pair = np.flatnonzero(np.diff(which, prepend=-1))
+            for _ in range(2):
+                at = which[pair]
+                on_line[at[inside(self.segments[line[pair]], grown[at]) >= 0]] = True
+                pair = np.flatnonzero(~on_line[which])
+            ask = ask[~on_line]
+        ask = ask[self._area_costs(boxes[ask]) == 0.0]
+        counts = np.cumsum([len(c.boxes) for c in many])
+        parts = np.split(ask, np.searchsorted(ask, counts[:-1]))
+        return [part - first for part, first in zip(parts, [0, *counts], strict=False)]
 
     def costs(
         self,
@@ -94,7 +119,7 @@ class Paper:
         costs = np.zeros(len(boxes))
         if self._lines is None:
             return costs
-        grown = boxes + np.array([-CLEAR, -CLEAR, CLEAR, CLEAR])
+        grown = boxes + _ROUND_LINES
         which, line = self._lines.query(box(*grown.T))
         lengths = inside(self.segments[line], grown[which])
         crossed = np.where(lengths >= 0, CROSSED + _PER_MM * np.maximum(lengths, 0), 0.0)

@@ -7,7 +7,7 @@ one or two others elsewhere. The same input gives the same places.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import field
 from functools import lru_cache
 from itertools import count
@@ -87,17 +87,23 @@ def _placed(
 
 @dataclass(slots=True)
 class _Choice:
-    """A set of places of one label with their costs, the cheapest first."""
+    """A set of places of one label with their costs, the cheapest first.
+
+    Of ``every`` place only the free ones are there, until none of them will do; then it is None.
+    """
 
     candidates: Candidates
     costs: Floats
     order: NDArray[np.intp]
     met: Met
+    every: Candidates | None = None
 
     @classmethod
-    def of(cls, candidates: Candidates, costs: Floats, labels: int) -> _Choice:
+    def of(
+        cls, candidates: Candidates, costs: Floats, labels: int, every: Candidates | None = None
+    ) -> _Choice:
         order = np.argsort(np.round(costs, 9), kind="stable")
-        return cls(candidates, costs, order, Met.of(candidates, labels))
+        return cls(candidates, costs, order, Met.of(candidates, labels), every)
 
 
 @dataclass(slots=True)
@@ -125,8 +131,7 @@ class _Places:
             dict.fromkeys(label.anchor for label in self.labels if label.manner.stranger)
         )
         sets = [near(label) for label in self.labels]
-        costs = self.paper.costs(sets, self.strangers)
-        self.choices = [[self._choice(c, cost)] for c, cost in zip(sets, costs, strict=True)]
+        self.choices = [[choice] for choice in self._free(sets)]
         self.others = Others(self.labels)
         self.lined: set[int] = set()
 
@@ -175,30 +180,49 @@ class _Places:
 
     def _best(self, k: int) -> _Taken:
         """Return the cheapest place of a label; look further away when all near ones are taken."""
-        best = self._cheapest(k, self.choices[k][0])
+        best = self._sought(k, self._wider)
+        if best.cost >= CROSSED and any(choice.every is not None for choice in self.choices[k]):
+            best = self._sought(k, self._whole)
+        return best
+
+    def _sought(self, k: int, choice: Callable[[int, int], _Choice]) -> _Taken:
+        """Return the cheapest of some places of a label, of further ones where it is needed."""
+        best = self._cheapest(k, choice(k, 0))
         # One of a crowd looks further before its leader line crosses others, but rather breaks a
         # line than stands at the other end of the drawing.
         alone = self.labels[k].manner is ALONE
         for number in (1, 2) if alone else (1,):
             if best.cost < (CROSSED if alone else _FAR_IF):
                 break
-            further = self._cheapest(k, self._wider(k, number))
+            further = self._cheapest(k, choice(k, number))
             if further.cost < best.cost:
                 best = further
         return best
 
     def _wider(self, k: int, number: int) -> _Choice:
-        """Return the near (0) or far places of a label (1), or those all over the bounds (2)."""
+        """Return the free ones of the places near a label (0), far (1), all over the bounds (2)."""
         while len(self.choices[k]) <= number:
             label = self.labels[k]
             more = far(label) if len(self.choices[k]) == 1 else everywhere(label, self.paper.bounds)
-            (costs,) = self.paper.costs([more], self.strangers)
-            self.choices[k].append(self._choice(more, costs))
+            self.choices[k] += self._free([more])
         return self.choices[k][number]
+
+    def _whole(self, k: int, number: int) -> _Choice:
+        """Return the same with the places that are not free."""
+        choice = self._wider(k, number)
+        if choice.every is not None:
+            every = choice.every
+            (free,) = self.paper.free([every])
+            rest = np.setdiff1d(np.arange(len(every.boxes)), free, assume_unique=True)
+            costs = np.empty(len(every.boxes))
+            costs[free] = choice.costs
+            (costs[rest],) = self.paper.costs([every.chosen(rest)], self.strangers)
+            choice = self.choices[k][number] = self._choice(every, costs)
+        return choice
 
     def _cheapest(self, k: int, choice: _Choice) -> _Taken:
         """Return the cheapest place of a set: only as many are compared as can be it."""
-        best, cost = int(choice.order[0]), np.inf
+        best, cost = 0, np.inf
         first, count = 0, _AT_ONCE
         while first < len(choice.order):
             rows = choice.order[first : first + count]
@@ -211,8 +235,18 @@ class _Places:
             first, count = first + count, 2 * count
         return self._taken(choice, best, cost)
 
-    def _choice(self, candidates: Candidates, costs: Floats) -> _Choice:
-        return _Choice.of(candidates, costs, len(self.labels))
+    def _free(self, sets: Sequence[Candidates]) -> list[_Choice]:
+        """Return the free places of sets, with their costs."""
+        free = self.paper.free(sets)
+        chosen = [every.chosen(rows) for every, rows in zip(sets, free, strict=True)]
+        costs = self.paper.costs(chosen, self.strangers)
+        known = zip(chosen, costs, sets, strict=True)
+        return [self._choice(*one) for one in known]
+
+    def _choice(
+        self, candidates: Candidates, costs: Floats, every: Candidates | None = None
+    ) -> _Choice:
+        return _Choice.of(candidates, costs, len(self.labels), every)
 
     def _met(self, k: int, choice: _Choice, rows: NDArray[np.intp]) -> Floats:
         """Return what the other labels cost some places of a label, shape (n,)."""
@@ -298,14 +332,15 @@ class _Places:
         if label.manner is ALONE or self._cost(k) < CROSSED:
             return
         for number in (0, 1):
-            candidates = self._wider(k, number).candidates
+            choice = self._wider(k, number)
+            candidates = choice.every or choice.candidates
             (costs,) = self.paper.costs([candidates], self.strangers, breaking=True)
             best = self._cheapest(k, self._choice(candidates, costs))
             if best.cost < CROSSED:
                 best.ground = True
                 self._take(k, best)
                 return
-        best = self._cheapest(k, self._wider(k, 2))
+        best = self._cheapest(k, self._whole(k, 2))
         if best.cost < self._cost(k):
             self._take(k, best)
 
