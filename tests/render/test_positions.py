@@ -20,7 +20,7 @@ from planmethod.render.pictures.paths import TRAJECTORY, Paths
 from planmethod.render.pictures.positions import PRIMES, Positions, bold_position, written
 from planmethod.render.pictures.schemeview import scheme_picture
 from planmethod.render.sheets.kinematics import kinematics_sheets
-from planmethod.solved.scaling import LEAST, Views, sizes
+from planmethod.solved.scaling import LEAST, LESS, Views, sizes
 from planmethod.solved.solution import Solution
 from planmethod.solved.turn.turn import turn_of
 
@@ -301,4 +301,4 @@ def test_a_scale_is_common_where_it_holds_for_half_of_the_plans(name: str) -> No
         assert len(said) == (1 + len(others) if common else len(own))
         width, height = sizes(solution.construction, solution.si, kind)
         drawn = np.maximum(width, height) / [scale.per_mm for scale in own]
-        assert drawn.min() >= LEAST
+        assert drawn.min() >= LESS * LEAST
