@@ -130,9 +130,9 @@ SCHEME = {"A4": 70.0, "A3": 110.0, "A2": 150.0, "A1": 200.0, "A0": 250.0}
 """How wide the scheme shall be on a format, mm."""
 
 CLOSE = 1.03
-"""So many times the height of the paper the estimate may be before a scale is made coarser: rows of
-many plans take less, as letters of the one stand in hollows of the other. For a finer scale the
-estimate itself must have room."""
+"""So many times the height of the paper the estimate may be before a scale of many positions is
+made coarser: rows of many plans take less, as letters of the one stand in hollows of the other.
+For a finer scale the estimate itself must have room."""
 
 CROWDED = 1.5
 """So many times wider the scheme of many positions shall be, to be no tangle."""
@@ -295,7 +295,8 @@ class _Chosen:
         def share(kind: PlanKind) -> float:
             return self.drawn[kind].share(now[kind])
 
-        while free and not found.has_room(CLOSE):
+        many = self.drawn[PlanKind.POSITION].si.count > FEW
+        while free and not found.has_room(CLOSE if many else 1.0):
             bears = [k for k in free if _next(now[k], asked, finer=False) <= least[k]]
             if not bears:
                 return self  # the sheet goes on with texts, or takes a larger paper

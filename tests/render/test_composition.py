@@ -551,3 +551,9 @@ def test_scales_of_the_file_for_another_position_do_not_stop_a_sheet() -> None:
     own = replace(problem, drive=replace(problem.drive, positions=(270.0,)))
     with pytest.raises(LayoutError, match="coarser scales"):
         kinematics_sheets(own)
+
+
+def test_what_has_no_room_at_its_scales_is_tried_at_those_of_the_paper_itself() -> None:
+    """Before a larger paper is taken."""
+    (sheet,) = kinematics_sheets(problem_of("levers/task-1"))
+    assert sheet.width == 594

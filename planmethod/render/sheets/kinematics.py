@@ -192,8 +192,8 @@ def kinematics_sheets(
     if given and (made.turn or len(asked) > FEW):
         tasks.append(free)
     last = [free] if given and task.positions != problem.drive.positions else []
-    turns = (product(papers, made.at_most(len(asked)), some) for some in (tasks, [task], last))
-    tries = chain.from_iterable(turns)
+    turns = (tasks, [task], last)
+    tries = chain(*(product(papers, made.at_most(len(asked)), some) for some in turns))
 
     def later(name: str) -> Room:
         return replace(furniture, form="2a").room(paper_format(name), 2)
