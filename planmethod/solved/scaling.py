@@ -244,12 +244,12 @@ def choose_views(construction: Construction, si: Reading) -> Views:
     paper = construction.draft.problem.sheet.paper
     if paper:
         return Views.for_paper(paper, si.count)
-    for name in TRIED if si.count <= FEW else TRIED[-1:]:
+    for name in TRIED[:-1] if si.count <= FEW else ():
         views = Views.for_paper(name, si.count)
         chosen = _Chosen.of(construction, si, views)
         if chosen.has_room() and chosen.is_large():
-            break
-    return views
+            return views
+    return Views.for_paper(TRIED[-1], si.count)
 
 
 def choose_scales(construction: Construction, si: Reading, views: Views) -> dict[PlanKind, Scale]:
