@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from functools import cache, lru_cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -13,7 +13,10 @@ from planmethod.problem import load
 from planmethod.problem.model import Problem
 
 if TYPE_CHECKING:
+    import pytest
+
     from planmethod.render.ink.drawing import Drawing
+    from planmethod.solved.solution import Solution
 
 ROOT = Path(__file__).resolve().parent.parent
 PROBLEMS = ROOT / "problems"
@@ -60,6 +63,23 @@ def _drawn(
     from planmethod.render.sheets.kinematics import kinematics_sheets
 
     return kinematics_sheets(problem_of(name, variant), positions=positions, **dict(asked))
+
+
+def solved_while(
+    draw: Callable[[], list[Drawing]], patch: pytest.MonkeyPatch
+) -> tuple[list[Drawing], Solution]:
+    """Return the sheets and the last solution that was made for them."""
+    from planmethod.render.sheets import kinematics
+    from planmethod.solved.solution import Solution
+
+    made: list[Solution] = []
+
+    def kept(*args: Any, **kwargs: Any) -> Solution:
+        made.append(Solution(*args, **kwargs))
+        return made[-1]
+
+    patch.setattr(kinematics, "Solution", kept)
+    return draw(), made[-1]
 
 
 @cache

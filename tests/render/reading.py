@@ -10,19 +10,15 @@ import re
 import xml.etree.ElementTree as ET
 import zlib
 from cmath import exp, phase, sqrt
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 from io import StringIO
 from itertools import accumulate
 from math import cos, hypot, pi, radians, sin, tau
 from typing import Any
 
-import pytest
-
-from planmethod.render.ink.drawing import Drawing, Item, Text
+from planmethod.render.ink.drawing import Item, Text
 from planmethod.render.ink.lettering import in_use
-from planmethod.render.sheets import kinematics
-from planmethod.solved.solution import Solution
 
 SVG = "{http://www.w3.org/2000/svg}"
 XLINK = "{http://www.w3.org/1999/xlink}"
@@ -309,15 +305,3 @@ def turned_box(
 def texts(items: Iterable[Item]) -> list[Text]:
     """Return the runs of letters among the items of a display list."""
     return [item for item in items if isinstance(item, Text)]
-
-
-def solved_while(draw: Callable[[], list[Drawing]], patch: pytest.MonkeyPatch) -> tuple[Any, Any]:
-    """Return the sheets and the last solution that was made for them."""
-    made: list[Solution] = []
-
-    def kept(*args: Any, **kwargs: Any) -> Solution:
-        made.append(Solution(*args, **kwargs))
-        return made[-1]
-
-    patch.setattr(kinematics, "Solution", kept)
-    return draw(), made[-1]

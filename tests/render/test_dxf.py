@@ -21,8 +21,8 @@ from cases import each, thinned
 from click.testing import CliRunner, Result
 from PIL import Image
 from reading import Path as Painted
-from reading import Run, read_dxf, solved_while
-from worked import PROBLEMS, ROOT, SIX, drawn_sheets, every_file, path_of, problem_of
+from reading import Run, read_dxf
+from worked import PROBLEMS, ROOT, SIX, drawn_sheets, every_file, path_of, problem_of, solved_while
 
 from planmethod.cli import cli
 from planmethod.construct.drafting import PROFILES

@@ -167,7 +167,7 @@ class _Lines:
         self.loops: list[list[str]] = []
         self.constants: dict[float, str] = {}
         self.inputs: list[int] = []
-        self.angles: dict[int, int] = {}  # which tables the inputs that are turned have
+        self.turned: set[int] = set()  # inputs of which a cosine or a sine is taken
         self.buffers = 0
         self.watched: set[int] = set()  # words of the margins that loops before have looked at
         self._home: dict[int, str] = {}  # where the next loops find a node
@@ -193,10 +193,6 @@ class _Lines:
         for row, ref in enumerate(results):
             if type(ref) is float:
                 self._text.append(f"o{row}[i] = {self._name(ref)};")
-
-    def home(self, number: int) -> str:
-        """Return where a node is found."""
-        return self._home[number]
 
     def _begin(self, stage: Sequence[int]) -> None:
         """Begin a loop: nothing is at hand."""
@@ -231,13 +227,14 @@ class _Lines:
             self._home[number] = f"x{len(self.inputs)}"
             self.inputs.append(int(refs[0]))
             return
+        if kind in ("cosd", "sind") and _is_input(self.tape, refs[0]):
+            k = self.inputs.index(int(self.tape.nodes[int(refs[0])].operands[0]))
+            self.turned.add(k)
+            self._home[number] = f"{kind[0]}{k}"
+            self._said[number] = f"{kind[0]}{k}[i]"
+            return
         names = [self._name(ref) for ref in refs]
         self._said[number] = f"t{number}"
-        if kind in ("cosd", "sind") and _is_input(self.tape, refs[0]):
-            at = self.angles.setdefault(int(refs[0]), len(self.angles))
-            self._home[number] = f"{kind[0]}{at}"
-            self._said[number] = f"{kind[0]}{at}[i]"
-            return
         if kind in ("cosd", "sind"):
             if names[0] not in self._turned:
                 at = self._turned[names[0]] = len(self._turned)
@@ -301,8 +298,8 @@ def _whole(lines: _Lines, needs: Sequence[Sequence[str]], words: int) -> str:
     own += [f"double e{k}[{BLOCK}];" for k in range(len(lines.inputs))]
     own += [f"double b{k}[{BLOCK}];" for k in range(lines.buffers)]
     own += [f"uint64_t bad{w}[{BLOCK}];" for w in range(words)]
-    for at in lines.angles.values():
-        own.append(f"double c{at}[BLOCK], s{at}[BLOCK], table{at}[2 * BLOCK + 1] = {{NAN}};")
+    turned = sorted(lines.turned)
+    own += [f"double c{k}[BLOCK], s{k}[BLOCK], table{k}[2 * BLOCK + 1] = {{NAN}};" for k in turned]
     here = [f"double *o{row} = out + {row} * f[3];" for row in rows]
     here += [f"uint64_t any{w} = 0;" for w in range(words)]
     here += [f"memset(bad{w}, 0, sizeof bad{w});" for w in range(words) if w not in lines.watched]
@@ -313,13 +310,9 @@ def _whole(lines: _Lines, needs: Sequence[Sequence[str]], words: int) -> str:
             f"(void)y{k}; if ({position}) x{k} += first;",
             f"else {{ for (long i = 0; i < n; i++) e{k}[i] = *x{k}; x{k} = e{k}; }}",
         ]
-    for number, at in lines.angles.items():
-        name = lines.home(number)
-        k = int(name[1:])
-        here.append(
-            f"turned({name}, n, f[{10 + 3 * k}] ? y{k} : {name}, f[{10 + 3 * k}] ? f[1] : n, "
-            f"table{at}, c{at}, s{at});"
-        )
+        if k in lines.turned:
+            row = f"{position} ? y{k} : x{k}, {position} ? f[1] : n"
+            here.append(f"turned(x{k}, n, {row}, table{k}, c{k}, s{k});")
     look = []
     if words:
         table = ", ".join(f"{{{', '.join(one)}}}" for one in needs)
