@@ -19,28 +19,38 @@ from planmethod.commands.output import settle_process
 from planmethod.errors import ExitCode
 from planmethod.languages import LANGUAGES, say, speaking, spoken_to
 
-COMMANDS = (
-    "sheet",
-    "solve",
-    "structure",
-    "protocol",
-    "live",
-    "animate",
-    "sketch",
-    "audit",
-    "lint",
-    "specimen",
-    "layouts",
-    "new",
-    "tasks",
-    "synthesize",
-    "teeth",
-    "check",
-    "bench",
-    "form",
-    "batch",
-)
-"""Names of the commands; each is a function of the module of its name in `planmethod.commands`."""
+HELP = {
+    "To begin with": {
+        "tasks": "the shipped tasks of the textbooks",
+        "new": "a problem file to fill in, or a shipped task",
+        "sketch": "the scheme alone, of an unfinished file too",
+        "solve": "the numbers: tables, JSON, CSV",
+        "sheet": "the framed sheets: plans, equations, tables",
+        "protocol": "the construction step by step, as a note",
+    },
+    "More of a mechanism": {
+        "structure": "mobility and Assur groups",
+        "live": "a page on which all moves after a slider",
+        "animate": "the motion for slides: GIF and SVG",
+        "synthesize": "sizes of a mechanism, by construction",
+        "teeth": "numbers of teeth for a ratio",
+    },
+    "Checking": {
+        "check": "answers of a student or of a group",
+        "form": "the workbook that students fill in",
+        "lint": "what a norm inspector would mark on the sheets",
+        "audit": "what sources print beside the exact values",
+    },
+    "The rest": {
+        "layouts": "the shipped layouts of sheets",
+        "specimen": "all symbols and lines at working size",
+        "batch": "sheets and keys of all variants, on many machines",
+        "bench": "speed beside error of your problems",
+    },
+}
+"""What the commands do, by groups; each is the function of its name in its module."""
+
+COMMANDS = tuple(name for group in HELP.values() for name in group)
 
 
 class Commands(Mapping[str, click.Command]):
@@ -75,6 +85,12 @@ All commands: planmethod --help. One of them: planmethod sheet --help."""
 
 class Commanded(Spoken, click.Group):
     """Group of commands that answers in the language it is spoken to in."""
+
+    def format_commands(self, _ctx: click.Context, formatter: click.HelpFormatter) -> None:
+        """Write what the commands do, none of them imported."""
+        for group, names in HELP.items():
+            with formatter.section(say(group)):
+                formatter.write_dl([(name.ljust(10), say(told)) for name, told in names.items()])
 
     def main(self, args: Sequence[str] | None = None, *rest: Any, **more: Any) -> Any:
         """Run a command."""

@@ -11,7 +11,7 @@ import copy
 import inspect
 
 import click
-from click import core, exceptions, formatting, parser, termui, types
+from click import core, decorators, exceptions, formatting, parser, termui, types
 
 from planmethod.languages import translated
 
@@ -20,7 +20,7 @@ def _of_number(one: str, many: str, count: int) -> str:
     return translated(one if count == 1 else many)
 
 
-for _module in (core, exceptions, formatting, parser, termui, types):
+for _module in (core, decorators, exceptions, formatting, parser, termui, types):
     for _name, _look_up in (("_", translated), ("ngettext", _of_number)):
         if hasattr(_module, _name):
             setattr(_module, _name, _look_up)
@@ -32,13 +32,13 @@ class Spoken(click.Command):
     def get_help(self, ctx: click.Context) -> str:
         """Return the help, of the options as well."""
         told = self._translated()
-        told.params = [_translated(param) for param in self.get_params(ctx)]
+        told.params = [_translated(param, ctx) for param in self.get_params(ctx)]
         told.add_help_option = False  # it is among them
         return super(Spoken, told).get_help(ctx)
 
-    def get_short_help_str(self, limit: int = 45) -> str:
-        """Return the beginning of the help."""
-        return super(Spoken, self._translated()).get_short_help_str(limit)
+    def collect_usage_pieces(self, ctx: click.Context) -> list[str]:
+        """Return what follows the command where it is told how to call it."""
+        return [translated(piece) for piece in super().collect_usage_pieces(ctx)]
 
     def _translated(self) -> Spoken:
         told = copy.copy(self)
@@ -46,8 +46,10 @@ class Spoken(click.Command):
         return told
 
 
-def _translated(param: click.Parameter) -> click.Parameter:
+def _translated(param: click.Parameter, ctx: click.Context) -> click.Parameter:
     told = copy.copy(param)
     if isinstance(told, click.Option) and told.help:
         told.help = translated(told.help)
+    if not (isinstance(told, click.Option) and told.is_flag):
+        told.metavar = translated(param.make_metavar(ctx))
     return told

@@ -19,7 +19,7 @@ from cases import each
 from click.testing import CliRunner
 
 import planmethod
-from planmethod.cli import cli
+from planmethod.cli import COMMANDS, cli
 from planmethod.errors import PlanMethodError
 from planmethod.kinds import load
 from planmethod.languages import LANGUAGES, WRITTEN, say, speaking, spoken_to
@@ -207,9 +207,12 @@ def test_help_is_in_every_language(lang: str) -> None:
 def test_the_help_is_shown_in_russian() -> None:
     shown = CliRunner().invoke(cli, ["--lang", "ru", "--help"]).output
     assert "Вызов:" in shown
-    assert "Команды:" in shown
+    assert "Для начала:" in shown and "[КЛЮЧИ] [КОМАНДА]" in shown
     assert "Показать эту справку и выйти." in shown
     assert not PLAIN_ENGLISH.search(shown)
+    for name in COMMANDS:  # what is to be put in, too, but words of files
+        shown = CliRunner().invoke(cli, [name, "--help", "--lang", "ru"]).output
+        assert not re.search(r"^  +(?:-\S+ )+\[?[A-Z]{4,}|^Вызов: .*\b[A-Z]{4,}", shown, re.M), name
     one = CliRunner().invoke(cli, ["solve", "--lang=ru", "--hlep"])
     assert one.exit_code == 2
     assert "Ошибка: Нет ключа '--hlep'." in one.output
