@@ -34,6 +34,10 @@ Squares: TypeAlias = npt.NDArray[np.bool_]
 FAR = 10.0
 """Paper so far from all ink is white, mm: half of it belongs to the drawing as its margin."""
 
+SEEN = 1 / 30
+"""The same as a part of the shorter side of the paper: a sheet is looked at from where all of it is
+seen."""
+
 CELL = 2.5
 """Side of the squares that the paper is looked at in, mm."""
 
@@ -48,9 +52,9 @@ BANK = (
 """Tasks of the textbooks that no sheet was tuned for, and the worked examples."""
 
 HEAD = (
-    "| task | positions | format | sheets | white (in views), % | empty, % | scheme, mm "
-    "| least plan, mm | vectors, median and least, mm | labels that collide | s |\n"
-    "| --- | ---: | --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: |"
+    "| task | positions | format | sheets | white (in views), % | as seen, % | empty, % "
+    "| scheme, mm | least plan, mm | vectors, median and least, mm | labels that collide | s |\n"
+    "| --- | ---: | --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: |"
 )
 
 
@@ -69,6 +73,8 @@ class Filled:
         Share of the field within the frame that is further than `FAR` from all ink, of all sheets
         but those that go on with texts, per cent; and what of it lies within the outlines of views,
         where nothing else can stand.
+    seen : float
+        The same further than `SEEN` of the shorter side of the paper, per cent.
     empty : float
         Share of the field that the largest rectangle without ink takes, of the emptiest sheet,
         per cent: what stands out as an empty corner (PM-D10).
@@ -89,6 +95,7 @@ class Filled:
     sheets: int
     white: float
     within: float
+    seen: float
     empty: float
     scheme: tuple[float, float]
     plan: float
@@ -102,14 +109,14 @@ class Filled:
         middle, least = self.vectors
         return (
             f"| {self.task} | {self.positions} | {self.paper} | {self.sheets} "
-            f"| {self.white:.0f} ({self.within:.0f}) | {self.empty:.0f} "
+            f"| {self.white:.0f} ({self.within:.0f}) | {self.seen:.0f} | {self.empty:.0f} "
             f"| {wide:.0f} × {high:.0f} | {self.plan:.0f} | {middle:.0f}; {least:.1f} "
             f"| {self.collisions} | {self.seconds:.2f} |"
         )
 
 
-def white_share(drawing: Drawing) -> tuple[float, float]:
-    """Return the share of a sheet within its frame that is further than `FAR` from all ink, %.
+def white_share(drawing: Drawing, far: float = FAR) -> tuple[float, float]:
+    """Return the share of a sheet within its frame that is further than ``far`` from all ink, %.
 
     The frame itself is ink. The second number is what of it lies within the outlines of views:
     within the convex hulls of their ink.
@@ -123,10 +130,10 @@ def white_share(drawing: Drawing) -> tuple[float, float]:
     k, j = np.floor(places.real).astype(int), np.floor(places.imag).astype(int)
     on = (k >= 0) & (k < across) & (j >= 0) & (j < along)
     taken[k[on], j[on]] = True
-    reach = round(FAR / CELL)
+    reach = far / CELL
     near = np.zeros_like(taken)
-    for i in range(-reach, reach + 1):
-        for m in range(-reach, reach + 1):
+    for i in range(-int(reach), int(reach) + 1):
+        for m in range(-int(reach), int(reach) + 1):
             if hypot(i, m) <= reach:
                 near |= _moved(taken, i, m)
     x = left + CELL * (np.arange(across) + 0.5)
@@ -177,6 +184,7 @@ def filled(problem: Problem, count: int) -> Filled:
         len(drawings),
         fmean(white for white, _ in shares),
         fmean(within for _, within in shares),
+        fmean(white_share(one, SEEN * min(one.width, one.height))[0] for one in whole),
         max(map(_empty, whole)),
         (scheme[2] - scheme[0], scheme[3] - scheme[1]),
         min((side for side, _ in plans), default=0.0),
@@ -261,6 +269,9 @@ def main(problems: tuple[Path, ...], counts: tuple[int, ...]) -> None:
             f"({fmean(row.within for row in some):.0f} % within views), "
             f"{max(white):.0f} % at most; "
             f"{sum(row.white > 25 for row in some)} of {len(some)} above 25 %; "
+            f"as seen {fmean(row.seen for row in some):.0f} %, "
+            f"{max(row.seen for row in some):.0f} % at most, "
+            f"{sum(row.seen > 25 for row in some)} above 25 %; "
             f"largest empty rectangle {median(row.empty for row in some):.0f} %, "
             f"{max(row.empty for row in some):.0f} % at most; "
             f"vectors {median(row.vectors[0] for row in some):.0f} mm; "

@@ -137,6 +137,16 @@ def test_sheets_and_numbers_speak_of_the_same_scales(count: int) -> None:
         assert {view.kind: view.per_mm for view in sheet.views} == pytest.approx(told)
 
 
+def test_forces_of_36_positions_stand_on_one_a1() -> None:
+    (sheet,) = drawn_sheets("press/press", range(0, 360, 10), layout="forces-cycle")
+    assert size(sheet) == (841, 594)
+
+
+def test_a_compact_sheet_has_room_for_a_plan_and_its_enlarged_views() -> None:
+    sheets = kinematics_sheets(problem_of("levers/task-49"), layout="compact")
+    assert {size(sheet) for sheet in sheets} == {(210, 297)}
+
+
 @each("seed", range(some(30, few=6)))
 def test_sheets_of_random_mechanisms(seed: int) -> None:
     problem = loads(random_problem(seed)[0], name=f"random-{seed}")

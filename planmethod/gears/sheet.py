@@ -116,13 +116,13 @@ def drawings(
             for parts in made[settings, sizes]:
                 if not _has_room(parts, inner, stamp):
                     continue
-                corners = pack(Group(parts), inner, stamp, taken)
-                if corners is None:
+                placed = pack(Group(parts), inner, stamp, taken)
+                if placed is None:
                     continue
                 views: list[View] = []
-                for part, corner in zip(parts, corners, strict=True):
-                    items += part.block.place(corner)
-                    views += part.block.views(corner) if isinstance(part.block, _Viewed) else []
+                for block, corner in placed:
+                    items += block.place(corner)
+                    views += block.views(corner) if isinstance(block, _Viewed) else []
                 return [Drawing(fmt.width, fmt.height, texts.get("title", ""), items, views)]
     advice = "Take a larger --paper." if asked else "Ask for less in gears.ask."
     raise LayoutError(

@@ -43,7 +43,7 @@ from planmethod.render.ink.typeset import typeset
 from planmethod.render.layout.block import Block, Column, Line, heading, paragraph
 from planmethod.render.layout.cuttings import Group, Part
 from planmethod.render.layout.equations import formula_block
-from planmethod.render.layout.pack import EDGE, pack
+from planmethod.render.layout.pack import EDGE, Placed, pack
 from planmethod.render.layout.tables import TableColumn, table_block
 from planmethod.render.pictures.planview import POLE
 from planmethod.render.sheets.texts import unbroken
@@ -87,7 +87,7 @@ class _Plan(Viewed):
                     yield Span(plain_text(vector.symbol), None, pole, pole + head)
 
 
-_Pages: TypeAlias = tuple[tuple[tuple[Part, complex], ...], ...]
+_Pages: TypeAlias = tuple[tuple[Placed, ...], ...]
 
 
 @dataclass(frozen=True, slots=True)
@@ -318,10 +318,10 @@ def _packed(runs: Sequence[Sequence[Part]], rooms: Sequence[Room]) -> _Pages | N
             high - low
         ):
             return None
-        corners = pack(Group(tuple(run)), room.inner, room.stamp, room.taken)
-        if corners is None:
+        placed = pack(Group(tuple(run)), room.inner, room.stamp, room.taken)
+        if placed is None:
             return None
-        pages.append(tuple(zip(run, corners, strict=True)))
+        pages.append(tuple(placed))
     return tuple(pages)
 
 
@@ -371,11 +371,11 @@ def drawings(
             )
             drawing = Drawing(fmt.width, fmt.height, texts["title"])
             drawing.extend(sheet_frame(fmt, texts, furniture, sheet=number).items)
-            for part, corner in blocks:
-                items = part.block.place(corner)
+            for block, corner in blocks:
+                items = block.place(corner)
                 drawing.extend(items)
-                if isinstance(part.block, Viewed):
-                    drawing.views.append(part.block.view(items, corner))
+                if isinstance(block, Viewed):
+                    drawing.views.append(block.view(items, corner))
             made.append(drawing)
     return made
 

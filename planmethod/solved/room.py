@@ -15,7 +15,10 @@ from planmethod.plans.model import RATES
 from planmethod.record import dataclass
 
 Box: TypeAlias = tuple[float, float]
-Blocks: TypeAlias = "Box | Sequence[Blocks]"
+Ways: TypeAlias = frozenset[Box]
+"""Sizes of a block that can be laid out in several ways."""
+
+Blocks: TypeAlias = "Box | Ways | Sequence[Blocks]"
 """A block, or a group of blocks in reading order."""
 
 FEW = 5
@@ -47,7 +50,7 @@ class Texts:
         one, two = ((len(plan.equations), len(plan.vectors)) for plan in plans)
         return cls((one[0], two[0]), (one[1], two[1]))
 
-    def blocks(self, paper: Format, positions: int) -> list[Box]:
+    def blocks(self, paper: Format, positions: int) -> list[Blocks]:
         """Return the sizes of "Дано", equations, calculations and table, mm.
 
         Measured on sheets: an equation is 13 letters wide and 4.3 high, of the calculation every
@@ -56,15 +59,22 @@ class Texts:
         letter, small = LETTERS[paper.like or paper.name]
         equations = [(13.2 * letter, 4.3 * letter * (count + 0.3)) for count in self.equations]
         lines = (4.3 * self.vectors[0], 3.6 * self.vectors[1])
-        calculations = [(41.0 * small, small * count) for count in lines]
+        statement, calculations = (
+            (50.0 * letter, 7.0 * letter),
+            [(41.0 * small, small * n) for n in lines],
+        )
         number = sum(self.vectors)
         height = 55.0 if positions == 1 else 26.0 + 7.5 * min(positions, 12)
         table = (min(40.0 + 12.2 * number, 0.58 * (paper.inner[2] - paper.inner[0])), height)
-        return [(50.0 * letter, 7.0 * letter), *equations, *calculations, table]
+        if positions == 1:  # enlarged views take what other ways would leave
+            return [statement, *equations, *calculations, table]
+        narrower = (0.7 * statement[0], statement[1] / 0.7)
+        ways = [frozenset({(w, h), (2 * w + 2 * small, h / 2 + small)}) for w, h in calculations]
+        return [frozenset({statement, narrower}), *equations, *ways, table]
 
 
 def has_room(
-    paper: Format, texts: Sequence[Box], views: Sequence[Box], positions: int, over: float = 1.0
+    paper: Format, texts: Sequence[Blocks], views: Sequence[Ways], positions: int, over: float = 1.0
 ) -> bool:
     """Tell whether texts and views have room on a format, mm, ``over`` times as high as it is.
 
@@ -73,9 +83,11 @@ def has_room(
     """
     left, low, right, high = paper.inner
     room = (right - left - 2 * EDGE, over * (high - low - 2 * EDGE))
-    statement, one, two, reckoned, reckoned_too, (wide, tall) = texts
-    scheme, velocity, acceleration = views
-    scheme = (scheme[0], scheme[1] + CORNER)
+    statement, one, two, reckoned, reckoned_too, table = texts
+    assert isinstance(table, tuple)
+    wide, tall = table
+    schemes, velocity, acceleration = views
+    scheme = frozenset((width, height + CORNER) for width, height in schemes)
     lasts = [(max(wide, STAMP_WIDTH - EDGE), tall + STAMP_HEIGHT)]
     if wide > STAMP_WIDTH:
         lasts.append((wide + STAMP_WIDTH, max(tall, STAMP_HEIGHT - EDGE)))
@@ -101,7 +113,9 @@ def has_room(
 def shapes(blocks: Blocks, room: Box) -> list[Box]:
     """Return the sizes that blocks can be put together to within a room, none beaten in both."""
     if isinstance(blocks, tuple):
-        return [blocks] if blocks[0] <= room[0] and blocks[1] <= room[1] else []
+        blocks = frozenset({blocks})
+    if isinstance(blocks, frozenset):
+        return _best(list(blocks), room)
     kept = {(k, k + 1): shapes(block, room) for k, block in enumerate(blocks)}
     for length in range(2, len(blocks) + 1):
         for start in range(len(blocks) - length + 1):

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 
@@ -16,7 +17,7 @@ from planmethod.plans.model import FACTS, MOTION, PlanKind
 from planmethod.problem.model import Convention, Scales
 from planmethod.record import dataclass, replace
 from planmethod.solved.reading import Reading, Reals
-from planmethod.solved.room import FEW, Box, Texts, has_room
+from planmethod.solved.room import FEW, Box, Texts, Ways, has_room
 
 
 @dataclass(frozen=True, slots=True)
@@ -60,6 +61,12 @@ class Views:
             return width, height
         rows = min(-(-count // per_row(count)), ROWS)
         return width / min(count, per_row(count)) - BESIDE, height / rows - UNDER
+
+    def parts(self, share: float) -> Views:
+        """Return boxes that are a part as wide and high."""
+        boxes = ((kind.value, self.box(kind)) for kind in MOTION)
+        made: dict[str, Any] = {name: (share * wide, share * high) for name, (wide, high) in boxes}
+        return replace(self, **made)
 
     @classmethod
     def alone(cls, box: Box) -> Views:
@@ -315,7 +322,7 @@ class _Chosen:
         """Tell whether the views have room on the paper, texts and all."""
         one = self.drawn[PlanKind.POSITION]
         texts = Texts.of(one.construction).blocks(paper_format(self.views.paper), one.si.count)
-        boxes = [self.drawn[kind].on_paper(self.per_mm[kind]) for kind in MOTION]
+        boxes = [self.drawn[kind].ways(self.per_mm[kind]) for kind in MOTION]
         return has_room(paper_format(self.views.paper), texts, boxes, one.si.count, over)
 
     def is_large(self) -> bool:
@@ -413,6 +420,18 @@ class _Drawn:
             return across, self.taken(per_mm) + BETWEEN + name - BESIDE
         several = ALL if self.si.count > 1 and self.kind is PlanKind.POSITION else 0.0
         return self.size[0] / per_mm + BESIDE + several, self.size[1] / per_mm + name + several
+
+    def ways(self, per_mm: float) -> Ways:
+        """Return the sizes of the view at a scale, mm: of plans in rows with so many in a row."""
+        found, count = {self.on_paper(per_mm)}, self.si.count
+        if self.rows and count <= ROWS * per_row(count):
+            wide, high = self._on_paper(per_mm)
+            name = NAME[AS_HIGH.get(self.views.paper, self.views.paper)]
+            for step in range(1 if count <= FEW else 3, per_row(count)):
+                across = sum(float(wide[k::step].max()) + BETWEEN for k in range(step)) - BETWEEN
+                up = sum(float(high[k : k + step].max()) for k in range(0, count, step))
+                found.add((across, up + BETWEEN + name - BESIDE))
+        return frozenset(found)
 
     def _on_paper(self, per_mm: float) -> tuple[Reals, Reals]:
         """Return the width and height of every plan with its letters, mm, shape (n,)."""

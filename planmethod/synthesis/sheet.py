@@ -35,7 +35,7 @@ from planmethod.render.layout.block import (
     paragraph,
 )
 from planmethod.render.layout.cuttings import Group, Part
-from planmethod.render.layout.pack import pack
+from planmethod.render.layout.pack import Placed, pack
 from planmethod.render.layout.tables import TableColumn, table_block
 from planmethod.render.pictures.lettered import lettered
 from planmethod.render.sheets.texts import NBSP
@@ -107,18 +107,17 @@ def synthesis_sheet(
     )
 
 
-def _placed(view: Viewed, texts: Sequence[Block], room: Room) -> list[tuple[Block, complex]] | None:
+def _placed(view: Viewed, texts: Sequence[Block], room: Room) -> list[Placed] | None:
     """Return blocks with their corners: what was measured after the steps, or beside the view.
 
     Of the two the one that leaves the smaller empty rectangle; None where the paper has no room.
     """
     told, measured, sizes = texts
-    made: list[tuple[float, int, list[tuple[Block, complex]]]] = []
+    made: list[tuple[float, int, list[Placed]]] = []
     for blocks in ((view, told, measured, sizes), (view, measured, told, sizes)):
         whole = Group(tuple(Part(block, block is not view) for block in blocks))
-        corners = pack(whole, room.inner, room.stamp, room.taken)
-        if corners is not None:
-            placed = list(zip(blocks, corners, strict=True))
+        placed = pack(whole, room.inner, room.stamp, room.taken)
+        if placed is not None:
             items: list[Item] = [rectangle(room.stamp, Pen.FRAME, "")]
             items += [item for block, corner in placed for item in block.place(corner)]
             left, low, right, high = largest_empty(items, room.inner)

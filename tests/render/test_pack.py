@@ -9,7 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from planmethod.render.ink.drawing import Bounds
-from planmethod.render.layout.block import Spacer
+from planmethod.render.layout.block import Shapes, Spacer
 from planmethod.render.layout.cuttings import GAP, Arrange, Group, Part
 from planmethod.render.layout.pack import CLEAR, EDGE, emptiest_share, pack
 
@@ -27,12 +27,11 @@ def boxes(
     whole: Group, inner: Bounds = INNER, taken: tuple[Bounds, ...] = ()
 ) -> list[Bounds] | None:
     """Return the boxes of the blocks, in reading order."""
-    corners = pack(whole, inner, STAMP, taken)
-    if corners is None:
+    placed = pack(whole, inner, STAMP, taken)
+    if placed is None:
         return None
     return [
-        (at.real, at.imag - one.block.height, at.real + one.block.width, at.imag)
-        for one, at in zip(whole.parts(), corners, strict=True)
+        (at.real, at.imag - block.height, at.real + block.width, at.imag) for block, at in placed
     ]
 
 
@@ -216,3 +215,19 @@ def test_the_largest_empty_rectangle() -> None:
     assert emptiest_share([(0.0, 0.0, 100.0, 30.0)], paper) == pytest.approx(0.7)
     cross = [(40.0, 0.0, 60.0, 100.0), (0.0, 40.0, 100.0, 60.0)]
     assert emptiest_share(cross, paper) == pytest.approx(0.16)
+
+
+def test_a_block_is_laid_out_in_the_way_that_has_room() -> None:
+    wide, high = Spacer(500.0, 160.0), Spacer(120.0, 250.0)
+    others = [part(200.0, 300.0), part(180.0, 150.0)]
+    placed = pack(Group((Part(Shapes((wide, high))), *others)), INNER, STAMP)
+    assert placed is not None
+    assert placed[0][0] is high
+    assert pack(Group((Part(wide), *others)), INNER, STAMP) is None
+
+
+def test_something_stands_beside_the_last_block_above_a_title_block_as_wide_as_the_sheet() -> None:
+    inner, stamp = (20.0, 5.0, 205.0, 292.0), (20.0, 5.0, 205.0, 60.0)  # A4
+    placed = pack(Group((part(80.0, 200.0), part(80.0, 200.0))), inner, stamp)
+    assert placed is not None
+    assert all(corner.imag - block.height > stamp[3] for block, corner in placed)

@@ -18,7 +18,7 @@ from planmethod.solved.solution import Solution
 
 NAMES = (
     "linkages/ex1", "linkages/2.1.7", "levers/task-33", "levers/task-37", "levers/task-43",
-    "levers/task-49", "levers/task-57", "levers/task-65", "press/press",
+    "levers/task-20", "levers/task-49", "levers/task-57", "levers/task-65", "press/press",
 )  # fmt: skip
 
 

@@ -28,11 +28,11 @@ def test_a_scale_is_found_where_all_plans_have_scales_of_their_own() -> None:
 
 def test_a_plan_is_read_at_the_scale_at_which_it_is_drawn() -> None:
     """Its segments and their errors are those of the position alone at that scale."""
-    problem = problem_of("levers/task-13")
+    problem = problem_of("levers/task-49")
     together = Solution(problem, positions=[30.0, 150.0, 270.0])
     kind = PlanKind.ACCELERATION
     own = [together.own_scale(kind, i).per_mm for i in range(3)]
-    assert own == [1.0, 1.0, 2.0]
+    assert own == [5.0, 1.0, 1.0]
     scales = {k: together.own_scale(k, 0) for k in PlanKind if k in together.scales}
     alone = Solution(problem, positions=[30.0, 30.0], scales=scales)
     for one, other in zip(together.segments(kind), alone.segments(kind), strict=True):

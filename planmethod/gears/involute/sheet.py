@@ -131,11 +131,11 @@ def _composed(
         _titled(say.sliding.format(scale=scale), sliding, manner),
         told,
     ]
-    corners = pack(Group(tuple(map(Part, blocks))), room.inner, room.stamp, room.taken)
-    if corners is None:
+    placed = pack(Group(tuple(map(Part, blocks))), room.inner, room.stamp, room.taken)
+    if placed is None:
         return None
-    items = [item for block, at in zip(blocks, corners, strict=True) for item in block.place(at)]
-    first, at = blocks[0], corners[0]
+    items = [item for block, at in placed for item in block.place(at)]
+    first, at = placed[0]
     box = (at.real, at.imag - first.height, at.real + first.width, at.imag)
     return items, View("meshing", box)
 

@@ -49,6 +49,33 @@ class Block(Protocol):
 
 
 @dataclass(frozen=True, slots=True)
+class Shapes:
+    """A block that can be laid out in several ways (варианты блока); alone it is the first one."""
+
+    ways: tuple[Block, ...]
+
+    @property
+    def width(self) -> float:
+        """Width, mm."""
+        return self.ways[0].width
+
+    @property
+    def height(self) -> float:
+        """Height, mm."""
+        return self.ways[0].height
+
+    def place(self, corner: complex) -> list[Item]:
+        """Return the items of the first way."""
+        return self.ways[0].place(corner)
+
+
+def shaped(ways: Iterable[Block]) -> Block:
+    """Return a block that can be laid out in several ways, or the only one."""
+    found = tuple(ways)
+    return Shapes(found) if len(found) > 1 else found[0]
+
+
+@dataclass(frozen=True, slots=True)
 class Spacer:
     """Empty room, mm (промежуток)."""
 

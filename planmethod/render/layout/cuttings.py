@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from typing import Literal, TypeAlias
 
 from planmethod.record import dataclass, replace
 from planmethod.render.ink.drawing import Bounds
-from planmethod.render.layout.block import Block
+from planmethod.render.layout.block import Block, Shapes
 
 GAP = 9.0
 """Least white between two blocks, mm."""
@@ -26,6 +26,11 @@ class Part:
 
     block: Block
     text: bool = False
+
+    @property
+    def ways(self) -> tuple[Block, ...]:
+        """The block in all its ways."""
+        return self.block.ways if isinstance(self.block, Shapes) else (self.block,)
 
 
 @dataclass(frozen=True, slots=True)
@@ -65,9 +70,10 @@ class Group:
 
 @dataclass(frozen=True, slots=True)
 class Leaf:
-    """A block by its number, and its size, mm."""
+    """A block by its number, in one of its ways, and its size, mm."""
 
     number: int
+    block: Block
     width: float
     height: float
     text: bool
@@ -104,7 +110,11 @@ def fits(node: Node, room: tuple[float, float]) -> bool:
 
 
 def cuttings(
-    group: Group, leaves: Iterator[Leaf], room: tuple[float, float], *, whole: bool = False
+    group: Group,
+    leaves: Iterator[Sequence[Leaf]],
+    room: tuple[float, float],
+    *,
+    whole: bool = False,
 ) -> list[Node]:
     """Return cuttings of a group, none narrower and lower than another.
 
@@ -113,7 +123,7 @@ def cuttings(
     options: list[list[Node]] = []
     for member in group.members:
         if isinstance(member, Part):
-            options.append([next(leaves)])
+            options.append(list(next(leaves)))
         else:
             options.append([replace(node, group=True) for node in cuttings(member, leaves, room)])
     ways = {"free": (False, True), "row": (False,), "column": (True,)}[group.arrange]
@@ -210,15 +220,15 @@ def box_of(unit: Unit) -> Bounds:
     return (corner.real, corner.imag - node.height, corner.real + node.width, corner.imag)
 
 
-def corners_of(unit: Unit) -> Iterator[tuple[int, complex]]:
-    """Yield the upper left corners of a unit's blocks, the unit in the middle of its box."""
+def corners_of(unit: Unit) -> Iterator[tuple[Leaf, complex]]:
+    """Yield a unit's blocks with their upper left corners, the unit in the middle of its box."""
     left, _, _, high = box_of(unit)
     yield from _set_together(unit[0], complex(left, high))
 
 
-def _set_together(node: Node, corner: complex) -> Iterator[tuple[int, complex]]:
+def _set_together(node: Node, corner: complex) -> Iterator[tuple[Leaf, complex]]:
     if isinstance(node, Leaf):
-        yield node.number, corner
+        yield node, corner
         return
     yield from _set_together(node.first, corner)
     step = -1j * (node.first.height + GAP) if node.across else node.first.width + GAP

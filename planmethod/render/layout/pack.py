@@ -19,10 +19,11 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from itertools import pairwise
-from typing import NamedTuple
+from typing import NamedTuple, TypeAlias
 
 from planmethod.render.ink.drawing import Bounds
 from planmethod.render.ink.extent import overlap
+from planmethod.render.layout.block import Block
 from planmethod.render.layout.cuttings import (
     GAP,
     Group,
@@ -54,8 +55,8 @@ _LOOKED_AT = 40  # cheapest cuttings by the first two parts: their empty rectang
 
 def pack(
     whole: Group, inner: Bounds, stamp: Bounds, taken: Sequence[Bounds] = ()
-) -> list[complex] | None:
-    """Return where the upper left corners of blocks go, mm, or None when they do not fit a sheet.
+) -> list[Placed] | None:
+    """Return the blocks with their upper left corners, mm, or None when they do not fit a sheet.
 
     Parameters
     ----------
@@ -68,17 +69,20 @@ def pack(
         there is moved aside within its room; if it cannot be, all blocks keep clear of the strip
         along the frame that the box lies in.
     """
+    if stamp[0] <= inner[0]:  # as wide as the sheet: there is nothing beside it
+        inner = (inner[0], stamp[3] - EDGE + GAP / 2, *inner[2:])
+        stamp = (inner[2], stamp[3], inner[2], stamp[3])
     for free in (inner, *_without(inner, stamp, taken)):
-        corners = _packed(whole, free, stamp, taken)
-        if corners is not None:
-            return corners
+        placed = _packed(whole, free, stamp, taken)
+        if placed is not None:
+            return placed
     return None
 
 
 def _packed(
     whole: Group, inner: Bounds, stamp: Bounds, taken: Sequence[Bounds]
-) -> list[complex] | None:
-    """Return the corners of the cheapest cutting of a group, if one fits."""
+) -> list[Placed] | None:
+    """Return the cheapest cutting of a group, if one fits."""
     found = [
         option
         for corner in _last_corners(whole, inner, stamp)
@@ -93,9 +97,10 @@ def _packed(
         return option.cost + VOID * emptiest_share([*boxes, option.last, stamp, *taken], inner)
 
     best = min(found[:_LOOKED_AT], key=cost)
-    corners = dict(corner for unit in best.units for corner in corners_of(unit))
-    corners[len(corners) - 1] = complex(best.last[0], best.last[3])
-    return [corners[number] for number in range(len(corners))]
+    put = {leaf.number: (leaf.block, at) for unit in best.units for leaf, at in corners_of(unit)}
+    last = max(put)
+    put[last] = (put[last][0], complex(best.last[0], best.last[3]))
+    return [put[number] for number in sorted(put)]
 
 
 def _last_corners(whole: Group, inner: Bounds, stamp: Bounds) -> list[complex]:
@@ -107,6 +112,10 @@ def _last_corners(whole: Group, inner: Bounds, stamp: Bounds) -> list[complex]:
     # Beside the title block a high one would leave white above that.
     low = high - (stamp[3] - stamp[1]) < (more := wide - (stamp[2] - stamp[0]))
     return [above, beside] if low and more > 0.0 and beside.real >= inner[0] + EDGE else [above]
+
+
+Placed: TypeAlias = tuple[Block, complex]
+"""A block, in the way that was chosen, and its upper left corner."""
 
 
 class _Option(NamedTuple):
@@ -123,13 +132,18 @@ def _options(
     """Yield the cuttings that fit with the last block in a certain place."""
     parts = tuple(whole.parts())
     room = (inner[2] - inner[0] - 2 * EDGE, inner[3] - inner[1] - 2 * EDGE)
-    leaves = [Leaf(k, p.block.width, p.block.height, p.text) for k, p in enumerate(parts)]
+    leaves = [
+        [Leaf(k, way, way.width, way.height, part.text) for way in part.ways]
+        for k, part in enumerate(parts)
+    ]
     box = (inner[0] + EDGE, inner[1] + EDGE, inner[2] - EDGE, inner[3] - EDGE)
-    opposite = corner + complex(leaves[-1].width, -leaves[-1].height)
+    end = leaves[-1][0]
+    opposite = corner + complex(end.width, -end.height)
     last = (corner.real, opposite.imag, opposite.real, corner.imag)
     # The last block and the title block are one leaf.
     wide = max(box[2] - corner.real, min(stamp[2] - stamp[0] - EDGE, room[0]))
-    leaves[-1] = Leaf(len(parts) - 1, wide, max(corner.imag, stamp[3]) - box[1], text=False)
+    high = max(corner.imag, stamp[3]) - box[1]
+    leaves[-1] = [Leaf(len(parts) - 1, end.block, wide, high, text=False)]
     turns = _turns(whole)
     for asked in (whole, *_with_the_last(whole)):
         for node in cuttings(asked, iter(leaves), room, whole=True):

@@ -25,7 +25,7 @@ from planmethod.render.forces.hodograph import (
 from planmethod.render.ink.drawing import Pen
 from planmethod.render.ink.extent import ink_bounds
 from planmethod.render.ink.typeset import typeset
-from planmethod.render.layout.block import Block, Column, Line, Picture, Row
+from planmethod.render.layout.block import Block, Column, Line, Picture, Row, shaped
 from planmethod.render.pictures.diagram import (
     Abscissae,
     Curve,
@@ -140,7 +140,7 @@ def balance_diagram(solution: Solution, indices: Sequence[int], manner: Manner) 
                 for p, v in zip(solution.positions, values, strict=True)
                 if np.isfinite(v)
             ]
-        said = [_legend(manner)]
+        said = [_legend(manner, width)]
     picture = diagram_picture(
         frame.axis(forces),
         Ordinates(f"{symbol}, {say.units[balancing.unit]}", per_mm, say),
@@ -159,15 +159,18 @@ def _real(value: complex) -> float:
     return value.real
 
 
-def _legend(manner: Manner) -> Block:
-    """Return what the marks of the balance are."""
+def _legend(manner: Manner, width: float) -> Block:
+    """Return what the marks of the balance are, in two lines where one would be too wide."""
     height, said = manner.text(manner.sizes.text), manner.words.sheets
     parts: list[Block] = [Line(typeset(said.legend_exact, height))]
     for mark, text in ((Mark.RING, said.legend_plans), (Mark.CROSS, said.legend_lever)):
         items = tuple(mark_items(mark, 0j))
         told: list[Block] = [Picture(items, ink_bounds(items)), Line(typeset(text, height))]
         parts.append(Row(told, gap=1.5, align="centre"))
-    return Row(parts, gap=3.0, align="centre")
+    beside = Row(parts, gap=3.0, align="centre")
+    if beside.width <= width:
+        return beside
+    return Column([parts[0], Row(parts[1:], gap=3.0, align="centre")], gap=2.5, align="centre")
 
 
 def _chords(forces: Cycle, manner: Manner) -> list[str]:
@@ -222,7 +225,7 @@ def _alike(one: Sequence[Sequence[complex]], two: Sequence[Sequence[complex]]) -
 # Polar diagrams ----------------------------------------------------------------------------------
 
 
-def hodographs(solution: Solution, indices: Sequence[int], manner: Manner) -> Viewed:
+def hodographs(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
     """Return the polar diagrams of the reactions in the revolute joints, in rows."""
     forces = cycle(solution)
     side, words = SIDE * manner.width(manner.sizes.column), manner.words
@@ -241,13 +244,17 @@ def hodographs(solution: Solution, indices: Sequence[int], manner: Manner) -> Vi
         picture = hodograph_picture(forces, k, scale.per_mm, manner.letter)
         cells.append(Column([picture, Column(lines, gap=2.5, align="centre")], gap=4.0,
                             align="centre"))  # fmt: skip
-    step = manner.entry.per_row or 3
-    rows = [Row(cells[k : k + step], gap=10.0, align="bottom") for k in range(0, len(cells), step)]
     name = manner.entry.title or words.sheets.hodographs
     title = Line(typeset(name, manner.title), underline=True)
     chords = [_line(manner, text) for text in _chords(forces, manner)]
-    block = Column([title, *rows, *chords], gap=7.0, align="centre")
-    return Viewed(block, "hodograph", scale)
+    asked = manner.entry.per_row
+    ways = []
+    for step in dict.fromkeys(min(k, len(cells)) for k in ((asked,) if asked else (3, 2, 4, 5))):
+        found = range(0, len(cells), step)
+        rows = [Row(cells[k : k + step], gap=10.0, align="bottom") for k in found]
+        block = Column([title, *rows, *chords], gap=7.0, align="centre")
+        ways.append(Viewed(block, "hodograph", scale))
+    return shaped(ways)
 
 
 def _symbol(forces: Cycle, number: int) -> str:

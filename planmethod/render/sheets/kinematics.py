@@ -24,7 +24,7 @@ from planmethod.render.sheets.growth import grown
 from planmethod.render.sheets.model import Composition, Extras
 from planmethod.render.sheets.pages import Page, Paper, pages_of, stamp_fields
 from planmethod.solved.room import FEW
-from planmethod.solved.scaling import MOST_DRAWN, Views
+from planmethod.solved.scaling import LESS, MOST_DRAWN, Views
 from planmethod.solved.selfcheck import verify
 from planmethod.solved.solution import Solution
 from planmethod.solved.turn.turn import turn_of
@@ -70,7 +70,9 @@ class _Task:
 
     def on(self, paper: Paper, per_sheet: int) -> list[Page] | None:
         """Return the sheets on a paper with so many positions on each, or None."""
-        views = self.views or self.layout.views_for(paper.name, len(self.positions))
+        views = self.views
+        if views is None:
+            views = self.layout.views_for(paper.name, len(self.positions), paper.share)
         asked = self.problem.scales
         solution = self.solved(views, asked)
         pages = self.pages(solution, paper, per_sheet)
@@ -192,16 +194,17 @@ def kinematics_sheets(
     if given and (made.turn or len(asked) > FEW):
         tasks.append(free)
     last = [free] if given and task.positions != problem.drive.positions else []
+    last.append(replace(task, views=views.parts(LESS)))
     turns = (tasks, [task], last)
-    tries = chain(*(product(papers, made.at_most(len(asked)), some) for some in turns))
+    tries = chain(*(product(papers, made.shares, made.at_most(len(asked)), some) for some in turns))
 
     def later(name: str) -> Room:
         return replace(furniture, form="2a").room(paper_format(name), 2)
 
     with using(lettering(problem.sheet.lettering or "B")):
-        for name, per_sheet, task in tries:
+        for name, share, per_sheet, task in tries:
             fmt = paper_format(name)
-            on = Paper(name, partial(furniture.room, fmt), later, paper is not None)
+            on = Paper(name, partial(furniture.room, fmt), later, paper is not None, share)
             pages = task.on(on, per_sheet)
             if pages is not None:
                 return _drawn(problem, pages, fmt, fields or {}, furniture)

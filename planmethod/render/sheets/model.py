@@ -14,7 +14,7 @@ from planmethod.plans.model import PlanKind
 from planmethod.record import dataclass, replace
 from planmethod.render.layout.cuttings import Arrange
 from planmethod.solved.room import Box
-from planmethod.solved.scaling import AS_HIGH, Views
+from planmethod.solved.scaling import AS_HIGH, LESS, Views
 
 FORMATS = ("A4", "A3", "A2", "A1", "A0")
 """Basic formats: those that sizes are given for."""
@@ -34,6 +34,11 @@ class Sizes:
     text: float
     column: float
     boxes: tuple[tuple[PlanKind, Box], ...] = ()
+
+    def parts(self, share: float) -> Sizes:
+        """Return the sizes with columns and boxes a part as wide and high."""
+        boxes = tuple((kind, (share * wide, share * high)) for kind, (wide, high) in self.boxes)
+        return replace(self, column=share * self.column, boxes=boxes)
 
 
 @dataclass(frozen=True, slots=True)
@@ -138,15 +143,20 @@ class Composition:
         room = min((n for n in self.per_sheet if n >= positions), default=max(self.per_sheet))
         return tuple(n for n in self.per_sheet if n <= room)
 
-    def sizes_for(self, paper: str) -> Sizes:
+    @property
+    def shares(self) -> tuple[float, ...]:
+        """Parts of its sizes to try on a format; boxes that it asks for itself may be smaller."""
+        return (1.0, LESS) if any(sizes.boxes for sizes in self.sizes.values()) else (1.0,)
+
+    def sizes_for(self, paper: str, share: float = 1.0) -> Sizes:
         """Return the sizes of a format; an elongated one has those of the basic one as high."""
         basic = AS_HIGH.get(paper, paper)
-        return self.sizes[basic if basic in self.sizes else paper[:2]]
+        return self.sizes[basic if basic in self.sizes else paper[:2]].parts(share)
 
-    def views_for(self, paper: str, positions: int) -> Views:
+    def views_for(self, paper: str, positions: int, share: float = 1.0) -> Views:
         """Return the boxes that the views shall fill on a format."""
         views = Views.for_paper(paper, positions)
-        for kind, box in self.sizes_for(paper).boxes:
+        for kind, box in self.sizes_for(paper, share).boxes:
             named: dict[str, Any] = {kind.value: box}
             views = replace(views, kept=views.kept | {kind}, **named)
         return views
@@ -174,7 +184,7 @@ class Manner:
     """How a block is drawn on a certain sheet: what the file asks for, and the format's sizes.
 
     ``level`` counts the letter heights that did not fit; ``inside`` is the width inside the frame,
-    mm; ``columns`` are those of a long text.
+    mm.
     """
 
     entry: Entry
@@ -182,13 +192,12 @@ class Manner:
     inside: float
     extras: Extras
     level: int = 0
-    columns: int = 1
 
-    def larger(self, columns: int, *, below: float) -> Manner:
+    def larger(self, *, below: float) -> Manner:
         """Return it with the next larger letters, where there are any below a height, mm."""
         heights, now = self.entry.heights, self.text(0.0)
         levels = [k for k in range(len(heights)) if now < heights[k] < below]
-        return replace(self, level=max(levels), columns=columns) if levels else self
+        return replace(self, level=max(levels)) if levels else self
 
     @property
     def words(self) -> Language:

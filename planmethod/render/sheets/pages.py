@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from itertools import combinations, groupby, pairwise, product
+from itertools import combinations, groupby, pairwise
 from math import inf
 from typing import TypeAlias
 
@@ -12,9 +12,9 @@ from planmethod.record import dataclass, replace
 from planmethod.render.frame.furniture import Room
 from planmethod.render.frame.titleblock import merged
 from planmethod.render.ink.drawing import Item, View
-from planmethod.render.layout.block import Block, Column, Row
+from planmethod.render.layout.block import Block, Column, Row, Shapes
 from planmethod.render.layout.cuttings import GAP, Arrange, Group, Part
-from planmethod.render.layout.pack import EDGE, pack
+from planmethod.render.layout.pack import EDGE, Placed, pack
 from planmethod.render.sheets.blocks import BLOCKS
 from planmethod.render.sheets.model import Composition, Entry, Extras, Manner
 from planmethod.render.sheets.views import Viewed
@@ -22,8 +22,8 @@ from planmethod.solved.room import FEW
 from planmethod.solved.solution import Solution
 
 Tried: TypeAlias = tuple[bool, int, int]
-Parts: TypeAlias = "list[tuple[Sequence[Made], list[complex]]]"
-"""Blocks by pages, and their corners."""
+Parts: TypeAlias = "list[list[Placed]]"
+"""Blocks and their corners, by pages."""
 
 MOST_EXTRA = 4
 """Sheets that one sheet of a composition may take on a format that was asked for."""
@@ -64,6 +64,12 @@ class Made:
     entry: Entry
     block: Block
 
+    @property
+    def is_text(self) -> bool:
+        """Whether it is no view."""
+        one = self.block.ways[0] if isinstance(self.block, Shapes) else self.block
+        return not isinstance(one, Viewed)
+
 
 @dataclass(frozen=True, slots=True)
 class Paper:
@@ -71,12 +77,14 @@ class Paper:
 
     ``forced``: the format was asked for, so that a sheet of one position may take several pages.
     ``next_room``: the room of a later sheet of a format, which has the small title block.
+    ``share`` is that of the composition's sizes.
     """
 
     name: str
     room: Callable[[int], Room]
     next_room: Callable[[str], Room]
     forced: bool = False
+    share: float = 1.0
 
 
 def stamp_fields(
@@ -130,7 +138,7 @@ def _sheet(
     What is tried is told by `_tries`.
     """
     entries = spread([entry for entry in composition.blocks if entry.sheet == number], solution)
-    sizes = composition.sizes_for(paper.name)
+    sizes = composition.sizes_for(paper.name, paper.share)
     stock = _Stock(solution, indices, {})
     for count, level, dropped, taken_apart in _tries(
         composition.levels,
@@ -152,7 +160,7 @@ def _sheet(
             parts = _with_larger_texts(parts, manners, stock, rooms, composition.arranged, apart)
         if parts:
             title, tried = composition.titles.get(number, ""), (dropped, level, apart)
-            pages = [_page(part, corners, title, tried) for part, corners in parts]
+            pages = [_page(part, title, tried) for part in parts]
             going = dropped and len(solution.positions) <= FEW
             left_out = [entry for entry in entries if going and entry.kind in GOES_ON]
             return pages + _going_on(left_out, composition, stock, paper, extras, title)
@@ -170,23 +178,20 @@ def _with_larger_texts(
     """Return a page with the texts of each kind in larger letters, if there is room for them.
 
     All letters of a sheet shrink alike until everything fits; what is left goes to the texts whose
-    letters are the smallest, so that none are twice as high as others. Long ones are tried in two
-    columns, too.
+    letters are the smallest, so that none are twice as high as others.
     """
     kinds = list(dict.fromkeys(m.entry.kind for m in manners if m.entry.heights))
     while kinds:
         heights = {m.entry.kind: m.text(0.0) for m in manners if m.entry.heights}
         kind = min(kinds, key=heights.__getitem__)
         own = [k for k, manner in enumerate(manners) if manner.entry.kind == kind]
-        for columns in product((1, 2) if kind in GOES_ON else (1,), repeat=len(own)):
-            larger = list(manners)
-            for k, wanted in zip(own, columns, strict=True):
-                larger[k] = manners[k].larger(wanted, below=2.0 * min(heights.values()))
-            made = stock.made(larger, sum(map(_free, rooms))) if larger != manners else None
-            found = _divided(made, rooms, arranged, range(max(apart, 1) + 1))[0] if made else []
-            if found:
-                parts, manners = found, larger
-                break
+        larger = list(manners)
+        for k in own:
+            larger[k] = manners[k].larger(below=2.0 * min(heights.values()))
+        made = stock.made(larger, sum(map(_free, rooms))) if larger != manners else None
+        found = _divided(made, rooms, arranged, range(max(apart, 1) + 1))[0] if made else []
+        if found:
+            parts, manners = found, larger
         else:
             kinds.remove(kind)
     return parts
@@ -242,7 +247,7 @@ class _Stock:
 
     solution: Solution
     indices: Sequence[int]
-    blocks: dict[tuple[int, int, float, int], Block]
+    blocks: dict[tuple[int, int, float], Block]
 
     def made(self, manners: Sequence[Manner], room: float) -> list[Made] | None:
         """Return the blocks of a sheet, or None when they are larger than ``room``, mm².
@@ -261,7 +266,7 @@ class _Stock:
     def _block(self, manner: Manner) -> Block:
         entry = manner.entry
         level = min(manner.level, max(0, len(entry.heights) - 1))
-        key = (id(entry), level, manner.inside, manner.columns)
+        key = (id(entry), level, manner.inside)
         if key not in self.blocks:
             make = BLOCKS[entry.kind].make
             self.blocks[key] = make(self.solution, self.indices, manner)
@@ -318,10 +323,10 @@ def _divided(
             for room, (i, j) in zip(rooms, pairwise((0, *cuts, len(made))), strict=True):
                 whole = grouped(made[i:j] if apart != 1 else _loosened(made[i:j]), arranged)
                 group = (whole, whole, whole.inner(), whole.flat())[apart]
-                corners = pack(group, room.inner, room.stamp, room.taken)
-                if corners is None:
+                placed = pack(group, room.inner, room.stamp, room.taken)
+                if placed is None:
                     break
-                pages.append((made[i:j], corners))
+                pages.append(placed)
             else:
                 return pages, apart
     return [], 0
@@ -344,15 +349,15 @@ def grouped(
         if name:
             members.append(grouped(list(run), arranged, path + name))
         else:
-            members += [Part(one.block, not isinstance(one.block, Viewed)) for one in run]
+            members += [Part(one.block, one.is_text) for one in run]
     return Group(tuple(members), arranged.get(path, "free"))
 
 
-def _page(made: Sequence[Made], corners: Sequence[complex], title: str, tried: Tried) -> Page:
+def _page(placed: Sequence[Placed], title: str, tried: Tried) -> Page:
     page = Page([], [], title, tried)
-    for one, corner in zip(made, corners, strict=True):
-        items = one.block.place(corner)
+    for block, corner in placed:
+        items = block.place(corner)
         page.items.extend(items)
-        if isinstance(one.block, Viewed):
-            page.views.append(one.block.view(items, corner))
+        if isinstance(block, Viewed):
+            page.views.append(block.view(items, corner))
     return page

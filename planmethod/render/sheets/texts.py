@@ -6,13 +6,16 @@ from collections.abc import Sequence
 
 from planmethod.note.narrate.calculation import calculation
 from planmethod.note.narrate.given import given, wanted
-from planmethod.render.layout.block import Block, Column, Row, heading, paragraph
+from planmethod.render.layout.block import Block, Column, Row, Shapes, heading, paragraph
 from planmethod.render.layout.equations import equation_block, formula_block
 from planmethod.render.sheets.model import Manner
 from planmethod.render.sheets.views import shown_position
 from planmethod.solved.solution import Solution
 
 NBSP = "\u00a0"
+
+NARROW = 0.7
+"""Part of the usual width that a text may be set to where that has more room."""
 
 
 def statement_block(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
@@ -21,14 +24,17 @@ def statement_block(solution: Solution, indices: Sequence[int], manner: Manner) 
     return stated(facts, manner.words.sheets.wanted.format(wanted=wanted(solution)), manner)
 
 
-def stated(facts: Sequence[str], asked: str, manner: Manner, *more: str) -> Column:
-    """Return "Дано" with its facts, what is asked, and further paragraphs."""
-    height, width = manner.text(manner.sizes.text), manner.width(manner.sizes.column)
+def stated(facts: Sequence[str], asked: str, manner: Manner, *more: str) -> Block:
+    """Return "Дано" with its facts, what is asked, and further paragraphs: narrower, too."""
+    height, column = manner.text(manner.sizes.text), manner.width(manner.sizes.column)
     texts = [manner.words.note.given.format(given=unbroken(facts)), asked, *more]
-    lines: list[Block] = [paragraph(text, height, width=width) for text in texts]
-    if manner.entry.title:
-        lines.insert(0, heading(manner.entry.title, height, width=width))
-    return Column(lines, gap=3.0)
+    ways = []
+    for width in (column, NARROW * column):
+        lines: list[Block] = [paragraph(text, height, width=width) for text in texts]
+        if manner.entry.title:
+            lines.insert(0, heading(manner.entry.title, height, width=width))
+        ways.append(Column(lines, gap=3.0))
+    return Shapes(tuple(ways))
 
 
 def unbroken(facts: Sequence[str]) -> str:
@@ -62,9 +68,9 @@ def calculation_block(solution: Solution, indices: Sequence[int], manner: Manner
         title = said.of_position.format(title=title, number=index)
     lines = calculation(solution, kind, index, manner.words)
     blocks = [heading(title, height), *(formula_block(x, height) for x in lines)]
-    step = -(-len(blocks) // manner.columns)
-    columns = [Column(blocks[k : k + step], gap=2.2) for k in range(0, len(blocks), step)]
-    return Row(columns, gap=2.0 * height) if manner.columns > 1 else columns[0]
+    whole, half = Column(blocks, gap=2.2), -(-len(blocks) // 2)
+    columns = [Column(some, gap=2.2) for some in (blocks[:half], blocks[half:])]
+    return Shapes((whole, Row(columns, gap=2.0 * height)))
 
 
 def text_block(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:

@@ -80,7 +80,7 @@ def chosen_plans(solution: Solution, indices: Sequence[int], manner: Manner) -> 
     if own.per_mm < solution.scales[kind].per_mm:
         scales = {**solution.scales, kind: own}
         solution = Solution(problem, positions=at, scales=scales, profile=solution.profile)
-    picture = plan_grid(solution, kind, chosen, manner.words.say)
+    picture, *_ = plan_grid(solution, kind, chosen, manner.words.say)
     title = manner.entry.title or manner.words.sheets.views[kind.value][1]
     said = [scale_inscription(solution.scales[kind], solution.problem.scales.convention,
                               manner.words.say)]  # fmt: skip

@@ -17,7 +17,7 @@ from planmethod.plans.model import PlanKind
 from planmethod.record import dataclass
 from planmethod.render.ink.drawing import Arc, Disc, Item, Span, View
 from planmethod.render.ink.typeset import typeset
-from planmethod.render.layout.block import Block, Column, Line, Row, Spacer
+from planmethod.render.layout.block import Block, Column, Line, Row, Spacer, shaped
 from planmethod.render.pictures.ellipses import ellipse_inscription
 from planmethod.render.pictures.enlarged import ENLARGED
 from planmethod.render.pictures.paths import Paths
@@ -33,6 +33,7 @@ from planmethod.render.pictures.traces import shown_traces
 from planmethod.render.sheets.model import Manner
 from planmethod.render.sheets.results import position_text
 from planmethod.solved.enlarging import least_shown
+from planmethod.solved.room import FEW
 from planmethod.solved.scaling import BETWEEN, per_row
 from planmethod.solved.solution import Solution
 from planmethod.solved.turn.turn import turn_of
@@ -160,7 +161,7 @@ def scheme_view(solution: Solution, indices: Sequence[int], manner: Manner) -> V
     return Viewed(block, kind.value, solution.scales[kind])
 
 
-def plan_view(solution: Solution, indices: Sequence[int], manner: Manner) -> Viewed:
+def plan_view(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
     """Return a plan, or the plans of many positions in rows.
 
     They are drawn as they come out with the ruler, so that what the calculation says is what a
@@ -171,9 +172,10 @@ def plan_view(solution: Solution, indices: Sequence[int], manner: Manner) -> Vie
     errors = manner.extras.errors
     if manner.entry.position is not None:
         indices = (manner.entry.position,)
+    pictures: list[Block] = []
     if len(solution.positions) > 1:
         step, say = manner.entry.per_row, manner.words.say
-        picture = plan_grid(solution, kind, indices, say, in_row=step, errors=errors)
+        pictures += plan_grid(solution, kind, indices, say, in_row=step, errors=errors)
     else:
         picture = plan_picture(
             solution,
@@ -185,27 +187,33 @@ def plan_view(solution: Solution, indices: Sequence[int], manner: Manner) -> Vie
             traces=shown_traces(solution, manner.entry.traces, room=manner.extras.traces),
             knots=tuple(knot_letter(knot, manner.words) for knot in solution.knots[kind]),
         )
-        picture = _with_knots(solution, kind, picture, manner)
-    block = _with_scale(solution, kind, picture, manner, indices)
-    return PlanViewed(
-        block, kind.value, solution.scales[kind], solution, kind, tuple(indices), not errors
+        pictures += _with_knots(solution, kind, picture, manner)
+    blocks = [_with_scale(solution, kind, picture, manner, indices) for picture in pictures]
+    scale = solution.scales[kind]
+    return shaped(
+        PlanViewed(block, kind.value, scale, solution, kind, tuple(indices), not errors)
+        for block in blocks
     )
 
 
-def _with_knots(solution: Solution, kind: PlanKind, picture: Block, manner: Manner) -> Block:
-    """Return a plan with what is enlarged of it, beside or below it as takes less room."""
+def _with_knots(solution: Solution, kind: PlanKind, picture: Block, manner: Manner) -> list[Block]:
+    """Return a plan with what is enlarged of it, in all ways: what takes the least room first."""
     pictures = knot_pictures(
         solution, kind, letter_height=manner.letter, by_hand=not manner.extras.errors
     )
     if not pictures:
-        return picture
+        return [picture]
     views = [
         Column([Line(typeset(view_name(knot, manner.words), manner.letter)), one], 2.5, "centre")
         for knot, one in zip(solution.knots[kind], pictures, strict=True)
     ]
-    beside = Row([picture, Column(views, 6.0, "centre")], 8.0, "centre")
-    below = Column([picture, Row(views, 8.0, "centre")], 6.0, "centre")
-    return below if below.width * below.height < beside.width * beside.height else beside
+    ways: list[Block] = []
+    for step in range(1, len(views) + 1):
+        found = range(0, len(views), step)
+        rows = Column([Row(views[k : k + step], 8.0, "centre") for k in found], 6.0, "centre")
+        ways.append(Row([picture, rows], 8.0, "centre"))
+        ways.append(Column([picture, rows], 6.0, "centre"))
+    return sorted(ways, key=lambda way: way.width * way.height)
 
 
 def shown_position(solution: Solution, indices: Sequence[int], manner: Manner) -> int:
@@ -266,8 +274,12 @@ def plan_grid(
     *,
     in_row: int | None = None,
     errors: bool = False,
-) -> Block:
-    """Return the plans of many positions in rows and columns, each with its number."""
+) -> list[Block]:
+    """Return the plans of many positions in rows and columns, each with its number.
+
+    There are as many ways as numbers of plans in a row, the usual one first; ``in_row`` asks for
+    one.
+    """
     coordinate = solution.problem.drive.coordinate
     cells: list[Block] = []
     common = solution.has_common(kind, indices)
@@ -284,10 +296,14 @@ def plan_grid(
             solution, kind, i, letter_height=CAPTION, errors=errors, by_hand=not errors
         )
         cells.append(Column([picture, caption], gap=3.0, align="centre"))
-    step = min(in_row or per_row(len(cells)), len(cells))
+    count, usual = len(cells), in_row or per_row(len(cells))
+    steps = (usual,) if in_row else (usual, 4, 3, 2, 1) if count <= FEW else (usual, 4, 3)
+    return [_rows(cells, step) for step in dict.fromkeys(min(step, count) for step in steps)]
+
+
+def _rows(cells: Sequence[Block], step: int) -> Block:
+    """Return blocks in rows of so many, the columns even."""
     wide = [Spacer(max(cell.width for cell in cells[k::step]), 0.0) for k in range(step)]
     even = [Column([cell, wide[k % step]], gap=0.0, align="centre") for k, cell in enumerate(cells)]
-    rows = [
-        Row(even[k : k + step], gap=BETWEEN, align="bottom") for k in range(0, len(cells), step)
-    ]
-    return Column(rows, gap=BETWEEN)
+    found = range(0, len(cells), step)
+    return Column([Row(even[k : k + step], gap=BETWEEN, align="bottom") for k in found], BETWEEN)
