@@ -203,42 +203,13 @@ MESHING = (
 )
 """Keys of ``[meshing]``."""
 
-KNOWN: dict[str, tuple[str, ...]] = {
-    "top": TOP,
-    "frame": FRAME,
-    "guide": GUIDE,
-    "link": LINK,
-    "slides": SLIDES,
-    "point": POINT,
-    "driver": DRIVER,
-    "span": SPAN,
-    "rule": RULE,
-    "moving": MOVING,
-    "cycle": CYCLE,
-    "pole": POLE,
-    "rolling": ROLLING,
-    "scales": SCALES,
-    "stamp": tuple(STAMP),
-    "sheet": SHEET,
-    "published": PUBLISHED,
-    "answer": ANSWER,
-    "dynamics": DYNAMICS,
-    "mass": MASS,
-    "load": LOAD,
-    "table": TABLE,
-    "phases": PHASES,
-    "machine": MACHINE,
-    "flywheel": FLYWHEEL,
-    "motor": MOTOR,
-    "balancing": BALANCING,
-    "kloss": KLOSS,
-    "line": LINE,
-    "gears": GEARS,
-    "wheel": WHEEL,
-    "mesh": MESH,
-    "picture": PICTURE,
-    "meshing": MESHING,
-}
+_KINDS = (
+    "top", "frame", "guide", "link", "slides", "point", "driver", "span", "rule", "moving",
+    "cycle", "pole", "rolling", "scales", "stamp", "sheet", "published", "answer", "dynamics",
+    "mass", "load", "table", "phases", "machine", "flywheel", "motor", "balancing", "kloss",
+    "line", "gears", "wheel", "mesh", "picture", "meshing",
+)  # fmt: skip
+KNOWN: dict[str, tuple[str, ...]] = {kind: tuple(globals()[kind.upper()]) for kind in _KINDS}
 """All of them by the kind of table."""
 
 POINT_LIMIT = 400
