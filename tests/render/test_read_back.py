@@ -73,26 +73,36 @@ def test_a_ruler_finds_on_the_sheet_what_the_calculation_says(name: str, layout:
     assert compared >= 5 or layout == "homework"
 
 
-@pytest.mark.parametrize("count", [3, 12])
-@pytest.mark.parametrize("name", [*thinned(SIX, 3), *thinned(OTHERS, 40)])
+MANY = [
+    (name, count, None) for name in (*thinned(SIX, 3), *thinned(OTHERS, 40)) for count in (3, 12)
+]
+MANY += [("press/press", 12, "coursework-12"), ("levers/task-49", 3, "compact")]
+MANY += [(name, 1, "compact") for name in thinned(OTHERS, 60)]
+
+
+@pytest.mark.parametrize(("name", "count", "layout"), MANY)
 def test_a_ruler_finds_it_in_each_of_many_positions(
-    name: str, count: int, monkeypatch: pytest.MonkeyPatch
+    name: str, count: int, layout: str | None, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """At whatever scale a plan is drawn: the calculation of each position is of that."""
     problem = problem_of(name)
     at = positions_of(problem, count)
-    sheets, solution = solved_while(lambda: kinematics_sheets(problem, positions=at), monkeypatch)
+    sheets, solution = solved_while(
+        lambda: kinematics_sheets(problem, positions=at, layout=layout), monkeypatch
+    )
     compared = 0
     for view in (view for sheet in sheets for view in sheet.views if view.kind != "position"):
-        for index in {span.position for span in view.spans if span.position is not None}:
+        for index in {span.position or 0 for span in view.spans}:
             if solution.margin[index] < 1e-6:
                 continue  # dead: a scale of 10¹² (m/s²)/mm
-            on_sheet = {span.name: span for span in view.spans if span.position == index}
+            on_sheet = {span.name: span for span in view.spans if (span.position or 0) == index}
             for line in calculation(solution, PlanKind(view.kind), index, language("ru")):
                 said = plain_text(line).replace(",", ".")
                 for letters, value in LAID_OFF.findall(said) + READ.findall(said):
                     if letters in on_sheet:
-                        assert on_sheet[letters].length == pytest.approx(float(value), abs=0.2501)
+                        span = on_sheet[letters]
+                        said_mm = float(value) * (span.share if count == 1 else 1.0)
+                        assert span.length == pytest.approx(said_mm, abs=0.2501), said
                         compared += 1
     assert compared >= 5 * count
 
