@@ -73,7 +73,7 @@ def test_a_ruler_finds_on_the_sheet_what_the_calculation_says(name: str, layout:
     assert compared >= 5 or layout == "homework"
 
 
-MANY = [
+MANY: list[tuple[str, int, str | None]] = [
     (name, count, None) for name in (*thinned(SIX, 3), *thinned(OTHERS, 40)) for count in (3, 12)
 ]
 MANY += [("press/press", 12, "coursework-12"), ("levers/task-49", 3, "compact")]
