@@ -2,29 +2,24 @@
 
 from __future__ import annotations
 
-import datetime
 import hashlib
-import io
 import json
-import zipfile
 from collections.abc import Mapping, Sequence
 from dataclasses import fields, is_dataclass
 from enum import Enum
 from typing import Any
 
 from planmethod.check.model import KeyEntry
+from planmethod.check.pages.workbook import saved
 from planmethod.check.works.gather import is_of
 from planmethod.check.works.units import ratio_of, read_unit
 from planmethod.check.works.xlsx_file import META
 from planmethod.note.wording import language
 from planmethod.note.wording.form_model import FormWording
-from planmethod.pattern import pattern
 from planmethod.problem.head import KindProblem
 
 SCHEMA = 1
 
-_MADE = datetime.datetime(2000, 1, 1)
-_MODIFIED = pattern(rb"(<dcterms:modified[^>]*>)[^<]*")
 _WIDTHS = (5, 14, 24, 16, 13, 14, 11, 28, 22)
 _SHOWN = (
     "name", "title", "sheet", "stamp", "published", "source", "variants", "variant",
@@ -96,23 +91,8 @@ def form_of(
     sheet.column_dimensions["B"].hidden = True  # the letters stand in the next one
     sheet.protection.sheet = True
     sheet.protection.formatColumns = False
-    return saved(book)
-
-
-def saved(book: Any) -> bytes:
-    """Return a workbook of openpyxl as bytes that depend on nothing but what is in it."""
     book.properties.creator = "planmethod"
-    book.properties.created = _MADE
-    stream, fixed = io.BytesIO(), io.BytesIO()
-    book.save(stream)
-    with zipfile.ZipFile(stream) as made, zipfile.ZipFile(fixed, "w") as archive:
-        for name in made.namelist():
-            data = made.read(name)
-            if name == "docProps/core.xml":  # the time of saving
-                data = _MODIFIED.sub(rb"\g<1>2000-01-01T00:00:00Z", data)
-            member = zipfile.ZipInfo(name, _MADE.timetuple()[:6])
-            archive.writestr(member, data, zipfile.ZIP_DEFLATED)
-    return fixed.getvalue()
+    return saved(book)
 
 
 def _write_meta(

@@ -8,29 +8,10 @@ from types import MappingProxyType
 from planmethod.languages import LANGUAGES
 
 TOP = (
-    "title",
-    "source",
-    "units",
-    "frame",
-    "links",
-    "driver",
-    "assembly",
-    "scales",
-    "stamp",
-    "sheet",
-    "published",
-    "answers",
-    "compare",
-    "variants",
-    "dynamics",
-    "loads",
-    "machine",
-    "balancing",
-    "gears",
-    "point",
-    "cycle",
-    "meshing",
-)
+    "title", "source", "units", "frame", "links", "driver", "assembly", "scales", "stamp",
+    "sheet", "published", "answers", "compare", "variants", "dynamics", "loads", "machine",
+    "balancing", "gears", "point", "cycle", "meshing",
+)  # fmt: skip
 UNITS: Mapping[str, float] = MappingProxyType({"m": 1.0, "cm": 100.0, "mm": 1000.0})
 """Units in which a file may give its lengths: how many of them a metre has."""
 FRAME = ("guides",)
@@ -71,42 +52,14 @@ POLE = ("v", "a")
 ROLLING = ("radius", "r", "angle", "on", "within", "arm")
 """Keys of ``point.wheel``."""
 SCALES = ("convention", "mu_l", "mu_v", "mu_a", "mu_F")
-STAMP: Mapping[str, str] = MappingProxyType(
-    {
-        "organisation": "Организация (графа 9), first line",
-        "department": "Кафедра: second line of graph 9",
-        "group": "Группа: third line of graph 9",
-        "author": "Разраб.: surname",
-        "checker": "Пров.: surname",
-        "t_control": "Т.контр.: surname",
-        "norm_control": "Н.контр.: surname",
-        "approver": "Утв.: surname",
-        "extra": "surname in the free row",
-        "extra_role": "what the free row is for: Конс.",
-        "designation": "Обозначение (графа 2): ТММ.КП.12.03.00.000",
-        "title": "Наименование (графа 1): what the sheet shows",
-        "material": "Материал (графа 3): the subject in coursework",
-        "subject": "the same place as material: the discipline or theme",
-        "letter": "Литера (графа 4), up to three letters: У",
-        "mass": "Масса (графа 5)",
-        "scale": "Масштаб (графа 6): 1:2",
-        "sheet": "Лист (графа 7): number of the sheet",
-        "sheets": "Листов (графа 8): how many sheets",
-        "date": "the same place as author_date",
-        "author_date": "date beside the surname of the author",
-        "checker_date": "date",
-        "t_control_date": "date",
-        "norm_control_date": "date",
-        "approver_date": "date",
-        "extra_date": "date",
-        "inventory": "Инв. № подл. (графа 19), in the side columns",
-        "inventory_instead": "Взам. инв. № (графа 21), in the side columns",
-        "inventory_copy": "Инв. № дубл. (графа 22), in the side columns",
-        "reference": "Справ. № (графа 24), in the side columns of the first sheet",
-        "first_use": "Перв. примен. (графа 25), in the side columns of the first sheet",
-    }
-)
-"""Fields of the title block and what they are; all of them are optional."""
+STAMP = (
+    "organisation", "department", "group", "author", "checker", "t_control", "norm_control",
+    "approver", "extra", "extra_role", "designation", "title", "material", "subject", "letter",
+    "mass", "scale", "sheet", "sheets", "date", "author_date", "checker_date", "t_control_date",
+    "norm_control_date", "approver_date", "extra_date", "inventory", "inventory_instead",
+    "inventory_copy", "reference", "first_use",
+)  # fmt: skip
+"""Fields of the title block, all of them optional; what they are: docs/title-block.md."""
 
 SHEET = ("paper", "form", "graph_26", "graphs_27_30", "side_columns", "lettering", "lang", "traces")
 FORMS = ("1", "1+2a", "2", "2a")
@@ -123,24 +76,9 @@ TABLE = ("law", "over", "values", "interpolation", "strokes", "area", "sides", "
 INDICATOR = ("strokes", "area", "sides", "area_2")
 """Keys of a table that is an indicator diagram."""
 MACHINE = (
-    "delta",
-    "mean",
-    "constant",
-    "cycle_deg",
-    "J_crank",
-    "count",
-    "pole_mm",
-    "turn_mm",
-    "mu_M",
-    "mu_J",
-    "signs",
-    "ordinates",
-    "method",
-    "phi_0",
-    "flywheel",
-    "motor",
-    "brake",
-)
+    "delta", "mean", "constant", "cycle_deg", "J_crank", "count", "pole_mm", "turn_mm", "mu_M",
+    "mu_J", "signs", "ordinates", "method", "phi_0", "flywheel", "motor", "brake",
+)  # fmt: skip
 MOTOR_FORMS = {
     "kloss": (("M_max", "s_k", "n_sync"), ("P_nom", "n_nom", "n_sync", "lambda")),
     "line": (("M_start", "n_idle"), ("M_nom", "n_nom", "n_idle")),
@@ -155,90 +93,30 @@ FLYWHEEL = ("shape", "density", "speed", "ratio")
 PHASES = ("phi", "moving", "turning")
 PUBLISHED = ("value", "unit", "per_mm", "what", "note", "position")
 ANSWER = (
-    "what",
-    "id",
-    "letters",
-    "unit",
-    "points",
-    "form",
-    "sense",
-    "position",
-    "digits",
-    "segment",
+    "what", "id", "letters", "unit", "points", "form", "sense", "position", "digits", "segment",
     "tolerance",
-)
+)  # fmt: skip
 
 GEARS = (
-    "wheels",
-    "meshes",
-    "bodies",
-    "fixed",
-    "n",
-    "omega",
-    "unknown",
-    "coaxial",
-    "module",
-    "satellites",
-    "output",
-    "ask",
-    "picture",
-)
+    "wheels", "meshes", "bodies", "fixed", "n", "omega", "unknown", "coaxial", "module",
+    "satellites", "output", "ask", "picture",
+)  # fmt: skip
 WHEEL = ("z", "r", "x", "axis")
 MESH = ("of", "kind", "carrier", "eta", "hand")
 PICTURE = ("mu_l", "longest_mm", "pole_mm")
 MESHING = (
-    "z",
-    "m",
-    "internal",
-    "cutter",
-    "alpha",
-    "ha",
-    "c",
-    "x",
-    "x1",
-    "x2",
-    "a_w",
-    "s_a_min",
+    "z", "m", "internal", "cutter", "alpha", "ha", "c", "x", "x1", "x2", "a_w", "s_a_min",
     "epsilon_min",
-)
+)  # fmt: skip
 """Keys of ``[meshing]``."""
 
-KNOWN: dict[str, tuple[str, ...]] = {
-    "top": TOP,
-    "frame": FRAME,
-    "guide": GUIDE,
-    "link": LINK,
-    "slides": SLIDES,
-    "point": POINT,
-    "driver": DRIVER,
-    "span": SPAN,
-    "rule": RULE,
-    "moving": MOVING,
-    "cycle": CYCLE,
-    "pole": POLE,
-    "rolling": ROLLING,
-    "scales": SCALES,
-    "stamp": tuple(STAMP),
-    "sheet": SHEET,
-    "published": PUBLISHED,
-    "answer": ANSWER,
-    "dynamics": DYNAMICS,
-    "mass": MASS,
-    "load": LOAD,
-    "table": TABLE,
-    "phases": PHASES,
-    "machine": MACHINE,
-    "flywheel": FLYWHEEL,
-    "motor": MOTOR,
-    "balancing": BALANCING,
-    "kloss": KLOSS,
-    "line": LINE,
-    "gears": GEARS,
-    "wheel": WHEEL,
-    "mesh": MESH,
-    "picture": PICTURE,
-    "meshing": MESHING,
-}
+_KINDS = (
+    "top", "frame", "guide", "link", "slides", "point", "driver", "span", "rule", "moving",
+    "cycle", "pole", "rolling", "scales", "stamp", "sheet", "published", "answer", "dynamics",
+    "mass", "load", "table", "phases", "machine", "flywheel", "motor", "balancing", "kloss",
+    "line", "gears", "wheel", "mesh", "picture", "meshing",
+)  # fmt: skip
+KNOWN: dict[str, tuple[str, ...]] = {kind: tuple(globals()[kind.upper()]) for kind in _KINDS}
 """All of them by the kind of table."""
 
 POINT_LIMIT = 400

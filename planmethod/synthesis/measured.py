@@ -6,7 +6,7 @@ velocity programs to the last digits; the transmission angle is looked at over t
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
@@ -15,15 +15,13 @@ import numpy.typing as npt
 from planmethod.errors import PlanMethodError
 from planmethod.problem.model import Problem
 from planmethod.solved.many.sweep import Sweep
+from planmethod.solved.reading import Reals
+from planmethod.solved.turn.roots import Function, crossings, root
 from planmethod.synthesis.model import Synthesis, place, ray_angle
-
-Reals = npt.NDArray[np.float64]
 
 CLOSE = 1e-9
 """Share by which what is measured back may differ from what was asked."""
 
-_PARTS = 32  # parts of an interval that is narrowed
-_ROUNDS = 11  # until it is as short as float64 can tell
 _GRID = 720
 _TYPES = ("crank-rocker", "double-rocker", "rocker-crank", "double-crank")
 
@@ -152,11 +150,9 @@ class _Way:
         return self._table(phi)[self.rate]
 
     @staticmethod
-    def _roots(rate: Callable[[Reals], Reals], grid: Reals) -> list[float]:
+    def _roots(rate: Function, grid: Reals) -> list[float]:
         """Return where a rate changes its sign."""
-        rates = rate(grid)
-        cells = np.flatnonzero(np.sign(rates[:-1]) * np.sign(rates[1:]) < 0)
-        return [_narrowed(rate, float(grid[k]), float(grid[k + 1])) for k in cells]
+        return [root(rate, float(grid[k]), float(grid[k + 1])) for k in crossings(rate(grid))]
 
     # Angles ----------------------------------------------------------------------------------
 
@@ -221,22 +217,6 @@ class _Way:
             missed.append(np.abs(at - asked))
         worst = float(np.max(missed))
         return {"missed": worst if np.isfinite(worst) else None}
-
-
-def _narrowed(rate: Callable[[Reals], Reals], low: float, high: float) -> float:
-    """Return where a rate is zero between two places of unlike signs."""
-    one, two = 0.0, 0.0
-    for _ in range(_ROUNDS):
-        grid = np.linspace(low, high, _PARTS + 1)
-        rates = rate(grid)
-        k = int(np.flatnonzero(np.sign(rates[1:]) != np.sign(rates[0]))[0])
-        low, high, one, two = (
-            float(grid[k]),
-            float(grid[k + 1]),
-            float(rates[k]),
-            float(rates[k + 1]),
-        )
-    return low if one == two else low + (high - low) * one / (one - two)
 
 
 def _acute(vector: npt.NDArray[np.complex128]) -> Reals:

@@ -195,7 +195,7 @@ def test_the_words_of_the_form_can_be_read_back(lang: str) -> None:
 def test_the_same_form_has_the_same_bytes() -> None:
     assert made() == made()
     with zipfile.ZipFile(io.BytesIO(made())) as archive:
-        assert {member.date_time[0] for member in archive.infolist()} == {2000}
+        assert {member.date_time[0] for member in archive.infolist()} == {1980}
         assert not re.search(rb"202\d-", archive.read("docProps/core.xml"))
 
 

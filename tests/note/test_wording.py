@@ -36,7 +36,6 @@ NO_WORDS = {
     "paper.py": "names of formats that files and options may write in Cyrillic letters",
     "render/sheets/specimen/lettering.py": "the letters themselves, one by one",
     "render/ink/lettering/__init__.py": "letters that the lettering is measured by",
-    "problem/keys.py": "field terms of GOST 2.104 in the table of the keys",
 }
 """Where Cyrillic letters stand that no language says to a reader, and why."""
 

@@ -125,6 +125,8 @@ def _sheets(data: bytes, path: Path) -> tuple[dict[str, list[Row]], dict[str, li
 
 def _rows(book: Any, sheet: Any, path: Path) -> Iterator[Row]:
     """Yield the rows of a sheet down to the last that says something."""
+    from openpyxl.utils import get_column_letter
+
     # A reader of single rows knows neither merged cells nor which of them are formulas.
     with book._archive.open(sheet._worksheet_path) as stream:
         there = _structure(stream)
@@ -145,7 +147,7 @@ def _rows(book: Any, sheet: Any, path: Path) -> Iterator[Row]:
     for number, row in enumerate(rows, 1):
         cells = []
         for column, found in enumerate(row, 1):
-            place = f"{_letters(column)}{number}"
+            place = f"{get_column_letter(column)}{number}"
             text, why = _text(found)
             if not text and place in there.formulas:
                 why = Unread.FORMULA
@@ -178,6 +180,8 @@ class _Structure:
 
 
 def _structure(stream: Any) -> _Structure:
+    from openpyxl.utils import column_index_from_string
+
     there = _Structure()
     for _, element in iterparse(stream):
         if element.tag == f"{_MAIN}row":
@@ -188,11 +192,12 @@ def _structure(stream: Any) -> _Structure:
                 there.formulas.add(name)
             if len(element) and (place := _PLACE.match(name)):
                 there.rows = max(there.rows, int(place[2]))
-                there.columns = max(there.columns, _number(place[1]))
+                there.columns = max(there.columns, column_index_from_string(place[1]))
         elif element.tag == f"{_MAIN}mergeCell" and (span := _SPAN.match(element.get("ref", ""))):
             top, bottom = int(span[2]), min(int(span[4]), ROW_LIMIT)
-            left, right = _number(span[1]), min(_number(span[3]), COLUMN_LIMIT)
-            for row, column in product(range(top, bottom + 1), range(left, right + 1)):
+            left, right = map(column_index_from_string, (span[1], span[3]))
+            columns = range(left, min(right, COLUMN_LIMIT) + 1)
+            for row, column in product(range(top, bottom + 1), columns):
                 if len(there.merged) >= MERGED_LIMIT:
                     break
                 there.merged[row, column] = (top, left)
@@ -216,23 +221,6 @@ def _text(cell: Any) -> tuple[str, Unread | None]:
             return text, None
         return f"{value:.{decimals}f}", None
     return cut(str(value)), None
-
-
-def _letters(column: int) -> str:
-    """Return the letters of a column: 28 is ``AB``."""
-    letters = ""
-    while column:
-        column, rest = divmod(column - 1, 26)
-        letters = chr(ord("A") + rest) + letters
-    return letters
-
-
-def _number(letters: str) -> int:
-    """Return the number of a column."""
-    number = 0
-    for letter in letters:
-        number = 26 * number + ord(letter) - ord("A") + 1
-    return number
 
 
 def _compare(gathering: Gathering, meta: dict[str, list[str]]) -> None:
