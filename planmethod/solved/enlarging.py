@@ -8,11 +8,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+import numpy as np
+
 from planmethod.construct.steps import Measure, MeasureAlong, NumberName, PointName
 from planmethod.plans.build import Construction
 from planmethod.plans.model import PlanKind
 from planmethod.record import dataclass
-from planmethod.solved.reading import Reading
+from planmethod.solved.reading import Reading, Reals
 
 SHORT = 5.0
 """Shorter segments are enlarged, mm: half a division of the ruler is more than a tenth of them."""
@@ -95,6 +97,18 @@ def find_knots(
         else:
             found.append(Knot(first + len(found), middle, ratio_for(length), ((tail, head),)))
     return tuple(found)
+
+
+def short_readings(construction: Construction, paper: Reading) -> Reals:
+    """Return how many segments that the ruler reads are short in each position, shape (n,)."""
+    kinematics = construction.kinematics
+    found = np.zeros(paper.count)
+    for motion in (kinematics.velocity, kinematics.acceleration):
+        for name in set(motion.segments.lengths.values()):
+            if isinstance(construction.step(name), Measure | MeasureAlong):
+                length = np.abs(paper.number(name))
+                found += (length >= NOTHING) & (length < SHORT)
+    return found
 
 
 def measured(construction: Construction, kind: PlanKind, knot: Knot) -> Iterator[NumberName]:

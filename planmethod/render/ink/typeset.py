@@ -36,6 +36,7 @@ Anchor: TypeAlias = Literal["left", "centre", "right"]
 
 _SPECIAL = "_^{}\\"
 _PLAIN = pattern(r"[^_^{}\\]+")
+_LINE = pattern(r"(?<![^\W\d_])([a-z])-\1(?![^\W\d_])")  # x-x in files, x–x on paper
 _SUB_DROP = 0.3  # of h: how far an index below sinks under the base line
 _SUP_RISE = 0.5  # of h: how far the base line of an index above rises
 _STACK_GAP = 0.16  # of h: white between two stacked indices
@@ -211,8 +212,9 @@ def typeset(markup: str, height: float) -> Inscription:
 
 @lru_cache(maxsize=4096)
 def _typeset(markup: str, height: float, lettering: OutlineLettering) -> Inscription:
-    nodes, end = _parse(markup, 0, closing=False)
-    assert end == len(markup)
+    written = _LINE.sub(r"\1–\1", markup) if "-" in markup else markup
+    nodes, end = _parse(written, 0, closing=False)
+    assert end == len(written)
     setter = _Setter(lettering)
     end_x = setter.set(nodes, 0.0, 0.0, height)
     # Slanted letters lean out of the room that they take along the line.

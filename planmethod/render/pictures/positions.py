@@ -25,6 +25,7 @@ from planmethod.render.ink.typeset import typeset
 from planmethod.render.labels import CROWDED, Label
 from planmethod.render.pictures.paths import Paths
 from planmethod.render.pictures.scheme import Scheme
+from planmethod.solved.enlarging import short_readings
 from planmethod.solved.reading import remembered
 from planmethod.solved.room import FEW
 from planmethod.solved.scaling import median
@@ -219,7 +220,8 @@ def bold_position(solution: Solution, indices: tuple[int, ...]) -> int:
     """Return the position that shows the mechanism best.
 
     Of those in which no two joined links stand nearly in one line, and no vector of the velocity
-    plan nearly vanishes, as it does where the output turns back, the furthest from a dead position.
+    plan nearly vanishes, as it does where the output turns back, one in which the fewest segments
+    are too short to be read well; of such the furthest from a dead position.
     """
     chosen = list(indices)
     plan = solution.construction.plan(PlanKind.VELOCITY)
@@ -236,8 +238,9 @@ def bold_position(solution: Solution, indices: tuple[int, ...]) -> int:
         for one, two in combinations([link for link in joint.links if link in axes], 2):
             apart &= np.abs((axes[one] * np.conj(axes[two])).imag) > _APART
     good = (moving.astype(int) + apart).tolist()
+    short = (-short_readings(solution.construction, solution.paper)[chosen]).tolist()
     margins = solution.margin[chosen].tolist()
-    return max(zip(good, margins, indices, strict=True), key=lambda one: one[:2])[2]
+    return max(zip(good, short, margins, indices, strict=True), key=lambda one: one[:3])[3]
 
 
 def written(point: str, numbers: Sequence[str], *, bold: bool = False, alone: bool = False) -> str:
