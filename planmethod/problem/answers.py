@@ -38,22 +38,8 @@ _TAKEN = (*keys.SCALES[1:], "ruler_mm")
 
 _TURNS = frozenset({"omega", "epsilon", "M", "inertia couple"})
 _VECTORS = frozenset(
-    {
-        "v",
-        "a",
-        "vs",
-        "ar",
-        "ak",
-        "an",
-        "at",
-        "F",
-        "Ft",
-        "Fn",
-        "weight",
-        "inertia",
-        *_BALANCING.values(),
-    }
-)
+    ("v", "a", "vs", "ar", "ak", "an", "at", "F", "Ft", "Fn", "weight", "inertia")
+).union(_BALANCING.values())
 _NO_SEGMENT = frozenset({*_TURNS, "phi", "angle F", "angle inertia", "angle load"})
 
 
