@@ -22,7 +22,7 @@ from planmethod.check.slips import METRES, PLACES, UNITS
 from planmethod.check.task import Item, Task
 from planmethod.check.works.cells import refused
 from planmethod.check.works.units import ratio
-from planmethod.construct.drafting import PROFILES, Profile
+from planmethod.construct.drafting import Profile
 from planmethod.construct.evaluate import Trace
 from planmethod.errors import Fault, ProblemError
 from planmethod.kinds import Kind
@@ -170,11 +170,10 @@ class Calculation(Task):
         told = [(name, self._question(name, position)) for name in self.figures.names]
         return tuple(self._item(q, position, name) for name, q in told if q is not None)
 
-    def whole(self) -> tuple[Item, ...]:
-        """Return all that is asked, of every position."""
-        if self.declared:
-            return self.declared
-        return tuple(item for k in range(self.figures.count) for item in self.usual(k))
+    @property
+    def count(self) -> int:
+        """Positions, or moments."""
+        return self.figures.count
 
     def find(self, written: Written) -> Item:
         """Return what an answer is of; one told in millimetres is read off the picture.
@@ -184,12 +183,10 @@ class Calculation(Task):
         UnansweredError
         """
         position = written.position or 0
-        if not 0 <= position < self.figures.count:
+        if not 0 <= position < self.count:
             raise UnansweredError(NoAnswer.NO_POSITION)
-        for text in filter(None, (written.id, written.what)):
-            item = self._forms.get(text) or self._forms.get(plain(text))
-            if item is not None and written.position in (None, item.position):
-                return replace(item, id=written.id or item.id)
+        if (declared := self.stated(written)) is not None:
+            return declared
         spelled = {plain(name): name for name in self.figures.names}
         for text in filter(None, (written.what, written.id)):
             for name in (text, text.replace(" ", "_"), spelled.get(plain(text), "")):
@@ -217,8 +214,7 @@ class Calculation(Task):
         self, position: int, own: Mapping[str, float] | None = None, ruler: float | None = None
     ) -> Numbers:
         """Return the numbers of a position, with all that was asked so far."""
-        profile, step = PROFILES[self.settings.profile], ruler or self.settings.ruler_mm
-        profile = profile if step is None else replace(profile, ruler=step)
+        profile = self.profile(ruler)
         asked = {q.id: q for (_, at, *_), q in self._found.items() if at == position}
         key = (position, profile, tuple(asked))
         if key not in self._numbers:

@@ -13,7 +13,7 @@ from planmethod.check.model import Written
 from planmethod.check.questions import Question, Questions, Sign
 from planmethod.check.sheet import Sheet
 from planmethod.check.works.units import ratio_of, read_unit
-from planmethod.construct.drafting import PROFILES
+from planmethod.construct.drafting import PROFILES, Profile
 from planmethod.errors import Fault, ProblemError
 from planmethod.languages import say
 from planmethod.plans.forces.board import SCALE
@@ -157,6 +157,11 @@ class Task:
             if task is not self:
                 yield task
 
+    @property
+    def count(self) -> int:
+        """Positions of the driver."""
+        return len(self.solution.positions)
+
     # Questions -------------------------------------------------------------------------------
 
     def questions(self, position: int) -> Questions:
@@ -167,7 +172,7 @@ class Task:
         UnansweredError
             When the driver is never there.
         """
-        if not 0 <= position < len(self.solution.positions):
+        if not 0 <= position < self.count:
             raise UnansweredError(NoAnswer.NO_POSITION)
         if position not in self._questions:
             self._questions[position] = Questions(self.solution, position)
@@ -195,7 +200,7 @@ class Task:
 
     def whole(self) -> tuple[Item, ...]:
         """Return all that is asked: what the file asks, else the usual quantities everywhere."""
-        asked = map(self.usual, range(len(self.solution.positions)))
+        asked = map(self.usual, range(self.count))
         return self.declared or tuple(chain.from_iterable(asked))
 
     def find(self, written: Written) -> Item:
@@ -206,10 +211,8 @@ class Task:
         UnansweredError
             When nobody knows such a quantity.
         """
-        for text in (written.id, written.what):
-            item = self._forms.get(text) or self._forms.get(plain(text)) if text else None
-            if item is not None and written.position in (None, item.position):
-                return replace(item, id=written.id or item.id)
+        if (declared := self.stated(written)) is not None:
+            return declared
         position = written.position or 0
         questions, why = self.questions(position), NoAnswer.NO_WHAT
         for text in (written.what, written.id):
@@ -228,6 +231,14 @@ class Task:
                 name=question.id,
             )
         raise UnansweredError(why)
+
+    def stated(self, written: Written) -> Item | None:
+        """Return what an answer is of among what the file asks."""
+        for text in filter(None, (written.id, written.what)):
+            item = self._forms.get(text) or self._forms.get(plain(text))
+            if item is not None and written.position in (None, item.position):
+                return replace(item, id=written.id or item.id)
+        return None
 
     def written(self, item: Item, written: Written) -> Written:
         """Return an answer as it is judged: a bare number is in the unit that is asked."""
@@ -249,16 +260,18 @@ class Task:
             scales[SCALE] = statics.scale.per_mm if needed else own.get(SCALE, 1.0)
         return {**scales, **{name: own[name] for name in scales if name in own}}
 
+    def profile(self, ruler: float | None) -> Profile:
+        """Return how well a sheet is drawn whose maker reads to a step of his own, mm."""
+        profile, step = PROFILES[self.settings.profile], ruler or self.settings.ruler_mm
+        return profile if step is None else replace(profile, ruler=step)
+
     def sheet(
         self, position: int, own: Mapping[str, float] | None = None, ruler: float | None = None
     ) -> Sheet:
         """Return the sheet of a position at somebody's scales, with all that was asked so far."""
         scales = self.scales(own or {}, position)
         asked = self._asked.get(position, {})
-        profile = PROFILES[self.settings.profile]
-        step = ruler or self.settings.ruler_mm
-        if step is not None:
-            profile = replace(profile, ruler=step)
+        profile = self.profile(ruler)
         key = (position, tuple(sorted(scales.items())), profile, tuple(asked))
         if key not in self._sheets:
             self._sheets[key] = Sheet(

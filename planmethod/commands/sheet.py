@@ -178,37 +178,27 @@ def sheet(
                     made, out, stem(problem), some, dpi=dpi, author=author, dxf_text=dxf_text
                 )
 
-    if one_file is None:
-
-        def draw(problem: Problem) -> None:
-            problem = settled(problem)
-            tell_changes(problem, phi)
-            written(problem, partial(drawn, problem), formats)
-
-        def draw_other(kind: Kind, problem: KindProblem) -> None:
-            problem = settled(problem)
-            written(problem, partial(drawn_other, kind, problem), formats)
-
-        finish(each(problems, variant, all_variants, draw, draw_other, jobs=jobs))
-        return
-
     whole: list[tuple[KindProblem, _Draw, list[Drawing]]] = []
 
-    def gather(problem: KindProblem, draw: _Draw) -> None:
+    def take(problem: KindProblem, draw: _Draw) -> None:
+        if one_file is None:
+            written(problem, draw, formats)
+            return
         draw = partial(draw, before=sum(len(some) for *_, some in whole))
         whole.append((problem, draw, draw()))
 
-    def gather_one(problem: Problem) -> None:
+    def draw(problem: Problem) -> None:
         problem = settled(problem)
         tell_changes(problem, phi)
-        gather(problem, partial(drawn, problem))
+        take(problem, partial(drawn, problem))
 
-    def gather_other(kind: Kind, problem: KindProblem) -> None:
+    def draw_other(kind: Kind, problem: KindProblem) -> None:
         problem = settled(problem)
-        gather(problem, partial(drawn_other, kind, problem))
+        take(problem, partial(drawn_other, kind, problem))
 
-    code = each(problems, variant, all_variants, gather_one, gather_other)
-    if whole:
+    jobs = jobs if one_file is None else 1
+    code = each(problems, variant, all_variants, draw, draw_other, jobs=jobs)
+    if one_file is not None and whole:
         # The first sheet says how many there are, which is known only now.
         first, draw_first, _ = whole[0]
         draw_first = partial(draw_first, total=sum(len(some) for *_, some in whole))

@@ -161,33 +161,21 @@ def _turned(scene: Scene) -> Iterator[tuple[Relative, steps.Compute]]:
             yield relative, step
 
 
-def coriolis_forgotten(scene: Scene) -> Iterator[Change]:
-    """A1: no Coriolis acceleration."""
-    for relative, step in _turned(scene):
-        yield Change("A1", relative.name, {step.out: times(step, 0.0)}, prior=3.0)
-        yield from _unlaid(scene, relative.a_turned, "A1", relative.name, 0.0)
+def coriolis_by_factor(scene: Scene) -> Iterator[Change]:
+    """A1, A2, A3: no Coriolis acceleration, turned the other way, the factor 2 missing."""
+    for code, factor, prior in (("A1", 0.0, 3.0), ("A2", -1.0, 2.0), ("A3", 0.5, 1.5)):
+        for relative, step in _turned(scene):
+            yield Change(code, relative.name, {step.out: times(step, factor)}, prior=prior)
+            if not factor:
+                yield from _unlaid(scene, relative.a_turned, code, relative.name)
 
 
-def _unlaid(
-    scene: Scene, end: Name | None, code: str, where: str, factor: float
-) -> Iterator[Change]:
-    """Yield a component that is computed and then laid off otherwise, or not at all."""
+def _unlaid(scene: Scene, end: Name | None, code: str, where: str) -> Iterator[Change]:
+    """Yield a component that is computed and then not laid off."""
     laid = None if end is None else scene.made.get(end)
     length = scene.compute(laid.length) if isinstance(laid, steps.LayOff) else None
     if length is not None:
-        yield Change(code, where, {length.out: times(length, factor)})
-
-
-def coriolis_reversed(scene: Scene) -> Iterator[Change]:
-    """A2: the Coriolis acceleration turned the other way."""
-    for relative, step in _turned(scene):
-        yield Change("A2", relative.name, {step.out: times(step, -1.0)}, prior=2.0)
-
-
-def coriolis_half(scene: Scene) -> Iterator[Change]:
-    """A3: the factor 2 missing."""
-    for relative, step in _turned(scene):
-        yield Change("A3", relative.name, {step.out: times(step, 0.5)}, prior=1.5)
+        yield Change(code, where, {length.out: times(length, 0.0)})
 
 
 def coriolis_of_absolute(scene: Scene) -> Iterator[Change]:
@@ -262,17 +250,13 @@ def _normals(scene: Scene) -> Iterator[tuple[str, steps.Compute, PointName]]:
             yield str(name).removeprefix("an_"), step, end
 
 
-def normal_outward(scene: Scene) -> Iterator[Change]:
-    """N1: aⁿ directed away from the pivot."""
-    for where, step, _ in _normals(scene):
-        yield Change("N1", where, {step.out: times(step, -1.0)})
-
-
-def normal_forgotten(scene: Scene) -> Iterator[Change]:
-    """N2: no aⁿ."""
-    for where, step, end in _normals(scene):
-        yield Change("N2", where, {step.out: times(step, 0.0)}, prior=1.5)
-        yield from _unlaid(scene, end, "N2", where, 0.0)
+def normal_by_factor(scene: Scene) -> Iterator[Change]:
+    """N1, N2: aⁿ directed away from the pivot, no aⁿ."""
+    for code, factor, prior in (("N1", -1.0, 1.0), ("N2", 0.0, 1.5)):
+        for where, step, end in _normals(scene):
+            yield Change(code, where, {step.out: times(step, factor)}, prior=prior)
+            if not factor:
+                yield from _unlaid(scene, end, code, where)
 
 
 def normal_by_wrong_formula(scene: Scene) -> Iterator[Change]:
@@ -332,14 +316,11 @@ MISTAKES = (
     similarity_wrong,
     sliding_forgotten,
     arm_wrong,
-    coriolis_forgotten,
-    coriolis_reversed,
-    coriolis_half,
+    coriolis_by_factor,
     coriolis_of_absolute,
     coriolis_of_crank,
     coriolis_for_nothing,
-    normal_outward,
-    normal_forgotten,
+    normal_by_factor,
     normal_by_wrong_formula,
     tangential_along_link,
     epsilon_of_whole,

@@ -9,15 +9,18 @@ import csv
 import io
 from collections.abc import Iterator, Sequence
 from pathlib import Path
+from typing import TypeVar
 
 from planmethod.check.model import Checked, Judged
 from planmethod.errors import ExitCode, PlanMethodError
+from planmethod.problem.source import table_text
 from planmethod.record import dataclass, replace
 
 COLUMNS = ("student", "id", "points", "remark")
 HEAD = (";".join(COLUMNS) + "\r\n").encode("utf-8-sig")
 MOST_BYTES = 1_000_000
 MOST_ROWS = 10_000
+T = TypeVar("T", Checked, Judged)
 
 
 class OverridesError(PlanMethodError):
@@ -68,10 +71,7 @@ def read_overrides(path: Path) -> tuple[Override, ...]:
         raise OverridesError(
             "{} is larger than {} bytes. Keep only the overrides.", path, MOST_BYTES
         )
-    try:
-        text = data.decode("utf-8-sig")
-    except UnicodeDecodeError:
-        text = data.decode("cp1251", errors="replace")
+    text = table_text(data)
     head = text.partition("\n")[0]
     mark = max(";,\t", key=head.count)
     try:
@@ -135,12 +135,7 @@ def overridden(
         for override in own:
             if not override.id:
                 used.add(override.where)
-                now = replace(
-                    now,
-                    points=now.points if override.points is None else override.points,
-                    by_hand=now.by_hand or override.points is not None,
-                    remark=override.remark or now.remark,
-                )
+                now = _by_hand(now, override)
         changed.append(now)
     return changed, tuple(o.where for o in overrides if o.where not in used)
 
@@ -149,10 +144,12 @@ def _answer(judged: Judged, own: Sequence[Override], used: set[str]) -> Judged:
     for override in own:
         if override.id == judged.id and override.id:
             used.add(override.where)
-            judged = replace(
-                judged,
-                points=judged.points if override.points is None else override.points,
-                by_hand=judged.by_hand or override.points is not None,
-                remark=override.remark or judged.remark,
-            )
+            judged = _by_hand(judged, override)
     return judged
+
+
+def _by_hand(found: T, override: Override) -> T:
+    """Return a work, or an answer, with the points and the remark that were set by hand."""
+    points = found.points if override.points is None else override.points
+    by_hand = found.by_hand or override.points is not None
+    return replace(found, points=points, by_hand=by_hand, remark=override.remark or found.remark)
