@@ -138,8 +138,7 @@ def read_answers(
     if not isinstance(value, list) or not all(isinstance(item, Mapping) for item in value):
         faults.expected("answers", "tables [[answers]]", value)
         return ()
-    if len(value) > keys.ANSWER_LIMIT:
-        faults.add("answers", say("{} answers, the limit is {}", len(value), keys.ANSWER_LIMIT))
+    if faults.beyond("answers", "{} answers, the limit is {}", len(value), keys.ANSWER_LIMIT):
         return ()
     found: list[AskedAnswer] = []
     ids: dict[str, int] = {}
