@@ -30,7 +30,8 @@ OTHERS = [lang for lang in LANGUAGES if lang != WRITTEN]
 FAULTY = sorted((HOME.parent / "tests" / "problem" / "faulty").glob("*.toml"))
 
 SAYS = {
-    "say", "translated", "Fault", "_fail", "_fault", "_load_fault", "expected", "beyond", "UsageError",
+    "say", "translated", "Fault", "_fail", "_fault", "_load_fault", "expected", "beyond",
+    "UsageError",
 }  # fmt: skip
 """Calls whose texts a reader sees, beside errors that are raised and ``faults.add``."""
 
