@@ -18,7 +18,7 @@ from planmethod.note.wording import language
 from planmethod.paper import FORMATS
 from planmethod.problem.model import CycleTask, Differentiation
 from planmethod.render.control.texts import lint
-from planmethod.render.ink.drawing import Disc, Stroke
+from planmethod.render.ink.drawing import VIEW_KINDS, Disc, Stroke
 from planmethod.render.pictures.diagram import AXIS
 from planmethod.render.pictures.extremes import EXTREME
 from planmethod.render.pictures.kinematic import FOUND, kinematic_picture
@@ -102,7 +102,15 @@ def test_the_sheet_is_one_a1_without_a_fault(name: str) -> None:
     fmt = FORMATS["A1"]
     assert (sheet.width, sheet.height) == (fmt.width, fmt.height)
     assert [f"{finding.code} {finding.message}" for finding in lint(sheet.items, fmt.inner)] == []
-    assert {"position", "velocity", "acceleration", "diagrams"} <= {v.kind for v in sheet.views}
+    assert {"position", "velocity", "acceleration", "diagram"} <= {v.kind for v in sheet.views}
     drawn = [item for item in sheet.items if item.tag == EXTREME]
     made = extreme_construction(Solution(problem_of(name)))
     assert len(drawn) == (0 if made is None else 2)
+
+
+def test_of_one_position_its_own_plans_are_shown() -> None:
+    (sheet,) = kinematics_sheets(problem_of("press/press"), positions=[30], layout="coursework")
+    kinds = [view.kind for view in sheet.views]
+    assert set(kinds) <= set(VIEW_KINDS)
+    (plan,) = (view for view in sheet.views if view.kind == "acceleration")
+    assert {span.position for span in plan.spans} <= {0, None} and plan.spans

@@ -63,7 +63,7 @@ def diagrams_view(solution: Solution, indices: Sequence[int], manner: Manner) ->
     ]
     lines = ["; ".join([*scales, *k]), drawn_note(diagrams.task.differentiation, words)]
     block = named(picture, manner.entry.title or title, lines, manner)
-    return Viewed(block, "diagrams", diagrams.scales[0])
+    return Viewed(block, "diagram", diagrams.scales[0])
 
 
 def chosen_plans(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
@@ -74,7 +74,7 @@ def chosen_plans(solution: Solution, indices: Sequence[int], manner: Manner) -> 
     kind = manner.entry.of
     assert kind is not None
     count = len(solution.positions)
-    chosen = tuple(dict.fromkeys((round(count / 6), round(2 * count / 3))))
+    chosen = tuple(dict.fromkeys((round(count / 6), round(2 * count / 3) % count)))
     at, problem = solution.positions.tolist(), solution.problem
     own = Solution(problem, positions=[at[k] for k in chosen], views=solution.views).scales[kind]
     if own.per_mm < solution.scales[kind].per_mm:
