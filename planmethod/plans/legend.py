@@ -22,7 +22,25 @@ ZERO = "0"
 
 @dataclass(frozen=True, slots=True)
 class KindFacts:
-    """What goes with a kind of quantity; see the properties of `QuantityKind`."""
+    """What goes with a kind of quantity.
+
+    Attributes
+    ----------
+    letter : str
+        What the name begins with by which it is asked for: ``omega``.
+    unit : str
+        In SI; degrees of a direction.
+    plan : PlanKind
+        That it is found on.
+    columns : tuple of str
+        What the names of the columns of a table end with; none where the label is the name.
+    sign : str
+        Letter of the symbol, ``ω``; empty where it is ``letter``.
+    is_number : bool
+        Whether it is one number and not a vector.
+    is_size : bool
+        Whether the hand finds its size alone, without a sign.
+    """
 
     letter: str
     unit: str
@@ -56,45 +74,11 @@ class QuantityKind(Enum):
     MOMENT = KindFacts("M", "N·m", _F, ("",), is_number=True)
     THRUST = KindFacts("F", "N", _F, ("",), is_number=True)
 
-    @property
-    def letter(self) -> str:
-        """What the name begins with by which it is asked for: ``omega``."""
-        return self.value.letter
-
-    @property
-    def sign(self) -> str:
-        """Letter of the symbol: ``ω``."""
-        return self.value.sign or self.value.letter
-
-    @property
-    def unit(self) -> str:
-        """Unit in SI; degrees of a direction."""
-        return self.value.unit
-
-    @property
-    def plan(self) -> PlanKind:
-        """Plan that it is found on."""
-        return self.value.plan
-
-    @property
-    def columns(self) -> tuple[str, ...]:
-        """What the names of the columns of a table end with; none where the label is the name."""
-        return self.value.columns
-
-    @property
-    def is_number(self) -> bool:
-        """Whether it is one number and not a vector."""
-        return self.value.is_number
-
-    @property
-    def is_size(self) -> bool:
-        """Whether the hand finds its size alone, without a sign."""
-        return self.value.is_size
-
-    @property
-    def is_force(self) -> bool:
-        """Whether it belongs to the force analysis."""
-        return self.plan is PlanKind.FORCE
+    def __init__(self, facts: KindFacts) -> None:
+        self.letter, self.sign = facts.letter, facts.sign or facts.letter
+        self.unit, self.plan, self.columns = facts.unit, facts.plan, facts.columns
+        self.is_number, self.is_size = facts.is_number, facts.is_size
+        self.is_force = facts.plan is PlanKind.FORCE
 
 
 PLAN_OF = {kind.letter: kind.plan for kind in QuantityKind}

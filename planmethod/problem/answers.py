@@ -38,22 +38,8 @@ _TAKEN = (*keys.SCALES[1:], "ruler_mm")
 
 _TURNS = frozenset({"omega", "epsilon", "M", "inertia couple"})
 _VECTORS = frozenset(
-    {
-        "v",
-        "a",
-        "vs",
-        "ar",
-        "ak",
-        "an",
-        "at",
-        "F",
-        "Ft",
-        "Fn",
-        "weight",
-        "inertia",
-        *_BALANCING.values(),
-    }
-)
+    ("v", "a", "vs", "ar", "ak", "an", "at", "F", "Ft", "Fn", "weight", "inertia")
+).union(_BALANCING.values())
 _NO_SEGMENT = frozenset({*_TURNS, "phi", "angle F", "angle inertia", "angle load"})
 
 
@@ -152,8 +138,7 @@ def read_answers(
     if not isinstance(value, list) or not all(isinstance(item, Mapping) for item in value):
         faults.expected("answers", "tables [[answers]]", value)
         return ()
-    if len(value) > keys.ANSWER_LIMIT:
-        faults.add("answers", say("{} answers, the limit is {}", len(value), keys.ANSWER_LIMIT))
+    if faults.beyond("answers", "{} answers, the limit is {}", len(value), keys.ANSWER_LIMIT):
         return ()
     found: list[AskedAnswer] = []
     ids: dict[str, int] = {}

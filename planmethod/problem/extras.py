@@ -48,10 +48,7 @@ def read_published(
         An entry, and the keys that one may have.
     """
     entries = fields.read_table(faults, "published", table, f'[published."v_B"] {example}') or {}
-    if len(entries) > keys.PUBLISHED_LIMIT:
-        faults.add(
-            "published", say("{} values, the limit is {}", len(entries), keys.PUBLISHED_LIMIT)
-        )
+    if faults.beyond("published", "{} values, the limit is {}", len(entries), keys.PUBLISHED_LIMIT):
         return ()
     found: list[Published] = []
     for name, entry in entries.items():

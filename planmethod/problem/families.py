@@ -3,29 +3,11 @@
 from __future__ import annotations
 
 FAMILIES = (
-    "slider-crank",
-    "four-bar",
-    "slotted-link",
-    "swinging-block",
-    "sine",
-    "six-link",
-    "driving-slider",
-    "RRR+RRP",
-    "RRP+RPR",
-    "RRP+PRP",
-    "RPR+RPP",
-    "RRR+RPR",
-    "RRR+RRR",
-    "moving-guide",
-    "shaper",
-    "whitworth",
-    "toggle-press",
-    "v-engine",
-    "oscillating-cylinder",
-    "pantograph",
-    "watt",
-    "stephenson",
-)
+    "slider-crank", "four-bar", "slotted-link", "swinging-block", "sine", "six-link",
+    "driving-slider", "RRR+RRP", "RRP+RPR", "RRP+PRP", "RPR+RPP", "RRR+RPR", "RRR+RRR",
+    "moving-guide", "shaper", "whitworth", "toggle-press", "v-engine", "oscillating-cylinder",
+    "pantograph", "watt", "stephenson",
+)  # fmt: skip
 """Names of those of linkages; what they are stands in `planmethod.note.wording`."""
 
 OTHER_FAMILIES = ("ordinary-train", "planetary-train", "differential-train", "moving-point")

@@ -78,6 +78,12 @@ class Faults:
         """Note that something else stands where ``what`` is expected."""
         self.add(path, say("expected {}, got {}", what, show(value)), hint)
 
+    def beyond(self, path: str, said: str, count: int, limit: int) -> bool:
+        """Note that there are too many, ``{} links, the limit is {}``; tell whether there are."""
+        if count > limit:
+            self.add(path, say(said, count, limit))
+        return count > limit
+
     @property
     def found(self) -> tuple[Fault, ...]:
         """Faults in the order of finding."""

@@ -81,8 +81,7 @@ def read_loads(faults: Faults, value: object, scene: Scene) -> tuple[Load | Coup
     if not isinstance(value, list) or not all(isinstance(item, Mapping) for item in value):
         faults.expected("loads", "tables [[loads]]", value)
         return ()
-    if len(value) > keys.LOAD_LIMIT:
-        faults.add("loads", say("{} loads, the limit is {}", len(value), keys.LOAD_LIMIT))
+    if faults.beyond("loads", "{} loads, the limit is {}", len(value), keys.LOAD_LIMIT):
         return ()
     names = _read_names(faults, value)
     taken = {name for name in names if name is not None}

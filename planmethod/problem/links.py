@@ -112,8 +112,7 @@ def read_links(faults: Faults, table: object) -> dict[str, LinkText]:
         return found
     if not entries:
         faults.add("links", "there are no links", 'Add [links.1] with points = ["A", "B"].')
-    if len(entries) > keys.LINK_LIMIT:
-        faults.add("links", say("{} links, the limit is {}", len(entries), keys.LINK_LIMIT))
+    if faults.beyond("links", "{} links, the limit is {}", len(entries), keys.LINK_LIMIT):
         return found
     for key, value in entries.items():
         path = f"links.{segment(key)}"
@@ -133,16 +132,14 @@ def read_links(faults: Faults, table: object) -> dict[str, LinkText]:
         link.whole = link.whole and body is not None
         found[name] = link
     total = len({point for link in found.values() for point in link.points})
-    if total > keys.POINT_LIMIT:
-        faults.add("links", say("{} points, the limit is {}", total, keys.POINT_LIMIT))
+    if faults.beyond("links", "{} points, the limit is {}", total, keys.POINT_LIMIT):
         return {}
     return found
 
 
 def _read_link(faults: Faults, path: str, name: str, table: Table) -> LinkText:
     link = LinkText(name)
-    if len(table) > keys.LINK_KEY_LIMIT:
-        faults.add(path, say("{} keys in a link, the limit is {}", len(table), keys.LINK_KEY_LIMIT))
+    if faults.beyond(path, "{} keys in a link, the limit is {}", len(table), keys.LINK_KEY_LIMIT):
         return link
     if "points" in table:
         link.points, link.whole = _read_points(faults, f"{path}.points", table["points"])
@@ -238,10 +235,9 @@ def _read_points(faults: Faults, path: str, value: object) -> tuple[tuple[str, .
         hint = 'For example: points = ["A", "B"]'
         faults.expected(path, "a list of point names", value, hint)
         return (), False
-    if len(value) > keys.LINK_POINT_LIMIT:
-        faults.add(
-            path, say("{} points in a link, the limit is {}", len(value), keys.LINK_POINT_LIMIT)
-        )
+    if faults.beyond(
+        path, "{} points in a link, the limit is {}", len(value), keys.LINK_POINT_LIMIT
+    ):
         return (), False
     points: list[str] = []
     whole = True

@@ -249,8 +249,7 @@ def _read_rows(
     if not isinstance(value, list):
         faults.expected(path, "a list", value, say("For example: {}.", _TABLE))
         return None
-    if len(value) > keys.ROW_LIMIT:
-        faults.add(path, say("{} values, the limit is {}", len(value), keys.ROW_LIMIT))
+    if faults.beyond(path, "{} values, the limit is {}", len(value), keys.ROW_LIMIT):
         return None
     if over is Over.POSITION:
         return _read_by_position(faults, path, value, what, drive)
@@ -386,8 +385,7 @@ def _read_spans(faults: Faults, path: str, value: object) -> Spans | None:
     if not isinstance(value, list) or not value:
         faults.expected(path, "[from, to] in degrees", value)
         return None
-    if len(value) > keys.ROW_LIMIT:
-        faults.add(path, say("{} phases, the limit is {}", len(value), keys.ROW_LIMIT))
+    if faults.beyond(path, "{} phases, the limit is {}", len(value), keys.ROW_LIMIT):
         return None
     if any(isinstance(item, list) for item in value):
         read = [_read_span(faults, f"{path}[{i}]", item) for i, item in enumerate(value)]

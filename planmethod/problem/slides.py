@@ -32,8 +32,7 @@ def read_frame(faults: Faults, table: object) -> Frame:
     before = len(faults)
     points: dict[str, complex] = {}
     entries = fields.read_table(faults, "frame", table, "[frame] A = [0, 0]") or {}
-    if len(entries) > keys.POINT_LIMIT:
-        faults.add("frame", say("{} points, the limit is {}", len(entries), keys.POINT_LIMIT))
+    if faults.beyond("frame", "{} points, the limit is {}", len(entries), keys.POINT_LIMIT):
         return Frame({}, {}, sound=False)
     rest: object = {}
     for key, value in entries.items():
@@ -59,10 +58,7 @@ def _read_guides(faults: Faults, table: object, points: Mapping[str, complex]) -
     example = 'guides.x-x = { through = "A", angle = 0 }'
     entries = fields.read_table(faults, "frame.guides", table, example) or {}
     guides: dict[str, Guide] = {}
-    if len(entries) > keys.POINT_LIMIT:
-        faults.add(
-            "frame.guides", say("{} guides, the limit is {}", len(entries), keys.POINT_LIMIT)
-        )
+    if faults.beyond("frame.guides", "{} guides, the limit is {}", len(entries), keys.POINT_LIMIT):
         return guides
     for key, value in entries.items():
         path = f"frame.guides.{segment(key)}"

@@ -47,10 +47,7 @@ def read_variants(faults: Faults, table: Mapping[str, Any]) -> dict[str, dict[Pa
     """Return the overrides of every variant, by path; unknown paths are faults."""
     entries = read_table(faults, "variants", table.get("variants", {})) or {}
     found: dict[str, dict[Path, Any]] = {}
-    if len(entries) > keys.VARIANT_LIMIT:
-        faults.add(
-            "variants", say("{} variants, the limit is {}", len(entries), keys.VARIANT_LIMIT)
-        )
+    if faults.beyond("variants", "{} variants, the limit is {}", len(entries), keys.VARIANT_LIMIT):
         return found
     for name, body in entries.items():
         path = f"variants.{segment(name)}"
