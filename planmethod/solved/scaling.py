@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from functools import cached_property
-from typing import Any
 
 import numpy as np
 
@@ -61,12 +60,6 @@ class Views:
             return width, height
         rows = min(-(-count // per_row(count)), ROWS)
         return width / min(count, per_row(count)) - BESIDE, height / rows - UNDER
-
-    def parts(self, share: float) -> Views:
-        """Return boxes that are a part as wide and high."""
-        boxes = ((kind.value, self.box(kind)) for kind in MOTION)
-        made: dict[str, Any] = {name: (share * wide, share * high) for name, (wide, high) in boxes}
-        return replace(self, **made)
 
     @classmethod
     def alone(cls, box: Box) -> Views:

@@ -24,7 +24,7 @@ from planmethod.render.sheets.growth import grown
 from planmethod.render.sheets.model import Composition, Extras
 from planmethod.render.sheets.pages import Page, Paper, pages_of, stamp_fields
 from planmethod.solved.room import FEW
-from planmethod.solved.scaling import LESS, MOST_DRAWN, Views
+from planmethod.solved.scaling import MOST_DRAWN, Views
 from planmethod.solved.selfcheck import verify
 from planmethod.solved.solution import Solution
 from planmethod.solved.turn.turn import turn_of
@@ -194,7 +194,6 @@ def kinematics_sheets(
     if given and (made.turn or len(asked) > FEW):
         tasks.append(free)
     last = [free] if given and task.positions != problem.drive.positions else []
-    last.append(replace(task, views=views.parts(LESS)))
     turns = (tasks, [task], last)
     tries = chain(*(product(papers, made.shares, made.at_most(len(asked)), some) for some in turns))
 
