@@ -19,8 +19,7 @@ from planmethod.plans.model import PlanKind
 from planmethod.render.backends import render
 from planmethod.render.forces.arms import ARM
 from planmethod.render.forces.polygon import drawn_edges
-from planmethod.render.ink.drawing import Stroke, View
-from planmethod.render.sheets.composition.reader import composition
+from planmethod.render.ink.drawing import Drawing, Stroke, View
 from planmethod.render.sheets.kinematics import kinematics_sheets
 from planmethod.solved.forces.reading import ForceReading
 from planmethod.solved.solution import Solution
@@ -111,17 +110,30 @@ FORCES = re.compile(r"([FФR]\S*) = ([\d.]+)[·/]")
 ARMS = re.compile(r"h_(\S+) = ([\d.]+)")
 
 
-@pytest.mark.parametrize("name", ["levers/six-link", "press/press", *thinned(LOADED, 18)])
-def test_a_ruler_finds_the_forces_and_their_arms_on_links_and_lever(name: str) -> None:
-    """On a sheet of forces, in the SVG: every number that a hand reads there."""
+FORCED = [(name, 1) for name in ("levers/six-link", *thinned(LOADED, 18))]
+FORCED += [(name, 3) for name in ("press/press", *thinned(LOADED, len(LOADED))[1:])]
+
+
+@pytest.mark.parametrize(("name", "count"), FORCED)
+def test_a_ruler_finds_the_forces_and_their_arms_on_links_and_lever(
+    name: str, count: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """On the sheet of forces of each position, in the SVG: every number that a hand reads there."""
     problem = problem_of(name)
-    at = problem.drive.positions[:1]
-    sheet = kinematics_sheets(problem, layout="forces", positions=at)[0]
+    at = positions_of(problem, count)
+    sheets, solution = solved_while(
+        lambda: kinematics_sheets(problem, layout="forces", positions=at), monkeypatch
+    )
+    assert len(sheets) == count
+    for index, sheet in enumerate(sheets):
+        assert _compared_forces(sheet, ForceReading(solution, index)) >= 5
+
+
+def _compared_forces(sheet: Drawing, reading: ForceReading) -> int:
+    """Compare forces and arms of a sheet with the calculation, return how many."""
     assert sheet.width == 841
     page = read_svg(render(sheet, "svg"))
     inked = np.array([z for path in page.items if isinstance(path, Path) for z in path.corners])
-    views = composition("forces").views_for("A1", 1)
-    reading = ForceReading(Solution(problem, positions=at, views=views), 0)
     plans = [view for view in sheet.views if view.kind == "forces"]
     cuts = [view for view in sheet.views if view.kind == "position"][1:]
     arms = [i for i in sheet.items if isinstance(i, Stroke) and i.tag.startswith(f"{ARM} ")]
@@ -160,4 +172,4 @@ def test_a_ruler_finds_the_forces_and_their_arms_on_links_and_lever(name: str) -
         (view,) = (view for view in sheet.views if view.kind == "velocity")
         for line in lever_lines(reading):
             compare_arms(line, view)
-    assert compared >= 5
+    return compared
