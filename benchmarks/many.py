@@ -106,7 +106,7 @@ def _run(words: Sequence[str], folder: Path) -> tuple[float, float]:
     """Run a command in a folder and return its seconds and its peak, MB."""
     start = (
         "import sys\n"
-        "from planmethod.cli import main\n"
+        "from planmethod.__main__ import main\n"
         "code = 0\n"
         "try:\n"
         "    main()\n"

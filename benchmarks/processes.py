@@ -116,7 +116,7 @@ def commands(*, runs: int = 5) -> list[Command]:
             lines.append((name, [loaded[0], str(press if which == "press" else many), *rest]))
         plain = [[sys.executable, "-c", source] for source in YARDSTICKS]
         # The module is run as the installed script runs it.
-        start = "import sys; from planmethod.cli import main; main()"
+        start = "import sys; from planmethod.__main__ import main; main()"
         whole = [[sys.executable, "-c", start, *arguments] for _, arguments in lines]
         timings = clock_processes([*plain, *whole], runs=runs)
         count = len(YARDSTICKS)
@@ -135,7 +135,7 @@ def _looked_at(arguments: list[str]) -> tuple[tuple[str, ...], int, float]:
     said = run_python(
         "import contextlib, io, sys\n"
         f"sys.argv = ['planmethod', *{arguments!r}]\n"
-        "from planmethod.cli import main\n"
+        "from planmethod.__main__ import main\n"
         "with contextlib.redirect_stdout(io.StringIO()):\n"
         "    try:\n"
         "        main()\n"

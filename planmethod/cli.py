@@ -15,7 +15,6 @@ from typing import Any
 import click
 
 from planmethod.commands.helptext import Spoken
-from planmethod.commands.output import settle_process
 from planmethod.errors import ExitCode
 from planmethod.languages import LANGUAGES, say, speaking, spoken_to
 
@@ -125,7 +124,6 @@ def main() -> None:
     for stream in (sys.stdout, sys.stderr):
         if isinstance(stream, io.TextIOWrapper):
             stream.reconfigure(errors="replace")  # a Russian console has no Greek or arrows
-    settle_process()
     with speaking(spoken_to(sys.argv[1:])):
         _run()
 

@@ -650,7 +650,7 @@ def in_encoding(encoding: str, *commands: list[str]) -> subprocess.CompletedProc
     """Run commands one after the other in one process until one fails."""
     program = (
         "import sys\n"
-        "from planmethod.cli import main\n"
+        "from planmethod.__main__ import main\n"
         f"for args in {commands!r}:\n"
         "    sys.argv = ['planmethod', *args]\n"
         "    try:\n"

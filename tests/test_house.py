@@ -17,6 +17,7 @@ LATE_IN = ("planmethod.commands.", "planmethod.options", "planmethod.render.back
 """Where imports stand in functions: a command or a format imports what it uses when it is used."""
 
 LATE_OF = {
+    "planmethod.cli": "with its libraries, in a process that is settled",
     # Only problems with loads have forces, only some ask for the drafting errors.
     "planmethod.solved.selected.forces": "forces",
     "planmethod.note.narrate.forces": "forces",

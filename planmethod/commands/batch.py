@@ -15,7 +15,6 @@ import click
 
 from planmethod.commands.asked import Asked, sheet_options
 from planmethod.commands.helptext import Spoken
-from planmethod.commands.output import settle_process
 from planmethod.commands.problems import Todo, begin, finish, guarded, stem, through
 from planmethod.errors import PlanMethodError
 from planmethod.languages import LANGUAGES, say, speaking, spoken
@@ -30,6 +29,7 @@ from planmethod.options import (
     problem_options,
     reading_options,
 )
+from planmethod.process import settle_process
 from planmethod.record import dataclass, replace
 
 if TYPE_CHECKING:

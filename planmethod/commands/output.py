@@ -3,10 +3,7 @@
 from __future__ import annotations
 
 import contextlib
-import gc
-import os
 import sys
-import warnings
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal
@@ -19,16 +16,6 @@ from planmethod.record import replace
 
 if TYPE_CHECKING:
     from planmethod.render.ink.drawing import Drawing
-
-
-def settle_process() -> None:
-    """Set up a process that lives for one command and says itself what there is to say."""
-    # A command lives a fraction of a second and makes few cycles: the search costs a twentieth.
-    gc.set_threshold(100_000)
-    # Its matrices are small: to start threads for them costs a third of the import of NumPy.
-    os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
-    if not sys.warnoptions:  # -W and PYTHONWARNINGS: for who develops it
-        warnings.simplefilter("ignore")
 
 
 def put(text: str, file: str | None) -> None:

@@ -15,9 +15,9 @@ from typing import Any, Generic, TypeVar
 
 import click
 
-from planmethod.commands.output import settle_process
 from planmethod.errors import PlanMethodError
 from planmethod.languages import say, speaking, spoken
+from planmethod.process import settle_process
 from planmethod.record import dataclass
 
 T = TypeVar("T")

@@ -434,7 +434,7 @@ def test_without_its_library_it_is_told_what_to_install(tmp_path: Path) -> None:
         "import importlib.util as u, sys\n"
         "found = u.find_spec\n"
         "u.find_spec = lambda name, *rest: None if name == 'ezdxf' else found(name, *rest)\n"
-        "from planmethod.cli import main\n"
+        "from planmethod.__main__ import main\n"
         "sys.argv = ['planmethod', *sys.argv[1:]]\n"
         "main()"
     )
