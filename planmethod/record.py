@@ -123,24 +123,24 @@ def _all_of(cls: type) -> dict[str, Told]:
 
 def _begun(cls: type, self: Any, args: tuple[Any, ...], given: dict[str, Any]) -> bool:
     """Fill a record field by field; False when the arguments are not its own."""
-    told = _all_of(cls)
-    places = [t.name for t in told.values() if t.init and not t.by_name]
-    taken = places[: len(args)]
-    if len(args) > len(places) or not given.keys() <= told.keys() - taken:
-        return False
-    values = given | dict(zip(taken, args, strict=True))
-    for name, one in told.items():
+    places: tuple[str, ...] = cls.__dict__["__match_args__"]
+    values = dict(zip(places, args, strict=False)) | given if args else given
+    left = len(args) + len(given)
+    for name, one in _all_of(cls).items():
         if one.init and name in values:
             value = values[name]
+            left -= 1
         elif one.factory is not MISSING:
             value = one.factory()
         elif one.init and one.default is not MISSING:
             value = one.default
-        elif one.init or name in values:
+        elif one.init:
             return False
         else:
             continue
         object.__setattr__(self, name, value)
+    if left:  # too many, unknown, or given twice
+        return False
     if hasattr(cls, "__post_init__"):
         self.__post_init__()
     return True
@@ -150,7 +150,9 @@ def _written_later(name: str, write: Callable[[type], Any]) -> Any:
     """Return a method that, called first, puts what is written in its place and calls that."""
 
     def method(self: Any, *args: Any, **kwargs: Any) -> Any:
-        owner = next(c for c in type(self).__mro__ if c.__dict__.get(name) is method)
+        owner = type(self)
+        if owner.__dict__.get(name) is not method:
+            owner = next(c for c in owner.__mro__ if c.__dict__.get(name) is method)
         if name == "__init__":
             _CALLS[owner] = _CALLS.get(owner, 0) + 1
             if _CALLS[owner] < MANY and _begun(owner, self, args, kwargs):

@@ -8,7 +8,7 @@ from math import acos
 
 import numpy as np
 from numpy.typing import NDArray
-from shapely import STRtree, box, linestrings, points, polygons
+from shapely import STRtree, box, buffer, linearrings, linestrings, points, polygons
 
 from planmethod.render.ink.drawing import Arc, Bounds, Disc, Fill, Item, Stroke, Text
 from planmethod.render.ink.extent import arc_points
@@ -227,7 +227,8 @@ def _split(
     """Split items into segments (n, 2, 2) that should and areas that must not be covered."""
     lines: list[tuple[complex, complex]] = []
     thin: list[bool] = []
-    areas: list[object] = []
+    outlines: list[Sequence[complex]] = []
+    discs: list[Disc] = []
     for item in items:
         match item:
             case Stroke(points=path, closed=closed):
@@ -235,23 +236,38 @@ def _split(
             case Arc():
                 lines += pairwise(arc_points(item, step=arc_step(item)))
             case Fill(points=path) if len(path) > 2:
-                areas.append(polygons([(p.real, p.imag) for p in path]))
-            case Disc(centre=centre, radius=radius):
-                areas.append(points(centre.real, centre.imag).buffer(radius, quad_segs=4))
+                outlines.append(path)
+            case Disc():
+                discs.append(item)
             case Text():
-                corners = text_corners(item)
                 sides = (-_BESIDE, _BESIDE, _BESIDE, -_BESIDE)
-                areas.append(
-                    polygons([(p.real + s, p.imag) for p, s in zip(corners, sides, strict=True)])
-                )
+                outlines.append([p + s for p, s in zip(text_corners(item), sides, strict=True)])
             case Fill():
                 pass  # no area
         if isinstance(item, (Stroke, Arc)):
             thin += [item.pen in BREAKABLE] * (len(lines) - len(thin))
+    areas = [*_polygons(outlines), *_round(discs)]
     if not lines:
         return np.empty((0, 2, 2)), np.empty(0, dtype=bool), areas
     ends = np.asarray(lines)
     return as_segments(ends[:, 0], ends[:, 1]), np.asarray(thin), areas
+
+
+def _polygons(outlines: Sequence[Sequence[complex]]) -> Iterable[object]:
+    if not outlines:
+        return ()
+    corners = np.concatenate([np.asarray(outline) for outline in outlines])
+    owner = np.repeat(np.arange(len(outlines)), [len(outline) for outline in outlines])
+    rings = linearrings(np.column_stack([corners.real, corners.imag]), indices=owner)
+    return np.asarray(polygons(rings))
+
+
+def _round(discs: Sequence[Disc]) -> Iterable[object]:
+    if not discs:
+        return ()
+    centres = np.asarray([disc.centre for disc in discs])
+    at = points(centres.real, centres.imag)
+    return np.asarray(buffer(at, [disc.radius for disc in discs], quad_segs=4))
 
 
 def _chopped(segments: Floats, breakable: NDArray[np.bool_]) -> tuple[Floats, NDArray[np.bool_]]:
