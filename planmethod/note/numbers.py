@@ -164,4 +164,14 @@ def alike(values: Sequence[float], digits: int = 4) -> list[str]:
     if "e" in model or len(sizes) < 2 or largest > 30 * sizes[len(sizes) // 2]:
         return [significant(value, digits) for value in values]
     decimals = len(model.partition(".")[2])
-    return [f"{round(value, decimals) + 0.0:.{decimals}f}" if value else "0" for value in values]
+    return [to_decimals(value, decimals, digits) if value else "0" for value in values]
+
+
+def to_decimals(value: float, decimals: int, digits: int = 4) -> str:
+    """Return a number with so many decimals; without any, with so many digits at most.
+
+    >>> to_decimals(147.15, 1), to_decimals(85.2, 0), to_decimals(233333.3, 0)
+    ('147.2', '85', '233300')
+    """
+    shown = value if decimals else float(significant(value, digits))
+    return f"{half_up(shown, decimals) + 0.0:.{decimals}f}"

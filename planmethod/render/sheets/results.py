@@ -6,7 +6,7 @@ from collections.abc import Collection, Sequence
 from math import inf
 
 from planmethod.note.narrate.given import MOTION_KINDS, solution_peak, told
-from planmethod.note.numbers import Notation, alike, is_nothing
+from planmethod.note.numbers import Notation, alike, is_nothing, to_decimals
 from planmethod.note.rounding import as_long, rounded_to, sigma_text
 from planmethod.note.tables.sigmas import DRAWN, marked
 from planmethod.note.wording import Language
@@ -51,7 +51,7 @@ def _sigma_rows(
     off = 100.0 * (read - exact) / exact if abs(exact) > sigma else inf
     decimals = len(like.partition(".")[2])
     text = (
-        f"{abs(read):.{decimals}f}"
+        to_decimals(abs(read), decimals)
         if like != "0" and "e" not in like
         else rounded_to(abs(read), sigma)
     )
