@@ -152,6 +152,14 @@ def is_nothing(value: float, peak: float) -> bool:
     return abs(value) <= 1e-5 * abs(peak)
 
 
+def is_noise(value: float, peak: float) -> bool:
+    """Tell whether a value of a table is rounding beside the largest of its kind: a zero.
+
+    A small value is a result as well: near a dead position others are a million times larger.
+    """
+    return abs(value) <= 1e-9 * abs(peak)
+
+
 def alike(values: Sequence[float], digits: int = 4) -> list[str]:
     """Return the numbers of one column with a common number of decimals.
 

@@ -97,7 +97,7 @@ def _key_hint(code: str) -> str:
     for part in (key, *re.split(r"[.\s]+", key)):
         if part.isascii() or not part:
             continue
-        if meant := typed().get(part.casefold()):
+        if (meant := typed().get(part.casefold())) and not (len(part) == 1 and part.isupper()):
             return say("Keys are Latin: {} for {}.", key.replace(part, meant[0]), part)
         if "." in part or any(c in part for c in "\"'"):
             continue

@@ -218,3 +218,9 @@ def test_what_the_mark_means_is_told_where_it_is() -> None:
         shown = re.sub(r"\s+", " ", texts(sheet))
         starred = re.search(r"\d\*(\s|$)", texts(sheet)) is not None
         assert ("по множеству возможных чертежей" in shown) == starred
+
+
+def test_a_small_value_is_in_the_table_and_only_rounding_is_zero() -> None:
+    solution = Solution(problem_of("linkages/ex1"), positions=[0.0, 3e-4])
+    columns = {c.head: c.cells for c in result_columns(solution, [0, 1], RU)}
+    assert [cell.text for cell in columns["v_{C}"]] == ["0", "2,042·10^{−5}"]

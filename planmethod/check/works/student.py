@@ -78,7 +78,7 @@ def read_toml(data: bytes, path: Path) -> list[Work]:
 def _work(whole: Any, path: Path, before: str) -> Work:
     """Return the work that an object says; ``before`` is where it stands."""
     where = f"{path}: {before.rstrip('.')}".rstrip(": ")
-    if not isinstance(whole, Mapping):
+    if not isinstance(whole, Mapping) or "answers" not in whole:
         raise WorksError('{}: expected an object with "student" and "answers".', where)
     schema = whole.get("schema", SCHEMA)
     if isinstance(schema, bool) or str(schema) != str(SCHEMA):

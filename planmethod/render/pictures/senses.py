@@ -10,7 +10,7 @@ import numpy as np
 
 from planmethod.mechanism.model import FRAME
 from planmethod.note.narrate.given import solution_peak
-from planmethod.note.numbers import is_nothing
+from planmethod.note.numbers import is_noise
 from planmethod.plans.draft import cis
 from planmethod.plans.legend import QuantityKind
 from planmethod.record import dataclass
@@ -81,7 +81,7 @@ class Senses:
         senses = {
             kind: 1 if value > 0 else -1
             for kind, value in values.items()
-            if not is_nothing(value, solution_peak(scheme.solution, kind))
+            if not is_noise(value, solution_peak(scheme.solution, kind))
         }
         pivot = next((p for p in body if p in problem.bodies[FRAME].points), None)
         if pivot is None:

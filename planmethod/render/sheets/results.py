@@ -6,7 +6,7 @@ from collections.abc import Collection, Sequence
 from math import inf
 
 from planmethod.note.narrate.given import MOTION_KINDS, solution_peak, told
-from planmethod.note.numbers import Notation, alike, is_nothing, to_decimals
+from planmethod.note.numbers import Notation, alike, is_noise, to_decimals
 from planmethod.note.rounding import as_long, rounded_to, sigma_text
 from planmethod.note.tables.sigmas import DRAWN, marked
 from planmethod.note.wording import Language
@@ -84,7 +84,7 @@ def result_columns(
     def column(quantity: Quantity) -> TableColumn:
         numbers, peak = solution.exact(quantity), solution_peak(solution, quantity.kind)
         shown = [float(numbers[i]) for i in indices]
-        shown = [0.0 if is_nothing(value, peak) else value for value in shown]
+        shown = [0.0 if is_noise(value, peak) else value for value in shown]
         texts = alike([abs(value) for value in shown])
         turns = quantity.kind.is_number
         errors = [(0.0, "") for _ in shown]
