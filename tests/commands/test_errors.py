@@ -18,7 +18,7 @@ from click.testing import CliRunner, Result
 from worked import ROOT, path_of, problem_of
 
 from planmethod.bench import forces, report, speed
-from planmethod.bench.clock import Timing
+from planmethod.bench.speed import Timing
 from planmethod.cli import cli
 from planmethod.construct.drafting import PROFILES
 from planmethod.construct.steps import PointName
