@@ -22,10 +22,10 @@ from planmethod.construct.hand import Hand
 from planmethod.construct.program import Builder, Program
 from planmethod.construct.scale import Scale
 from planmethod.construct.steps import LineName, NumberName, PointName
-from planmethod.moving.bounded import Reals
 from planmethod.moving.course import Course
 from planmethod.moving.model import Law, PointProblem
 from planmethod.moving.motion import Motion, Undefined
+from planmethod.moving.series import Reals
 from planmethod.record import dataclass
 
 READ = ("v", "a", "a_tangential", "a_normal", "rho")
