@@ -102,8 +102,8 @@ def check(
 
     variants = Variants(problem, settings, variant)
     checked, works = _checked(variants, paths, jobs)
+    from planmethod.check.pages.compared import unread_lines
     from planmethod.check.pages.overrides import overridden, read_overrides
-    from planmethod.check.pages.unread import unread_lines
     from planmethod.note.wording import language
 
     by_hand = overrides or (None if as_json else out / "overrides.csv")

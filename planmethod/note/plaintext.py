@@ -5,14 +5,15 @@ from __future__ import annotations
 import re
 import textwrap
 import unicodedata
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING
 
-from planmethod.note.numbers import rich_number, significant, trimmed
+from planmethod.note.numbers import Notation, rich_number, significant, trimmed
 from planmethod.pattern import pattern
 
 if TYPE_CHECKING:
     from planmethod.note.wording.model import Wording
+
 
 WIDTH = 100
 """Columns of the terminal that every table and paragraph keeps to."""
@@ -135,3 +136,12 @@ def columns_text(columns: Sequence[Sequence[str]], lead: int) -> list[str]:
 def heading(text: str, rule: str = "─") -> list[str]:
     """Return a heading and the line under it."""
     return [text, rule * width(text)]
+
+
+def plain_columns(
+    columns: Iterable[tuple[str, str, Sequence[str]]], say: Notation
+) -> Iterator[list[str]]:
+    """Yield columns of head, unit of SI or none, and cells: the unit stands in the head."""
+    for head, unit, cells in columns:
+        told = f"{head}, {say.in_head(unit)}" if unit else head
+        yield [plain_text(told), *map(plain_text, cells)]

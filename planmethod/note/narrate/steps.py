@@ -14,6 +14,8 @@ from planmethod.note.narrate.motion import MotionNarrator
 from planmethod.note.narrate.naming import Names
 from planmethod.note.narrate.positions import PositionNarrator
 from planmethod.note.plaintext import fixed, given
+from planmethod.note.wording import Language
+from planmethod.plans.model import PlanKind
 from planmethod.solved.solution import Solution
 
 
@@ -183,3 +185,16 @@ def _carriers(step: Step) -> tuple[LineName, ...]:
     if isinstance(step, steps.MeetLineCircle):
         return (step.line,)
     return ()
+
+
+def calculation(solution: Solution, kind: PlanKind, index: int, words: Language) -> list[str]:
+    """Return the formulas of one plan in one position as rich text (расчёт к плану).
+
+    One a line, in the order in which each becomes known: those that a protocol has.
+    """
+    narrator = Narrator(solution, Names(solution, words.note, on_sheet=True), index)
+    sections = (section for section in solution.construction.sections if section.kind is kind)
+    lines = (
+        line for section in sections for step in section.steps for line in narrator.write(step)
+    )
+    return [line.rstrip(".") for line in lines]

@@ -1,6 +1,6 @@
 """Words of the choice of teeth in English (подбор чисел зубьев по-английски)."""
 
-from planmethod.note.wording.teeth_model import TeethWording
+from planmethod.note.wording.gear_model import TeethWording
 
 TEETH = TeethWording(
     title="Choice of teeth: {scheme}",

@@ -1,7 +1,73 @@
 """Words of gear trains in Russian (зубчатые механизмы по-русски)."""
 
-from planmethod.note.wording.gear_model import GearWording
-from planmethod.note.wording.ru.gearsheet import GEAR_SHEET
+from planmethod.note.wording.gear_model import GearSheetWording, GearWording
+
+GEAR_SHEET = GearSheetWording(
+    scheme="Кинематическая схема",
+    front="Вид вдоль осей",
+    linear="Картина линейных скоростей",
+    angular="Картина угловых скоростей",
+    results="Величины, снятые с картин скоростей",
+    segments="Отрезки картин, мм",
+    calculation="Расчёт",
+    inscriptions={
+        "mu_l": "μ_{{l}} = {value} м/мм",
+        "mu_v": "μ_{{v}} = {value} (м/с)/мм",
+        "mu_omega": "μ_{{ω}} = {value} с^{{−1}}/мм, H = {pole} мм",
+        "mu_n": "μ_{{n}} = {value} мин^{{−1}}/мм",
+    },
+    fixed="неподвижны: {labels}",
+    by_coaxiality="{symbol} = {value} (из соосности)",
+    module="m = {value} мм",
+    columns_results=("Величина", "Дробью", "Точно", "Снято", "σ", "δ, %"),
+    columns_segments=("Отрезок", "y, мм", "Точно", "Снято"),
+    no_scheme="Схема не начерчена: в передаче есть зацепления {kinds}, их оси не стоят в одной "
+    "плоскости с остальными.",
+    kinds={
+        "external": "внешние",
+        "internal": "внутренние",
+        "bevel": "конические",
+        "rack": "реечные",
+        "belt": "ременные",
+        "crossed belt": "перекрёстно-ременные",
+        "chain": "цепные",
+        "worm": "червячные",
+    },
+    protocol="Протокол построения картин скоростей. {title}",
+    given="Дано",
+    source="Источник: {source}",
+    pictures="Построение картины линейных скоростей",
+    steps={
+        "axis": "Проводим линию yy перпендикулярно осям колёс; её точка o' лежит на главной оси.",
+        "foot": "Отмечаем на yy точку {point}: {what}, на высоте {height} мм.",
+        "pitch": "полюс зацепления {name}",
+        "own": "ось звена {name}",
+        "of pitch": "полюса зацепления {name}",
+        "of own": "оси звена {name}",
+        "laid": "Откладываем от точки {foot} отрезок ({foot}{point}) = {length} мм, скорость "
+        "{what}; масштаб μ_v = {mu_v} (м/с)/мм.",
+        "calculated": "Картина не замыкается от ведущих звеньев; скорость звена {body} взята из "
+        "расчёта.",
+        "any": "Картина замыкается от звена {body}: его скорость отложена произвольно, масштаб "
+        "следует из луча ведущего звена {input}.",
+        "line": "Соединяем точки {one} и {other}: прямая {body} — картина скоростей звена {body}.",
+        "meet": "На уровне точки {foot} проводим горизонталь до прямой {body}; точка {point}: "
+        "({foot}{point}) — скорость {what}.",
+        "rays": "Построение картины угловых скоростей",
+        "pole": "Из точки p опускаем отрезок (po) = {pole} мм параллельно yy и проводим через o "
+        "прямую xx, перпендикулярную yy.",
+        "ray": "Из p проводим луч, параллельный прямой {body}, до прямой xx: отрезок (o{body}) "
+        "изображает скорость звена {body}.",
+        "readings": "Снятие отрезков и вычисление",
+        "read": "({name}) = {read} мм (точно {exact} мм, σ = {sigma} мм).",
+        "scale": "{symbol} = {value} {unit}/мм, что следует из {from_what}.",
+        "chosen": "μ_v/(μ_l·H)",
+        "input": "луча ведущего звена",
+        "found": "{formula} = {read} {unit} (точно {exact}, σ = {sigma}).",
+    },
+    ruler="Отрезки снимаются линейкой с ценой деления {ruler} мм; чертёжник «{profile}».",
+)
+
 
 GEARS = GearWording(
     sheet=GEAR_SHEET,

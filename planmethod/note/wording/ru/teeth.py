@@ -1,6 +1,6 @@
 """Words of the choice of teeth in Russian (подбор чисел зубьев по-русски)."""
 
-from planmethod.note.wording.teeth_model import TeethWording
+from planmethod.note.wording.gear_model import TeethWording
 
 TEETH = TeethWording(
     title="Подбор чисел зубьев: {scheme}",
