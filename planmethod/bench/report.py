@@ -7,7 +7,7 @@ import os
 from collections import Counter
 from collections.abc import Callable, Iterable, Sequence
 
-from planmethod.bench import checking, cycle, forces, machine, speed
+from planmethod.bench import checking, cycle, forces, speed
 from planmethod.bench.drawn import DRAWS, Compared, compare_all
 from planmethod.check.key import Key
 from planmethod.problem.model import Problem
@@ -373,13 +373,15 @@ def machine_section(problems: Sequence[Problem]) -> Table:
         wheel = Flywheel(problem)
         if wheel.exact.inertia <= 0.0:
             continue
-        for one in machine.constructed(wheel):
+        for one in cycle.constructed(wheel):
             count = "all" if one.count is None else str(one.count)
             rows.append((problem.name, count, *(f"{off:+.3f}" for off in one.off)))
-        cost += [(what, problem.name, span(seconds)) for what, seconds in machine.costs(problem)]
+        cost += [
+            (what, problem.name, span(seconds)) for what, seconds in cycle.flywheel_costs(problem)
+        ]
     if not rows:
         return []
-    head = [f"{method}, {way.value}" for way, method in machine.WAYS]
+    head = [f"{method}, {way.value}" for way, method in cycle.WAYS]
     return [
         "## Flywheels by construction",
         "",

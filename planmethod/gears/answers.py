@@ -90,9 +90,8 @@ def _speed(motion: Motion, name: str, asked: Asked) -> Answer:
         metres = rack_speed(motion, label)
         return _none(name, "module") if metres is None else Answer(name, metres, None, "m/s")
     if asked.kind == motion.train.unit:
-        return _exact(name, speed, "1/min" if asked.kind == "n" else "1/s")
-    factor = math.pi / 30 if asked.kind == "omega" else 30 / math.pi
-    return Answer(name, float(speed) * factor, None, "1/s" if asked.kind == "omega" else "1/min")
+        return _exact(name, speed, motion.train.units[0])
+    return Answer(name, float(speed) * motion.train.factor, None, motion.train.units[1])
 
 
 def rack_speed(motion: Motion, label: str) -> float | None:

@@ -8,7 +8,6 @@ at the pole distance, cut off segments as long as the bodies are quick.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping, Sequence
 from dataclasses import field
 from fractions import Fraction
@@ -125,9 +124,8 @@ class Construction:
 
     def label(self, body: str) -> str:
         """Return what a line of a body is called: all the numbers of the body."""
-        body_of = self.motion.train.body_of
-        labels = dict.fromkeys(label.rstrip("'") for label in body_of)
-        return ", ".join(label for label in labels if body_of[label] == body)
+        train = self.motion.train
+        return ", ".join(label for label in train.numbers if train.body_of[label] == body)
 
     def numbers(self) -> dict[str, Number]:
         """Return the data as floats."""
@@ -410,7 +408,7 @@ class _Drawing:
     def _found(self, mu: NumberName, segments: Mapping[str, NumberName]) -> list[Found]:
         train, speeds = self.motion.train, self.motion.speeds
         unit, found = train.unit, {}
-        for label in dict.fromkeys(label.rstrip("'") for label in train.body_of):
+        for label in train.numbers:
             body = train.body_of[label]
             if body in segments:
                 number = self.builder.compute(f"{unit}_{label}", (mu, 1), (segments[body], 1))
@@ -434,7 +432,7 @@ class _Drawing:
             else:
                 powers.append((mu, 1))
                 other = asked.kind != unit
-                factor = (math.pi / 30 if unit == "n" else 30 / math.pi) if other else 1.0
+                factor = train.factor if other else 1.0
                 value = float(exact[0]) * factor if other else exact[0]
             number = self.builder.compute(name, *powers, factor=factor)
             found[name] = Found(name, value, number, rays)

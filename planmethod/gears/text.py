@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping
 from fractions import Fraction
 
@@ -107,14 +106,13 @@ def equation_of(motion: Motion, mesh: Mesh) -> tuple[str, str]:
     train = motion.train
     row = mesh_row(train, motion.roles, motion.axes, mesh)
     one, other = train.ends(mesh)
-    letter = "n" if train.unit == "n" else "ω"
 
     def speed(label: str, body: str) -> str:
         if body in train.racks:
             return f"v_{{{label}}}"
         if mesh.carrier is None or body in motion.roles.across:
-            return f"{letter}_{{{label}}}"
-        return f"({letter}_{{{label}}} − {letter}_{{{mesh.carrier}}})"
+            return f"{train.letter}_{{{label}}}"
+        return f"({train.letter}_{{{label}}} − {train.letter}_{{{mesh.carrier}}})"
 
     sign = MINUS if row[other] > 0 else ""
     size = "" if mesh.kind is MeshKind.RACK else f"·{_shown(abs(row[other]))}"
@@ -147,13 +145,10 @@ def _size(value: Fraction, words: Language) -> str:
 
 def _speeds(motion: Motion, words: Language) -> list[str]:
     train, say = motion.train, words.gears
-    turns = train.unit == "n"
-    said = {"letter": "n" if turns else "ω", "other": "ω" if turns else "n"}
-    units = ("1/min", "1/s") if turns else ("1/s", "1/min")
-    said["unit"], said["other_unit"] = (say.units[unit] for unit in units)
-    factor = math.pi / 30 if turns else 30 / math.pi
+    said = {"letter": train.letter, "other": "ω" if train.letter == "n" else "n"}
+    said["unit"], said["other_unit"] = (say.units[unit] for unit in train.units)
     rows, notes = [], []
-    for label in dict.fromkeys(label.rstrip("'") for label in train.body_of):
+    for label in train.numbers:
         body, speed = train.body_of[label], motion.speed(label)
         if body in train.racks:
             metres = rack_speed(motion, label)
@@ -167,7 +162,7 @@ def _speeds(motion: Motion, words: Language) -> list[str]:
             for c in train.carriers
             if body in (*motion.roles.central[c], *motion.roles.satellites[c])
         ]
-        other = found(float(speed) * factor, words.note)
+        other = found(float(speed) * train.factor, words.note)
         value = found(float(speed), words.note)
         rows.append([label, value, _shown(speed), other, "; ".join(relative)])
         if body in motion.roles.across:
@@ -177,7 +172,7 @@ def _speeds(motion: Motion, words: Language) -> list[str]:
 
 def _tabular(motion: Motion, turns: Turns, words: Language) -> list[str]:
     say = words.gears
-    letter = "n" if motion.train.unit == "n" else "ω"
+    letter = motion.train.letter
     said = {"carrier": turns.carrier, "wheel": ", ".join(turns.started)}
     head = wrap(say.tabular.format(**said), rest="  ")
     total = {body: speed + turns.held[body] for body, speed in turns.together.items()}
