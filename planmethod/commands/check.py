@@ -211,11 +211,9 @@ def _write_results(
     lang: str,
 ) -> None:
     from planmethod.check.group import keys_of
-    from planmethod.check.pages.files import write_all
+    from planmethod.check.pages.files import anonymous, write_all
 
     if salt is not None:
-        from planmethod.check.pages.run import anonymous
-
         checked = anonymous(checked, salt)
     keys, inputs = keys_of(variants, checked), [variants.path, *paths]
     with bar(len(checked), long=len(checked) >= MANY_WORKS) as done:

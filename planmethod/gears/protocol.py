@@ -11,9 +11,8 @@ from planmethod.gears.model import GearProblem
 from planmethod.gears.motion import Motion, solve_motion
 from planmethod.gears.picture import draw
 from planmethod.gears.told import calculation, given, symbol
-from planmethod.note.narrate.numbered import Steps
 from planmethod.note.numbers import raised
-from planmethod.note.plaintext import heading, plain_text, wrap
+from planmethod.note.plaintext import Steps, heading, plain_text, wrap
 from planmethod.note.rounding import rounded_to, sigma_text
 from planmethod.note.wording import Language, language
 

@@ -26,6 +26,7 @@ ELSEWHERE = {
     "say": ("numbers", "NOTATION"),
     "families": ("layouts", "FAMILIES"),
     "tasks": ("layouts", "TASKS"),
+    "teeth": ("gears", "TEETH"),
 }
 """Subjects that are not the constant of their name in the module of their name."""
 

@@ -1,6 +1,6 @@
-"""Words of gear trains in Russian (зубчатые механизмы по-русски)."""
+"""Words of gear trains and of the choice of their teeth in Russian (зубчатые механизмы)."""
 
-from planmethod.note.wording.gear_model import GearSheetWording, GearWording
+from planmethod.note.wording.gear_model import GearSheetWording, GearWording, TeethWording
 
 GEAR_SHEET = GearSheetWording(
     scheme="Кинематическая схема",
@@ -136,4 +136,35 @@ GEARS = GearWording(
         "teeth": "колёса заданы радиусами",
     },
     units={"1/min": "мин⁻¹", "1/s": "с⁻¹", "m/s": "м/с", "mm": "мм", "m": "м", "m/2": "m/2"},
+)
+
+
+TEETH = TeethWording(
+    title="Подбор чисел зубьев: {scheme}",
+    schemes={
+        "ring": "планетарный однорядный, 1-2 внешнее, 2-3 внутреннее, 3 неподвижно; "
+        "U_1H = 1 + z_3/z_1",
+        "external-internal": "планетарный двухрядный, 1-2 внешнее, 2'-3 внутреннее, 3 неподвижно; "
+        "U_1H = 1 + z_2·z_3/(z_1·z_2')",
+        "two-external": "планетарный двухрядный, оба зацепления внешние, 3 неподвижно; "
+        "U_H1 = 1/(1 − z_2·z_3/(z_1·z_2'))",
+        "two-internal": "планетарный двухрядный, оба зацепления внутренние, 3 неподвижно; "
+        "U_H1 = 1/(1 − z_2·z_3/(z_1·z_2'))",
+        "pair": "пара колёс, внешнее зацепление; U_12 = −z_2/z_1",
+        "two-stage": "двухступенчатый соосный, оба зацепления внешние; U_13 = z_2·z_3/(z_1·z_2')",
+    },
+    wanted="Задано: U = {ratio} с отклонением не больше {within} %{satellites}{modules}.",
+    satellites=", сателлитов k = {k}",
+    modules=", модули рядов {first} и {second} мм",
+    bounds="Границы: z от {least} до {most}{rings}. Просмотрены все сочетания: {looked}.",
+    rings=", у колёс с внутренними зубьями до {ring_most}",
+    conditions="Условия: соосность, без заклинивания зубьев (внутри z_3 − z_2 не меньше "
+    "{difference}){carried}.",
+    carried=", сборка, соседство",
+    found="Подходит вариантов: {found}. Первые {shown}, по возрастанию габарита D/m, затем "
+    "отклонения U:",
+    none="Ни одно сочетание не подходит. Расширьте границы (--z-max, --ring-max), отклонение "
+    "(--within), измените число сателлитов или схему; знак U — по формуле схемы.",
+    columns=("№", "U", "дробью", "отклонение, %", "D/m"),
+    file="Подобранный механизм, вариант {number}",
 )
