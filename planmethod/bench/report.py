@@ -321,10 +321,6 @@ def _forces(problems: Sequence[Problem]) -> Table:
     return forces_section(found, lever) if loaded else []
 
 
-def _drafting(problems: Sequence[Problem]) -> Table:
-    return drafting_section(compare_all(problems))
-
-
 def _cycle(problems: Sequence[Problem]) -> Table:
     """Return the section on turns of a crank; there is none where no crank turns fully."""
     rows, said, cost = [], [], []
@@ -398,7 +394,7 @@ def machine_section(problems: Sequence[Problem]) -> Table:
 SECTIONS: dict[str, Callable[[Sequence[Problem]], Table]] = {
     "speed": _speed,
     "forces": _forces,
-    "drafting": _drafting,
+    "drafting": lambda problems: drafting_section(compare_all(problems)),
     "cycle": _cycle,
     "machine": machine_section,
     "checking": checking_section,

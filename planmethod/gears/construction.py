@@ -13,11 +13,8 @@ from dataclasses import field
 from fractions import Fraction
 from itertools import combinations
 
-import numpy as np
-
 from planmethod.construct.arithmetic import Float64, Number
-from planmethod.construct.drafting import Counted, Profile, Propagated
-from planmethod.construct.dual import as_dual
+from planmethod.construct.drafting import Profile, sigmas
 from planmethod.construct.evaluate import Trace, evaluate
 from planmethod.construct.hand import Hand
 from planmethod.construct.program import Builder, Program
@@ -164,17 +161,8 @@ def read(drawn: Construction, profile: Profile) -> Reading:
         The construction does not give the fractions of the mesh equations.
     """
     program, data = drawn.program, drawn.numbers()
-    free = frozenset((str(FEET), str(POLE)))
-    counted = Counted(profile, free)
-    evaluate(program, data, counted)
-    pencil = Propagated(profile, free, counted.causes)
-    slopes = evaluate(program, data, pencil).value
-    names = [*drawn.segments.values(), *(one.read for one in drawn.found)]
-    names += [spot.read for spot in drawn.spots if spot.read is not None]
-    sigma: dict[str, float] = {}
-    for name in names:
-        slope = as_dual(slopes[name]).slope
-        sigma[name] = 0.0 if slope is None else float(np.sqrt((slope**2).sum()))
+    found = sigmas(program, data, profile, frozenset((str(FEET), str(POLE))))
+    sigma = {name: float(one[0]) for name, one in found.items()}
     exact = evaluate(program, data, Float64())
     for one in drawn.found:
         got, due = float(exact.value[one.read]), float(one.exact)

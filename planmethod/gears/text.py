@@ -85,9 +85,9 @@ def _structure(problem: GearProblem, roles: Roles, found: Structure, words: Lang
     return lines
 
 
-def _shown(value: Fraction) -> str:
-    """Return a fraction, whole numbers without a denominator."""
-    return str(value).replace("-", MINUS)
+def fraction_text(value: Fraction | None) -> str:
+    """Return a fraction, whole numbers without a denominator; a dash of none."""
+    return "—" if value is None else str(value).replace("-", MINUS)
 
 
 def _equation(motion: Motion, mesh: Mesh, words: Language) -> str:
@@ -115,10 +115,10 @@ def equation_of(motion: Motion, mesh: Mesh) -> tuple[str, str]:
         return f"({train.letter}_{{{label}}} − {train.letter}_{{{mesh.carrier}}})"
 
     sign = MINUS if row[other] > 0 else ""
-    size = "" if mesh.kind is MeshKind.RACK else f"·{_shown(abs(row[other]))}"
-    left = f"{speed(mesh.first, one)}·{_shown(row[one])}"
+    size = "" if mesh.kind is MeshKind.RACK else f"·{fraction_text(abs(row[other]))}"
+    left = f"{speed(mesh.first, one)}·{fraction_text(row[one])}"
     hat = "" if mesh.carrier is None else f"^{{{mesh.carrier}}}"
-    ratio = f"U{hat}_{{{mesh.first}-{mesh.second}}} = {_shown(-row[other] / row[one])}"
+    ratio = f"U{hat}_{{{mesh.first}-{mesh.second}}} = {fraction_text(-row[other] / row[one])}"
     return f"{left} = {sign}{speed(mesh.second, other)}{size}", ratio
 
 
@@ -139,7 +139,7 @@ def _wheels(motion: Motion, words: Language) -> list[str]:
 
 def _size(value: Fraction, words: Language) -> str:
     if value.denominator == 1:
-        return _shown(value)
+        return fraction_text(value)
     return found(float(value), words.note)
 
 
@@ -157,14 +157,14 @@ def _speeds(motion: Motion, words: Language) -> list[str]:
             continue
         relative = [
             say.relative.format(
-                letter=said["letter"], carrier=c, value=_shown(motion.speed(label, c))
+                letter=said["letter"], carrier=c, value=fraction_text(motion.speed(label, c))
             )
             for c in train.carriers
             if body in (*motion.roles.central[c], *motion.roles.satellites[c])
         ]
         other = found(float(speed) * train.factor, words.note)
         value = found(float(speed), words.note)
-        rows.append([label, value, _shown(speed), other, "; ".join(relative)])
+        rows.append([label, value, fraction_text(speed), other, "; ".join(relative)])
         if body in motion.roles.across:
             notes += wrap(say.across.format(label=label), rest="  ")
     return table([head.format(**said) for head in say.columns_speeds], rows) + notes
@@ -177,7 +177,10 @@ def _tabular(motion: Motion, turns: Turns, words: Language) -> list[str]:
     head = wrap(say.tabular.format(**said), rest="  ")
     total = {body: speed + turns.held[body] for body, speed in turns.together.items()}
     rows = [
-        [name.format(letter=letter, carrier=turns.carrier), *(_shown(part[body]) for body in total)]
+        [
+            name.format(letter=letter, carrier=turns.carrier),
+            *(fraction_text(part[body]) for body in total),
+        ]
         for name, part in zip(say.tabular_rows, (turns.together, turns.held, total), strict=True)
     ]
     return [*head, *columns_text(list(zip(("", *total), *rows, strict=True)), 1)]
@@ -191,7 +194,7 @@ def _asked(motion: Motion, words: Language) -> list[str]:
             reason = say.reasons[one.reason].format(label=one.label)
             notes += wrap(f"{name}: {reason}", rest="  ")
             continue
-        exact = "" if one.exact is None else _shown(one.exact)
+        exact = "" if one.exact is None else fraction_text(one.exact)
         unit = say.units[one.unit] if one.unit else ""
         whole = one.exact is not None and one.exact.denominator == 1
         value = exact if whole else found(one.value, words.note)

@@ -10,7 +10,7 @@ from planmethod.gears.asked import parse
 from planmethod.gears.conditions import conditions, sentence
 from planmethod.gears.construction import Construction, Reading
 from planmethod.gears.motion import Motion
-from planmethod.gears.text import equation_of
+from planmethod.gears.text import equation_of, fraction_text
 from planmethod.note.numbers import MINUS, raised
 from planmethod.note.rounding import sigma_text
 from planmethod.note.wording import Language
@@ -43,11 +43,6 @@ def indexed(text: str) -> str:
     """Return plain text with indices as rich text: ``z_2'`` gives ``z_{2'}``, ``p₁`` ``p_{1}``."""
     braced = re.sub(r"_([\w']+)", r"_{\1}", text)
     return re.sub("[₁₂]", lambda sign: f"_{{{'₁₂'.index(sign[0]) + 1}}}", braced)
-
-
-def fraction_text(value: object) -> str:
-    """Return a fraction, or a float's place of none."""
-    return "—" if isinstance(value, float) or value is None else str(value).replace("-", MINUS)
 
 
 def given(motion: Motion, words: Language) -> list[str]:
