@@ -17,7 +17,7 @@ from planmethod.moving.construction import POLES, Construction, construct, read_
 from planmethod.moving.course import Course, course_of
 from planmethod.moving.model import PointProblem
 from planmethod.moving.sheet import read_rows, sheet_scales
-from planmethod.moving.told import law_lines, moment_lines, unit_of
+from planmethod.moving.text import law_lines, moment_lines, unit_of
 from planmethod.note.narrate.scales import scale_inscription
 from planmethod.note.numbers import significant, with_unit
 from planmethod.note.plaintext import heading, plain_text, table, wrap

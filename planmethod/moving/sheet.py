@@ -25,7 +25,7 @@ from planmethod.moving.pictures import (
     trajectory_picture,
     vector_scales,
 )
-from planmethod.moving.told import SYMBOLS, law_lines, moment_lines, textbook, unit_of
+from planmethod.moving.text import SYMBOLS, law_lines, moment_lines, textbook, unit_of
 from planmethod.note.narrate.scales import scale_inscription
 from planmethod.note.numbers import alike, significant
 from planmethod.note.plaintext import plain_text
