@@ -22,7 +22,6 @@ LATE_OF = {
     "planmethod.solved.selected.forces": "forces",
     "planmethod.note.narrate.forces": "forces",
     "planmethod.note.audit": "printed values",
-    "planmethod.note.records.forcecolumns": "forces",
     "planmethod.note.tables.causes": "drafting errors",
     "planmethod.note.tables.forces": "forces",
     "planmethod.gears.audit": "printed values of gear trains",

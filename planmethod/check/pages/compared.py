@@ -21,19 +21,16 @@ def compared_text(checked: Sequence[Checked], words: Language) -> str:
     for one in checked:
         name = " ".join(filter(None, (quoted(one.work.student), one.variant)))
         lines += [name] if name else []
-        rows = [_row(judged, speech) for judged in one.answers if judged.written is not None]
-        rows = [[plain_text(cell) for cell in row] for row in rows]
+        told = [judged for judged in one.answers if judged.written is not None]
+        rows = [[plain_text(cell) for cell in _cells(judged, speech)] for judged in told]
         lines += [*table(say.columns, rows), ""]
     lines += wrap(plain_text(say.note))
     return "\n".join(line.replace(NO_BREAK, " ") for line in lines) + "\n"
 
 
-def _row(judged: Judged, speech: Speech) -> list[str]:
-    return [speech.symbol(judged), *_cells(judged, speech)]
-
-
 def _cells(judged: Judged, speech: Speech) -> Iterator[str]:
     key, value = judged.key, judged.value
+    yield speech.symbol(judged)
     yield speech.own(judged) or _NONE
     if key is None:
         yield from (_NONE, _NONE, _NONE)

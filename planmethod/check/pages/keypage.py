@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 from planmethod.check.key import Key
-from planmethod.check.model import KeyEntry, Sense
+from planmethod.check.model import KeyEntry
 from planmethod.check.pages.pdf import NOTE, TEXT, Document
 from planmethod.check.pages.remarks import place_letters, scale_letters, segment_letters
 from planmethod.check.pages.speech import Speech, told
@@ -133,7 +133,7 @@ class KeyPage:
             speech.unit(entry),
             segment_letters(entry.segment) if entry.segment else "",
             "" if entry.mm is None else speech.mm(entry.mm, unit=False),
-            self._sense(entry.sense),
+            speech.sense(entry.sense),
             speech.share(entry.points),
             self.say.zero if entry.zero else "" if entry.seen else self.say.unseen,
         ]
@@ -144,7 +144,7 @@ class KeyPage:
             return "", ""
         speech = self.speech
         mm = "" if entry.mm is None else speech.mm(entry.mm)
-        sign = self._sense(entry.sense)
+        sign = speech.sense(entry.sense)
         return (
             speech.value(entry) + ("" if entry.seen else UNSEEN),
             " ".join(part for part in (mm, sign) if part),
@@ -161,9 +161,6 @@ class KeyPage:
         lead = [row.key.variant] if row.key.variant else []
         lead += [self.say.position.format(position=row.position)] if several else []
         return ", ".join(lead) or "—"
-
-    def _sense(self, sense: Sense | None) -> str:
-        return self.speech.sense(sense)
 
     def columns(self) -> list[KeyEntry]:
         """Return the answers, one entry for each label, in the order in which they are asked."""

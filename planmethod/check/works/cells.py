@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from functools import lru_cache
 
 from planmethod.check.model import Sense, Unread, Written
-from planmethod.check.works.numbers import DASHES
+from planmethod.check.works.units import DASHES
 from planmethod.note.wording import language
 from planmethod.problem.names import fold, short
 from planmethod.problem.selector import SelectorError, parse_selector

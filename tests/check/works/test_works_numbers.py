@@ -4,8 +4,7 @@ import pytest
 
 from planmethod.check.model import Sense, Written
 from planmethod.check.works.cells import read_sense
-from planmethod.check.works.numbers import Number, read_number
-from planmethod.check.works.units import ratio, read_unit
+from planmethod.check.works.units import Number, ratio, read_number, read_unit
 
 NUMBERS = [
     ("2.275", 2.275, 0.001, ""),
