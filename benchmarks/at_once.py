@@ -8,9 +8,8 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from planmethod.bench.clock import clock
 from planmethod.bench.forces import error_of
-from planmethod.bench.speed import Reading, places
+from planmethod.bench.speed import Reading, clock, places
 from planmethod.mechanism.model import FRAME
 from planmethod.problem.model import Problem
 from planmethod.solved.forces.statics import Statics, statics_of

@@ -14,7 +14,7 @@ from functools import partial
 from pathlib import Path
 
 from benchmarks.scenes import MANY_LOADS
-from planmethod.bench.clock import Timing, clock
+from planmethod.bench.speed import Timing, clock
 from planmethod.kinds import part_of
 from planmethod.note.wording import language
 from planmethod.problem import load, template

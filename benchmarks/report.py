@@ -16,8 +16,8 @@ from benchmarks.many import many_section
 from benchmarks.peers import PEERS, missing
 from benchmarks.scenes import FOURBAR_ROWS, fourbar, slotted
 from planmethod.bench import speed
-from planmethod.bench.clock import Timing
 from planmethod.bench.report import Table, number, span, speed_section, table
+from planmethod.bench.speed import Timing
 
 NAME = "speed-and-error"
 

@@ -11,8 +11,7 @@ import numpy.typing as npt
 
 from benchmarks.peers import peers
 from benchmarks.scenes import FOURBAR_ROWS, chain, fourbar, slotted
-from planmethod.bench.clock import Timing, clock
-from planmethod.bench.speed import everything, right_rows, row_error, spread, turn
+from planmethod.bench.speed import Timing, clock, everything, right_rows, row_error, spread, turn
 from planmethod.solved.many.sweep import Sweep
 
 Array = npt.NDArray[Any]

@@ -11,7 +11,7 @@ from pathlib import Path
 
 import numpy as np
 
-from planmethod.bench.clock import clock
+from planmethod.bench.speed import clock
 from planmethod.check.checking import check
 from planmethod.check.drawn import drawn_works, planted
 from planmethod.check.key import Key, key_of_task

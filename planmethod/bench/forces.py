@@ -8,8 +8,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from planmethod.bench.clock import clock
-from planmethod.bench.speed import RIGHT, Reading, places, turns_round
+from planmethod.bench.speed import RIGHT, Reading, clock, places, spread, turns_round
 from planmethod.construct.arithmetic import Float64, Number
 from planmethod.construct.condition import plain
 from planmethod.construct.evaluate import evaluate
@@ -40,9 +39,8 @@ def forces_of(statics: Statics, value: Any) -> list[Number]:
 
 def error_of(statics: Statics, found: Sequence[Array]) -> float:
     """Return the largest error of a position in units of its largest force (and moment)."""
-    count = len(statics.solution.positions)
     worst = 0.0
-    for i in np.unique(np.linspace(0, count - 1, min(count, JUDGED)).astype(int)):
+    for i in spread(len(statics.solution.positions), JUDGED):
         right = _judged(statics, RIGHT, int(i))
         exact = [complex(plain(value)) for value in right]
         size = max(abs(force) for force in exact[:-1])
@@ -55,12 +53,9 @@ def _judged(statics: Statics, digits: int, index: int = 0) -> list[Number]:
     """Return the forces of a position as a referee of so many digits has them."""
     referee = Precise(digits)
     data = statics.data(SI, EVERY)
-    lifted = {name: referee.lift(_at(value, index)) for name, value in data.items()}
+    at = {name: value[index] if np.ndim(value) else value for name, value in data.items()}
+    lifted = {name: referee.lift(value) for name, value in at.items()}
     return forces_of(statics, evaluate(statics.program, lifted, referee).value)
-
-
-def _at(value: Number, index: int) -> Any:
-    return value[index] if np.ndim(value) else value
 
 
 def _batch(statics: Statics, trace: Any) -> list[Array]:

@@ -7,7 +7,7 @@ import os
 from collections import Counter
 from collections.abc import Callable, Iterable, Sequence
 
-from planmethod.bench import checking, cycle, forces, machine, speed
+from planmethod.bench import checking, cycle, forces, speed
 from planmethod.bench.drawn import DRAWS, Compared, compare_all
 from planmethod.check.key import Key
 from planmethod.problem.model import Problem
@@ -321,10 +321,6 @@ def _forces(problems: Sequence[Problem]) -> Table:
     return forces_section(found, lever) if loaded else []
 
 
-def _drafting(problems: Sequence[Problem]) -> Table:
-    return drafting_section(compare_all(problems))
-
-
 def _cycle(problems: Sequence[Problem]) -> Table:
     """Return the section on turns of a crank; there is none where no crank turns fully."""
     rows, said, cost = [], [], []
@@ -373,13 +369,15 @@ def machine_section(problems: Sequence[Problem]) -> Table:
         wheel = Flywheel(problem)
         if wheel.exact.inertia <= 0.0:
             continue
-        for one in machine.constructed(wheel):
+        for one in cycle.constructed(wheel):
             count = "all" if one.count is None else str(one.count)
             rows.append((problem.name, count, *(f"{off:+.3f}" for off in one.off)))
-        cost += [(what, problem.name, span(seconds)) for what, seconds in machine.costs(problem)]
+        cost += [
+            (what, problem.name, span(seconds)) for what, seconds in cycle.flywheel_costs(problem)
+        ]
     if not rows:
         return []
-    head = [f"{method}, {way.value}" for way, method in machine.WAYS]
+    head = [f"{method}, {way.value}" for way, method in cycle.WAYS]
     return [
         "## Flywheels by construction",
         "",
@@ -396,7 +394,7 @@ def machine_section(problems: Sequence[Problem]) -> Table:
 SECTIONS: dict[str, Callable[[Sequence[Problem]], Table]] = {
     "speed": _speed,
     "forces": _forces,
-    "drafting": _drafting,
+    "drafting": lambda problems: drafting_section(compare_all(problems)),
     "cycle": _cycle,
     "machine": machine_section,
     "checking": checking_section,

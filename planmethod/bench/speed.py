@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import math
+import statistics
+import time
 from collections.abc import Callable, Sequence
 from functools import partial
 from typing import Any
@@ -10,7 +12,6 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from planmethod.bench.clock import clock, clock_all
 from planmethod.construct.arithmetic import Float64, Number
 from planmethod.construct.condition import plain
 from planmethod.construct.evaluate import evaluate
@@ -23,6 +24,38 @@ from planmethod.solved.many.sweep import FEW, Sweep
 from planmethod.solved.results import results_of
 from planmethod.solved.selfcheck import verify
 from planmethod.solved.solution import Solution
+
+
+@dataclass(frozen=True, slots=True)
+class Timing:
+    """Median and spread of repeated runs, seconds."""
+
+    median: float
+    least: float
+    most: float
+    runs: int
+
+
+def clock(act: Callable[[], object], *, enough: float = 0.4, least: int = 5) -> Timing:
+    """Time something warm: once to warm up, then until it has run long enough and often enough."""
+    act()
+    times: list[float] = []
+    began = time.perf_counter()
+    while len(times) < least or (time.perf_counter() - began < enough and len(times) < 2000):
+        start = time.perf_counter()
+        act()
+        times.append(time.perf_counter() - start)
+    return Timing(statistics.median(times), min(times), max(times), len(times))
+
+
+def clock_all(acts: Sequence[Callable[[], object]], *, rounds: int = 9) -> list[Timing]:
+    """Time several things that take turns, so that what else the machine does falls on all."""
+    found: list[list[Timing]] = [[] for _ in acts]
+    for _ in range(rounds):
+        for own, act in zip(found, acts, strict=True):
+            own.append(clock(act, enough=0.02, least=3))
+    return [sorted(own, key=lambda timing: timing.median)[rounds // 2] for own in found]
+
 
 Array = npt.NDArray[Any]
 
@@ -83,9 +116,9 @@ def places(problem: Problem, count: int) -> Array:
     return np.resize(np.array(problem.drive.positions), count)
 
 
-def spread(count: int) -> Array:
+def spread(count: int, judged: int = JUDGED) -> Array:
     """Return which positions of a batch the referee judges."""
-    return np.unique(np.linspace(0, count - 1, min(count, JUDGED)).astype(int))
+    return np.unique(np.linspace(0, count - 1, min(count, judged)).astype(int))
 
 
 def _right(problem: Problem, results: Sequence[Quantity], position: float) -> list[Number]:

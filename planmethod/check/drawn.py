@@ -18,8 +18,7 @@ from planmethod.check.mistakes.model import Change, Scene, times
 from planmethod.check.mistakes.scales import scale_by
 from planmethod.check.model import Sense, Work, Written
 from planmethod.check.questions import Sign
-from planmethod.check.sense import WAYS
-from planmethod.check.sheet import Sheet
+from planmethod.check.sheet import WAYS, Sheet
 from planmethod.check.slips import read_in_place
 from planmethod.check.task import Item, Task
 from planmethod.construct.arithmetic import Number

@@ -15,7 +15,7 @@ from planmethod.check.works.gather import is_of
 from planmethod.check.works.units import ratio_of, read_unit
 from planmethod.check.works.xlsx_file import META
 from planmethod.note.wording import language
-from planmethod.note.wording.form_model import FormWording
+from planmethod.note.wording.check_model import FormWording
 from planmethod.problem.head import KindProblem
 
 SCHEMA = 1

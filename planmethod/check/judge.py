@@ -14,8 +14,7 @@ from functools import partial
 from planmethod.check.explain import Fact
 from planmethod.check.model import Verdict, Written
 from planmethod.check.questions import RATES, Sign
-from planmethod.check.sense import is_right
-from planmethod.check.sheet import Own, Sheet, scalar
+from planmethod.check.sheet import Own, Sheet, is_right, scalar
 from planmethod.check.task import Item, Task
 from planmethod.check.tolerance import Limit, limit_of
 from planmethod.construct.evaluate import Trace

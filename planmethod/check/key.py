@@ -8,8 +8,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from planmethod.check.marks import DEFAULT, Settings
 from planmethod.check.model import KeyEntry
 from planmethod.check.questions import Sign
-from planmethod.check.sense import sense_of
-from planmethod.check.sheet import Sheet, scalar
+from planmethod.check.sheet import Sheet, scalar, sense_of
 from planmethod.check.task import Item, Task
 from planmethod.check.tolerance import Limit, limit_of
 from planmethod.plans.model import FACTS, PlanKind

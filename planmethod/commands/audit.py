@@ -39,8 +39,8 @@ def audit(
     file: str | None,
 ) -> None:
     """Compare what the sources print with the exact values and with the ruler's."""
+    from planmethod.note.audit.audit import Document
     from planmethod.note.audit.audit import audit as examine
-    from planmethod.note.audit.table import Document
 
     if file is not None and file.lower().endswith(".toml"):
         raise UsageError("-o would write over the problem file {}; name another one", file)

@@ -102,8 +102,8 @@ def check(
 
     variants = Variants(problem, settings, variant)
     checked, works = _checked(variants, paths, jobs)
+    from planmethod.check.pages.compared import unread_lines
     from planmethod.check.pages.overrides import overridden, read_overrides
-    from planmethod.check.pages.unread import unread_lines
     from planmethod.note.wording import language
 
     by_hand = overrides or (None if as_json else out / "overrides.csv")
@@ -211,11 +211,9 @@ def _write_results(
     lang: str,
 ) -> None:
     from planmethod.check.group import keys_of
-    from planmethod.check.pages.files import write_all
+    from planmethod.check.pages.files import anonymous, write_all
 
     if salt is not None:
-        from planmethod.check.pages.run import anonymous
-
         checked = anonymous(checked, salt)
     keys, inputs = keys_of(variants, checked), [variants.path, *paths]
     with bar(len(checked), long=len(checked) >= MANY_WORKS) as done:

@@ -7,8 +7,7 @@ from pathlib import Path
 import click
 
 from planmethod.check.group import Variants, check_works
-from planmethod.check.pages.compared import compared_text
-from planmethod.check.pages.unread import unread_lines
+from planmethod.check.pages.compared import compared_text, unread_lines
 from planmethod.check.works import read_works
 from planmethod.errors import Fault, ProblemError
 from planmethod.note.wording import language

@@ -156,10 +156,8 @@ def synthesize(
     from planmethod.problem import loads
     from planmethod.synthesis import KINDS, takes
     from planmethod.synthesis import synthesize as find
-    from planmethod.synthesis.drawn import Drawn
-    from planmethod.synthesis.file import problem_text
-    from planmethod.synthesis.measured import checks
-    from planmethod.synthesis.record import synthesis_record
+    from planmethod.synthesis.drawn import Drawn, synthesis_record
+    from planmethod.synthesis.measured import checks, problem_text
 
     refuse_unknown("no kind of synthesis {!r}", kind, KINDS)
     given = {name: options[f"of_{name}"] for name, *_ in _OPTIONS}

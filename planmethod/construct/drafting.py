@@ -22,13 +22,16 @@ import math
 from collections.abc import Mapping
 from functools import cache, cached_property
 from types import MappingProxyType
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 
 from planmethod.construct.arithmetic import Float64, Number
 from planmethod.construct.dual import Dual, Duals, Rows, as_dual
+from planmethod.construct.evaluate import evaluate
 from planmethod.construct.hand import Hand
+from planmethod.construct.program import Program
 from planmethod.record import dataclass
 
 
@@ -324,3 +327,23 @@ def _normal() -> npt.NDArray[np.float64]:
     sizes = np.linspace(-4.0, 4.0, 4001)
     shares = [(1.0 + math.erf(size / math.sqrt(2.0))) / 2.0 for size in sizes]
     return np.interp((np.arange(EVEN) + 0.5) / EVEN, shares, sizes)
+
+
+def sigmas(
+    program: Program, data: Mapping[str, Any], profile: Profile, free: frozenset[str]
+) -> dict[str, npt.NDArray[np.float64]]:
+    """Return how far the numbers of a drawing may be off, by first order, shapes (n,).
+
+    ``free``: points that may stand anywhere.
+    """
+    counted = Counted(profile, free)
+    evaluate(program, data, counted)
+    trace = evaluate(program, data, Propagated(profile, free, counted.causes))
+    found: dict[str, npt.NDArray[np.float64]] = {}
+    for name, value in trace.value.items():
+        if isinstance(value, tuple) or np.iscomplexobj(as_dual(value).value):
+            continue
+        slope = as_dual(value).slope
+        zero = np.zeros(np.shape(np.atleast_1d(as_dual(value).value)))
+        found[name] = zero if slope is None else zero + np.sqrt(np.sum(np.abs(slope) ** 2, axis=0))
+    return found

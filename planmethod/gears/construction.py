@@ -8,17 +8,13 @@ at the pole distance, cut off segments as long as the bodies are quick.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping, Sequence
 from dataclasses import field
 from fractions import Fraction
 from itertools import combinations
 
-import numpy as np
-
 from planmethod.construct.arithmetic import Float64, Number
-from planmethod.construct.drafting import Counted, Profile, Propagated
-from planmethod.construct.dual import as_dual
+from planmethod.construct.drafting import Profile, sigmas
 from planmethod.construct.evaluate import Trace, evaluate
 from planmethod.construct.hand import Hand
 from planmethod.construct.program import Builder, Program
@@ -125,9 +121,8 @@ class Construction:
 
     def label(self, body: str) -> str:
         """Return what a line of a body is called: all the numbers of the body."""
-        body_of = self.motion.train.body_of
-        labels = dict.fromkeys(label.rstrip("'") for label in body_of)
-        return ", ".join(label for label in labels if body_of[label] == body)
+        train = self.motion.train
+        return ", ".join(label for label in train.numbers if train.body_of[label] == body)
 
     def numbers(self) -> dict[str, Number]:
         """Return the data as floats."""
@@ -166,17 +161,8 @@ def read(drawn: Construction, profile: Profile) -> Reading:
         The construction does not give the fractions of the mesh equations.
     """
     program, data = drawn.program, drawn.numbers()
-    free = frozenset((str(FEET), str(POLE)))
-    counted = Counted(profile, free)
-    evaluate(program, data, counted)
-    pencil = Propagated(profile, free, counted.causes)
-    slopes = evaluate(program, data, pencil).value
-    names = [*drawn.segments.values(), *(one.read for one in drawn.found)]
-    names += [spot.read for spot in drawn.spots if spot.read is not None]
-    sigma: dict[str, float] = {}
-    for name in names:
-        slope = as_dual(slopes[name]).slope
-        sigma[name] = 0.0 if slope is None else float(np.sqrt((slope**2).sum()))
+    found = sigmas(program, data, profile, frozenset((str(FEET), str(POLE))))
+    sigma = {name: float(one[0]) for name, one in found.items()}
     exact = evaluate(program, data, Float64())
     for one in drawn.found:
         got, due = float(exact.value[one.read]), float(one.exact)
@@ -410,7 +396,7 @@ class _Drawing:
     def _found(self, mu: NumberName, segments: Mapping[str, NumberName]) -> list[Found]:
         train, speeds = self.motion.train, self.motion.speeds
         unit, found = train.unit, {}
-        for label in dict.fromkeys(label.rstrip("'") for label in train.body_of):
+        for label in train.numbers:
             body = train.body_of[label]
             if body in segments:
                 number = self.builder.compute(f"{unit}_{label}", (mu, 1), (segments[body], 1))
@@ -434,7 +420,7 @@ class _Drawing:
             else:
                 powers.append((mu, 1))
                 other = asked.kind != unit
-                factor = (math.pi / 30 if unit == "n" else 30 / math.pi) if other else 1.0
+                factor = train.factor if other else 1.0
                 value = float(exact[0]) * factor if other else exact[0]
             number = self.builder.compute(name, *powers, factor=factor)
             found[name] = Found(name, value, number, rays)

@@ -14,9 +14,8 @@ from typing import TYPE_CHECKING
 from planmethod.gears.answers import answer
 from planmethod.gears.asked import AskedError, parse
 from planmethod.gears.construction import construct, read
-from planmethod.gears.linear import solve
 from planmethod.gears.model import GearProblem
-from planmethod.gears.motion import Motion, mesh_row, solve_motion
+from planmethod.gears.motion import Motion, rows_of, solve_motion, speeds_by
 from planmethod.gears.picture import draw
 from planmethod.gears.told import symbol
 from planmethod.problem.figures import Figure, Mistaken
@@ -80,8 +79,7 @@ class TrainFigures:
 
     @cached_property
     def _rows(self) -> Rows:
-        motion = self.motion
-        return [mesh_row(motion.train, motion.roles, motion.axes, m) for m in motion.train.meshes]
+        return rows_of(self.motion.train, self.motion.roles, self.motion.axes)
 
     def mistaken(self) -> Iterator[Mistaken]:
         """Yield the usual mistakes: signs, ratios, carriers, teeth, units."""
@@ -127,11 +125,7 @@ class TrainFigures:
             if twin in sizes and sizes[twin] != sizes[label]:
                 swapped = {**sizes, label: sizes[twin], twin: sizes[label]}
                 axes = replace(self.motion.axes, sizes=swapped)
-                yield (
-                    "G4",
-                    f"{label}, {twin}",
-                    [mesh_row(train, roles, axes, m) for m in train.meshes],
-                )
+                yield "G4", f"{label}, {twin}", rows_of(train, roles, axes)
 
     def _held(self, carrier: str) -> Rows:
         """Return the equations of him who takes U^H for U: the carrier has the ring's place."""
@@ -147,15 +141,10 @@ class TrainFigures:
 
     def _moved(self, rows: Rows) -> Motion | None:
         """Return the motion that other equations give; None where they give none."""
-        train = self.motion.train
-        moving = [body for body in train.bodies if body not in train.fixed]
-        zero, nothing = dict.fromkeys(train.fixed, Fraction(0)), Fraction(0)
-        system = [({b: v for b, v in row.items() if b not in zero}, nothing) for row in rows]
-        system += [({b: Fraction(1)}, v) for b, v in train.inputs.items() if b not in zero]
-        found = solve(moving, system)
+        found = speeds_by(self.motion.train, rows)
         if found.free or not found.consistent:
             return None
-        return replace(self.motion, speeds={**found.values, **zero})
+        return replace(self.motion, speeds=found.values)
 
     def _inverted(self, name: str, position: int) -> float | None:
         found = self.figure(name, position)

@@ -164,6 +164,26 @@ class Train:
         """What a unit of the inputs is, 1/s."""
         return math.pi / 30 if self.unit == "n" else 1.0
 
+    @property
+    def letter(self) -> str:
+        """Letter of the speeds of the inputs."""
+        return "n" if self.unit == "n" else "ω"
+
+    @property
+    def units(self) -> tuple[str, str]:
+        """Key of the unit of the inputs, and of the other one."""
+        return ("1/min", "1/s") if self.unit == "n" else ("1/s", "1/min")
+
+    @property
+    def factor(self) -> float:
+        """What a unit of the inputs is in the other one."""
+        return math.pi / 30 if self.unit == "n" else 30 / math.pi
+
+    @property
+    def numbers(self) -> tuple[str, ...]:
+        """Labels without primes, each once: the wheels of a block have one."""
+        return tuple(dict.fromkeys(label.rstrip("'") for label in self.body_of))
+
     def counted(self, label: str) -> bool:
         """Whether the size of a wheel is a number of teeth."""
         return self.toothed and (self.module is not None or not self.wheels[label].plain)

@@ -2,17 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from enum import Enum
 from fractions import Fraction
 
 from planmethod.errors import Fault, ProblemError
 from planmethod.gears.axes import Axes, find_axes
-from planmethod.gears.linear import Row, solve
+from planmethod.gears.linear import Row, Solved, solve
 from planmethod.gears.model import GearProblem, Mesh, MeshKind, Train
 from planmethod.gears.roles import Roles, find_roles
 from planmethod.languages import say
-from planmethod.record import dataclass
+from planmethod.record import dataclass, replace
 
 
 class TrainKind(Enum):
@@ -96,7 +96,7 @@ def analyse(problem: GearProblem) -> tuple[Roles, Axes, Structure]:
     if axes is None:
         raise ProblemError(problem.source_file, [*faults, *more])
     moving = [body for body in train.bodies if body not in train.fixed]
-    rank = solve(moving, _rows(train, roles, axes)).rank
+    rank = solve(moving, _loose(train, rows_of(train, roles, axes))).rank
     mobility = len(moving) - rank
     if mobility < 1:
         told = say("nothing can move: {} moving bodies, {} independent meshes", len(moving), rank)
@@ -122,10 +122,7 @@ def solve_motion(problem: GearProblem) -> Motion:
     if len(given) > count:
         told = say("over-determined: W = {}, and {} speeds are given", count, len(given))
         raise ProblemError(problem.source_file, [Fault(path, told, say("Keep {}.", count))])
-    moving = [body for body in train.bodies if body not in train.fixed]
-    rows = _rows(train, roles, axes)
-    rows += [({body: Fraction(1)}, speed) for body, speed in given.items()]
-    found = solve(moving, rows)
+    found = speeds_by(train, rows_of(train, roles, axes))
     if not found.consistent:
         told = "over-determined: the speeds given contradict each other"
         raise ProblemError(problem.source_file, [Fault(path, told, "Give others.")])
@@ -134,8 +131,15 @@ def solve_motion(problem: GearProblem) -> Motion:
         told = say(told, count, len(given), found.free[0])
         hint = "For ratios alone, give one wheel the speed 1: n = { 1 = 1 }."
         raise ProblemError(problem.source_file, [Fault(path, told, hint)])
-    zero = dict.fromkeys(train.fixed, Fraction(0))
-    return Motion(train, roles, axes, structure, {**found.values, **zero})
+    return Motion(train, roles, axes, structure, found.values)
+
+
+def speeds_by(train: Train, rows: Sequence[Mapping[str, Fraction]]) -> Solved[str]:
+    """Solve equations of the meshes for the speeds of all bodies; those of fixed ones are 0."""
+    moving = [body for body in train.bodies if body not in train.fixed]
+    given = [({b: Fraction(1)}, v) for b, v in train.inputs.items() if b not in train.fixed]
+    found = solve(moving, [*_loose(train, rows), *given])
+    return replace(found, values={**found.values, **dict.fromkeys(train.fixed, Fraction(0))})
 
 
 def mesh_row(train: Train, roles: Roles, axes: Axes, mesh: Mesh) -> dict[str, Fraction]:
@@ -159,15 +163,15 @@ def mesh_row(train: Train, roles: Roles, axes: Axes, mesh: Mesh) -> dict[str, Fr
     return row
 
 
-def _rows(train: Train, roles: Roles, axes: Axes) -> list[Row[str]]:
-    """Equations of the meshes in the speeds of the moving bodies."""
-    return [
-        (
-            {b: v for b, v in mesh_row(train, roles, axes, m).items() if b not in train.fixed},
-            Fraction(0),
-        )
-        for m in train.meshes
-    ]
+def rows_of(train: Train, roles: Roles, axes: Axes) -> list[dict[str, Fraction]]:
+    """Return the equations of the meshes, in their order."""
+    return [mesh_row(train, roles, axes, mesh) for mesh in train.meshes]
+
+
+def _loose(train: Train, rows: Iterable[Mapping[str, Fraction]]) -> list[Row[str]]:
+    """Return equations in the speeds of the moving bodies."""
+    fixed, nothing = train.fixed, Fraction(0)
+    return [({b: v for b, v in row.items() if b not in fixed}, nothing) for row in rows]
 
 
 def _kind(train: Train, roles: Roles, mobility: int) -> TrainKind:

@@ -88,9 +88,8 @@ def draw(motion: Motion, settings: PictureSettings | None = None) -> Picture | N
     mm = train.unit_m / settings.mu_l
     scale = settings.longest_mm / most
     contacts = tuple(Contact(name, height * mm, speed * scale) for name, height, speed in points)
-    labels = dict.fromkeys(label.rstrip("'") for label in train.body_of)
     per = settings.pole_mm * scale / mm
-    rays = tuple((label, motion.speed(label) * per) for label in labels)
+    rays = tuple((label, motion.speed(label) * per) for label in train.numbers)
     per_mm = train.unit_m / scale
     return Picture(settings.mu_l, settings.pole_mm, per_mm, contacts, rays, train.rate)
 

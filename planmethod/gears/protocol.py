@@ -10,10 +10,9 @@ from planmethod.gears.construction import POLE, Construction, Reading, Spot, con
 from planmethod.gears.model import GearProblem
 from planmethod.gears.motion import Motion, solve_motion
 from planmethod.gears.picture import draw
-from planmethod.gears.told import calculation, given, speed_letter, speed_unit, symbol
-from planmethod.note.narrate.numbered import Steps
+from planmethod.gears.told import calculation, given, symbol
 from planmethod.note.numbers import raised
-from planmethod.note.plaintext import heading, plain_text, wrap
+from planmethod.note.plaintext import Steps, heading, plain_text, wrap
 from planmethod.note.rounding import rounded_to, sigma_text
 from planmethod.note.wording import Language, language
 
@@ -156,11 +155,11 @@ class _Teller:
 
     def _found(self) -> None:
         train = self.motion.train
-        known, unit = tuple(train.body_of), raised(self.words.gears.units[speed_unit(train)])
+        known, unit = tuple(train.body_of), raised(self.words.gears.units[train.units[0]])
         inputs = set(train.inputs) & set(self.drawn.starts)
         mu = float(self.seen.read.value["mu"])  # type: ignore[index]
-        letter = speed_letter(train)
-        said = {"symbol": f"μ_{{{letter}}}", "value": self.notation.short(mu, 4), "unit": unit}
+        scale, per_mm = f"μ_{{{train.letter}}}", self.notation.short(mu, 4)
+        said = {"symbol": scale, "value": per_mm, "unit": unit}
         by_input = "input" in self.drawn.data and not inputs
         said["from_what"] = self.say.steps["input" if by_input else "chosen"]
         self.out.item([self.say.steps["scale"].format(**said)])
@@ -171,7 +170,7 @@ class _Teller:
             parts = [f"(o{ray})" for ray in rays[: 2 if ratio else 1]]
             if "^" in one.name:
                 parts = [f"[{part} − (o{rays[-1]})]" for part in parts]
-            formula = "/".join(parts) if ratio else f"μ_{{{letter}}}·{parts[0]}"
+            formula = "/".join(parts) if ratio else f"{scale}·{parts[0]}"
             if one.name.startswith("omega") and train.unit == "n":
                 formula = f"π/30·{formula}"
             value, sigma = float(self.seen.read.value[one.read]), self.seen.sigma[one.read]

@@ -35,7 +35,7 @@ def record(problem: GearProblem, lang: str) -> dict[str, Any]:
         "redundant": motion.structure.spatial,
         "teeth": {x: _number(size) for x, size in sizes.items() if train.counted(x)},
         "radii_m": {x: _number(size) for x, size in metres.items()},
-        "unit": "1/min" if train.unit == "n" else "1/s",
+        "unit": train.units[0],
         "bodies": {label: _body(motion, label) for label in train.body_of},
         "asked": {name: _answer(answer(motion, name), words.reasons) for name in train.ask},
         "conditions": [

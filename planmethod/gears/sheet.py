@@ -10,13 +10,12 @@ from typing import NamedTuple
 from planmethod.construct.drafting import Profile
 from planmethod.construct.scale import series_near
 from planmethod.errors import LayoutError
+from planmethod.gears.arrangement import Order, arrange, best_order
 from planmethod.gears.construction import Construction, Reading, construct, read
-from planmethod.gears.drawn.front import front
+from planmethod.gears.drawn.pictures import angular, angular_spans, front, linear, linear_spans
 from planmethod.gears.drawn.side import Side
-from planmethod.gears.drawn.velocities import angular, angular_spans, linear, linear_spans
 from planmethod.gears.model import GearProblem, PictureSettings
 from planmethod.gears.motion import Motion, solve_motion
-from planmethod.gears.order import Order, arrange, best_order
 from planmethod.gears.picture import draw
 from planmethod.gears.scheme import Scheme
 from planmethod.gears.told import calculation, given, results

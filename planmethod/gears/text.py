@@ -2,19 +2,20 @@
 
 from __future__ import annotations
 
-import math
+from collections.abc import Mapping
 from fractions import Fraction
 
+from planmethod.errors import PlanMethodError
 from planmethod.gears.answers import answer, rack_speed
 from planmethod.gears.conditions import conditions, sentence
 from planmethod.gears.model import GearProblem, Mesh, MeshKind
 from planmethod.gears.motion import Motion, Structure, TrainKind, analyse, mesh_row, solve_motion
 from planmethod.gears.picture import draw
 from planmethod.gears.roles import Roles
-from planmethod.gears.tabular import Turns, tabular
 from planmethod.note.numbers import MINUS
 from planmethod.note.plaintext import columns_text, found, heading, spoken, table, wrap
 from planmethod.note.wording import Language, language
+from planmethod.record import dataclass
 
 
 def solved_text(problem: GearProblem, lang: str) -> str:
@@ -84,9 +85,9 @@ def _structure(problem: GearProblem, roles: Roles, found: Structure, words: Lang
     return lines
 
 
-def _shown(value: Fraction) -> str:
-    """Return a fraction, whole numbers without a denominator."""
-    return str(value).replace("-", MINUS)
+def fraction_text(value: Fraction | None) -> str:
+    """Return a fraction, whole numbers without a denominator; a dash of none."""
+    return "—" if value is None else str(value).replace("-", MINUS)
 
 
 def _equation(motion: Motion, mesh: Mesh, words: Language) -> str:
@@ -105,20 +106,19 @@ def equation_of(motion: Motion, mesh: Mesh) -> tuple[str, str]:
     train = motion.train
     row = mesh_row(train, motion.roles, motion.axes, mesh)
     one, other = train.ends(mesh)
-    letter = "n" if train.unit == "n" else "ω"
 
     def speed(label: str, body: str) -> str:
         if body in train.racks:
             return f"v_{{{label}}}"
         if mesh.carrier is None or body in motion.roles.across:
-            return f"{letter}_{{{label}}}"
-        return f"({letter}_{{{label}}} − {letter}_{{{mesh.carrier}}})"
+            return f"{train.letter}_{{{label}}}"
+        return f"({train.letter}_{{{label}}} − {train.letter}_{{{mesh.carrier}}})"
 
     sign = MINUS if row[other] > 0 else ""
-    size = "" if mesh.kind is MeshKind.RACK else f"·{_shown(abs(row[other]))}"
-    left = f"{speed(mesh.first, one)}·{_shown(row[one])}"
+    size = "" if mesh.kind is MeshKind.RACK else f"·{fraction_text(abs(row[other]))}"
+    left = f"{speed(mesh.first, one)}·{fraction_text(row[one])}"
     hat = "" if mesh.carrier is None else f"^{{{mesh.carrier}}}"
-    ratio = f"U{hat}_{{{mesh.first}-{mesh.second}}} = {_shown(-row[other] / row[one])}"
+    ratio = f"U{hat}_{{{mesh.first}-{mesh.second}}} = {fraction_text(-row[other] / row[one])}"
     return f"{left} = {sign}{speed(mesh.second, other)}{size}", ratio
 
 
@@ -139,19 +139,16 @@ def _wheels(motion: Motion, words: Language) -> list[str]:
 
 def _size(value: Fraction, words: Language) -> str:
     if value.denominator == 1:
-        return _shown(value)
+        return fraction_text(value)
     return found(float(value), words.note)
 
 
 def _speeds(motion: Motion, words: Language) -> list[str]:
     train, say = motion.train, words.gears
-    turns = train.unit == "n"
-    said = {"letter": "n" if turns else "ω", "other": "ω" if turns else "n"}
-    units = ("1/min", "1/s") if turns else ("1/s", "1/min")
-    said["unit"], said["other_unit"] = (say.units[unit] for unit in units)
-    factor = math.pi / 30 if turns else 30 / math.pi
+    said = {"letter": train.letter, "other": "ω" if train.letter == "n" else "n"}
+    said["unit"], said["other_unit"] = (say.units[unit] for unit in train.units)
     rows, notes = [], []
-    for label in dict.fromkeys(label.rstrip("'") for label in train.body_of):
+    for label in train.numbers:
         body, speed = train.body_of[label], motion.speed(label)
         if body in train.racks:
             metres = rack_speed(motion, label)
@@ -160,14 +157,14 @@ def _speeds(motion: Motion, words: Language) -> list[str]:
             continue
         relative = [
             say.relative.format(
-                letter=said["letter"], carrier=c, value=_shown(motion.speed(label, c))
+                letter=said["letter"], carrier=c, value=fraction_text(motion.speed(label, c))
             )
             for c in train.carriers
             if body in (*motion.roles.central[c], *motion.roles.satellites[c])
         ]
-        other = found(float(speed) * factor, words.note)
+        other = found(float(speed) * train.factor, words.note)
         value = found(float(speed), words.note)
-        rows.append([label, value, _shown(speed), other, "; ".join(relative)])
+        rows.append([label, value, fraction_text(speed), other, "; ".join(relative)])
         if body in motion.roles.across:
             notes += wrap(say.across.format(label=label), rest="  ")
     return table([head.format(**said) for head in say.columns_speeds], rows) + notes
@@ -175,12 +172,15 @@ def _speeds(motion: Motion, words: Language) -> list[str]:
 
 def _tabular(motion: Motion, turns: Turns, words: Language) -> list[str]:
     say = words.gears
-    letter = "n" if motion.train.unit == "n" else "ω"
+    letter = motion.train.letter
     said = {"carrier": turns.carrier, "wheel": ", ".join(turns.started)}
     head = wrap(say.tabular.format(**said), rest="  ")
     total = {body: speed + turns.held[body] for body, speed in turns.together.items()}
     rows = [
-        [name.format(letter=letter, carrier=turns.carrier), *(_shown(part[body]) for body in total)]
+        [
+            name.format(letter=letter, carrier=turns.carrier),
+            *(fraction_text(part[body]) for body in total),
+        ]
         for name, part in zip(say.tabular_rows, (turns.together, turns.held, total), strict=True)
     ]
     return [*head, *columns_text(list(zip(("", *total), *rows, strict=True)), 1)]
@@ -194,7 +194,7 @@ def _asked(motion: Motion, words: Language) -> list[str]:
             reason = say.reasons[one.reason].format(label=one.label)
             notes += wrap(f"{name}: {reason}", rest="  ")
             continue
-        exact = "" if one.exact is None else _shown(one.exact)
+        exact = "" if one.exact is None else fraction_text(one.exact)
         unit = say.units[one.unit] if one.unit else ""
         whole = one.exact is not None and one.exact.denominator == 1
         value = exact if whole else found(one.value, words.note)
@@ -237,3 +237,80 @@ def _published(problem: GearProblem, motion: Motion, words: Language) -> list[st
         if one.note:
             notes += wrap(f"{one.name}: {one.note}", rest="  ")
     return table(list(say.columns_published), rows) + notes
+
+
+@dataclass(frozen=True, slots=True)
+class Turns:
+    """The table of one carrier (таблица вращений).
+
+    Attributes
+    ----------
+    carrier : str
+    started : tuple of str
+        Bodies that are turned while the carrier is held; the others follow by the stages.
+    together, held : mapping
+        By body: speeds of the locked train, and those with the carrier held. Their sum is the
+        speed; of a body across the main axis that is its own turning, with the carrier it has none.
+    """
+
+    carrier: str
+    started: tuple[str, ...]
+    together: Mapping[str, Fraction]
+    held: Mapping[str, Fraction]
+
+
+def tabular(motion: Motion) -> tuple[Turns, ...]:
+    """Make the tables of all carriers that may turn, and compare their sums with the speeds.
+
+    Raises
+    ------
+    PlanMethodError
+        A sum is not the speed that the mesh equations give: a mistake of ours.
+    """
+    return tuple(
+        _table(motion, carrier)
+        for carrier in motion.train.carriers
+        if carrier not in motion.train.fixed
+    )
+
+
+def _table(motion: Motion, carrier: str) -> Turns:
+    train, roles = motion.train, motion.roles
+    central = roles.central[carrier]
+    bodies = (*central, *roles.satellites[carrier])
+    locked = motion.speeds[carrier]
+    together = {b: Fraction(0) if b in roles.across else locked for b in bodies}
+    sources = sorted(bodies, key=lambda b: (b not in train.fixed, b not in train.inputs))
+    held: dict[str, Fraction] = {}
+    started = []
+    for source in sources:
+        if source in held:
+            continue
+        started.append(source)
+        held[source] = motion.speeds[source] - together[source]
+        for _ in train.meshes:
+            _follow(motion, carrier, held)
+    for body in bodies:
+        if together[body] + held[body] != motion.speeds[body]:
+            raise PlanMethodError(
+                "the tabular method gives {} the speed {}, the mesh equations {}; please "
+                "report the problem file",
+                body,
+                together[body] + held[body],
+                motion.speeds[body],
+            )
+    return Turns(
+        carrier, tuple(started), {carrier: locked} | together, {carrier: Fraction(0)} | held
+    )
+
+
+def _follow(motion: Motion, carrier: str, held: dict[str, Fraction]) -> None:
+    """Carry the turning on through each mesh that has one end turned already."""
+    train = motion.train
+    for mesh in train.meshes:
+        if train.carrier(mesh) != carrier:
+            continue
+        row = mesh_row(train, motion.roles, motion.axes, mesh)
+        for near, far in (train.ends(mesh), train.ends(mesh)[::-1]):
+            if near in held and far not in held:
+                held[far] = -held[near] * row[near] / row[far]

@@ -9,9 +9,8 @@ from planmethod.gears.answers import Answer, answer
 from planmethod.gears.asked import parse
 from planmethod.gears.conditions import conditions, sentence
 from planmethod.gears.construction import Construction, Reading
-from planmethod.gears.model import Train
 from planmethod.gears.motion import Motion
-from planmethod.gears.text import equation_of
+from planmethod.gears.text import equation_of, fraction_text
 from planmethod.note.numbers import MINUS, raised
 from planmethod.note.rounding import sigma_text
 from planmethod.note.wording import Language
@@ -40,25 +39,10 @@ def unit_of(one: Answer, words: Language) -> str:
     return raised(words.gears.units[one.unit]) if one.unit else ""
 
 
-def speed_unit(train: Train) -> str:
-    """Return the unit of the inputs by its key: ``1/min`` or ``1/s``."""
-    return "1/min" if train.unit == "n" else "1/s"
-
-
-def speed_letter(train: Train) -> str:
-    """Return the letter of the speeds of the inputs."""
-    return "n" if train.unit == "n" else "ω"
-
-
 def indexed(text: str) -> str:
     """Return plain text with indices as rich text: ``z_2'`` gives ``z_{2'}``, ``p₁`` ``p_{1}``."""
     braced = re.sub(r"_([\w']+)", r"_{\1}", text)
     return re.sub("[₁₂]", lambda sign: f"_{{{'₁₂'.index(sign[0]) + 1}}}", braced)
-
-
-def fraction_text(value: object) -> str:
-    """Return a fraction, or a float's place of none."""
-    return "—" if isinstance(value, float) or value is None else str(value).replace("-", MINUS)
 
 
 def given(motion: Motion, words: Language) -> list[str]:
@@ -72,10 +56,10 @@ def given(motion: Motion, words: Language) -> list[str]:
             value = f"{say.given(float(size * train.unit_m))} {words.gears.units['m']}"
         by = told.by_coaxiality if label in train.unknown else "{symbol} = {value}"
         facts.append(by.format(symbol=letter, value=value))
-    unit = raised(words.gears.units[speed_unit(train)])
+    unit = raised(words.gears.units[train.units[0]])
     for body, speed in train.inputs.items():
         value = say.given(float(speed))
-        facts.append(f"{speed_letter(train)}_{{{body}}} = {value} {unit}")
+        facts.append(f"{train.letter}_{{{body}}} = {value} {unit}")
     if train.module is not None:
         facts.append(told.module.format(value=say.given(float(train.module * 1000))))
     if train.fixed:
@@ -95,7 +79,7 @@ def calculation(motion: Motion, words: Language) -> list[str]:
     ]
     for mesh in train.meshes:
         lines.append(";  ".join(equation_of(motion, mesh)))
-    letter, known = speed_letter(train), tuple(train.body_of)
+    letter, known = train.letter, tuple(train.body_of)
     for name in dict.fromkeys(train.ask):
         asked, one = parse(name, known), answer(motion, name)
         if asked.kind != "U":
@@ -139,8 +123,8 @@ def results(
     """Yield rows: symbol with unit, fraction, decimal, read off, sigma, difference in per cent."""
     train, say = motion.train, words.say
     known = tuple(train.body_of)
-    labels = dict.fromkeys(label.rstrip("'") for label in train.body_of)
-    speeds = [f"{'v' if train.body_of[x] in train.racks else train.unit}_{x}" for x in labels]
+    racks = [train.body_of[x] in train.racks for x in train.numbers]
+    speeds = [f"{'v' if r else train.unit}_{x}" for r, x in zip(racks, train.numbers, strict=True)]
     found = {} if drawn is None else {one.name: one for one in drawn.found}
     for name in dict.fromkeys([*speeds, *train.ask]):
         if drawn is not None and name not in found:

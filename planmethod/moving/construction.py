@@ -15,17 +15,16 @@ from typing import Any
 import numpy as np
 
 from planmethod.construct.arithmetic import Arithmetic, Float64
-from planmethod.construct.drafting import Counted, Profile, Propagated
-from planmethod.construct.dual import as_dual
+from planmethod.construct.drafting import Profile, sigmas
 from planmethod.construct.evaluate import Trace, evaluate
 from planmethod.construct.hand import Hand
 from planmethod.construct.program import Builder, Program
 from planmethod.construct.scale import Scale
 from planmethod.construct.steps import LineName, NumberName, PointName
-from planmethod.moving.bounded import Reals
 from planmethod.moving.course import Course
 from planmethod.moving.model import Law, PointProblem
 from planmethod.moving.motion import Motion, Undefined
+from planmethod.moving.series import Reals
 from planmethod.record import dataclass
 
 READ = ("v", "a", "a_tangential", "a_normal", "rho")
@@ -33,6 +32,9 @@ READ = ("v", "a", "a_tangential", "a_normal", "rho")
 
 POLES = {"v": PointName("p"), "a": PointName("π")}
 """Poles of the two plans."""
+
+FREE = frozenset(POLES.values())
+"""Points that may stand anywhere."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -84,24 +86,8 @@ class Construction:
 
     def sigma(self, profile: Profile) -> dict[str, float]:
         """Return the drafting errors of the results, one standard deviation."""
-        found = sigmas(self.program, self.data, profile)
+        found = sigmas(self.program, self.data, profile, FREE)
         return {key: float(found[name][0]) for key, name in self.results.items()}
-
-
-def sigmas(program: Program, data: Mapping[str, Any], profile: Profile) -> dict[str, Reals]:
-    """Return how far the numbers of a drawing may be off, by first order; poles stand anywhere."""
-    free = frozenset(POLES.values())
-    counted = Counted(profile, free)
-    evaluate(program, data, counted)
-    trace = evaluate(program, data, Propagated(profile, free, counted.causes))
-    found: dict[str, Reals] = {}
-    for name, value in trace.value.items():
-        if isinstance(value, tuple) or np.iscomplexobj(as_dual(value).value):
-            continue
-        slope = as_dual(value).slope
-        zero = np.zeros(np.shape(np.atleast_1d(as_dual(value).value)))
-        found[name] = zero if slope is None else zero + np.sqrt(np.sum(np.abs(slope) ** 2, axis=0))
-    return found
 
 
 @dataclass(slots=True)
@@ -355,4 +341,6 @@ def read_hodograph(course: Course, scale: Scale, profile: Profile) -> ChordReadi
     found = b.compute("a", (chord, 1), (b.known("time"), -1), factor=scale.per_mm)
     program = b.program()
     read = evaluate(program, data, Hand(ruler=profile.ruler)).value[found]
-    return ChordReading(tuple(inner), read, sigmas(program, data, profile)[found], column["a"][k])
+    return ChordReading(
+        tuple(inner), read, sigmas(program, data, profile, FREE)[found], column["a"][k]
+    )

@@ -12,9 +12,9 @@ from numpy.typing import NDArray
 from planmethod.construct.scale import series_near
 from planmethod.errors import Fault, ProblemError
 from planmethod.languages import say
-from planmethod.moving.bounded import Reals
 from planmethod.moving.model import PointProblem
 from planmethod.moving.motion import Motion, Undefined, move
+from planmethod.moving.series import Reals
 from planmethod.record import dataclass, replace
 
 Complexes: TypeAlias = NDArray[np.complexfloating[Any, Any]]

@@ -13,7 +13,7 @@ from planmethod.moving.model import PointProblem
 from planmethod.moving.motion import Motion, move
 from planmethod.moving.reader import WHAT, column_of
 from planmethod.moving.sheet import sheet_scales
-from planmethod.moving.told import SYMBOLS, unit_of
+from planmethod.moving.text import SYMBOLS, unit_of
 from planmethod.problem.figures import Figure, Mistaken, Taken
 from planmethod.record import replace
 

@@ -7,9 +7,8 @@ from enum import Enum
 import numpy as np
 
 from planmethod.construct.jet import Jet
-from planmethod.moving.bounded import ROUNDOFF, Bounded, Reals, bounded, length
 from planmethod.moving.model import Law, PointProblem, Wheel
-from planmethod.moving.series import CALLS, evaluate
+from planmethod.moving.series import CALLS, ROUNDOFF, Bounded, Reals, bounded, evaluate, length
 from planmethod.record import dataclass
 
 

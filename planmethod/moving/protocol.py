@@ -16,8 +16,8 @@ from planmethod.construct.steps import LineName, Name, PointName, Step
 from planmethod.moving.construction import POLES, Construction, construct, read_hodograph
 from planmethod.moving.course import Course, course_of
 from planmethod.moving.model import PointProblem
-from planmethod.moving.sheet import sheet_scales
-from planmethod.moving.told import SYMBOLS, law_lines, moment_lines, unit_of
+from planmethod.moving.sheet import read_rows, sheet_scales
+from planmethod.moving.text import law_lines, moment_lines, unit_of
 from planmethod.note.narrate.scales import scale_inscription
 from planmethod.note.numbers import significant, with_unit
 from planmethod.note.plaintext import heading, plain_text, table, wrap
@@ -74,14 +74,8 @@ def _readings(
     built: Construction, course: Course, k: int, words: Language, profile: Profile
 ) -> list[str]:
     """Return what the drawing gives beside the exact values, with its error."""
-    ruled, sigma, say = built.ruled(profile.ruler), built.sigma(profile), words.say
-    rows = []
-    for name in built.results:
-        exact = float(course.marks.columns[name][k]) + 0.0
-        read = say.number(rounded_to(ruled[name], sigma[name])) if np.isfinite(ruled[name]) else "—"
-        error = say.number(sigma_text(sigma[name])) if np.isfinite(sigma[name]) else "—"
-        cells = (f"{SYMBOLS[name]}, {say.units[unit_of(name)]}", say.number(significant(exact)))
-        rows.append([plain_text(cell) for cell in (*cells, read, error)])
+    whole = read_rows(built, course.marks, k, words, profile)
+    rows = [[plain_text(cell) for cell in row] for row in whole]
     title = words.point.read_title.format(profile=words.note.profiles[profile.name])
     return [title, *table(words.point.read, rows)]
 

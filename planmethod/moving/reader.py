@@ -11,10 +11,8 @@ import numpy as np
 
 from planmethod.errors import ProblemError
 from planmethod.languages import say
-from planmethod.moving.bounded import ROUNDOFF
-from planmethod.moving.formula import Formula, read_formula
-from planmethod.moving.model import FORMULAS, Law, PointProblem, Wheel
-from planmethod.moving.series import evaluate
+from planmethod.moving.model import FORMULAS, Formula, Law, PointProblem, Wheel, read_formula
+from planmethod.moving.series import ROUNDOFF, evaluate
 from planmethod.problem import fields, keys
 from planmethod.problem.answers import Plain, read_answers
 from planmethod.problem.drive import read_scales, spread, too_many

@@ -17,7 +17,7 @@ from planmethod.languages import LANGUAGES
 from planmethod.moving.construction import Construction, construct, read_hodograph
 from planmethod.moving.course import Course, course_of
 from planmethod.moving.model import PointProblem
-from planmethod.moving.motion import COLUMNS
+from planmethod.moving.motion import COLUMNS, Motion
 from planmethod.moving.pictures import (
     hodograph_picture,
     length_scale,
@@ -25,7 +25,7 @@ from planmethod.moving.pictures import (
     trajectory_picture,
     vector_scales,
 )
-from planmethod.moving.told import SYMBOLS, law_lines, moment_lines, textbook, unit_of
+from planmethod.moving.text import SYMBOLS, law_lines, moment_lines, textbook, unit_of
 from planmethod.note.narrate.scales import scale_inscription
 from planmethod.note.numbers import alike, significant
 from planmethod.note.plaintext import plain_text
@@ -251,19 +251,10 @@ class _Sheet:
 
     def _read(self, built: Construction, k: int) -> Block:
         """Return what the drawing gives beside the exact values, and its error."""
-        say, said, sigma = self.words.say, self.words.point, built.sigma(self.profile)
-        ruled = built.ruled(self.profile.ruler)
-        names = [name for name in built.results if np.isfinite(ruled[name])]
-        cells: list[list[str]] = [[], [], [], []]
-        for name in names:
-            exact = float(self.course.marks.columns[name][k])
-            unit = self.words.say.units[unit_of(name)]
-            cells[0].append(f"{SYMBOLS[name]}, {unit}")
-            cells[1].append(say.number(significant(exact)))
-            cells[2].append(say.number(rounded_to(ruled[name], sigma[name])))
-            cells[3].append(say.number(sigma_text(sigma[name])))
+        whole = read_rows(built, self.course.marks, k, self.words, self.profile)
+        rows, said = [row for row in whole if row[2] != "—"], self.words.point
         columns = [
-            TableColumn(head, tuple(own)) for head, own in zip(said.read, cells, strict=True)
+            TableColumn(head, tuple(row[n] for row in rows)) for n, head in enumerate(said.read)
         ]
         title = said.read_title.format(profile=self.words.note.profiles[self.profile.name])
         return Column([Line(typeset(title, TEXT)), table_block(columns, TEXT, units="none")], 2.5)
@@ -296,6 +287,18 @@ class _Sheet:
         )
         notes = [] if len(chords.at) < 2 else [paragraph(said.chord_note, 2.5, STAMP_WIDTH)]
         return Column([Line(typeset(said.table, TEXT)), table, *notes], gap=2.5)
+
+
+def read_rows(
+    built: Construction, marks: Motion, k: int, words: Language, profile: Profile
+) -> Iterator[tuple[str, str, str, str]]:
+    """Yield what the drawing gives beside the exact values, rich text: symbol, exact, read, σ."""
+    ruled, sigma, say = built.ruled(profile.ruler), built.sigma(profile), words.say
+    for name in built.results:
+        exact = significant(float(marks.columns[name][k]) + 0.0)
+        read = say.number(rounded_to(ruled[name], sigma[name])) if np.isfinite(ruled[name]) else "—"
+        error = say.number(sigma_text(sigma[name])) if np.isfinite(sigma[name]) else "—"
+        yield f"{SYMBOLS[name]}, {say.units[unit_of(name)]}", say.number(exact), read, error
 
 
 def _on_pages(parts: Sequence[Part], rooms: Sequence[Room]) -> _Pages | None:

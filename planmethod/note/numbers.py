@@ -181,5 +181,6 @@ def to_decimals(value: float, decimals: int, digits: int = 4) -> str:
     >>> to_decimals(147.15, 1), to_decimals(85.2, 0), to_decimals(233333.3, 0)
     ('147.2', '85', '233300')
     """
-    shown = value if decimals else float(significant(value, digits))
+    whole = not decimals and math.isfinite(value)
+    shown = float(significant(value, digits)) if whole else value
     return f"{half_up(shown, decimals) + 0.0:.{decimals}f}"

@@ -1,18 +1,19 @@
-"""Plain text for a terminal or a note: rich text made plain, numbers, wrapping, aligned tables."""
+"""Plain text for a terminal or a note: rich text made plain, wrapping, tables, numbered steps."""
 
 from __future__ import annotations
 
 import re
 import textwrap
 import unicodedata
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING
 
-from planmethod.note.numbers import rich_number, significant, trimmed
+from planmethod.note.numbers import Notation, rich_number, significant, trimmed
 from planmethod.pattern import pattern
 
 if TYPE_CHECKING:
     from planmethod.note.wording.model import Wording
+
 
 WIDTH = 100
 """Columns of the terminal that every table and paragraph keeps to."""
@@ -135,3 +136,55 @@ def columns_text(columns: Sequence[Sequence[str]], lead: int) -> list[str]:
 def heading(text: str, rule: str = "─") -> list[str]:
     """Return a heading and the line under it."""
     return [text, rule * width(text)]
+
+
+def plain_columns(
+    columns: Iterable[tuple[str, str, Sequence[str]]], say: Notation
+) -> Iterator[list[str]]:
+    """Yield columns of head, unit of SI or none, and cells: the unit stands in the head."""
+    for head, unit, cells in columns:
+        told = f"{head}, {say.in_head(unit)}" if unit else head
+        yield [plain_text(told), *map(plain_text, cells)]
+
+
+INDENT = " " * 5
+"""What stands before the lines of a step, under its number."""
+
+_WORD = pattern(r"^[^\W\d_]+")
+"""Letters that a unit begins with: between a number and them no line is cut."""
+
+
+class Steps:
+    """Plain text while it is being written: headings, and steps numbered through all of them."""
+
+    def __init__(self, words: Wording) -> None:
+        self.lines: list[str] = []
+        units = "|".join(name for unit in words.units.values() for name in _WORD.findall(unit))
+        self._unit = pattern(rf"(?<=\d) (?=(?:{units})(?![^\W\d_]))")
+        self._step = self._chapter = self._part = 0
+
+    def chapter(self, title: str) -> None:
+        """Begin a chapter."""
+        self._chapter, self._part = self._chapter + 1, 0
+        self.lines += ["", *heading(f"{self._chapter}. {title}"), ""]
+
+    def part(self, title: str) -> None:
+        """Begin a part of the chapter."""
+        self._part += 1
+        blank = [] if self.lines[-1] == "" else [""]
+        self.lines += [*blank, f"{self._chapter}.{self._part}. {title}", ""]
+
+    def item(self, lines: Sequence[str], *, more: bool = False) -> None:
+        """Write a numbered step of rich text; ``more`` goes on with the last one."""
+        if not lines:
+            return
+        if not more:
+            self._step += 1
+        for i, line in enumerate(lines):
+            first = f"{self._step:>3}) " if i == 0 and not more else INDENT
+            text = self._unit.sub(NO_BREAK, plain_text(line))
+            self.lines += wrap(text, first=first, rest=INDENT)
+
+    def formulas(self, lines: Sequence[str]) -> None:
+        """Write lines that must not be wrapped, such as an equation over its underlines."""
+        self.lines += [*(f"{INDENT}{line}" for line in lines), ""]

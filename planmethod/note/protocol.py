@@ -7,10 +7,9 @@ from planmethod.mechanism.model import FRAME
 from planmethod.note.narrate.equations import equation_lines
 from planmethod.note.narrate.given import given as given_facts
 from planmethod.note.narrate.naming import Names
-from planmethod.note.narrate.numbered import Steps
 from planmethod.note.narrate.steps import Narrator
 from planmethod.note.narrate.structure import group_title
-from planmethod.note.plaintext import NO_BREAK, given, heading, plain_text, wrap
+from planmethod.note.plaintext import NO_BREAK, Steps, given, heading, plain_text, wrap
 from planmethod.note.tables.results import position_line, position_tables, scale_texts
 from planmethod.note.tables.turn import cycle_protocol
 from planmethod.note.wording import Wording, language, wording

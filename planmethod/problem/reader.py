@@ -278,7 +278,7 @@ def _read_parts(
         dynamics = read_dynamics(faults, given, links, frame.points, drive, machine)
     balancing = None
     if "balancing" in given:
-        from planmethod.problem.balancing import read_balancing  # few files have one
+        from planmethod.problem.dynamics import read_balancing  # few files have one
 
         balancing = read_balancing(faults, given, tuple(links), drive, dynamics)
     cycle = None

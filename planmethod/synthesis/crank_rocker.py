@@ -19,9 +19,9 @@ from planmethod.construct.steps import Side, Way
 from planmethod.errors import AssemblyError
 from planmethod.languages import say
 from planmethod.solved.turn.roots import top
-from planmethod.synthesis.board import Board
 from planmethod.synthesis.model import (
     AskedError,
+    Board,
     Pose,
     Synthesis,
     Table,

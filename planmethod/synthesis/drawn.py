@@ -1,9 +1,9 @@
-"""The construction as it is drawn (чертёж): its scale, the ruler's readings, their errors."""
+"""The construction as it is drawn (чертёж): scale, the ruler's readings, their errors, record."""
 
 from __future__ import annotations
 
 import cmath
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from functools import cached_property
 from itertools import pairwise
 from math import tau
@@ -17,6 +17,7 @@ from planmethod.construct.evaluate import Trace, evaluate
 from planmethod.construct.hand import Hand
 from planmethod.construct.scale import choose_scale, series_near
 from planmethod.construct.steps import LineName, NumberName, PointName, makes
+from planmethod.note.numbers import finite_or_none
 from planmethod.record import dataclass, replace
 from planmethod.solved.errors.drawing import Drafted, DrawnKind, DrawnQuantity, number
 from planmethod.solved.errors.spread import Errors
@@ -155,3 +156,29 @@ def arc_over(
     k = max(range(len(gaps)), key=gaps.__getitem__)
     radius = abs(place(trace, points[0]) - middle)
     return middle, radius, turns[(k + 1) % len(turns)], tau - gaps[k]
+
+
+def synthesis_record(
+    drawn: Drawn, asked: Mapping[str, Any], checks: Mapping[str, Any]
+) -> dict[str, Any]:
+    """Return lengths (m), checks (m, degrees), and what a drawing by hand gives.
+
+    Parameters
+    ----------
+    asked : mapping
+        The options as they were given.
+    """
+    made = drawn.synthesis
+    sigma = drawn.sigma
+    return {
+        "schema": 1,
+        "kind": made.kind,
+        "given": {name: value for name, value in asked.items() if value is not None},
+        "lengths": made.metres(),
+        "checks": dict(checks),
+        "drawing": {
+            "mu_l": drawn.mu,
+            "read": {name: finite_or_none(drawn.read(name)) for name in made.lengths},
+            "sigma": {name: finite_or_none(sigma[name]) for name in made.lengths},
+        },
+    }

@@ -26,6 +26,7 @@ from planmethod.render.ink.drawing import Bounds, Drawing, Item, Pen, Stroke
 from planmethod.render.ink.lettering import lettering, using
 from planmethod.render.ink.typeset import typeset
 from planmethod.render.labels import BUSY, Label
+from planmethod.render.labels.spots import shared_spots
 from planmethod.render.layout.block import (
     Block,
     Column,
@@ -283,14 +284,7 @@ class _Ink:
 
     def labels(self) -> list[Label]:
         """Return the letters of the points; points in one place have one label."""
-        groups: list[tuple[complex, list[str]]] = []
-        for name in self.drawn.shown:
-            at = self.at(name)
-            near = next((names for other, names in groups if abs(other - at) < _SAME), None)
-            if near is None:
-                groups.append((at, [name]))
-            else:
-                near.append(name)
+        groups = shared_spots([(self.at(name), [name]) for name in self.drawn.shown], near=_SAME)
         middle = complex(self.box[0] + self.box[2], self.box[1] + self.box[3]) / 2
         return [
             Label(

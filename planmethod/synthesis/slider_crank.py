@@ -16,9 +16,9 @@ import numpy as np
 from planmethod.construct.steps import Side, Way
 from planmethod.errors import AssemblyError
 from planmethod.solved.turn.roots import root, top
-from planmethod.synthesis.board import Board
 from planmethod.synthesis.model import (
     AskedError,
+    Board,
     Pose,
     Synthesis,
     Table,

@@ -12,8 +12,7 @@ from typing import Any
 
 from planmethod.construct.steps import Way
 from planmethod.errors import AssemblyError
-from planmethod.synthesis.board import Board
-from planmethod.synthesis.model import Pose, Synthesis, Table, angle_of_ratio, chosen
+from planmethod.synthesis.model import Board, Pose, Synthesis, Table, angle_of_ratio, chosen
 
 TAKES = ("K_v", "swing", "centres", "stroke", "rod")
 

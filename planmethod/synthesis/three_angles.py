@@ -14,10 +14,8 @@ import numpy as np
 
 from planmethod.errors import AssemblyError
 from planmethod.record import replace
-from planmethod.synthesis.board import Board
-from planmethod.synthesis.model import AskedError, Synthesis, chosen, lengths_of, place, read
-from planmethod.synthesis.passage import passage
-from planmethod.synthesis.three_positions import synthesis_of
+from planmethod.synthesis.model import AskedError, Board, Synthesis, chosen, lengths_of, place, read
+from planmethod.synthesis.three_positions import passage, synthesis_of
 
 TAKES = ("angles", "centres")
 

@@ -11,8 +11,7 @@ from worked import problem_of
 from benchmarks import at_once
 from benchmarks.scenes import loaded
 from planmethod.bench import forces
-from planmethod.bench.clock import Timing
-from planmethod.bench.speed import turn
+from planmethod.bench.speed import Timing, turn
 from planmethod.solved.forces.statics import statics_of
 from planmethod.solved.solution import Solution
 

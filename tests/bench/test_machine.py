@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 from worked import path_of
 
-from planmethod.bench.machine import constructed
+from planmethod.bench.cycle import constructed
 from planmethod.bench.report import machine_section
 from planmethod.problem import load
 from planmethod.solved.machine.flywheel import Flywheel

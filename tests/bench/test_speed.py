@@ -13,8 +13,8 @@ from worked import problem_of
 
 from benchmarks import hard_problems
 from benchmarks.scenes import FOURBAR_ROWS, fourbar, slotted
-from planmethod.bench import clock, report, speed
-from planmethod.bench.clock import Timing
+from planmethod.bench import report, speed
+from planmethod.bench.speed import Timing
 from planmethod.problem import loads
 from planmethod.problem.model import Problem
 
@@ -27,7 +27,6 @@ def once(act: Callable[[], object], **_: float) -> Timing:
 @pytest.fixture(autouse=True)
 def quickly(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(speed, "clock", once)
-    monkeypatch.setattr(clock, "clock", once)
 
 
 def test_readings_are_as_good_as_their_digits() -> None:

@@ -10,7 +10,7 @@ from click.testing import CliRunner
 from worked import path_of, problem_of
 
 from planmethod.bench import checking, report
-from planmethod.bench.clock import Timing
+from planmethod.bench.speed import Timing
 from planmethod.cli import cli
 
 

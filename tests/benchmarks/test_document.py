@@ -14,9 +14,9 @@ from benchmarks.__main__ import main
 from benchmarks.figure import draw
 from benchmarks.peers import ROWS, peers
 from benchmarks.scenes import FOURBAR_ROWS, chain, fourbar
-from planmethod.bench import clock, speed
-from planmethod.bench.clock import Timing
+from planmethod.bench import speed
 from planmethod.bench.report import speed_section
+from planmethod.bench.speed import Timing
 from planmethod.solved.many.sweep import Sweep
 
 
@@ -29,7 +29,6 @@ def once(act: Callable[[], object], **_: float) -> Timing:
 def quickly(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(speed, "clock", once)
     monkeypatch.setattr(rivals, "clock", once)
-    monkeypatch.setattr(clock, "clock", once)
 
 
 def test_all_who_are_compared_compute_the_same() -> None:

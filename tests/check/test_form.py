@@ -19,8 +19,8 @@ from worked import path_of
 from planmethod.check.form import fingerprint_of, form_of
 from planmethod.check.model import KeyEntry, Sense, Unread, Work
 from planmethod.check.works import read_works
+from planmethod.check.works.cells import HEADS, key, read_sense
 from planmethod.check.works.units import read_unit
-from planmethod.check.works.vocabulary import HEADS, key, read_sense
 from planmethod.cli import cli
 from planmethod.errors import ExitCode
 from planmethod.note.wording import LANGUAGES, language

@@ -18,7 +18,7 @@ from click.testing import CliRunner, Result
 from worked import ROOT, path_of, problem_of
 
 from planmethod.bench import forces, report, speed
-from planmethod.bench.clock import Timing
+from planmethod.bench.speed import Timing
 from planmethod.cli import cli
 from planmethod.construct.drafting import PROFILES
 from planmethod.construct.steps import PointName
@@ -159,7 +159,7 @@ def test_bench_measures_forces_of_a_problem_with_loads(monkeypatch: pytest.Monke
     monkeypatch.setattr(report, "COUNTS", (1, 12))
     monkeypatch.setattr(forces, "DRAWS", 400)
     for module in (forces, speed):
-        monkeypatch.setattr(module, "clock", lambda act: Timing(1e-3, 1e-3, 1e-3, 1))
+        monkeypatch.setattr(module, "clock", lambda act, **_: Timing(1e-3, 1e-3, 1e-3, 1))
     told = run("bench", SIX_LINK, "--only", "forces", "--only", "speed")
     assert told.exit_code == 0, told.output
     for row in ("| sweep, float64 | six-link | 12 |", "| the hand, ruler 0.1 mm | six-link | 1 |"):

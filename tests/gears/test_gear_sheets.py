@@ -17,9 +17,8 @@ from worked import PROBLEMS
 from planmethod.cli import cli
 from planmethod.construct.drafting import PROFILES
 from planmethod.errors import ExitCode, LayoutError
-from planmethod.gears.arrangement import Arrangement, Part
+from planmethod.gears.arrangement import Arrangement, Part, arrange
 from planmethod.gears.motion import solve_motion
-from planmethod.gears.order import arrange
 from planmethod.gears.reader import load
 from planmethod.gears.scheme import Scheme
 from planmethod.gears.sheet import drawings

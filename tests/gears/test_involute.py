@@ -24,12 +24,11 @@ from planmethod.gears.angles import angle_of_involute
 from planmethod.gears.involute.blocking import LimitKind, choose, is_kept, limits
 from planmethod.gears.involute.diagrams import Contour
 from planmethod.gears.involute.meshpicture import CURVE, SCALES, view_for
-from planmethod.gears.involute.model import Rack
 from planmethod.gears.involute.profile import Contact, Points, Tooth
 from planmethod.gears.involute.quantities import Solved
 from planmethod.gears.involute.reader import load
 from planmethod.gears.involute.sheet import drawings
-from planmethod.gears.involute.sizes import Pair
+from planmethod.gears.involute.sizes import Pair, Rack
 from planmethod.render.backends import render
 from planmethod.render.control.sheet import inspect
 from planmethod.render.ink.drawing import Drawing, Stroke

@@ -16,11 +16,10 @@ from shapely import Point, Polygon
 from worked import PROBLEMS
 
 from planmethod.cli import cli
-from planmethod.gears.involute.model import Rack
 from planmethod.gears.involute.profile import Contact, Points, Tooth
 from planmethod.gears.involute.quantities import Solved
 from planmethod.gears.involute.reader import load
-from planmethod.gears.involute.sizes import Pair
+from planmethod.gears.involute.sizes import Pair, Rack
 
 FILE = PROBLEMS / "meshing" / "z20-60-internal.toml"
 

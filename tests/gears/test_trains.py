@@ -12,13 +12,12 @@ import pytest
 from cases import each
 from trains import MAKERS, Made, bevel, solved
 
-from planmethod.gears.answers import answer
+from planmethod.gears.answers import answer, efficiency
 from planmethod.gears.conditions import conditions, satellites_held
-from planmethod.gears.efficiency import efficiency
 from planmethod.gears.linear import solve
 from planmethod.gears.motion import Motion, TrainKind
 from planmethod.gears.picture import draw
-from planmethod.gears.tabular import tabular
+from planmethod.gears.text import tabular
 
 SEEDS = range(100)  # 500 trains
 EXTERNAL_RING = 'wheels = { 1 = 20, 2 = 40, 3 = 100 }\nmeshes = [{ of = [1, 2], carrier = "H"%s },\

@@ -24,7 +24,7 @@ from planmethod.moving.course import course_of
 from planmethod.moving.motion import Undefined, move
 from planmethod.moving.reader import load, loads
 from planmethod.moving.sheet import drawings
-from planmethod.moving.told import textbook
+from planmethod.moving.text import textbook
 from planmethod.render.control.sheet import inspect
 from planmethod.render.ink.drawing import Disc, Stroke
 from planmethod.render.pictures.planview import POLE

@@ -13,7 +13,7 @@ import pytest
 
 from planmethod.errors import ExitCode, ProblemError
 from planmethod.kinds import kind_of
-from planmethod.moving.formula import read_formula
+from planmethod.moving.model import read_formula
 from planmethod.moving.reader import loads
 from planmethod.moving.series import CALLS, evaluate
 from planmethod.problem.fields import Faults

@@ -14,13 +14,13 @@ from worked import every_file
 from planmethod.cli import cli
 from planmethod.note.audit.audit import (
     Audited,
+    Document,
     Verdict,
     audit,
     count,
     half_digit,
     source_scales,
 )
-from planmethod.note.audit.table import Document
 from planmethod.note.wording import LANGUAGES, language
 from planmethod.problem import load
 from planmethod.problem.head import Published

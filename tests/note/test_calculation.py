@@ -12,8 +12,8 @@ from told import LANGUAGES, drawn, worked
 from worked import PROBLEMS, SIX, every_file
 
 from planmethod.construct.steps import Compute
-from planmethod.note.narrate.calculation import calculation
 from planmethod.note.narrate.naming import Names
+from planmethod.note.narrate.steps import calculation
 from planmethod.note.plaintext import plain_text
 from planmethod.note.protocol import protocol
 from planmethod.note.wording import language

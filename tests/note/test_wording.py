@@ -24,12 +24,11 @@ HOME = Path(planmethod.__file__).parent
 CYRILLIC = re.compile("[\u0400-\u04ff]")
 
 NO_WORDS = {
-    "check/forms.py": "letters that quantities are written with in works of students",
+    "check/task.py": "letters that quantities are written with in works of students",
     "check/judge.py": "the unit mm, as works of students write it",
-    "check/works/vocabulary.py": "heads and words that works of students are written with",
-    "check/works/units.py": "units that they are written with",
+    "check/works/cells.py": "heads and words that works of students are written with",
+    "check/works/units.py": "units, multiplication signs and e that they are written with",
     "check/works/gather.py": "scales that they are written with",
-    "check/works/numbers.py": "Cyrillic letters for the multiplication sign and for e",
     "problem/table.py": "units as the head of a table may have them",
     "problem/names.py": "Cyrillic letters that look like Latin ones, in names of problem files",
     "problem/sheet.py": "type \u0411 of the lettering in a problem file, an example of a surname",

@@ -12,7 +12,7 @@ from reading import Path, read_svg
 from worked import PROBLEMS, SIX, problem_of, solved_while
 
 from benchmarks.sheets import positions_of
-from planmethod.note.narrate.calculation import calculation
+from planmethod.note.narrate.steps import calculation
 from planmethod.note.plaintext import plain_text
 from planmethod.note.wording import language
 from planmethod.plans.model import PlanKind

@@ -12,7 +12,7 @@ from worked import SIX, problem_of
 
 from planmethod.construct.drafting import PROFILES, Sampled
 from planmethod.construct.evaluate import evaluate
-from planmethod.note.records.cycle import cycle_record
+from planmethod.note.records.solution import cycle_record
 from planmethod.note.tables.turn import cycle_protocol
 from planmethod.note.wording import language
 from planmethod.paper import FORMATS

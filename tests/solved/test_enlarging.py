@@ -7,7 +7,7 @@ from collections.abc import Iterator
 import pytest
 from worked import problem_of
 
-from planmethod.note.narrate.calculation import calculation
+from planmethod.note.narrate.steps import calculation
 from planmethod.note.wording import language
 from planmethod.plans.model import PlanKind
 from planmethod.render.ink.drawing import Arc

@@ -12,7 +12,7 @@ from worked import ROOT
 from planmethod.construct.drafting import PROFILES, Sampled
 from planmethod.construct.evaluate import evaluate
 from planmethod.construct.steps import PointName
-from planmethod.note.records.cycle import analogue_records, cycle_record
+from planmethod.note.records.solution import analogue_records, cycle_record
 from planmethod.problem import load, loads
 from planmethod.solved.solution import Solution
 from planmethod.solved.turn.construction import PRIMES, extreme_construction

@@ -24,8 +24,7 @@ from planmethod.problem import Problem, loads
 from planmethod.render.control.sheet import inspect
 from planmethod.synthesis import KINDS, synthesize, takes
 from planmethod.synthesis.drawn import Drawn
-from planmethod.synthesis.file import problem_text
-from planmethod.synthesis.measured import checks
+from planmethod.synthesis.measured import checks, problem_text
 from planmethod.synthesis.model import Synthesis, scaled
 from planmethod.synthesis.sheet import synthesis_sheet
 from planmethod.synthesis.text import Teller, point_name

@@ -1,11 +1,12 @@
-"""A student's numbers beside the exact ones, without verdicts (сравнение своих ответов)."""
+"""A student's numbers beside the exact ones, and what could not be read (сравнение ответов)."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
-from planmethod.check.model import Checked, Judged
+from planmethod.check.model import Checked, Judged, Unread, Verdict
 from planmethod.check.pages.speech import Speech, quoted, told
+from planmethod.languages import say
 from planmethod.note.numbers import trimmed
 from planmethod.note.plaintext import NO_BREAK, plain_text, table, wrap
 from planmethod.note.wording.language import Language
@@ -20,19 +21,16 @@ def compared_text(checked: Sequence[Checked], words: Language) -> str:
     for one in checked:
         name = " ".join(filter(None, (quoted(one.work.student), one.variant)))
         lines += [name] if name else []
-        rows = [_row(judged, speech) for judged in one.answers if judged.written is not None]
-        rows = [[plain_text(cell) for cell in row] for row in rows]
+        told = [judged for judged in one.answers if judged.written is not None]
+        rows = [[plain_text(cell) for cell in _cells(judged, speech)] for judged in told]
         lines += [*table(say.columns, rows), ""]
     lines += wrap(plain_text(say.note))
     return "\n".join(line.replace(NO_BREAK, " ") for line in lines) + "\n"
 
 
-def _row(judged: Judged, speech: Speech) -> list[str]:
-    return [speech.symbol(judged), *_cells(judged, speech)]
-
-
 def _cells(judged: Judged, speech: Speech) -> Iterator[str]:
     key, value = judged.key, judged.value
+    yield speech.symbol(judged)
     yield speech.own(judged) or _NONE
     if key is None:
         yield from (_NONE, _NONE, _NONE)
@@ -45,3 +43,25 @@ def _cells(judged: Judged, speech: Speech) -> Iterator[str]:
     number = speech.words.say.number
     yield speech.with_unit(number(trimmed(off / key.per, 2)), key)
     yield number(trimmed(100.0 * off / abs(key.exact), 2)) if key.exact else _NONE
+
+
+ASIDE = (Unread.COLUMN, Unread.KEY)
+"""What is told of, but loses no answer: a column or a key that nobody knows."""
+
+
+def unread_lines(checked: Sequence[Checked], words: Language) -> Iterator[tuple[str, bool]]:
+    """Yield what could not be read, and whether an answer is lost by it."""
+    speech = Speech(words)
+    for one in checked:
+        for judged in one.answers:
+            if judged.verdict is not Verdict.UNREADABLE:
+                continue
+            reason = say("no quantity {!r} that the problem has", judged.id)
+            if judged.written is not None and judged.written.unreadable:
+                reason = speech.unread(judged.written)
+            yield say("Unreadable: {}: {}", judged.where or judged.id, reason), True
+    for one in checked:
+        for remark in one.work.remarks:
+            aside = remark.why in ASIDE
+            told = "Not read: {}: {}" if aside else "Unreadable: {}: {}"
+            yield say(told, remark.where, speech.unread(remark)), not aside

@@ -2,18 +2,184 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 from planmethod.check.key import Key
 from planmethod.check.model import KeyEntry
-from planmethod.check.pages.keytable import UNSEEN, KeyPage
 from planmethod.check.pages.pdf import NOTE, TEXT, Document
-from planmethod.check.pages.speech import told
+from planmethod.check.pages.remarks import place_letters, scale_letters, segment_letters
+from planmethod.check.pages.speech import Speech, told
 from planmethod.check.pages.workbook import add_sheet, new_workbook, saved
 from planmethod.note.plaintext import NO_BREAK, columns_text, heading, plain_text, wrap
 from planmethod.note.plaintext import table as text_table
+from planmethod.note.wording.check_model import KeyWording
 from planmethod.note.wording.language import Language
+from planmethod.plans.model import FACTS
+from planmethod.record import dataclass
+
+UNSEEN = "*"
+"""Sign of an answer that the drawing does not show, where there is no room for words."""
+
+
+@dataclass(frozen=True, slots=True)
+class Row:
+    """One variant in one position (строка ключа группы)."""
+
+    key: Key
+    position: int
+    entries: Mapping[str, KeyEntry]
+
+
+@dataclass(frozen=True, slots=True)
+class KeyPage:
+    """The key of a group in a language.
+
+    Attributes
+    ----------
+    keys : tuple of Key
+        Of one problem, one for each variant.
+    words : Language
+    """
+
+    keys: tuple[Key, ...]
+    words: Language
+
+    @property
+    def say(self) -> KeyWording:
+        """Words of the key."""
+        return self.words.check.key
+
+    @property
+    def speech(self) -> Speech:
+        """How numbers are told."""
+        return Speech(self.words)
+
+    @property
+    def title(self) -> str:
+        """Heading, with the variant where there is one alone."""
+        problem = self.keys[0].problem
+        title = f"{self.say.title}: {problem.title or problem.name}"
+        if len(self.keys) == 1 and self.keys[0].variant:
+            title += f". {self.say.variant.format(variant=self.keys[0].variant)}"
+        return title
+
+    def rows(self) -> list[Row]:
+        """Return variants and positions."""
+        found: dict[tuple[int, int], dict[str, KeyEntry]] = {}
+        for number, key in enumerate(self.keys):
+            for entry in key.entries:
+                found.setdefault((number, entry.position), {})[entry.label] = entry
+        return [Row(self.keys[number], at, entries) for (number, at), entries in found.items()]
+
+    def scales(self) -> str:
+        """Return the scales as a sentence, rich text: variants that have the same ones together.
+
+        Empty where nothing is drawn.
+        """
+        if not any(key.scales for key in self.keys):
+            return ""
+        whose: dict[str, list[str]] = {}
+        for key in self.keys:
+            whose.setdefault(self._scales(key), []).append(key.variant or "")
+        if len(whose) == 1:
+            return self.say.scales.format(scales=next(iter(whose)))
+        parts = (f"{', '.join(names)}: {told}" for told, names in whose.items())
+        return self.say.scales.format(scales=". ".join(parts))
+
+    def _scales(self, key: Key) -> str:
+        say = self.words.say
+        units = {facts.scale: facts.unit for facts in FACTS.values()}
+        shown = []
+        for name, per_mm in key.scales.items():
+            unit = say.units.get(units.get(name, ""), "")
+            of = f"({unit})" if "/" in unit or "·" in unit else unit
+            shown.append(f"{scale_letters(name)} = {say.given(per_mm)} {of}/{say.units['mm']}")
+        return "; ".join(shown)
+
+    def hidden(self) -> list[str]:
+        """Return the mistakes that no answer shows, a line each: code, name, variants."""
+        whose: dict[str, list[Key]] = {}
+        for key in self.keys:
+            for code in key.hidden:
+                whose.setdefault(code, []).append(key)
+        lines = []
+        for code, keys in whose.items():
+            known = self.words.check.mistakes.get(code)
+            found = {place for key in keys for place in key.hidden[code] if place}
+            places = [place_letters(place) for place in sorted(found)]
+            line = f"{code}: {known.name if known else code}"
+            line += f" ({', '.join(places)})" if places else ""
+            if len(keys) < len(self.keys):
+                names = ", ".join(str(key.variant) for key in keys)
+                line += f" — {self.say.variant.format(variant=names)}"
+            lines.append(line)
+        return lines
+
+    def note(self) -> str:
+        """Return what the tolerance is."""
+        if not any(key.scales for key in self.keys):
+            return self.say.computed
+        return self.say.note.format(unseen=self.say.unseen)
+
+    # Cells -------------------------------------------------------------------------------------
+
+    def line(self, entry: KeyEntry) -> list[str]:
+        """Return an answer as the cells of a row, rich text, see `KeyWording.columns`."""
+        speech = self.speech
+        return [
+            speech.letters(entry),
+            speech.value(entry),
+            speech.unit(entry),
+            segment_letters(entry.segment) if entry.segment else "",
+            "" if entry.mm is None else speech.mm(entry.mm, unit=False),
+            speech.sense(entry.sense),
+            speech.share(entry.points),
+            self.say.zero if entry.zero else "" if entry.seen else self.say.unseen,
+        ]
+
+    def cell(self, entry: KeyEntry | None) -> tuple[str, str]:
+        """Return an answer in two short lines: the value, and its segment and sense."""
+        if entry is None:
+            return "", ""
+        speech = self.speech
+        mm = "" if entry.mm is None else speech.mm(entry.mm)
+        sign = speech.sense(entry.sense)
+        return (
+            speech.value(entry) + ("" if entry.seen else UNSEEN),
+            " ".join(part for part in (mm, sign) if part),
+        )
+
+    def head(self, entry: KeyEntry) -> str:
+        """Return the head of an answer's column: its letters and unit."""
+        unit = self.speech.unit(entry)
+        return f"{self.speech.letters(entry)}, {unit}" if unit else self.speech.letters(entry)
+
+    def lead(self, row: Row) -> str:
+        """Return what a row begins with: variant, and position where there are several."""
+        several = len({r.position for r in self.rows()}) > 1
+        lead = [row.key.variant] if row.key.variant else []
+        lead += [self.say.position.format(position=row.position)] if several else []
+        return ", ".join(lead) or "—"
+
+    def columns(self) -> list[KeyEntry]:
+        """Return the answers, one entry for each label, in the order in which they are asked."""
+        found: dict[str, KeyEntry] = {}
+        for row in self.rows():
+            for label, entry in row.entries.items():
+                found.setdefault(label, entry)
+        return list(found.values())
+
+    @property
+    def has_unseen(self) -> bool:
+        """Whether there is an answer that the drawing does not show."""
+        return any(not entry.seen for key in self.keys for entry in key.entries)
+
+    @property
+    def is_single(self) -> bool:
+        """Whether there is one variant in one position."""
+        return len(self.rows()) == 1
+
 
 SINGLE = (22.0, 36.0, 17.0, 21.0, 15.0, 14.0, 15.0, 46.0)
 """Widths of the columns of one variant, mm."""

@@ -5,10 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from planmethod.check.model import Sense, Unread, Written
-from planmethod.check.works.cells import Cell, found, read_name, refused
-from planmethod.check.works.numbers import read_number
-from planmethod.check.works.units import read_unit
-from planmethod.check.works.vocabulary import read_sense
+from planmethod.check.works.cells import Cell, found, read_name, read_sense, refused
+from planmethod.check.works.units import read_number, read_unit
 from planmethod.pattern import pattern
 from planmethod.record import replace
 

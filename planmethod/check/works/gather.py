@@ -7,11 +7,9 @@ from dataclasses import field, fields
 
 from planmethod.check.model import Unread, Work, Written
 from planmethod.check.works.answer import NotReadError, read_scaled
-from planmethod.check.works.cells import Cell, refused
+from planmethod.check.works.cells import Cell, key, refused
 from planmethod.check.works.faults import WorksError
-from planmethod.check.works.numbers import read_number
-from planmethod.check.works.units import Dimension, read_unit
-from planmethod.check.works.vocabulary import key
+from planmethod.check.works.units import Dimension, read_number, read_unit
 from planmethod.pattern import pattern
 from planmethod.problem.names import fold
 from planmethod.record import dataclass, replace

@@ -10,8 +10,7 @@ from enum import Enum
 
 import numpy as np
 
-from planmethod.gears.involute.model import Reals
-from planmethod.gears.involute.sizes import Pair
+from planmethod.gears.involute.sizes import Pair, Reals
 from planmethod.record import dataclass
 
 STEP = 0.01

@@ -13,8 +13,8 @@ from shapely import Polygon, contains_xy, prepare, union_all
 from planmethod.construct.scale import series_near
 from planmethod.gears.involute.blocking import Limit, LimitKind, is_kept
 from planmethod.gears.involute.meshpicture import nearest_scale
-from planmethod.gears.involute.model import Reals
 from planmethod.gears.involute.quantities import Solved
+from planmethod.gears.involute.sizes import Reals
 from planmethod.note.numbers import Notation, trimmed
 from planmethod.note.wording import Language
 from planmethod.record import dataclass

@@ -15,8 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from planmethod.gears.angles import involute
-from planmethod.gears.involute.model import Reals
-from planmethod.gears.involute.sizes import Pair
+from planmethod.gears.involute.sizes import Pair, Reals
 from planmethod.record import dataclass
 
 Points = NDArray[np.complex128]

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from planmethod.construct.drafting import Profile
-from planmethod.gears.involute.model import MeshingProblem
 from planmethod.gears.involute.quantities import Solved
+from planmethod.gears.involute.sizes import MeshingProblem
 from planmethod.gears.involute.text import head, limits_text, plainly
 from planmethod.note.wording import language
 

@@ -9,9 +9,8 @@ import numpy as np
 
 from planmethod.gears.angles import involute
 from planmethod.gears.involute.blocking import Limit, LimitKind, limits
-from planmethod.gears.involute.model import MeshingProblem, Reals
 from planmethod.gears.involute.profile import Contact, Tooth
-from planmethod.gears.involute.sizes import Pair
+from planmethod.gears.involute.sizes import MeshingProblem, Pair, Reals
 from planmethod.note.numbers import Notation, trimmed
 from planmethod.note.wording import Language
 from planmethod.record import dataclass, replace

@@ -12,9 +12,8 @@ import numpy as np
 from planmethod.errors import ProblemError
 from planmethod.gears.angles import involute
 from planmethod.gears.involute.blocking import HIGH, LOW, LimitKind, choose, is_kept, limits, tried
-from planmethod.gears.involute.model import MeshingProblem, Rack
 from planmethod.gears.involute.profile import Tooth
-from planmethod.gears.involute.sizes import Pair
+from planmethod.gears.involute.sizes import MeshingProblem, Pair, Rack
 from planmethod.languages import say
 from planmethod.problem import fields, keys
 from planmethod.problem.fields import Faults

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
-from planmethod.gears.involute.model import MeshingProblem
 from planmethod.gears.involute.quantities import Solved
+from planmethod.gears.involute.sizes import MeshingProblem
 from planmethod.gears.record import head
 from planmethod.note.numbers import finite_or_none
 from planmethod.note.plaintext import plain_text

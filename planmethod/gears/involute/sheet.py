@@ -13,8 +13,8 @@ from planmethod.gears.involute.diagrams import (
     sliding_scale,
 )
 from planmethod.gears.involute.meshpicture import meshing_picture, view_for
-from planmethod.gears.involute.model import MeshingProblem
 from planmethod.gears.involute.quantities import Solved, Told
+from planmethod.gears.involute.sizes import MeshingProblem
 from planmethod.gears.involute.text import given_text, remarks, symbol_of, unit_of
 from planmethod.languages import LANGUAGES
 from planmethod.note.numbers import Notation

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from planmethod.gears.involute.model import MeshingProblem
 from planmethod.gears.involute.quantities import Solved, Told, Unit
+from planmethod.gears.involute.sizes import MeshingProblem
 from planmethod.note.plaintext import heading, plain_text, table, wrap
 from planmethod.note.wording import Language, language
 

@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 from planmethod.note.narrate.balancing import BalancingTeller
-from planmethod.note.plaintext import columns_text, heading, plain_text, wrap
-from planmethod.note.tables.plain import plain_columns
+from planmethod.note.plaintext import columns_text, heading, plain_columns, plain_text, wrap
 from planmethod.note.wording import Wording, language
 from planmethod.solved.solution import Solution
 

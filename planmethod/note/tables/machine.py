@@ -2,8 +2,13 @@
 
 from __future__ import annotations
 
-from planmethod.note.narrate.machine import MachineTeller
-from planmethod.note.narrate.runup import asks_run_up, course_columns, courses, run_up_lines
+from planmethod.note.narrate.machine import (
+    MachineTeller,
+    asks_run_up,
+    course_columns,
+    courses,
+    run_up_lines,
+)
 from planmethod.note.plaintext import columns_text, heading, plain_text, wrap
 from planmethod.note.wording import Wording, language
 from planmethod.solved.machine.drawing import drawing_of

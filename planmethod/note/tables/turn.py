@@ -7,8 +7,7 @@ import numpy as np
 from planmethod.construct.hand import Hand
 from planmethod.note.narrate.turn import diagram_steps, extreme_steps, output_symbol, turn_facts
 from planmethod.note.numbers import alike, significant
-from planmethod.note.plaintext import columns_text, heading, plain_text, wrap
-from planmethod.note.tables.plain import plain_columns
+from planmethod.note.plaintext import columns_text, heading, plain_columns, plain_text, wrap
 from planmethod.note.wording import Language
 from planmethod.problem.model import Differentiation
 from planmethod.solved.reading import Reals

@@ -9,28 +9,24 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from planmethod.note.numbers import Notation
     from planmethod.note.wording.audit_model import AuditWording
-    from planmethod.note.wording.check_model import CheckWording
+    from planmethod.note.wording.check_model import CheckWording, FormWording
     from planmethod.note.wording.control_model import ControlWording
     from planmethod.note.wording.cycle_model import CycleWording
     from planmethod.note.wording.force_model import ForceWording
-    from planmethod.note.wording.form_model import FormWording
-    from planmethod.note.wording.frame_model import FrameWording
-    from planmethod.note.wording.gear_model import GearWording
+    from planmethod.note.wording.gear_model import GearWording, MeshingWording, TeethWording
     from planmethod.note.wording.live_model import LiveWording
     from planmethod.note.wording.machine_model import MachineWording
-    from planmethod.note.wording.meshing_model import MeshingWording
     from planmethod.note.wording.model import Wording
     from planmethod.note.wording.point_model import PointWording
-    from planmethod.note.wording.sheet_model import SheetWording
+    from planmethod.note.wording.sheet_model import FrameWording, SheetWording, StructureWording
     from planmethod.note.wording.specimen_model import SpecimenWording
-    from planmethod.note.wording.structure_model import StructureWording
     from planmethod.note.wording.synthesis_model import SynthesisWording
-    from planmethod.note.wording.teeth_model import TeethWording
 
 ELSEWHERE = {
     "say": ("numbers", "NOTATION"),
     "families": ("layouts", "FAMILIES"),
     "tasks": ("layouts", "TASKS"),
+    "teeth": ("gears", "TEETH"),
 }
 """Subjects that are not the constant of their name in the module of their name."""
 

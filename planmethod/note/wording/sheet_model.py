@@ -1,4 +1,4 @@
-"""What a language must be able to say on the sheets of the plans (слова листов)."""
+"""What a language must be able to say on the sheets of the plans, of their frame, of structure."""
 
 from __future__ import annotations
 
@@ -98,3 +98,62 @@ class SheetWording:
 
     # Sketch
     not_drawn: str
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class FrameWording:
+    """Captions of the forms of GOST 2.104 in one language.
+
+    Attributes
+    ----------
+    captions : mapping
+        By the names in `planmethod.render.frame`.
+    copied, format : str
+        Graphs 31 and 32, below the frame.
+    paper, portrait : str
+        The letter of the formats, and a format that stands.
+    """
+
+    captions: Mapping[str, str]
+    copied: str
+    format: str
+    paper: str
+    portrait: str
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class StructureWording:
+    """Headings, tables, formulas and captions of the structural sheet in one language, rich text.
+
+    As in `Wording`, every sentence is a template of `str.format`.
+    """
+
+    # Headings
+    title: str
+    scheme: str
+    parts: str
+    pairs: str
+    links: str
+    formulas: str
+
+    # Tables; names by those of `planmethod.mechanism.describe`
+    columns_pairs: tuple[str, ...]
+    columns_links: tuple[str, ...]
+    pair_kinds: Mapping[str, str]
+    motions: Mapping[str, str]
+
+    # Formulas; a no-break space keeps a line together
+    counts: str
+    chebyshev: str
+    spatial: str
+    redundant: str
+    formula: str
+    mechanism_class: str
+    kinematic_order: str
+    force_order: str
+
+    # Captions of the parts
+    primary: str
+    group: str
+    group_kind: str
+    group_leads: Mapping[int, str]

@@ -13,7 +13,7 @@ from types import MappingProxyType
 from typing import NamedTuple
 
 from planmethod.note.wording import language
-from planmethod.note.wording.frame_model import FrameWording
+from planmethod.note.wording.sheet_model import FrameWording
 from planmethod.paper import (
     FORMATS,
     FRAME_LEFT,

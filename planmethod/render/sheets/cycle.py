@@ -7,8 +7,7 @@ from collections.abc import Callable, Iterable, Sequence
 import numpy as np
 
 from planmethod.construct.scale import Scale, choose_scale
-from planmethod.note.narrate.forces.cycle import cycle_statement, cycle_wanted
-from planmethod.note.narrate.forces.statement import link_names
+from planmethod.note.narrate.forces.statement import cycle_statement, cycle_wanted, link_names
 from planmethod.note.narrate.given import point_name
 from planmethod.note.narrate.scales import scale_inscription
 from planmethod.note.numbers import MINUS, Notation, half_up, with_unit

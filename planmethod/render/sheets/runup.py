@@ -9,8 +9,7 @@ import numpy as np
 
 from planmethod.construct.scale import Scale, choose_scale, series_near
 from planmethod.errors import LayoutError
-from planmethod.note.narrate.machine import MachineTeller
-from planmethod.note.narrate.runup import course_columns, courses, run_up_lines
+from planmethod.note.narrate.machine import MachineTeller, course_columns, courses, run_up_lines
 from planmethod.note.numbers import trimmed
 from planmethod.note.wording import Language
 from planmethod.render.ink.drawing import Pen

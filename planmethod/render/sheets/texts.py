@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from planmethod.note.narrate.calculation import calculation
 from planmethod.note.narrate.given import given, wanted
+from planmethod.note.narrate.steps import calculation
 from planmethod.render.layout.block import Block, Column, Row, Shapes, heading, paragraph
 from planmethod.render.layout.equations import equation_block, formula_block
 from planmethod.render.sheets.model import Manner

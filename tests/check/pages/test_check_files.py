@@ -15,9 +15,8 @@ from worked import path_of, problem_of
 from planmethod.check.key import Key
 from planmethod.check.marks import Settings
 from planmethod.check.model import Checked
-from planmethod.check.pages.files import file_names, write_all
+from planmethod.check.pages.files import anonymous, file_names, hidden_name, write_all
 from planmethod.check.pages.overrides import OverridesError, overridden, read_overrides
-from planmethod.check.pages.run import anonymous, hidden_name
 from planmethod.errors import PlanMethodError
 
 HEAD = "student;id;points;remark\n"

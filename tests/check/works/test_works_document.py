@@ -10,10 +10,9 @@ from worked import ROOT
 
 from planmethod.check.works import read_works
 from planmethod.check.works.answer import NotReadError, read_scaled
-from planmethod.check.works.cells import Cell
-from planmethod.check.works.heads import read_head
+from planmethod.check.works.cells import Cell, read_sense
+from planmethod.check.works.table import read_head
 from planmethod.check.works.units import read_unit
-from planmethod.check.works.vocabulary import read_sense
 
 TEXT = (ROOT / "docs" / "works.md").read_text("utf-8")
 EXAMPLES = re.findall(r"(?ms)^```(json|toml|csv)\n(.*?)^```$", TEXT)

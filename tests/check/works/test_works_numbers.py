@@ -3,9 +3,8 @@ from __future__ import annotations
 import pytest
 
 from planmethod.check.model import Sense, Written
-from planmethod.check.works.numbers import Number, read_number
-from planmethod.check.works.units import ratio, read_unit
-from planmethod.check.works.vocabulary import read_sense
+from planmethod.check.works.cells import read_sense
+from planmethod.check.works.units import Number, ratio, read_number, read_unit
 
 NUMBERS = [
     ("2.275", 2.275, 0.001, ""),

@@ -11,9 +11,8 @@ from planmethod.note.narrate.forces.loads import LoadNarrator
 from planmethod.note.narrate.forces.moments import MomentNarrator
 from planmethod.note.narrate.forces.plan import ForcePlanNarrator
 from planmethod.note.narrate.formulas import Formulas
-from planmethod.note.narrate.numbered import INDENT, Steps
 from planmethod.note.narrate.structure import group_title
-from planmethod.note.plaintext import WIDTH
+from planmethod.note.plaintext import INDENT, WIDTH, Steps
 from planmethod.plans.forces.polygons import ForcePlan
 from planmethod.plans.model import Known
 from planmethod.record import replace

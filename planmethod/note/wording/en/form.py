@@ -1,6 +1,6 @@
 """Words of the form in English (бланк ответов по-английски)."""
 
-from planmethod.note.wording.form_model import FormWording
+from planmethod.note.wording.check_model import FormWording
 
 FORM = FormWording(
     sheet="Answers",

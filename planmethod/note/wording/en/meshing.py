@@ -1,6 +1,6 @@
 """Words of involute meshing in English."""
 
-from planmethod.note.wording.meshing_model import MeshingWording
+from planmethod.note.wording.gear_model import MeshingWording
 
 MESHING = MeshingWording(
     tan="tan",

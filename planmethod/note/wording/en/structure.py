@@ -1,6 +1,6 @@
 """Words of the structural sheet in English (структурный лист по-английски)."""
 
-from planmethod.note.wording.structure_model import StructureWording
+from planmethod.note.wording.sheet_model import StructureWording
 
 STRUCTURE = StructureWording(
     title="Structural analysis of the mechanism",

@@ -1,6 +1,6 @@
 """Words of the form in Russian (бланк ответов по-русски)."""
 
-from planmethod.note.wording.form_model import FormWording
+from planmethod.note.wording.check_model import FormWording
 
 FORM = FormWording(
     sheet="Ответы",

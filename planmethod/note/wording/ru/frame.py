@@ -1,6 +1,6 @@
 """Captions of frame and title block in Russian (рамка и основная надпись по-русски)."""
 
-from planmethod.note.wording.frame_model import FrameWording
+from planmethod.note.wording.sheet_model import FrameWording
 
 FRAME = FrameWording(
     captions={

@@ -1,6 +1,6 @@
 """Words of the structural sheet in Russian (структурный лист по-русски)."""
 
-from planmethod.note.wording.structure_model import StructureWording
+from planmethod.note.wording.sheet_model import StructureWording
 
 STRUCTURE = StructureWording(
     title="Структурный анализ механизма",
