@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from enum import Enum
 
 from planmethod.construct.steps import PointName
+from planmethod.problem.model import Convention, Problem
 from planmethod.record import dataclass
 
 
@@ -58,6 +59,16 @@ MOTION = (PlanKind.POSITION, PlanKind.VELOCITY, PlanKind.ACCELERATION)
 
 RATES = MOTION[1:]
 """Those of them that are vectors from a pole."""
+
+
+def is_primed(problem: Problem, kind: PlanKind) -> bool:
+    """Tell whether a plan's letters carry a prime: the acceleration plan of the mm/unit books."""
+    return kind is PlanKind.ACCELERATION and problem.scales.convention is Convention.MM_PER_UNIT
+
+
+def pole_letter(problem: Problem, kind: PlanKind) -> str:
+    """Return the letter of a plan's pole: p, π; p′ for the latter in the mm/unit books."""
+    return "p′" if is_primed(problem, kind) else FACTS[kind].pole
 
 
 class VectorKind(Enum):

@@ -14,8 +14,7 @@ from click.testing import CliRunner
 from worked import SIX, exact_values, path_of, problem_of
 
 from planmethod.cli import cli
-from planmethod.plans.model import PlanKind
-from planmethod.plans.motion.board import pole_letter
+from planmethod.plans.model import PlanKind, pole_letter
 
 POINT = ("x", "y", "vx", "vy", "v", "ax", "ay", "a")
 KIND = {"x": "m", "y": "m", "vx": "m/s", "vy": "m/s", "v": "m/s"}

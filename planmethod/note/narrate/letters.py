@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 from planmethod.construct.steps import PointName
-from planmethod.plans.model import Direction, Plan, Relation
-from planmethod.plans.motion.board import is_primed, pole_letter
+from planmethod.plans.model import Direction, Plan, Relation, is_primed, pole_letter
 from planmethod.problem.model import Problem
 
 SIGN = {Relation.ALONG: "∥", Relation.ACROSS: "⊥"}

@@ -22,8 +22,8 @@ from planmethod.plans.model import (
     Relation,
     Vector,
     VectorKind,
+    pole_letter,
 )
-from planmethod.plans.motion.board import pole_letter
 from planmethod.problem.model import Convention
 from planmethod.record import dataclass
 from planmethod.solved.solution import Solution

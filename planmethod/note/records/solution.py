@@ -10,8 +10,7 @@ from planmethod.mechanism.structure import Structure
 from planmethod.note.columns import Column, listed, named, pairs, rows, sizes, together
 from planmethod.note.numbers import plain
 from planmethod.plans.legend import TURNING, Quantity, QuantityKind
-from planmethod.plans.model import MOTION, PlanKind
-from planmethod.plans.motion.board import pole_letter
+from planmethod.plans.model import MOTION, PlanKind, pole_letter
 from planmethod.plans.motion.leads import Relative
 from planmethod.problem.model import Differentiation
 from planmethod.solved.analogues import analogues

@@ -21,9 +21,9 @@ from planmethod.plans.model import (
     Vector,
     VectorEquation,
     VectorKind,
+    pole_letter,
 )
 from planmethod.plans.segments import Segments
-from planmethod.problem.model import Convention, Problem
 from planmethod.record import dataclass
 
 UNKNOWN_KINDS = (VectorKind.RELATIVE, VectorKind.SLIDING)
@@ -157,16 +157,6 @@ class Motion:
         direction = STILL if at == self.pole else None
         symbol = f"{FACTS[self.kind].letter}_{{{name}}}"
         return self.add(Vector(symbol, VectorKind.ABSOLUTE, self.pole, at, known, direction))
-
-
-def is_primed(problem: Problem, kind: PlanKind) -> bool:
-    """Tell whether a plan's letters carry a prime: the acceleration plan of the mm/unit books."""
-    return kind is PlanKind.ACCELERATION and problem.scales.convention is Convention.MM_PER_UNIT
-
-
-def pole_letter(problem: Problem, kind: PlanKind) -> str:
-    """Return the letter of a plan's pole: p, π; p′ for the latter in the mm/unit books."""
-    return "p′" if is_primed(problem, kind) else FACTS[kind].pole
 
 
 def plain_letter(motion: Motion, point: PointName) -> str:
