@@ -46,7 +46,7 @@ def load(path: str | Path, *, variant: str | None = None) -> GearProblem:
         With every fault of the file: path, what was expected, what was found, the next action.
     """
     path = Path(path)
-    table, faults = varied(path, variant)
+    table, variants, faults = varied(path, variant)
     given = fields.read_keys(faults, "", table, TOP)
     head = read_head(faults, given)
     body = fields.read_table(faults, "gears", given.get("gears", {}), "wheels = { 1 = 20, 2 = 36 }")
@@ -56,8 +56,8 @@ def load(path: str | Path, *, variant: str | None = None) -> GearProblem:
     if faults or train is None:
         raise ProblemError(str(path), faults.found)
     return GearProblem(
-        name=path.stem, source_file=str(path), variant=variant, train=train, **head,
-        published=published, answers=answers,
+        name=path.stem, source_file=str(path), variants=variants, variant=variant, train=train,
+        **head, published=published, answers=answers,
     )  # fmt: skip
 
 

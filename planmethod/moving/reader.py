@@ -21,9 +21,9 @@ from planmethod.problem.fields import Faults
 from planmethod.problem.formula import is_exact
 from planmethod.problem.head import Published
 from planmethod.problem.names import listed, near_hint, segment, short
-from planmethod.problem.reader import laid_over
+from planmethod.problem.reader import laid_over, varied
 from planmethod.problem.sheet import read_head
-from planmethod.problem.source import parse, read_source
+from planmethod.problem.source import parse
 from planmethod.record import replace
 
 TOP = (
@@ -60,19 +60,27 @@ def load(path: str | Path, *, variant: str | None = None) -> PointProblem:
         With every fault of the file.
     """
     path = Path(path)
-    return loads(read_source(path), name=path.stem, source=str(path), variant=variant)
+    return _made(*varied(path, variant), str(path), path.stem, variant)
 
 
-def loads(
-    text: str, *, name: str, source: str | None = None, variant: str | None = None
-) -> PointProblem:
-    """Read a moving point from a text; messages call it ``source``."""
-    called = name if source is None else source
+def loads(text: str, *, name: str, variant: str | None = None) -> PointProblem:
+    """Read a moving point from a text."""
     faults = Faults()
-    table, variants = laid_over(faults, parse(text, name=called), called, variant)
+    table, variants = laid_over(faults, parse(text, name=name), name, variant)
+    return _made(table, variants, faults, name, name, variant)
+
+
+def _made(
+    table: Mapping[str, Any],
+    variants: tuple[str, ...],
+    faults: Faults,
+    source: str,
+    name: str,
+    variant: str | None,
+) -> PointProblem:
     problem = _read(faults, table, name)
     if faults or problem is None:
-        raise ProblemError(called, faults.found)
+        raise ProblemError(source, faults.found)
     return replace(problem, variants=variants, variant=variant)
 
 

@@ -187,8 +187,10 @@ class Parser:
     def _bare(self) -> FormulaError:
         """Return the fault of what stands where an operator is expected."""
         (_, before, _), (_, text, where) = self.tokens[self.at - 1 : self.at + 1]
-        hint = "Nothing is multiplied without a sign: write {}*{}."
         said = say("character {}: expected an operator before '{}'", where, text)
+        if text.startswith("."):
+            return FormulaError(said, "A number has one decimal point.")
+        hint = "Nothing is multiplied without a sign: write {}*{}."
         return FormulaError(said, say(hint, before, short(text, 12)))
 
     def _sum(self) -> None:

@@ -99,8 +99,10 @@ def _looked_through(
     return table, read_variants(faults, table), faults
 
 
-def varied(path: Path, variant: str | None) -> tuple[Mapping[str, Any], Faults]:
-    """Return the table of a file with a variant laid over it, for the reader of any kind.
+def varied(path: Path, variant: str | None) -> tuple[Mapping[str, Any], tuple[str, ...], Faults]:
+    """Return the table of a file with a variant laid over it, the names of all, and faults.
+
+    So reads a problem of any kind.
 
     Raises
     ------
@@ -108,7 +110,7 @@ def varied(path: Path, variant: str | None) -> tuple[Mapping[str, Any], Faults]:
         The file cannot be read, or has no such variant.
     """
     table, known, faults = _from_file(path)
-    return _laid_over(faults, table, known, str(path), variant), faults
+    return _laid_over(faults, table, known, str(path), variant), tuple(known), faults
 
 
 def laid_over(

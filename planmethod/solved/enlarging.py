@@ -107,7 +107,7 @@ def short_readings(construction: Construction, paper: Reading) -> Reals:
         for name in set(motion.segments.lengths.values()):
             if isinstance(construction.step(name), Measure | MeasureAlong):
                 length = np.abs(paper.number(name))
-                found += (length >= NOTHING) & (length < SHORT)
+                found += length < SHORT
     return found
 
 

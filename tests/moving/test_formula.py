@@ -42,6 +42,7 @@ def test_every_function_has_its_derivatives() -> None:
     [
         ("", "the formula is empty. For example: "),
         ("3t", "character 2: expected an operator before 't'. Nothing is multiplied without a sig"),
+        ("0.3.1", "character 4: expected an operator before '.1'. A number has one decimal point."),
         ("2(t + 1)", "character 2: expected an operator before '('."),
         ("(2 3)", "character 4: expected an operator before '3'."),
         ("sin t", "character 1: expected '(' after sin. Write sin(t)."),

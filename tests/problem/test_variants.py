@@ -1,8 +1,11 @@
 from __future__ import annotations
 
+from pathlib import Path
+
 import pytest
 
 from planmethod.errors import ProblemError
+from planmethod.moving.reader import load
 from planmethod.problem import Problem, loads
 from planmethod.problem.model import Rule, Where
 
@@ -197,3 +200,11 @@ def test_no_variants_at_all() -> None:
 @pytest.mark.parametrize("header", ["[variants.Б]", '[variants."Б"]', "  [ variants . Б ]"])
 def test_a_russian_name_needs_no_quotes(header: str) -> None:
     assert read(f"{header}\ndriver.phi = 30\n", "Б").drive.positions == (30.0,)
+
+
+def test_a_table_of_variants_lies_beside_a_moving_point_too(tmp_path: Path) -> None:
+    (tmp_path / "v.csv").write_text("variant,point.t\n1,2\nБ,3\n", encoding="utf-8")
+    file = tmp_path / "point.toml"
+    file.write_text('variants = "v.csv"\n[point]\nx = "3*t"\ny = "t^2"\nt = 1\n', encoding="utf-8")
+    problem = load(file, variant="Б")
+    assert (problem.variants, problem.variant, problem.times) == (("1", "Б"), "Б", (3.0,))

@@ -54,14 +54,14 @@ def load(path: str | Path, *, variant: str | None = None) -> MeshingProblem:
         With every fault of the file; wheels that cannot be cut or do not mesh are faults, too.
     """
     path = Path(path)
-    table, faults = varied(path, variant)
+    table, variants, faults = varied(path, variant)
     given = fields.read_keys(faults, "", table, TOP)
     head = read_head(faults, given)
     body = fields.read_table(faults, "meshing", given.get("meshing", {}), _EXAMPLE)
     told = None if body is None else _read(faults, body)
     if faults or told is None:
         raise ProblemError(str(path), faults.found)
-    problem = MeshingProblem(name=path.stem, variant=variant, **head, **told)
+    problem = MeshingProblem(name=path.stem, variants=variants, variant=variant, **head, **told)
     _check_teeth(faults, Pair.of(problem))
     if faults:
         raise ProblemError(str(path), faults.found)
