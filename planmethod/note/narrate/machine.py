@@ -374,7 +374,7 @@ def course_columns(course: Course, tell: MachineTeller) -> list[tuple[str, str, 
         (
             head,
             tell.say.in_head(unit),
-            [tell.say.number(text) for text in alike(values.tolist(), 5)],
+            [tell.say.number(text) for text in alike(values.tolist())],
         )
         for head, unit, values in columns
     ]

@@ -24,6 +24,9 @@ from planmethod.render.ink.typeset import (
 # What must not be taken apart when a word is broken: an escaped sign, a letter with its indices.
 _SIGNS = pattern(r"(?:\\bar\{[^{}]*\}|\\.|.)(?:[_^](?:\{[^{}]*\}|.))*")
 
+# Letters of a unit are few, or there is a sign between them.
+_UNIT = pattern(r"[^\W\d_]{1,3}(?![^\W\d_])|[^\W\d_]+[·/]")
+
 Align: TypeAlias = Literal["left", "centre", "right"]
 
 CUT = "cut"
@@ -270,12 +273,25 @@ def paragraph(
 ) -> Lines:
     r"""Return rich text wrapped at spaces into lines not wider than ``width`` mm (абзац).
 
-    ``\n`` in the markup starts a new line. A word wider than ``width`` gets a line of its own.
+    ``\n`` in the markup starts a new line. A word wider than ``width`` gets a line of its own. What
+    equals a number and its unit are on one line.
     """
     lines: list[str] = []
     for part in markup.split("\n"):
-        lines += wrapped(split_words(part), height, width)
+        lines += wrapped(_tied(split_words(part)), height, width)
     return Lines(tuple(typeset(line, height) for line in lines), line_step(height), align)
+
+
+def _tied(words: Sequence[str]) -> list[str]:
+    """Return words with a sign of equality, its sides and the unit of a number as one."""
+    found: list[str] = []
+    for before, word in zip(("", *words), words, strict=False):
+        is_unit = before[-1:].isdigit() and _UNIT.match(word) is not None
+        if found and ("=" in (before, word) or is_unit):
+            found[-1] += f" {word}"
+        else:
+            found.append(word)
+    return found
 
 
 def wrapped(words: Sequence[str], height: float, width: float | None) -> list[str]:

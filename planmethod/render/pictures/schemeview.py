@@ -116,6 +116,7 @@ def scheme_picture(
     turn: bool = False,
     bare: bool = False,
     traces: Shown = False,
+    added: tuple[tuple[Item, ...], tuple[Label, ...]] = ((), ()),
 ) -> Picture:
     """Return the scheme in one position as a picture, mm.
 
@@ -124,7 +125,7 @@ def scheme_picture(
     ``errors`` draws the ellipses of the drafting error around the moving points, ``turn`` the
     construction of the extreme positions. ``bare`` leaves out what tells of the motion: arrows, the
     angle of the driver, letters of the axes. ``traces`` is told by
-    `planmethod.render.pictures.traces`.
+    `planmethod.render.pictures.traces`. ``added`` are more items and their letters.
     """
     scheme = Scheme(solution, index, letter_height)
     scheme.draw()
@@ -141,8 +142,8 @@ def scheme_picture(
         _letter_axes(view)
     clear = _letter_links(view, senses=not bare)
     # The ellipses after the joints, whose white would cover them.
-    items = [*view.items(), *ellipses.strokes]
-    return lettered(items, view.labels, clear=[*ellipses.grounds, *clear])
+    items = [*view.items(), *added[0], *ellipses.strokes]
+    return lettered(items, [*view.labels, *added[1]], clear=[*ellipses.grounds, *clear])
 
 
 SERIES_HEIGHTS = (SMALL, 2.5)

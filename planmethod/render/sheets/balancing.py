@@ -24,7 +24,7 @@ from planmethod.render.pictures.lettered import lettered
 from planmethod.render.pictures.polar import polar_picture
 from planmethod.render.pictures.schemeview import scheme_picture
 from planmethod.render.sheets.model import Manner
-from planmethod.render.sheets.texts import NBSP, stated
+from planmethod.render.sheets.texts import stated
 from planmethod.render.sheets.views import Viewed, named
 from planmethod.render.symbols import arrowhead
 from planmethod.solved.solution import Solution
@@ -54,8 +54,7 @@ def balancing_text(solution: Solution, indices: Sequence[int], manner: Manner) -
         stated(facts, tell.said.balancing_wanted, manner),
         heading(manner.entry.title or tell.said.balancing, height),
     ]
-    lines = (line.replace(" = ", f"{NBSP}={NBSP}") for line in tell.lines())
-    blocks += [paragraph(line, height, width) for line in lines]
+    blocks += [paragraph(line, height, width) for line in tell.lines()]
     return Column(blocks, gap=3.0)
 
 
@@ -63,7 +62,7 @@ def scheme_view(solution: Solution, indices: Sequence[int], manner: Manner) -> V
     """Return the scheme with its counterweights, all to scale."""
     tell = _teller(solution, manner)
     index = indices[0]
-    items = list(scheme_picture(solution, index, letter_height=manner.letter).items)
+    items: list[Item] = []
     labels = []
     for one in tell.balancing.counterweights:
         if not one.mass:
@@ -86,7 +85,10 @@ def scheme_view(solution: Solution, indices: Sequence[int], manner: Manner) -> V
     scale = solution.scales[PlanKind.POSITION]
     told = [scale_inscription(scale, solution.problem.scales.convention, tell.say)]
     title = manner.entry.title or tell.said.with_weights
-    return Viewed(named(lettered(items, labels), title, told, manner), "scheme", scale)
+    picture = scheme_picture(
+        solution, index, letter_height=manner.letter, added=(tuple(items), tuple(labels))
+    )
+    return Viewed(named(picture, title, told, manner), "scheme", scale)
 
 
 def polygon_views(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:

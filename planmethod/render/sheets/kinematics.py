@@ -220,7 +220,8 @@ def _views(task: _Task) -> Views:
     """Return the views on the format that sheets are tried on first."""
     layout, count = task.layout, len(task.positions)
     views = Solution(task.problem, positions=task.positions).views
-    if not task.problem.sheet.paper and views.paper not in layout.formats:
+    estimated = views.paper in layout.formats and any(entry.of for entry in layout.blocks)
+    if not task.problem.sheet.paper and not estimated:  # it is one of schemes and plans
         views = Views.for_paper(layout.formats[0], count)
     return layout.views_for(views.paper, count)
 

@@ -13,18 +13,20 @@ from planmethod.note.narrate.machine import MachineTeller, course_columns, cours
 from planmethod.note.numbers import trimmed
 from planmethod.note.wording import Language
 from planmethod.render.ink.drawing import Pen
-from planmethod.render.layout.block import Block, Column, Row, heading, paragraph
+from planmethod.render.layout.block import Block, Column, Row, heading, paragraph, shaped
 from planmethod.render.layout.tables import TableColumn, table_block
 from planmethod.render.pictures.diagram import Abscissae, Curve, Ordinates, diagram_picture
 from planmethod.render.sheets.model import Manner
-from planmethod.render.sheets.texts import NBSP, stated
+from planmethod.render.sheets.texts import stated
 from planmethod.render.sheets.views import Viewed, named
 from planmethod.solved.machine.drawing import drawing_of
 from planmethod.solved.machine.flywheel import flywheel_of
 from planmethod.solved.machine.runup import Course, run_up_of
 from planmethod.solved.reading import Reals
+from planmethod.solved.room import Box
 from planmethod.solved.solution import Solution
 
+_TIMES, _HIGH = (1.0, 0.8, 1.2, 1.5), (0.7, 0.9)  # sizes of the diagrams that are tried
 _POINTS, _MOST = 400, 4000  # of a curve, and of one of many turns
 
 
@@ -47,8 +49,7 @@ def run_up_text(solution: Solution, indices: Sequence[int], manner: Manner) -> B
         stated(tell.given(), tell.said.run_up_wanted, manner),
         heading(manner.entry.title or tell.said.run_up, height),
     ]
-    blocks += [paragraph(line.replace(" = ", f"{NBSP}={NBSP}"), height, width)
-               for line in run_up_lines(tell)]  # fmt: skip
+    blocks += [paragraph(line, height, width) for line in run_up_lines(tell)]
     return Column(blocks, gap=3.0)
 
 
@@ -67,21 +68,32 @@ def run_up_tables(solution: Solution, indices: Sequence[int], manner: Manner) ->
 
 
 def run_up_diagrams(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
-    """Return the motor's characteristic, the speed over time and angle, and that of the stop."""
+    """Return the motor's characteristic, the speed over time and angle, and that of the stop.
+
+    They are as large as the paper has room for.
+    """
     tell = _teller(solution, manner.words)
+    width = 0.82 * manner.width(manner.sizes.column)
+    sizes = ((k * width, high * k * width) for k in _TIMES for high in _HIGH)
+    return shaped(_diagrams(tell, manner, size) for size in sizes)
+
+
+def _diagrams(tell: MachineTeller, manner: Manner, size: Box) -> Block:
     run, said = run_up_of(tell.flywheel), tell.said
-    blocks = _characteristic(tell, manner)
+    blocks = _characteristic(tell, manner, size)
     if run.machine.motor is not None and run.failure is None:
         course = run.run_up
         time, _, speeds = course.rows(_count(course))
-        blocks.append(_speed(tell, manner, said.by_time, ("t", "s"), time, speeds))
+        blocks.append(_speed(tell, manner, size, said.by_time, ("t", "s"), time, speeds))
         turned = np.linspace(course.turned[0], course.turned[-1], _count(course))
         speeds = course.at(turned)[0]
         speeds[0] = 0.0
-        blocks.append(_speed(tell, manner, said.by_angle, ("φ", "deg"), np.degrees(turned), speeds))
+        blocks.append(
+            _speed(tell, manner, size, said.by_angle, ("φ", "deg"), np.degrees(turned), speeds)
+        )
     if run.stop is not None:
         time, _, speeds = run.stop.rows(_count(run.stop))
-        blocks.append(_speed(tell, manner, said.stop_diagram, ("t", "s"), time, speeds))
+        blocks.append(_speed(tell, manner, size, said.stop_diagram, ("t", "s"), time, speeds))
     rows = [Row(blocks[k : k + 2], gap=16.0, align="bottom") for k in range(0, len(blocks), 2)]
     return Column(rows, gap=12.0)
 
@@ -89,11 +101,6 @@ def run_up_diagrams(solution: Solution, indices: Sequence[int], manner: Manner) 
 def _count(course: Course) -> int:
     """Return of how many points a curve is drawn: as many as show every turn."""
     return min(max(_POINTS, int(4.0 * course.turned[-1])), _MOST)
-
-
-def _room(manner: Manner) -> tuple[float, float]:
-    width = manner.width(manner.sizes.column)
-    return 0.82 * width, 0.58 * width
 
 
 def _numbered(symbol: str, largest: float, width: float, manner: Manner) -> Abscissae:
@@ -107,13 +114,14 @@ def _numbered(symbol: str, largest: float, width: float, manner: Manner) -> Absc
 def _speed(
     tell: MachineTeller,
     manner: Manner,
+    size: Box,
     title: str,
     over: tuple[str, str],
     across: Reals,
     speeds: Reals,
 ) -> Block:
     """Return the speed over time or angle as a diagram."""
-    width, height = _room(manner)
+    width, height = size
     per_mm = choose_scale((0.0, float(np.max(speeds))), (1.0, height))
     largest = float(across[-1])
     places = tuple(
@@ -133,12 +141,12 @@ def _speed(
     return Viewed(named(picture, title, [tell.scale("ω", per_mm, "1/s")], manner), "diagram", scale)
 
 
-def _characteristic(tell: MachineTeller, manner: Manner) -> list[Block]:
+def _characteristic(tell: MachineTeller, manner: Manner, size: Box) -> list[Block]:
     """Return the motor's moment over the speed, and the mean moment of resistance."""
     motor = tell.flywheel.machine.motor
     if motor is None:
         return []
-    width, height = _room(manner)
+    width, height = size
     speeds = np.linspace(0.0, motor.idle, _POINTS)
     moments = np.array([motor.at(speed) for speed in speeds.tolist()])
     mean = tell.flywheel.constant
