@@ -11,7 +11,7 @@ LINKAGES = $(sort $(filter-out $(TASKS) problems/point/% problems/gears/% proble
 # tree, also where the environment forbids it: to compile anew in every process is a tenth of the time.
 TESTS := PYTHONDONTWRITEBYTECODE= PYTHONPYCACHEPREFIX=$(CURDIR)/$(VENV)/bytecode $(BIN)/python -m pytest -n 2 --dist loadfile
 
-.PHONY: demo test test-thorough lint format tables tasks gallery group bench clean
+.PHONY: demo test test-every test-thorough lint format tables tasks gallery group bench clean
 
 # The compat mode is a plain path entry: the default finder costs every command a tenth of a second.
 $(VENV)/.ready: pyproject.toml
@@ -29,6 +29,9 @@ demo: $(VENV)/.ready
 
 test: $(VENV)/.ready
 	$(TESTS)
+
+test-every: $(VENV)/.ready
+	$(TESTS) --every
 
 test-thorough: $(VENV)/.ready
 	$(TESTS) --thorough

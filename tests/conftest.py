@@ -17,6 +17,7 @@ def pytest_addoption(parser: pytest.Parser) -> None:
     parser.addoption(
         "--thorough", action="store_true", help="all random mechanisms, many more examples"
     )
+    parser.addoption("--every", action="store_true", help="every case of every test")
 
 
 def pytest_configure(config: pytest.Config) -> None:
@@ -34,8 +35,9 @@ MANY = 4
 
 
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
-    """Take every second to fifth case of a test that has many, but for ``--thorough``."""
-    if config.getoption("--thorough") or any("::" in word for word in config.args):
+    """Take every second to fifth case of a test that has many, unless every one is asked for."""
+    options = config.getoption("--thorough"), config.getoption("--every")
+    if any(options) or any("::" in word for word in config.args):
         return
     found: dict[str, list[pytest.Item]] = {}
     for item in items:

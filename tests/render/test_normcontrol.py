@@ -131,7 +131,7 @@ SHOWN: dict[str, tuple[Drawing, Drawing]] = {
         sheet(Arc(100 + 100j, 9.0, 0.0, 1.0, tag="ω 1"), *slider(124 + 104j)),
     ),
     "PM-D16": (
-        sheet(word("ε", 70 + 200j), word("x", 74 + 200j), *SCALE, views=(VIEW,)),
+        sheet(word("ε", 70 + 200j), word("x", 73.4 + 200j), *SCALE, views=(VIEW,)),
         sheet(word("ε", 70 + 200j), word("x", 77 + 200j), *SCALE, views=(VIEW,)),
     ),
 }
