@@ -36,7 +36,8 @@ _BAR = 25.0  # mm: a longer line is no fraction's
 _OVER = 3.5  # mm: a letter further from a line than this does not stand on it
 _TOUCH = 0.05  # mm: what is not yet nearer
 
-_VECTORS = {kind.value for kind in VectorKind}
+_VECTORS = {*(kind.value for kind in VectorKind), "similar"}
+"""Tags of vectors and of the sides of similar figures, which the letters at their ends name."""
 
 Arrows = dict[str, BaseGeometry]
 """Arcs of the arrows of ω and ε by their tags."""
@@ -125,7 +126,7 @@ def _fractions(items: Sequence[Item], writings: Sequence[Writing]) -> Iterator[F
         if not (isinstance(item, Stroke) and item.pen is Pen.THIN and len(item.points) == 2):
             continue
         if item.tag.startswith(PART_OF) or item.tag in _VECTORS:
-            continue  # an overbar; a vector, which its name stands at
+            continue  # an overbar
         (left, right) = sorted(item.points, key=lambda p: p.real)
         if not 2.0 < right.real - left.real < _BAR or abs(right.imag - left.imag) > 0.5:
             continue
