@@ -19,8 +19,9 @@ from planmethod.construct.steps import PointName
 from planmethod.mechanism.model import FRAME
 from planmethod.note.narrate.given import point_name
 from planmethod.plans.model import PlanKind
-from planmethod.record import dataclass
-from planmethod.render.ink.drawing import Arc, Disc, Item, Pen
+from planmethod.record import dataclass, replace
+from planmethod.render.ink.drawing import Arc, Disc, Item, Pen, Stroke
+from planmethod.render.ink.style import stroke_lines
 from planmethod.render.ink.typeset import typeset
 from planmethod.render.labels import CROWDED, Label
 from planmethod.render.pictures.paths import Paths
@@ -161,7 +162,7 @@ class Positions:
         scheme = Scheme(self.shown, index, self.letter_height, pen=pen)
         for link in self.solution.problem.mechanism.links:
             scheme.draw_link(link)
-        return scheme.lines
+        return map(_readable, scheme.lines)
 
     def marks(self) -> list[Item]:
         """Return the joints in the other positions: small circles, smaller where they are dense."""
@@ -208,6 +209,13 @@ class Positions:
             manner=CROWDED,
             series=point,
         )
+
+
+def _readable(item: Item) -> Item:
+    """Return a line that is too short to show its pattern as a thin one (GOST 2.303)."""
+    if not isinstance(item, Stroke) or item.pen is not Pen.PHANTOM:
+        return item
+    return replace(item, pen=Pen.THIN) if len(stroke_lines(item)) < 2 else item
 
 
 def shows_extremes(solution: Solution, indices: Sequence[int]) -> bool:
