@@ -39,24 +39,46 @@ _HEADING, _LETTERS = 5.0, 8  # mm, and letters: an inscription larger and longer
 _NOT_XML = pattern(r"[\x00-\x08\x0b\x0c\x0e-\x1f\ud800-\udfff\ufffe\uffff]")
 
 
-class _Later(ModuleType):
-    """A module of functions that is imported when one of them is called."""
+class _Tables(ModuleType):
+    """A module that is imported when something of it is asked for."""
 
     def __getattr__(self, name: str) -> Any:
         if name.startswith("__"):
             raise AttributeError(name)
-        return lambda *args, **words: getattr(import_module(self.__name__), name)(*args, **words)
+        return self._asked(name)
+
+    def _asked(self, name: str) -> Any:
+        return getattr(import_module(self.__name__), name)
+
+
+class _Functions(_Tables):
+    """A module of functions that is imported when one of them is called."""
+
+    def _asked(self, name: str) -> Any:
+        return lambda *args, **words: super(_Functions, self)._asked(name)(*args, **words)
+
+
+_LATER = {
+    "urllib.request": _Functions,
+    "svgwrite.data.svgparser": _Functions,
+    "svgwrite.data.full11": _Tables,
+    "svgwrite.data.tiny12": _Tables,
+}
+"""What svgwrite needs for downloads and checks alone: two thirds of its import."""
 
 
 def _library() -> Any:
-    """Return svgwrite, without what it needs for downloads and checks alone: half of its import."""
-    later = {"urllib.request", "svgwrite.data.svgparser"} - set(sys.modules)
-    sys.modules.update((name, _Later(name)) for name in later)
+    """Return svgwrite without `_LATER`."""
+    later = {name: kind(name) for name, kind in _LATER.items() if name not in sys.modules}
+    sys.modules.update(later)
     try:
-        return import_module("svgwrite")
+        library = import_module("svgwrite")
     finally:
         for name in later:
             del sys.modules[name]
+    # That of drawings that are not checked: it would ask for the tables.
+    import_module("svgwrite.validator2").validator_cache.setdefault("fullFalse", None)
+    return library
 
 
 _SVGWRITE = _library()
@@ -79,7 +101,7 @@ class SvgCanvas(Canvas):
     def __init__(self, _options: Options) -> None:
         self._height = 0.0
         self._letters: set[str] = set()
-        self._runs: dict[str, Any] = {}
+        self._runs: dict[str, str] = {}
         self._keys: dict[str, str] = {}
         self._sheet: Any = None
         self._drawn: Any = None
@@ -194,13 +216,14 @@ class SvgCanvas(Canvas):
         if name not in self._runs:
             unit = _number(item.height / self._lettering.cap_height, 8)
             turn = f"rotate({_number(-item.angle, 4)})" if item.angle else ""
-            self._runs[name] = run = self._sheet.g(id=name)
-            run["transform"] = f"{turn}scale({unit}-{unit})"
-            for char, pen in self._lettering.places(item.text):
-                if self._lettering.glyph(char).strokes:
-                    self._letters.add(char)
-                    place = {"x": str(pen)} if pen else {}
-                    run.add(self._sheet.use(f"#{self._glyph_id(char)}", **place))
+            placed = [(char, pen) for char, pen in self._lettering.places(item.text)
+                      if self._lettering.glyph(char).strokes]  # fmt: skip
+            self._letters.update(char for char, _ in placed)
+            # Half of all elements are these letters: as elements they cost as much as the drawing.
+            uses = (f'''<use{f' x="{pen}"' if pen else ""} xlink:href="#{self._glyph_id(char)}"/>'''
+                    for char, pen in placed)  # fmt: skip
+            head = f'<g id="{name}" transform="{turn}scale({unit}-{unit})"'
+            self._runs[name] = f"{head}>{''.join(uses)}</g>" if placed else f"{head}/>"
         return name
 
     def _write(self) -> None:
@@ -229,10 +252,11 @@ class SvgCanvas(Canvas):
     def close(self) -> bytes:
         """Return the file, with the letters and runs that occur."""
         self._write()
-        for part in self._defined():
+        for part in self._glyphs():
             self._sheet.defs.add(part)
         self._sheet.set_desc(title=self._title, desc="; ".join(self._headings) or None)
         text = str(self._sheet.tostring()).replace(" />", "/>")
+        text = text.replace("</defs>", f"{''.join(self._runs.values())}</defs>", 1)
         return b'<?xml version="1.0" encoding="UTF-8"?>\n' + text.encode("utf-8") + b"\n"
 
     def parts(self, items: Iterable[Item]) -> str:
@@ -246,12 +270,12 @@ class SvgCanvas(Canvas):
 
     def letters(self) -> str:
         """Return the letters and runs that occur, as elements."""
-        return "".join(str(part.tostring()) for part in self._defined())
+        glyphs = "".join(str(part.tostring()) for part in self._glyphs())
+        return glyphs + "".join(self._runs.values())
 
-    def _defined(self) -> list[Any]:
+    def _glyphs(self) -> list[Any]:
         shapes = {self._glyph_id(c): self._lettering.glyph(c).strokes for c in self._letters}
-        letters = [self._sheet.path(shapes[name], id=name) for name in sorted(shapes)]
-        return [*letters, *self._runs.values()]
+        return [self._sheet.path(shapes[name], id=name) for name in sorted(shapes)]
 
     def _glyph_id(self, char: str) -> str:
         return "none" if self._lettering.missing(char) else f"u{ord(char):x}"

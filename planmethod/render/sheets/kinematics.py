@@ -32,7 +32,10 @@ from planmethod.solved.turn.turn import turn_of
 
 @dataclass(frozen=True, slots=True)
 class _Task:
-    """What is drawn, whatever the paper; ``views`` fill the paper's own boxes when absent."""
+    """What is drawn, whatever the paper; ``views`` fill the paper's own boxes when absent.
+
+    ``estimated`` is the solution whose views were the first guess.
+    """
 
     problem: Problem
     layout: Composition
@@ -41,9 +44,13 @@ class _Task:
     profile: Profile
     extras: Extras
     views: Views | None = None
+    estimated: Solution | None = None
 
-    def solved(self, views: Views, scales: Scales) -> Solution:
+    def solved(self, views: Views | None, scales: Scales) -> Solution:
         """Return the solution for the views of a paper, with certain scales."""
+        known = self.estimated
+        if known is not None and (known.views, known.problem.scales) == (views, scales):
+            return known
         solution = Solution(
             replace(self.problem, scales=scales),
             positions=self.positions,
@@ -183,6 +190,7 @@ def kinematics_sheets(
     furniture = furniture or Furniture.of(problem.sheet)
     extras = Extras(words, errors, sigma, made.turn)
     task = _Task(problem, made, tuple(asked), ruler, profile, extras)
+    task = replace(task, estimated=task.solved(None, problem.scales))
     views = _views(task)
     papers = (views.paper,) if paper else made.formats[made.formats.index(views.paper) :]
     scales = problem.scales
@@ -219,7 +227,8 @@ def kinematics_sheets(
 def _views(task: _Task) -> Views:
     """Return the views on the format that sheets are tried on first."""
     layout, count = task.layout, len(task.positions)
-    views = Solution(task.problem, positions=task.positions).views
+    assert task.estimated is not None
+    views = task.estimated.views
     estimated = views.paper in layout.formats and any(entry.of for entry in layout.blocks)
     if not task.problem.sheet.paper and not estimated:  # it is one of schemes and plans
         views = Views.for_paper(layout.formats[0], count)
