@@ -14,7 +14,7 @@ from collections.abc import Iterable, Sequence
 from importlib import import_module
 from itertools import pairwise
 from math import pi, radians, tau
-from types import ModuleType
+from types import ModuleType, SimpleNamespace
 from typing import Any
 from zlib import crc32
 
@@ -118,8 +118,9 @@ class SvgCanvas(Canvas):
         self._height = height
         self._lettering = lettering
         white = _INKS[Ink.WHITE]
+        unchecked = SimpleNamespace(_parameter=import_module("svgwrite.params").Parameter(False))
         self._sheet = _SVGWRITE.Drawing(
-            size=(f"{w}mm", f"{h}mm"), viewBox=f"0 0 {w} {h}", debug=False
+            size=(f"{w}mm", f"{h}mm"), viewBox=f"0 0 {w} {h}", factory=unchecked
         )
         # What is marked with the mouse is the text, not the letters over it.
         self._sheet["pointer-events"] = "none"
@@ -220,8 +221,10 @@ class SvgCanvas(Canvas):
                       if self._lettering.glyph(char).strokes]  # fmt: skip
             self._letters.update(char for char, _ in placed)
             # Half of all elements are these letters: as elements they cost as much as the drawing.
-            uses = (f'''<use{f' x="{pen}"' if pen else ""} xlink:href="#{self._glyph_id(char)}"/>'''
-                    for char, pen in placed)  # fmt: skip
+            uses = [
+                "<use" + (f' x="{pen}"' if pen else "") + f' xlink:href="#{self._glyph_id(char)}"/>'
+                for char, pen in placed
+            ]
             head = f'<g id="{name}" transform="{turn}scale({unit}-{unit})"'
             self._runs[name] = f"{head}>{''.join(uses)}</g>" if placed else f"{head}/>"
         return name
