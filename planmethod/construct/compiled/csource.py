@@ -17,8 +17,14 @@ from planmethod.construct.compiled.tape import Ref, Tape, same
 BLOCK = 512
 """Positions between two looks at the margins."""
 
+APART = 24
+"""Doubles between buffers: places a page apart push each other out of the cache."""
+
 STAGE = 200
-"""Operations of one loop. In a longer one more rows are written by turns than the memory takes."""
+"""Operations of one loop: longer ones are slower."""
+
+ROWS = 20
+"""Rows that one loop writes: more streams than that go slower through the memory."""
 
 WEIGHT = {"cosd": 30, "sind": 0, "atan2": 30}
 """Operations that one of these comes to; a sine comes with its cosine."""
@@ -171,7 +177,8 @@ class _Lines:
         self.buffers = 0
         self.watched: set[int] = set()  # words of the margins that loops before have looked at
         self._home: dict[int, str] = {}  # where the next loops find a node
-        stages = _stages(tape, used_by(tape, [*results, *(guard.margin for guard in guards)]))
+        needed = used_by(tape, [*results, *(guard.margin for guard in guards)])
+        stages = _stages(tape, needed, results)
         last = {ref: k for k, stage in enumerate(stages) for n in stage for ref in _used(tape, n)}
         free: list[str] = []
         for k, stage in enumerate(stages):
@@ -272,18 +279,20 @@ def _used(tape: Tape, number: int) -> list[int]:
     return [] if kind == "input" else [ref for ref in refs if type(ref) is int]
 
 
-def _stages(tape: Tape, needed: Sequence[int]) -> list[list[int]]:
+def _stages(tape: Tape, needed: Sequence[int], results: Sequence[Ref]) -> list[list[int]]:
     """Cut operations into loops."""
+    rows = Counter(ref for ref in results if type(ref) is int)
     stages: list[list[int]] = [[]]
-    weight = 0
+    weight = written = 0
     for number in needed:
         kind, refs = tape.nodes[number]
         own = 0 if kind == "cosd" and _is_input(tape, refs[0]) else WEIGHT.get(kind, 1)
-        if weight + own > STAGE:
+        if weight + own > STAGE or written + rows[number] > ROWS:
             stages.append([])
-            weight = 0
+            weight = written = 0
         stages[-1].append(number)
         weight += own
+        written += rows[number]
     return stages
 
 
@@ -296,7 +305,7 @@ def _whole(lines: _Lines, needs: Sequence[Sequence[str]], words: int) -> str:
     rows = range(len(needs))
     own = [f"const double k{k} = k[{k}];" for k in range(len(lines.constants))]
     own += [f"double e{k}[{BLOCK}];" for k in range(len(lines.inputs))]
-    own += [f"double b{k}[{BLOCK}];" for k in range(lines.buffers)]
+    own += [f"double b{k}[{BLOCK + APART}];" for k in range(lines.buffers)]
     own += [f"uint64_t bad{w}[{BLOCK}];" for w in range(words)]
     turned = sorted(lines.turned)
     own += [f"double c{k}[BLOCK], s{k}[BLOCK], table{k}[2 * BLOCK + 1] = {{NAN}};" for k in turned]
