@@ -6,6 +6,7 @@
 ``others``      what the labels make of them that have their places
 ``ladder``      columns for the labels of points that are close together
 ``place``       one label after another, the hard ones first; then those that stand badly are mended
+``spare``       labels that are left out where there is no room
 """
 
 from planmethod.render.labels.model import (
@@ -19,9 +20,11 @@ from planmethod.render.labels.model import (
     segment_label,
 )
 from planmethod.render.labels.place import place_labels
+from planmethod.render.labels.spare import BESIDE, spare_labels
 
 __all__ = [
     "ALONE",
+    "BESIDE",
     "BUSY",
     "CROWDED",
     "UNDER_LABEL",
@@ -30,4 +33,5 @@ __all__ = [
     "Placed",
     "place_labels",
     "segment_label",
+    "spare_labels",
 ]

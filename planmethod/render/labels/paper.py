@@ -29,7 +29,7 @@ _PER_MM = 20.0
 _BETWEEN = 7.0  # per thin line between a label and what it names
 _THROUGH = 60.0  # per filled area, an arrowhead mostly, that the leader runs through
 _ROUND_LINES = CLEAR * np.array([-1, -1, 1, 1])
-_ROUND_AREAS = 0.54  # white between a label and a filled area, mm
+ROUND_AREAS = 0.54  # white between a label and a filled area, mm
 _BESIDE = 0.6  # more of it at the sides of letters, mm: nearer they would read as one word
 _ALONG_LINE = 25.0  # a leader line along a line
 _ALONG = 0.2  # radians: less between them and they run along each other
@@ -131,7 +131,7 @@ class Paper:
     def _area_costs(self, boxes: Floats) -> Floats:
         costs = np.zeros(len(boxes))
         if self._areas is not None:
-            grown = boxes + np.array([-1, -1, 1, 1]) * _ROUND_AREAS
+            grown = boxes + np.array([-1, -1, 1, 1]) * ROUND_AREAS
             which, _ = self._areas.query(box(*grown.T), predicate="intersects")
             costs[which] += FORBIDDEN
         return costs

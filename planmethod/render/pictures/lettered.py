@@ -6,17 +6,11 @@ from collections.abc import Sequence
 
 from planmethod.render.ink.drawing import Fill, Item
 from planmethod.render.ink.extent import ink_bounds
-from planmethod.render.labels import Label, Placed, place_labels
+from planmethod.render.labels import BESIDE, Label, Placed, place_labels, spare_labels
 from planmethod.render.layout.block import Picture
 
 ROOMS = (26.0, 60.0)
 """Room around a picture for its letters, mm: more where they find no free place in less."""
-
-
-NEAR = 8.0
-"""Furthest middle of a label that may be left out from what it names, mm."""
-
-_BESIDE = 1.0  # mm on either side of a label, on top of the white around an area
 
 
 def lettered(
@@ -42,20 +36,15 @@ def lettered(
             continue
         break
     whole = [*items, *(item for label in placed for item in label.items())]
-    kept = [*clear, *map(_beside, placed)]
-    for label in welcome:
-        (found,) = place_labels([label], [*whole, *kept], ink_bounds(whole))
-        near = abs(complex(*found.bounds[:2]) + complex(*found.bounds[2:]) - 2 * label.anchor) / 2
-        if found.free and found.leader is None and near < NEAR:
-            whole += found.items()
-            kept.append(_beside(found))
+    for label in spare_labels(welcome, [*whole, *clear, *map(_beside, placed)], ink_bounds(whole)):
+        whole += label.items()
     return Picture(tuple(whole), ink_bounds(whole))
 
 
 def _beside(placed: Placed) -> Fill:
     """Return what nothing may stand in that is not to be read as one with a label."""
     left, low, right, high = placed.bounds
-    left, right = left - _BESIDE, right + _BESIDE
+    left, right = left - BESIDE, right + BESIDE
     return Fill(
         (complex(left, low), complex(right, low), complex(right, high), complex(left, high))
     )

@@ -1,0 +1,54 @@
+"""Labels that are put down only where there is room beside what they name."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+
+import numpy as np
+
+from planmethod.render.ink.drawing import Bounds, Item
+from planmethod.render.labels.candidates import near
+from planmethod.render.labels.model import Label, Placed
+from planmethod.render.labels.paper import CROSSED, ROUND_AREAS, Paper
+
+NEAR = 8.0
+"""Furthest middle of a label that may be left out from what it names, mm."""
+
+BESIDE = 1.0
+"""White on either side of a label on top of that around an area: it is not read as one with it."""
+
+
+def spare_labels(
+    labels: Sequence[Label], obstacles: Iterable[Item], bounds: Bounds
+) -> list[Placed]:
+    """Place what labels have a free place, one after another; the others are left out.
+
+    Parameters
+    ----------
+    labels : sequence of Label
+    obstacles : iterable of Item
+        As of `place_labels`.
+    bounds : Bounds, mm
+        All labels stay inside.
+    """
+    if not labels:
+        return []
+    paper = Paper(obstacles, bounds)
+    sets = [near(label) for label in labels]
+    free = [every.chosen(rows) for every, rows in zip(sets, paper.free(sets), strict=True)]
+    white = np.array([-BESIDE, 0, BESIDE, 0]) + ROUND_AREAS * np.array([-1, -1, 1, 1])
+    taken = np.empty((0, 4))
+    found = []
+    for label, places, costs in zip(labels, free, paper.costs(free), strict=True):
+        x0, y0, x1, y1 = (places.boxes[:, k, None] for k in range(4))
+        apart = (x1 < taken[:, 0]) | (x0 > taken[:, 2]) | (y1 < taken[:, 1]) | (y0 > taken[:, 3])
+        costs = np.where(apart.all(axis=1), costs, np.inf)
+        k = int(np.argmin(np.round(costs, 9))) if len(costs) else -1
+        if k < 0 or costs[k] >= CROSSED or places.led[k]:
+            continue
+        box = places.boxes[k]
+        if abs(complex(*box[:2]) + complex(*box[2:]) - 2 * label.anchor) / 2 < NEAR:
+            at = complex(box[0], box[1] + label.inscription.descent)
+            found.append(Placed(label, at, None, free=True, ground=False))
+            taken = np.concatenate([taken, [box + white]])
+    return found
