@@ -15,6 +15,7 @@ TRAIN = str(PROBLEMS / "gears/gears-ex2.toml")
 SIX_LINK = str(path_of("levers/six-link"))
 
 ALL = "numpy", "shapely", "svgwrite", "reportlab", "matplotlib", "mpmath", "ezdxf", "scipy"
+TABLES = "svgwrite.data.svgparser", "svgwrite.data.full11", "svgwrite.data.tiny12"
 FONTS = ("fontTools",)
 """The subset of the font is made without the library that made the font."""
 FORCES = {
@@ -75,7 +76,7 @@ def drawing(name: str, *args: str) -> tuple[tuple[str, ...], ...]:
         (
             drawing(EX3, "--format", "pdf"),
             {"numpy", "shapely", "reportlab"},
-            {"matplotlib", "mpmath", "ezdxf", "svgwrite", "scipy", "fontTools"},
+            {"matplotlib", "mpmath", "ezdxf", "svgwrite", "scipy", "fontTools", "PIL"},
         ),
         (
             drawing(EX3, "--format", "png", "--dpi", "30"),
@@ -91,7 +92,7 @@ def drawing(name: str, *args: str) -> tuple[tuple[str, ...], ...]:
             drawing(SIX_LINK, "--format", "svg"),
             {"numpy", "shapely", "svgwrite"},
             {"matplotlib", "mpmath", "ezdxf", "reportlab", "scipy", "fontTools", "PIL", *FORCES}
-            | {"urllib.request", "svgwrite.data.svgparser"},
+            | {"urllib.request", *TABLES},
         ),
         (
             (("--help",),),

@@ -8,18 +8,18 @@ letters are, printed with them, and read aloud; no eye sees in which font.
 
 from __future__ import annotations
 
-import sys
 from cmath import exp
 from collections.abc import Iterable, Sequence
 from importlib import import_module
 from itertools import pairwise
 from math import pi, radians, tau
-from types import ModuleType, SimpleNamespace
+from types import SimpleNamespace
 from typing import Any
 from zlib import crc32
 
 from planmethod.pattern import pattern
 from planmethod.render.backends.canvas import Canvas, Options, draw
+from planmethod.render.backends.later import LateFunctions, LateModule, imported
 from planmethod.render.ink.drawing import Arc, Disc, Fill, Ink, Item, Pen, Stroke, Text
 from planmethod.render.ink.lettering import OutlineLettering
 from planmethod.render.ink.style import PENS, arc_spans, closes, stroke_lines
@@ -39,49 +39,18 @@ _HEADING, _LETTERS = 5.0, 8  # mm, and letters: an inscription larger and longer
 _NOT_XML = pattern(r"[\x00-\x08\x0b\x0c\x0e-\x1f\ud800-\udfff\ufffe\uffff]")
 
 
-class _Tables(ModuleType):
-    """A module that is imported when something of it is asked for."""
-
-    def __getattr__(self, name: str) -> Any:
-        if name.startswith("__"):
-            raise AttributeError(name)
-        return self._asked(name)
-
-    def _asked(self, name: str) -> Any:
-        return getattr(import_module(self.__name__), name)
-
-
-class _Functions(_Tables):
-    """A module of functions that is imported when one of them is called."""
-
-    def _asked(self, name: str) -> Any:
-        return lambda *args, **words: super(_Functions, self)._asked(name)(*args, **words)
-
-
 _LATER = {
-    "urllib.request": _Functions,
-    "svgwrite.data.svgparser": _Functions,
-    "svgwrite.data.full11": _Tables,
-    "svgwrite.data.tiny12": _Tables,
+    "urllib.request": LateFunctions,
+    "svgwrite.data.svgparser": LateFunctions,
+    "svgwrite.data.full11": LateModule,
+    "svgwrite.data.tiny12": LateModule,
 }
 """What svgwrite needs for downloads and checks alone: two thirds of its import."""
 
 
-def _library() -> Any:
-    """Return svgwrite without `_LATER`."""
-    later = {name: kind(name) for name, kind in _LATER.items() if name not in sys.modules}
-    sys.modules.update(later)
-    try:
-        library = import_module("svgwrite")
-    finally:
-        for name in later:
-            del sys.modules[name]
-    # That of drawings that are not checked: it would ask for the tables.
-    import_module("svgwrite.validator2").validator_cache.setdefault("fullFalse", None)
-    return library
-
-
-_SVGWRITE = _library()
+_SVGWRITE = imported("svgwrite", {name: kind(name) for name, kind in _LATER.items()})
+# That of drawings that are not checked: it would ask for the tables.
+import_module("svgwrite.validator2").validator_cache.setdefault("fullFalse", None)
 
 
 def _clean(text: str) -> str:
