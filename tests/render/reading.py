@@ -69,7 +69,7 @@ def read_svg(data: bytes) -> Page:
     for group in drawn:
         said = {**drawn.attrib, **group.attrib}
         for element in group:
-            if element.tag == f"{SVG}use":
+            if element.tag in (f"{SVG}use", f"{SVG}g"):
                 page.items.append(_svg_run(element, height, defined))
                 continue
             if element.tag == f"{SVG}circle":
@@ -88,19 +88,26 @@ def read_svg(data: bytes) -> Page:
 
 
 def _svg_run(element: ET.Element, height: float, defined: dict[str, ET.Element]) -> Run:
+    """Read a run that stands in the definitions, or where it is drawn, if only there."""
     number = r"(-?[\d.]+)"
-    run = defined[element.attrib[f"{XLINK}href"]]
+    if element.tag == f"{SVG}use":
+        run, place = (
+            defined[element.attrib[f"{XLINK}href"]],
+            "translate({x} {y})".format(**element.attrib),
+        )
+    else:
+        run, place = element, ""
     found = re.fullmatch(
-        rf"(?:rotate\({number}\))?scale\({number}-{number}\)", run.attrib["transform"]
+        rf"translate\({number} {number}\)(?:rotate\({number}\))?scale\({number}-{number}\)",
+        place + run.attrib["transform"],
     )
     assert found, run.attrib["transform"]
-    turn, unit, unit_y = (float(part or 0) for part in found.groups())
+    x, y, turn, unit, unit_y = (float(part or 0) for part in found.groups())
     assert unit == unit_y
     letters = [use.attrib[f"{XLINK}href"] for use in run]
     assert set(letters) <= set(defined)
     text = "".join(chr(int(name[2:], 16)) for name in letters if name != "#none")
-    at = complex(float(element.attrib["x"]), height - float(element.attrib["y"]))
-    return Run(at, in_use().units_per_em * unit, -turn, text)
+    return Run(complex(x, height - y), in_use().units_per_em * unit, -turn, text)
 
 
 def _svg_path(data: str, height: float) -> Path:

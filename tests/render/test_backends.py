@@ -436,13 +436,16 @@ def test_svg_needs_no_font_and_no_style_sheet() -> None:
     assert not re.search(r"\bstyle=|\shref=|dasharray|[0-9]e-?[0-9]|\d\.\d{10}|nan|inf\b", data)
 
 
-def test_svg_holds_each_letter_and_each_run_once() -> None:
+def test_svg_holds_each_letter_once_and_each_run_that_recurs() -> None:
     twice = [Text(1 + k * 1j, "аба 漢字", 3.5, tag="имя") for k in (1, 4)]
     root = ET.fromstring(render(sheet_of(*twice, Text(1 + 8j, "ба", 3.5)), "svg"))
     defs = root.find(f"{SVG}defs")
     assert defs is not None
     assert [part.attrib["id"] for part in defs[:3]] == ["none", "u430", "u431"]
-    assert [len(run) for run in defs[3:]] == [5, 2]
+    assert [len(run) for run in defs[3:]] == [5]
+    drawn = root.findall(f"{SVG}g")[1]
+    assert [part.tag.removeprefix(SVG) for part in drawn[0]] == ["use", "use", "g"]
+    assert [len(part) for part in drawn[0]] == [0, 0, 2]
     assert [word.text for word in root.iter(f"{SVG}text")] == ["аба 漢字"] * 2 + ["ба"]
     assert "Проба «А» & <б>" in "".join(root.itertext())
     assert [g.attrib["data-tag"] for g in root.iter() if "data-tag" in g.attrib] == ["имя"] * 2
@@ -452,7 +455,7 @@ def test_svg_letters_advance_as_the_lettering_says() -> None:
     text = Text(1 + 1j, "План ab", 3.5)
     root = ET.fromstring(render(sheet_of(text), "svg"))
     unit = text.height / in_use().cap_height
-    letters = root.findall(f"{SVG}defs/{SVG}g/{SVG}use")
+    letters = root.findall(f"{SVG}g/{SVG}g/{SVG}g/{SVG}use")
     places = [float(use.attrib.get("x", 0)) * unit for use in letters]
     starts = [k for k, char in enumerate(text.text) if char != " "]
     assert places == pytest.approx([in_use().width(text.text[:k], 3.5) for k in starts])

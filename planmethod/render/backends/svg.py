@@ -15,6 +15,7 @@ from itertools import pairwise
 from math import pi, radians, tau
 from types import SimpleNamespace
 from typing import Any
+from xml.etree.ElementTree import Element
 from zlib import crc32
 
 from planmethod.pattern import pattern
@@ -53,8 +54,26 @@ _SVGWRITE = imported("svgwrite", {name: kind(name) for name, kind in _LATER.item
 import_module("svgwrite.validator2").validator_cache.setdefault("fullFalse", None)
 
 
+class _Letters:
+    """Stands in a group for letters, which are half of all elements and written as text.
+
+    As elements they cost as much as all the rest of a drawing.
+    """
+
+    TEXT = "<letters/>"
+
+    def get_xml(self) -> Element:
+        """Return the element that is replaced."""
+        return Element("letters")
+
+
 def _clean(text: str) -> str:
     return _NOT_XML.sub("�", text)
+
+
+def _escaped(text: str) -> str:
+    text = _clean(text).replace("&", "&amp;").replace("<", "&lt;").replace(">", "&gt;")
+    return text.replace('"', "&quot;")
 
 
 def _number(value: float, places: int = 3) -> str:
@@ -70,7 +89,10 @@ class SvgCanvas(Canvas):
     def __init__(self, _options: Options) -> None:
         self._height = 0.0
         self._letters: set[str] = set()
-        self._runs: dict[str, str] = {}
+        self._runs: dict[str, tuple[str, str]] = {}
+        self._times: dict[str, int] = {}
+        self._placed: list[list[tuple[str, str, str, str]]] = []
+        self._texts: list[str] = []
         self._keys: dict[str, str] = {}
         self._sheet: Any = None
         self._drawn: Any = None
@@ -98,6 +120,7 @@ class SvgCanvas(Canvas):
         self._words = self._sheet.add(
             self._sheet.g(class_="words", fill=white, pointer_events="all", font_size="5")
         )
+        self._words.add(_Letters())
         self._drawn = self._sheet.add(self._sheet.g(**_LINES))
 
     def _xy(self, point: complex) -> str:
@@ -170,9 +193,15 @@ class SvgCanvas(Canvas):
     def text(self, item: Text) -> None:
         """Place the strokes of a run, and under everything its text."""
         line = _number(self._lettering.line * self._lettering.cap_height)
+        group = self._in_group("text", stroke_width=line)
+        if not group.elements:
+            group.add(_Letters())
+            self._placed.append([])
         x, y = _number(item.at.real, 2), _number(self._height - item.at.imag, 2)
-        run = self._sheet.use(f"#{self._run(item)}", x=x, y=y)
-        self._add(self._in_group("text", stroke_width=line), run, item.tag)
+        tag = "" if item.tag.startswith(PART_OF) else item.tag
+        self._placed[-1].append(
+            (self._run(item), x, y, f' data-tag="{_escaped(tag)}"' if tag else "")
+        )
         if not item.label or (self._written and item.label != self._written[-1].label):
             self._write()
         self._written.append(item)
@@ -189,14 +218,32 @@ class SvgCanvas(Canvas):
             placed = [(char, pen) for char, pen in self._lettering.places(item.text)
                       if self._lettering.glyph(char).strokes]  # fmt: skip
             self._letters.update(char for char, _ in placed)
-            # Half of all elements are these letters: as elements they cost as much as the drawing.
             uses = [
                 "<use" + (f' x="{pen}"' if pen else "") + f' xlink:href="#{self._glyph_id(char)}"/>'
                 for char, pen in placed
             ]
-            head = f'<g id="{name}" transform="{turn}scale({unit}-{unit})"'
-            self._runs[name] = f"{head}>{''.join(uses)}</g>" if placed else f"{head}/>"
+            self._runs[name] = f"{turn}scale({unit}-{unit})", "".join(uses)
+        self._times[name] = self._times.get(name, 0) + 1
         return name
+
+    def _there(self, placed: tuple[str, str, str, str], *, kept: bool) -> str:
+        """Return a run where it stands; one that is ``kept`` stands in the definitions."""
+        name, x, y, tag = placed
+        if kept:
+            return f'<use{tag} x="{x}" xlink:href="#{name}" y="{y}"/>'
+        turn, uses = self._runs[name]
+        return f'<g{tag} transform="translate({x} {y}){turn}">{uses}</g>' if uses else ""
+
+    def _with_letters(self, text: str, letters: Iterable[str]) -> str:
+        """Return what svgwrite wrote with letters in their places."""
+        first, *rest = text.replace(" />", "/>").split(_Letters.TEXT)
+        return first + "".join(map(str.__add__, letters, rest))
+
+    def _kept_runs(self, names: Iterable[str]) -> str:
+        return "".join(
+            f'<g id="{name}" transform="{turn}">{uses}</g>'
+            for name, (turn, uses) in ((name, self._runs[name]) for name in names)
+        )
 
     def _write(self) -> None:
         """Write the runs of an inscription as one text, as long as they are."""
@@ -209,16 +256,16 @@ class SvgCanvas(Canvas):
             for run in self._written
         )
         x, y = _number(first.at.real, 1), _number(self._height - first.at.imag, 1)
-        text = self._words.add(self._sheet.text(letters, x=[x], y=[y]))
-        size = _number(self._lettering.em(first.height), 1)
+        size, said = _number(self._lettering.em(first.height), 1), "<text"
         if size != self._words["font-size"]:
-            text["font-size"] = size
+            said += f' font-size="{size}"'
         if len(letters) > 1:
-            text["textLength"] = _number(length, 1)
+            said += f' textLength="{_number(length, 1)}"'
         if first.angle:
-            text["transform"] = f"rotate({_number(-first.angle, 4)} {x} {y})"
+            said += f' transform="rotate({_number(-first.angle, 4)} {x} {y})"'
         elif first.height >= _HEADING and len(letters) > _LETTERS and not first.tag:
             self._headings.append(letters)
+        self._texts.append(f'{said} x="{x}" y="{y}">{_escaped(letters)}</text>')
         self._written.clear()
 
     def close(self) -> bytes:
@@ -227,8 +274,14 @@ class SvgCanvas(Canvas):
         for part in self._glyphs():
             self._sheet.defs.add(part)
         self._sheet.set_desc(title=self._title, desc="; ".join(self._headings) or None)
-        text = str(self._sheet.tostring()).replace(" />", "/>")
-        text = text.replace("</defs>", f"{''.join(self._runs.values())}</defs>", 1)
+        kept = {name for name, times in self._times.items() if times > 1}
+        runs = (
+            "".join(self._there(run, kept=run[0] in kept) for run in group)
+            for group in self._placed
+        )
+        text = self._with_letters(str(self._sheet.tostring()), ("".join(self._texts), *runs))
+        defined = self._kept_runs(name for name in self._runs if name in kept)
+        text = text.replace("</defs>", f"{defined}</defs>", 1)
         return b'<?xml version="1.0" encoding="UTF-8"?>\n' + text.encode("utf-8") + b"\n"
 
     def parts(self, items: Iterable[Item]) -> str:
@@ -236,14 +289,15 @@ class SvgCanvas(Canvas):
 
         The sheet is open; the letters that they use are in its `letters`.
         """
-        self._drawn, self._group_key = self._sheet.g(**_LINES), ""
+        self._drawn, self._group_key, self._placed = self._sheet.g(**_LINES), "", []
         draw(items, self)
-        return str(self._drawn.tostring())
+        runs = ("".join(self._there(run, kept=True) for run in group) for group in self._placed)
+        return self._with_letters(str(self._drawn.tostring()), runs)
 
     def letters(self) -> str:
         """Return the letters and runs that occur, as elements."""
         glyphs = "".join(str(part.tostring()) for part in self._glyphs())
-        return glyphs + "".join(self._runs.values())
+        return glyphs + self._kept_runs(self._runs)
 
     def _glyphs(self) -> list[Any]:
         shapes = {self._glyph_id(c): self._lettering.glyph(c).strokes for c in self._letters}
