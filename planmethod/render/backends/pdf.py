@@ -12,14 +12,21 @@ from typing import Any
 
 from planmethod.render.backends.canvas import Canvas, Options
 from planmethod.render.backends.curves import arc_curves
-from planmethod.render.backends.later import LateModule, imported
+from planmethod.render.backends.later import LateFunctions, LateModule, imported
 from planmethod.render.ink.drawing import Arc, Disc, Fill, Ink, Pen, Stroke, Text
 from planmethod.render.ink.lettering import OutlineLettering
 from planmethod.render.ink.style import PENS, arc_spans, closes, stroke_lines
 
-_PICTURES = ModuleType("PIL")  # there are none in our files
+_PICTURES = ModuleType("PIL")
 _PICTURES.Image = LateModule("PIL.Image")  # type: ignore[attr-defined]
-_RL_CONFIG = imported("reportlab.rl_config", {"PIL": _PICTURES})
+_LATER = {
+    "PIL": _PICTURES,
+    "reportlab.lib.rltempfile": LateFunctions("reportlab.lib.rltempfile"),
+    "reportlab.lib.rl_safe_eval": LateFunctions("reportlab.lib.rl_safe_eval"),
+}
+"""What reportlab needs for pictures, files of its own and colours by name."""
+
+_RL_CONFIG = imported("reportlab.rl_config", _LATER)
 _RL_CONFIG.useA85 = 0  # bytes as they are: a fifth smaller than as text, and quicker
 
 _FONTS = import_module("reportlab.pdfbase.pdfmetrics")
