@@ -240,10 +240,8 @@ class SvgCanvas(Canvas):
         return first + "".join(map(str.__add__, letters, rest))
 
     def _kept_runs(self, names: Iterable[str]) -> str:
-        return "".join(
-            f'<g id="{name}" transform="{turn}">{uses}</g>'
-            for name, (turn, uses) in ((name, self._runs[name]) for name in names)
-        )
+        run = '<g id="{}" transform="{}">{}</g>'
+        return "".join(run.format(name, *self._runs[name]) for name in names)
 
     def _write(self) -> None:
         """Write the runs of an inscription as one text, as long as they are."""
