@@ -11,7 +11,7 @@ import copy
 import inspect
 
 import click
-from click import core, decorators, exceptions, formatting, parser, termui, types
+from click import core, exceptions, formatting, parser, termui, types
 
 from planmethod.languages import translated
 
@@ -20,10 +20,30 @@ def _of_number(one: str, many: str, count: int) -> str:
     return translated(one if count == 1 else many)
 
 
-for _module in (core, decorators, exceptions, formatting, parser, termui, types):
+class _Kind(str):
+    """What a path is called, "file": translated when it is told, and few runs tell it."""
+
+    __slots__ = ()
+
+    def title(self) -> str:
+        """Return it as it begins a sentence."""
+        return translated(str(self)).title()
+
+    def upper(self) -> str:
+        """Return it as it stands for a value."""
+        return translated(str(self)).upper()
+
+
+def _kind_or_sentence(text: str) -> str:
+    return translated(text) if " " in text else _Kind(text)
+
+
+# The sentences of `decorators` are help.
+for _module in (core, exceptions, formatting, parser, termui, types):
     for _name, _look_up in (("_", translated), ("ngettext", _of_number)):
         if hasattr(_module, _name):
             setattr(_module, _name, _look_up)
+types._ = _kind_or_sentence  # type: ignore[attr-defined, assignment]
 
 
 class Spoken(click.Command):

@@ -8,7 +8,7 @@ from collections.abc import Collection, Iterable
 from planmethod.errors import StructureError
 from planmethod.languages import say
 from planmethod.mechanism.decompose import Node, Rigidity
-from planmethod.mechanism.model import FRAME, Mechanism, Prismatic
+from planmethod.mechanism.model import FRAME, Mechanism, Prismatic, Revolute
 
 
 def refuse_immovable(mechanism: Mechanism) -> None:
@@ -147,7 +147,12 @@ def _refuse_driver(mechanism: Mechanism) -> None:
             "one of them.",
             driver,
             len(pairs),
-            ", ".join(pairs),
+            ", ".join(
+                say("point {}", pair.point)
+                if isinstance(pair, Revolute)
+                else say("the slide of {}", pair.slider)
+                for pair in pairs
+            ),
         )
     others = sorted({link for ends in _joined(mechanism) if driver in ends for link in ends})
     beside = [link for link in mechanism.links if link in others and link != driver]
@@ -225,17 +230,10 @@ def _joined(mechanism: Mechanism) -> list[tuple[str, ...]]:
     return joined + [(pair.slider, pair.host) for pair in mechanism.prismatics]
 
 
-def _pairs_with_frame(mechanism: Mechanism, link: str) -> list[str]:
-    found = [
-        say("point {}", revolute.point)
-        for revolute in mechanism.revolutes
-        if FRAME in revolute.links and link in revolute.links
-    ]
-    return found + [
-        say("the slide of {}", pair.slider)
-        for pair in mechanism.prismatics
-        if {pair.slider, pair.host} == {FRAME, link}
-    ]
+def _pairs_with_frame(mechanism: Mechanism, link: str) -> list[Revolute | Prismatic]:
+    turning = [pair for pair in mechanism.revolutes if {FRAME, link} <= {*pair.links}]
+    sliding = [pair for pair in mechanism.prismatics if {pair.slider, pair.host} == {FRAME, link}]
+    return [*turning, *sliding]
 
 
 def _count_pairs(mechanism: Mechanism, link: str) -> int:

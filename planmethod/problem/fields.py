@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from enum import Enum
-from typing import Any, TypeGuard, TypeVar
+from typing import Any, TypeAlias, TypeGuard, TypeVar
 
 from planmethod.errors import Fault
 from planmethod.languages import say
@@ -373,8 +373,12 @@ def read_point_name(faults: Faults, path: str, value: object) -> str | None:
     return name
 
 
+Owner: TypeAlias = str | Callable[[], str]
+"""Whose points they are; said when a fault is told, since few files have one."""
+
+
 def read_known_point(
-    faults: Faults, path: str, value: object, known: Iterable[str], *, of: str
+    faults: Faults, path: str, value: object, known: Iterable[str], *, of: Owner
 ) -> str | None:
     """Read the name of a point that must be one of those known; ``of`` says whose they are."""
     name = read_point_name(faults, path, value)
@@ -383,13 +387,17 @@ def read_known_point(
     points = tuple(known)
     if name not in points:
         hint = near_hint(name, points, say("Its points are {}.", listed(points)))
-        faults.add(path, say("{} has no point '{}'", of, name), hint if points else "")
+        faults.add(
+            path,
+            say("{} has no point '{}'", of if isinstance(of, str) else of(), name),
+            hint if points else "",
+        )
         return None
     return name
 
 
 def read_line_name(
-    faults: Faults, path: str, value: object, known: Iterable[str], *, of: str
+    faults: Faults, path: str, value: object, known: Iterable[str], *, of: Owner
 ) -> tuple[str, str] | None:
     """Read a line named by two points, ``BC``: from B towards C."""
     if not isinstance(value, str):
@@ -403,6 +411,8 @@ def read_line_name(
     for name in pair:
         if name not in points:
             hint = say("Its points are {}.", listed(points)) if points else ""
-            faults.add(path, say("{} has no point '{}'", of, name), hint)
+            faults.add(
+                path, say("{} has no point '{}'", of if isinstance(of, str) else of(), name), hint
+            )
             return None
     return pair

@@ -369,8 +369,8 @@ def _read_form(faults: Faults, path: str, point: str, value: Table, link: LinkTe
         link.forms[point] = form
 
 
-def _owner(link: LinkText) -> str:
-    return say("link {}", link.name)
+def _owner(link: LinkText) -> fields.Owner:
+    return lambda: say("link {}", link.name)
 
 
 def _need(faults: Faults, path: str, table: Table, *names: str) -> bool:

@@ -75,12 +75,11 @@ def _read_table(
             faults.add(f"{path}.{key}", 'goes with law = "indicator" only')
     if law is not None:
         given = {**_LAWS[law], **given}
-    for key, hint in (
-        ("over", say("Say what the values are over: {}.", listed(_OVERS))),
-        ("values", say("For example: {}.", _TABLE)),
-    ):
-        if key not in given and whole:
-            faults.add(f"{path}.{key}", "missing", hint)
+    if whole and "over" not in given:
+        hint = say("Say what the values are over: {}.", listed(_OVERS))
+        faults.add(f"{path}.over", "missing", hint)
+    if whole and "values" not in given:
+        faults.add(f"{path}.values", "missing", say("For example: {}.", _TABLE))
     over = None
     if "over" in given:
         over = _read_over(faults, f"{path}.over", given["over"], drive, couple=couple)

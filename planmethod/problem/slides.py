@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 
 from planmethod.languages import say
 from planmethod.mechanism.model import FRAME
@@ -185,7 +185,10 @@ def read_slide(
             return None
         fixed, base, direction = frame.guides[guide]
         return Slide(link.name, FRAME, pin, base, direction, offset, guide, fixed, length=length)
-    owner = "the frame" if host == FRAME else say("link {}", host)
+
+    def owner() -> str:
+        return "the frame" if host == FRAME else say("link {}", host)
+
     if "along" in given:
         for key in ("through", "angle"):
             if key in given:
@@ -212,7 +215,9 @@ def read_slide(
     return Slide(link.name, host, pin, base, angle, offset, through, through, length=length)
 
 
-def _read_through(faults: Faults, path: str, given: Table, body: Body, owner: str) -> str | None:
+def _read_through(
+    faults: Faults, path: str, given: Table, body: Body, owner: Callable[[], str]
+) -> str | None:
     if "through" not in given:
         points = list(body.points)
         pair = "".join(points[:2]) if len(points) > 1 else ""
@@ -220,7 +225,7 @@ def _read_through(faults: Faults, path: str, given: Table, body: Body, owner: st
         ways += [f'through = "{points[0]}", angle = 0'] if points else []
         faults.add(
             path,
-            say("no line of {} is named", owner),
+            say("no line of {} is named", owner()),
             say("Add {}.", say(" or ").join(ways)) if ways else "",
         )
         return None

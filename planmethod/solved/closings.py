@@ -299,7 +299,6 @@ def _judge(
     first = int(distinct[0])
     plus, minus = float(scores[0][first]), float(scores[1][first])
     place = Place.of(problem, positions, first)
-    where = place.driver
     said = _said(rule, problem.unit)
     if abs(plus - minus) <= TIE * size:
         raise ProblemError(
@@ -310,7 +309,7 @@ def _judge(
                     say(
                         "'{}' does not tell the two closings apart at {}: both give {}",
                         said,
-                        where,
+                        place.driver,
                         told_length(plus, problem.unit),
                     ),
                     "Compare with another point or with a directed line",
@@ -318,7 +317,7 @@ def _judge(
             ],
         )
     if rule.where is not Where.NEAR and min(plus, minus) > TIE * size:
-        raise ProblemError(problem.name, [_ambiguous(rule, both, first, where)])
+        raise ProblemError(problem.name, [_ambiguous(rule, both, first, place.driver)])
     if rule.where is not Where.NEAR and max(plus, minus) <= 0:
         missed = (-plus, -minus)
         raise PositionError(Failure(Cause.NEITHER, place, said, (rule.point,), missed))
