@@ -80,14 +80,20 @@ class Others:
     def each(self, candidates: Candidates, rows: Numbers, others: Numbers) -> Floats:
         """Return what each of some labels costs each place, shape (n, len(others))."""
         costs = np.zeros((len(rows), len(others)))
+        if not len(rows) or not len(others):
+            return costs
         # Only a label near a place can meet it.
         mine, theirs, white = candidates.around[rows], self._around[others], self._widest
+        low, high = mine[:, :2].min(axis=0) - white, mine[:, 2:].max(axis=0) + white
+        (close,) = np.nonzero(((theirs[:, 2:] > low) & (theirs[:, :2] < high)).all(axis=1))
+        theirs = theirs[close]
         (row, other) = np.nonzero(
             (mine[:, None, 0] - white < theirs[:, 2])
             & (mine[:, None, 2] + white > theirs[:, 0])
             & (mine[:, None, 1] - white < theirs[:, 3])
             & (mine[:, None, 3] + white > theirs[:, 1])
         )
+        other = close[other]
         if not len(row):
             return costs
         at, of = rows[row], others[other]
@@ -97,14 +103,13 @@ class Others:
         tall = size[:, 1] + APART
         found = np.where((wide > 0) & (tall > 0), FORBIDDEN + wide * tall, 0.0)
         own, led = candidates.leaders[at], self._leaders[of]
-        lines = np.concatenate([led, own])
-        is_led = ~np.isnan(lines[:, 0, 0])
-        if is_led.any():
-            grown = np.concatenate([a, b]) + np.array([-1, -1, 1, 1]) * _OFF_LEADERS
-            hit = np.zeros(len(lines))
-            hit[is_led] = inside(lines[is_led], grown[is_led]) >= 0
-            found += FORBIDDEN * hit[: len(row)]
-            found += FORBIDDEN * hit[len(row) :]
-            found += LEADERS_CROSS * crossing(own, led)
+        has, have = ~np.isnan(own[:, 0, 0]), ~np.isnan(led[:, 0, 0])
+        if has.any() or have.any():
+            lines, boxes = np.concatenate([led[have], own[has]]), np.concatenate([a[have], b[has]])
+            hit = inside(lines, boxes + np.array([-1, -1, 1, 1]) * _OFF_LEADERS) >= 0
+            theirs_hit, both = np.count_nonzero(have), has & have
+            found[have] += FORBIDDEN * hit[:theirs_hit]
+            found[has] += FORBIDDEN * hit[theirs_hit:]
+            found[both] += LEADERS_CROSS * crossing(own[both], led[both])
         costs[row, other] = found
         return costs
