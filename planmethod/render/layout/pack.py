@@ -99,18 +99,15 @@ def _packed(
     best = min(found[:_LOOKED_AT], key=cost)
     put = {leaf.number: (leaf.block, at) for unit in best.units for leaf, at in corners_of(unit)}
     last = max(put)
-    put[last] = (put[last][0], complex(best.last[0], best.last[3]))
-    *_, part = whole.parts()
-    if not part.text:
-        boxes = [box_of(unit) for unit in best.units[:-1]]
-        put[last] = (put[last][0], _centred(best.last, boxes, inner, stamp, taken))
+    boxes = [box_of(unit) for unit in best.units[:-1]]
+    put[last] = (put[last][0], _centred(best.last, boxes, inner, stamp, taken))
     return [put[number] for number in sorted(put)]
 
 
 def _centred(
     box: Bounds, boxes: Sequence[Bounds], inner: Bounds, stamp: Bounds, taken: Sequence[Bounds]
 ) -> complex:
-    """Return the upper left corner of a view above the title block: alone it is in the middle."""
+    """Return the corner (upper left) of the last block: alone above the stamp, in the middle."""
     left = (inner[0] + inner[2] + box[0] - box[2]) / 2
     free = (inner[0], box[1], inner[2], box[3])
     is_alone = box[1] >= stamp[3] and not any(overlap(free, o) for o in (*boxes, *taken))
