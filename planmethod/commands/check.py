@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, cast
 import click
 
 from planmethod.commands.helptext import Spoken
-from planmethod.commands.output import bar, is_narrow
+from planmethod.commands.output import bar, json_text
 from planmethod.commands.problems import each, finish, guarded, stem
 from planmethod.errors import ExitCode, PlanMethodError
 from planmethod.languages import say, spoken
@@ -192,14 +192,12 @@ def _warn_of_others(problem: Path, works: list[Work]) -> None:
 
 
 def _print_json(checked: list[Checked], paths: list[Path]) -> None:
-    import json
-
     from planmethod.check.pages.listing import record
 
     records = [record(one) for one in checked]
     alone = len(records) == 1 and paths[0].suffix.lower() in (".json", ".toml")
     whole: Any = records[0] if alone else records
-    click.echo(json.dumps(whole, ensure_ascii=is_narrow(), allow_nan=False))
+    click.echo(json_text(whole))
 
 
 def _write_results(

@@ -9,7 +9,7 @@ import click
 
 from planmethod.commands.asked import Asked, sheet_options
 from planmethod.commands.helptext import Spoken
-from planmethod.commands.output import is_narrow
+from planmethod.commands.output import json_text
 from planmethod.commands.problems import each, finish, guarded, refuse_plans, stem
 from planmethod.errors import ExitCode
 from planmethod.options import (
@@ -133,9 +133,7 @@ def lint(
     code = each(problems, variant, all_variants, look, look_other, jobs=jobs, take=looked.append)
     records = [record for record, _ in looked if record is not None]
     if records:
-        import json
-
         whole: Any = records[0] if len(records) == 1 else records
-        click.echo(json.dumps(whole, ensure_ascii=is_narrow(), allow_nan=False))
+        click.echo(json_text(whole))
     finish(code)
     finish(ExitCode.FINDINGS if any(marked for _, marked in looked) else ExitCode.DONE)

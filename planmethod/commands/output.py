@@ -6,7 +6,7 @@ import contextlib
 import sys
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
 import click
 
@@ -109,6 +109,13 @@ def write_set(drawings: Sequence[Drawing], path: Path, *, author: str | None = N
     options = Options() if author is None else Options(author=author)
     write(path, render_pages(drawings, options=options))
     click.echo(str(path))
+
+
+def json_text(value: Any) -> str:
+    """Return plain data as JSON in one line, in letters that the terminal's encoding has."""
+    import json
+
+    return json.dumps(value, ensure_ascii=is_narrow(), allow_nan=False)
 
 
 def is_narrow() -> bool:

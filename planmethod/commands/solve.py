@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from planmethod.commands.helptext import Spoken
-from planmethod.commands.output import bar, is_narrow, is_terminal, put_parts
+from planmethod.commands.output import bar, is_terminal, json_text, put_parts
 from planmethod.commands.problems import (
     each,
     finish,
@@ -185,17 +185,14 @@ def solve(
         elif csv_file is not None:
             return held(_table(problem, phi, hand.ruler, partial))
         elif as_json:
-            from planmethod.note.records.solution import record
+            from planmethod.note.records.solution import record_in_columns
 
-            solution = solution_of(problem, phi, hand, hint=HINT, forces=True)
-            whole: dict[str, Any] = record(solution)
+            solution, more = solution_of(problem, phi, hand, hint=HINT, forces=True), {}
             if referee is not None:
                 from planmethod.note.tables.referee import referee_record
 
-                judged = referee_record(solution, referee)
-                for entry, verdict in zip(whole["positions"], judged, strict=True):
-                    entry["referee"] = verdict
-            return whole
+                more["referee"] = referee_record(solution, referee)
+            return record_in_columns(solution, **more)
         elif covariance_file is not None:
             return solution_of(problem, phi, hand, hint=HINT)
         else:
@@ -235,10 +232,10 @@ def solve(
         problems, variant, all_variants, compute, compute_other, jobs=jobs, take=found.append
     )
     if as_json and found:
-        import json
+        from planmethod.note.columns import Written
 
-        whole: Any = found[0] if len(found) == 1 else found
-        click.echo(json.dumps(whole, ensure_ascii=is_narrow(), allow_nan=False))
+        texts = [Written(json_text).text(one) for one in found]
+        click.echo(texts[0] if len(texts) == 1 else f"[{', '.join(texts)}]")
     if found and covariance_file is not None:
         from planmethod.note.records.covariance import covariance_text
 

@@ -9,7 +9,7 @@ import click
 
 from planmethod.commands.asked import Asked, sheet_options
 from planmethod.commands.helptext import Spoken
-from planmethod.commands.output import is_narrow, write_drawings
+from planmethod.commands.output import json_text, write_drawings
 from planmethod.commands.problems import each, finish, guarded, stem
 from planmethod.options import (
     UsageError,
@@ -55,13 +55,11 @@ def structure(
     def show(problem: Problem) -> None:
         found = analyse(problem.mechanism)
         if as_json:
-            import json
-
             from planmethod.note.records.solution import structure_record
 
             head = {"schema": 1, "problem": problem.name}
             whole = {**head, "structure": structure_record(found)}
-            click.echo(json.dumps(whole, ensure_ascii=is_narrow()))
+            click.echo(json_text(whole))
             return
         from planmethod.note.narrate.structure import structure_text
 
@@ -83,12 +81,10 @@ def structure(
             )
 
     def show_other(kind: Kind, problem: KindProblem) -> None:
-        import json
-
         lang = str(asked.sheet["lang"] or LANGUAGES[0])
         told = kind.structure_record(problem) if as_json else kind.structure_text(problem, lang)
         if told is None:
             raise UsageError("{} is no mechanism, it has no structure", problem.name)
-        click.echo(told if isinstance(told, str) else json.dumps(told, ensure_ascii=is_narrow()))
+        click.echo(told if isinstance(told, str) else json_text(told))
 
     finish(each(problems, variant, all_variants, show, show_other))

@@ -14,7 +14,7 @@ from click.core import ParameterSource
 
 from planmethod.commands.asked import Asked, sheet_options
 from planmethod.commands.helptext import Spoken
-from planmethod.commands.output import is_narrow, refuse_unknown, write_drawings, write_new
+from planmethod.commands.output import json_text, refuse_unknown, write_drawings, write_new
 from planmethod.commands.problems import finish, guarded
 from planmethod.errors import ExitCode
 from planmethod.languages import say
@@ -200,10 +200,8 @@ def synthesize(
                 dxf_text=dxf_text,
             )
     if as_json:
-        import json
-
         record = synthesis_record(drawing, wanted, found)
-        click.echo(json.dumps(record, ensure_ascii=is_narrow(), allow_nan=False))
+        click.echo(json_text(record))
     elif out is None and not drawn:
         from planmethod.synthesis.text import synthesis_text
 

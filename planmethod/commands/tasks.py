@@ -8,7 +8,7 @@ from itertools import groupby
 import click
 
 from planmethod.commands.helptext import Spoken
-from planmethod.commands.output import is_narrow
+from planmethod.commands.output import json_text
 from planmethod.commands.problems import guarded
 from planmethod.options import UsageError, lang_option
 
@@ -41,10 +41,8 @@ def tasks(group: str | None, search: str | None, as_json: bool, lang: str) -> No
     if search is not None:
         found = tuple(task for task in found if task.says(search))
     if as_json:
-        import json
-
         rows = [{**asdict(task), "structure": task.structure or None} for task in found]
-        click.echo(json.dumps({"schema": 1, "tasks": rows}, ensure_ascii=is_narrow()))
+        click.echo(json_text({"schema": 1, "tasks": rows}))
         return
     if not found:
         click.echo(words.tasks["none"], err=True)

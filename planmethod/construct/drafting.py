@@ -282,7 +282,7 @@ class Sampled(Pencil, Float64):
         return self._hand.read(out, length)
 
 
-EVEN, _TURN = 1021, 115
+EVEN, _TURN = 509, 77
 """Sheets that are spread evenly, a prime; and by which power they go round (решётка Коробова)."""
 
 

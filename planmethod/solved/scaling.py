@@ -426,8 +426,17 @@ class _Drawn:
                 found.add((across, up + BETWEEN + name - BESIDE))
         return frozenset(found)
 
+    @cached_property
+    def _known(self) -> dict[float, tuple[Reals, Reals]]:
+        return {}
+
     def _on_paper(self, per_mm: float) -> tuple[Reals, Reals]:
         """Return the width and height of every plan with its letters, mm, shape (n,)."""
+        if per_mm not in self._known:
+            self._known[per_mm] = self._lettered(per_mm)
+        return self._known[per_mm]
+
+    def _lettered(self, per_mm: float) -> tuple[Reals, Reals]:
         width, height = self.sizes
         each = self.each(per_mm)
         if (each > per_mm).mean() > FEW_FAR:

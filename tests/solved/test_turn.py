@@ -198,7 +198,7 @@ def test_a_slider_above_its_crank_reaches_an_end_twice() -> None:
 def test_the_transfer_functions_of_the_analytic_example_are_those_printed() -> None:
     path = ROOT / "problems/levers/task12.toml"
     problem = load(path)
-    (found,) = analogue_records(Solution(problem))
+    (found,) = analogue_records(Solution(problem)).plain()
     d, s3, third = found["D"], found["S3"], found["3"]
     published = {one.name: one.value for one in problem.published}
     numbers = {"ω_q3": third["1"], "ε_q3": third["2"]}

@@ -7,10 +7,20 @@ from typing import Any
 import numpy as np
 
 from planmethod.mechanism.structure import Structure
-from planmethod.note.columns import Column, listed, named, pairs, rows, sizes, together
+from planmethod.note.columns import (
+    Column,
+    Records,
+    listed,
+    named,
+    pairs,
+    plain_of,
+    rows,
+    sizes,
+    together,
+)
 from planmethod.note.numbers import plain
 from planmethod.plans.legend import TURNING, Quantity, QuantityKind
-from planmethod.plans.model import MOTION, PlanKind, pole_letter
+from planmethod.plans.model import FACTS, MOTION, PlanKind, pole_letter
 from planmethod.plans.motion.leads import Relative
 from planmethod.problem.model import Differentiation
 from planmethod.solved.analogues import analogues
@@ -22,7 +32,7 @@ from planmethod.solved.turn.diagrams import Diagrams, diagrams_of
 from planmethod.solved.turn.turn import TURN, Extreme, NoNumber, Turn, turn_of
 
 
-def analogue_records(solution: Solution) -> list[dict[str, Any]]:
+def analogue_records(solution: Solution) -> Records:
     """Return the transfer functions of every point and link, for every position of a solution.
 
     Of a point ``x1``, ``y1`` (m per radian of the crank) and ``x2``, ``y2`` (m per radian²); of a
@@ -133,7 +143,7 @@ def _hodograph(turn: Turn) -> dict[str, list[list[float | None]]]:
     for name, at in plan.named.items():
         velocity = rate * reading.point(plan.point[at])
         if np.any(velocity != 0) or not rate:
-            found[name] = pairs(velocity)
+            found[name] = pairs(velocity).plain()
     return found
 
 
@@ -175,7 +185,7 @@ def _vector(prefix: str, values: Complexes) -> dict[str, Column]:
     }
 
 
-def _segments(solution: Solution, kind: PlanKind) -> list[dict[str, Any]]:
+def _segments(solution: Solution, kind: PlanKind) -> Records:
     """Return what is told of the segments of a plan."""
     spreads = drafting_of(solution).spreads
     return rows(
@@ -193,7 +203,7 @@ def _segments(solution: Solution, kind: PlanKind) -> list[dict[str, Any]]:
     )
 
 
-def _hand(solution: Solution) -> list[dict[str, Any]]:
+def _hand(solution: Solution) -> Records:
     """Return what follows from the read segments and the sigmas."""
     spreads, count = drafting_of(solution).spreads, len(solution.positions)
 
@@ -250,6 +260,12 @@ def record(solution: Solution) -> dict[str, Any]:
     was found by random draws because first order does not hold. ``cycle`` is there for a problem
     with ``[cycle]``, ``forces`` for one with ``[dynamics]``: see `planmethod.note.tables.forces`.
     """
+    found: dict[str, Any] = plain_of(record_in_columns(solution))
+    return found
+
+
+def record_in_columns(solution: Solution, **more: Column) -> dict[str, Any]:
+    """Return `record` with its positions kept column by column, and more of each position."""
     count = len(solution.positions)
     poles = {kind: pole_letter(solution.problem, kind) for kind in MOTION}
     points = {
@@ -287,14 +303,14 @@ def record(solution: Solution) -> dict[str, Any]:
     plans = {
         kind.value: rows(
             {
-                "mu": [solution.own_scale(kind, k).per_mm for k in range(count)],
+                "mu": listed(np.broadcast_to(solution.per_mm[FACTS[kind].scale], count)),
                 **({"pole": [poles[kind]] * count} if poles[kind] else {}),
                 "segments": _segments(solution, kind),
             }
         )
         for kind in MOTION
     }
-    columns: dict[str, Column] = {
+    columns: dict[str, Column | Records] = {
         solution.problem.drive.coordinate.column: listed(solution.positions),
         "margin": listed(solution.margin),
         "points": rows(points, count),
@@ -324,7 +340,7 @@ def record(solution: Solution) -> dict[str, Any]:
         **({"variant": v} if (v := solution.problem.variant) is not None else {}),
         "structure": structure_record(solution.structure),
         **({"cycle": cycle_record(solution)} if solution.problem.cycle is not None else {}),
-        "positions": rows(columns),
+        "positions": rows({**columns, **more}),
         **machine,
     }
 

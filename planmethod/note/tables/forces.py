@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from planmethod.note.columns import Column, listed, named, pairs, rows, sizes, together
+from planmethod.note.columns import Column, Records, listed, named, pairs, rows, sizes, together
 from planmethod.note.narrate.forces.resultants import kept_lines, shift_lines
 from planmethod.note.numbers import plain
 from planmethod.note.plaintext import NO_BREAK, fixed, found, given, plain_text, wrap
@@ -33,28 +33,33 @@ def _angle(force: complex, largest: float) -> float | None:
     return plain(np.degrees(np.angle(force)) % 360.0)
 
 
-def _contact_records(contact: Contact) -> list[dict[str, Any]]:
-    """Return where the reaction of a guide acts, m, and what acts at the edges of the slider, N."""
+def _acts(contact: Contact | None) -> dict[str, Column]:
+    """Return where the reaction of a guide acts, m."""
+    if contact is None:
+        return {}
     b = contact.b()
-    acts, places = np.isfinite(b).tolist(), pairs(contact.place(b))
-    found = rows(
-        {
-            "b": listed(b),
-            "point": [
-                place if is_there else None for place, is_there in zip(places, acts, strict=True)
-            ],
+    acts, places = np.isfinite(b).tolist(), pairs(contact.place(b)).plain()
+    point = [place if is_there else None for place, is_there in zip(places, acts, strict=True)]
+    return {"b": listed(b), "point": point}
+
+
+def _at_edges(contact: Contact | None) -> dict[int, dict[str, Any]]:
+    """Return what acts at the edges of a slider, N, by the positions where it does."""
+    if contact is None:
+        return {}
+    return {
+        index: {
+            "edges": [
+                {
+                    "at": [plain(edge.at.real), plain(edge.at.imag)],
+                    "fx": plain(edge.force.real),
+                    "fy": plain(edge.force.imag),
+                }
+                for edge in contact.edges(index)
+            ]
         }
-    )
-    for index in np.flatnonzero(contact.at_edges).tolist():
-        found[index]["edges"] = [
-            {
-                "at": [plain(edge.at.real), plain(edge.at.imag)],
-                "fx": plain(edge.force.real),
-                "fy": plain(edge.force.imag),
-            }
-            for edge in contact.edges(index)
-        ]
-    return found
+        for index in np.flatnonzero(contact.at_edges).tolist()
+    }
 
 
 def _drawn(drawn: DrawnForces, joint: JointForce, still: Flags) -> dict[str, Column]:
@@ -76,13 +81,14 @@ def _drawn(drawn: DrawnForces, joint: JointForce, still: Flags) -> dict[str, Col
     }
 
 
-def _reaction_records(statics: Statics, number: int) -> list[dict[str, Any]]:
+def _reaction_records(statics: Statics, number: int) -> Records:
     """Return a reaction in every position; what is told of its guide comes last."""
     joint, drawn = statics.reactions[number], drawn_forces(statics)
     still = _still(statics, joint)
     angle = np.where(still, np.nan, np.degrees(np.angle(joint.force)) % 360.0)
     names = {"joint": joint.joint, "on": joint.on, "from": joint.by}
-    found = rows(
+    contact = statics.contacts.get(number)
+    return rows(
         {
             **{key: [name] * len(still) for key, name in names.items()},
             "fx": listed(joint.force.real),
@@ -92,14 +98,10 @@ def _reaction_records(statics: Statics, number: int) -> list[dict[str, Any]]:
             "at": pairs(joint.at),
             "moment": listed(joint.moment),
             **_drawn(drawn, joint, still),
-        }
+            **_acts(contact),
+        },
+        some=_at_edges(contact),
     )
-    contact = statics.contacts.get(number)
-    if contact is not None:
-        found = [
-            {**one, **more} for one, more in zip(found, _contact_records(contact), strict=True)
-        ]
-    return found
 
 
 def _still(statics: Statics, joint: JointForce) -> Flags:
@@ -107,7 +109,7 @@ def _still(statics: Statics, joint: JointForce) -> Flags:
     return np.asarray(np.abs(joint.force) <= VANISHING * statics.largest_forces)
 
 
-def forces_records(solution: Solution) -> list[dict[str, Any]]:
+def forces_records(solution: Solution) -> Records:
     """Return reactions, driving and lever of every position as plain data, N and N·m.
 
     A reaction is what the link ``from`` does to the link ``on``; ``moment`` is about ``at``. A
@@ -125,7 +127,7 @@ def forces_records(solution: Solution) -> list[dict[str, Any]]:
         for label in drawn.items
         if not (nothing := still.get(label, np.zeros(count, dtype=bool))).all()
     }
-    columns: dict[str, Column] = {
+    columns: dict[str, Column | Records] = {
         "reactions": together(reactions, count),
         "driving": rows(
             {

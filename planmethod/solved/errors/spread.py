@@ -52,6 +52,9 @@ SHORT = 3.0
 BLOCK = 512
 """Positions propagated in one go: slopes by the strokes before them are kept for all steps."""
 
+AT_ONCE = 128
+"""Positions whose readings are made again in one go: more do not stay in the cache."""
+
 CENTRAL = (0.158655253931457, 0.841344746068543)
 """Quantiles of one sigma either side of the mean of a normal error."""
 
@@ -205,15 +208,20 @@ class Errors:
         """Return the sigma where a length is nearly nothing, NaN elsewhere; shape (n,).
 
         Infinite where it cannot be told so.
+        """
+        found = np.where(where, np.inf, np.nan)
+        if label in self._readings:
+            short = np.flatnonzero(where)
+            for start in range(0, len(short), AT_ONCE):
+                chosen = short[start : start + AT_ONCE]
+                found[chosen] = self._read_evenly(label, part, chosen)
+        return found
+
+    def _read_evenly(self, label: str, part: _Slopes, chosen: npt.NDArray[np.intp]) -> Reals:
+        """Return the sigma of a quantity in some positions.
+
         What it is read from is as far off as first order has it, spread evenly, and is read.
         """
-        found = np.full(len(where), np.nan)
-        (chosen,) = np.nonzero(where)
-        if not len(chosen):
-            return found
-        if label not in self._readings:
-            found[chosen] = np.inf
-            return found
         (steps, leaves), item = self._readings[label], self.items[label]
         read = {name: part.leaves[name].at(chosen) for name in leaves}
         env: dict[Name, Any] = {name: dual.value[:, None] for name, dual in read.items()}
@@ -235,8 +243,7 @@ class Errors:
         with np.errstate(all="ignore"):
             taken = item.take(go_on(Trace(env, {}), steps, {}, pencil))
         drawn = np.broadcast_to(np.asarray(taken, dtype=float), (len(chosen), EVEN))
-        found[chosen] = np.nan_to_num(_half_widths(item, drawn), nan=np.inf)
-        return found
+        return np.nan_to_num(_half_widths(item, drawn), nan=np.inf)
 
     def _at(self, index: int) -> _Slopes:
         """Return the slopes in one position."""
@@ -440,8 +447,17 @@ def _half_widths(item: DrawnQuantity, rows: Reals) -> Reals:
         return np.array([_half_width(item, row) for row in rows])
     if item.kind is DrawnKind.DIRECTION:
         rows = _unwound(rows)
-    low, high = np.quantile(rows, CENTRAL, axis=1)
-    return np.asarray((high - low) / 2, dtype=float)
+    # Seven figures are sorted faster than sixteen, and whole rows than `np.quantile` parts them.
+    ordered = np.sort(rows.astype(np.float32), axis=1)
+    low, high = (_at_share(ordered, share) for share in CENTRAL)
+    return (high - low) / 2
+
+
+def _at_share(ordered: npt.NDArray[np.float32], share: float) -> Reals:
+    """Return the quantile of every row."""
+    k, part = divmod(share * (ordered.shape[1] - 1), 1.0)
+    low, high = ordered[:, int(k)], ordered[:, int(k) + 1]
+    return np.asarray(low + part * (high - low), dtype=float)
 
 
 def _half_width(item: DrawnQuantity, values: Reals) -> float:
@@ -457,8 +473,10 @@ def _half_width(item: DrawnQuantity, values: Reals) -> float:
 
 def _unwound(degrees: Reals) -> Reals:
     """Return directions from their mean one, in (-180, 180]: those about 180 lie together."""
-    ways = np.exp(1j * np.radians(degrees))
-    return np.asarray(np.degrees(np.angle(ways / ways.sum(axis=-1, keepdims=True))), dtype=float)
+    ways = np.radians(degrees).astype(np.float32)
+    across, along = (f(ways).sum(axis=-1, keepdims=True) for f in (np.sin, np.cos))
+    off = degrees - np.degrees(np.arctan2(across, along))
+    return np.asarray(off - 360.0 * np.rint(off / 360.0), dtype=float)
 
 
 def _ancestors(program: Program) -> dict[Name, frozenset[Name]]:

@@ -1,0 +1,60 @@
+"""Records of many positions: the JSON that is written by columns is that of their plain data."""
+
+from __future__ import annotations
+
+import json
+from typing import Any
+
+import pytest
+from worked import problem_of
+
+from planmethod.note.columns import Records, Written, plain_of, rows, together
+from planmethod.note.records.solution import record, record_in_columns
+from planmethod.solved.solution import Solution
+
+NOTHING = rows({}, 3)
+
+
+def _text(value: Any) -> str:
+    return json.dumps(value, ensure_ascii=False, allow_nan=False)
+
+
+@pytest.mark.parametrize("name", ["press/press", "levers/task12", "linkages/ex1", "levers/task-33"])
+@pytest.mark.parametrize("positions", [(30.0,), (0.0, 40.0, 200.0, 330.0)])
+def test_a_solution_is_written_as_its_plain_data(name: str, positions: tuple[float, ...]) -> None:
+    solution = Solution(problem_of(name), positions=positions)
+    more = [{"digits": i} for i in range(len(positions))]
+    told = record_in_columns(solution, more=more)
+    plain = plain_of(told)
+    assert Written(_text).text(told) == _text(plain)
+    assert [one.pop("more") for one in plain["positions"]] == more
+    assert plain == record(solution)
+
+
+@pytest.mark.parametrize(
+    ("records", "plain"),
+    [
+        (NOTHING, [{}, {}, {}]),
+        (together([], 2), [[], []]),
+        (rows({"a": NOTHING, "b": together([], 3)}), [{"a": {}, "b": []}] * 3),
+        (
+            rows({"100 %": [1.0, None], "%s": ["%d", "°"]}),
+            [{"100 %": 1.0, "%s": "%d"}, {"100 %": None, "%s": "°"}],
+        ),
+        (
+            rows({"n": [1, 1], "x": [1.0, 1.0], "is": [True, True]}),
+            [{"n": 1, "x": 1.0, "is": True}] * 2,
+        ),
+        (
+            rows({"x": [0.5, 1.5]}, some={1: {"edges": [1], "at": "b"}}),
+            [{"x": 0.5}, {"x": 1.5, "edges": [1], "at": "b"}],
+        ),
+        (
+            together([[0.1, 0.2], rows({"y": [[], [1.0]]})], 2),
+            [[0.1, {"y": []}], [0.2, {"y": [1.0]}]],
+        ),
+    ],
+)
+def test_records_are_put_together(records: Records, plain: list[Any]) -> None:
+    assert records.plain() == plain
+    assert Written(_text).text({"positions": records}) == _text({"positions": plain})
