@@ -51,6 +51,12 @@ class Candidates:
             self.label, self.boxes[rows], self.dislike[rows], self.starts[rows], self.ends[rows]
         )
 
+    @classmethod
+    def joined(cls, parts: Sequence[Candidates]) -> Candidates:
+        """Return several places of the same label as one."""
+        lists = zip(*((c.boxes, c.dislike, c.starts, c.ends) for c in parts), strict=True)
+        return cls(parts[0].label, *map(np.concatenate, lists))
+
     @cached_property
     def led(self) -> NDArray[np.bool_]:
         """Which places are so far that they need a leader line."""
@@ -201,11 +207,24 @@ def crossing(one: Floats, two: Floats) -> NDArray[np.bool_]:
 
     with np.errstate(invalid="ignore"):
         apart = np.asarray(side(a, b, c) * side(a, b, d) < 0)
-        if one.shape == two.shape and one.ndim == 3:  # of many pairs few get so far
-            a, b, c, d = ((x[apart], y[apart]) for x, y in (a, b, c, d))
-            apart[apart] = side(c, d, a) * side(c, d, b) < 0
-            return apart
         return apart & (side(c, d, a) * side(c, d, b) < 0)
+
+
+def crossing_pairs(
+    one: Floats, two: Floats, i: NDArray[np.intp], j: NDArray[np.intp]
+) -> NDArray[np.bool_]:
+    """Tell what `crossing` does of ``one[i]`` and ``two[j]``, many pairs of few segments."""
+    (ax, ay, bx, by), (cx, cy, dx, dy) = (line.reshape(-1, 4).T.copy() for line in (one, two))
+    x, y, along, up = (part.take(i) for part in (ax, ay, bx - ax, by - ay))
+
+    def side(qx: Floats, qy: Floats, k: NDArray[np.intp]) -> Floats:
+        return np.asarray(along * (qy.take(k) - y) - up * (qx.take(k) - x))
+
+    apart = np.asarray(side(cx, cy, j) * side(dx, dy, j) < 0)
+    i, j = i[apart], j[apart]  # few get so far
+    x, y, along, up = (part.take(j) for part in (cx, cy, dx - cx, dy - cy))
+    apart[apart] = side(ax, ay, i) * side(bx, by, i) < 0
+    return apart
 
 
 def crossed(leaders: Sequence[Floats]) -> int:

@@ -9,7 +9,7 @@ on a line and the leader lines are short in all.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from itertools import pairwise
 from typing import TypeAlias
 
@@ -96,13 +96,18 @@ def ladder(paper: Paper, series: _Series, standing: Standing) -> list[Candidates
     """
     columns = {side: [_Column(series, side, offset) for offset in _OFFSETS] for side in (-1, 1)}
     both = [*columns[-1], *columns[1]]
-    sets = [places for column in both for places in column.sets]
-    free = paper.free(sets)
-    costs = paper.costs([places.chosen(rows) for places, rows in zip(sets, free, strict=True)])
-    known = zip(free, costs, strict=True)
-    for column in both:
-        column.reckon(known, standing)
     every = range(len(series.labels))
+    sets = [Candidates.joined([column.sets[k] for column in both]) for k in every]
+    free = paper.free(sets)
+    usable = [places.chosen(rows) for places, rows in zip(sets, free, strict=True)]
+    costs = paper.costs(usable, free=True)
+    for places, rows, known in zip(sets, free, costs, strict=True):
+        whole = np.full(len(places.boxes), _BAD)
+        if len(rows):
+            met = known + standing(places, rows)
+            whole[rows] = np.where(met < CROSSED, met, _BAD)
+        for column in both:
+            whole = column.reckon(whole)
     best: tuple[float, list[Candidates | None]] = (np.inf, [])
     for parts in (
         ((-1, every),),
@@ -149,15 +154,13 @@ class _Column:
         ]
         self.costs: list[Floats] = []
 
-    def reckon(self, known: Iterator[tuple[NDArray[np.intp], Floats]], standing: Standing) -> None:
-        """Take the free places of each label with their costs, and add the other labels'."""
-        for places, window in zip(self.sets, self.windows, strict=True):
-            rows, cost = next(known)
-            whole = np.full(len(self.slots), _BAD)
-            if len(rows):
-                cost = cost + standing(places, rows)
-                whole[window[rows]] = np.where(cost < CROSSED, cost, _BAD)
-            self.costs.append(whole)
+    def reckon(self, known: Floats) -> Floats:
+        """Take what the next label costs in its slots; return what is known of other columns."""
+        window = self.windows[len(self.costs)]
+        whole = np.full(len(self.slots), _BAD)
+        whole[window] = known[: len(window)]
+        self.costs.append(whole)
+        return known[len(window) :]
 
     def _candidates(self, label: Label, slots: Floats) -> Candidates:
         """Return a label in some slots."""

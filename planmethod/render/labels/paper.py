@@ -18,7 +18,7 @@ from planmethod.render.labels.candidates import (
     Complexes,
     Floats,
     as_segments,
-    crossing,
+    crossing_pairs,
     inside,
 )
 from planmethod.render.labels.model import ALONE, BREAKABLE, CLEAR
@@ -61,11 +61,7 @@ class Paper:
     def free(self, many: Sequence[Candidates]) -> list[NDArray[np.intp]]:
         """Return which places of each label are within the bounds, on no line and on no area."""
         boxes = np.concatenate([c.boxes for c in many])
-        x0, y0, x1, y1 = self.bounds
-        within = (
-            (boxes[:, 0] >= x0) & (boxes[:, 1] >= y0) & (boxes[:, 2] <= x1) & (boxes[:, 3] <= y1)
-        )
-        ask = np.flatnonzero(within)
+        ask = np.flatnonzero(self._within(boxes))
         if self._lines is not None:
             grown = boxes[ask] + _ROUND_LINES
             which, line = self._lines.query(box(*grown.T))
@@ -87,25 +83,24 @@ class Paper:
         many: Sequence[Candidates],
         strangers: Sequence[complex] = (),
         *,
+        free: bool = False,
         breaking: bool = False,
     ) -> list[Floats]:
         """Return the costs of all places but for the other labels, one array for each label.
 
-        ``strangers`` are the points that labels name. With ``breaking`` a label on thin lines
-        costs little: it will break them.
+        ``strangers`` are the points that labels name. Places that are ``free`` need not be looked
+        at again for what they stand on. With ``breaking`` a label on thin lines costs little: it
+        will break them.
         """
-        boxes = np.concatenate([c.boxes for c in many])
         led = np.concatenate([c.led for c in many])
         manners = [c.label.manner for c in many]
         counts = [len(c.boxes) for c in many]
         costs = np.concatenate([c.dislike for c in many])
-        costs += self._line_costs(boxes, breaking=breaking)
-        x0, y0, x1, y1 = self.bounds
-        within = (
-            (boxes[:, 0] >= x0) & (boxes[:, 1] >= y0) & (boxes[:, 2] <= x1) & (boxes[:, 3] <= y1)
-        )
-        costs += np.where(within, 0.0, FORBIDDEN)
-        costs += self._area_costs(boxes)
+        if not free:
+            boxes = np.concatenate([c.boxes for c in many])
+            costs += self._line_costs(boxes, breaking=breaking)
+            costs += np.where(self._within(boxes), 0.0, FORBIDDEN)
+            costs += self._area_costs(boxes)
         costs += np.where(led, np.repeat([m.leader for m in manners], counts), 0.0)
         costs += self._between(many, led, costs)
         split = np.split(costs, np.cumsum(counts)[:-1])
@@ -113,6 +108,13 @@ class Paper:
             cost + _stranger_costs(c, cost, strangers) + self._along_costs(c, cost)
             for c, cost in zip(many, split, strict=True)
         ]
+
+    def _within(self, boxes: Floats) -> NDArray[np.bool_]:
+        """Tell which boxes are within the bounds."""
+        x0, y0, x1, y1 = self.bounds
+        return np.asarray(
+            (boxes[:, 0] >= x0) & (boxes[:, 1] >= y0) & (boxes[:, 2] <= x1) & (boxes[:, 3] <= y1)
+        )
 
     def _line_costs(self, boxes: Floats, *, breaking: bool) -> Floats:
         """Return the cost of the lines that run through the boxes grown by the white about them."""
@@ -146,15 +148,16 @@ class Paper:
         costs = np.zeros(len(so_far))
         paths = np.concatenate([as_segments(c.starts, c.ends) for c in many])
         ask = np.flatnonzero(so_far < CROSSED)
+        lines = linestrings(paths[ask])
         if self._lines is not None and len(ask):
-            which, line = self._lines.query(linestrings(paths[ask]))
-            met = crossing(paths[ask[which]], self.segments[line])
+            which, line = self._lines.query(lines)
+            met = crossing_pairs(paths[ask], self.segments, which, line)
             heavy = np.repeat([c.label.manner.heavy for c in many], [len(c.boxes) for c in many])
             found = ask[which[met]]
             np.add.at(costs, found, np.where(self.breakable[line[met]], _BETWEEN, heavy[found]))
-        ask = np.flatnonzero(led & (so_far < CROSSED))
+        lines, ask = lines[led[ask]], ask[led[ask]]
         if self._areas is not None and len(ask):
-            which, area = self._areas.query(linestrings(paths[ask]), predicate="intersects")
+            which, area = self._areas.query(lines, predicate="intersects")
             # A leader may start inside what it names: a joint, a slider.
             owner = np.repeat(np.arange(len(many)), [len(c.boxes) for c in many])[ask[which]]
             anchors = np.asarray([c.label.anchor for c in many])

@@ -36,6 +36,7 @@ _POOR = 45.0  # cost from which a better place is looked for, though others have
 _WORTH = 5.0  # what must be won by it
 _SENT_AWAY = 2  # most labels that one may send elsewhere
 _TRIED = 12  # places for which it may
+_HOPELESS = 2  # labels without room: mending never made so many free in 143 crowded schemes
 
 
 def place_labels(
@@ -53,7 +54,8 @@ def place_labels(
     bounds : Bounds, mm
         All labels stay inside.
     breaking : bool
-        A label of a crowd that finds no free place may break thin lines by a white ground.
+        A label of a crowd that finds no free place may break thin lines by a white ground. If it
+        may not, and several find none, they are left as they are: the crowd has to be thinned.
 
     Returns
     -------
@@ -75,6 +77,8 @@ def _placed(
     places.fill([k for k, label in enumerate(labels) if not label.series])
     places.line_up()
     places.fill([k for k, label in enumerate(labels) if label.series])
+    if not breaking and len(places.unfree()) >= _HOPELESS:
+        return places.result()
     if any(label.manner is not ALONE for label in labels):
         places.look_again()
         places.improve()
@@ -239,7 +243,7 @@ class _Places:
         """Return the free places of sets, with their costs."""
         free = self.paper.free(sets)
         chosen = [every.chosen(rows) for every, rows in zip(sets, free, strict=True)]
-        costs = self.paper.costs(chosen, self.strangers)
+        costs = self.paper.costs(chosen, self.strangers, free=True)
         known = zip(chosen, costs, sets, strict=True)
         return [self._choice(*one) for one in known]
 

@@ -39,7 +39,7 @@ def spare_labels(
     white = np.array([-BESIDE, 0, BESIDE, 0]) + ROUND_AREAS * np.array([-1, -1, 1, 1])
     taken = np.empty((0, 4))
     found = []
-    for label, places, costs in zip(labels, free, paper.costs(free), strict=True):
+    for label, places, costs in zip(labels, free, paper.costs(free, free=True), strict=True):
         x0, y0, x1, y1 = (places.boxes[:, k, None] for k in range(4))
         apart = (x1 < taken[:, 0]) | (x0 > taken[:, 2]) | (y1 < taken[:, 1]) | (y0 > taken[:, 3])
         costs = np.where(apart.all(axis=1), costs, np.inf)
