@@ -48,6 +48,7 @@ LATE_OF = {
     "planmethod.note.wording": "words of drafting errors",
     "planmethod.gears.involute.sheet": "the sheet of a meshing, what solves it has no pens",
     # Third parties that take long to import; a mistake in a file is rare.
+    "csv": "variants in a table",
     "decimal": "numbers that a file has as text",
     "difflib": "hints",
     "importlib.resources": "templates",

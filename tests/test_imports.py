@@ -89,10 +89,10 @@ def drawing(name: str, *args: str) -> tuple[tuple[str, ...], ...]:
             {"matplotlib", "mpmath", "svgwrite", "reportlab", "scipy", "PIL"},
         ),
         (
-            drawing(SIX_LINK, "--format", "svg"),
+            drawing(SIX_LINK, "--format", "svg", "-o", "."),
             {"numpy", "shapely", "svgwrite"},
             {"matplotlib", "mpmath", "ezdxf", "reportlab", "scipy", "fontTools", "PIL", *FORCES}
-            | {"urllib.request", *TABLES},
+            | {"urllib.request", "csv", "difflib", *TABLES},
         ),
         (
             (("--help",),),

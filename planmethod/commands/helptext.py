@@ -49,6 +49,17 @@ types._ = _kind_or_sentence  # type: ignore[attr-defined, assignment]
 class Spoken(click.Command):
     """Command whose help is in the language that is spoken."""
 
+    def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
+        """Read the arguments, short options by their long names.
+
+        Click looks for a short one among the long ones first, and words and translates a message
+        that there is none.
+        """
+        options = [param.opts for param in self.params if isinstance(param, click.Option)]
+        long = {name: max(names, key=len) for names in options for name in names}
+        end = args.index("--") if "--" in args else len(args)
+        return super().parse_args(ctx, [*(long.get(a, a) for a in args[:end]), *args[end:]])
+
     def get_help(self, ctx: click.Context) -> str:
         """Return the help, of the options as well."""
         told = self._translated()

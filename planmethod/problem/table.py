@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import csv
 import io
 from collections.abc import Iterator, Mapping
 from pathlib import Path
@@ -63,6 +62,8 @@ def _variants(
     faults: Faults, table: Mapping[str, Any], text: str, name: str
 ) -> dict[str, dict[str, Any]]:
     """Return the overrides of every row by its first cell."""
+    import csv
+
     separator = next((one for one in ";\t" if one in text.partition("\n")[0]), ",")
     try:
         rows = [

@@ -53,7 +53,7 @@ def test_the_title_block_is_filled(tmp_path: Path) -> None:
     assert "Иванов" in (tmp_path / "out/specimen-lines.svg").read_text("utf-8")
     refused = run("lines", "--stamp", "autor=Иванов")
     assert refused.exit_code == ExitCode.USAGE
-    assert "Did you mean author?" in refused.output
+    assert "Did you mean 'author'?" in refused.output
 
 
 def test_an_unknown_sheet_is_refused_with_the_names(tmp_path: Path) -> None:

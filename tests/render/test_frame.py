@@ -176,7 +176,7 @@ def test_the_documents_have_every_field_and_where_it_goes() -> None:
 
 
 def test_unknown_field_is_told_with_the_nearest() -> None:
-    with pytest.raises(LayoutError, match="Did you mean designation"):
+    with pytest.raises(LayoutError, match="Did you mean 'designation'"):
         title_block({"desigantion": "x"})
 
 

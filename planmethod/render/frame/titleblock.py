@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from difflib import get_close_matches
 from types import MappingProxyType
 
 from planmethod.errors import LayoutError
 from planmethod.languages import LANGUAGES, say
 from planmethod.note.wording import language
 from planmethod.problem import keys
+from planmethod.problem.names import near_hint
 from planmethod.render.frame.forms import FORM_1, Cell, Form
 from planmethod.render.ink.drawing import Bounds, Item, Pen, Stroke
 from planmethod.render.ink.style import HEIGHTS
@@ -102,12 +102,7 @@ def check_fields(fields: Iterable[str]) -> None:
     """
     for key in fields:
         if key not in keys.STAMP:
-            near = get_close_matches(key, keys.STAMP, n=1)
-            hint = (
-                say("Did you mean {}?", near[0])
-                if near
-                else say("Known: {}.", ", ".join(keys.STAMP))
-            )
+            hint = near_hint(key, keys.STAMP, say("Known: {}.", ", ".join(keys.STAMP)))
             raise LayoutError("Unknown field {!r} of the title block. {}", key, hint)
 
 
