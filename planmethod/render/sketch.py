@@ -25,6 +25,7 @@ from planmethod.render.labels import Label
 from planmethod.render.layout.block import Block, Column, Picture, paragraph
 from planmethod.render.pictures.lettered import lettered
 from planmethod.render.pictures.schemeview import scheme_picture
+from planmethod.render.pictures.seriesview import series_picture
 from planmethod.render.symbols import fixed_pivot, unit
 from planmethod.solved.failures import Cause, Failure
 from planmethod.solved.forces.loads import external
@@ -90,7 +91,8 @@ def _scheme(part: Part, words: Language) -> tuple[Picture, list[str]]:
     solution = part.solution
     assert solution is not None
     marks = _Marks()
-    shown = scheme_picture(solution, 0, overlay=tuple(range(len(solution.positions))))
+    several = tuple(range(len(solution.positions)))
+    shown = scheme_picture(solution, 0) if several == (0,) else series_picture(solution, 0, several)
     facts = [_scale(solution.scales[PlanKind.POSITION], solution.problem.scales.convention, words)]
     places = {name: _at(solution, name) for name in _points(solution)}
     joined = {joint.point for joint in solution.problem.mechanism.revolutes}

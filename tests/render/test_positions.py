@@ -17,9 +17,10 @@ from planmethod.render.labels import UNDER_LABEL
 from planmethod.render.layout.block import Picture
 from planmethod.render.pictures.extremes import STROKE
 from planmethod.render.pictures.paths import TRAJECTORY, Paths
-from planmethod.render.pictures.positions import PRIMES, Positions, bold_position, written
-from planmethod.render.pictures.schemeview import scheme_picture
+from planmethod.render.pictures.positions import PRIMES, Positions, written
+from planmethod.render.pictures.seriesview import series_picture
 from planmethod.render.sheets.kinematics import kinematics_sheets
+from planmethod.solved.clearest import clearest_position
 from planmethod.solved.scaling import LEAST, LESS, Views, sizes
 from planmethod.solved.solution import Solution
 from planmethod.solved.turn.turn import turn_of
@@ -38,12 +39,12 @@ def solved(name: str) -> Solution:
 @cache
 def drawn(name: str) -> Picture:
     solution = solved(name)
-    return scheme_picture(solution, bold_position(solution, TWELVE), overlay=TWELVE)
+    return series_picture(solution, clearest_position(solution, TWELVE), TWELVE)
 
 
 def positions_of(name: str) -> Positions:
     solution = solved(name)
-    return Positions(solution, bold_position(solution, TWELVE), TWELVE, 5.0)
+    return Positions(solution, clearest_position(solution, TWELVE), TWELVE, 5.0)
 
 
 def strokes(items: tuple[Item, ...], tag: str) -> list[Item]:
@@ -118,14 +119,14 @@ def test_leader_lines_do_not_cross_their_neighbours(name: str) -> None:
 
 def test_the_same_again() -> None:
     again = [Solution(problem_of("linkages/ex1"), positions=ALL_ROUND) for _ in range(2)]
-    one, two = (scheme_picture(solution, 2, overlay=TWELVE).items for solution in again)
+    one, two = (series_picture(solution, 2, TWELVE).items for solution in again)
     assert one == two
 
 
 def test_of_many_positions_every_other_one_has_a_letter() -> None:
     positions = [15.0 * k for k in range(24)]
     solution = Solution(problem_of("linkages/ex1"), positions=positions)
-    items = scheme_picture(solution, 4, overlay=tuple(range(24))).items
+    items = series_picture(solution, 4, tuple(range(24))).items
     shown = {part for w in writings_of(items) for part in w.shown.split(", ")}
     assert {"B0", "B2", "B22"} <= shown
     assert not {"B1", "B23"} & shown
@@ -208,7 +209,7 @@ def test_extreme_positions_are_lines_with_two_dots() -> None:
 
 def test_few_positions_have_no_extreme_ones_behind_them() -> None:
     few = Solution(problem_of("press/press"), positions=ALL_ROUND[1:4])
-    items = scheme_picture(few, 0, overlay=(0, 1, 2)).items
+    items = series_picture(few, 0, (0, 1, 2)).items
     assert not [i for i in items if isinstance(i, Stroke) and i.pen is Pen.PHANTOM]
 
 
@@ -240,7 +241,7 @@ def test_positions_beyond_a_dead_one_leave_a_gap_in_the_line() -> None:
     problem = loads(DEAD, name="dead")
     drawn_at = [float(x) for x in problem.drive.positions]
     solution = Solution(problem, positions=[drawn_at[0], drawn_at[0] + 1.0])
-    items = scheme_picture(solution, 0, overlay=(0, 1)).items
+    items = series_picture(solution, 0, (0, 1)).items
     assert all(np.isfinite(np.asarray(s.points)).all() for s in items if isinstance(s, Stroke))
 
 
@@ -261,7 +262,7 @@ def test_every_place_is_marked(name: str) -> None:
 @pytest.mark.parametrize("name", SIX)
 def test_the_bold_position_is_not_in_one_line(name: str) -> None:
     solution = solved(name)
-    bold = bold_position(solution, TWELVE)
+    bold = clearest_position(solution, TWELVE)
     for extreme in Paths(solution).extremes:
         assert abs((solution.positions[bold] - extreme + 180) % 360 - 180) > 5
 

@@ -11,14 +11,10 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import field
-from itertools import combinations
-
-import numpy as np
 
 from planmethod.construct.steps import PointName
 from planmethod.mechanism.model import FRAME
 from planmethod.note.narrate.given import point_name
-from planmethod.plans.model import PlanKind
 from planmethod.record import dataclass, replace
 from planmethod.render.ink.drawing import Arc, Disc, Item, Pen, Stroke
 from planmethod.render.ink.style import stroke_lines
@@ -26,10 +22,7 @@ from planmethod.render.ink.typeset import typeset
 from planmethod.render.labels import CROWDED, Label
 from planmethod.render.pictures.paths import Paths
 from planmethod.render.pictures.scheme import Scheme
-from planmethod.solved.enlarging import short_readings
-from planmethod.solved.reading import remembered
 from planmethod.solved.room import FEW
-from planmethod.solved.scaling import median
 from planmethod.solved.solution import Solution
 
 PRIMES = ("′", "″")
@@ -39,8 +32,6 @@ TOGETHER = 0.5
 """Points nearer than this are one on the paper and share a label, mm."""
 
 _MARK = 0.7  # radius of the circle at a joint in another position, mm
-_APART = 0.3  # sine of the least angle between joined links of the bold position
-_SMALL = 0.15  # part of its usual size that a velocity has in the bold position at least
 _LEAST_MARK = 0.45  # where circles would run into each other, mm
 
 
@@ -221,34 +212,6 @@ def _readable(item: Item) -> Item:
 def shows_extremes(solution: Solution, indices: Sequence[int]) -> bool:
     """Tell whether the extreme positions are shown: among few they would be taken for two more."""
     return len(indices) > FEW or solution.problem.cycle is not None
-
-
-@remembered
-def bold_position(solution: Solution, indices: tuple[int, ...]) -> int:
-    """Return the position that shows the mechanism best.
-
-    Of those in which no two joined links stand nearly in one line, and no vector of the velocity
-    plan nearly vanishes, as it does where the output turns back, one in which the fewest segments
-    are too short to be read well; of such the furthest from a dead position.
-    """
-    chosen = list(indices)
-    plan = solution.construction.plan(PlanKind.VELOCITY)
-    sizes = np.abs([solution.si.vector(v.tail, v.head)[chosen] for v in plan.vectors])
-    usual = [median(size[size > 0.0]) if size.any() else 0.0 for size in sizes]
-    moving = np.all(sizes >= _SMALL * np.asarray(usual)[:, None], axis=0)
-    apart = np.ones(len(chosen), dtype=bool)
-    axes = {
-        link: np.exp(1j * np.radians(motion.phi_deg[chosen]))
-        for link, motion in solution.links.items()
-        if len(solution.problem.bodies[link].points) > 1
-    }
-    for joint in solution.problem.mechanism.revolutes:
-        for one, two in combinations([link for link in joint.links if link in axes], 2):
-            apart &= np.abs((axes[one] * np.conj(axes[two])).imag) > _APART
-    good = (moving.astype(int) + apart).tolist()
-    short = (-short_readings(solution.construction, solution.paper)[chosen]).tolist()
-    margins = solution.margin[chosen].tolist()
-    return max(zip(good, short, margins, indices, strict=True), key=lambda one: one[:3])[3]
 
 
 def written(point: str, numbers: Sequence[str], *, bold: bool = False, alone: bool = False) -> str:

@@ -49,6 +49,16 @@ def _late(home: str, name: str) -> Maker:
     return make
 
 
+def _by_number(one: Maker, name: str) -> Maker:
+    """Return a maker of one position that has another, of `sheets.several`, for several."""
+    several = _late("several", name)
+
+    def make(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
+        return (one if len(solution.positions) == 1 else several)(solution, indices, manner)
+
+    return make
+
+
 _VIEW = ("title", "title_height", "letter", "height", "position")
 _TEXT = ("title", "height", "width")
 _DIAGRAM = ("title", "title_height", "letter", "height", "width")
@@ -57,9 +67,9 @@ _FORCE_TEXT = ("height", "width", "position")
 
 BLOCKS: Mapping[str, Kind] = MappingProxyType(
     {
-        "scheme": Kind(scheme_view, (*_VIEW, "traces")),
+        "scheme": Kind(_by_number(scheme_view, "scheme_view"), (*_VIEW, "traces")),
         "statement": Kind(statement_block, _TEXT),
-        "plan": Kind(plan_view, ("of", *_VIEW, "per_row", "traces")),
+        "plan": Kind(_by_number(plan_view, "plan_view"), ("of", *_VIEW, "per_row", "traces")),
         "equations": Kind(equations_block, ("of", *_TEXT)),
         "calculation": Kind(calculation_block, ("of", "title", "height", "position")),
         "results": Kind(results_block, (*_TEXT, "columns")),

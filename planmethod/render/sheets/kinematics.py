@@ -27,7 +27,6 @@ from planmethod.solved.room import FEW
 from planmethod.solved.scaling import MOST_DRAWN, Views
 from planmethod.solved.selfcheck import verify
 from planmethod.solved.solution import Solution
-from planmethod.solved.turn.turn import turn_of
 
 
 @dataclass(frozen=True, slots=True)
@@ -171,6 +170,8 @@ def kinematics_sheets(
     words = language(problem.sheet.lang or LANGUAGES[0])
     made = composition(layout, words.lang) if isinstance(layout, str | Path) else layout
     if positions is None and made is not None and made.turn:
+        from planmethod.solved.turn.turn import turn_of
+
         positions = turn_of(Solution(problem)).positions.tolist()
     asked = problem.drive.positions if positions is None else tuple(positions)
     if len(asked) > MOST_DRAWN:

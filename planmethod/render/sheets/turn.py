@@ -25,8 +25,9 @@ from planmethod.render.pictures.kinematic import kinematic_picture
 from planmethod.render.pictures.polar import polar_picture
 from planmethod.render.sheets.model import Manner
 from planmethod.render.sheets.results import table_width
+from planmethod.render.sheets.several import plan_grid
 from planmethod.render.sheets.texts import stated
-from planmethod.render.sheets.views import PlanViewed, Viewed, named, plan_grid
+from planmethod.render.sheets.views import PlanViewed, Viewed, named
 from planmethod.solved.reading import Complexes, Reals
 from planmethod.solved.solution import Solution
 from planmethod.solved.turn.diagrams import diagrams_of

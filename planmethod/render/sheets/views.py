@@ -7,39 +7,29 @@ from types import MappingProxyType
 
 from planmethod.construct.scale import Scale
 from planmethod.note.narrate.formulas import knot_letter, view_name
-from planmethod.note.narrate.given import point_name
 from planmethod.note.narrate.letters import shown_letters
-from planmethod.note.narrate.scales import common_scale, scale_inscription
-from planmethod.note.narrate.turn import extremes_named
-from planmethod.note.numbers import Notation, is_nothing, with_unit
+from planmethod.note.narrate.scales import common_scale
+from planmethod.note.numbers import is_nothing
 from planmethod.note.plaintext import plain_text
 from planmethod.plans.model import PlanKind
 from planmethod.record import dataclass
 from planmethod.render.ink.drawing import Arc, Disc, Item, Span, View
 from planmethod.render.ink.typeset import typeset
-from planmethod.render.layout.block import Block, Column, Line, Row, Spacer, shaped
+from planmethod.render.layout.block import Block, Column, Line, Row, shaped
 from planmethod.render.pictures.ellipses import ellipse_inscription
 from planmethod.render.pictures.enlarged import ENLARGED
-from planmethod.render.pictures.paths import Paths
 from planmethod.render.pictures.planview import (
     POLE,
     knot_pictures,
     plan_picture,
     plan_places,
 )
-from planmethod.render.pictures.positions import PRIMES, bold_position, shows_extremes
 from planmethod.render.pictures.schemeview import scheme_picture
 from planmethod.render.pictures.traces import shown_traces
 from planmethod.render.sheets.model import Manner
-from planmethod.render.sheets.results import position_text
+from planmethod.solved.clearest import clearest_position
 from planmethod.solved.enlarging import least_shown
-from planmethod.solved.room import FEW
-from planmethod.solved.scaling import BETWEEN, per_row
 from planmethod.solved.solution import Solution
-from planmethod.solved.turn.turn import turn_of
-
-CAPTION = 3.5
-"""Height of the letters of one of many plans, and of its caption, mm."""
 
 NO_VIEWS: Mapping[int, complex] = MappingProxyType({})
 
@@ -144,54 +134,52 @@ def plan_spans(
 
 
 def scheme_view(solution: Solution, indices: Sequence[int], manner: Manner) -> Viewed:
-    """Return the scheme; of many positions one in full, the others thin."""
-    bold = shown_position(solution, indices, manner)
-    alone = len(solution.positions) == 1
+    """Return the scheme in one position; that of several is made by `sheets.several`."""
+    (index,) = indices
     picture = scheme_picture(
         solution,
-        bold,
+        index,
         letter_height=manner.letter,
-        overlay=() if alone else tuple(indices),
         errors=manner.extras.errors,
-        turn=manner.extras.turn,
         traces=shown_traces(solution, manner.entry.traces, room=manner.extras.traces),
     )
     kind = PlanKind.POSITION
-    block = _with_scale(solution, kind, picture, manner, (bold,), indices)
+    block = with_scale(solution, kind, picture, manner, indices)
     return Viewed(block, kind.value, solution.scales[kind])
 
 
 def plan_view(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
-    """Return a plan, or the plans of many positions in rows.
+    """Return a plan with what is enlarged of it; those of several are made by `sheets.several`.
 
-    They are drawn as they come out with the ruler, so that what the calculation says is what a
-    ruler finds; with error ellipses, which lie around the exact points, they are exact.
+    It is drawn as it comes out with the ruler, so that what the calculation says is what a ruler
+    finds; with error ellipses, which lie around the exact points, it is exact.
     """
     kind = manner.entry.of
     assert kind is not None
     errors = manner.extras.errors
-    if manner.entry.position is not None:
-        indices = (manner.entry.position,)
-    pictures: list[Block] = []
-    if len(solution.positions) > 1:
-        step, say = manner.entry.per_row, manner.words.say
-        pictures += plan_grid(solution, kind, indices, say, in_row=step, errors=errors)
-    else:
-        picture = plan_picture(
-            solution,
-            kind,
-            indices[0],
-            letter_height=manner.letter,
-            errors=errors,
-            by_hand=not errors,
-            traces=shown_traces(solution, manner.entry.traces, room=manner.extras.traces),
-            knots=tuple(knot_letter(knot, manner.words) for knot in solution.knots[kind]),
-        )
-        pictures += _with_knots(solution, kind, picture, manner)
-    blocks = [_with_scale(solution, kind, picture, manner, indices) for picture in pictures]
-    scale = solution.scales[kind]
+    picture = plan_picture(
+        solution,
+        kind,
+        indices[0],
+        letter_height=manner.letter,
+        errors=errors,
+        by_hand=not errors,
+        traces=shown_traces(solution, manner.entry.traces, room=manner.extras.traces),
+        knots=tuple(knot_letter(knot, manner.words) for knot in solution.knots[kind]),
+    )
+    return plans_viewed(solution, _with_knots(solution, kind, picture, manner), indices, manner)
+
+
+def plans_viewed(
+    solution: Solution, pictures: Sequence[Block], indices: Sequence[int], manner: Manner
+) -> Block:
+    """Return the plans of some positions, in one of several ways, under their name."""
+    kind = manner.entry.of
+    assert kind is not None
+    blocks = [with_scale(solution, kind, picture, manner, indices) for picture in pictures]
+    scale, by_hand = solution.scales[kind], not manner.extras.errors
     return shaped(
-        PlanViewed(block, kind.value, scale, solution, kind, tuple(indices), not errors)
+        PlanViewed(block, kind.value, scale, solution, kind, tuple(indices), by_hand)
         for block in blocks
     )
 
@@ -221,16 +209,20 @@ def shown_position(solution: Solution, indices: Sequence[int], manner: Manner) -
     asked = manner.entry.position
     if asked is not None and asked in indices:
         return asked
-    return indices[0] if len(indices) == 1 else bold_position(solution, tuple(indices))
+    return indices[0] if len(indices) == 1 else clearest_position(solution, tuple(indices))
 
 
-def _with_scale(
-    solution: Solution, kind: PlanKind, picture: Block, manner: Manner, ellipses: Sequence[int],
-    indices: Sequence[int] = (),
-) -> Column:  # fmt: skip
+def with_scale(
+    solution: Solution,
+    kind: PlanKind,
+    picture: Block,
+    manner: Manner,
+    ellipses: Sequence[int],
+    more: Sequence[str] = (),
+) -> Column:
     """Return a picture with its name and scale; ``ellipses`` are the positions that have them.
 
-    ``indices`` are those of a scheme.
+    ``more`` is said under the scale.
     """
     words = manner.words
     one, many = words.sheets.views[kind.value]
@@ -239,23 +231,9 @@ def _with_scale(
     said = []
     if solution.has_common(kind, ellipses):
         said.append(common_scale(solution, kind, ellipses, words))
-    if kind is PlanKind.POSITION and len(solution.positions) > 1:
-        said += _extremes(solution, indices, manner)
+    said += more
     said += ellipse_inscription(solution, kind, ellipses, words) if manner.extras.errors else []
     return named(picture, title, said, manner)
-
-
-def _extremes(solution: Solution, indices: Sequence[int], manner: Manner) -> list[str]:
-    """Return what is told of the extreme positions on a scheme, if it shows both."""
-    if not shows_extremes(solution, indices):
-        return []
-    paths = Paths(solution)
-    if paths.output is None or len(paths.extremes) < len(PRIMES):
-        return []
-    letter = point_name(paths.output[1])
-    names = ", ".join(f"{letter}{prime}" for prime in PRIMES)
-    whole = paths.course.closed and solution.problem.drive.is_crank and not manner.extras.turn
-    return extremes_named(turn_of(solution) if whole else None, names, manner.words)
 
 
 def named(picture: Block, title: str, said: Iterable[str | Block], manner: Manner) -> Column:
@@ -264,46 +242,3 @@ def named(picture: Block, title: str, said: Iterable[str | Block], manner: Manne
     lines: list[Block] = [Line(typeset(title, manner.title), underline=True)]
     lines += [Line(typeset(one, height)) if isinstance(one, str) else one for one in said]
     return Column([Column(lines, gap=2.5, align="centre"), picture], gap=5.0, align="centre")
-
-
-def plan_grid(
-    solution: Solution,
-    kind: PlanKind,
-    indices: Sequence[int],
-    say: Notation,
-    *,
-    in_row: int | None = None,
-    errors: bool = False,
-) -> list[Block]:
-    """Return the plans of many positions in rows and columns, each with its number.
-
-    There are as many ways as numbers of plans in a row, the usual one first; ``in_row`` asks for
-    one.
-    """
-    coordinate = solution.problem.drive.coordinate
-    cells: list[Block] = []
-    common = solution.has_common(kind, indices)
-    convention = solution.problem.scales.convention
-    for i in indices:
-        value = with_unit(position_text(solution, i, say), say.units[coordinate.unit])
-        said = f"{i}: {coordinate.symbol} = {value}"
-        own = solution.own_scale(kind, i)
-        caption: Block = Line(typeset(said, CAPTION))
-        if own != solution.scales[kind] or not common:
-            scale = Line(typeset(scale_inscription(own, convention, say), CAPTION))
-            caption = Column([caption, scale], gap=2.0, align="centre")
-        picture = plan_picture(
-            solution, kind, i, letter_height=CAPTION, errors=errors, by_hand=not errors
-        )
-        cells.append(Column([picture, caption], gap=3.0, align="centre"))
-    count, usual = len(cells), in_row or per_row(len(cells))
-    steps = (usual,) if in_row else (usual, 4, 3, 2, 1) if count <= FEW else (usual, 4, 3)
-    return [_rows(cells, step) for step in dict.fromkeys(min(step, count) for step in steps)]
-
-
-def _rows(cells: Sequence[Block], step: int) -> Block:
-    """Return blocks in rows of so many, the columns even."""
-    wide = [Spacer(max(cell.width for cell in cells[k::step]), 0.0) for k in range(step)]
-    even = [Column([cell, wide[k % step]], gap=0.0, align="centre") for k, cell in enumerate(cells)]
-    found = range(0, len(cells), step)
-    return Column([Row(even[k : k + step], gap=BETWEEN, align="bottom") for k in found], BETWEEN)

@@ -1,0 +1,90 @@
+"""The scheme in several positions as a view of the sheet: one in full, the others thin."""
+
+from __future__ import annotations
+
+from math import ceil
+
+from planmethod.mechanism.model import FRAME
+from planmethod.plans.model import PlanKind
+from planmethod.record import replace
+from planmethod.render.ink.extent import ink_bounds
+from planmethod.render.labels import BUSY, Placed, place_labels
+from planmethod.render.labels.tidy import untidiness
+from planmethod.render.layout.block import Picture
+from planmethod.render.pictures.ellipses import Ellipses, error_ellipses
+from planmethod.render.pictures.extremes import construction_items, stroke_items
+from planmethod.render.pictures.positions import Positions
+from planmethod.render.pictures.schemeview import (
+    SchemeView,
+    letter_axes,
+    letter_links,
+    letter_points,
+)
+from planmethod.render.pictures.senses import SMALL
+from planmethod.render.pictures.traces import Shown
+from planmethod.solved.reading import remembered
+from planmethod.solved.solution import Solution
+from planmethod.solved.turn.construction import extreme_construction
+
+HEIGHTS = (SMALL, 2.5)
+"""Heights of the letters of many positions, mm: the smaller ones where the larger find no room."""
+
+UNTIDY = 0.03
+"""More `untidiness` for each label is a reason to take the smaller letters."""
+
+MOST = 14
+"""Positions that all have letters; of twice as many every other one has, and so on."""
+
+ROOM = 40.0
+"""Room around many positions for their letters, mm."""
+
+
+@remembered
+def series_picture(
+    solution: Solution,
+    index: int,
+    overlay: tuple[int, ...],
+    *,
+    letter_height: float = 5.0,
+    errors: bool = False,
+    turn: bool = False,
+    traces: Shown = False,
+) -> Picture:
+    """Return the scheme in one position and others over it as a picture, mm.
+
+    The positions of ``overlay`` are there in thin lines, their points lettered and numbered, in
+    smaller letters where larger do not fit; the arrows of the links but the driver's, and its
+    angle, are left to schemes of one position. ``turn`` draws the construction of the extreme
+    positions; ``errors`` and ``traces`` are those of `scheme_picture`.
+    """
+    view = SchemeView.drawn(solution, index, letter_height, traces)
+    ellipses = error_ellipses(solution, PlanKind.POSITION, index) if errors else Ellipses()
+    positions = Positions(solution, index, overlay, letter_height)
+    scheme = view.scheme
+    fixed = solution.problem.bodies[FRAME].points
+    letter_points(view, [point for point in scheme.named if point in fixed])
+    letter_axes(view, positions.places())
+    others = positions.lines()
+    letter_links(view, others)
+    own = [replace(label, manner=BUSY) for label in view.labels]
+    construction = extreme_construction(solution) if turn else None
+    if construction is not None:
+        lines, radii = construction_items(construction, SMALL)
+        others, own = [*others, *lines], [*own, *radii]
+    if positions.ends is not None:
+        before = [*others, *view.items()]
+        lines, letters = stroke_items(positions.paths, positions.ends, before, SMALL)
+        others, own = [*others, *lines], [*own, *letters]
+    items = [*others, *view.items(marks=positions.marks()), *ellipses.strokes]
+    left, low, right, high = ink_bounds(items)
+    bounds = (left - ROOM, low - ROOM, right + ROOM, high + ROOM)
+    tries: list[list[Placed]] = []
+    for height in HEIGHTS:
+        labels = [*own, *positions.labels(height, every=ceil(len(positions.overlay) / MOST))]
+        last = height == HEIGHTS[-1]
+        tries.append(place_labels(labels, [*items, *ellipses.grounds], bounds, breaking=last))
+        if untidiness(tries[-1]) <= UNTIDY * len(labels):
+            break
+    placed = min(tries, key=untidiness)
+    whole = [*items, *(item for label in placed for item in label.items())]
+    return Picture(tuple(whole), ink_bounds(whole))

@@ -1,0 +1,123 @@
+"""Views of several positions: schemes over one another, plans in rows, each with its number."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from planmethod.note.narrate.given import point_name
+from planmethod.note.narrate.scales import scale_inscription
+from planmethod.note.narrate.turn import extremes_named
+from planmethod.note.numbers import Notation, with_unit
+from planmethod.plans.model import PlanKind
+from planmethod.render.ink.typeset import typeset
+from planmethod.render.layout.block import Block, Column, Line, Row, Spacer
+from planmethod.render.pictures.paths import Paths
+from planmethod.render.pictures.planview import plan_picture
+from planmethod.render.pictures.positions import PRIMES, shows_extremes
+from planmethod.render.pictures.schemeview import scheme_picture
+from planmethod.render.pictures.seriesview import series_picture
+from planmethod.render.pictures.traces import shown_traces
+from planmethod.render.sheets.model import Manner
+from planmethod.render.sheets.results import position_text
+from planmethod.render.sheets.views import (
+    Viewed,
+    plans_viewed,
+    shown_position,
+    with_scale,
+)
+from planmethod.solved.room import FEW
+from planmethod.solved.scaling import BETWEEN, per_row
+from planmethod.solved.solution import Solution
+from planmethod.solved.turn.turn import turn_of
+
+CAPTION = 3.5
+"""Height of the letters of one of many plans, and of its caption, mm."""
+
+
+def scheme_view(solution: Solution, indices: Sequence[int], manner: Manner) -> Viewed:
+    """Return the scheme of many positions: one in full, the others thin."""
+    bold, kind = shown_position(solution, indices, manner), PlanKind.POSITION
+    letter, errors = manner.letter, manner.extras.errors
+    traces = shown_traces(solution, manner.entry.traces, room=manner.extras.traces)
+    if len(indices) > 1:
+        picture = series_picture(
+            solution,
+            bold,
+            tuple(indices),
+            letter_height=letter,
+            errors=errors,
+            turn=manner.extras.turn,
+            traces=traces,
+        )
+    else:
+        picture = scheme_picture(solution, bold, letter_height=letter, errors=errors, traces=traces)
+    said = _extremes(solution, indices, manner)
+    block = with_scale(solution, kind, picture, manner, (bold,), said)
+    return Viewed(block, kind.value, solution.scales[kind])
+
+
+def _extremes(solution: Solution, indices: Sequence[int], manner: Manner) -> list[str]:
+    """Return what is told of the extreme positions on a scheme, if it shows both."""
+    if not shows_extremes(solution, indices):
+        return []
+    paths = Paths(solution)
+    if paths.output is None or len(paths.extremes) < len(PRIMES):
+        return []
+    letter = point_name(paths.output[1])
+    names = ", ".join(f"{letter}{prime}" for prime in PRIMES)
+    whole = paths.course.closed and solution.problem.drive.is_crank and not manner.extras.turn
+    return extremes_named(turn_of(solution) if whole else None, names, manner.words)
+
+
+def plan_view(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
+    """Return the plans of several positions in rows, drawn as those of one are."""
+    kind = manner.entry.of
+    assert kind is not None
+    if manner.entry.position is not None:
+        indices = (manner.entry.position,)
+    step, say = manner.entry.per_row, manner.words.say
+    pictures = plan_grid(solution, kind, indices, say, in_row=step, errors=manner.extras.errors)
+    return plans_viewed(solution, pictures, indices, manner)
+
+
+def plan_grid(
+    solution: Solution,
+    kind: PlanKind,
+    indices: Sequence[int],
+    say: Notation,
+    *,
+    in_row: int | None = None,
+    errors: bool = False,
+) -> list[Block]:
+    """Return the plans of many positions in rows and columns, each with its number.
+
+    There are as many ways as numbers of plans in a row, the usual one first; ``in_row`` asks for
+    one.
+    """
+    coordinate = solution.problem.drive.coordinate
+    cells: list[Block] = []
+    common = solution.has_common(kind, indices)
+    convention = solution.problem.scales.convention
+    for i in indices:
+        value = with_unit(position_text(solution, i, say), say.units[coordinate.unit])
+        said = f"{i}: {coordinate.symbol} = {value}"
+        own = solution.own_scale(kind, i)
+        caption: Block = Line(typeset(said, CAPTION))
+        if own != solution.scales[kind] or not common:
+            scale = Line(typeset(scale_inscription(own, convention, say), CAPTION))
+            caption = Column([caption, scale], gap=2.0, align="centre")
+        picture = plan_picture(
+            solution, kind, i, letter_height=CAPTION, errors=errors, by_hand=not errors
+        )
+        cells.append(Column([picture, caption], gap=3.0, align="centre"))
+    count, usual = len(cells), in_row or per_row(len(cells))
+    steps = (usual,) if in_row else (usual, 4, 3, 2, 1) if count <= FEW else (usual, 4, 3)
+    return [_rows(cells, step) for step in dict.fromkeys(min(step, count) for step in steps)]
+
+
+def _rows(cells: Sequence[Block], step: int) -> Block:
+    """Return blocks in rows of so many, the columns even."""
+    wide = [Spacer(max(cell.width for cell in cells[k::step]), 0.0) for k in range(step)]
+    even = [Column([cell, wide[k % step]], gap=0.0, align="centre") for k, cell in enumerate(cells)]
+    found = range(0, len(cells), step)
+    return Column([Row(even[k : k + step], gap=BETWEEN, align="bottom") for k in found], BETWEEN)
