@@ -1,6 +1,6 @@
 """Launcher of the command line: ``python cli.py sheet PROBLEM``."""
 
-from planmethod.__main__ import main
+from planmethod.__main__ import launch
 
 if __name__ == "__main__":  # processes at work may import this file
-    main()
+    launch()

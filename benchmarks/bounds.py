@@ -102,7 +102,7 @@ STARTS = (
     ("solve", "import numpy, click", 1.15),
     ("sheet --format svg", DRAWING, 1.5),
     ("sheet --format pdf", DRAWING, 1.5),
-    ("sheet --format svg --phi 0:330:30", DRAWING, 3.0),
+    ("sheet --format svg --phi 0:360:30", DRAWING, 3.0),
 )
 """Commands, and by how much they may take longer than the imports of libraries alone."""
 

@@ -54,18 +54,18 @@ COMMANDS = (
     ("sheet --format svg", ("-o", "{out}")),
     ("sheet --format pdf", ("-o", "{out}")),
     ("sheet --format png", ("-o", "{out}")),
-    ("sheet --format svg --phi 0:330:30", ("-o", "{out}")),
+    ("sheet --format svg --phi 0:360:30", ("-o", "{out}")),
     ("sketch", ("-o", "{out}")),
 )
 
 
 LOADED = (
-    ("solve --json, 360 loaded positions", 0.5, "press", ("solve", "--json", "--phi", "0:359:1")),
+    ("solve --json, 360 loaded positions", 0.5, "press", ("solve", "--json", "--phi", "0:360:1")),
     (
         "sheet --layout forces-cycle, 36 positions",
         1.5,
         "press",
-        ("sheet", "--layout", "forces-cycle", "--phi", "0:350:10", "-o", "{out}"),
+        ("sheet", "--layout", "forces-cycle", "--phi", "0:360:10", "-o", "{out}"),
     ),
     ("solve --json, 60 loads on a point", 1.0, "loads", ("solve", "--json")),
 )
@@ -116,7 +116,7 @@ def commands(*, runs: int = 5) -> list[Command]:
             lines.append((name, [loaded[0], str(press if which == "press" else many), *rest]))
         plain = [[sys.executable, "-c", source] for source in YARDSTICKS]
         # The module is run as the installed script runs it.
-        start = "import sys; from planmethod.__main__ import main; main()"
+        start = "import sys; from planmethod.__main__ import launch; launch()"
         whole = [[sys.executable, "-c", start, *arguments] for _, arguments in lines]
         timings = clock_processes([*plain, *whole], runs=runs)
         count = len(YARDSTICKS)

@@ -1,6 +1,6 @@
 """Launcher of the command line: ``planmethod``, or ``python -m planmethod`` off the PATH."""
 
-from planmethod.process import settle_process
+from planmethod.process import end_process, settle_process
 
 
 def main() -> None:
@@ -11,5 +11,14 @@ def main() -> None:
     run()
 
 
+def launch() -> None:
+    """Run the command line in a process of its own, which ends with it."""
+    try:
+        main()
+    except SystemExit as end:
+        end_process(end.code)
+        raise
+
+
 if __name__ == "__main__":
-    main()
+    launch()
