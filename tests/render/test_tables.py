@@ -172,6 +172,22 @@ def test_paragraph_wraps_and_keeps_its_lines_apart() -> None:
     assert lint(items, (30, 200 - block.height - 1e-6, 100, 200 + 1e-6)) == []
 
 
+@pytest.mark.parametrize(
+    ("markup", "width", "lines"),
+    [
+        ("v_{B}, v_{C}, ω_{2}, ε_{4}.", 25.0, ["v_{B}, v_{C},", "ω_{2}, ε_{4}."]),
+        ("v_{B}, v_{C}, ω_{2}, ε_{4}.", 34.0, ["v_{B}, v_{C},", "ω_{2}, ε_{4}."]),
+        ("v_{B}, v_{C}", 10.0, ["v_{B},", "v_{C}"]),  # the line before has one word alone
+        ("v, расстояние CDE", 44.0, ["v, расстояние", "CDE"]),  # there is no room for both
+        ("v_{B}, v_{C}, направление", 30.0, ["v_{B}, v_{C},", "направление"]),
+    ],
+)
+def test_a_short_word_is_not_alone_in_the_last_line(
+    markup: str, width: float, lines: list[str]
+) -> None:
+    assert [line.markup for line in paragraph(markup, 5, width).inscriptions] == lines
+
+
 def test_heading_shrinks_and_then_wraps() -> None:
     whole = typeset("План скоростей механизма", 7).width
     smaller = heading("План скоростей механизма", 7, width=whole * 0.8)

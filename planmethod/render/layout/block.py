@@ -264,6 +264,10 @@ def heading(
     return paragraph(markup, height, width, align="centre")
 
 
+_ALONE = 12
+"""Signs of a word, its markup too, that is not left alone in a line."""
+
+
 def paragraph(
     markup: str,
     height: float = 3.5,
@@ -274,12 +278,26 @@ def paragraph(
     r"""Return rich text wrapped at spaces into lines not wider than ``width`` mm (абзац).
 
     ``\n`` in the markup starts a new line. A word wider than ``width`` gets a line of its own. What
-    equals a number and its unit are on one line.
+    equals a number and its unit are on one line. A short word is not left alone in the last line.
     """
     lines: list[str] = []
     for part in markup.split("\n"):
-        lines += wrapped(_tied(split_words(part)), height, width)
+        words = _tied(split_words(part))
+        lines += _in_company(wrapped(words, height, width), words, height, width)
     return Lines(tuple(typeset(line, height) for line in lines), line_step(height), align)
+
+
+def _in_company(
+    lines: list[str], words: Sequence[str], height: float, width: float | None
+) -> list[str]:
+    """Return lines the last of which is not one short word, if the one before it can spare one."""
+    alone = len(lines) > 1 and lines[-1] == words[-1] and len(words[-1]) < _ALONE
+    if not alone or lines[-2] == words[-2]:
+        return lines
+    last = f"{words[-2]} {words[-1]}"
+    if width is not None and typeset(last, height).width > width:
+        return lines
+    return [*lines[:-2], lines[-2].removesuffix(words[-2]).rstrip(), last]
 
 
 def _tied(words: Sequence[str]) -> list[str]:
