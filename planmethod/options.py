@@ -44,6 +44,9 @@ MOST_POSITIONS = 1_000_000
 MOST_SWEPT = 10_000_000
 """The same where they are swept, not drawn: ``--npz`` and ``--ask``."""
 
+COUNTED = 72
+"""Positions that somebody counts: who asks for more does not miss the last one."""
+
 
 def read_positions(
     ctx: click.Context, param: click.Parameter, value: str | None, *, most: int = MOST_POSITIONS
@@ -82,7 +85,11 @@ def _expanded(numbers: list[float], part: str, most: int) -> Positions:
     if count <= 0 or count > most:
         raise BadParameter("{!r} gives {} positions", part, max(0, round(count)))
     near = max(1, round(count))
-    whole = near if abs(count - near) < 1e-9 * max(1.0, count) else int(count) + 1
+    is_met = abs(count - near) < 1e-9 * max(1.0, count)
+    whole = near if is_met else int(count) + 1
+    if is_met and whole <= COUNTED and (stop - start) % 360:
+        said = "Note: --phi {0} is {1} position{1:||s} without {2:g}; {3:g}:{4:g}:{5:g} has it."
+        click.echo(say(said, part, whole, stop, start, stop + step, step), err=True)
     return np.asarray(start + step * np.arange(whole), dtype=float)
 
 

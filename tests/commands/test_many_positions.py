@@ -418,6 +418,21 @@ def test_a_large_table_is_checked_before_it_is_written() -> None:
     assert {row["reason"] for row in table} == {"", told}  # true of every row it stands in
 
 
+@pytest.mark.parametrize(
+    ("phi", "note"),
+    [
+        ("0:330:30", "Note: --phi 0:330:30 is 11 positions without 330; 0:360:30 has it.\n"),
+        ("5,60:90:30", "Note: --phi 60:90:30 is 1 position without 90; 60:120:30 has it.\n"),
+        ("0:360:30", ""),  # the end is the beginning
+        ("0:350:30", ""),  # no step meets the end
+        ("0:90:1", ""),  # nobody counts them
+    ],
+)
+def test_an_end_that_is_left_out_is_told(phi: str, note: str) -> None:
+    result = run("solve", EX3, "--phi", phi, "--ask", "v_E", "--csv")
+    assert (result.exit_code, result.stderr) == (0, note)
+
+
 def test_doubts_of_a_large_table_are_told_together() -> None:
     near = ",".join(f"{180 + 0.015 * k:g}" for k in range(-8, 9) if k)
     phi = f"60:120:{60 / BLOCK},{near}"
