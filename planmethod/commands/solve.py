@@ -232,7 +232,7 @@ def solve(
         problems, variant, all_variants, compute, compute_other, jobs=jobs, take=found.append
     )
     if as_json and found:
-        from planmethod.note.columns import Written
+        from planmethod.note.written import Written
 
         texts = [Written(json_text).text(one) for one in found]
         click.echo(texts[0] if len(texts) == 1 else f"[{', '.join(texts)}]")

@@ -84,7 +84,7 @@ def test_the_page_is_the_paper() -> None:
         ("--paper", "A3x2", "There is no paper format A3x2 in GOST 2.301"),
         ("--form", "3", "'3' is not one of 1, 1+2a, 2, 2a"),
         ("--lang", "de", "'de' is not one of ru, en"),
-        ("--stamp", "autor=x", "Unknown field 'autor' of the title block. Did you mean author?"),
+        ("--stamp", "autor=x", "Unknown field 'autor' of the title block. Did you mean 'author'?"),
         ("--config", "no.toml", "no.toml: 1 fault in the config file"),
     ],
 )

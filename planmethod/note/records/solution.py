@@ -7,18 +7,9 @@ from typing import Any
 import numpy as np
 
 from planmethod.mechanism.structure import Structure
-from planmethod.note.columns import (
-    Column,
-    Records,
-    listed,
-    named,
-    pairs,
-    plain_of,
-    rows,
-    sizes,
-    together,
-)
+from planmethod.note.columns import listed, named, pairs, sizes
 from planmethod.note.numbers import plain
+from planmethod.note.written import Column, Records, plain_of, rows, together
 from planmethod.plans.legend import TURNING, Quantity, QuantityKind
 from planmethod.plans.model import FACTS, MOTION, PlanKind, pole_letter
 from planmethod.plans.motion.leads import Relative

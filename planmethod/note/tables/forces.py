@@ -6,12 +6,13 @@ from typing import Any
 
 import numpy as np
 
-from planmethod.note.columns import Column, Records, listed, named, pairs, rows, sizes, together
+from planmethod.note.columns import listed, named, pairs, sizes
 from planmethod.note.narrate.forces.resultants import kept_lines, shift_lines
 from planmethod.note.numbers import plain
 from planmethod.note.plaintext import NO_BREAK, fixed, found, given, plain_text, wrap
 from planmethod.note.tables.sigmas import Sigmas
 from planmethod.note.wording import Wording
+from planmethod.note.written import Column, Records, rows, together
 from planmethod.solved.errors.forces import (
     BALANCE,
     LEVER,

@@ -8,8 +8,8 @@ from typing import Any
 import pytest
 from worked import problem_of
 
-from planmethod.note.columns import Records, Written, plain_of, rows, together
 from planmethod.note.records.solution import record, record_in_columns
+from planmethod.note.written import Records, Written, plain_of, rows, together
 from planmethod.solved.solution import Solution
 
 NOTHING = rows({}, 3)
