@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING
 
 from planmethod.note.plaintext import spoken, table, wrap
 from planmethod.note.rounding import sigma_text
-from planmethod.solved.errors.motion import drafting_of
 
 if TYPE_CHECKING:
     from planmethod.note.wording import Wording
@@ -52,6 +51,8 @@ class Sigmas:
             return []
         if label is None:
             return ["—"]
+        from planmethod.solved.errors.motion import drafting_of
+
         sigma, mark = marked(errors or drafting_of(self.solution), label, index)
         self.drawn = self.drawn or bool(mark)
         return [spoken(sigma_text(sigma), self.words) + mark]
