@@ -18,6 +18,7 @@ from planmethod.errors import CompositionError, ExitCode, LayoutError
 from planmethod.note.wording import LANGUAGES, language
 from planmethod.plans.model import MOTION
 from planmethod.problem import loads
+from planmethod.problem.model import Scales
 from planmethod.render.control.texts import lint
 from planmethod.render.frame.frame import FORMATS
 from planmethod.render.frame.furniture import Room
@@ -435,6 +436,14 @@ def test_positions_on_one_sheet(
 ) -> None:
     mine = made(f'per_sheet = {list(per_sheet)}\n[[blocks]]\nkind = "scheme"\n')
     assert mine.at_most(count) == tried
+
+
+@pytest.mark.parametrize("name", ["linkages/ex3", "levers/task12"])
+def test_plans_too_large_at_a_scale_of_the_file_have_their_own(name: str) -> None:
+    problem = problem_of(name)
+    assert problem.scales != Scales(problem.scales.convention)
+    sheets = kinematics_sheets(problem, positions=[0.0, 120.0, 240.0])
+    assert [sheet.width for sheet in sheets] == [841]
 
 
 def test_the_sheet_of_a_block_is_that_of_the_one_before() -> None:

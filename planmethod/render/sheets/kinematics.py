@@ -47,7 +47,9 @@ class _Task:
 
     def solved(self, views: Views | None, scales: Scales) -> Solution:
         """Return the solution for the views of a paper, with certain scales."""
-        known = self.estimated
+        # Without views told the estimate keeps to scales of the file in all of several positions.
+        keeps = len(self.positions) > 1 and scales != Scales(scales.convention)
+        known = None if keeps else self.estimated
         if known is not None and (known.views, known.problem.scales) == (views, scales):
             return known
         solution = Solution(
