@@ -377,6 +377,10 @@ Owner: TypeAlias = str | Callable[[], str]
 """Whose points they are; said when a fault is told, since few files have one."""
 
 
+def _no_point(owner: Owner, name: str) -> str:
+    return say("{} has no point '{}'", owner if isinstance(owner, str) else owner(), name)
+
+
 def read_known_point(
     faults: Faults, path: str, value: object, known: Iterable[str], *, of: Owner
 ) -> str | None:
@@ -387,11 +391,7 @@ def read_known_point(
     points = tuple(known)
     if name not in points:
         hint = near_hint(name, points, say("Its points are {}.", listed(points)))
-        faults.add(
-            path,
-            say("{} has no point '{}'", of if isinstance(of, str) else of(), name),
-            hint if points else "",
-        )
+        faults.add(path, _no_point(of, name), hint if points else "")
         return None
     return name
 
@@ -411,8 +411,6 @@ def read_line_name(
     for name in pair:
         if name not in points:
             hint = say("Its points are {}.", listed(points)) if points else ""
-            faults.add(
-                path, say("{} has no point '{}'", of if isinstance(of, str) else of(), name), hint
-            )
+            faults.add(path, _no_point(of, name), hint)
             return None
     return pair

@@ -17,13 +17,16 @@ from planmethod.render.sheets.structure import structure_sheet
 
 @pytest.mark.parametrize("name", ["linkages/ex1", "linkages/ex3", "levers/six-link"])
 @pytest.mark.parametrize("paper", [None, "A3:portrait", "A2:portrait", "A4x3", "A4"])
-def test_sheets_keep_out_of_the_graphs(name: str, paper: str | None) -> None:
+def test_sheets_keep_out_of_the_graphs(
+    name: str, paper: str | None, request: pytest.FixtureRequest
+) -> None:
+    if (name, paper) == ("levers/six-link", "A3:portrait"):
+        reason = "two and a half sheets are full, the second and third have white at a side"
+        request.applymarker(pytest.mark.xfail(strict=True, reason=reason))
     settings = SheetSettings(paper, graphs_27_30=True, side_columns=True)
     problem = replace(load(path_of(name)), sheet=settings)
-    drawings = kinematics_sheets(problem)
-    # Three links leave room on A4, and a paper that is asked for need not fill its second sheet.
-    allowed = {"PM-D08"} | ({"PM-D10"} if paper == "A4" or (paper and drawings[1:]) else set())
-    for drawing in drawings:
+    for drawing in kinematics_sheets(problem):
+        allowed = {"PM-D08"} | ({"PM-D10"} if paper == "A4" else set())  # three links leave room
         assert [f.message for f in inspect(drawing) if f.code not in allowed] == []
 
 

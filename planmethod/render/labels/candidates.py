@@ -17,7 +17,6 @@ from planmethod.render.symbols import unit
 
 Floats: TypeAlias = NDArray[np.float64]
 Complexes: TypeAlias = NDArray[np.complex128]
-Place: TypeAlias = tuple[Floats, Floats]
 
 _ALONG = (0.5, 0.42, 0.58, 0.34, 0.66, 0.26, 0.74, 0.18, 0.82)
 _BESIDE = (0.0, 0.8, 2.0, 4.0)  # beyond the gap, mm
@@ -198,22 +197,13 @@ def inside(segments: Floats, boxes: Floats) -> Floats:
         return np.where(last >= first, np.maximum(last - first, 0.0) * length, -1.0)
 
 
-def crossing(one: Floats, two: Floats) -> NDArray[np.bool_]:
-    """Tell which segments (..., 2, 2) cross each other; NaN crosses nothing."""
-    a, b, c, d = ((line[..., k, 0], line[..., k, 1]) for line in (one, two) for k in (0, 1))
-
-    def side(p: Place, q: Place, r: Place) -> Floats:
-        return np.asarray((q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0]))
-
-    with np.errstate(invalid="ignore"):
-        apart = np.asarray(side(a, b, c) * side(a, b, d) < 0)
-        return apart & (side(c, d, a) * side(c, d, b) < 0)
-
-
-def crossing_pairs(
+def crossing(
     one: Floats, two: Floats, i: NDArray[np.intp], j: NDArray[np.intp]
 ) -> NDArray[np.bool_]:
-    """Tell what `crossing` does of ``one[i]`` and ``two[j]``, many pairs of few segments."""
+    """Tell which segments ``one[i]`` and ``two[j]`` cross each other; NaN crosses nothing.
+
+    The segments have the shape (n, 2, 2); of few there may be many pairs.
+    """
     (ax, ay, bx, by), (cx, cy, dx, dy) = (line.reshape(-1, 4).T.copy() for line in (one, two))
     x, y, along, up = (part.take(i) for part in (ax, ay, bx - ax, by - ay))
 
@@ -232,4 +222,4 @@ def crossed(leaders: Sequence[Floats]) -> int:
     if not leaders:
         return 0
     lines = np.asarray(leaders)
-    return int(np.sum(crossing(lines[:, None], lines[None, :]))) // 2
+    return int(crossing(lines, lines, *np.triu_indices(len(lines), 1)).sum())

@@ -110,6 +110,7 @@ class Others:
             theirs_hit, both = np.count_nonzero(have), has & have
             found[have] += FORBIDDEN * hit[:theirs_hit]
             found[has] += FORBIDDEN * hit[theirs_hit:]
-            found[both] += LEADERS_CROSS * crossing(own[both], led[both])
+            pairs = np.flatnonzero(both)
+            found[pairs] += LEADERS_CROSS * crossing(own, led, pairs, pairs)
         costs[row, other] = found
         return costs

@@ -18,7 +18,7 @@ from planmethod.render.labels.candidates import (
     Complexes,
     Floats,
     as_segments,
-    crossing_pairs,
+    crossing,
     inside,
 )
 from planmethod.render.labels.model import ALONE, BREAKABLE, CLEAR
@@ -151,7 +151,7 @@ class Paper:
         lines = linestrings(paths[ask])
         if self._lines is not None and len(ask):
             which, line = self._lines.query(lines)
-            met = crossing_pairs(paths[ask], self.segments, which, line)
+            met = crossing(paths[ask], self.segments, which, line)
             heavy = np.repeat([c.label.manner.heavy for c in many], [len(c.boxes) for c in many])
             found = ask[which[met]]
             np.add.at(costs, found, np.where(self.breakable[line[met]], _BETWEEN, heavy[found]))
