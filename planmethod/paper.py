@@ -104,6 +104,12 @@ def _formats() -> Iterator[Format]:
     yield from (*lying[1:], *standing)
 
 
+BASIC = tuple(_BASIC)
+"""Basic formats, from A4 to A0."""
+
+TRIED = ("A3", "A2", "A1")
+"""Formats that sheets are tried on in turn where none is asked for."""
+
 FORMATS: Mapping[str, Format] = MappingProxyType({fmt.name: fmt for fmt in _formats()})
 """All formats by name, the basic ones first, from A4 to A0."""
 

@@ -68,17 +68,17 @@ def _drawn(
 def solved_while(
     draw: Callable[[], list[Drawing]], patch: pytest.MonkeyPatch
 ) -> tuple[list[Drawing], Solution]:
-    """Return the sheets and the last solution that was made for their scales."""
-    from planmethod.render.sheets import kinematics
-    from planmethod.solved.solution import Solution
+    """Return the sheets and the last solution that was tried at their scales."""
+    from planmethod.render.sheets.kinematics import Linkage
 
     made: list[Solution] = []
+    solved = Linkage.solved
 
-    def kept(*args: Any, **kwargs: Any) -> Solution:
-        made.append(Solution(*args, **kwargs))
+    def kept(linkage: Linkage, *asked: Any) -> Solution:
+        made.append(solved(linkage, *asked))
         return made[-1]
 
-    patch.setattr(kinematics, "Solution", kept)
+    patch.setattr(Linkage, "solved", kept)
     sheets = draw()
     drawn = {view.kind: view.per_mm for sheet in sheets for view in sheet.views}
     for solution in reversed(made) if len(made[-1].positions) == 1 else ():

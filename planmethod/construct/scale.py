@@ -48,6 +48,22 @@ def series_near(value: float, *, up: bool, series: Sequence[float] = SERIES) -> 
     return members[bisect_right(members, value + slack) - 1]
 
 
+def next_scale(per_mm: float, *, finer: bool, mm_per_unit: bool = False) -> float:
+    """Return the next scale of the series, units per millimetre.
+
+    Parameters
+    ----------
+    per_mm : float
+    finer : bool
+        The one at which everything is drawn larger, else smaller.
+    mm_per_unit : bool
+        Round numbers are those in mm per unit.
+    """
+    if mm_per_unit:
+        return 1.0 / series_near(1.01 ** (1 if finer else -1) / per_mm, up=finer)
+    return series_near(per_mm * 1.01 ** (-1 if finer else 1), up=not finer)
+
+
 @cache
 def _members(power: int, series: tuple[float, ...]) -> list[float]:
     """Return a series times a power of ten, the one below and the one above."""

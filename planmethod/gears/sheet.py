@@ -4,11 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from fractions import Fraction
-from itertools import product
-from typing import NamedTuple
+from itertools import pairwise, product
 
 from planmethod.construct.drafting import Profile
-from planmethod.construct.scale import series_near
+from planmethod.construct.scale import Scale, series_near
 from planmethod.errors import LayoutError
 from planmethod.gears.arrangement import Order, arrange, best_order
 from planmethod.gears.construction import Construction, Reading, construct, read
@@ -19,27 +18,22 @@ from planmethod.gears.motion import Motion, solve_motion
 from planmethod.gears.picture import draw
 from planmethod.gears.scheme import Scheme
 from planmethod.gears.told import calculation, given, results
-from planmethod.languages import LANGUAGES
+from planmethod.languages import LANGUAGES, say
 from planmethod.note.wording import Language, language
+from planmethod.paper import STAMP_WIDTH, TRIED
 from planmethod.record import dataclass, replace
-from planmethod.render.frame.frame import STAMP_WIDTH, paper_format, sheet_frame
 from planmethod.render.frame.furniture import Furniture
-from planmethod.render.frame.titleblock import merged
-from planmethod.render.ink.drawing import Bounds, Drawing, Item, Span, View, shifted
+from planmethod.render.ink.drawing import Drawing, Item, Span, View, shifted
 from planmethod.render.ink.extent import ink_bounds
-from planmethod.render.ink.lettering import lettering, using
 from planmethod.render.ink.typeset import typeset
 from planmethod.render.labels import Label
 from planmethod.render.layout.block import Block, Column, Line, heading, paragraph
 from planmethod.render.layout.block import Picture as Drawn
 from planmethod.render.layout.cuttings import Group, Part
 from planmethod.render.layout.equations import formula_block
-from planmethod.render.layout.pack import pack
 from planmethod.render.layout.tables import TableColumn, table_block
 from planmethod.render.pictures.lettered import lettered
-
-PAPERS = ("A3", "A2", "A1")
-"""Formats tried in turn when none is asked for."""
+from planmethod.render.sheets.composer import Blank, Packing, Sizes, Viewed, compose, view_of
 
 TARGETS = (210.0, 165.0, 130.0, 105.0, 85.0, 65.0)
 """Heights of the scheme, mm, that scales of the sheet's own aim at."""
@@ -96,69 +90,68 @@ def drawings(
     LayoutError
         It does not fit the paper.
     """
-    motion = solve_motion(problem)
-    words = language(problem.sheet.lang or LANGUAGES[0])
+    strategy = _Train(problem, solve_motion(problem), profile)
     furniture = Furniture.of(problem.sheet, before=before, total=total)
-    default = {"title": problem.title, "sheets": "1"}
-    texts = merged(default, problem.stamp, furniture.numbers(1, 1), fields)
-    plain = Scheme(motion, float(motion.train.unit_m / motion.train.picture.mu_l))
-    order = None if plain.undrawn else best_order(plain)
-    made: dict[tuple[PictureSettings, _Sizes], list[tuple[Part, ...]]] = {}
-    asked = problem.sheet.paper and paper_format(problem.sheet.paper).name
-    with using(lettering(problem.sheet.lettering or "B")):
-        for name, settings, sizes in _tries(motion, asked):
-            fmt = paper_format(name)
-            items, inner, stamp, taken = sheet_frame(fmt, texts, furniture)
-            sheet = _Sheet(motion, settings, profile, words, sizes, order)
+    return compose(problem, strategy, fields=fields, furniture=furniture)
+
+
+@dataclass(frozen=True, slots=True)
+class _Train:
+    """How the sheet of a train is searched for: by the scale of the side view."""
+
+    problem: GearProblem
+    motion: Motion
+    profile: Profile
+
+    formats = TRIED
+    has_scales = False
+
+    @property
+    def less(self) -> str:
+        """What to ask less of."""
+        return say("Ask for less in gears.ask.")
+
+    def misfit(self, paper: str, advice: str) -> LayoutError:
+        """Return the error of a sheet that does not fit."""
+        return LayoutError(
+            "{}: the sheet of {} wheels does not fit {}. {}",
+            self.problem.name,
+            len(self.motion.train.wheels),
+            paper,
+            advice,
+        )
+
+    def proposals(self, papers: Sequence[Blank]) -> Iterator[Packing]:
+        """Yield the blocks at a scale in several orders of reading, paper by paper."""
+        made: dict[tuple[PictureSettings, Sizes], list[tuple[Part, ...]]] = {}
+        words = language(self.problem.sheet.lang or LANGUAGES[0])
+        train = self.motion.train
+        plain = Scheme(self.motion, float(train.unit_m / train.picture.mu_l))
+        order = None if plain.undrawn else best_order(plain)
+        for paper, settings, sizes in self._scales(papers):
+            sheet = _Sheet(self.motion, settings, self.profile, words, sizes, order)
             if (settings, sizes) not in made:
                 made[settings, sizes] = list(sheet.orders())
             for parts in made[settings, sizes]:
-                if not _has_room(parts, inner, stamp):
+                yield Packing(paper, (Group(parts),))
+
+    def _scales(self, papers: Sequence[Blank]) -> Iterator[tuple[Blank, PictureSettings, Sizes]]:
+        """Yield papers and scales: first the scale of the file, where the scheme suits it."""
+        motion, (*_, last) = self.motion, papers
+        train, settings, asked = motion.train, motion.train.picture, last.is_asked
+        extent = _extent(motion) * float(train.unit_m)
+        if LEAST <= extent / float(settings.mu_l) <= MOST:
+            yield from ((paper, settings, USUAL) for paper in papers if paper != last or asked)
+        for sizes, paper in product((USUAL, DENSE) if asked else (USUAL,), papers):
+            for target in TARGETS:
+                most = MOST_A3 if paper.name == "A3" else TARGETS[0]
+                if not (asked or LEAST_TARGET <= target <= most):
                     continue
-                placed = pack(Group(parts), inner, stamp, taken)
-                if placed is None:
-                    continue
-                views: list[View] = []
-                for block, corner in placed:
-                    items += block.place(corner)
-                    views += block.views(corner) if isinstance(block, _Viewed) else []
-                return [Drawing(fmt.width, fmt.height, texts.get("title", ""), items, views)]
-    advice = "Take a larger --paper." if asked else "Ask for less in gears.ask."
-    raise LayoutError(
-        "{}: the sheet of {} wheels does not fit {}. {}",
-        problem.name,
-        len(motion.train.wheels),
-        asked or PAPERS[-1],
-        advice,
-    )
-
-
-def _tries(motion: Motion, asked: str | None) -> Iterator[tuple[str, PictureSettings, _Sizes]]:
-    """Yield papers and scales in turn: first the scale of the file, where the scheme suits it."""
-    train, settings = motion.train, motion.train.picture
-    extent = _extent(motion) * float(train.unit_m)
-    papers = (asked,) if asked else PAPERS
-    if LEAST <= extent / float(settings.mu_l) <= MOST:
-        kept = (name for name in papers if name != PAPERS[-1] or asked)
-        yield from ((name, settings, _Sizes()) for name in kept)
-    for sizes, name in product((_Sizes(), DENSE) if asked else (_Sizes(),), papers):
-        for target in TARGETS:
-            if not asked and (target < LEAST_TARGET or (name == "A3" and target > MOST_A3)):
-                continue
-            mu_l = series_near(extent / target, up=True)
-            if not asked and extent / mu_l < LEAST:  # from 5 to 10 the series makes a wide step
-                mu_l = series_near(extent / target, up=False)
-            tried = replace(settings, mu_l=Fraction(repr(mu_l)))
-            yield name, replace(tried, pole_mm=_pole(motion, tried)), sizes
-
-
-def _has_room(parts: Sequence[Part], inner: Bounds, stamp: Bounds) -> bool:
-    """Whether blocks could be packed at all: none is too large, nor are they all together."""
-    width, height = inner[2] - inner[0], inner[3] - inner[1]
-    free = width * height - (stamp[2] - stamp[0]) * (stamp[3] - stamp[1])
-    blocks = [part.block for part in parts]
-    fit = all(block.width < width and block.height < height for block in blocks)
-    return fit and sum(block.width * block.height for block in blocks) < free
+                mu_l = series_near(extent / target, up=True)
+                if not asked and extent / mu_l < LEAST:  # from 5 to 10 the series makes a wide step
+                    mu_l = series_near(extent / target, up=False)
+                tried = replace(settings, mu_l=Fraction(repr(mu_l)))
+                yield paper, replace(tried, pole_mm=_pole(motion, tried)), sizes
 
 
 def _pole(motion: Motion, settings: PictureSettings) -> Fraction:
@@ -183,48 +176,40 @@ def _extent(motion: Motion) -> float:
     return max(ends) - min(ends) if ends else 100.0
 
 
-class _Sizes(NamedTuple):
-    """Heights of letters on views, of titles, of texts; of the rows of tables, mm."""
+USUAL = Sizes(5.0, 5.0, 3.5, STAMP_WIDTH)
+"""Sizes of letters and tables."""
 
-    letter: float = 5.0
-    title: float = 5.0
-    text: float = 3.5
-    row: float = 7.0
-
-
-DENSE = _Sizes(3.5, 3.5, 2.5, 5.5)
+DENSE = Sizes(3.5, 3.5, 2.5, STAMP_WIDTH, row=5.5)
 """Where the format was asked for and nothing larger fits."""
 
 
 @dataclass(frozen=True)
-class _Viewed:
-    """Block that is a view, or some: their boxes from its upper left corner (вид на листе)."""
+class _Picture(Viewed):
+    """A view of the train; its segments are known from its upper left corner."""
 
-    block: Block
-    told: tuple[tuple[str, str, float, Bounds, tuple[Span, ...]], ...]
+    measured: Sequence[Span]
 
-    @property
-    def width(self) -> float:
-        return self.block.width
+    def spans(self, items: Sequence[Item], corner: complex) -> Iterator[Span]:
+        """Yield the segments where they lie on the sheet."""
+        for one in self.measured:
+            yield replace(one, start=one.start + corner, end=one.end + corner)
 
-    @property
-    def height(self) -> float:
-        return self.block.height
 
-    def place(self, corner: complex) -> list[Item]:
-        return self.block.place(corner)
+@dataclass(frozen=True)
+class _Strip(_Picture):
+    """The side view, and beside it the picture of linear velocities, which is measured."""
 
-    def views(self, corner: complex) -> list[View]:
-        x, y = corner.real, corner.imag
+    beside: Scale
+    at: float  # where it begins, mm from the left
+
+    def views(self, items: Sequence[Item], corner: complex) -> list[View]:
+        """Return both views."""
+        low, high = corner.imag - self.height, corner.imag
+        edges = (corner.real, corner.real + self.at, corner.real + self.width)
+        scheme, velocities = ((left, low, right, high) for left, right in pairwise(edges))
         return [
-            View(
-                kind,
-                (left + x, low + y, right + x, high + y),
-                scale,
-                per_mm,
-                tuple(replace(s, start=s.start + corner, end=s.end + corner) for s in spans),
-            )
-            for kind, scale, per_mm, (left, low, right, high), spans in self.told
+            view_of(self.name, self.scale, scheme, ()),
+            view_of("velocity", self.beside, velocities, self.spans(items, corner)),
         ]
 
 
@@ -236,7 +221,7 @@ class _Sheet:
     settings: PictureSettings
     profile: Profile
     words: Language
-    sizes: _Sizes
+    sizes: Sizes
     order: Order | None
 
     def orders(self) -> Iterator[tuple[Part, ...]]:
@@ -273,13 +258,12 @@ class _Sheet:
         say = self.words.say
         return self.words.gears.sheet.inscriptions[key].format(value=say.short(value, 4), **more)
 
-    def _strip(self, scheme: Scheme, drawn: Construction | None, seen: Reading | None) -> _Viewed:
+    def _strip(self, scheme: Scheme, drawn: Construction | None, seen: Reading | None) -> Block:
         """Return the side view and, at the same heights, the picture of linear velocities."""
         say = self.words.gears.sheet
         if scheme.undrawn:
             kinds = ", ".join(say.kinds[kind] for kind in scheme.undrawn)
-            text = paragraph(say.no_scheme.format(kinds=kinds), self.sizes.text, STAMP_WIDTH)
-            return _Viewed(text, ())
+            return paragraph(say.no_scheme.format(kinds=kinds), self.sizes.text, STAMP_WIDTH)
         spots = () if drawn is None else drawn.spots
         side = Side(arrange(scheme, self.order), {spot.contact: spot.letter for spot in spots})
         items, labels = side.items(), list(side.labels(self.sizes.letter))
@@ -310,15 +294,14 @@ class _Sheet:
         placed = [*whole.items, *titles]
         bounds = ink_bounds(placed)
         x, y = -bounds[0], -bounds[3]
-        scheme_box = (0.0, bounds[1] + y, middle + x, 0.0)
-        told = [("position", "μ_{l}", float(self.settings.mu_l), scheme_box, ())]
-        if drawn is not None and seen is not None:
-            spans = tuple(linear_spans(drawn, seen, complex(origin + x, y)))
-            box = (middle + x, bounds[1] + y, bounds[2] + x, 0.0)
-            told.append(("velocity", "μ_{v}", drawn.picture.mu_v, box, spans))  # type: ignore[arg-type]
-        return _Viewed(Drawn(tuple(placed), bounds), tuple(told))
+        strip, mu = Drawn(tuple(placed), bounds), Scale("mu_l", float(self.settings.mu_l), "m")
+        if drawn is None or seen is None:
+            return Viewed(strip, "position", mu)
+        spans = linear_spans(drawn, seen, complex(origin + x, y))
+        beside = Scale("mu_v", drawn.picture.mu_v, "m/s")
+        return _Strip(strip, "position", mu, tuple(spans), beside, middle + x)
 
-    def _fronts(self) -> Iterator[_Viewed | None]:
+    def _fronts(self) -> Iterator[Viewed | None]:
         """Yield the view along the axes at the scale of the side view, then at a coarser one.
 
         None where no axes are parallel.
@@ -333,9 +316,8 @@ class _Sheet:
             scheme = Scheme(self.motion, float(self.motion.train.unit_m) / mu_l)
             title = self.words.gears.sheet.front
             scales = [self._scale("mu_l", mu_l)]
-            yield self._titled(
-                front(scheme, self.sizes.letter), title, "position", "μ_{l}", mu_l, scales
-            )
+            view = front(scheme, self.sizes.letter)
+            yield self._titled(view, title, "position", Scale("mu_l", mu_l, "m"), scales)
 
     def _is_turned(self) -> bool:
         scheme = Scheme(self.motion, 1.0)
@@ -346,11 +328,10 @@ class _Sheet:
         view: Drawn,
         title: str,
         kind: str,
-        scale: str,
-        per_mm: float,
+        scale: Scale,
         scales: Sequence[str],
         spans: Sequence[Span] = (),
-    ) -> _Viewed:
+    ) -> Viewed:
         """Return a view under its title; its spans are in the view's own coordinates."""
         head = self._head(title, max(view.width, 60.0), *scales)
         block = Column([head, view], gap=5.0, align="centre")
@@ -358,20 +339,19 @@ class _Sheet:
             (block.width - view.width) / 2 - view.bounds[0], -head.height - 5.0 - view.bounds[3]
         )
         moved = tuple(replace(s, start=s.start + shift, end=s.end + shift) for s in spans)
-        box = (0.0, -block.height, block.width, 0.0)
-        return _Viewed(block, ((kind, scale, per_mm, box, moved),))
+        return _Picture(block, kind, scale, moved)
 
-    def _angular(self, drawn: Construction, seen: Reading) -> _Viewed:
+    def _angular(self, drawn: Construction, seen: Reading) -> Viewed:
         picture = drawn.picture
-        per_mm = picture.mu_omega
         pole = self.words.say.given(float(picture.pole_mm))
-        scales = [self._scale("mu_omega", per_mm, pole=pole)]
+        scales = [self._scale("mu_omega", picture.mu_omega, pole=pole)]
         if self.motion.train.unit == "n":
             scales.append(self._scale("mu_n", float(picture.turn_per_mm)))
         spans = list(angular_spans(drawn, seen, 0j))
         title = self.words.gears.sheet.angular
         view = angular(drawn, seen, self.sizes.letter)
-        return self._titled(view, title, "velocity", "μ_{ω}", per_mm, scales, spans)
+        scale = Scale("mu_ω", picture.mu_omega, "1/s")
+        return self._titled(view, title, "velocity", scale, scales, spans)
 
     # Texts ---------------------------------------------------------------------------------------
 
@@ -426,7 +406,7 @@ def _table(
     heads: Sequence[str],
     rows: Sequence[Sequence[str]],
     width: float,
-    sizes: _Sizes,
+    sizes: Sizes,
     shares: Sequence[float] = (),
 ) -> Block:
     shares = shares[: len(heads)] or [1.0] * len(heads)

@@ -4,16 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import field
-from functools import partial
 from itertools import combinations, pairwise
-from typing import TypeAlias
 
 import numpy as np
 
 from planmethod.construct.drafting import Profile
-from planmethod.construct.scale import Scale, series_near
+from planmethod.construct.scale import Scale
 from planmethod.errors import LayoutError
-from planmethod.languages import LANGUAGES
+from planmethod.languages import LANGUAGES, say
 from planmethod.moving.construction import Construction, construct, read_hodograph
 from planmethod.moving.course import Course, course_of
 from planmethod.moving.model import PointProblem
@@ -31,35 +29,37 @@ from planmethod.note.numbers import alike, significant
 from planmethod.note.plaintext import plain_text
 from planmethod.note.rounding import rounded_to, sigma_text
 from planmethod.note.wording import Language, language
-from planmethod.paper import Format
-from planmethod.problem.model import Convention
+from planmethod.paper import STAMP_WIDTH, TRIED
 from planmethod.record import dataclass, replace
-from planmethod.render.frame.frame import STAMP_WIDTH, paper_format, sheet_frame
-from planmethod.render.frame.furniture import Furniture, Room
-from planmethod.render.frame.titleblock import merged
+from planmethod.render.frame.furniture import Furniture
 from planmethod.render.ink.drawing import Disc, Drawing, Item, Span
-from planmethod.render.ink.lettering import lettering, using
 from planmethod.render.ink.typeset import typeset
 from planmethod.render.layout.block import Block, Column, Line, heading, paragraph
 from planmethod.render.layout.cuttings import Group, Part
 from planmethod.render.layout.equations import formula_block
-from planmethod.render.layout.pack import EDGE, Placed, pack
+from planmethod.render.layout.pack import EDGE
 from planmethod.render.layout.tables import TableColumn, table_block
 from planmethod.render.pictures.planview import POLE
+from planmethod.render.sheets.composer import (
+    Blank,
+    Laid,
+    Packing,
+    Sizes,
+    Viewed,
+    compose,
+    composed,
+    enlarged,
+)
 from planmethod.render.sheets.texts import unbroken
-from planmethod.render.sheets.views import Viewed
 
-PAPERS = ("A3", "A2", "A1")
-"""Formats tried in turn when none is asked for."""
-
-LETTER, TITLE, TEXT = 5.0, 5.0, 3.5
-"""Heights of letters on views, names of views, and texts, mm."""
+SIZES = Sizes(5.0, 5.0, 3.5, 120.0)
+"""Sizes of letters and texts."""
 
 TRAJECTORY_BOX, HODOGRAPH_BOX = (170.0, 125.0), (105.0, 95.0)
 """What trajectory and hodographs shall fill, mm, times the factors that are tried."""
 
 FACTORS = (1.9, 1.6, 1.35, 1.15, 1.0, 0.87, 0.75, 0.65, 0.56, 0.48, 0.4, 0.32, 0.25)
-COLUMN_WIDTHS = (120.0, 95.0)
+COLUMN_WIDTHS = (SIZES.column, 95.0)
 
 TABLE_WIDTH = STAMP_WIDTH + 15.0
 
@@ -74,7 +74,7 @@ class _Plan(Viewed):
     built: Construction | None
     plan: str
 
-    def spans(self, items: Sequence[Item]) -> Iterator[Span]:
+    def spans(self, items: Sequence[Item], corner: complex) -> Iterator[Span]:
         """Yield the whole vector of the plan."""
         if self.built is None:
             return
@@ -87,72 +87,50 @@ class _Plan(Viewed):
                     yield Span(plain_text(vector.symbol), None, pole, pole + head)
 
 
-_Pages: TypeAlias = tuple[tuple[Placed, ...], ...]
-
-
 @dataclass(frozen=True, slots=True)
-class _Laid:
-    """Sheets: their blocks with the upper left corners that they were put at; the scales."""
-
-    pages: _Pages
-    scales: dict[str, Scale]
-
-
-@dataclass(frozen=True, slots=True)
-class _Sheet:
-    """All that a sheet of a point shows, but for the sizes of its views."""
+class _Point:
+    """How the sheets of a point are searched for: views smaller and smaller, on more sheets."""
 
     problem: PointProblem
     course: Course
     profile: Profile
     words: Language
-    views: dict[tuple[object, ...], Block] = field(default_factory=dict)
+    made: dict[tuple[object, ...], Block] = field(default_factory=dict)
 
-    def laid_out(self, rooms: Sequence[Room]) -> _Laid | None:
-        """Return the blocks, the views as large as the paper bears; None when they do not fit.
+    formats = TRIED
+
+    @property
+    def has_scales(self) -> bool:
+        """Whether the file gives scales."""
+        mu = self.problem.scales
+        return any(given is not None for given in (mu.mu_l, mu.mu_v, mu.mu_a))
+
+    @property
+    def less(self) -> str:
+        """What to ask less of."""
+        return say("Ask fewer moments, or a shorter show.")
+
+    def misfit(self, paper: str, advice: str) -> LayoutError:
+        """Return the error of a motion that does not fit."""
+        return LayoutError(
+            "{}: the motion of the point does not fit {}. {}", self.problem.name, paper, advice
+        )
+
+    def proposals(self, papers: Sequence[Blank]) -> Iterator[_Sheets]:
+        """Yield scales and widths of the texts, for one sheet, then for several of the asked one.
 
         Of several sheets the first has the views.
-
-        All views grow together first, then each as far as the others leave it room.
         """
-        inner = rooms[0].inner
-
-        def packed(scales: dict[str, Scale], column: float) -> _Laid | None:
-            laid = None
-            for draft in (True, False):  # placing letters takes long: first without
-                parts = self.parts(scales, column, inner[2] - inner[0] - 2 * EDGE, draft=draft)
-                pages = _on_pages(parts, rooms)
-                if pages is None:
-                    return None
-                laid = _Laid(pages, scales)
-            return laid
-
-        tried: set[tuple[float, ...]] = set()
-        for factor in FACTORS:
-            scales = self.scales(factor)
-            key = tuple(scale.per_mm for scale in scales.values())
-            if key in tried:
-                continue
-            tried.add(key)
-            for column in COLUMN_WIDTHS:
-                laid = packed(scales, column)
-                if laid is not None:
-                    return self._grown(laid, partial(packed, column=column))
-        return None
-
-    def _grown(self, laid: _Laid, packed: Callable[[dict[str, Scale]], _Laid | None]) -> _Laid:
-        """Return the blocks with every free scale as large as they bear."""
-        asked = self.problem.scales
-        inverse = asked.convention is Convention.MM_PER_UNIT
-        for name, mu in (("l", asked.mu_l), ("v", asked.mu_v), ("a", asked.mu_a)):
-            for _ in range(0 if mu is not None else MOST_STEPS):
-                scale = laid.scales[name]
-                finer = replace(scale, per_mm=_finer(scale.per_mm, inverse=inverse))
-                larger = packed(laid.scales | {name: finer})
-                if larger is None:
-                    break
-                laid = larger
-        return laid
+        for paper in papers:
+            for count in (1, 2, 3) if paper.is_asked else (1,):
+                tried: set[tuple[float, ...]] = set()
+                for factor in FACTORS:
+                    scales = self.scales(factor)
+                    key = tuple(scale.per_mm for scale in scales.values())
+                    if key not in tried:
+                        tried.add(key)
+                        for column in COLUMN_WIDTHS:
+                            yield _Sheets(self, paper, count, scales, column)
 
     def scales(self, factor: float) -> dict[str, Scale]:
         """Return the scales of views that are so many times as large as usual."""
@@ -164,7 +142,7 @@ class _Sheet:
         return found | {"l": length_scale(self.problem, self.course, found, whole)}
 
     def parts(
-        self, scales: Mapping[str, Scale], column: float, room: float, *, draft: bool = False
+        self, scales: Mapping[str, Scale], column: float, room: float, *, draft: bool
     ) -> list[Part]:
         """Return the blocks in reading order."""
         course, said = self.course, self.words.point
@@ -179,7 +157,12 @@ class _Sheet:
         def trajectory() -> Block:
             own = vector_scales(course, scales)
             picture = trajectory_picture(
-                self.problem, course, own, letter_height=LETTER, say=self.words.say, draft=draft
+                self.problem,
+                course,
+                own,
+                letter_height=SIZES.letter,
+                say=self.words.say,
+                draft=draft,
             )
             return self._named(picture, said.trajectory, [own[name] for name in "lva"])
 
@@ -192,7 +175,7 @@ class _Sheet:
 
             def hodograph(plan: str = plan, title: str = title) -> Block:
                 picture = hodograph_picture(
-                    course, plan, first, scales, letter_height=LETTER, draft=draft
+                    course, plan, first, scales, letter_height=SIZES.letter, draft=draft
                 )
                 return self._named(picture, title, [scales[plan]])
 
@@ -209,14 +192,16 @@ class _Sheet:
     ) -> Block:
         """Return a view that depends on some scales, made once for them."""
         key = (draft, names, *(scales[name].per_mm for name in names))
-        if key not in self.views:
-            self.views[key] = make()
-        return self.views[key]
+        if key not in self.made:
+            self.made[key] = make()
+        return self.made[key]
 
     def _named(self, picture: Block, title: str, scales: Sequence[Scale]) -> Block:
         convention, say = self.problem.scales.convention, self.words.say
-        lines: list[Block] = [Line(typeset(title, TITLE), underline=True)]
-        lines += [Line(typeset(scale_inscription(one, convention, say), TEXT)) for one in scales]
+        lines: list[Block] = [Line(typeset(title, SIZES.title), underline=True)]
+        lines += [
+            Line(typeset(scale_inscription(one, convention, say), SIZES.text)) for one in scales
+        ]
         return Column([picture, Column(lines, gap=2.5, align="centre")], gap=5.0, align="centre")
 
     def _statement(self, width: float) -> Block:
@@ -231,12 +216,14 @@ class _Sheet:
         # A formula is not broken within.
         whole = [unbroken([fact]) if "=" in fact[:5] else fact for fact in (*facts, moments)]
         texts = [self.words.note.given.format(given="; ".join(whole)), said.wanted]
-        return Column([paragraph(text, TEXT, width=width) for text in texts], gap=3.0)
+        return Column([paragraph(text, SIZES.text, width=width) for text in texts], gap=3.0)
 
     def _calculation(self, k: int, width: float) -> Block:
         """Return the formulas of one moment with their numbers."""
         time = self.words.say.given(float(self.course.marks.columns["t"][k]))
-        blocks: list[Block] = [heading(self.words.point.at.format(time=time), TEXT, width=width)]
+        blocks: list[Block] = [
+            heading(self.words.point.at.format(time=time), SIZES.text, width=width)
+        ]
         lines: list[str] = []
         for line in moment_lines(self.problem, self.course.marks, k, self.words):
             same = line.count("=") == 1 and line not in self.words.point.reasons.values()
@@ -246,7 +233,7 @@ class _Sheet:
                 lines.append(line)
         for line in lines:
             is_said = line in self.words.point.reasons.values()
-            blocks.append((paragraph if is_said else formula_block)(line, TEXT, width=width))
+            blocks.append((paragraph if is_said else formula_block)(line, SIZES.text, width=width))
         return Column(blocks, gap=2.6)
 
     def _read(self, built: Construction, k: int) -> Block:
@@ -257,7 +244,9 @@ class _Sheet:
             TableColumn(head, tuple(row[n] for row in rows)) for n, head in enumerate(said.read)
         ]
         title = said.read_title.format(profile=self.words.note.profiles[self.profile.name])
-        return Column([Line(typeset(title, TEXT)), table_block(columns, TEXT, units="none")], 2.5)
+        return Column(
+            [Line(typeset(title, SIZES.text)), table_block(columns, SIZES.text, units="none")], 2.5
+        )
 
     def _table(self, room: float, scale: Scale) -> Block:
         """Return the table of the numbered instants."""
@@ -283,10 +272,15 @@ class _Sheet:
             columns.append(TableColumn(said.chord, tuple(shown), say.units["m/s²"]))
         row = 6.0 if count > 8 else 7.0
         table = table_block(
-            columns, TEXT, width=min(room, TABLE_WIDTH), units="below", leading=2, row_height=row
+            columns,
+            SIZES.text,
+            width=min(room, TABLE_WIDTH),
+            units="below",
+            leading=2,
+            row_height=row,
         )
         notes = [] if len(chords.at) < 2 else [paragraph(said.chord_note, 2.5, STAMP_WIDTH)]
-        return Column([Line(typeset(said.table, TEXT)), table, *notes], gap=2.5)
+        return Column([Line(typeset(said.table, SIZES.text)), table, *notes], gap=2.5)
 
 
 def read_rows(
@@ -301,38 +295,43 @@ def read_rows(
         yield f"{SYMBOLS[name]}, {say.units[unit_of(name)]}", say.number(exact), read, error
 
 
-def _on_pages(parts: Sequence[Part], rooms: Sequence[Room]) -> _Pages | None:
-    """Return blocks on as many sheets as there are rooms; the views are on the first."""
-    views = 1 + max(k for k, part in enumerate(parts) if isinstance(part.block, Viewed))
-    for turns in combinations(range(views, len(parts)), len(rooms) - 1):
-        edges = pairwise((0, *turns, len(parts)))
-        pages = _packed([parts[start:end] for start, end in edges], rooms)
-        if pages is not None:
-            return pages
-    return None
+@dataclass(frozen=True, slots=True)
+class _Sheets:
+    """Sheets of a point at certain scales (`Proposal`)."""
 
+    of: _Point
+    paper: Blank
+    count: int
+    scales: Mapping[str, Scale]
+    column: float
 
-def _packed(runs: Sequence[Sequence[Part]], rooms: Sequence[Room]) -> _Pages | None:
-    """Return blocks with their corners, a run on each sheet; None when one does not fit."""
-    pages = []
-    for room, run in zip(rooms, runs, strict=True):
-        left, low, right, high = room.inner
-        if sum(part.block.width * part.block.height for part in run) > (right - left) * (
-            high - low
-        ):
+    def laid(self) -> Laid | None:
+        """Return the sheets, each view as large as the others leave it room."""
+        given, scales = self.of.problem.scales, self.scales
+        laid = self._at({key: scale.per_mm for key, scale in scales.items()})
+        if laid is None:
             return None
-        placed = pack(Group(tuple(run)), room.inner, room.stamp, room.taken)
-        if placed is None:
-            return None
-        pages.append(tuple(placed))
-    return tuple(pages)
+        free = (key for key in "lva" if getattr(given, f"mu_{key}") is None)
+        turns = (key for key in free for _ in range(MOST_STEPS))
+        return enlarged(laid, turns, given, self._at)
 
-
-def _finer(per_mm: float, *, inverse: bool) -> float:
-    """Return the next scale of the series, at which everything is larger."""
-    if inverse:
-        return 1.0 / series_near(1.01 / per_mm, up=True)
-    return series_near(0.99 * per_mm, up=False)
+    def _at(self, per_mm: Mapping[str, float]) -> Laid | None:
+        """Return the sheets at some scales."""
+        scales = {key: replace(self.scales[key], per_mm=mu) for key, mu in per_mm.items()}
+        left, _, right, _ = self.paper.room().inner
+        laid = None
+        for draft in (True, False):  # placing letters takes long: first without
+            parts = self.of.parts(scales, self.column, right - left - 2 * EDGE, draft=draft)
+            views = 1 + max(k for k, part in enumerate(parts) if isinstance(part.block, Viewed))
+            ways = (
+                Packing(self.paper, [Group(tuple(parts[i:j])) for i, j in edges], scales=per_mm)
+                for turns in combinations(range(views, len(parts)), self.count - 1)
+                for edges in [pairwise((0, *turns, len(parts)))]
+            )
+            laid = next((found for one in ways if (found := one.laid()) is not None), None)
+            if laid is None:
+                return None
+        return laid
 
 
 def drawings(
@@ -362,50 +361,17 @@ def drawings(
         When everything fits no format, or not the asked one.
     """
     furniture = Furniture.of(problem.sheet, before=before, total=total)
-    made = []
-    with using(lettering(problem.sheet.lettering or "B")):
-        fmt, laid = _laid_out(problem, course_of(problem), profile, furniture)
-        for number, blocks in enumerate(laid.pages, 1):
-            texts = merged(
-                {"title": problem.title or problem.name, "sheets": "1"},
-                problem.stamp,
-                furniture.numbers(number, len(laid.pages)),
-                fields or {},
-            )
-            drawing = Drawing(fmt.width, fmt.height, texts["title"])
-            drawing.extend(sheet_frame(fmt, texts, furniture, sheet=number).items)
-            for block, corner in blocks:
-                items = block.place(corner)
-                drawing.extend(items)
-                if isinstance(block, Viewed):
-                    drawing.views.append(block.view(items, corner))
-            made.append(drawing)
-    return made
+    strategy, title = _strategy(problem, course_of(problem), profile), problem.title or problem.name
+    return compose(problem, strategy, fields=fields, furniture=furniture, title=title)
 
 
 def sheet_scales(problem: PointProblem, course: Course, profile: Profile) -> dict[str, Scale]:
     """Return the scales that the sheet is drawn at, by ``l``, ``v``, ``a``."""
-    with using(lettering(problem.sheet.lettering or "B")):
-        return _laid_out(problem, course, profile, Furniture.of(problem.sheet))[1].scales
+    strategy = _strategy(problem, course, profile)
+    _, laid = composed(problem, strategy, Furniture.of(problem.sheet))
+    usual = strategy.scales(1.0)
+    return {key: replace(usual[key], per_mm=mu) for key, mu in laid.scales.items()}
 
 
-def _laid_out(
-    problem: PointProblem, course: Course, profile: Profile, furniture: Furniture
-) -> tuple[Format, _Laid]:
-    """Return the paper and the blocks on it."""
-    sheet = _Sheet(problem, course, profile, language(problem.sheet.lang or LANGUAGES[0]))
-    asked = problem.sheet.paper
-    papers = (paper_format(asked).name,) if asked else PAPERS
-    for name in papers:
-        fmt = paper_format(name)
-        for count in (1, 2, 3) if asked else (1,):
-            laid = sheet.laid_out([furniture.room(fmt, k + 1) for k in range(count)])
-            if laid is not None:
-                return fmt, laid
-    mu = problem.scales
-    advice = "Leave --paper out." if asked else "Ask fewer moments, or a shorter show."
-    if any(given is not None for given in (mu.mu_l, mu.mu_v, mu.mu_a)):
-        advice = "Take coarser scales in [scales], or leave them out."
-    raise LayoutError(
-        "{}: the motion of the point does not fit {}. {}", problem.name, papers[-1], advice
-    )
+def _strategy(problem: PointProblem, course: Course, profile: Profile) -> _Point:
+    return _Point(problem, course, profile, language(problem.sheet.lang or LANGUAGES[0]))

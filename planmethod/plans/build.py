@@ -41,6 +41,8 @@ class Construction:
 
     Attributes
     ----------
+    structure : Structure
+        Groups of the mechanism, in the order of which the plans are drawn.
     program : Program
         Steps of all three plans; a reading keeps what it needs.
     draft : Draft
@@ -57,6 +59,7 @@ class Construction:
         What is measured on the plans.
     """
 
+    structure: Structure
     program: Program
     draft: Draft
     kinematics: Kinematics
@@ -127,7 +130,7 @@ def build(problem: Problem, structure: Structure, choice: Choice) -> Constructio
     segments = tuple(plan_segments(draft, (velocity, acceleration)))
     plans = (_plan(velocity), _plan(acceleration))
     sections = tuple(cutter.sections)
-    return Construction(draft.b.program(), draft, kin, plans, sections, legend, segments)
+    return Construction(structure, draft.b.program(), draft, kin, plans, sections, legend, segments)
 
 
 def _plan(motion: Motion) -> Plan:

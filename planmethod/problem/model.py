@@ -373,6 +373,11 @@ class Scales:
     mu_a: float | None = None
     mu_F: float | None = None  # noqa: N815 - the letter of the textbook
 
+    @property
+    def in_mm_per_unit(self) -> bool:
+        """Whether round numbers are those in mm per unit."""
+        return self.convention is Convention.MM_PER_UNIT
+
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Problem(KindProblem):

@@ -2,16 +2,8 @@
 
 from __future__ import annotations
 
-from planmethod.problem.model import Problem
-from planmethod.record import replace
 from planmethod.solved.reading import Reals, remembered
 from planmethod.solved.solution import PointMotion, Solution
-
-
-def at_unit_rate(problem: Problem) -> Problem:
-    """Return a problem driven at one radian, or metre, a second: rates are analogues."""
-    drive = replace(problem.drive, rate=1.0, acceleration=0.0)
-    return replace(problem, drive=drive, dynamics=None)
 
 
 @remembered
@@ -25,5 +17,5 @@ def analogues(solution: Solution) -> tuple[dict[str, PointMotion], dict[str, tup
     links : dict
         dφ_i/dφ and d²φ_i/dφ², ndarrays of shape (n,).
     """
-    unit = Solution(at_unit_rate(solution.problem), positions=solution.positions.tolist())
+    unit = solution.at_unit_rate()
     return unit.points, {name: (one.omega, one.epsilon) for name, one in unit.links.items()}

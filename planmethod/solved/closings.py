@@ -23,8 +23,8 @@ from planmethod.errors import Fault, ProblemError
 from planmethod.languages import say
 from planmethod.mechanism.groups import AssurGroup
 from planmethod.mechanism.model import Prismatic, Revolute
-from planmethod.mechanism.structure import Structure
-from planmethod.plans.build import draw_positions
+from planmethod.mechanism.structure import Structure, analyse
+from planmethod.plans.build import Construction, build, draw_positions
 from planmethod.plans.closing import Closing
 from planmethod.plans.draft import Draft, cis
 from planmethod.plans.motion.position import (
@@ -59,6 +59,20 @@ def drive_data(
     data[drive.coordinate.name] = positions
     data.update(zip(drive.coordinate.rates, (drive.rate, drive.acceleration), strict=True))
     return data
+
+
+def construct(problem: Problem) -> Construction:
+    """Return the construction of a problem: its groups, their closings, its plans as one program.
+
+    It is made once for a problem: positions, scales and hands are readings of it.
+
+    Raises
+    ------
+    StructureError, ProblemError, AssemblyError
+        When the mechanism cannot be analysed or assembled.
+    """
+    structure = analyse(problem.mechanism)
+    return build(problem, structure, choose_closings(problem, structure))
 
 
 def choose_closings(problem: Problem, structure: Structure) -> dict[tuple[str, ...], Closing]:

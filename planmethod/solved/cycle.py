@@ -122,7 +122,7 @@ class Cycle(Remembering):
 
     def _solved(self, positions: Reals) -> Solution:
         s = self.solution
-        return Solution(s.problem, positions=positions.tolist(), scales=s.scales)
+        return s.moved(positions.tolist()).drawn_at(s.scales)
 
     # Jumps -----------------------------------------------------------------------------------
 

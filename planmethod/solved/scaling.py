@@ -7,13 +7,13 @@ from functools import cached_property
 
 import numpy as np
 
-from planmethod.construct.scale import Scale, choose_scale, series_near
+from planmethod.construct.scale import Scale, choose_scale, next_scale
 from planmethod.construct.steps import PointName
 from planmethod.mechanism.model import FRAME
-from planmethod.paper import FORMATS, paper_format
+from planmethod.paper import FORMATS, TRIED, paper_format
 from planmethod.plans.build import Construction
 from planmethod.plans.model import FACTS, MOTION, PlanKind
-from planmethod.problem.model import Convention, Scales
+from planmethod.problem.model import Problem, Scales
 from planmethod.record import dataclass, replace
 from planmethod.solved.reading import Reading, Reals
 from planmethod.solved.room import FEW, Box, Texts, Ways, has_room
@@ -123,9 +123,6 @@ ALL = 10.0
 NAME = {"A4": 28.0, "A3": 32.0, "A2": 35.0, "A1": 40.0, "A0": 40.0}
 """Room that a view's letters take above and below it, with its name and its scale, mm."""
 
-TRIED = ("A3", "A2", "A1")
-"""Formats that sheets of one and of a few positions are tried on; those of many are the last."""
-
 SCHEME = {"A4": 70.0, "A3": 110.0, "A2": 150.0, "A1": 200.0, "A0": 250.0}
 """How wide the scheme shall be on a format, mm."""
 
@@ -229,7 +226,7 @@ def median(sizes: Reals) -> float:
     return float(ordered[(len(ordered) - 1) // 2] + ordered[len(ordered) // 2]) / 2
 
 
-def choose_views(construction: Construction, si: Reading) -> Views:
+def choose_views(construction: Construction, si: Reading, problem: Problem) -> Views:
     """Return the room on the file's format, else on the smallest that is large enough.
 
     That is one where the scheme has `SCHEME` or three quarters of it in height, and each plan
@@ -240,20 +237,24 @@ def choose_views(construction: Construction, si: Reading) -> Views:
     ----------
     si : Reading
         Exact, at unit scales.
+    problem : Problem
+        Its paper and its scales.
     """
-    paper = construction.draft.problem.sheet.paper
+    paper = problem.sheet.paper
     if paper:
         return Views.for_paper(paper, si.count)
     for name in TRIED[:-1] if si.count <= FEW else ():
         views = Views.for_paper(name, si.count)
-        chosen = _Chosen.of(construction, si, views)
+        chosen = _Chosen.of(construction, si, views, problem.scales)
         if chosen.has_room() and chosen.is_large():
             return views
     return Views.for_paper(TRIED[-1], si.count)
 
 
-def choose_scales(construction: Construction, si: Reading, views: Views) -> dict[PlanKind, Scale]:
-    """Return the scale of each plan: as the file gives it, else to fill the room of the views.
+def choose_scales(
+    construction: Construction, si: Reading, views: Views, asked: Scales
+) -> dict[PlanKind, Scale]:
+    """Return the scale of each plan: as ``asked`` gives it, else to fill the room of the views.
 
     First each view fills its own room; then the scales become finer as long as all views have room
     on the paper. What one does not need another takes.
@@ -263,7 +264,7 @@ def choose_scales(construction: Construction, si: Reading, views: Views) -> dict
     si : Reading
         Exact, at unit scales.
     """
-    chosen = _Chosen.of(construction, si, views).per_mm
+    chosen = _Chosen.of(construction, si, views, asked).per_mm
     return {kind: Scale(FACTS[kind].scale, chosen[kind], FACTS[kind].unit) for kind in MOTION}
 
 
@@ -277,10 +278,9 @@ class _Chosen:
     free: tuple[PlanKind, ...]
 
     @classmethod
-    def of(cls, construction: Construction, si: Reading, views: Views) -> _Chosen:
+    def of(cls, construction: Construction, si: Reading, views: Views, asked: Scales) -> _Chosen:
         """Choose the scales of a construction that are free."""
-        asked = construction.draft.problem.scales
-        drawn = {kind: _Drawn(construction, si, views, kind) for kind in MOTION}
+        drawn = {kind: _Drawn(construction, si, views, asked, kind) for kind in MOTION}
         given = {kind: getattr(asked, FACTS[kind].scale) for kind in MOTION}
         free = [kind for kind in MOTION if given[kind] is None and any(drawn[kind].size)]
         per_mm = {kind: given[kind] or drawn[kind].alone for kind in MOTION}
@@ -341,6 +341,7 @@ class _Drawn:
     construction: Construction
     si: Reading
     views: Views
+    asked: Scales
     kind: PlanKind
     whole: bool = False  # plans at scales of their own have their share of the room, however small
 
@@ -370,7 +371,7 @@ class _Drawn:
 
         Where there is none, all plans having scales of their own, it is that of the largest alone.
         """
-        asked, own = self.construction.draft.problem.scales, replace(self, whole=True)
+        asked, own = self.asked, replace(self, whole=True)
         per_mm = first = _fitting(asked, self.box, self.size)
         drawn = np.maximum(*self.sizes) > 0.0
         while self.rows and not (own.stretches(per_mm, 1.0) and own.share(per_mm) <= 1.0):
@@ -451,7 +452,7 @@ class _Drawn:
         gets coarser to make room, these plans get smaller, too.
         """
         count = self.si.count
-        asked = self.construction.draft.problem.scales
+        asked = self.asked
         given = getattr(asked, FACTS[self.kind].scale) is not None
         less = 1.0
         if self.rows and not (self.whole or given):
@@ -476,18 +477,20 @@ def _far(count: int) -> float:
 
 
 def _next(per_mm: float, asked: Scales, *, finer: bool) -> float:
-    """Return the next scale of the series, units per mm."""
-    if asked.convention is Convention.MM_PER_UNIT:
-        return 1.0 / series_near(1.01 ** (1 if finer else -1) / per_mm, up=finer)
-    return series_near(per_mm * 1.01 ** (-1 if finer else 1), up=not finer)
+    return next_scale(per_mm, finer=finer, mm_per_unit=asked.in_mm_per_unit)
 
 
 def _fitting(asked: Scales, box: Box, size: Box) -> float:
-    return choose_scale(size, box, mm_per_unit=asked.convention is Convention.MM_PER_UNIT)
+    return choose_scale(size, box, mm_per_unit=asked.in_mm_per_unit)
 
 
 def own_scales(
-    construction: Construction, si: Reading, views: Views, per_mm: float, kind: PlanKind
+    construction: Construction,
+    si: Reading,
+    views: Views,
+    asked: Scales,
+    per_mm: float,
+    kind: PlanKind,
 ) -> Reals:
     """Return the scale of a plan in every position, shape (n,): the common one, mostly."""
-    return _Drawn(construction, si, views, kind).each(per_mm)
+    return _Drawn(construction, si, views, asked, kind).each(per_mm)

@@ -16,14 +16,14 @@ from planmethod.construct.evaluate import evaluate
 from planmethod.construct.hand import Hand
 from planmethod.construct.scale import Scale
 from planmethod.construct.steps import NumberName, PointName
-from planmethod.mechanism.structure import Structure, analyse
-from planmethod.plans.build import Construction, build
+from planmethod.mechanism.structure import Structure
+from planmethod.plans.build import Construction
 from planmethod.plans.legend import Quantity, QuantityKind
 from planmethod.plans.model import RATES, PlanKind
 from planmethod.plans.motion.leads import Relative
-from planmethod.problem.model import Problem
+from planmethod.problem.model import Problem, Scales
 from planmethod.record import dataclass, replace
-from planmethod.solved.closings import choose_closings, drive_data
+from planmethod.solved.closings import construct, drive_data
 from planmethod.solved.enlarging import Knot, find_knots, least_shown, measured
 from planmethod.solved.failures import PositionError
 from planmethod.solved.impossible import explain, failing
@@ -99,6 +99,8 @@ class Solution(Remembering):
         Boxes that the plans shall fill where the file gives no scale.
     scales : mapping of PlanKind to Scale, optional
         Scales of the plans, where neither the file nor the views shall tell them.
+    construction : Construction, optional
+        That of the problem, where it is made already; scales and paper do not change it.
 
     Raises
     ------
@@ -115,28 +117,70 @@ class Solution(Remembering):
         profile: Profile = PROFILES["board"],
         views: Views | None = None,
         scales: Mapping[PlanKind, Scale] | None = None,
+        construction: Construction | None = None,
     ) -> None:
         super().__init__()
         self.problem = problem
         asked = problem.drive.positions if positions is None else positions
         self.positions: Reals = np.asarray(asked, dtype=float)
         self.profile = profile if ruler is None else replace(profile, ruler=ruler)
-        self.structure: Structure = analyse(problem.mechanism)
-        self.construction: Construction = build(
-            problem, self.structure, choose_closings(problem, self.structure)
-        )
+        self.construction: Construction = construction or construct(problem)
         self._views = views
         self._scales = scales
 
     def moved(self, positions: Sequence[float]) -> Solution:
         """Return the same mechanism, assembled in the same way, in other positions."""
-        other = object.__new__(Solution)
-        Remembering.__init__(other)
-        for name in ("problem", "profile", "structure", "construction"):
-            setattr(other, name, getattr(self, name))
-        other._views, other._scales = self._views, self._scales
-        other.positions = np.asarray(positions, dtype=float)
+        return Solution(
+            self.problem,
+            positions=positions,
+            profile=self.profile,
+            views=self._views,
+            scales=self._scales,
+            construction=self.construction,
+        )
+
+    def filling(self, views: Views | None, scales: Scales | None = None) -> Solution:
+        """Return the same mechanism in the same positions with plans that fill other views.
+
+        ``scales`` are those that are given; the problem's when absent.
+        """
+        problem = self.problem if scales is None else replace(self.problem, scales=scales)
+        return self._redrawn(problem, views, None)
+
+    def drawn_at(self, scales: Mapping[PlanKind, Scale]) -> Solution:
+        """Return the same mechanism in the same positions with plans at certain scales."""
+        return self._redrawn(self.problem, None, scales)
+
+    def at_unit_rate(self) -> Solution:
+        """Return the same mechanism without loads, its driver at one radian (or metre) a second."""
+        drive = self.problem.drive
+        even = replace(drive, rate=1.0, acceleration=0.0)
+        return Solution(
+            replace(self.problem, drive=even, dynamics=None),
+            positions=self.positions.tolist(),
+            # The plans of a crank that turns evenly have fewer steps.
+            construction=None if drive.acceleration else self.construction,
+        )
+
+    def _redrawn(
+        self, problem: Problem, views: Views | None, scales: Mapping[PlanKind, Scale] | None
+    ) -> Solution:
+        other = Solution(
+            problem,
+            positions=self.positions.tolist(),
+            profile=self.profile,
+            views=views,
+            scales=scales,
+            construction=self.construction,
+        )
+        if "si" in vars(self):
+            other.si = self.si  # no scale changes what is exact
         return other
+
+    @property
+    def structure(self) -> Structure:
+        """Groups of the mechanism."""
+        return self.construction.structure
 
     # Readings --------------------------------------------------------------------------------
 
@@ -192,7 +236,7 @@ class Solution(Remembering):
     @cached_property
     def _chosen(self) -> dict[PlanKind, Scale]:
         """The file's scales, else those of the series that fill the views."""
-        return choose_scales(self.construction, self.si, self.views)
+        return choose_scales(self.construction, self.si, self.views, self.problem.scales)
 
     @cached_property
     def _own_scales(self) -> dict[PlanKind, Reals]:
@@ -206,7 +250,8 @@ class Solution(Remembering):
             chosen = self._chosen[kind]
             if self._views is None and getattr(self.problem.scales, chosen.symbol) is not None:
                 continue
-            own = own_scales(self.construction, self.si, self.views, chosen.per_mm, kind)
+            views, asked = self.views, self.problem.scales
+            own = own_scales(self.construction, self.si, views, asked, chosen.per_mm, kind)
             if (own != chosen.per_mm).any():
                 found[kind] = own
         return found
@@ -231,7 +276,7 @@ class Solution(Remembering):
     @cached_property
     def views(self) -> Views:
         """Boxes that the plans shall fill: those of the format that a sheet is tried on first."""
-        return self._views or choose_views(self.construction, self.si)
+        return self._views or choose_views(self.construction, self.si, self.problem)
 
     @cached_property
     def per_mm(self) -> dict[str, Number]:

@@ -12,18 +12,15 @@ from typing import Any
 from planmethod.construct.scale import Scale
 from planmethod.construct.steps import LineName, MeetCircles, MeetLineCircle, PointName
 from planmethod.errors import LayoutError
-from planmethod.languages import LANGUAGES
+from planmethod.languages import LANGUAGES, say
 from planmethod.note.narrate.scales import scale_inscription
 from planmethod.note.wording import Language, language
 from planmethod.problem.model import Convention, Problem
 from planmethod.record import dataclass
 from planmethod.render import symbols
 from planmethod.render.control.unused import largest_empty
-from planmethod.render.frame.frame import paper_format, sheet_frame
-from planmethod.render.frame.furniture import Furniture, Room
-from planmethod.render.frame.titleblock import merged, rectangle
+from planmethod.render.frame.titleblock import rectangle
 from planmethod.render.ink.drawing import Bounds, Drawing, Item, Pen, Stroke
-from planmethod.render.ink.lettering import lettering, using
 from planmethod.render.ink.typeset import typeset
 from planmethod.render.labels import BUSY, Label
 from planmethod.render.labels.spots import shared_spots
@@ -36,22 +33,17 @@ from planmethod.render.layout.block import (
     paragraph,
 )
 from planmethod.render.layout.cuttings import Group, Part
-from planmethod.render.layout.pack import Placed, pack
+from planmethod.render.layout.pack import Placed
 from planmethod.render.layout.tables import TableColumn, table_block
 from planmethod.render.pictures.lettered import lettered
+from planmethod.render.sheets.composer import Blank, Laid, LaidPage, Sizes, Viewed, compose, packed
 from planmethod.render.sheets.texts import NBSP
-from planmethod.render.sheets.views import Viewed
 from planmethod.synthesis.drawn import Drawn, arc_over
 from planmethod.synthesis.model import place
 from planmethod.synthesis.text import Teller, check_rows, given_facts, point_name, size_rows
 
-PAPER = "A3"
-
-COLUMN = 175.0
-"""Width of the texts over the title block, mm."""
-
-LETTER, TEXT = 5.0, 3.5
-"""Heights of the letters of points, and of texts, mm."""
+SIZES = Sizes(5.0, 5.0, 3.5, 175.0, row=6.5)
+"""Sizes of letters, and of the texts over the title block."""
 
 _BEYOND = 9.0  # mm: construction lines go on beyond their points
 _TICK = 5.0  # mm: half of an arc that marks a point
@@ -83,55 +75,83 @@ def synthesis_sheet(
         When everything does not fit the paper.
     """
     words = language(problem.sheet.lang or LANGUAGES[0])
-    title = words.synthesis.titles[drawn.synthesis.kind]
-    texts = merged({"sheets": "1"}, problem.stamp, {"title": title}, fields or {})
-    furniture, fmt = Furniture.of(problem.sheet), paper_format(problem.sheet.paper or PAPER)
-    room = furniture.room(fmt)
-    with using(lettering(problem.sheet.lettering or "B")):
-        for last in (False, False, True):
-            view = _view(drawn, words)
-            for height in (TEXT, 2.5, 0.0) if last else (TEXT, 2.5):
-                placed = _placed(view, _texts(drawn, asked, checks, words, height), room)
-                if not placed:
-                    continue
-                sheet = Drawing(fmt.width, fmt.height, texts["title"], is_cut_down=not height)
-                sheet.extend(sheet_frame(fmt, texts, furniture).items)
-                for block, corner in placed:
-                    items = block.place(corner)
-                    sheet.extend(items)
-                    if block is view:
-                        sheet.views.append(view.view(items, corner))
-                return sheet
-            drawn = drawn.coarser()
-    raise LayoutError(
-        "{}: the construction does not fit {}. Take --paper A2.", drawn.synthesis.kind, fmt.name
-    )
+    strategy = _Synthesis(drawn, asked, checks, words)
+    (sheet,) = compose(problem, strategy, fields=fields)
+    return sheet
 
 
-def _placed(view: Viewed, texts: Sequence[Block], room: Room) -> list[Placed] | None:
-    """Return blocks with their corners: what was measured after the steps, or beside the view.
+@dataclass(frozen=True, slots=True)
+class _Synthesis:
+    """How the sheet of a synthesis is searched for: by smaller letters, then coarser scales."""
 
-    Of the two the one that leaves the smaller empty rectangle; None where the paper has no room.
-    """
-    told, measured, sizes = texts
-    made: list[tuple[float, int, list[Placed]]] = []
-    for blocks in ((view, told, measured, sizes), (view, measured, told, sizes)):
-        whole = Group(tuple(Part(block, block is not view) for block in blocks))
-        placed = pack(whole, room.inner, room.stamp, room.taken)
-        if placed is not None:
-            items: list[Item] = [rectangle(room.stamp, Pen.FRAME, "")]
-            items += [item for block, corner in placed for item in block.place(corner)]
-            left, low, right, high = largest_empty(items, room.inner)
-            made.append(((right - left) * (high - low), len(made), placed))
-    return min(made)[2] if made else None
+    drawn: Drawn
+    asked: Mapping[str, Any]
+    checks: Mapping[str, Any]
+    words: Language
+
+    formats = ("A3",)
+    has_scales = False
+
+    @property
+    def less(self) -> str:
+        """What to ask less of."""
+        return say("Take another --paper.")
+
+    def misfit(self, paper: str, advice: str) -> LayoutError:
+        """Return the error of a construction that does not fit."""
+        kind = self.drawn.synthesis.kind
+        return LayoutError("{}: the construction does not fit {}. {}", kind, paper, advice)
+
+    def proposals(self, papers: Sequence[Blank]) -> Iterator[_Orders]:
+        """Yield the blocks at letters and scales; the steps are left out at last."""
+        drawn, words = self.drawn, self.words
+        title = words.synthesis.titles[drawn.synthesis.kind]
+        for paper in papers:
+            for heights in ((SIZES.text, 2.5), (SIZES.text, 2.5), (SIZES.text, 2.5, 0.0)):
+                view = _view(drawn, words)
+                for height in heights:
+                    texts = _texts(drawn, self.asked, self.checks, words, height)
+                    yield _Orders(paper, view, texts, title, is_cut_down=not height)
+                drawn = drawn.coarser()
+
+
+@dataclass(frozen=True, slots=True)
+class _Orders:
+    """A view with what is told of it, in two orders of reading (`Proposal`)."""
+
+    paper: Blank
+    view: Viewed
+    texts: Sequence[Block]
+    title: str
+    is_cut_down: bool
+
+    def laid(self) -> Laid | None:
+        """Return the sheet with what was measured after the steps, or beside the view.
+
+        Of the two the one that leaves the smaller empty rectangle.
+        """
+        view, room = self.view, self.paper.room()
+        told, measured, sizes = self.texts
+        made: list[tuple[float, int, list[Placed]]] = []
+        for blocks in ((view, told, measured, sizes), (view, measured, told, sizes)):
+            whole = Group(tuple(Part(block, block is not view) for block in blocks))
+            placed = packed(whole, room)
+            if placed is not None:
+                items: list[Item] = [rectangle(room.stamp, Pen.FRAME, "")]
+                items += [item for block, corner in placed for item in block.place(corner)]
+                left, low, right, high = largest_empty(items, room.inner)
+                made.append(((right - left) * (high - low), len(made), placed))
+        if not made:
+            return None
+        return Laid([LaidPage(min(made)[2], self.title, (self.is_cut_down, 0, 0))])
 
 
 def _view(drawn: Drawn, words: Language) -> Viewed:
     """Return the construction with its name and scale."""
     scale = Scale("mu_l", drawn.mu, "m")
     said = scale_inscription(scale, Convention.UNIT_PER_MM, words.say)
-    name = Line(typeset(words.synthesis.construction, LETTER), underline=True)
-    under = Column([name, Line(typeset(said, TEXT))], gap=2.5, align="centre")
+    name = Line(typeset(words.synthesis.construction, SIZES.title), underline=True)
+    under = Column([name, Line(typeset(said, SIZES.text))], gap=2.5, align="centre")
     return Viewed(Column([_picture(drawn), under], gap=5.0, align="centre"), "position", scale)
 
 
@@ -141,23 +161,23 @@ def _texts(
     """Return what is given and the steps ``told`` mm high (none at 0), measured values, sizes."""
     said = words.synthesis
     facts = words.note.given.format(given="; ".join(given_facts(asked, words)))
-    first: list[Block] = [paragraph(facts, TEXT, COLUMN)]
+    first: list[Block] = [paragraph(facts, SIZES.text, SIZES.column)]
     if told:
         steps = [
-            paragraph(f"{k}) {_kept(sentence)}", told, COLUMN)
+            paragraph(f"{k}) {_kept(sentence)}", told, SIZES.column)
             for k, sentence in enumerate(Teller(drawn, words).sentences(), 1)
         ]
-        first.append(Column([heading(said.steps_title, TEXT), *steps], gap=0.6 * told))
+        first.append(Column([heading(said.steps_title, SIZES.text), *steps], gap=0.6 * told))
     blocks: list[Block] = [Column(first, gap=6.0)]
     rows = [f"{name}:{NBSP}{value}" for name, value in check_rows(checks, words)]
-    measured = paragraph(";\n".join(rows) + ".", TEXT, COLUMN)
-    blocks.append(Column([heading(said.measured, TEXT), measured], gap=3.0))
+    measured = paragraph(";\n".join(rows) + ".", SIZES.text, SIZES.column)
+    blocks.append(Column([heading(said.measured, SIZES.text), measured], gap=3.0))
     columns = zip(said.columns, zip(*size_rows(drawn, words), strict=True), strict=True)
     sizes = table_block(
         [TableColumn(head, tuple(values)) for head, values in columns],
-        TEXT, width=COLUMN, units="none", row_height=6.5,
+        SIZES.text, width=SIZES.column, units="none", row_height=SIZES.row,
     )  # fmt: skip
-    blocks.append(Column([heading(said.lengths, TEXT), sizes], gap=3.0))
+    blocks.append(Column([heading(said.lengths, SIZES.text), sizes], gap=3.0))
     return blocks
 
 
@@ -288,7 +308,7 @@ class _Ink:
         middle = complex(self.box[0] + self.box[2], self.box[1] + self.box[3]) / 2
         return [
             Label(
-                typeset(", ".join(map(point_name, names)), LETTER),
+                typeset(", ".join(map(point_name, names)), SIZES.letter),
                 at,
                 prefer=(at - middle) * cmath.exp(1j * radians(10.0)),
                 gap=2.6,

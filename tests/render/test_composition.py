@@ -21,18 +21,19 @@ from planmethod.problem import loads
 from planmethod.problem.model import Scales
 from planmethod.render.control.texts import lint
 from planmethod.render.frame.frame import FORMATS
-from planmethod.render.frame.furniture import Room
+from planmethod.render.frame.furniture import Furniture, Room
 from planmethod.render.ink.drawing import Drawing, Text, View
 from planmethod.render.ink.extent import ink_bounds
 from planmethod.render.layout.block import Block, Column, heading
 from planmethod.render.sheets import blocks as kinds
 from planmethod.render.sheets.blocks import BLOCKS
+from planmethod.render.sheets.composer import Blank
 from planmethod.render.sheets.composition import entries, reader
 from planmethod.render.sheets.composition.reader import composition, read_composition, shipped
 from planmethod.render.sheets.compositions import SHIPPED, about, shipped_text
 from planmethod.render.sheets.kinematics import kinematics_sheets
 from planmethod.render.sheets.model import Composition, Entry, Extras, Manner
-from planmethod.render.sheets.pages import Paper, pages_of
+from planmethod.render.sheets.pages import pages_of
 from planmethod.solved.solution import Solution
 
 FAULTY = sorted((Path(__file__).parent / "faulty_layouts").glob("*.toml"))
@@ -197,7 +198,9 @@ def test_scales_of_the_default_are_those_that_solve_prints(name: str) -> None:
 
 @pytest.mark.parametrize("corner", ["left", "right"])
 @pytest.mark.parametrize("name", SIX)
-def test_sheets_keep_clear_of_graph_26(name: str, corner: str) -> None:
+def test_sheets_keep_clear_of_graph_26(
+    name: str, corner: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
     """The cell of graph 26, 70x14 mm in the upper left corner, or turned in the upper right one."""
     views = shipped("one-position").views_for("A1", 1)
     solution = Solution(problem_of(name), views=views)
@@ -207,16 +210,17 @@ def test_sheets_keep_clear_of_graph_26(name: str, corner: str) -> None:
     if corner == "right":
         cell = (right - 14.0, top - 70.0, right, top)
     room = Room(fmt.inner, fmt.stamp, (cell,))
+    monkeypatch.setattr(Furniture, "room", lambda *_: room)
     found = pages_of(
         shipped("one-position"),
         solution,
         (0,),
-        Paper("A1", lambda _: room, lambda _: room),
+        Blank(fmt, Furniture()),
         Extras(language("ru")),
     )
     assert found is not None
     (page,) = found
-    for item in page.items:
+    for item in (item for block, at in page.placed for item in block.place(at)):
         box = ink_bounds([item])
         across = max(box[0] - cell[2], cell[0] - box[2])
         along = max(box[1] - cell[3], cell[1] - box[3])

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
+from itertools import product
 from typing import TYPE_CHECKING
 
 from planmethod.errors import LayoutError
@@ -16,56 +17,39 @@ from planmethod.gears.involute.meshpicture import meshing_picture, view_for
 from planmethod.gears.involute.quantities import Solved, Told
 from planmethod.gears.involute.sizes import MeshingProblem
 from planmethod.gears.involute.text import given_text, remarks, symbol_of, unit_of
-from planmethod.languages import LANGUAGES
+from planmethod.languages import LANGUAGES, say
 from planmethod.note.numbers import Notation
 from planmethod.note.wording import Language, language
-from planmethod.paper import Format, paper_format
+from planmethod.paper import STAMP_WIDTH
 from planmethod.record import dataclass
-from planmethod.render.frame.frame import STAMP_WIDTH, sheet_frame
 from planmethod.render.frame.furniture import Furniture, Room
-from planmethod.render.frame.titleblock import merged
-from planmethod.render.ink.drawing import Drawing, Item, View
-from planmethod.render.ink.lettering import lettering, using
+from planmethod.render.ink.drawing import Drawing
 from planmethod.render.ink.typeset import escape
 from planmethod.render.layout.block import Block, Column, Picture, heading, paragraph
 from planmethod.render.layout.cuttings import GAP, Group, Part
-from planmethod.render.layout.pack import EDGE, pack
+from planmethod.render.layout.pack import EDGE
 from planmethod.render.layout.tables import TableColumn, table_block
+from planmethod.render.sheets.composer import Blank, Packing, Sizes, Viewed, compose
 
 if TYPE_CHECKING:
     from planmethod.construct.drafting import Profile
-
-PAPER = "A1"
-"""Format where none is asked for."""
 
 TEXT_WIDTH = STAMP_WIDTH - 10.0
 """Width of the tables, which stand over the title block, mm."""
 
 
-@dataclass(frozen=True, slots=True)
-class Manner:
-    """Heights of letters on views, of titles, tables, checks; of rows; part of the paper for views.
-
-    All but the last in mm.
-    """
-
-    letter: float
-    title: float
-    text: float
-    told: float
-    row: float
-    share: float
-
-
-MANNERS = (
-    Manner(5.0, 7.0, 3.5, 5.0, 10.0, 1.0),
-    Manner(5.0, 7.0, 3.5, 3.5, 9.0, 1.0),
-    Manner(5.0, 5.0, 3.5, 3.5, 8.0, 0.95),
-    Manner(3.5, 5.0, 3.5, 3.5, 6.0, 0.9),
-    Manner(3.5, 5.0, 2.5, 2.5, 5.0, 0.9),
-    Manner(3.5, 5.0, 2.5, 2.5, 4.5, 0.75),
+TRIES = (
+    (Sizes(5.0, 7.0, 3.5, TEXT_WIDTH, 10.0), 5.0, 1.0),
+    (Sizes(5.0, 7.0, 3.5, TEXT_WIDTH, 9.0), 3.5, 1.0),
+    (Sizes(5.0, 5.0, 3.5, TEXT_WIDTH, 8.0), 3.5, 0.95),
+    (Sizes(3.5, 5.0, 3.5, TEXT_WIDTH, 6.0), 3.5, 0.9),
+    (Sizes(3.5, 5.0, 2.5, TEXT_WIDTH, 5.0), 2.5, 0.9),
+    (Sizes(3.5, 5.0, 2.5, TEXT_WIDTH, 4.5), 2.5, 0.75),
 )
-"""Tried in turn until everything has room."""
+"""Sizes, height of the letters of the checks, mm, and part of the paper for the views.
+
+Tried in turn until everything has room.
+"""
 
 
 def drawings(
@@ -85,64 +69,75 @@ def drawings(
     """
     words = language(problem.sheet.lang or LANGUAGES[0])
     furniture = Furniture.of(problem.sheet, before=before, total=total)
-    fmt = paper_format(problem.sheet.paper or PAPER)
-    default = {"title": problem.title or words.meshing.sheet, "sheets": "1"}
-    texts = merged(default, problem.stamp, furniture.numbers(1, 1), fields)
-    solved = Solved(problem)
-    contour = Contour.of(solved)
-    with using(lettering(problem.sheet.lettering or "B")):
-        room = furniture.room(fmt)
-        for manner in MANNERS:
-            placed = _composed(solved, contour, manner, fmt, room, words)
-            if placed is not None:
-                drawing = Drawing(fmt.width, fmt.height, texts["title"])
-                drawing.extend(sheet_frame(fmt, texts, furniture).items)
-                drawing.extend(placed[0])
-                drawing.views.append(placed[1])
-                return [drawing]
-    raise LayoutError(
-        "{}: the meshing, its contour, its diagram and its tables do not fit {}. Take --paper {}.",
-        problem.name,
-        fmt.name,
-        PAPER if fmt.width < paper_format(PAPER).width else "A0",
-    )
+    strategy = _Meshing(Solved(problem), words)
+    title = problem.title or words.meshing.sheet
+    return compose(problem, strategy, fields=fields, furniture=furniture, title=title)
 
 
-def _composed(
-    solved: Solved, contour: Contour, manner: Manner, fmt: Format, room: Room, words: Language
-) -> tuple[list[Item], View] | None:
-    """Return the items inside the frame and the view of the meshing, or None without room."""
-    wide, tall = room.inner[2] - room.inner[0], room.inner[3] - room.inner[1]
-    say = words.meshing
-    free = wide - STAMP_WIDTH - 2 * EDGE - 2 * GAP
-    high = tall - 2 * EDGE - manner.title - 8.0
-    told = Column([*_checks(solved, words, manner), *_tables(solved, words, manner)], gap=4.0)
-    if told.height + room.stamp[3] + GAP > room.inner[3]:
-        return None
-    view = view_for(solved, manner.share * 0.6 * free, manner.share * high)
-    mesh = meshing_picture(view, words, manner.letter)
-    width = manner.share * (free - mesh.width)
-    plane = contour_picture(contour, words, width, manner.share * 0.55 * high, manner.letter)
-    sliding = sliding_picture(solved, words, width, manner.share * 0.3 * high, manner.letter)
-    scale = _scale(sliding_scale(solved, width), words.say)
-    blocks: list[Block] = [
-        _titled(say.meshing.format(scale=_scale(view.scale, words.say)), mesh, manner),
-        _titled(say.contour, plane, manner),
-        _titled(say.sliding.format(scale=scale), sliding, manner),
-        told,
-    ]
-    placed = pack(Group(tuple(map(Part, blocks))), room.inner, room.stamp, room.taken)
-    if placed is None:
-        return None
-    items = [item for block, at in placed for item in block.place(at)]
-    first, at = placed[0]
-    box = (at.real, at.imag - first.height, at.real + first.width, at.imag)
-    return items, View("meshing", box)
+@dataclass(frozen=True, slots=True)
+class _Meshing:
+    """How the sheet of a mesh is searched for: by smaller letters and views."""
+
+    solved: Solved
+    words: Language
+
+    formats = ("A1",)
+    has_scales = False
+
+    @property
+    def less(self) -> str:
+        """What to ask less of."""
+        return say("Take another --paper.")
+
+    def misfit(self, paper: str, advice: str) -> LayoutError:
+        """Return the error of a mesh that does not fit."""
+        return LayoutError(
+            "{}: the meshing, its contour, its diagram and its tables do not fit {}. {}",
+            self.solved.problem.name,
+            paper,
+            advice,
+        )
+
+    def proposals(self, papers: Sequence[Blank]) -> Iterator[Packing]:
+        """Yield the blocks at sizes that have room for the tables."""
+        contour = Contour.of(self.solved)
+        for paper, (sizes, checks, share) in product(papers, TRIES):
+            parts = self._parts(contour, paper.room(), sizes, checks, share)
+            if parts is not None:
+                yield Packing(paper, (Group(parts),))
+
+    def _parts(
+        self, contour: Contour, room: Room, sizes: Sizes, checks: float, share: float
+    ) -> tuple[Part, ...] | None:
+        """Return the blocks in reading order; None where the tables are too high."""
+        solved, words, say = self.solved, self.words, self.words.meshing
+        wide, tall = room.inner[2] - room.inner[0], room.inner[3] - room.inner[1]
+        free = wide - STAMP_WIDTH - 2 * EDGE - 2 * GAP
+        high = tall - 2 * EDGE - sizes.title - 8.0
+        told = Column(
+            [*_checks(solved, words, sizes.title, checks), *_tables(solved, words, sizes)], gap=4.0
+        )
+        if told.height + room.stamp[3] + GAP > room.inner[3]:
+            return None
+        view = view_for(solved, share * 0.6 * free, share * high)
+        mesh = meshing_picture(view, words, sizes.letter)
+        width = share * (free - mesh.width)
+        plane = contour_picture(contour, words, width, share * 0.55 * high, sizes.letter)
+        sliding = sliding_picture(solved, words, width, share * 0.3 * high, sizes.letter)
+        scale = _scale(sliding_scale(solved, width), words.say)
+        title = say.meshing.format(scale=_scale(view.scale, words.say))
+        blocks: list[Block] = [
+            Viewed(_titled(title, mesh, sizes), "meshing", None),
+            _titled(say.contour, plane, sizes),
+            _titled(say.sliding.format(scale=scale), sliding, sizes),
+            told,
+        ]
+        return tuple(map(Part, blocks))
 
 
-def _titled(title: str, picture: Picture, manner: Manner) -> Block:
+def _titled(title: str, picture: Picture, sizes: Sizes) -> Block:
     width = max(picture.width, 60.0)
-    return Column([heading(title, manner.title, width=width), picture], gap=5.0, align="centre")
+    return Column([heading(title, sizes.title, width=width), picture], gap=5.0, align="centre")
 
 
 def _scale(value: float, say: Notation) -> str:
@@ -153,24 +148,24 @@ def _scale(value: float, say: Notation) -> str:
 # Texts and tables -------------------------------------------------------------------------------
 
 
-def _checks(solved: Solved, words: Language, manner: Manner) -> Iterator[Block]:
-    """Yield what is given and what the limits say."""
+def _checks(solved: Solved, words: Language, title: float, text: float) -> Iterator[Block]:
+    """Yield what is given and what the limits say, in letters of a height, mm."""
     say = words.meshing
-    yield heading(say.checked, manner.title, width=TEXT_WIDTH)
-    for _, holds, text in solved.sentences(words):
-        yield paragraph(f"{text}: {say.holds[holds]}", manner.told, TEXT_WIDTH)
-    for text in [*remarks(solved, words), given_text(solved, words)[1]]:
-        yield paragraph(text, manner.told, TEXT_WIDTH)
+    yield heading(say.checked, title, width=TEXT_WIDTH)
+    for _, holds, limit in solved.sentences(words):
+        yield paragraph(f"{limit}: {say.holds[holds]}", text, TEXT_WIDTH)
+    for told in [*remarks(solved, words), given_text(solved, words)[1]]:
+        yield paragraph(told, text, TEXT_WIDTH)
 
 
-def _tables(solved: Solved, words: Language, manner: Manner) -> Iterator[Block]:
+def _tables(solved: Solved, words: Language, sizes: Sizes) -> Iterator[Block]:
     """Yield the tables of the pair and of the wheels."""
     pair, wheels, contact = solved.told()
     for told in ([*pair, *contact], wheels):
-        yield _table([one for one in told if one.quantity.in_table], words, manner)
+        yield _table([one for one in told if one.quantity.in_table], words, sizes)
 
 
-def _table(told: list[Told], words: Language, manner: Manner) -> Block:
+def _table(told: list[Told], words: Language, sizes: Sizes) -> Block:
     say, say_names = words.meshing, words.meshing.names
     names = [escape(say_names[one.quantity.key] + unit_of(one, words)) for one in told]
     rows = [["—" if "nan" in text else text for text in one.shown(words.say)] for one in told]
@@ -180,4 +175,4 @@ def _table(told: list[Told], words: Language, manner: Manner) -> Block:
     ]
     heads = say.columns[2:] if len(rows[0]) == 2 else (say.pair,)
     columns += [TableColumn(h, tuple(r[k] for r in rows)) for k, h in enumerate(heads)]
-    return table_block(columns, manner.text, width=TEXT_WIDTH, units="none", row_height=manner.row)
+    return table_block(columns, sizes.text, width=sizes.column, units="none", row_height=sizes.row)

@@ -41,7 +41,7 @@ class Paths:
     @cached_property
     def _between(self) -> Solution:
         s = self.solution
-        return Solution(s.problem, positions=self.course.positions.tolist(), scales=s.scales)
+        return s.moved(self.course.positions.tolist()).drawn_at(s.scales)
 
     @cached_property
     def _trace(self) -> dict[str, Complexes]:

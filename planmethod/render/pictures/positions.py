@@ -72,7 +72,7 @@ class Positions:
         extremes = self.paths.extremes if shows_extremes(s, self.overlay) else ()
         # The extreme positions behind the others, so that links have one length in all of them.
         at = [*s.positions.tolist(), *extremes]
-        self.shown = Solution(s.problem, positions=at, scales=s.scales) if extremes else s
+        self.shown = s.moved(at).drawn_at(s.scales) if extremes else s
         self.numbers = {k: str(k) for k in self.overlay}
         first = len(s.positions)
         self.numbers |= {

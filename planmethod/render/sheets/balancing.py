@@ -23,9 +23,10 @@ from planmethod.render.layout.tables import TableColumn, table_block
 from planmethod.render.pictures.lettered import lettered
 from planmethod.render.pictures.polar import polar_picture
 from planmethod.render.pictures.schemeview import scheme_picture
+from planmethod.render.sheets.composer import Viewed
 from planmethod.render.sheets.model import Manner
 from planmethod.render.sheets.texts import stated
-from planmethod.render.sheets.views import Viewed, named
+from planmethod.render.sheets.views import named
 from planmethod.render.symbols import arrowhead
 from planmethod.solved.solution import Solution
 

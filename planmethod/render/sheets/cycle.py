@@ -33,9 +33,10 @@ from planmethod.render.pictures.diagram import (
     diagram_picture,
     mark_items,
 )
+from planmethod.render.sheets.composer import Viewed
 from planmethod.render.sheets.model import Manner
 from planmethod.render.sheets.texts import stated
-from planmethod.render.sheets.views import Viewed, named
+from planmethod.render.sheets.views import named
 from planmethod.solved.cycle import Cycle, Peak, Piece, cycle
 from planmethod.solved.errors.forces import drawn_forces
 from planmethod.solved.forces.statics import statics_of

@@ -21,10 +21,11 @@ from planmethod.render.layout.equations import formula_block
 from planmethod.render.layout.tables import TableColumn, table_block
 from planmethod.render.pictures.diagram import Abscissae, Curve, Ordinates, diagram_picture
 from planmethod.render.pictures.flywheel import construction_picture
+from planmethod.render.sheets.composer import Viewed
 from planmethod.render.sheets.model import Manner
 from planmethod.render.sheets.results import table_width
 from planmethod.render.sheets.texts import stated
-from planmethod.render.sheets.views import Viewed, named
+from planmethod.render.sheets.views import named
 from planmethod.render.symbols import arrowhead, hatch
 from planmethod.solved.forces.loads import external
 from planmethod.solved.machine.drawing import FlywheelDrawing, drawing_of
@@ -78,7 +79,7 @@ class _DiagramsViewed(Viewed):
     ends: tuple[tuple[str, complex, complex], ...]
     corner: complex
 
-    def spans(self, items: Sequence[Item]) -> Iterable[Span]:
+    def spans(self, items: Sequence[Item], corner: complex) -> Iterable[Span]:
         """Return KL and H."""
         marks = [item.centre for item in items if isinstance(item, Disc) and item.tag == "K"]
         for by in (mark - self.corner for mark in marks[:1]):

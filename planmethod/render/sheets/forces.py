@@ -34,9 +34,10 @@ from planmethod.render.ink.typeset import typeset
 from planmethod.render.layout.block import Block, Column, Line, Row, heading, paragraph
 from planmethod.render.layout.equations import balance_block, formula_block
 from planmethod.render.pictures.ellipses import told_ellipses
+from planmethod.render.sheets.composer import Viewed
 from planmethod.render.sheets.model import Manner
 from planmethod.render.sheets.texts import stated, unbroken
-from planmethod.render.sheets.views import Viewed, named, shown_position
+from planmethod.render.sheets.views import named, shown_position
 from planmethod.solved.forces.reading import ForceReading, force_reading
 from planmethod.solved.solution import Solution
 
@@ -56,7 +57,7 @@ class ForcePlanViewed(Viewed):
     number: int
     say: Notation
 
-    def spans(self, items: Sequence[Item]) -> Iterable[Span]:
+    def spans(self, items: Sequence[Item], corner: complex) -> Iterable[Span]:
         """Return the reactions of the plan."""
         reading = self.reading
         edges = drawn_edges(reading, self.number)

@@ -2,127 +2,36 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from functools import partial
+from collections.abc import Iterator, Mapping, Sequence
 from itertools import chain, product
 from pathlib import Path
+from typing import Any
 
 from planmethod.construct.drafting import PROFILES, Profile
 from planmethod.errors import LayoutError
 from planmethod.languages import LANGUAGES, say
-from planmethod.note.wording import language
-from planmethod.paper import Format
+from planmethod.note.wording import Language, language
+from planmethod.paper import paper_format
+from planmethod.plans.model import FACTS, MOTION
 from planmethod.problem.model import Problem, Scales
 from planmethod.record import dataclass, replace
-from planmethod.render.frame.frame import paper_format, sheet_frame
-from planmethod.render.frame.furniture import Furniture, Room
+from planmethod.render.frame.furniture import Furniture
 from planmethod.render.ink.drawing import Drawing
-from planmethod.render.ink.lettering import lettering, using
+from planmethod.render.sheets.composer import Blank, Laid, LaidPage, compose, enlarged
 from planmethod.render.sheets.composition.reader import composition
 from planmethod.render.sheets.compositions import SHIPPED
-from planmethod.render.sheets.growth import grown
 from planmethod.render.sheets.model import Composition, Extras
-from planmethod.render.sheets.pages import Page, Paper, pages_of, stamp_fields
+from planmethod.render.sheets.pages import pages_of
 from planmethod.solved.room import FEW
 from planmethod.solved.scaling import MOST_DRAWN, Views
 from planmethod.solved.selfcheck import verify
 from planmethod.solved.solution import Solution
 
+STEPS = 3
+"""Most members of the series that a scale goes on by."""
 
-@dataclass(frozen=True, slots=True)
-class _Task:
-    """What is drawn, whatever the paper; ``views`` fill the paper's own boxes when absent.
-
-    ``estimated`` is the solution whose views were the first guess.
-    """
-
-    problem: Problem
-    layout: Composition
-    positions: tuple[float, ...]
-    ruler: float | None
-    profile: Profile
-    extras: Extras
-    views: Views | None = None
-    estimated: Solution | None = None
-
-    def solved(self, views: Views | None, scales: Scales) -> Solution:
-        """Return the solution for the views of a paper, with certain scales."""
-        # Without views told the estimate keeps to scales of the file in all of several positions.
-        keeps = len(self.positions) > 1 and scales != Scales(scales.convention)
-        known = None if keeps else self.estimated
-        if known is not None and (known.views, known.problem.scales) == (views, scales):
-            return known
-        solution = Solution(
-            replace(self.problem, scales=scales),
-            positions=self.positions,
-            ruler=self.ruler,
-            profile=self.profile,
-            views=views,
-        )
-        verify(solution)
-        return solution
-
-    def pages(self, solution: Solution, paper: Paper, per_sheet: int) -> list[Page] | None:
-        """Return the sheets with so many positions on each, or None when one does not fit."""
-        count = len(self.positions)
-        pages: list[Page] = []
-        for start in range(0, count, per_sheet):
-            indices = range(start, min(start + per_sheet, count))
-            found = pages_of(
-                self.layout, solution, indices, paper, self.extras, first=len(pages) + 1
-            )
-            if found is None:
-                return None
-            pages += found
-        return pages
-
-    def on(self, paper: Paper, per_sheet: int) -> list[Page] | None:
-        """Return the sheets on a paper with so many positions on each, or None."""
-        views = self.views
-        if views is None:
-            views = self.layout.views_for(paper.name, len(self.positions), paper.share)
-        asked = self.problem.scales
-        solution = self.solved(views, asked)
-        pages = self.pages(solution, paper, per_sheet)
-        traced = self.extras.traces and len(self.positions) == 1
-        if pages is not None and traced and any(page.tried[0] for page in pages):
-            # The traces of the construction are not to push out what explains it.
-            without = replace(self, extras=replace(self.extras, traces=False))
-            bare = without.pages(solution, paper, per_sheet)
-            if bare is not None and not any(page.tried[0] for page in bare):
-                return without.on(paper, per_sheet)
-        if pages is not None and self.layout.grow:
-
-            def draw(scales: Scales) -> list[Page] | None:
-                return self.pages(self.solved(views, scales), paper, per_sheet)
-
-            return grown(pages, solution.scales, asked, draw)
-        return pages
-
-
-def _drawn(
-    problem: Problem,
-    pages: Sequence[Page],
-    fmt: Format,
-    fields: Mapping[str, str],
-    furniture: Furniture,
-) -> list[Drawing]:
-    """Return pages as drawings, with frame and title block."""
-    sheets = []
-    for number, page in enumerate(pages, 1):
-        numbers = furniture.numbers(number, len(pages))
-        told = stamp_fields(problem, numbers, fields, page.title)
-        own, around = paper_format(page.paper or fmt.name), furniture
-        if page.paper:
-            around = replace(furniture, form="2a")
-        drawing = Drawing(own.width, own.height, told.get("title", problem.title))
-        drawing.extend(sheet_frame(own, told, around, sheet=number).items)
-        drawing.extend(page.items)
-        drawing.views.extend(page.views)
-        drawing.is_cut_down, *_ = page.tried
-        drawing.goes_on = bool(page.paper)
-        sheets.append(drawing)
-    return sheets
+KEYS = [FACTS[kind].scale for kind in reversed(MOTION)]
+"""Keys of the scales, the plan that is to be largest first."""
 
 
 def kinematics_sheets(
@@ -169,76 +78,42 @@ def kinematics_sheets(
     CompositionError
         When the composition is faulty.
     """
+    if paper:
+        problem = replace(problem, sheet=replace(problem.sheet, paper=paper_format(paper).name))
     words = language(problem.sheet.lang or LANGUAGES[0])
     made = composition(layout, words.lang) if isinstance(layout, str | Path) else layout
+    solution = Solution(problem, positions=positions, ruler=ruler, profile=profile)
     if positions is None and made is not None and made.turn:
-        from planmethod.solved.turn.turn import turn_of
+        solution = _at_the_turn(solution)
+    made = made or _usual(len(solution.positions), words)
+    _check_positions(made, solution)
+    verify(solution)
+    strategy = Linkage(made, solution, Extras(words, errors, sigma, made.turn))
+    return compose(problem, strategy, fields=fields, furniture=furniture)
 
-        positions = turn_of(Solution(problem)).positions.tolist()
-    asked = problem.drive.positions if positions is None else tuple(positions)
-    if len(asked) > MOST_DRAWN:
+
+def _at_the_turn(solution: Solution) -> Solution:
+    """Return the mechanism in the positions of ``[cycle]``."""
+    from planmethod.solved.turn.turn import turn_of
+
+    return solution.moved(turn_of(solution).positions.tolist())
+
+
+def _usual(count: int, words: Language) -> Composition:
+    """Return the shipped composition for so many positions."""
+    return composition(SHIPPED[(count > 1) + (count > FEW)], words.lang)
+
+
+def _check_positions(layout: Composition, solution: Solution) -> None:
+    count = len(solution.positions)
+    if count > MOST_DRAWN:
         raise LayoutError(
             "{}: sheets are drawn for at most {} positions, {} are asked. Ask fewer "
             "(--phi 0:360:30); for tables take solve --csv.",
-            problem.name,
+            solution.problem.name,
             MOST_DRAWN,
-            len(asked),
+            count,
         )
-    if made is None:
-        made = composition(SHIPPED[(len(asked) > 1) + (len(asked) > FEW)], words.lang)
-    _check_positions(made, len(asked))
-    if paper:
-        problem = replace(problem, sheet=replace(problem.sheet, paper=paper_format(paper).name))
-    paper = problem.sheet.paper
-    furniture = furniture or Furniture.of(problem.sheet)
-    extras = Extras(words, errors, sigma, made.turn)
-    task = _Task(problem, made, tuple(asked), ruler, profile, extras)
-    task = replace(task, estimated=task.solved(None, problem.scales))
-    views = _views(task)
-    papers = (views.paper,) if paper else made.formats[made.formats.index(views.paper) :]
-    scales = problem.scales
-    # One decision: the scales stay on a larger paper, if the smaller one had no room after all.
-    tasks = [task if views.kept else replace(task, views=views)]
-    # Scales for one position may be too fine for a dozen plans on one sheet, or for another one.
-    free = replace(task, problem=replace(problem, scales=replace(scales, mu_v=None, mu_a=None)))
-    given = (scales.mu_v, scales.mu_a) != (None, None)
-    if given and (made.turn or len(asked) > FEW):
-        tasks.append(free)
-    last = [free] if given and task.positions != problem.drive.positions else []
-    turns = (tasks, [task], last)
-    tries = chain(*(product(papers, made.shares, made.at_most(len(asked)), some) for some in turns))
-
-    def later(name: str) -> Room:
-        return replace(furniture, form="2a").room(paper_format(name), 2)
-
-    with using(lettering(problem.sheet.lettering or "B")):
-        for name, share, per_sheet, task in tries:
-            fmt = paper_format(name)
-            on = Paper(name, partial(furniture.room, fmt), later, paper is not None, share)
-            pages = task.on(on, per_sheet)
-            if pages is not None:
-                return _drawn(problem, pages, fmt, fields or {}, furniture)
-    given = any(mu is not None for mu in (scales.mu_l, scales.mu_v, scales.mu_a))
-    advice = (
-        "Take coarser scales in [scales], or leave them out"
-        if given
-        else (say("Take a larger format: one of {}", ", ".join(made.formats)))
-    )
-    raise LayoutError("{}: the views do not fit {}. {}.", problem.name, papers[-1], advice)
-
-
-def _views(task: _Task) -> Views:
-    """Return the views on the format that sheets are tried on first."""
-    layout, count = task.layout, len(task.positions)
-    assert task.estimated is not None
-    views = task.estimated.views
-    estimated = views.paper in layout.formats and any(entry.of for entry in layout.blocks)
-    if not task.problem.sheet.paper and not estimated:  # it is one of schemes and plans
-        views = Views.for_paper(layout.formats[0], count)
-    return layout.views_for(views.paper, count)
-
-
-def _check_positions(layout: Composition, count: int) -> None:
     for number, entry in enumerate(layout.blocks):
         if entry.position is not None and entry.position >= count:
             raise LayoutError(
@@ -250,3 +125,138 @@ def _check_positions(layout: Composition, count: int) -> None:
                 count,
                 count - 1,
             )
+
+
+@dataclass(frozen=True, slots=True)
+class Linkage:
+    """How sheets of a linkage are searched for: which scales and how many positions on a sheet.
+
+    ``solution`` is that whose views are the first guess.
+    """
+
+    layout: Composition
+    solution: Solution
+    extras: Extras
+
+    @property
+    def views(self) -> Views:
+        """Views on the format that sheets are tried on first."""
+        layout, count = self.layout, len(self.solution.positions)
+        views = self.solution.views
+        estimated = views.paper in layout.formats and any(entry.of for entry in layout.blocks)
+        if not self.solution.problem.sheet.paper and not estimated:  # one of schemes and plans
+            views = Views.for_paper(layout.formats[0], count)
+        return layout.views_for(views.paper, count)
+
+    @property
+    def formats(self) -> Sequence[str]:
+        """Formats of the composition, from the estimated one on where none is asked for."""
+        formats = self.layout.formats
+        asked = self.solution.problem.sheet.paper
+        return formats if asked else formats[formats.index(self.views.paper) :]
+
+    @property
+    def has_scales(self) -> bool:
+        """Whether the file gives scales."""
+        scales = self.solution.problem.scales
+        return any(mu is not None for mu in (scales.mu_l, scales.mu_v, scales.mu_a))
+
+    @property
+    def less(self) -> str:
+        """What to ask less of."""
+        return say("Ask fewer positions (--phi), or leave out blocks of the layout.")
+
+    def misfit(self, paper: str, advice: str) -> LayoutError:
+        """Return the error of views that do not fit."""
+        return LayoutError(
+            "{}: the views do not fit {}. {}", self.solution.problem.name, paper, advice
+        )
+
+    def proposals(self, papers: Sequence[Blank]) -> Iterator[OnPaper]:
+        """Yield scales and numbers of positions on a sheet, paper by paper.
+
+        One decision: the estimated scales stay on a larger paper, if the smaller one had no room
+        after all. Then each paper has its own, then those of the file are given up: for one
+        position they may be too fine for a dozen plans on one sheet, or for another one.
+        """
+        problem, count = self.solution.problem, len(self.solution.positions)
+        own: tuple[Views | None, Scales] = (None, problem.scales)
+        free = (None, replace(problem.scales, mu_v=None, mu_a=None))
+        views = self.views
+        first = [own if views.kept else (views, problem.scales)]
+        given = free[1] != problem.scales
+        if given and (self.layout.turn or count > FEW):
+            first.append(free)
+        moved = tuple(self.solution.positions.tolist()) != tuple(problem.drive.positions)
+        turns = (first, [own], [free] if given and moved else [])
+        spread = self.layout.shares, self.layout.at_most(count)
+        for paper, share, per_sheet, (boxes, scales) in chain(
+            *(product(papers, *spread, some) for some in turns)
+        ):
+            boxes = boxes or self.layout.views_for(paper.name, count, share)
+            yield OnPaper(self, paper, share, per_sheet, boxes, scales)
+
+    def solved(self, views: Views, scales: Scales) -> Solution:
+        """Return the solution whose plans fill certain views, at the scales that are given."""
+        one = self.solution
+        # Without views told the estimate keeps to scales of the file in all of several positions.
+        keeps = len(one.positions) > 1 and scales != Scales(scales.convention)
+        if not keeps and (one.views, one.problem.scales) == (views, scales):
+            return one
+        return one.once(Solution.filling, views, scales)
+
+
+@dataclass(frozen=True, slots=True)
+class OnPaper:
+    """Sheets of a linkage on a paper, with so many positions on each (`Proposal`)."""
+
+    of: Linkage
+    paper: Blank
+    share: float
+    per_sheet: int
+    views: Views
+    scales: Scales
+
+    def laid(self) -> Laid | None:
+        """Return the sheets, drawn as large as they bear where the composition lets them grow."""
+        of, extras = self.of, self.of.extras
+        solution = of.solved(self.views, self.scales)
+        laid = self._laid(solution, extras)
+        if laid is None:
+            return None
+        if extras.traces and len(solution.positions) == 1 and _cut_down(laid):
+            # The traces of the construction are not to push out what explains it.
+            bare = replace(extras, traces=False)
+            without = self._laid(solution, bare)
+            if without is not None and not _cut_down(without):
+                laid, extras = without, bare
+        if not of.layout.grow:
+            return laid
+
+        def draw(scales: Mapping[str, float]) -> Laid | None:
+            wish: dict[str, Any] = dict(scales)
+            return self._laid(of.solved(self.views, replace(self.scales, **wish)), extras)
+
+        drawn = {scale.symbol: scale.per_mm for scale in solution.scales.values()}
+        free = [key for key in KEYS if getattr(self.scales, key) is None]
+        laid = replace(laid, scales={key: drawn[key] for key in free})
+        return enlarged(laid, free * STEPS, self.scales, draw)
+
+    def _laid(self, solution: Solution, extras: Extras) -> Laid | None:
+        """Return the sheets at the scales of a solution, or None when one does not fit."""
+        count, layout = len(solution.positions), self.of.layout
+        pages: list[LaidPage] = []
+        for start in range(0, count, self.per_sheet):
+            indices, first = range(start, min(start + self.per_sheet, count)), len(pages) + 1
+            found = pages_of(
+                layout, solution, indices, self.paper, extras, share=self.share, first=first
+            )
+            if found is None:
+                return None
+            pages += found
+        return Laid(pages)
+
+
+def _cut_down(laid: Laid) -> bool:
+    """Tell whether blocks were left out."""
+    return any(page.tried[0] for page in laid.pages)

@@ -13,32 +13,8 @@ from planmethod.note.wording import Language
 from planmethod.plans.model import PlanKind
 from planmethod.record import dataclass, replace
 from planmethod.render.layout.cuttings import Arrange
-from planmethod.solved.room import Box
+from planmethod.render.sheets.composer import Sizes
 from planmethod.solved.scaling import AS_HIGH, LESS, Views
-
-FORMATS = ("A4", "A3", "A2", "A1", "A0")
-"""Basic formats: those that sizes are given for."""
-
-
-@dataclass(frozen=True, slots=True)
-class Sizes:
-    """Letter heights and widths of a sheet, mm (высота шрифта, ширина столбца).
-
-    ``letter``: letters of views; ``title``: names of views; ``text``: everything else;
-    ``column``: the width that texts are set to; ``boxes``: what the views shall fill, where it is
-    not the rule of the format.
-    """
-
-    letter: float
-    title: float
-    text: float
-    column: float
-    boxes: tuple[tuple[PlanKind, Box], ...] = ()
-
-    def parts(self, share: float) -> Sizes:
-        """Return the sizes with columns and boxes a part as wide and high."""
-        boxes = tuple((kind, (share * wide, share * high)) for kind, (wide, high) in self.boxes)
-        return replace(self, column=share * self.column, boxes=boxes)
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,27 +1,23 @@
-"""Pages: the blocks of a composition put on sheets, and what the title blocks of the sheets say."""
+"""Pages: the blocks of a composition put on sheets of a paper."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from itertools import combinations, groupby, pairwise
 from math import inf
 from typing import TypeAlias
 
-from planmethod.problem.model import Problem
 from planmethod.record import dataclass, replace
 from planmethod.render.frame.furniture import Room
-from planmethod.render.frame.titleblock import merged
-from planmethod.render.ink.drawing import Item, View
 from planmethod.render.layout.block import Block, Column, Row, Shapes
 from planmethod.render.layout.cuttings import GAP, Arrange, Group, Part
-from planmethod.render.layout.pack import EDGE, Placed, pack
+from planmethod.render.layout.pack import EDGE, Placed
 from planmethod.render.sheets.blocks import BLOCKS
+from planmethod.render.sheets.composer import Blank, LaidPage, Viewed, free_area, packed
 from planmethod.render.sheets.model import Composition, Entry, Extras, Manner
-from planmethod.render.sheets.views import Viewed
 from planmethod.solved.room import FEW
 from planmethod.solved.solution import Solution
 
-Tried: TypeAlias = tuple[bool, int, int]
 Parts: TypeAlias = "list[list[Placed]]"
 """Blocks and their corners, by pages."""
 
@@ -42,22 +38,6 @@ MOST_TURNS = 60
 
 
 @dataclass(frozen=True, slots=True)
-class Page:
-    """What is inside the frame of one sheet.
-
-    ``title`` is its name, if it has one of its own; ``tried`` says what was given up for it: blocks
-    left out, letter heights passed over, groups taken apart. ``paper`` is the format of a sheet
-    that goes on with what was left out.
-    """
-
-    items: list[Item]
-    views: list[View]
-    title: str = ""
-    tried: Tried = (False, 0, 0)
-    paper: str = ""
-
-
-@dataclass(frozen=True, slots=True)
 class Made:
     """A block that was made, and what the file says of it."""
 
@@ -71,52 +51,25 @@ class Made:
         return not isinstance(one, Viewed)
 
 
-@dataclass(frozen=True, slots=True)
-class Paper:
-    """Paper that sheets are drawn on: its format, and the room of the sheet of a number, from 1.
-
-    ``forced``: the format was asked for, so that a sheet of one position may take several pages.
-    ``next_room``: the room of a later sheet of a format, which has the small title block.
-    ``share`` is that of the composition's sizes.
-    """
-
-    name: str
-    room: Callable[[int], Room]
-    next_room: Callable[[str], Room]
-    forced: bool = False
-    share: float = 1.0
-
-
-def stamp_fields(
-    problem: Problem, numbers: Mapping[str, str], extra: Mapping[str, str], title: str = ""
-) -> dict[str, str]:
-    """Return the texts of the title block: the defaults, the problem's, then the asked ones.
-
-    ``numbers`` are those of `Furniture.numbers`: of several sheets they outrank the file's, and so
-    does the ``title`` that a composition gives.
-    """
-    default = {"title": problem.title, "sheets": "1"}
-    own = {"title": title} if title else {}
-    return merged(default, problem.stamp, numbers, own, extra)
-
-
 def pages_of(
     composition: Composition,
     solution: Solution,
     indices: Sequence[int],
-    paper: Paper,
+    paper: Blank,
     extras: Extras,
     *,
+    share: float = 1.0,
     first: int = 1,
-) -> list[Page] | None:
+) -> list[LaidPage] | None:
     """Return the sheets that show some positions, or None when one of them does not fit.
 
-    ``first`` is the number of the first of them.
+    ``share`` is that of the sizes of the composition that is taken, ``first`` the number of the
+    first sheet.
     """
-    pages: list[Page] = []
+    pages: list[LaidPage] = []
     for number in composition.sheets:
         at = first + len(pages)
-        found = _sheet(composition, number, solution, indices, paper, extras, first=at)
+        found = _sheet(composition, number, solution, indices, paper, extras, share=share, first=at)
         if found is None:
             return None
         pages += found
@@ -128,22 +81,23 @@ def _sheet(
     number: int,
     solution: Solution,
     indices: Sequence[int],
-    paper: Paper,
+    paper: Blank,
     extras: Extras,
     *,
+    share: float,
     first: int,
-) -> list[Page] | None:
+) -> list[LaidPage] | None:
     """Return a sheet of a composition: a page, perhaps several, or None when it does not fit.
 
     What is tried is told by `_tries`.
     """
     entries = spread([entry for entry in composition.blocks if entry.sheet == number], solution)
-    sizes = composition.sizes_for(paper.name, paper.share)
+    sizes = composition.sizes_for(paper.name, share)
     stock = _Stock(solution, indices, {})
     for count, level, dropped, taken_apart in _tries(
         composition.levels,
         droppable=any(entry.droppable for entry in entries),
-        most=MOST_EXTRA if paper.forced and len(solution.positions) == 1 else 1,
+        most=MOST_EXTRA if paper.is_asked and len(solution.positions) == 1 else 1,
     ):
         rooms = [paper.room(first + k) for k in range(count)]
         inside = rooms[0].inner[2] - rooms[0].inner[0]
@@ -152,7 +106,7 @@ def _sheet(
             for entry in entries
             if not (dropped and entry.droppable)
         ]
-        made = stock.made(manners, sum(map(_free, rooms)))
+        made = stock.made(manners, sum(map(free_area, rooms)))
         if made is None:
             continue
         parts, apart = _divided(made, rooms, composition.arranged, taken_apart)
@@ -160,7 +114,7 @@ def _sheet(
             parts = _with_larger_texts(parts, manners, stock, rooms, composition.arranged, apart)
         if parts:
             title, tried = composition.titles.get(number, ""), (dropped, level, apart)
-            pages = [_page(part, title, tried) for part in parts]
+            pages = [LaidPage(part, title, tried) for part in parts]
             going = dropped and len(solution.positions) <= FEW
             left_out = [entry for entry in entries if going and entry.kind in GOES_ON]
             return pages + _going_on(left_out, composition, stock, paper, extras, title)
@@ -188,7 +142,7 @@ def _with_larger_texts(
         larger = list(manners)
         for k in own:
             larger[k] = manners[k].larger(below=2.0 * min(heights.values()))
-        made = stock.made(larger, sum(map(_free, rooms))) if larger != manners else None
+        made = stock.made(larger, sum(map(free_area, rooms))) if larger != manners else None
         found = _divided(made, rooms, arranged, range(max(apart, 1) + 1))[0] if made else []
         if found:
             parts, manners = found, larger
@@ -201,13 +155,13 @@ def _going_on(
     entries: Sequence[Entry],
     composition: Composition,
     stock: _Stock,
-    paper: Paper,
+    paper: Blank,
     extras: Extras,
     title: str,
-) -> list[Page]:
+) -> list[LaidPage]:
     """Return sheets with texts that the sheet before had no room for: one, else one for each."""
-    name = paper.name if paper.forced else CONTINUED
-    around, sizes = paper.next_room(name), composition.sizes_for(name)
+    name = paper.name if paper.is_asked else CONTINUED
+    around, sizes = paper.continued(name), composition.sizes_for(name)
     left, _, right, high = around.inner
     room = (right - left - 2 * EDGE, high - around.stamp[3] - 2 * EDGE)
     tries: list[tuple[int, list[Block]]] = []
@@ -220,7 +174,7 @@ def _going_on(
         if all(one.width <= room[0] and one.height <= room[1] for one in texts):
             tried = (False, level, 0)
             corner = complex(left + EDGE, high - EDGE)
-            return [Page(one.place(corner), [], title, tried, name) for one in texts]
+            return [LaidPage([(one, corner)], title, tried, name) for one in texts]
     return []
 
 
@@ -273,13 +227,6 @@ class _Stock:
         return self.blocks[key]
 
 
-def _free(room: Room) -> float:
-    """Return how much of a sheet is free for blocks, mm²."""
-    left, low, right, high = room.inner
-    stamp = (room.stamp[2] - room.stamp[0]) * (room.stamp[3] - room.stamp[1])
-    return (right - left) * (high - low) - stamp
-
-
 def _tries(
     levels: int, *, droppable: bool, most: int
 ) -> Iterator[tuple[int, int, bool, tuple[int, ...]]]:
@@ -323,7 +270,7 @@ def _divided(
             for room, (i, j) in zip(rooms, pairwise((0, *cuts, len(made))), strict=True):
                 whole = grouped(made[i:j] if apart != 1 else _loosened(made[i:j]), arranged)
                 group = (whole, whole, whole.inner(), whole.flat())[apart]
-                placed = pack(group, room.inner, room.stamp, room.taken)
+                placed = packed(group, room)
                 if placed is None:
                     break
                 pages.append(placed)
@@ -351,13 +298,3 @@ def grouped(
         else:
             members += [Part(one.block, one.is_text) for one in run]
     return Group(tuple(members), arranged.get(path, "free"))
-
-
-def _page(placed: Sequence[Placed], title: str, tried: Tried) -> Page:
-    page = Page([], [], title, tried)
-    for block, corner in placed:
-        items = block.place(corner)
-        page.items.extend(items)
-        if isinstance(block, Viewed):
-            page.views.append(block.view(items, corner))
-    return page

@@ -16,9 +16,10 @@ from planmethod.render.ink.drawing import Pen
 from planmethod.render.layout.block import Block, Column, Row, heading, paragraph, shaped
 from planmethod.render.layout.tables import TableColumn, table_block
 from planmethod.render.pictures.diagram import Abscissae, Curve, Ordinates, diagram_picture
+from planmethod.render.sheets.composer import Viewed
 from planmethod.render.sheets.model import Manner
 from planmethod.render.sheets.texts import stated
-from planmethod.render.sheets.views import Viewed, named
+from planmethod.render.sheets.views import named
 from planmethod.solved.machine.drawing import drawing_of
 from planmethod.solved.machine.flywheel import flywheel_of
 from planmethod.solved.machine.runup import Course, run_up_of

@@ -17,10 +17,10 @@ from planmethod.render.pictures.positions import PRIMES, shows_extremes
 from planmethod.render.pictures.schemeview import scheme_picture
 from planmethod.render.pictures.seriesview import series_picture
 from planmethod.render.pictures.traces import shown_traces
+from planmethod.render.sheets.composer import Viewed
 from planmethod.render.sheets.model import Manner
 from planmethod.render.sheets.results import position_text
 from planmethod.render.sheets.views import (
-    Viewed,
     plans_viewed,
     shown_position,
     with_scale,

@@ -6,26 +6,25 @@ of formation; on the right, above the title block, the tables of pairs and links
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from math import ceil
 
 from planmethod.errors import LayoutError
 from planmethod.languages import LANGUAGES, say
 from planmethod.mechanism.structure import Structure
 from planmethod.note.wording import Language, language
+from planmethod.paper import STAMP_WIDTH, TRIED, paper_format
 from planmethod.problem.model import Problem
-from planmethod.record import dataclass
+from planmethod.record import dataclass, replace
 from planmethod.render.frame.clearance import is_clear
-from planmethod.render.frame.frame import STAMP_WIDTH, paper_format, sheet_frame
-from planmethod.render.frame.furniture import Furniture, Room
-from planmethod.render.frame.titleblock import merged
-from planmethod.render.ink.drawing import Drawing, Item, View
-from planmethod.render.ink.lettering import lettering, using
+from planmethod.render.ink.drawing import Drawing, Item
 from planmethod.render.ink.typeset import typeset
 from planmethod.render.layout.block import Block, Column, Line, Row, Spacer, paragraph
 from planmethod.render.layout.equations import formula_block
+from planmethod.render.layout.pack import Placed
 from planmethod.render.layout.tables import TableColumn, table_block
 from planmethod.render.pictures.structural import driver_picture, group_picture, mechanism_picture
+from planmethod.render.sheets.composer import Blank, Laid, LaidPage, Sizes, Viewed, compose
 from planmethod.render.sheets.structure_texts import (
     driver_caption,
     formulas,
@@ -33,9 +32,6 @@ from planmethod.render.sheets.structure_texts import (
     link_columns,
     pair_columns,
 )
-
-PAPERS = ("A3", "A2", "A1")
-"""Formats tried in turn when none is asked for."""
 
 EDGE = 6.0
 """Least white between the blocks and the frame, mm."""
@@ -58,35 +54,35 @@ COLUMN = STAMP_WIDTH - 2 * EDGE
 
 
 @dataclass(frozen=True, slots=True)
-class Manner:
-    """Sizes of a sheet, mm (размеры надписей и видов).
+class Pictures:
+    """Sizes of a sheet and of its pictures, mm (размеры надписей и видов).
 
-    ``column`` is the width of tables and formulas, ``cell`` the least width of a group's cell,
-    ``step`` the greatest length of a grid unit of the pictures; ``views`` are the heights of a
-    group's picture and ``rows`` those of table rows to try, largest first.
+    ``cell`` is the least width of a group's cell, ``step`` the greatest length of a grid unit of
+    the pictures; ``views`` are the heights of a group's picture and ``rows`` those of table rows to
+    try, largest first.
     """
 
-    letter: float
-    title: float
-    text: float
-    column: float
+    sizes: Sizes
     cell: float
     step: float
     views: tuple[float, ...]
     rows: tuple[float, ...]
 
 
-MANNERS: Mapping[str, Manner] = {
-    "A3": Manner(
-        3.5, 5.0, 3.5, COLUMN, 60.0, 42.0, (80.0, 70.0, 62.0, 54.0, 46.0, 40.0), (8.0, 7.0, 6.0)
+PICTURES: Mapping[str, Pictures] = {
+    "A3": Pictures(
+        Sizes(3.5, 5.0, 3.5, COLUMN), 60.0, 42.0, (80.0, 70.0, 62.0, 54.0, 46.0, 40.0),
+        (8.0, 7.0, 6.0),
     ),
-    "A2": Manner(
-        5.0, 5.0, 3.5, COLUMN, 82.0, 55.0, (95.0, 85.0, 75.0, 65.0, 56.0, 48.0), (8.0, 7.0, 6.0)
+    "A2": Pictures(
+        Sizes(5.0, 5.0, 3.5, COLUMN), 82.0, 55.0, (95.0, 85.0, 75.0, 65.0, 56.0, 48.0),
+        (8.0, 7.0, 6.0),
     ),
-    "A1": Manner(
-        5.0, 7.0, 5.0, 250.0, 110.0, 70.0, (130.0, 115.0, 100.0, 85.0, 70.0, 56.0), (10.0, 9.0, 8.0)
+    "A1": Pictures(
+        Sizes(5.0, 7.0, 5.0, 250.0), 110.0, 70.0, (130.0, 115.0, 100.0, 85.0, 70.0, 56.0),
+        (10.0, 9.0, 8.0),
     ),
-}
+}  # fmt: skip
 
 
 def structure_sheet(
@@ -114,92 +110,107 @@ def structure_sheet(
     LayoutError
         When everything fits no format, or not the asked one.
     """
+    if paper:
+        problem = replace(problem, sheet=replace(problem.sheet, paper=paper_format(paper).name))
     words = language(problem.sheet.lang or LANGUAGES[0])
-    texts = merged(problem.stamp, {"title": words.structure.title}, fields or {})
-    paper = paper or problem.sheet.paper
-    furniture = Furniture.of(problem.sheet)
-    names = (paper_format(paper).name,) if paper else PAPERS
-    with using(lettering(problem.sheet.lettering or "B")):
-        for name in names:
-            fmt = paper_format(name)
-            items = sheet_frame(fmt, texts, furniture).items
-            manner = MANNERS.get(fmt.like, MANNERS["A1"])
-            placed = _compose(problem, structure, manner, furniture.room(fmt), words)
-            if placed is not None:
-                shown, views = placed
-                return Drawing(fmt.width, fmt.height, texts["title"], [*items, *shown], views)
-    larger = PAPERS[PAPERS.index(names[-1]) + 1 :] if names[-1] in PAPERS else PAPERS
-    advice = (
-        say("Take --paper {}.", larger[0])
-        if larger
-        else "Draw parts of the mechanism on their own."
-    )
-    raise LayoutError(
-        "{}: the structural analysis of {} links and {} groups does not fit {}. {}",
-        problem.name,
-        structure.moving_links,
-        len(structure.groups),
-        names[-1],
-        advice,
-    )
+    (sheet,) = compose(problem, _Structural(problem, structure, words), fields=fields)
+    return sheet
 
 
-def _compose(
-    problem: Problem, structure: Structure, manner: Manner, room: Room, words: Language
-) -> tuple[list[Item], list[View]] | None:
-    """Return the items inside the frame and the view, or None when they do not fit.
+@dataclass(frozen=True, slots=True)
+class _Structural:
+    """How the structural sheet is searched for: by sizes of tables and pictures."""
 
-    A column that would lie on a graph in an upper corner begins below it.
-    """
-    inner, low = room.inner, room.stamp[3] + EDGE
-    left, right = inner[0] + EDGE, inner[2] - EDGE - manner.column
-    tops = (inner[3] - EDGE, *(box[1] - EDGE for box in room.taken))
+    problem: Problem
+    structure: Structure
+    words: Language
 
-    def begun(make: Callable[[float], Block | None], x: float) -> tuple[Block, float] | None:
-        for top in tops:
-            block = make(top)
-            if block is None:
-                return None
-            if is_clear(block.place(complex(x, top)), room):
-                return block, top
-        return None
+    formats = TRIED
+    has_scales = False
 
-    told = begun(
-        lambda top: _told(problem, structure, manner, manner.column, top - low, words), right
-    )
-    if told is None:
-        return None
-    width = right - EDGE - GAP - left
-    shown = begun(
-        lambda top: _shown(problem, structure, manner, width, top - inner[1] - EDGE, words), left
-    )
-    if shown is None:
-        return None
-    pictures, top = shown
-    box = (left, top - pictures.height, left + pictures.width, top)
-    placed = [*pictures.place(complex(left, top)), *told[0].place(complex(right, told[1]))]
-    return placed, [View("structure", box)]
+    @property
+    def less(self) -> str:
+        """What to ask less of."""
+        return say("Draw parts of the mechanism on their own.")
+
+    def misfit(self, paper: str, advice: str) -> LayoutError:
+        """Return the error of a structure that does not fit."""
+        return LayoutError(
+            "{}: the structural analysis of {} links and {} groups does not fit {}. {}",
+            self.problem.name,
+            self.structure.moving_links,
+            len(self.structure.groups),
+            paper,
+            advice,
+        )
+
+    def proposals(self, papers: Sequence[Blank]) -> Iterator[_Columns]:
+        """Yield two columns for each paper."""
+        for paper in papers:
+            pictures = PICTURES.get(paper.format.like, PICTURES["A1"])
+            yield _Columns(paper, self.problem, self.structure, pictures, self.words)
+
+
+@dataclass(frozen=True, slots=True)
+class _Columns:
+    """Pictures on the left, tables and formulas on the right (`Proposal`)."""
+
+    paper: Blank
+    problem: Problem
+    structure: Structure
+    pictures: Pictures
+    words: Language
+
+    def laid(self) -> Laid | None:
+        """Return the sheet, or None when the columns do not fit.
+
+        A column that would lie on a graph in an upper corner begins below it.
+        """
+        problem, structure = self.problem, self.structure
+        pictures, words = self.pictures, self.words
+        room, column = self.paper.room(), pictures.sizes.column
+        inner, low = room.inner, room.stamp[3] + EDGE
+        left, right = inner[0] + EDGE, inner[2] - EDGE - column
+        tops = (inner[3] - EDGE, *(box[1] - EDGE for box in room.taken))
+
+        def begun(make: Callable[[float], Block | None], x: float) -> Placed | None:
+            for top in tops:
+                block, corner = make(top), complex(x, top)
+                if block is None:
+                    return None
+                if is_clear(block.place(corner), room):
+                    return block, corner
+            return None
+
+        told = begun(lambda top: _told(problem, structure, pictures, top - low, words), right)
+        if told is None:
+            return None
+        width = right - EDGE - GAP - left
+
+        def scheme(top: float) -> Block | None:
+            height = top - inner[1] - EDGE
+            block = _shown(problem, structure, pictures, width, height, words)
+            return block and Viewed(block, "structure", None)
+
+        shown = begun(scheme, left)
+        return shown and Laid([LaidPage([shown, told], words.structure.title)])
 
 
 # The right column: tables and formulas ---------------------------------------------------------
 
 
 def _told(
-    problem: Problem,
-    structure: Structure,
-    manner: Manner,
-    width: float,
-    height: float,
-    words: Language,
+    problem: Problem, structure: Structure, pictures: Pictures, height: float, words: Language
 ) -> Block | None:
     """Return tables and formulas, in rows as high as the room allows."""
     mechanism, said = problem.mechanism, words.structure
-    for row in manner.rows:
+    sizes = pictures.sizes
+    for row in pictures.rows:
         lines = formulas(mechanism, structure, words)
         blocks = [
-            _table(pair_columns(mechanism, words), said.pairs, manner, width, row),
-            _table(link_columns(mechanism, words), said.links, manner, width, row),
-            _formulas(lines, manner, width, 0.55 * row, said.formulas),
+            _table(pair_columns(mechanism, words), said.pairs, sizes, row),
+            _table(link_columns(mechanism, words), said.links, sizes, row),
+            _formulas(lines, sizes, 0.55 * row, said.formulas),
         ]
         spare = height - sum(block.height for block in blocks)
         if spare >= GAP * (len(blocks) - 1):
@@ -207,20 +218,18 @@ def _told(
     return None
 
 
-def _table(
-    columns: Sequence[TableColumn], title: str, manner: Manner, width: float, row: float
-) -> Block:
-    table = table_block(columns, manner.text, width=width, units="none", row_height=row)
-    return Column([_title(title, manner), table], gap=3.0)
+def _table(columns: Sequence[TableColumn], title: str, sizes: Sizes, row: float) -> Block:
+    table = table_block(columns, sizes.text, width=sizes.column, units="none", row_height=row)
+    return Column([_title(title, sizes), table], gap=3.0)
 
 
-def _title(text: str, manner: Manner) -> Block:
-    return Line(typeset(text, manner.title))
+def _title(text: str, sizes: Sizes) -> Block:
+    return Line(typeset(text, sizes.title))
 
 
-def _formulas(lines: Iterable[str], manner: Manner, width: float, gap: float, title: str) -> Block:
-    blocks: list[Block] = [_title(title, manner)]
-    blocks += [formula_block(line, manner.text, width=width) for line in lines]
+def _formulas(lines: Iterable[str], sizes: Sizes, gap: float, title: str) -> Block:
+    blocks: list[Block] = [_title(title, sizes)]
+    blocks += [formula_block(line, sizes.text, width=sizes.column) for line in lines]
     return Column(blocks, gap=gap)
 
 
@@ -230,53 +239,53 @@ def _formulas(lines: Iterable[str], manner: Manner, width: float, gap: float, ti
 def _shown(
     problem: Problem,
     structure: Structure,
-    manner: Manner,
+    pictures: Pictures,
     width: float,
     height: float,
     words: Language,
 ) -> Block | None:
     """Return the scheme and the grid of groups, which fill the column together."""
-    mechanism = problem.mechanism
+    mechanism, sizes = problem.mechanism, pictures.sizes
     sense = -1 if problem.drive.rate < 0 else 1
-    head = _title(words.structure.scheme, manner)
-    below = _title(words.structure.parts, manner)
+    head = _title(words.structure.scheme, sizes)
+    below = _title(words.structure.parts, sizes)
     count = 1 + len(structure.groups)
-    most = max(1, int((width + GAP) / (manner.cell + GAP)))
+    most = max(1, int((width + GAP) / (pictures.cell + GAP)))
     rows = ceil(count / min(most, count))
     across = ceil(count / rows)
     cell = (width - GAP * (across - 1)) / across
-    for tall in manner.views:
-        pictures: list[Block] = [
+    for tall in pictures.views:
+        shown: list[Block] = [
             driver_picture(
-                mechanism, width=cell, height=tall, letter_height=manner.letter, sense=sense
+                mechanism, width=cell, height=tall, letter_height=sizes.letter, sense=sense
             )
         ]
-        pictures += [
+        shown += [
             group_picture(
                 mechanism,
                 group,
                 width=cell,
                 height=tall,
-                letter_height=manner.letter,
-                largest=manner.step,
+                letter_height=sizes.letter,
+                largest=pictures.step,
             )
             for group in structure.groups
         ]
-        told: list[Block] = [_caption(driver_caption(mechanism, words), manner, cell)]
-        told += [_caption(group_caption(group, words), manner, cell) for group in structure.groups]
-        grid = _grid(pictures, told, across, cell)
+        told: list[Block] = [_caption(driver_caption(mechanism, words), sizes, cell)]
+        told += [_caption(group_caption(group, words), sizes, cell) for group in structure.groups]
+        grid = _grid(shown, told, across, cell)
         room = height - head.height - below.height - grid.height - 3 * GAP
-        share = LEAST_SHARE if tall == manner.views[-1] else GOOD_SHARE
+        share = LEAST_SHARE if tall == pictures.views[-1] else GOOD_SHARE
         scheme = mechanism_picture(
             mechanism,
             structure,
             width=width,
             height=max(room, 1.0),
-            letter_height=manner.letter,
-            largest=manner.step,
+            letter_height=sizes.letter,
+            largest=pictures.step,
             sense=sense,
         )
-        fits = scheme.height <= room and all(p.width <= cell for p in pictures)
+        fits = scheme.height <= room and all(p.width <= cell for p in shown)
         if fits and scheme.width <= width and room >= share * height:
             spare = (room - scheme.height) / 4
             parts = [
@@ -324,6 +333,6 @@ class _Cell:
         return [*self.view.place(at), *self.text.place(under)]
 
 
-def _caption(lines: Iterable[str], manner: Manner, width: float) -> Block:
-    parts = [paragraph(line, manner.text, width, align="centre") for line in lines]
+def _caption(lines: Iterable[str], sizes: Sizes, width: float) -> Block:
+    parts = [paragraph(line, sizes.text, width, align="centre") for line in lines]
     return Column(parts, gap=2.4, align="centre")

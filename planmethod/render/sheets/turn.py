@@ -23,11 +23,12 @@ from planmethod.render.layout.block import Block
 from planmethod.render.layout.tables import TableColumn, table_block
 from planmethod.render.pictures.kinematic import kinematic_picture
 from planmethod.render.pictures.polar import polar_picture
+from planmethod.render.sheets.composer import Viewed
 from planmethod.render.sheets.model import Manner
 from planmethod.render.sheets.results import table_width
 from planmethod.render.sheets.several import plan_grid
 from planmethod.render.sheets.texts import stated
-from planmethod.render.sheets.views import PlanViewed, Viewed, named
+from planmethod.render.sheets.views import PlanViewed, named
 from planmethod.solved.reading import Complexes, Reals
 from planmethod.solved.solution import Solution
 from planmethod.solved.turn.diagrams import diagrams_of
@@ -76,11 +77,11 @@ def chosen_plans(solution: Solution, indices: Sequence[int], manner: Manner) -> 
     assert kind is not None
     count = len(solution.positions)
     chosen = tuple(dict.fromkeys((round(count / 6), round(2 * count / 3) % count)))
-    at, problem = solution.positions.tolist(), solution.problem
-    own = Solution(problem, positions=[at[k] for k in chosen], views=solution.views).scales[kind]
+    at = solution.positions.tolist()
+    some = solution.moved([at[k] for k in chosen]).filling(solution.views)
+    own = some.scales[kind]
     if own.per_mm < solution.scales[kind].per_mm:
-        scales = {**solution.scales, kind: own}
-        solution = Solution(problem, positions=at, scales=scales, profile=solution.profile)
+        solution = solution.drawn_at({**solution.scales, kind: own})
     picture, *_ = plan_grid(solution, kind, chosen, manner.words.say)
     title = manner.entry.title or manner.words.sheets.views[kind.value][1]
     said = [scale_inscription(solution.scales[kind], solution.problem.scales.convention,

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from types import MappingProxyType
 
-from planmethod.construct.scale import Scale
 from planmethod.note.narrate.formulas import knot_letter, view_name
 from planmethod.note.narrate.letters import shown_letters
 from planmethod.note.narrate.scales import common_scale
@@ -13,7 +12,7 @@ from planmethod.note.numbers import is_nothing
 from planmethod.note.plaintext import plain_text
 from planmethod.plans.model import PlanKind
 from planmethod.record import dataclass
-from planmethod.render.ink.drawing import Arc, Disc, Item, Span, View
+from planmethod.render.ink.drawing import Arc, Disc, Item, Span
 from planmethod.render.ink.typeset import typeset
 from planmethod.render.layout.block import Block, Column, Line, Row, shaped
 from planmethod.render.pictures.ellipses import ellipse_inscription
@@ -26,46 +25,13 @@ from planmethod.render.pictures.planview import (
 )
 from planmethod.render.pictures.schemeview import scheme_picture
 from planmethod.render.pictures.traces import shown_traces
+from planmethod.render.sheets.composer import Viewed
 from planmethod.render.sheets.model import Manner
 from planmethod.solved.clearest import clearest_position
 from planmethod.solved.enlarging import least_shown
 from planmethod.solved.solution import Solution
 
 NO_VIEWS: Mapping[int, complex] = MappingProxyType({})
-
-
-@dataclass(frozen=True)
-class Viewed:
-    """A view among the blocks of a sheet (вид), of a kind and in a scale: a scheme, a diagram."""
-
-    block: Block
-    name: str
-    scale: Scale
-
-    @property
-    def width(self) -> float:
-        """Width, mm."""
-        return self.block.width
-
-    @property
-    def height(self) -> float:
-        """Height, mm."""
-        return self.block.height
-
-    def place(self, corner: complex) -> list[Item]:
-        """Return the items of the view."""
-        return self.block.place(corner)
-
-    def view(self, items: Sequence[Item], corner: complex) -> View:
-        """Return what is told of the view whose items were placed at a corner."""
-        box = (corner.real, corner.imag - self.height, corner.real + self.width, corner.imag)
-        letter = self.scale.symbol.removeprefix("mu_")
-        spans = tuple(self.spans(items))
-        return View(self.name, box, f"μ_{{{letter}}}", self.scale.per_mm, spans)
-
-    def spans(self, items: Sequence[Item]) -> Iterable[Span]:
-        """Return the segments that are measured on the view, whose items were placed."""
-        return ()
 
 
 @dataclass(frozen=True)
@@ -77,7 +43,7 @@ class PlanViewed(Viewed):
     indices: tuple[int, ...]
     by_hand: bool = False
 
-    def spans(self, items: Sequence[Item]) -> Iterable[Span]:
+    def spans(self, items: Sequence[Item], corner: complex) -> Iterable[Span]:
         """Return the segments of the plans."""
         poles = [item.centre for item in items if isinstance(item, Disc) and item.tag == POLE]
         views = {

@@ -299,11 +299,7 @@ class Diagrams(Remembering):
         None where there are no plans in some position, or the crank stands still.
         """
         turn = self.turn
-        solution = Solution(
-            turn.solution.problem,
-            positions=turn.at(self.shares[:-1]).tolist(),
-            profile=turn.solution.profile,
-        )
+        solution = turn.solution.moved(turn.at(self.shares[:-1]).tolist()).filling(None)
         if self.mu_v is None or self.mu_a is None:
             return None
         exact = turn.output.rates(solution, solution.read(Float64()))

@@ -20,7 +20,7 @@ from planmethod.errors import Fault, ProblemError
 from planmethod.languages import say
 from planmethod.plans.model import PlanKind
 from planmethod.problem.model import CycleTask, Zero
-from planmethod.record import dataclass, replace
+from planmethod.record import dataclass
 from planmethod.solved.closings import drive_data
 from planmethod.solved.reading import Flags, Reading, Reals, Remembering, remembered
 from planmethod.solved.solution import Solution
@@ -100,11 +100,7 @@ class Turn(Remembering):
         self.solution = solution
         self.task = problem.cycle or CycleTask()
         self.sense = -1 if problem.drive.rate < 0 else 1
-        self.unit = Solution(
-            replace(
-                problem, drive=replace(problem.drive, rate=1.0, acceleration=0.0), dynamics=None
-            )
-        )
+        self.unit = solution.moved(problem.drive.positions).at_unit_rate()
         self.output: Output = find_output(self.unit)
 
     # Readings ------------------------------------------------------------------------------------

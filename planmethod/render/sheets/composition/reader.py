@@ -7,6 +7,7 @@ from pathlib import Path
 
 from planmethod.errors import CompositionError, LayoutError, ProblemError
 from planmethod.languages import LANGUAGES, say
+from planmethod.paper import BASIC, paper_format
 from planmethod.plans.model import PlanKind
 from planmethod.problem.fields import (
     Faults,
@@ -17,8 +18,8 @@ from planmethod.problem.fields import (
 )
 from planmethod.problem.names import joined, near_hint, segment, short
 from planmethod.problem.source import parse, read_source
-from planmethod.render.frame.frame import paper_format
 from planmethod.render.layout.cuttings import Arrange
+from planmethod.render.sheets.composer import Sizes
 from planmethod.render.sheets.composition.entries import GROUP, GROUP_DEPTH, OF, read_entries
 from planmethod.render.sheets.composition.values import (
     read_choice,
@@ -29,7 +30,7 @@ from planmethod.render.sheets.composition.values import (
     read_switch,
 )
 from planmethod.render.sheets.compositions import SHIPPED, shipped_text
-from planmethod.render.sheets.model import FORMATS, Composition, Entry, Sizes
+from planmethod.render.sheets.model import Composition, Entry
 
 TOP = (
     "about",
@@ -149,7 +150,7 @@ def _read_sizes(faults: Faults, value: object, *, whole: bool) -> dict[str, Size
     """Read the sizes by format; what is left out is as in the first shipped composition."""
     sizes = {} if whole else dict(shipped(SHIPPED[0]).sizes)
     table = read_table(faults, "sizes", value, "A2 = { text = 5 }") or {}
-    for name, asked in read_keys(faults, "sizes", table, FORMATS).items():
+    for name, asked in read_keys(faults, "sizes", table, BASIC).items():
         path = f"sizes.{name}"
         given = read_keys(faults, path, read_table(faults, path, asked) or {}, SIZES)
         known = sizes.get(name)

@@ -1,0 +1,358 @@
+"""One composer of sheets (компоновка листов): what a kind proposes is put on paper and framed.
+
+Every kind of problem has a `Strategy`, which knows in what order papers, scales and blocks are to
+be tried. The composer takes the first proposal that has room, draws its pages with frame and title
+block, and says what to do where nothing has room.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from types import MappingProxyType
+from typing import Protocol, TypeAlias
+
+from planmethod.construct.scale import Scale, next_scale
+from planmethod.errors import LayoutError
+from planmethod.languages import say
+from planmethod.paper import BASIC, Format, paper_format
+from planmethod.plans.model import PlanKind
+from planmethod.problem.head import KindProblem
+from planmethod.problem.model import Scales
+from planmethod.record import dataclass, replace
+from planmethod.render.frame.frame import sheet_frame
+from planmethod.render.frame.furniture import Furniture, Room
+from planmethod.render.frame.titleblock import merged
+from planmethod.render.ink.drawing import Bounds, Drawing, Item, Span, View
+from planmethod.render.ink.lettering import lettering, using
+from planmethod.render.layout.block import Block
+from planmethod.render.layout.cuttings import Group
+from planmethod.render.layout.pack import Placed, pack
+
+Box: TypeAlias = tuple[float, float]
+
+
+@dataclass(frozen=True, slots=True)
+class Sizes:
+    """Letter heights and widths of a sheet, mm (высота шрифта, ширина столбца).
+
+    ``letter``: letters of views; ``title``: names of views; ``text``: everything else;
+    ``column``: the width that texts are set to; ``row``: height of the rows of tables, where it is
+    not the rule; ``boxes``: what the views shall fill, where it is not the rule of the format.
+    """
+
+    letter: float
+    title: float
+    text: float
+    column: float
+    row: float = 7.0
+    boxes: tuple[tuple[PlanKind, Box], ...] = ()
+
+    def parts(self, share: float) -> Sizes:
+        """Return the sizes with columns and boxes a part as wide and high."""
+        boxes = tuple((kind, (share * wide, share * high)) for kind, (wide, high) in self.boxes)
+        return replace(self, column=share * self.column, boxes=boxes)
+
+
+@dataclass(frozen=True)
+class Viewed:
+    """A view among the blocks of a sheet (вид), of a kind and in a scale: a scheme, a diagram."""
+
+    block: Block
+    name: str
+    scale: Scale | None
+
+    @property
+    def width(self) -> float:
+        """Width, mm."""
+        return self.block.width
+
+    @property
+    def height(self) -> float:
+        """Height, mm."""
+        return self.block.height
+
+    def place(self, corner: complex) -> list[Item]:
+        """Return the items of the view."""
+        return self.block.place(corner)
+
+    def views(self, items: Sequence[Item], corner: complex) -> list[View]:
+        """Return what is known of the view, or the views, whose items were placed at a corner."""
+        box = (corner.real, corner.imag - self.height, corner.real + self.width, corner.imag)
+        return [view_of(self.name, self.scale, box, self.spans(items, corner))]
+
+    def spans(self, items: Sequence[Item], corner: complex) -> Iterable[Span]:
+        """Return the segments that are measured on the view, whose items were placed."""
+        return ()
+
+
+def view_of(name: str, scale: Scale | None, box: Bounds, spans: Iterable[Span]) -> View:
+    """Return what is known of a view in a box of the sheet."""
+    if scale is None:
+        return View(name, box)
+    letter = scale.symbol.removeprefix("mu_")
+    return View(name, box, f"μ_{{{letter}}}", scale.per_mm, tuple(spans))
+
+
+@dataclass(frozen=True, slots=True)
+class Blank:
+    """Paper that sheets are tried on; ``is_asked`` tells that no other may be taken."""
+
+    format: Format
+    furniture: Furniture
+    is_asked: bool = False
+
+    @property
+    def name(self) -> str:
+        """Name of the format."""
+        return self.format.name
+
+    def room(self, number: int = 1) -> Room:
+        """Return the room of the sheet of a number, counted from 1."""
+        return self.furniture.room(self.format, number)
+
+    def continued(self, name: str) -> Room:
+        """Return the room of a sheet of another format that goes on, with the small title block."""
+        return replace(self.furniture, form=SMALL).room(paper_format(name), 2)
+
+
+SMALL = "2a"
+"""Form of the title block of sheets that go on with what the one before had no room for."""
+
+Tried: TypeAlias = tuple[bool, int, int]
+"""What was given up: blocks left out, letter heights passed over, groups taken apart."""
+
+
+@dataclass(frozen=True, slots=True)
+class LaidPage:
+    """Blocks of one sheet with their upper left corners.
+
+    ``title`` is its name, if it has one of its own. ``paper`` is the format of a sheet that goes on
+    with what was left out.
+    """
+
+    placed: Sequence[Placed]
+    title: str = ""
+    tried: Tried = (False, 0, 0)
+    paper: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Laid:
+    """Sheets that have room, and the scales of their views, units per mm by name."""
+
+    pages: Sequence[LaidPage]
+    scales: Mapping[str, float] = MappingProxyType({})
+
+    def is_as_good_as(self, other: Laid) -> bool:
+        """Tell whether no more pages are taken, and nothing more is given up on them."""
+        pairs = zip(self.pages, other.pages, strict=False)
+        same = len(self.pages) == len(other.pages)
+        return same and all(one.tried <= two.tried for one, two in pairs)
+
+
+class Proposal(Protocol):
+    """Blocks at certain scales for a paper."""
+
+    @property
+    def paper(self) -> Blank:
+        """What they are for."""
+
+    def laid(self) -> Laid | None:
+        """Return the sheets, or None where the blocks have no room on the paper."""
+
+
+class Strategy(Protocol):
+    """How sheets of a kind of problem are searched for (стратегия компоновки)."""
+
+    @property
+    def formats(self) -> Sequence[str]:
+        """Formats to try in turn where none is asked for."""
+
+    @property
+    def has_scales(self) -> bool:
+        """Whether the file gives scales, which may be too fine."""
+
+    def proposals(self, papers: Sequence[Blank]) -> Iterator[Proposal]:
+        """Yield what is to be tried, the best first."""
+
+    def misfit(self, paper: str, advice: str) -> LayoutError:
+        """Return the error that says what does not fit a paper, and what can be done."""
+
+    @property
+    def less(self) -> str:
+        """What to ask less of where there is no larger paper."""
+
+
+@dataclass(frozen=True, slots=True)
+class Packing:
+    """Blocks in reading order for a paper, a group for each sheet (`Proposal`)."""
+
+    paper: Blank
+    groups: Sequence[Group]
+    tried: Tried = (False, 0, 0)
+    scales: Mapping[str, float] = MappingProxyType({})
+
+    def laid(self) -> Laid | None:
+        """Return the sheets, or None where a group has no room on its own."""
+        pages = []
+        for number, group in enumerate(self.groups, 1):
+            placed = packed(group, self.paper.room(number))
+            if placed is None:
+                return None
+            pages.append(LaidPage(placed, tried=self.tried))
+        return Laid(pages, self.scales)
+
+
+def packed(group: Group, room: Room) -> list[Placed] | None:
+    """Return blocks in reading order with their upper left corners, or None without room."""
+    left, low, right, high = room.inner
+    parts = [[(way.width, way.height) for way in part.ways] for part in group.parts()]
+    if sum(min(wide * tall for wide, tall in ways) for ways in parts) > free_area(room):
+        return None
+    if not all(any(w < right - left and h < high - low for w, h in ways) for ways in parts):
+        return None
+    return pack(group, room.inner, room.stamp, room.taken)
+
+
+def free_area(room: Room) -> float:
+    """Return how much of a sheet is free for blocks, mm²."""
+    left, low, right, high = room.inner
+    stamp = (room.stamp[2] - room.stamp[0]) * (room.stamp[3] - room.stamp[1])
+    return (right - left) * (high - low) - stamp
+
+
+def enlarged(
+    laid: Laid,
+    turns: Iterable[str],
+    asked: Scales,
+    draw: Callable[[Mapping[str, float]], Laid | None],
+) -> Laid:
+    """Return sheets with scales as large as they bear (увеличение масштаба по свободному полю).
+
+    Parameters
+    ----------
+    laid : Laid
+        The sheets as they are, with the scales that are free.
+    turns : iterable of str
+        Which scale is tried to go on by a member of the series, in turn.
+    asked : Scales
+        Those of the file, which say what round numbers are.
+    draw : callable
+        Draws the sheets at other scales; None when they do not fit.
+
+    Notes
+    -----
+    A larger view is accepted when it takes no more pages, no smaller letters and no groups apart.
+    """
+    refused = set()
+    for key in turns:
+        finer = next_scale(laid.scales[key], finer=True, mm_per_unit=asked.in_mm_per_unit)
+        wish = {**laid.scales, key: finer}
+        if tuple(wish.values()) in refused:
+            continue
+        tried = draw(wish)
+        if tried is not None and tried.is_as_good_as(laid):
+            laid = replace(tried, scales=wish)
+        else:
+            refused.add(tuple(wish.values()))
+    return laid
+
+
+def compose(
+    problem: KindProblem,
+    strategy: Strategy,
+    *,
+    fields: Mapping[str, str] | None = None,
+    furniture: Furniture | None = None,
+    title: str = "",
+) -> list[Drawing]:
+    """Return the sheets of a problem as drawings with frame and title block.
+
+    Parameters
+    ----------
+    problem : KindProblem
+        Its settings of the sheet, and its title block.
+    strategy : Strategy
+    fields : mapping, optional
+        Texts of the title block that outrank the file's.
+    furniture : Furniture, optional
+        Form of the title block and additional graphs; the file's when absent.
+    title : str
+        What the sheets are called where the file does not say.
+
+    Raises
+    ------
+    LayoutError
+        When the blocks fit no format, or not the asked one.
+    """
+    paper, laid = composed(problem, strategy, furniture or Furniture.of(problem.sheet))
+    with using(lettering(problem.sheet.lettering or "B")):
+        return [
+            _drawn(problem, paper, page, number, len(laid.pages), fields or {}, title)
+            for number, page in enumerate(laid.pages, 1)
+        ]
+
+
+def composed(problem: KindProblem, strategy: Strategy, furniture: Furniture) -> tuple[Blank, Laid]:
+    """Return the first of the proposals that has room, and its paper.
+
+    Raises
+    ------
+    LayoutError
+        When there is none.
+    """
+    asked = problem.sheet.paper
+    papers = [
+        Blank(paper_format(name), furniture, asked is not None)
+        for name in ([asked] if asked else strategy.formats)
+    ]
+    with using(lettering(problem.sheet.lettering or "B")):
+        for proposal in strategy.proposals(papers):
+            laid = proposal.laid()
+            if laid is not None:
+                return proposal.paper, laid
+    raise strategy.misfit(papers[-1].name, advice(strategy, papers[-1]))
+
+
+def advice(strategy: Strategy, tried: Blank) -> str:
+    """Return what to do where nothing fits a paper: coarser scales, larger paper, or less."""
+    if strategy.has_scales:
+        return say("Take coarser scales in [scales], or leave them out.")
+    sides = sorted((tried.format.width, tried.format.height))
+    for name in (*strategy.formats, *BASIC):
+        larger = paper_format(name)
+        short, long = sorted((larger.width, larger.height))
+        if short >= sides[0] and long >= sides[1] and short * long > sides[0] * sides[1]:
+            if tried.is_asked and name in strategy.formats:
+                return say("Take --paper {}, or leave it out.", name)
+            return say("Take --paper {}.", name)
+    return strategy.less
+
+
+def _drawn(
+    problem: KindProblem,
+    paper: Blank,
+    page: LaidPage,
+    number: int,
+    count: int,
+    fields: Mapping[str, str],
+    title: str,
+) -> Drawing:
+    """Return a page as a drawing."""
+    fmt, furniture = paper.format, paper.furniture
+    title = title or problem.title
+    layers = ({"title": page.title} if page.title else {}, fields)
+    numbers = furniture.numbers(number, count)
+    texts = merged({"title": title, "sheets": "1"}, problem.stamp, numbers, *layers)
+    if page.paper:
+        fmt, furniture = paper_format(page.paper), replace(furniture, form=SMALL)
+    drawing = Drawing(fmt.width, fmt.height, texts.get("title", title))
+    drawing.extend(sheet_frame(fmt, texts, furniture, sheet=number).items)
+    for block, corner in page.placed:
+        items = block.place(corner)
+        drawing.extend(items)
+        if isinstance(block, Viewed):
+            drawing.views.extend(block.views(items, corner))
+    drawing.is_cut_down, *_ = page.tried
+    drawing.goes_on = bool(page.paper)
+    return drawing
