@@ -33,7 +33,15 @@ from planmethod.render.layout.cuttings import Group, Part
 from planmethod.render.layout.equations import formula_block
 from planmethod.render.layout.tables import TableColumn, table_block
 from planmethod.render.pictures.lettered import lettered
-from planmethod.render.sheets.composer import Blank, Packing, Sizes, Viewed, compose, view_of
+from planmethod.render.sheets.composer import (
+    Blank,
+    Misfit,
+    Packing,
+    Sizes,
+    Viewed,
+    compose,
+    view_of,
+)
 
 TARGETS = (210.0, 165.0, 130.0, 105.0, 85.0, 65.0)
 """Heights of the scheme, mm, that scales of the sheet's own aim at."""
@@ -90,9 +98,17 @@ def drawings(
     LayoutError
         It does not fit the paper.
     """
-    strategy = _Train(problem, solve_motion(problem), profile)
+    motion = solve_motion(problem)
+    wheels = len(motion.train.wheels)
+    misfit = Misfit(
+        lambda paper, advice: LayoutError(
+            "{}: the sheet of {} wheels does not fit {}. {}", problem.name, wheels, paper, advice
+        ),
+        say("Ask for less in gears.ask."),
+    )
+    strategy = _Train(problem, motion, profile)
     furniture = Furniture.of(problem.sheet, before=before, total=total)
-    return compose(problem, strategy, fields=fields, furniture=furniture)
+    return compose(problem, strategy, misfit, fields=fields, furniture=furniture)
 
 
 @dataclass(frozen=True, slots=True)
@@ -104,22 +120,6 @@ class _Train:
     profile: Profile
 
     formats = TRIED
-    has_scales = False
-
-    @property
-    def less(self) -> str:
-        """What to ask less of."""
-        return say("Ask for less in gears.ask.")
-
-    def misfit(self, paper: str, advice: str) -> LayoutError:
-        """Return the error of a sheet that does not fit."""
-        return LayoutError(
-            "{}: the sheet of {} wheels does not fit {}. {}",
-            self.problem.name,
-            len(self.motion.train.wheels),
-            paper,
-            advice,
-        )
 
     def proposals(self, papers: Sequence[Blank]) -> Iterator[Packing]:
         """Yield the blocks at a scale in several orders of reading, paper by paper."""

@@ -43,6 +43,7 @@ from planmethod.render.pictures.planview import POLE
 from planmethod.render.sheets.composer import (
     Blank,
     Laid,
+    Misfit,
     Packing,
     Sizes,
     Viewed,
@@ -98,23 +99,6 @@ class _Point:
     made: dict[tuple[object, ...], Block] = field(default_factory=dict)
 
     formats = TRIED
-
-    @property
-    def has_scales(self) -> bool:
-        """Whether the file gives scales."""
-        mu = self.problem.scales
-        return any(given is not None for given in (mu.mu_l, mu.mu_v, mu.mu_a))
-
-    @property
-    def less(self) -> str:
-        """What to ask less of."""
-        return say("Ask fewer moments, or a shorter show.")
-
-    def misfit(self, paper: str, advice: str) -> LayoutError:
-        """Return the error of a motion that does not fit."""
-        return LayoutError(
-            "{}: the motion of the point does not fit {}. {}", self.problem.name, paper, advice
-        )
 
     def proposals(self, papers: Sequence[Blank]) -> Iterator[_Sheets]:
         """Yield scales and widths of the texts, for one sheet, then for several of the asked one.
@@ -362,16 +346,27 @@ def drawings(
     """
     furniture = Furniture.of(problem.sheet, before=before, total=total)
     strategy, title = _strategy(problem, course_of(problem), profile), problem.title or problem.name
-    return compose(problem, strategy, fields=fields, furniture=furniture, title=title)
+    misfit = _misfit(problem)
+    return compose(problem, strategy, misfit, fields=fields, furniture=furniture, title=title)
 
 
 def sheet_scales(problem: PointProblem, course: Course, profile: Profile) -> dict[str, Scale]:
     """Return the scales that the sheet is drawn at, by ``l``, ``v``, ``a``."""
     strategy = _strategy(problem, course, profile)
-    _, laid = composed(problem, strategy, Furniture.of(problem.sheet))
+    _, laid = composed(problem, strategy, _misfit(problem), Furniture.of(problem.sheet))
     usual = strategy.scales(1.0)
     return {key: replace(usual[key], per_mm=mu) for key, mu in laid.scales.items()}
 
 
 def _strategy(problem: PointProblem, course: Course, profile: Profile) -> _Point:
     return _Point(problem, course, profile, language(problem.sheet.lang or LANGUAGES[0]))
+
+
+def _misfit(problem: PointProblem) -> Misfit:
+    return Misfit(
+        lambda paper, advice: LayoutError(
+            "{}: the motion of the point does not fit {}. {}", problem.name, paper, advice
+        ),
+        say("Ask fewer moments, or a shorter show."),
+        problem.scales,
+    )

@@ -130,14 +130,7 @@ class Solution(Remembering):
 
     def moved(self, positions: Sequence[float]) -> Solution:
         """Return the same mechanism, assembled in the same way, in other positions."""
-        return Solution(
-            self.problem,
-            positions=positions,
-            profile=self.profile,
-            views=self._views,
-            scales=self._scales,
-            construction=self.construction,
-        )
+        return self._alike(positions=positions)
 
     def filling(self, views: Views | None, scales: Scales | None = None) -> Solution:
         """Return the same mechanism in the same positions with plans that fill other views.
@@ -145,37 +138,38 @@ class Solution(Remembering):
         ``scales`` are those that are given; the problem's when absent.
         """
         problem = self.problem if scales is None else replace(self.problem, scales=scales)
-        return self._redrawn(problem, views, None)
+        return self._redrawn(problem=problem, views=views, scales=None)
 
     def drawn_at(self, scales: Mapping[PlanKind, Scale]) -> Solution:
         """Return the same mechanism in the same positions with plans at certain scales."""
-        return self._redrawn(self.problem, None, scales)
+        return self._redrawn(views=None, scales=scales)
 
     def at_unit_rate(self) -> Solution:
         """Return the same mechanism without loads, its driver at one radian (or metre) a second."""
         drive = self.problem.drive
         even = replace(drive, rate=1.0, acceleration=0.0)
-        return Solution(
-            replace(self.problem, drive=even, dynamics=None),
-            positions=self.positions.tolist(),
-            # The plans of a crank that turns evenly have fewer steps.
-            construction=None if drive.acceleration else self.construction,
-        )
+        problem = replace(self.problem, drive=even, dynamics=None)
+        # The plans of a crank that turns evenly have fewer steps.
+        construction = None if drive.acceleration else self.construction
+        return self._alike(problem=problem, views=None, scales=None, construction=construction)
 
-    def _redrawn(
-        self, problem: Problem, views: Views | None, scales: Mapping[PlanKind, Scale] | None
-    ) -> Solution:
-        other = Solution(
-            problem,
-            positions=self.positions.tolist(),
-            profile=self.profile,
-            views=views,
-            scales=scales,
-            construction=self.construction,
-        )
+    def _redrawn(self, **changed: Any) -> Solution:
+        other = self._alike(**changed)
         if "si" in vars(self):
             other.si = self.si  # no scale changes what is exact
         return other
+
+    def _alike(self, **changed: Any) -> Solution:
+        """Return another solution of the same construction."""
+        same: dict[str, Any] = {
+            "problem": self.problem,
+            "positions": self.positions,
+            "profile": self.profile,
+            "views": self._views,
+            "scales": self._scales,
+            "construction": self.construction,
+        }
+        return Solution(**(same | changed))
 
     @property
     def structure(self) -> Structure:

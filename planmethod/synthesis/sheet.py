@@ -36,7 +36,16 @@ from planmethod.render.layout.cuttings import Group, Part
 from planmethod.render.layout.pack import Placed
 from planmethod.render.layout.tables import TableColumn, table_block
 from planmethod.render.pictures.lettered import lettered
-from planmethod.render.sheets.composer import Blank, Laid, LaidPage, Sizes, Viewed, compose, packed
+from planmethod.render.sheets.composer import (
+    Blank,
+    Laid,
+    LaidPage,
+    Misfit,
+    Sizes,
+    Viewed,
+    compose,
+    packed,
+)
 from planmethod.render.sheets.texts import NBSP
 from planmethod.synthesis.drawn import Drawn, arc_over
 from planmethod.synthesis.model import place
@@ -76,7 +85,13 @@ def synthesis_sheet(
     """
     words = language(problem.sheet.lang or LANGUAGES[0])
     strategy = _Synthesis(drawn, asked, checks, words)
-    (sheet,) = compose(problem, strategy, fields=fields)
+    misfit = Misfit(
+        lambda paper, advice: LayoutError(
+            "{}: the construction does not fit {}. {}", drawn.synthesis.kind, paper, advice
+        ),
+        say("Take another --paper."),
+    )
+    (sheet,) = compose(problem, strategy, misfit, fields=fields)
     return sheet
 
 
@@ -90,17 +105,6 @@ class _Synthesis:
     words: Language
 
     formats = ("A3",)
-    has_scales = False
-
-    @property
-    def less(self) -> str:
-        """What to ask less of."""
-        return say("Take another --paper.")
-
-    def misfit(self, paper: str, advice: str) -> LayoutError:
-        """Return the error of a construction that does not fit."""
-        kind = self.drawn.synthesis.kind
-        return LayoutError("{}: the construction does not fit {}. {}", kind, paper, advice)
 
     def proposals(self, papers: Sequence[Blank]) -> Iterator[_Orders]:
         """Yield the blocks at letters and scales; the steps are left out at last."""

@@ -29,7 +29,7 @@ from planmethod.render.layout.block import Block, Column, Picture, heading, para
 from planmethod.render.layout.cuttings import GAP, Group, Part
 from planmethod.render.layout.pack import EDGE
 from planmethod.render.layout.tables import TableColumn, table_block
-from planmethod.render.sheets.composer import Blank, Packing, Sizes, Viewed, compose
+from planmethod.render.sheets.composer import Blank, Misfit, Packing, Sizes, Viewed, compose
 
 if TYPE_CHECKING:
     from planmethod.construct.drafting import Profile
@@ -69,9 +69,18 @@ def drawings(
     """
     words = language(problem.sheet.lang or LANGUAGES[0])
     furniture = Furniture.of(problem.sheet, before=before, total=total)
+    misfit = Misfit(
+        lambda paper, advice: LayoutError(
+            "{}: the meshing, its contour, its diagram and its tables do not fit {}. {}",
+            problem.name,
+            paper,
+            advice,
+        ),
+        say("Take another --paper."),
+    )
     strategy = _Meshing(Solved(problem), words)
     title = problem.title or words.meshing.sheet
-    return compose(problem, strategy, fields=fields, furniture=furniture, title=title)
+    return compose(problem, strategy, misfit, fields=fields, furniture=furniture, title=title)
 
 
 @dataclass(frozen=True, slots=True)
@@ -82,21 +91,6 @@ class _Meshing:
     words: Language
 
     formats = ("A1",)
-    has_scales = False
-
-    @property
-    def less(self) -> str:
-        """What to ask less of."""
-        return say("Take another --paper.")
-
-    def misfit(self, paper: str, advice: str) -> LayoutError:
-        """Return the error of a mesh that does not fit."""
-        return LayoutError(
-            "{}: the meshing, its contour, its diagram and its tables do not fit {}. {}",
-            self.solved.problem.name,
-            paper,
-            advice,
-        )
 
     def proposals(self, papers: Sequence[Blank]) -> Iterator[Packing]:
         """Yield the blocks at sizes that have room for the tables."""

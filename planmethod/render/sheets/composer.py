@@ -168,19 +168,36 @@ class Strategy(Protocol):
     def formats(self) -> Sequence[str]:
         """Formats to try in turn where none is asked for."""
 
-    @property
-    def has_scales(self) -> bool:
-        """Whether the file gives scales, which may be too fine."""
-
     def proposals(self, papers: Sequence[Blank]) -> Iterator[Proposal]:
         """Yield what is to be tried, the best first."""
 
-    def misfit(self, paper: str, advice: str) -> LayoutError:
-        """Return the error that says what does not fit a paper, and what can be done."""
 
-    @property
-    def less(self) -> str:
-        """What to ask less of where there is no larger paper."""
+@dataclass(frozen=True, slots=True)
+class Misfit:
+    """What is said where nothing has room on any paper.
+
+    ``error`` is that of a paper and an advice; ``less`` says what to ask less of where there is no
+    larger paper; ``scales`` are those of the file, which may be too fine.
+    """
+
+    error: Callable[[str, str], LayoutError]
+    less: str
+    scales: Scales | None = None
+
+    def advice(self, formats: Sequence[str], tried: Blank) -> str:
+        """Return what to do: take coarser scales, a larger paper than the tried one, or less."""
+        given = self.scales
+        if given and any(mu is not None for mu in (given.mu_l, given.mu_v, given.mu_a)):
+            return say("Take coarser scales in [scales], or leave them out.")
+        sides = sorted((tried.format.width, tried.format.height))
+        for name in (*formats, *BASIC):
+            larger = paper_format(name)
+            short, long = sorted((larger.width, larger.height))
+            if short >= sides[0] and long >= sides[1] and short * long > sides[0] * sides[1]:
+                if tried.is_asked and name in formats:
+                    return say("Take --paper {}, or leave it out.", name)
+                return say("Take --paper {}.", name)
+        return self.less
 
 
 @dataclass(frozen=True, slots=True)
@@ -261,6 +278,7 @@ def enlarged(
 def compose(
     problem: KindProblem,
     strategy: Strategy,
+    misfit: Misfit,
     *,
     fields: Mapping[str, str] | None = None,
     furniture: Furniture | None = None,
@@ -273,6 +291,8 @@ def compose(
     problem : KindProblem
         Its settings of the sheet, and its title block.
     strategy : Strategy
+    misfit : Misfit
+        What to say where nothing has room.
     fields : mapping, optional
         Texts of the title block that outrank the file's.
     furniture : Furniture, optional
@@ -285,7 +305,7 @@ def compose(
     LayoutError
         When the blocks fit no format, or not the asked one.
     """
-    paper, laid = composed(problem, strategy, furniture or Furniture.of(problem.sheet))
+    paper, laid = composed(problem, strategy, misfit, furniture or Furniture.of(problem.sheet))
     with using(lettering(problem.sheet.lettering or "B")):
         return [
             _drawn(problem, paper, page, number, len(laid.pages), fields or {}, title)
@@ -293,7 +313,9 @@ def compose(
         ]
 
 
-def composed(problem: KindProblem, strategy: Strategy, furniture: Furniture) -> tuple[Blank, Laid]:
+def composed(
+    problem: KindProblem, strategy: Strategy, misfit: Misfit, furniture: Furniture
+) -> tuple[Blank, Laid]:
     """Return the first of the proposals that has room, and its paper.
 
     Raises
@@ -311,22 +333,8 @@ def composed(problem: KindProblem, strategy: Strategy, furniture: Furniture) -> 
             laid = proposal.laid()
             if laid is not None:
                 return proposal.paper, laid
-    raise strategy.misfit(papers[-1].name, advice(strategy, papers[-1]))
-
-
-def advice(strategy: Strategy, tried: Blank) -> str:
-    """Return what to do where nothing fits a paper: coarser scales, larger paper, or less."""
-    if strategy.has_scales:
-        return say("Take coarser scales in [scales], or leave them out.")
-    sides = sorted((tried.format.width, tried.format.height))
-    for name in (*strategy.formats, *BASIC):
-        larger = paper_format(name)
-        short, long = sorted((larger.width, larger.height))
-        if short >= sides[0] and long >= sides[1] and short * long > sides[0] * sides[1]:
-            if tried.is_asked and name in strategy.formats:
-                return say("Take --paper {}, or leave it out.", name)
-            return say("Take --paper {}.", name)
-    return strategy.less
+    advice = misfit.advice(strategy.formats, papers[-1])
+    raise misfit.error(papers[-1].name, advice)
 
 
 def _drawn(

@@ -17,7 +17,7 @@ from planmethod.problem.model import Problem, Scales
 from planmethod.record import dataclass, replace
 from planmethod.render.frame.furniture import Furniture
 from planmethod.render.ink.drawing import Drawing
-from planmethod.render.sheets.composer import Blank, Laid, LaidPage, compose, enlarged
+from planmethod.render.sheets.composer import Blank, Laid, LaidPage, Misfit, compose, enlarged
 from planmethod.render.sheets.composition.reader import composition
 from planmethod.render.sheets.compositions import SHIPPED
 from planmethod.render.sheets.model import Composition, Extras
@@ -89,7 +89,14 @@ def kinematics_sheets(
     _check_positions(made, solution)
     verify(solution)
     strategy = Linkage(made, solution, Extras(words, errors, sigma, made.turn))
-    return compose(problem, strategy, fields=fields, furniture=furniture)
+    misfit = Misfit(
+        lambda paper, advice: LayoutError(
+            "{}: the views do not fit {}. {}", problem.name, paper, advice
+        ),
+        say("Ask fewer positions (--phi), or leave out blocks of the layout."),
+        problem.scales,
+    )
+    return compose(problem, strategy, misfit, fields=fields, furniture=furniture)
 
 
 def _at_the_turn(solution: Solution) -> Solution:
@@ -154,23 +161,6 @@ class Linkage:
         formats = self.layout.formats
         asked = self.solution.problem.sheet.paper
         return formats if asked else formats[formats.index(self.views.paper) :]
-
-    @property
-    def has_scales(self) -> bool:
-        """Whether the file gives scales."""
-        scales = self.solution.problem.scales
-        return any(mu is not None for mu in (scales.mu_l, scales.mu_v, scales.mu_a))
-
-    @property
-    def less(self) -> str:
-        """What to ask less of."""
-        return say("Ask fewer positions (--phi), or leave out blocks of the layout.")
-
-    def misfit(self, paper: str, advice: str) -> LayoutError:
-        """Return the error of views that do not fit."""
-        return LayoutError(
-            "{}: the views do not fit {}. {}", self.solution.problem.name, paper, advice
-        )
 
     def proposals(self, papers: Sequence[Blank]) -> Iterator[OnPaper]:
         """Yield scales and numbers of positions on a sheet, paper by paper.

@@ -24,7 +24,7 @@ from planmethod.render.layout.equations import formula_block
 from planmethod.render.layout.pack import Placed
 from planmethod.render.layout.tables import TableColumn, table_block
 from planmethod.render.pictures.structural import driver_picture, group_picture, mechanism_picture
-from planmethod.render.sheets.composer import Blank, Laid, LaidPage, Sizes, Viewed, compose
+from planmethod.render.sheets.composer import Blank, Laid, LaidPage, Misfit, Sizes, Viewed, compose
 from planmethod.render.sheets.structure_texts import (
     driver_caption,
     formulas,
@@ -113,7 +113,18 @@ def structure_sheet(
     if paper:
         problem = replace(problem, sheet=replace(problem.sheet, paper=paper_format(paper).name))
     words = language(problem.sheet.lang or LANGUAGES[0])
-    (sheet,) = compose(problem, _Structural(problem, structure, words), fields=fields)
+    misfit = Misfit(
+        lambda paper, advice: LayoutError(
+            "{}: the structural analysis of {} links and {} groups does not fit {}. {}",
+            problem.name,
+            structure.moving_links,
+            len(structure.groups),
+            paper,
+            advice,
+        ),
+        say("Draw parts of the mechanism on their own."),
+    )
+    (sheet,) = compose(problem, _Structural(problem, structure, words), misfit, fields=fields)
     return sheet
 
 
@@ -126,23 +137,6 @@ class _Structural:
     words: Language
 
     formats = TRIED
-    has_scales = False
-
-    @property
-    def less(self) -> str:
-        """What to ask less of."""
-        return say("Draw parts of the mechanism on their own.")
-
-    def misfit(self, paper: str, advice: str) -> LayoutError:
-        """Return the error of a structure that does not fit."""
-        return LayoutError(
-            "{}: the structural analysis of {} links and {} groups does not fit {}. {}",
-            self.problem.name,
-            self.structure.moving_links,
-            len(self.structure.groups),
-            paper,
-            advice,
-        )
 
     def proposals(self, papers: Sequence[Blank]) -> Iterator[_Columns]:
         """Yield two columns for each paper."""
