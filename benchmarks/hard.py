@@ -20,7 +20,7 @@ from planmethod.errors import PlanMethodError
 from planmethod.plans.legend import QuantityKind
 from planmethod.problem import loads
 from planmethod.problem.model import Problem
-from planmethod.solved.results import natural_size
+from planmethod.solved.quantities import natural_size
 from planmethod.solved.selfcheck import SelfCheckError, verify, warnings
 from planmethod.solved.solution import Solution
 from planmethod.solved.trust.accuracy import Refereed, Verdict, examine

@@ -19,7 +19,7 @@ LATE_IN = ("planmethod.commands.", "planmethod.options", "planmethod.render.back
 LATE_OF = {
     "planmethod.cli": "with its libraries, in a process that is settled",
     # Only problems with loads have forces, only some ask for the drafting errors.
-    "planmethod.solved.selected.forces": "forces",
+    "planmethod.solved.selectors.forces": "forces",
     "planmethod.note.narrate.forces": "forces",
     "planmethod.note.audit": "printed values",
     "planmethod.note.tables.causes": "drafting errors",

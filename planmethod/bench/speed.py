@@ -21,7 +21,7 @@ from planmethod.plans.legend import ZERO, Quantity, QuantityKind
 from planmethod.problem.model import Problem
 from planmethod.record import dataclass
 from planmethod.solved.many.sweep import FEW, Sweep
-from planmethod.solved.results import results_of
+from planmethod.solved.quantities import quantities_of
 from planmethod.solved.selfcheck import verify
 from planmethod.solved.solution import Solution
 
@@ -124,7 +124,7 @@ def spread(count: int, judged: int = JUDGED) -> Array:
 def _right(problem: Problem, results: Sequence[Quantity], position: float) -> list[Number]:
     """Return results of one position by the referee."""
     solution = Solution(problem, positions=[position])
-    whole = results_of(solution.construction)
+    whole = quantities_of(solution.construction)
     program = whole.program.needed_for([result.name for result in results])
     data = {**solution.data(), **whole.numbers}
     referee = Precise(RIGHT)
@@ -135,7 +135,7 @@ def _right(problem: Problem, results: Sequence[Quantity], position: float) -> li
 
 def right_rows(problem: Problem, asked: Sequence[str], positions: Array) -> Array:
     """Return the rows of a sweep, rounded from 60 digits: shape (rows, positions)."""
-    results = results_of(Solution(problem).construction).choose(asked)
+    results = quantities_of(Solution(problem).construction).choose(asked)
     columns = []
     for position in positions:
         column: list[float] = []
@@ -149,7 +149,7 @@ def right_rows(problem: Problem, asked: Sequence[str], positions: Array) -> Arra
 
 def everything(problem: Problem) -> list[str]:
     """Return what a sweep may be asked for, directions as unit vectors."""
-    whole = results_of(Solution(problem).construction)
+    whole = quantities_of(Solution(problem).construction)
     return [r.label for r in whole.all if r.kind is not QuantityKind.DIRECTION]
 
 
@@ -251,7 +251,9 @@ def _read(solution: Solution, arithmetic: Any) -> dict[Any, Number]:
 def _trace_error(problem: Problem, solution: Solution, position: float, arithmetic: Any) -> float:
     """Return the largest error of a result in units of the largest result of its kind."""
     results = [
-        r for r in results_of(solution.construction).all if r.kind not in LINES and r.name != ZERO
+        r
+        for r in quantities_of(solution.construction).all
+        if r.kind not in LINES and r.name != ZERO
     ]
     right = _right(problem, results, position)
     found = _read(solution, arithmetic)

@@ -32,7 +32,7 @@ from planmethod.problem.figures import Figure, Figures
 from planmethod.problem.head import AnswerForm, AskedAnswer, KindProblem
 from planmethod.problem.selector import Selector
 from planmethod.record import replace
-from planmethod.solved.selected.asking import NoAnswer, UnansweredError
+from planmethod.solved.selectors.steps import NoValue, NoValueError
 
 READ = "read"
 """Kind of what is read off a picture."""
@@ -180,11 +180,11 @@ class Calculation(Task):
 
         Raises
         ------
-        UnansweredError
+        NoValueError
         """
         position = written.position or 0
         if not 0 <= position < self.count:
-            raise UnansweredError(NoAnswer.NO_POSITION)
+            raise NoValueError(NoValue.NO_POSITION)
         if (declared := self.stated(written)) is not None:
             return declared
         spelled = {plain(name): name for name in self.figures.names}
@@ -194,7 +194,7 @@ class Calculation(Task):
                 if question is not None:
                     item = self._item(question, position, name)
                     return replace(item, id=written.id or item.id)
-        raise UnansweredError(NoAnswer.NO_WHAT)
+        raise NoValueError(NoValue.NO_WHAT)
 
     def written(self, item: Item, written: Written) -> Written:
         """Return an answer in the unit of its key, its sense as the sign of its number."""

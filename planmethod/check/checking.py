@@ -17,7 +17,7 @@ from planmethod.check.task import Item, Task
 from planmethod.check.tolerance import limit_of
 from planmethod.plans.model import FACTS
 from planmethod.record import replace
-from planmethod.solved.selected.asking import UnansweredError
+from planmethod.solved.selectors.steps import NoValueError
 
 SCALED = {facts.scale for facts in FACTS.values() if facts.scale}
 
@@ -40,7 +40,7 @@ def check(task: Task, work: Work, also: Sequence[Item] = ()) -> Checked:
         name = written.id or written.what
         try:
             item = task.find(written)
-        except UnansweredError:
+        except NoValueError:
             judged[number] = Judged(name, Verdict.UNREADABLE, written=written)
             continue
         read = task.written(item, written)

@@ -15,7 +15,7 @@ from planmethod.check.task import Item, Task
 from planmethod.kinds import kind_of, load
 from planmethod.problem import variant_names
 from planmethod.record import dataclass, replace
-from planmethod.solved.selected.asking import UnansweredError
+from planmethod.solved.selectors.steps import NoValueError
 from planmethod.solved.solution import Solution
 
 
@@ -108,7 +108,7 @@ def check_works(
         for written in work.answers:
             try:
                 item = task.find(written)
-            except UnansweredError:
+            except NoValueError:
                 continue
             if not task.declared:
                 asked.setdefault((work.where, name), {}).setdefault(

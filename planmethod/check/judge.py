@@ -21,7 +21,7 @@ from planmethod.construct.evaluate import Trace
 from planmethod.construct.steps import Name, NumberName
 from planmethod.plans.model import FACTS, PlanKind
 from planmethod.record import dataclass
-from planmethod.solved.selected.asking import UnansweredError
+from planmethod.solved.selectors.steps import NoValueError
 
 USABLE = 3.0
 """An earlier number may be off by this factor for others to follow from it (Numbas)."""
@@ -159,7 +159,7 @@ def _foreign(sheet: Sheet, item: Item, written: Written) -> str:
         return ""
     try:
         _, length = sheet.questions.segment(question.plan, written.segment)
-    except UnansweredError:
+    except NoValueError:
         return ""
     return "" if length == question.length else written.segment
 

@@ -19,8 +19,8 @@ from planmethod.problem.selector import FORCES, Selector
 from planmethod.record import dataclass
 from planmethod.solved.errors.drawing import RADIAN
 from planmethod.solved.forces.statics import Statics, statics_of
-from planmethod.solved.selected.asking import COMPONENTS, Asking, NoAnswer, UnansweredError
-from planmethod.solved.selected.forces import ForceQuantities
+from planmethod.solved.selectors.forces import ForceValues
+from planmethod.solved.selectors.steps import COMPONENTS, NoValue, NoValueError, SelectorSteps
 from planmethod.solved.solution import Solution
 
 RATES = ("omega", "epsilon")
@@ -106,20 +106,20 @@ class Questions:
         if solution.problem.dynamics is not None:
             self.statics = statics_of(solution)
             draft = self.statics.board.draft
-        self._asking = Asking(solution, draft.copy())
+        self._selecting = SelectorSteps(solution, draft.copy())
         self._found: dict[Selector, Question] = {}
 
     @property
-    def asking(self) -> Asking:
+    def selecting(self) -> SelectorSteps:
         """The construction with the steps of all that was asked so far."""
-        return self._asking
+        return self._selecting
 
     def question(self, selector: Selector) -> Question:
         """Return a quantity with its steps.
 
         Raises
         ------
-        UnansweredError
+        NoValueError
             When the problem has no such quantity.
         """
         if selector not in self._found:
@@ -129,7 +129,8 @@ class Questions:
     def usual(self) -> Iterator[Selector]:
         """Yield what is asked where nothing is said: velocities, accelerations, ω, ε, forces."""
         construction, kin = self.construction, self.construction.kinematics
-        told = {self._asking.zero, *self.construction.draft.numbers}  # nothing, and the given ones
+        # Nothing, and the given ones.
+        told = {self._selecting.zero, *self.construction.draft.numbers}
         kinds = (
             (QuantityKind.VELOCITY, "v"),
             (QuantityKind.SLIDING, "vs"),
@@ -201,12 +202,12 @@ class Questions:
             if known == selector and ends in values:  # as the plan has it, not computed anew
                 return self._number(selector, values[ends], Sign.SIZE, plan, ends)
         if kind == "vs":
-            name = self._asking.relative("v", *selector.names)
+            name = self._selecting.relative("v", *selector.names)
             between = self._ends(PlanKind.VELOCITY, name)
             return self._number(selector, name, Sign.SIZE, PlanKind.VELOCITY, between)
-        answer = self._asking.answer(selector)
+        answer = self._selecting.select(selector)
         if answer.plan is not None:
-            tail, head = (self._asking.point(answer.plan, name) for name in selector.names)
+            tail, head = (self._selecting.point(answer.plan, name) for name in selector.names)
             between = None if answer.plan is PlanKind.POSITION else (tail, head)
             return self._made(
                 selector, "mm", Sign.SIZE, answer.name, answer.plan, answer.name, between
@@ -223,7 +224,7 @@ class Questions:
         if plan is PlanKind.FORCE:
             assert self.statics is not None
             return self.statics.board.segments
-        return self._asking.segments(plan)
+        return self._selecting.segments(plan)
 
     def _ends(self, plan: PlanKind, name: NumberName) -> Ends | None:
         """Return the segment that a number is the value of."""
@@ -278,8 +279,8 @@ class Questions:
         above = self.question(Selector(selector.kind, selector.names))
         below = self.question(selector.over)
         if above.name is None or below.name is None:
-            raise UnansweredError(NoAnswer.NO_WHAT)
-        name = self._asking.compute((above.name, 1), (below.name, -1))
+            raise NoValueError(NoValue.NO_WHAT)
+        name = self._selecting.compute((above.name, 1), (below.name, -1))
         sign = Sign.SIZE if Sign.SIZE in (above.sign, below.sign) else Sign.STRICT
         return self._made(selector, "", sign, name)
 
@@ -287,9 +288,9 @@ class Questions:
         own, symbol = called(selector)
         if selector.kind == "phi":
             link = selector.names[0]
-            axes = self._asking.draft.axes
+            axes = self._selecting.draft.axes
             if link not in axes:
-                raise UnansweredError(NoAnswer.NO_LINK)
+                raise NoValueError(NoValue.NO_LINK)
             line: LineName = axes[link]
 
             def take(trace: Trace) -> Number:
@@ -308,11 +309,11 @@ class Questions:
 
         Raises
         ------
-        UnansweredError
+        NoValueError
             When no plan has the vector.
         """
         if question.ends is None:
-            raise UnansweredError(NoAnswer.NO_WHAT)
+            raise NoValueError(NoValue.NO_WHAT)
         tail, head = question.ends
 
         def take(trace: Trace) -> Number:
@@ -321,12 +322,12 @@ class Questions:
         own, symbol = f"angle_{question.id}", f"α({question.symbol})"
         return Question(question.selector, own, symbol, "deg", Sign.ANGLE, take, (tail, head))
 
-    def _forces(self) -> ForceQuantities:
-        return ForceQuantities(self.solution, self.position)
+    def _forces(self) -> ForceValues:
+        return ForceValues(self.solution, self.position)
 
     def _force(self, selector: Selector) -> Question:
         forces, kind = self._forces(), selector.kind
-        name = forces.answer(self._asking, selector)
+        name = forces.select(self._selecting, selector)
         first = kind.partition(" ")[0]
         if first in ("arm", "shift"):
             return self._made(selector, "mm", Sign.SIZE, name, PlanKind.POSITION, name)
@@ -353,7 +354,7 @@ class Questions:
             return self._made(selector, "N·m", Sign.SIZE, name)
         ends, way = self._ends(PlanKind.FORCE, name), 1.0
         if ends is None:
-            unit = "N·m" if kind == "load" and name != self._asking.zero else "N"
+            unit = "N·m" if kind == "load" and name != self._selecting.zero else "N"
             plan = PlanKind.FORCE if unit == "N" else None
             return self._made(selector, unit, Sign.SIZE, name, plan)
         if kind == "F":
@@ -366,12 +367,12 @@ class Questions:
 
         Raises
         ------
-        UnansweredError
+        NoValueError
         """
         ends = letters_of(letters, self._lettered(plan))
         if ends is None or plan not in MOTION[1:]:
-            raise UnansweredError(NoAnswer.NO_POINT)
-        return ends, self._asking.segments(plan).length(*ends)
+            raise NoValueError(NoValue.NO_POINT)
+        return ends, self._selecting.segments(plan).length(*ends)
 
     def _lettered(self, plan: PlanKind) -> dict[str, PointName]:
         if plan not in MOTION[1:]:
@@ -381,7 +382,7 @@ class Questions:
         for at, shown in drawn.letters.items():
             for letter in shown.split(", "):
                 found.setdefault(plain(letter), at)
-        motion = self._asking.motion(plan)
+        motion = self._selecting.motion(plan)
         for name, of in motion.named.items():
             found.setdefault(plain(name.lower()), motion.point[of])
         assert drawn.pole is not None

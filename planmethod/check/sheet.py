@@ -91,7 +91,7 @@ class Sheet:
         self.questions, self.asked = questions, tuple(asked)
         self.scales, self.profile = dict(scales), profile
         needs = {name for question in asked for name in question.needs}
-        whole = questions.asking.b.program()
+        whole = questions.selecting.b.program()
         self.program = whole.needed_for(needs)
         self.order = {step.out: number for number, step in enumerate(self.program.steps)}
         self.made: dict[Name, Step] = {step.out: step for step in self.program.steps}
@@ -104,7 +104,7 @@ class Sheet:
         """Data of the program."""
         solution, statics = self.questions.solution, self.questions.statics
         chosen = np.array([self.questions.position])
-        data: dict[str, Number] = {**self.questions.asking.draft.numbers}
+        data: dict[str, Number] = {**self.questions.selecting.draft.numbers}
         if statics is None:
             return {**data, **solution.data(self.scales, chosen)}
         return {**data, **statics.data(self.scales, chosen)}

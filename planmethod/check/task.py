@@ -20,7 +20,7 @@ from planmethod.plans.forces.loads import LoadKind
 from planmethod.problem.head import AskedAnswer, AskedSense, KindProblem
 from planmethod.problem.selector import Selector, SelectorError, is_force, parse_selector
 from planmethod.record import dataclass, replace
-from planmethod.solved.selected.asking import NoAnswer, UnansweredError
+from planmethod.solved.selectors.steps import NoValue, NoValueError
 from planmethod.solved.solution import Solution
 
 
@@ -36,7 +36,7 @@ class Forms:
 
         Raises
         ------
-        UnansweredError
+        NoValueError
         """
         try:
             return parse_selector(text)
@@ -45,7 +45,7 @@ class Forms:
         if self._known is None:
             self._known = known_forms(self.questions)
         if plain(text) not in self._known:
-            raise UnansweredError(NoAnswer.NO_WHAT)
+            raise NoValueError(NoValue.NO_WHAT)
         return self._known[plain(text)]
 
 
@@ -261,11 +261,11 @@ class Task:
 
         Raises
         ------
-        UnansweredError
+        NoValueError
             When the driver is never there.
         """
         if not 0 <= position < self.count:
-            raise UnansweredError(NoAnswer.NO_POSITION)
+            raise NoValueError(NoValue.NO_POSITION)
         if position not in self._questions:
             self._questions[position] = Questions(self.solution, position)
         return self._questions[position]
@@ -300,19 +300,19 @@ class Task:
 
         Raises
         ------
-        UnansweredError
+        NoValueError
             When nobody knows such a quantity.
         """
         if (declared := self.stated(written)) is not None:
             return declared
         position = written.position or 0
-        questions, why = self.questions(position), NoAnswer.NO_WHAT
+        questions, why = self.questions(position), NoValue.NO_WHAT
         for text in (written.what, written.id):
             if not text:
                 continue
             try:
                 question = questions.question(self._forms_of(position).find(text))
-            except UnansweredError as error:
+            except NoValueError as error:
                 why = error.why
                 continue
             return Item(
@@ -322,7 +322,7 @@ class Task:
                 label=question.id,
                 name=question.id,
             )
-        raise UnansweredError(why)
+        raise NoValueError(why)
 
     def stated(self, written: Written) -> Item | None:
         """Return what an answer is of among what the file asks."""
@@ -377,7 +377,7 @@ class Task:
             questions = other.questions(position)
             for question in self._asked.get(position, {}).values():
                 other.ask(questions.question(question.selector), position)
-        except UnansweredError:
+        except NoValueError:
             return None
         sheet = other.sheet(position)
         return sheet if set(self._asked.get(position, {})) <= set(sheet.exact) else None

@@ -323,11 +323,11 @@ def _sweep(
     problem: Problem, phi: Positions | None, ask: tuple[str, ...] | None, partial: bool
 ) -> GappedSweep:
     from planmethod.solved.many.gaps import GappedSweep
-    from planmethod.solved.results import UnknownResultError
+    from planmethod.solved.quantities import UnknownQuantityError
 
     try:
         made = GappedSweep(problem, _asked(problem, phi), ask)
-    except UnknownResultError as error:
+    except UnknownQuantityError as error:
         raise UsageError("--ask: {}: {}", problem.name, error) from None
     _tell(problem, made.gaps, made.doubts, partial)
     return made

@@ -10,7 +10,7 @@ from planmethod.gears.motion import solve_motion
 from planmethod.gears.picture import draw
 from planmethod.note.audit.audit import Audited
 from planmethod.record import replace
-from planmethod.solved.selected.asking import NoAnswer
+from planmethod.solved.selectors.steps import NoValue
 
 
 def audited(problem: GearProblem, ruler: float) -> list[Audited]:
@@ -36,8 +36,8 @@ def audited(problem: GearProblem, ruler: float) -> list[Audited]:
     told = []
     for one in problem.published:
         exact = answer(motion, one.what)
-        why = NoAnswer.ZERO_DIVISOR if exact.reason == "zero" else None
+        why = NoValue.ZERO_DIVISOR if exact.reason == "zero" else None
         if exact.value is None and why is None:
-            why = NoAnswer.NO_LINK
+            why = NoValue.NO_LINK
         told.append(Audited(one, exact.value, found.get(one.what), why=why))
     return told

@@ -12,7 +12,7 @@ from planmethod.moving.motion import Undefined, move
 from planmethod.moving.sheet import sheet_scales
 from planmethod.note.audit.audit import Audited
 from planmethod.record import replace
-from planmethod.solved.selected.asking import NoAnswer
+from planmethod.solved.selectors.steps import NoValue
 
 
 def audited(problem: PointProblem, ruler: float) -> list[Audited]:
@@ -31,12 +31,12 @@ def audited(problem: PointProblem, ruler: float) -> list[Audited]:
     for item in problem.published:
         k = item.position or 0
         if not item.what:
-            told.append(Audited(item, why=NoAnswer.NO_WHAT))
+            told.append(Audited(item, why=NoValue.NO_WHAT))
             continue
         exact = float(motion.columns[item.what][k])
         if np.isnan(exact):
             divided = motion.reasons[k] in (Undefined.REST, Undefined.STRAIGHT)
-            told.append(Audited(item, why=NoAnswer.ZERO_DIVISOR if divided else NoAnswer.NO_POINT))
+            told.append(Audited(item, why=NoValue.ZERO_DIVISOR if divided else NoValue.NO_POINT))
             continue
         built = construct(problem, motion, k, scales)
         read = built.ruled(ruler).get(item.what, np.nan) if built is not None else np.nan

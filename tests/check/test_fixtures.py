@@ -20,7 +20,7 @@ from planmethod.check.task import Item, Task
 from planmethod.check.works.student import read_json
 from planmethod.note.wording.en.mistakes import MISTAKES
 from planmethod.problem import load
-from planmethod.solved.selected.asking import UnansweredError
+from planmethod.solved.selectors.steps import NoValueError
 from planmethod.solved.solution import Solution
 
 HEAD = "| case | problem | written | settings | verdicts | named | why |"
@@ -73,7 +73,7 @@ def named(task: Task, text: str) -> str:
     what, _, position = text.partition(" @")
     try:
         return task.find(Written(what, position=int(position) if position else None)).id
-    except UnansweredError:
+    except NoValueError:
         return what
 
 

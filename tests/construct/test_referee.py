@@ -21,7 +21,7 @@ from planmethod.construct.program import Builder
 from planmethod.construct.referee import Precise
 from planmethod.plans.legend import QuantityKind
 from planmethod.solved.closings import drive_data
-from planmethod.solved.results import results_of
+from planmethod.solved.quantities import quantities_of
 from planmethod.solved.solution import Solution
 
 SCALES = ("mu_l", "mu_v", "mu_a")
@@ -89,7 +89,7 @@ def test_plans_agree_with_the_derivatives_of_the_position_program(
 ) -> None:
     """A second opinion that knows nothing of velocity and acceleration plans."""
     solution = Solution(problem_of(name))
-    results = results_of(solution.construction)
+    results = quantities_of(solution.construction)
     places = [r for r in results.all if r.kind is QuantityKind.PLACE]
     places = [r for r in places if r.name == r.of]  # coincident points are not of one link
     kin = solution.construction.kinematics

@@ -25,7 +25,7 @@ from planmethod.note.wording import LANGUAGES, language
 from planmethod.problem import load
 from planmethod.problem.head import Published
 from planmethod.problem.model import Problem
-from planmethod.solved.selected.asking import NoAnswer
+from planmethod.solved.selectors.steps import NoValue
 
 ROOT = Path(__file__).parents[2]
 PROBLEMS = sorted(every_file(), key=str)
@@ -108,22 +108,22 @@ def test_positions_count_from_zero() -> None:
     )
     assert first.exact == pytest.approx(0.1)
     assert second.exact == pytest.approx(0.0, abs=1e-12)
-    assert (nowhere.why, nowhere.verdict) == (NoAnswer.NO_POSITION, Verdict.ABSENT)
+    assert (nowhere.why, nowhere.verdict) == (NoValue.NO_POSITION, Verdict.ABSENT)
 
 
 def test_a_position_that_the_problem_does_not_have_is_said() -> None:
     problem = problem_of('a = { value = 0.1, what = "x B" }')
     late = replace(problem, published=(replace(problem.published[0], position=7),))
     (item,) = audit(late)
-    assert item.why is NoAnswer.NO_POSITION
-    said = language("en").audit.whys[NoAnswer.NO_POSITION.value]
+    assert item.why is NoValue.NO_POSITION
+    said = language("en").audit.whys[NoValue.NO_POSITION.value]
     assert said in Document("en", 0.5).markdown([(late, [item])])
 
 
 def test_what_is_not_said_is_listed_with_its_note() -> None:
     problem = problem_of('a = { value = 0.1, note = "вторая передаточная функция" }')
     (item,) = audit(problem)
-    assert item.why is NoAnswer.NO_WHAT
+    assert item.why is NoValue.NO_WHAT
     text = Document("en", 0.5).markdown([(problem, [item])])
     assert "not computed | вторая передаточная функция |" in text
 
@@ -146,7 +146,7 @@ def test_scales_are_told_by_the_printed_values_where_the_file_has_none() -> None
     assert v.read == pytest.approx(0.71)
     assert b.exact == pytest.approx(25.0)
     assert q.exact == pytest.approx(50 * R)
-    assert c.why is NoAnswer.NO_SCALE
+    assert c.why is NoValue.NO_SCALE
     given = source_scales(problem_of(*entries, scales="[scales]\nmu_l = 0.002\n"))
     assert (given.mu_l, given.mu_v) == (0.002, 0.02)
 

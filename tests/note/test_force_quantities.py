@@ -19,8 +19,8 @@ from planmethod.problem.model import Problem
 from planmethod.problem.selector import FORCES, parse_selector
 from planmethod.solved.errors.forces import drawn_forces
 from planmethod.solved.forces.statics import statics_of
-from planmethod.solved.selected.asking import NoAnswer, UnansweredError
-from planmethod.solved.selected.quantities import Quantities
+from planmethod.solved.selectors.steps import NoValue, NoValueError
+from planmethod.solved.selectors.values import SelectorValues
 from planmethod.solved.solution import Solution
 
 LOADS = """
@@ -52,8 +52,8 @@ def loaded(*entries: str, driver: str = "omega = 10") -> Problem:
 
 
 @cache
-def kulisa() -> Quantities:
-    return Quantities(Solution(loaded(), ruler=0.5), 0, MU_F)
+def kulisa() -> SelectorValues:
+    return SelectorValues(Solution(loaded(), ruler=0.5), 0, MU_F)
 
 
 # Across the kulisa: the load, the inertia of a^t = 3 and the weight; along it: a^n = 7.5.
@@ -156,7 +156,7 @@ def test_arms_are_read_off_the_drawing() -> None:
 
 def test_the_hands_balance_is_that_of_its_plans() -> None:
     solution = Solution(loaded(), ruler=0.5)
-    own = Quantities(solution)
+    own = SelectorValues(solution)
     balances = drawn_forces(statics_of(solution)).balances
     assert balances is not None
     assert own.read(parse_selector("balance")) == balances.plans[0]
@@ -173,7 +173,7 @@ def test_the_shift_is_the_constructed_one() -> None:
     scales = replace(problem.scales, mu_l=0.002)
     solution = Solution(replace(problem, scales=scales))
     (shift,) = statics_of(solution).board.shifts.values()
-    quantities, selector = Quantities(solution), parse_selector("shift 3")
+    quantities, selector = SelectorValues(solution), parse_selector("shift 3")
     exact = statics_of(solution).paper.point(shift.at) - solution.paper.point(shift.centre)
     assert quantities.exact(selector) == pytest.approx(abs(complex(exact[0])), rel=1e-9)
     laid = statics_of(solution).by_hand.number(shift.length)
@@ -184,12 +184,12 @@ def test_the_shift_is_the_constructed_one() -> None:
 def test_arms_are_those_of_the_shifted_line() -> None:
     """Φ turns about C by 0.3·6 N·m, and as much as its couple, 0.4·10."""
     text = KULISA + SCALES + LOADS.replace("inertia = 0.5", "inertia = 0.4\n")
-    single = Quantities(Solution(with_resultant(loads(text, name="kulisa"))))
+    single = SelectorValues(Solution(with_resultant(loads(text, name="kulisa"))))
     arm = single.exact(parse_selector("arm inertia 3 about C"))
     assert arm == pytest.approx((0.3 * 6 + 4) / INERTIA / 0.002, rel=1e-9)
     assert single.exact(parse_selector("inertia couple 3")) == pytest.approx(4.0)
     # With 5 N·m the shift is longer than the kulisa: the force stays at D.
-    far = Quantities(Solution(with_resultant(loaded())))
+    far = SelectorValues(Solution(with_resultant(loaded())))
     assert far.exact(parse_selector("arm inertia 3 about C")) == pytest.approx(
         0.3 * 6 / INERTIA / 0.002, rel=1e-9
     )
@@ -228,34 +228,34 @@ angle = 180
 
 
 def asked(problem: Problem, what: str) -> float:
-    return Quantities(Solution(problem)).exact(parse_selector(what))
+    return SelectorValues(Solution(problem)).exact(parse_selector(what))
 
 
 def test_a_driving_slider_is_balanced_along_its_guide() -> None:
     slider = loads(SLIDER, name="slider")
     assert asked(slider, "balance") == pytest.approx(30.0)
     assert asked(slider, "lever") == pytest.approx(30.0)
-    with pytest.raises(UnansweredError) as caught:
+    with pytest.raises(NoValueError) as caught:
         asked(slider, "balance B")
-    assert caught.value.why is NoAnswer.NO_LINK
+    assert caught.value.why is NoValue.NO_LINK
 
 
 @pytest.mark.parametrize(
     ("problem", "what", "why"),
     [
-        (problem_of(), "F 2 1", NoAnswer.NO_FORCES),
-        (loaded(), "F 1 3", NoAnswer.NO_JOINT),
-        (loaded(), "angle inertia 1", NoAnswer.NO_DIRECTION),
-        (loaded(), "arm load M_{2} about C", NoAnswer.NO_DIRECTION),
-        (loaded(), "arm F 1 0 about Q", NoAnswer.NO_POINT),
-        (loaded(), "shift 1", NoAnswer.ZERO_DIVISOR),
-        (loaded(), "balance D", NoAnswer.NO_LINK),
-        (loaded(), "F 1 0 / weight 1", NoAnswer.ZERO_DIVISOR),
-        (loaded(driver="omega = 0"), "lever", NoAnswer.STANDS),
+        (problem_of(), "F 2 1", NoValue.NO_FORCES),
+        (loaded(), "F 1 3", NoValue.NO_JOINT),
+        (loaded(), "angle inertia 1", NoValue.NO_DIRECTION),
+        (loaded(), "arm load M_{2} about C", NoValue.NO_DIRECTION),
+        (loaded(), "arm F 1 0 about Q", NoValue.NO_POINT),
+        (loaded(), "shift 1", NoValue.ZERO_DIVISOR),
+        (loaded(), "balance D", NoValue.NO_LINK),
+        (loaded(), "F 1 0 / weight 1", NoValue.ZERO_DIVISOR),
+        (loaded(driver="omega = 0"), "lever", NoValue.STANDS),
     ],
 )
-def test_what_the_forces_do_not_have(problem: Problem, what: str, why: NoAnswer) -> None:
-    with pytest.raises(UnansweredError) as caught:
+def test_what_the_forces_do_not_have(problem: Problem, what: str, why: NoValue) -> None:
+    with pytest.raises(NoValueError) as caught:
         asked(problem, what)
     assert caught.value.why is why
     assert all(language(lang).audit.whys[why.value] for lang in LANGUAGES)
@@ -266,9 +266,9 @@ def test_a_force_that_is_nothing_has_no_direction() -> None:
     still = loads(text.replace("inertia = 0.5", "").replace("couple = 4", "couple = 0"), name="k")
     assert asked(still, "F 3 0") == 0.0
     for what in ("angle F 3 0", "arm F 3 0 about A"):
-        with pytest.raises(UnansweredError) as caught:
+        with pytest.raises(NoValueError) as caught:
             asked(still, what)
-        assert caught.value.why is NoAnswer.NO_DIRECTION
+        assert caught.value.why is NoValue.NO_DIRECTION
 
 
 # Audit -----------------------------------------------------------------------------------------
@@ -321,4 +321,4 @@ def test_true_lengths_need_no_scale() -> None:
     text = KULISA + LOADS + f"[published]\n{entry}\n{drawn}\n"
     found: list[Audited] = audit(loads(text, name="kulisa"))
     assert found[0].exact == pytest.approx(0.15 * sqrt(2))
-    assert found[1].why is NoAnswer.NO_SCALE
+    assert found[1].why is NoValue.NO_SCALE

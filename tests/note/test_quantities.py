@@ -10,14 +10,14 @@ from cases import each
 from slotted import R, problem_of
 
 from planmethod.problem.selector import QUANTITIES, parse_selector
-from planmethod.solved.selected.asking import NoAnswer, UnansweredError
-from planmethod.solved.selected.quantities import Quantities
+from planmethod.solved.selectors.steps import NoValue, NoValueError
+from planmethod.solved.selectors.values import SelectorValues
 from planmethod.solved.solution import Solution
 
 
 @cache
-def kulisa() -> Quantities:
-    return Quantities(Solution(problem_of(), ruler=0.5))
+def kulisa() -> SelectorValues:
+    return SelectorValues(Solution(problem_of(), ruler=0.5))
 
 
 EXACT = {
@@ -114,14 +114,14 @@ def test_an_angle_is_not_read_with_a_ruler() -> None:
 @pytest.mark.parametrize(
     ("what", "why"),
     [
-        ("ak D C", NoAnswer.NO_SLIDING),
-        ("an B D", NoAnswer.NO_LINK),
-        ("v Q", NoAnswer.NO_POINT),
-        ("omega 9", NoAnswer.NO_LINK),
-        ("v D / v A", NoAnswer.ZERO_DIVISOR),
+        ("ak D C", NoValue.NO_SLIDING),
+        ("an B D", NoValue.NO_LINK),
+        ("v Q", NoValue.NO_POINT),
+        ("omega 9", NoValue.NO_LINK),
+        ("v D / v A", NoValue.ZERO_DIVISOR),
     ],
 )
-def test_what_the_solution_does_not_have(what: str, why: NoAnswer) -> None:
-    with pytest.raises(UnansweredError) as caught:
+def test_what_the_solution_does_not_have(what: str, why: NoValue) -> None:
+    with pytest.raises(NoValueError) as caught:
         kulisa().exact(parse_selector(what))
     assert caught.value.why is why

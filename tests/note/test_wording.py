@@ -18,7 +18,7 @@ from planmethod.note.wording.force_model import ForceWording
 from planmethod.note.wording.machine_model import SYMBOLS as MACHINE
 from planmethod.problem import FAMILIES, OTHER_FAMILIES
 from planmethod.problem.model import FORCE, MOMENT
-from planmethod.solved.selected.asking import NoAnswer
+from planmethod.solved.selectors.steps import NoValue
 
 HOME = Path(planmethod.__file__).parent
 CYRILLIC = re.compile("[\u0400-\u04ff]")
@@ -92,7 +92,7 @@ def test_a_language_has_the_names_of_what_it_tells(lang: str) -> None:
     for balance in (words.note.balance, words.sheets.balance, words.forces.and_balance):
         assert set(balance) == {MOMENT.quantity, FORCE.quantity}
     assert list(words.families) == [*FAMILIES, *OTHER_FAMILIES]
-    assert set(words.audit.whys) == {why.value for why in NoAnswer}
+    assert set(words.audit.whys) == {why.value for why in NoValue}
     assert list(words.audit.verdicts) == list(words.audit.counted) == [v.value for v in Verdict]
 
 

@@ -16,8 +16,8 @@ from planmethod.problem import Problem, load, loads
 from planmethod.problem.answers import words_of
 from planmethod.problem.head import AnswerForm, AskedAnswer, AskedSense
 from planmethod.problem.selector import parse_selector
-from planmethod.solved.asked import results_for
-from planmethod.solved.selected.quantities import Quantities
+from planmethod.solved.labelled import quantities_for
+from planmethod.solved.selectors.values import SelectorValues
 from planmethod.solved.solution import Solution
 
 ALL = every_file()
@@ -97,7 +97,7 @@ def test_every_name_is_understood_and_means_the_same(path: Path) -> None:
     """The words have the size of what the name has with a sign or as a vector."""
     solution = Solution(load(path))
     slides = solution.problem.slides.values()
-    at = Quantities(solution)
+    at = SelectorValues(solution)
     for quantity in solution.legend.values():
         on_the_frame = quantity.label.startswith("ak_") and quantity.label.endswith("/0")
         if quantity.size is None or on_the_frame:
@@ -112,12 +112,12 @@ def test_every_force_can_be_asked_for_by_its_name(path: Path) -> None:
     problem = load(path)
     if problem.dynamics is None:
         pytest.skip("no masses and no loads")
-    labels = [q.label for q in results_for(Solution(problem), ["forces"]).all if q.kind.is_force]
+    labels = [q.label for q in quantities_for(Solution(problem), ["forces"]).all if q.kind.is_force]
     assert labels[-1] == "M_lever"
     text = path.read_text("utf-8").partition("[variants")[0]
     asked = read(*(f'what = "{label}"' for label in labels), base=text).answers
     assert [answer.id for answer in asked] == labels
-    at = Quantities(Solution(problem))
+    at = SelectorValues(Solution(problem))
     for answer in asked:
         at.exact(parse_selector(answer.what))
 

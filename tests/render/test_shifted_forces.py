@@ -23,7 +23,7 @@ from planmethod.render.sheets.kinematics import kinematics_sheets
 from planmethod.solved.forces.lever import LeverReading
 from planmethod.solved.forces.reading import ForceReading
 from planmethod.solved.forces.statics import statics_of
-from planmethod.solved.selected.quantities import Quantities
+from planmethod.solved.selectors.values import SelectorValues
 from planmethod.solved.solution import Solution
 
 RU = language("ru")
@@ -110,7 +110,7 @@ def test_moments_have_the_arm_of_the_shifted_line(name: str) -> None:
     told = [line for plan in reading.plans for line in moment_lines(reading, plan)]
     assert not any(f"M_{{Φ{link}}}" in line for line in told)
     pivot = {"2": "C", "3": "O3"}[link]
-    hand = Quantities(reading.solution)
+    hand = SelectorValues(reading.solution)
     arm = hand.read(parse_selector(f"arm inertia {link} about {pivot}"))
     (line,) = (line for line in told if line.startswith("h_") and f"h_{{Φ{link}}} = " in line)
     written = re.search(rf"h_{{Φ{link}}} = ([\d,]+)", line)
@@ -135,7 +135,7 @@ def test_the_arm_is_that_of_force_and_couple(name: str) -> None:
     arm = plain.points[force.point].place - plain.points[pivot].place
     moment = (np.conj(arm) * force.force).imag + given[f"M_{{Φ{link}}}"].couple
     expected = abs(float(moment[0])) / abs(complex(force.force[0]))
-    shifted = Quantities(reading_of(name).solution)
+    shifted = SelectorValues(reading_of(name).solution)
     found = shifted.exact(parse_selector(f"arm inertia {link} about {pivot}"))
     per_mm = next(iter(mu_l.values())).per_mm
     assert found * per_mm == pytest.approx(expected, rel=1e-9)

@@ -23,7 +23,7 @@ from planmethod.problem.model import Problem
 from planmethod.solved.forces.statics import Statics
 from planmethod.solved.many.gaps import CHUNK, GappedSweep
 from planmethod.solved.many.sweep import FEW, Sweep, SweepError, sweep_variants
-from planmethod.solved.results import UnknownResultError
+from planmethod.solved.quantities import UnknownQuantityError
 from planmethod.solved.solution import Solution
 
 Array = npt.NDArray[Any]
@@ -262,7 +262,7 @@ def test_a_force_alone_needs_fewer_steps() -> None:
     ],
 )
 def test_an_unknown_force_comes_with_the_nearest(label: str, hint: str) -> None:
-    with pytest.raises(UnknownResultError, match="Known: A, v_A") as caught:
+    with pytest.raises(UnknownQuantityError, match="Known: A, v_A") as caught:
         Sweep(changing(), ["v_C", label])
     assert hint in str(caught.value)
 
@@ -270,9 +270,9 @@ def test_an_unknown_force_comes_with_the_nearest(label: str, hint: str) -> None:
 @pytest.mark.parametrize("label", ["forces", "F_B_2/1", "M_dr", "F_lever"])
 def test_a_problem_without_loads_has_no_forces(label: str) -> None:
     problem = load(path_of("linkages/ex1"))
-    with pytest.raises(UnknownResultError, match=r"the problem has no loads.*\[dynamics\]"):
+    with pytest.raises(UnknownQuantityError, match=r"the problem has no loads.*\[dynamics\]"):
         Sweep(problem, ["v_B", label])
-    with pytest.raises(UnknownResultError, match="no result 'v_X'") as caught:
+    with pytest.raises(UnknownQuantityError, match="no result 'v_X'") as caught:
         Sweep(problem, ["v_X"])
     assert "forces" not in str(caught.value)
 

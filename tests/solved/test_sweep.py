@@ -20,7 +20,7 @@ from planmethod.problem import load, loads
 from planmethod.problem.model import Problem
 from planmethod.solved.many.rows import Row
 from planmethod.solved.many.sweep import FEW, Sweep, SweepError, sweep_variants
-from planmethod.solved.results import UnknownResultError
+from planmethod.solved.quantities import UnknownQuantityError
 from planmethod.solved.solution import Solution
 
 FILES = [path.stem for path in every_file()]
@@ -284,7 +284,7 @@ def test_what_does_not_move_may_be_asked(asked: list[str], count: int) -> None:
 
 
 def test_an_unknown_result_comes_with_the_nearest() -> None:
-    with pytest.raises(UnknownResultError, match=r"no result 'v_EE'; did you mean 'v_E'\?"):
+    with pytest.raises(UnknownQuantityError, match=r"no result 'v_EE'; did you mean 'v_E'\?"):
         Sweep(problem_of("ex3"), ["v_EE"])
 
 

@@ -69,7 +69,7 @@ class Scene:
         self.solution = sheet.questions.solution
         self.problem = self.solution.problem
         self.kin = self.solution.construction.kinematics
-        self.draft = sheet.questions.asking.draft
+        self.draft = sheet.questions.selecting.draft
         self.steps = sheet.program.steps
         self.made = sheet.made
 
@@ -81,7 +81,7 @@ class Scene:
 
     def segments(self, plan: PlanKind) -> Segments:
         """Return the segments of the velocity or the acceleration plan."""
-        return self.sheet.questions.asking.segments(plan)
+        return self.sheet.questions.selecting.segments(plan)
 
     def exact(self, name: Name) -> float:
         """Return the exact value of a number."""

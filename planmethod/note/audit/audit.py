@@ -17,8 +17,8 @@ from planmethod.problem.head import KindProblem, Published
 from planmethod.problem.model import Problem, Scales
 from planmethod.problem.selector import FORCES, MACHINE, Selector, parse_selector
 from planmethod.record import dataclass, replace
-from planmethod.solved.selected.asking import PLANS, NoAnswer, UnansweredError
-from planmethod.solved.selected.quantities import Quantities, is_angle
+from planmethod.solved.selectors.steps import PLANS, NoValue, NoValueError
+from planmethod.solved.selectors.values import SelectorValues, is_angle
 from planmethod.solved.selfcheck import verify
 from planmethod.solved.solution import Solution
 
@@ -72,7 +72,7 @@ class Audited:
     exact: float | None = None
     read: float | None = None
     per_mm: float | None = None
-    why: NoAnswer | None = None
+    why: NoValue | None = None
 
     @property
     def difference(self) -> float | None:
@@ -171,7 +171,7 @@ def audit(problem: Problem, *, ruler: float = RULER_MM) -> list[Audited]:
     scales, mu_f = source_scales(problem), source_force_scale(problem)
     solution = Solution(replace(problem, scales=scales), ruler=ruler)
     verify(solution)
-    places = [Quantities(solution, index, mu_f) for index in range(len(solution.positions))]
+    places = [SelectorValues(solution, index, mu_f) for index in range(len(solution.positions))]
     return [_audited(places, scales, value) for value in problem.published]
 
 
@@ -181,7 +181,7 @@ def source_force_scale(problem: Problem) -> float | None:
     return next(forces, None)
 
 
-def _audited(places: Sequence[Quantities], scales: Scales, value: Published) -> Audited:
+def _audited(places: Sequence[SelectorValues], scales: Scales, value: Published) -> Audited:
     try:
         selector = _selector(value, scales)
         if selector.kind in MACHINE:
@@ -193,14 +193,14 @@ def _audited(places: Sequence[Quantities], scales: Scales, value: Published) -> 
         unit = _unit(at, selector, value)
         exact, read = at.exact(selector) * unit, at.read(selector)
         per_mm = value.per_mm or _per_mm(at, selector, scales, unit)
-    except UnansweredError as error:
+    except NoValueError as error:
         return Audited(value, why=error.why)
     if is_angle(selector) and selector.over is None:
         exact = value.value - _nearest_turn((value.value - exact) / unit) * unit
     return Audited(value, exact, None if read is None else read * unit, per_mm)
 
 
-def _unit(at: Quantities, selector: Selector, value: Published) -> float:
+def _unit(at: SelectorValues, selector: Selector, value: Published) -> float:
     """Return what a degree, or a millimetre of the position plan, is in the unit of the value."""
     if selector.over is None and is_angle(selector) and value.unit in RADIANS:
         return math.radians(1.0)
@@ -221,7 +221,7 @@ def _drawn_on(selector: Selector) -> PlanKind | None:
     return PLANS.get(selector.kind)
 
 
-def _per_mm(at: Quantities, selector: Selector, scales: Scales, unit: float) -> float | None:
+def _per_mm(at: SelectorValues, selector: Selector, scales: Scales, unit: float) -> float | None:
     """Return what a millimetre of its plan is worth in an angle or a rate."""
     if selector.kind in FORCES:
         told = is_angle(selector) and selector.over is None and at.mu_f is not None
@@ -236,14 +236,14 @@ def _per_mm(at: Quantities, selector: Selector, scales: Scales, unit: float) -> 
 
 def _selector(value: Published, scales: Scales) -> Selector:
     if not value.what:
-        raise UnansweredError(NoAnswer.NO_WHAT)
+        raise NoValueError(NoValue.NO_WHAT)
     selector = parse_selector(value.what)
     for part in (selector, selector.over):
         plan = _drawn_on(part) if part else None
         if plan is None or (plan is PlanKind.POSITION and _is_true(value)):
             continue
         if getattr(scales, SYMBOLS[plan]) is None:
-            raise UnansweredError(NoAnswer.NO_SCALE)
+            raise NoValueError(NoValue.NO_SCALE)
     return selector
 
 
@@ -251,7 +251,7 @@ def _position(value: Published, count: int) -> int:
     if value.position is None and count == 1:
         return 0
     if value.position is None or not 0 <= value.position < count:
-        raise UnansweredError(NoAnswer.NO_POSITION)
+        raise NoValueError(NoValue.NO_POSITION)
     return value.position
 
 

@@ -12,7 +12,7 @@ from planmethod.record import replace
 from planmethod.solved.machine.drawing import drawing_of
 from planmethod.solved.machine.flywheel import Flywheel, flywheel_of, touching
 from planmethod.solved.machine.sizes import size_of
-from planmethod.solved.selected.asking import NoAnswer, UnansweredError
+from planmethod.solved.selectors.steps import NoValue, NoValueError
 from planmethod.solved.solution import Solution
 
 
@@ -21,11 +21,11 @@ def machine_value(solution: Solution, selector: Selector) -> tuple[float, float 
 
     Raises
     ------
-    UnansweredError
+    NoValueError
         The file has no machine, or the machine no such position.
     """
     if solution.problem.machine is None:
-        raise UnansweredError(NoAnswer.NO_MACHINE)
+        raise NoValueError(NoValue.NO_MACHINE)
     flywheel = flywheel_of(solution)
     drawing, kind = drawing_of(flywheel, solution.profile), selector.kind.partition(" ")[2]
     if selector.names:
@@ -49,14 +49,14 @@ def machine_value(solution: Solution, selector: Selector) -> tuple[float, float 
     if sizes is not None:
         values |= {"D": sizes.diameter, "m": sizes.mass, "b": sizes.width}
     if kind not in values:
-        raise UnansweredError(NoAnswer.NO_WHAT)
+        raise NoValueError(NoValue.NO_WHAT)
     return values[kind], None
 
 
 def _in_position(flywheel: Flywheel, kind: str, names: tuple[str, ...]) -> float:
     number = int(names[-1])
     if number >= flywheel.machine.count:
-        raise UnansweredError(NoAnswer.NO_POSITION)
+        raise NoValueError(NoValue.NO_POSITION)
     rows, half = flywheel.rows, flywheel.problem.drive.rate**2 / 2.0
     if kind == "energy":
         nothing = 0.0 * rows.inertia  # of a link without mass

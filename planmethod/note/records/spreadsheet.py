@@ -119,7 +119,7 @@ def force_columns(solution: Solution) -> Iterator[tuple[str, Reals]]:
         A load is known in the positions of the file only, and others are asked.
     """
     from planmethod.solved.errors.forces import drawn_forces, size_label  # few files have any
-    from planmethod.solved.forces.results import force_row, moment_row
+    from planmethod.solved.forces.quantities import force_row, moment_row
     from planmethod.solved.forces.statics import statics_of
 
     statics = statics_of(solution)

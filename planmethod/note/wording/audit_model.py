@@ -13,7 +13,7 @@ class AuditWording:
 
     ``verdicts`` and ``counted`` are by the values of `planmethod.note.audit.audit.Verdict`,
     ``chain_steps`` by those of `planmethod.note.audit.machine.chain`: what a step is, and what was
-    wrong before it; ``whys`` by those of `planmethod.solved.selected.quantities.Why`.
+    wrong before it; ``whys`` by those of `planmethod.solved.selectors.steps.NoValue`.
     """
 
     title: str

@@ -32,11 +32,11 @@ from planmethod.render.ink.drawing import Stroke
 from planmethod.render.live.parts import Part, parts_of
 from planmethod.render.pictures.planview import COMPONENTS, similar_lines
 from planmethod.render.symbols import SIZES
-from planmethod.solved.asked import results_for
 from planmethod.solved.course.motion import TurnMotion
 from planmethod.solved.cycle import only_in_positions
 from planmethod.solved.forces.loads import AHEAD, applied
 from planmethod.solved.forces.statics import Planned, plan_forces, statics_of
+from planmethod.solved.labelled import quantities_for
 from planmethod.solved.many.sweep import Sweep
 from planmethod.solved.scaling import OUTLIER
 from planmethod.solved.selfcheck import verify
@@ -116,7 +116,7 @@ class Scene:
         bare = Solution(problem, positions=[])
         self.construction = bare.construction
         has_loads = problem.dynamics is not None
-        results = results_for(bare, None, forces=has_loads)
+        results = quantities_for(bare, None, forces=has_loads)
         self.quantities: tuple[Quantity, ...] = results.choose(None)
         self.columns = [column for one in self.quantities for column in one.columns]
         self._row = {column: number for number, column in enumerate(self.columns)}

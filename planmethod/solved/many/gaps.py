@@ -39,7 +39,7 @@ class GappedSweep:
 
     Raises
     ------
-    UnknownResultError, StructureError, ProblemError, AssemblyError, SelfCheckError
+    UnknownQuantityError, StructureError, ProblemError, AssemblyError, SelfCheckError
     """
 
     def __init__(

@@ -20,13 +20,13 @@ from planmethod.errors import PlanMethodError
 from planmethod.plans.legend import ZERO, Quantity, QuantityKind
 from planmethod.plans.model import PlanKind
 from planmethod.problem.model import Problem
-from planmethod.solved.asked import results_for
 from planmethod.solved.closings import drive_data
 from planmethod.solved.failures import Cause, Failure, Place
 from planmethod.solved.impossible import explain, failing
+from planmethod.solved.labelled import quantities_for
 from planmethod.solved.many.rows import Row, rows_of
+from planmethod.solved.quantities import Quantities
 from planmethod.solved.reading import Reading
-from planmethod.solved.results import Results
 from planmethod.solved.solution import UNIT_SCALES, Solution
 
 if TYPE_CHECKING:
@@ -96,7 +96,7 @@ class Sweep:
 
     Raises
     ------
-    StructureError, ProblemError, AssemblyError, UnknownResultError, SweepError
+    StructureError, ProblemError, AssemblyError, UnknownQuantityError, SweepError
     """
 
     def __init__(
@@ -116,7 +116,7 @@ class Sweep:
         asked = (asked,) if isinstance(asked, str) else None if asked is None else tuple(asked)
         varied = (varied,) if isinstance(varied, str) else varied
         solution = Solution(problem, positions=[])
-        results = results_for(solution, asked, forces=forces)
+        results = quantities_for(solution, asked, forces=forces)
         chosen = results.choose(asked)
         self.forces = any(result.kind.is_force for result in chosen)
         self.loads = self._changing(solution, results)
@@ -156,7 +156,7 @@ class Sweep:
         if native:
             self._compiled(make=True)
 
-    def _changing(self, solution: Solution, results: Results) -> LoadColumns | None:
+    def _changing(self, solution: Solution, results: Quantities) -> LoadColumns | None:
         """Return the loads that must be told for every position; None if there are none."""
         if not (self.forces and results.changing):
             return None
@@ -507,7 +507,7 @@ def _named(problem: Problem) -> str:
     return problem.name + (f" ({problem.variant})" if problem.variant else "")
 
 
-def _motion(results: Results) -> list[Quantity]:
+def _motion(results: Quantities) -> list[Quantity]:
     """Return the results that loads may depend on: places, velocities, rotations."""
     kinds = (QuantityKind.PLACE, QuantityKind.VELOCITY, QuantityKind.OMEGA)
     return [result for result in results.all if result.kind in kinds]

@@ -19,7 +19,7 @@ from planmethod.plans.legend import Quantity, QuantityKind
 from planmethod.problem.model import Problem
 from planmethod.record import dataclass
 from planmethod.solved.impossible import failing
-from planmethod.solved.results import natural_size, results_of
+from planmethod.solved.quantities import natural_size, quantities_of
 from planmethod.solved.solution import Solution
 from planmethod.solved.trust.conditioning import SCALES, error_bound
 
@@ -115,7 +115,7 @@ def examine(
         else take the reach to first order in float64, which costs a tenth, and warn of nothing.
     """
     solution = Solution(problem, positions=positions)
-    results = results_of(solution.construction)
+    results = quantities_of(solution.construction)
     program = results.program.needed_for([result.name for result in results.all])
     data = {**solution.data(), **results.numbers}
     trace = evaluate(program, data, Float64())

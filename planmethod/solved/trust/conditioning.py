@@ -11,8 +11,8 @@ from planmethod.construct.condition import UNIT_ROUNDOFF, reach
 from planmethod.construct.steps import Join
 from planmethod.plans.dimensions import DimensionKind
 from planmethod.plans.legend import ZERO, Quantity, QuantityKind
+from planmethod.solved.quantities import natural_size, quantities_of
 from planmethod.solved.reading import Reals
-from planmethod.solved.results import natural_size, results_of
 from planmethod.solved.solution import UNIT_SCALES, Solution
 
 MULTIPLE = 16
@@ -52,7 +52,7 @@ def error_bound(solution: Solution) -> Reals:
 def _bound(solution: Solution) -> Reals:
     solution.si  # noqa: B018 - what does not exist is told first
     bound = np.full(solution.positions.shape, MULTIPLE * UNIT_ROUNDOFF / SAFE**3)
-    results = [r for r in results_of(solution.construction).all if r.name != ZERO]
+    results = [r for r in quantities_of(solution.construction).all if r.name != ZERO]
     for chosen in _blocks(_suspects(solution)):
         bound[chosen] = MULTIPLE * UNIT_ROUNDOFF * _relative_reach(solution, results, chosen)
     return bound

@@ -34,7 +34,7 @@ MAGNITUDES: Mapping[str, PlanKind] = {
 }
 
 
-class NoAnswer(Enum):
+class NoValue(Enum):
     """Why a quantity has no value."""
 
     NO_WHAT = "no what"  # the file does not say which quantity it is
@@ -52,16 +52,16 @@ class NoAnswer(Enum):
     STANDS = "stands"  # the lever of a driving link that does not move
 
 
-class UnansweredError(Exception):
+class NoValueError(Exception):
     """A selector asks for what the solution does not have."""
 
-    def __init__(self, why: NoAnswer) -> None:
+    def __init__(self, why: NoValue) -> None:
         super().__init__(why.value)
         self.why = why
 
 
 @dataclass(frozen=True, slots=True)
-class Answer:
+class Selected:
     """Number that answers a selector, or a quotient of two.
 
     Attributes
@@ -78,7 +78,7 @@ class Answer:
     signed: bool = False
 
 
-class Asking:
+class SelectorSteps:
     """Steps that a selector needs beyond those of the program (что спрашивается).
 
     Parameters
@@ -119,12 +119,12 @@ class Asking:
         """Return a further product of powers."""
         return self.b.compute(self.free_name, *powers)
 
-    def answer(self, selector: Selector) -> Answer:
+    def select(self, selector: Selector) -> Selected:
         """Return the number that a selector of the motion asks for.
 
         Raises
         ------
-        UnansweredError
+        NoValueError
             When the solution has no such quantity.
         """
         kind, names = selector.kind, selector.names
@@ -133,34 +133,36 @@ class Asking:
         if kind in MAGNITUDES:
             plan = MAGNITUDES[kind]
             about = names[1] if len(names) > 1 else POLE
-            return Answer(self._value(plan, about, names[0]))
+            return Selected(self._value(plan, about, names[0]))
         if kind in PLANS:
             return self._length(PLANS[kind], *names)
         if kind in ("an", "at"):
             link, arm = self.arm(*names)
             rates, power = (self.kin.omega, 2) if kind == "an" else (self.kin.epsilon, 1)
-            return Answer(self.compute((rates[link], power), *arm) if link in rates else self.zero)
+            return Selected(
+                self.compute((rates[link], power), *arm) if link in rates else self.zero
+            )
         if kind in ("ak", "ar"):
-            return Answer(self.relative(kind, *names))
+            return Selected(self.relative(kind, *names))
         if kind in ANALOGUES:
-            raise UnansweredError(NoAnswer.NO_WHAT)  # no plan has them
+            raise NoValueError(NoValue.NO_WHAT)  # no plan has them
         (link,) = names
         if link not in self.solution.links:
-            raise UnansweredError(NoAnswer.NO_LINK)
+            raise NoValueError(NoValue.NO_LINK)
         rates = self.kin.omega if kind == "omega" else self.kin.epsilon
-        return Answer(rates.get(link, self.zero), signed=True)
+        return Selected(rates.get(link, self.zero), signed=True)
 
     @property
     def zero(self) -> NumberName:
         """The number zero."""
         return self.draft.known(ZERO, 0.0)
 
-    def _component(self, plan: PlanKind, name: str, axis: str) -> Answer:
+    def _component(self, plan: PlanKind, name: str, axis: str) -> Selected:
         pole, head = self.point(plan, POLE), self.point(plan, name)
         angle = self.draft.known(f"angle_{axis}", 0.0 if axis == "x" else 90.0)
         line = self.b.at_angle(pole, None, angle)
         length = self.b.measure_along(self.free_name, pole, head, line)
-        return Answer(self.compute((self._scale(plan), 1), (length, 1)), signed=True)
+        return Selected(self.compute((self._scale(plan), 1), (length, 1)), signed=True)
 
     def _scale(self, plan: PlanKind) -> NumberName:
         return self.draft.mu_l if plan is PlanKind.POSITION else self._segments[plan].scale
@@ -171,13 +173,13 @@ class Asking:
             return self.zero
         return self._segments[plan].value(one, two, self.free_name)
 
-    def _length(self, plan: PlanKind, tail: str, head: str) -> Answer:
+    def _length(self, plan: PlanKind, tail: str, head: str) -> Selected:
         one, two = self.point(plan, tail), self.point(plan, head)
         if one == two:
-            return Answer(self.zero, plan)
+            return Selected(self.zero, plan)
         if plan is not PlanKind.POSITION:
-            return Answer(self._segments[plan].length(one, two), plan)
-        return Answer(self.drawn(one, two), plan)
+            return Selected(self._segments[plan].length(one, two), plan)
+        return Selected(self.drawn(one, two), plan)
 
     def drawn(self, one: PointName, two: PointName) -> NumberName:
         """Return a distance on the position plan as it was laid off, or is read; mm."""
@@ -194,7 +196,7 @@ class Asking:
         heads, tails = self._places(point), self._places(about)
         link = next((k for k in heads if k in tails and k != FRAME), None)
         if link is None:
-            raise UnansweredError(NoAnswer.NO_LINK)
+            raise NoValueError(NoValue.NO_LINK)
         head, tail = heads[link], tails[link]
         if {head, tail} <= set(self.solution.problem.bodies[link].points):
             return link, ((self.draft.length(link, head, tail), 1),)
@@ -207,7 +209,7 @@ class Asking:
         if name == POLE:
             return motion.pole  # the velocity plan's lies at 0 on the paper, as the origin does
         if name not in self.kin.velocity.named:
-            raise UnansweredError(NoAnswer.NO_POINT)
+            raise NoValueError(NoValue.NO_POINT)
         link, place = self.kin.velocity.named[name]
         return PointName(place) if plan is PlanKind.POSITION else motion.point[link, place]
 
@@ -225,4 +227,4 @@ class Asking:
                 size = self.solution.legend[relative.label(letter)].size
                 assert size is not None
                 return size
-        raise UnansweredError(NoAnswer.NO_SLIDING)
+        raise NoValueError(NoValue.NO_SLIDING)

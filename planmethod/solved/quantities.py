@@ -1,4 +1,4 @@
-"""What a solved problem is asked for, and the steps that give it (искомые величины)."""
+"""Every quantity of a construction by its label, and the program that makes it (величины)."""
 
 from __future__ import annotations
 
@@ -23,13 +23,13 @@ ACCELERATIONS = (QuantityKind.ACCELERATION, QuantityKind.CORIOLIS, QuantityKind.
 """Kinds of accelerations, m/s²."""
 
 
-class UnknownResultError(PlanMethodError, ValueError):
+class UnknownQuantityError(PlanMethodError, ValueError):
     """A quantity is asked for that the problem does not have."""
 
 
 @dataclass(frozen=True, slots=True)
-class Results:
-    """All results of a construction, and the program that makes them.
+class Quantities:
+    """All quantities of a construction, and the program that makes them.
 
     Attributes
     ----------
@@ -37,7 +37,7 @@ class Results:
         The construction's, and the own axes of links that it has no line for.
     numbers : mapping
         Known numbers of the program; of forces also where their plans begin.
-    all : tuple of Result
+    all : tuple of Quantity
         Points in the order of the plans: place, velocity, acceleration; then links; then forces.
     draft : Draft
         From which the program comes.
@@ -59,7 +59,7 @@ class Results:
 
         Raises
         ------
-        UnknownResultError
+        UnknownQuantityError
         """
         if labels is None:
             return tuple(result for result in self.all if result.kind not in BY_NAME)
@@ -85,7 +85,7 @@ class Results:
 
             near = near or get_close_matches(label, known, 1)
             hint = say("; did you mean {!r}?", near[0]) if near else "."
-            raise UnknownResultError("no result {!r}{} Known: {}.", label, hint, ", ".join(known))
+            raise UnknownQuantityError("no result {!r}{} Known: {}.", label, hint, ", ".join(known))
         return found
 
 
@@ -115,7 +115,7 @@ WHOLE = {
 """Whole groups of results that can be asked for at once."""
 
 
-def results_of(construction: Construction) -> Results:
-    """Return every result of a construction."""
+def quantities_of(construction: Construction) -> Quantities:
+    """Return every quantity of a construction."""
     draft = construction.draft.copy()
-    return Results(draft.b.program(), draft.numbers, construction.legend, draft)
+    return Quantities(draft.b.program(), draft.numbers, construction.legend, draft)

@@ -15,8 +15,8 @@ from planmethod.plans.legend import PLAN_OF
 from planmethod.plans.model import PlanKind
 from planmethod.problem.selector import ANALOGUES, FORCES, Selector
 from planmethod.solved.analogues import analogues
-from planmethod.solved.selected.asking import Asking, NoAnswer, UnansweredError
-from planmethod.solved.selected.forces import ForceQuantities
+from planmethod.solved.selectors.forces import ForceValues
+from planmethod.solved.selectors.steps import NoValue, NoValueError, SelectorSteps
 from planmethod.solved.solution import Solution
 
 
@@ -25,7 +25,7 @@ def is_angle(selector: Selector) -> bool:
     return selector.kind == "phi" or selector.kind.startswith("angle ")
 
 
-class Quantities:
+class SelectorValues:
     """Values of selectors in one position of a solution.
 
     Parameters
@@ -42,22 +42,22 @@ class Quantities:
         self.kin = solution.construction.kinematics
 
     @cached_property
-    def forces(self) -> ForceQuantities:
+    def forces(self) -> ForceValues:
         """Quantities of the force analysis.
 
         Raises
         ------
-        UnansweredError
+        NoValueError
             When the file has neither masses nor loads.
         """
-        return ForceQuantities(self.solution, self.position, self.mu_f)
+        return ForceValues(self.solution, self.position, self.mu_f)
 
     def exact(self, selector: Selector) -> float:
         """Return the exact value in SI units (degrees, millimetres of a plan).
 
         Raises
         ------
-        UnansweredError
+        NoValueError
             When the solution has no such quantity.
         """
         return self._quotient(selector, by_hand=False)
@@ -79,7 +79,7 @@ class Quantities:
             return value
         divisor = self._value(selector.over, by_hand=by_hand)
         if divisor == 0:
-            raise UnansweredError(NoAnswer.ZERO_DIVISOR)
+            raise NoValueError(NoValue.ZERO_DIVISOR)
         return value / divisor
 
     def _value(self, selector: Selector, *, by_hand: bool) -> float:
@@ -88,16 +88,16 @@ class Quantities:
         solution = self.solution
         if selector.kind == "phi":
             if selector.names[0] not in solution.links:
-                raise UnansweredError(NoAnswer.NO_LINK)
+                raise NoValueError(NoValue.NO_LINK)
             return float(solution.links[selector.names[0]].phi_deg[self.position])
         if selector.kind in ANALOGUES:
             return self._analogue(selector.kind[:-1], selector.kind[-1] == "2", *selector.names)
-        asking = Asking(solution, solution.construction.draft.copy())
-        answer = asking.answer(selector)
+        selecting = SelectorSteps(solution, solution.construction.draft.copy())
+        answer = selecting.select(selector)
         reading, hand = solution.si, Float64()
         if by_hand:
             reading, hand = solution.by_hand, solution.hand
-        found = reading.go_on(asking.steps, asking.draft.numbers, hand)
+        found = reading.go_on(selecting.steps, selecting.draft.numbers, hand)
         value = float(found.number(answer.name)[self.position])
         if answer.plan is not None and not by_hand:
             value /= solution.own_scale(answer.plan, self.position).per_mm
@@ -107,10 +107,10 @@ class Quantities:
         points, links = analogues(self.solution)
         if what == "phi":
             if name not in links:
-                raise UnansweredError(NoAnswer.NO_LINK)
+                raise NoValueError(NoValue.NO_LINK)
             return float(links[name][second][self.position])
         if name not in points:
-            raise UnansweredError(NoAnswer.NO_POINT)
+            raise NoValueError(NoValue.NO_POINT)
         rate = points[name].acceleration if second else points[name].velocity
         return float((rate.real if what == "x" else rate.imag)[self.position])
 

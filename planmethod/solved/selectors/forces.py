@@ -23,7 +23,7 @@ from planmethod.record import dataclass
 from planmethod.solved.forces.contact import VANISHING
 from planmethod.solved.forces.statics import Statics, statics_of
 from planmethod.solved.reading import Reading
-from planmethod.solved.selected.asking import Asking, NoAnswer, UnansweredError
+from planmethod.solved.selectors.steps import NoValue, NoValueError, SelectorSteps
 from planmethod.solved.solution import Solution
 
 LOADS = {
@@ -45,7 +45,7 @@ class Line:
     sense: float = 1.0
 
 
-class ForceQuantities:
+class ForceValues:
     """Values of the selectors of forces in one position of a solution.
 
     Parameters
@@ -59,7 +59,7 @@ class ForceQuantities:
 
     def __init__(self, solution: Solution, position: int, mu_f: float | None = None) -> None:
         if solution.problem.dynamics is None:
-            raise UnansweredError(NoAnswer.NO_FORCES)
+            raise NoValueError(NoValue.NO_FORCES)
         self.solution, self.position = solution, position
         self.statics: Statics = statics_of(solution)
         self.mu_f = self.statics.scale.per_mm if mu_f is None else mu_f
@@ -86,42 +86,42 @@ class ForceQuantities:
         first, _, rest = kind.partition(" ")
         if first == "angle":
             return self._angle(self._line(rest, names))
-        asking = Asking(self.solution, self.statics.board.draft.copy())
-        asked = self.answer(asking, selector)
+        selecting = SelectorSteps(self.solution, self.statics.board.draft.copy())
+        asked = self.select(selecting, selector)
         reading, hand = (self._drawn, self.solution.hand) if by_hand else (self._exact, Float64())
-        found = reading.go_on(asking.steps, asking.draft.numbers, hand)
+        found = reading.go_on(selecting.steps, selecting.draft.numbers, hand)
         value = float(found.number(asked)[self.position])
         if first in ("arm", "shift") and not by_hand:
             value /= self.solution.scales[PlanKind.POSITION].per_mm
         return value if first in ("balance", "lever") and not names else abs(value)
 
-    def answer(self, asking: Asking, selector: Selector) -> NumberName:
+    def select(self, selecting: SelectorSteps, selector: Selector) -> NumberName:
         """Return the number that answers a selector, other than that of an angle.
 
         Parameters
         ----------
-        asking : Asking
+        selecting : SelectorSteps
             On a draft that has the force plans; gets the further steps.
 
         Raises
         ------
-        UnansweredError
+        NoValueError
         """
         kind, names = selector.kind, selector.names
         first, _, rest = kind.partition(" ")
         match first:
             case "arm":
-                return self._arm(asking, self._line(rest, names[:-1]), names[-1])
+                return self._arm(selecting, self._line(rest, names[:-1]), names[-1])
             case "F":
                 return self._size(self._joint(*names).force)
             case "Ft" | "Fn":
-                return self._component(asking, kind, names)
+                return self._component(selecting, kind, names)
             case "M":
                 return self._couple(self._joint(*names).couple)
             case "balance" | "lever":
-                return self._balance(asking, kind, names)
+                return self._balance(selecting, kind, names)
             case "shift":
-                return self._shift(asking, names[0])
+                return self._shift(selecting, names[0])
         return self._load(self._given(kind, names[0]))
 
     def sense(self, selector: Selector) -> float:
@@ -133,7 +133,7 @@ class ForceQuantities:
 
         Raises
         ------
-        UnansweredError
+        NoValueError
             When the force is nothing.
         """
         line = self._line(selector.kind.partition(" ")[2], selector.names)
@@ -181,10 +181,10 @@ class ForceQuantities:
         assert given.couple is not None
         return given.couple
 
-    def _component(self, asking: Asking, kind: str, names: tuple[str, ...]) -> NumberName:
+    def _component(self, selecting: SelectorSteps, kind: str, names: tuple[str, ...]) -> NumberName:
         """Return the part of a reaction across a line, or along it."""
         on, by, *line = names
-        tail, head = (asking.point(PlanKind.POSITION, name) for name in line)
+        tail, head = (selecting.point(PlanKind.POSITION, name) for name in line)
         along = (self._at(head) - self._at(tail)) * (1j if kind == "Ft" else 1.0)
         along /= abs(along)
         force, share = self._joint(on, by).force, Share.TANGENTIAL if kind == "Ft" else Share.NORMAL
@@ -197,38 +197,38 @@ class ForceQuantities:
                 vector
             ):
                 return self.statics.board.segments.known(edge.ends)
-        ray = asking.b.join(tail, head)
+        ray = selecting.b.join(tail, head)
         if kind == "Ft":
-            ray = asking.b.perpendicular(tail, ray)
-        length = asking.b.measure_along(asking.free_name, *force.ends, ray)
-        return asking.compute((self.statics.board.scale, 1), (length, 1))
+            ray = selecting.b.perpendicular(tail, ray)
+        length = selecting.b.measure_along(selecting.free_name, *force.ends, ray)
+        return selecting.compute((self.statics.board.scale, 1), (length, 1))
 
-    def _balance(self, asking: Asking, kind: str, names: tuple[str, ...]) -> NumberName:
+    def _balance(self, selecting: SelectorSteps, kind: str, names: tuple[str, ...]) -> NumberName:
         """Return the balancing moment (force, of a slider), or the force at a point that does."""
         statics, drive = self.statics, self.solution.problem.drive
         value = statics.driving.balance
         if kind == "lever":
             if statics.lever_plan is None:
-                raise UnansweredError(NoAnswer.STANDS)
+                raise NoValueError(NoValue.STANDS)
             value = statics.lever_plan.balance
         if not names:
             return value
         if drive.pivot is None:
-            raise UnansweredError(NoAnswer.NO_LINK)
-        link, arm = asking.arm(names[0], drive.pivot)
+            raise NoValueError(NoValue.NO_LINK)
+        link, arm = selecting.arm(names[0], drive.pivot)
         if link != drive.link:
-            raise UnansweredError(NoAnswer.NO_LINK)
+            raise NoValueError(NoValue.NO_LINK)
         points = self.solution.problem.bodies[link].points
         if points.get(names[0]) == points[drive.pivot]:
-            raise UnansweredError(NoAnswer.NO_ARM)
-        return asking.compute((value, 1), *((name, -power) for name, power in arm))
+            raise NoValueError(NoValue.NO_ARM)
+        return selecting.compute((value, 1), *((name, -power) for name, power in arm))
 
-    def _shift(self, asking: Asking, link: str) -> NumberName:
+    def _shift(self, selecting: SelectorSteps, link: str) -> NumberName:
         force = self._given("inertia", link)
         if force is None or force.force is None or self._is_nothing(abs(self._vector(force.force))):
-            raise UnansweredError(NoAnswer.ZERO_DIVISOR)
+            raise NoValueError(NoValue.ZERO_DIVISOR)
         powers = ((self._load(self._given("inertia couple", link)), 1), (self._load(force), -1))
-        return asking.compute(*powers, (asking.draft.mu_l, -1))
+        return selecting.compute(*powers, (selecting.draft.mu_l, -1))
 
     # Lines of action -------------------------------------------------------------------------
 
@@ -236,23 +236,23 @@ class ForceQuantities:
         """Return a force that has a direction, N."""
         vector = self._vector(line.force)
         if self._is_nothing(abs(vector)):
-            raise UnansweredError(NoAnswer.NO_DIRECTION)
+            raise NoValueError(NoValue.NO_DIRECTION)
         return vector * line.sense
 
     def _angle(self, line: Line) -> float:
         vector = self._directed(line)
         return math.degrees(math.atan2(vector.imag, vector.real)) % 360.0
 
-    def _arm(self, asking: Asking, line: Line, about: str) -> NumberName:
+    def _arm(self, selecting: SelectorSteps, line: Line, about: str) -> NumberName:
         """Return the arm of a force; that of a guide acts where its moment puts it."""
         self._directed(line)
-        pole, force = asking.point(PlanKind.POSITION, about), line.force
-        arm = asking.b.measure_arm(asking.free_name, pole, force.at, *force.ends)
+        pole, force = selecting.point(PlanKind.POSITION, about), line.force
+        arm = selecting.b.measure_arm(selecting.free_name, pole, force.at, *force.ends)
         if line.couple is None:
             return arm
-        size, mu_l = self.statics.board.segments.known(force.ends), asking.draft.mu_l
-        shift = asking.compute((line.couple, 1), (size, -1), (mu_l, -1))
-        return asking.b.total(asking.free_name, arm, shift)
+        size, mu_l = self.statics.board.segments.known(force.ends), selecting.draft.mu_l
+        shift = selecting.compute((line.couple, 1), (size, -1), (mu_l, -1))
+        return selecting.b.total(selecting.free_name, arm, shift)
 
     # Names -----------------------------------------------------------------------------------
 
@@ -262,7 +262,7 @@ class ForceQuantities:
             if {reaction.on, reaction.by} == {on, by}:
                 sense = 1.0 if reaction.on == on else -1.0
                 return Line(reaction.force, reaction.couple, sense)
-        raise UnansweredError(NoAnswer.NO_JOINT)
+        raise NoValueError(NoValue.NO_JOINT)
 
     def _line(self, kind: str, names: tuple[str, ...]) -> Line:
         """Return the line of a force that must act somewhere."""
@@ -270,7 +270,7 @@ class ForceQuantities:
             return self._joint(*names)
         given = self._given(kind, names[0])
         if given is None or given.force is None:
-            raise UnansweredError(NoAnswer.NO_DIRECTION)
+            raise NoValueError(NoValue.NO_DIRECTION)
         return Line(given.force)
 
     def _given(self, kind: str, name: str) -> Given | None:

@@ -14,7 +14,7 @@ from planmethod.plans.legend import Quantity, QuantityKind
 from planmethod.record import replace
 from planmethod.solved.forces.loads import applied
 from planmethod.solved.forces.statics import Planned, plan_forces
-from planmethod.solved.results import Results
+from planmethod.solved.quantities import Quantities
 from planmethod.solved.solution import Solution
 
 
@@ -28,7 +28,7 @@ def moment_row(reaction: Reaction) -> str:
     return f"M.{reaction.joint}.{reaction.on}-{reaction.by}"
 
 
-def with_forces(solution: Solution, results: Results) -> Results:
+def with_forces(solution: Solution, results: Quantities) -> Quantities:
     """Return the results of a solution and those of its force plans, in N and N·m.
 
     The positions of the solution do not matter: what differs from one to another is left open.

@@ -1,0 +1,45 @@
+"""Quantities that labels name: forces are planned only where a label needs them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+from planmethod.plans.legend import QuantityKind
+from planmethod.solved.quantities import Quantities, UnknownQuantityError, quantities_of
+from planmethod.solved.solution import Solution
+
+
+def quantities_for(
+    solution: Solution, labels: Iterable[str] | None, *, forces: bool = False
+) -> Quantities:
+    """Return the quantities among which the labelled ones are: forces are planned only where needed.
+
+    Parameters
+    ----------
+    labels : iterable of str, optional
+        Everything of the motion when absent.
+    forces : bool
+        Where nothing is asked by name: everything of the forces, too.
+
+    Raises
+    ------
+    UnknownQuantityError
+        A force is asked of a problem without masses and loads.
+    """
+    quantities = quantities_of(solution.construction)
+    other = () if labels is None else [label for label in labels if not quantities.find(label)]
+    if not (other or (forces and labels is None)):
+        return quantities
+    if solution.problem.dynamics is not None:
+        from planmethod.solved.forces.quantities import with_forces
+
+        return with_forces(solution, quantities)
+    letters = {kind.letter for kind in QuantityKind if kind.is_force}
+    for label in other:
+        if label == "forces" or label.partition("_")[0] in letters:
+            raise UnknownQuantityError(
+                "no result {!r}: the problem has no loads. Give the masses in [dynamics] and "
+                "the loads in [[loads]].",
+                label,
+            )
+    return quantities
