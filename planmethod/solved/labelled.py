@@ -12,7 +12,7 @@ from planmethod.solved.solution import Solution
 def quantities_for(
     solution: Solution, labels: Iterable[str] | None, *, forces: bool = False
 ) -> Quantities:
-    """Return the quantities among which the labelled ones are: forces are planned only where needed.
+    """Return the quantities that have all labelled ones: forces are planned only where needed.
 
     Parameters
     ----------
