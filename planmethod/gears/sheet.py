@@ -6,6 +6,9 @@ from collections.abc import Iterator, Mapping, Sequence
 from fractions import Fraction
 from itertools import pairwise, product
 
+from msgspec import Struct
+from msgspec.structs import replace
+
 from planmethod.construct.drafting import Profile
 from planmethod.construct.scale import Scale, series_near
 from planmethod.errors import LayoutError
@@ -21,7 +24,6 @@ from planmethod.gears.told import calculation, given, results
 from planmethod.languages import LANGUAGES, say
 from planmethod.note.wording import Language, language
 from planmethod.paper import STAMP_WIDTH, TRIED
-from planmethod.record import dataclass, replace
 from planmethod.render.frame.furniture import Furniture
 from planmethod.render.ink.drawing import Drawing, Item, Span, View, shifted
 from planmethod.render.ink.extent import ink_bounds
@@ -111,8 +113,7 @@ def drawings(
     return compose(problem, strategy, misfit, fields=fields, furniture=furniture)
 
 
-@dataclass(frozen=True, slots=True)
-class _Train:
+class _Train(Struct, frozen=True):
     """How the sheet of a train is searched for: by the scale of the side view."""
 
     problem: GearProblem
@@ -183,8 +184,7 @@ DENSE = Sizes(3.5, 3.5, 2.5, STAMP_WIDTH, row=5.5)
 """Where the format was asked for and nothing larger fits."""
 
 
-@dataclass(frozen=True)
-class _Picture(Viewed):
+class _Picture(Viewed, frozen=True):
     """A view of the train; its segments are known from its upper left corner."""
 
     measured: Sequence[Span]
@@ -195,8 +195,7 @@ class _Picture(Viewed):
             yield replace(one, start=one.start + corner, end=one.end + corner)
 
 
-@dataclass(frozen=True)
-class _Strip(_Picture):
+class _Strip(_Picture, frozen=True):
     """The side view, and beside it the picture of linear velocities, which is measured."""
 
     beside: Scale
@@ -213,8 +212,7 @@ class _Strip(_Picture):
         ]
 
 
-@dataclass(frozen=True)
-class _Sheet:
+class _Sheet(Struct, frozen=True):
     """Blocks of a sheet."""
 
     motion: Motion

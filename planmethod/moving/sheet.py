@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import field
 from itertools import combinations, pairwise
 
 import numpy as np
+from msgspec import Struct, field
+from msgspec.structs import replace
 
 from planmethod.construct.drafting import Profile
 from planmethod.construct.scale import Scale
@@ -30,7 +31,6 @@ from planmethod.note.plaintext import plain_text
 from planmethod.note.rounding import rounded_to, sigma_text
 from planmethod.note.wording import Language, language
 from planmethod.paper import STAMP_WIDTH, TRIED
-from planmethod.record import dataclass, replace
 from planmethod.render.frame.furniture import Furniture
 from planmethod.render.ink.drawing import Disc, Drawing, Item, Span
 from planmethod.render.ink.typeset import typeset
@@ -68,8 +68,7 @@ MOST_STEPS = 3
 """Most members of the series that a scale goes on by."""
 
 
-@dataclass(frozen=True)
-class _Plan(Viewed):
+class _Plan(Viewed, frozen=True):
     """Hodograph of a kind, with the plan of the told moment."""
 
     built: Construction | None
@@ -88,8 +87,7 @@ class _Plan(Viewed):
                     yield Span(plain_text(vector.symbol), None, pole, pole + head)
 
 
-@dataclass(frozen=True, slots=True)
-class _Point:
+class _Point(Struct, frozen=True):
     """How the sheets of a point are searched for: views smaller and smaller, on more sheets."""
 
     problem: PointProblem
@@ -279,8 +277,7 @@ def read_rows(
         yield f"{SYMBOLS[name]}, {say.units[unit_of(name)]}", say.number(exact), read, error
 
 
-@dataclass(frozen=True, slots=True)
-class _Sheets:
+class _Sheets(Struct, frozen=True):
     """Sheets of a point at certain scales (`Proposal`)."""
 
     of: _Point

@@ -6,6 +6,8 @@ from collections.abc import Iterator, Mapping, Sequence
 from itertools import product
 from typing import TYPE_CHECKING
 
+from msgspec import Struct
+
 from planmethod.errors import LayoutError
 from planmethod.gears.involute.diagrams import (
     Contour,
@@ -21,7 +23,6 @@ from planmethod.languages import LANGUAGES, say
 from planmethod.note.numbers import Notation
 from planmethod.note.wording import Language, language
 from planmethod.paper import STAMP_WIDTH
-from planmethod.record import dataclass
 from planmethod.render.frame.furniture import Furniture, Room
 from planmethod.render.ink.drawing import Drawing
 from planmethod.render.ink.typeset import escape
@@ -83,8 +84,7 @@ def drawings(
     return compose(problem, strategy, misfit, fields=fields, furniture=furniture, title=title)
 
 
-@dataclass(frozen=True, slots=True)
-class _Meshing:
+class _Meshing(Struct, frozen=True):
     """How the sheet of a mesh is searched for: by smaller letters and views."""
 
     solved: Solved

@@ -11,6 +11,9 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from types import MappingProxyType
 from typing import Protocol, TypeAlias
 
+from msgspec import Struct
+from msgspec.structs import replace
+
 from planmethod.construct.scale import Scale, next_scale
 from planmethod.errors import LayoutError
 from planmethod.languages import say
@@ -18,7 +21,6 @@ from planmethod.paper import BASIC, Format, paper_format
 from planmethod.plans.model import PlanKind
 from planmethod.problem.head import KindProblem
 from planmethod.problem.model import Scales
-from planmethod.record import dataclass, replace
 from planmethod.render.frame.frame import sheet_frame
 from planmethod.render.frame.furniture import Furniture, Room
 from planmethod.render.frame.titleblock import merged
@@ -31,8 +33,7 @@ from planmethod.render.layout.pack import Placed, pack
 Box: TypeAlias = tuple[float, float]
 
 
-@dataclass(frozen=True, slots=True)
-class Sizes:
+class Sizes(Struct, frozen=True):
     """Letter heights and widths of a sheet, mm (высота шрифта, ширина столбца).
 
     ``letter``: letters of views; ``title``: names of views; ``text``: everything else;
@@ -53,8 +54,7 @@ class Sizes:
         return replace(self, column=share * self.column, boxes=boxes)
 
 
-@dataclass(frozen=True)
-class Viewed:
+class Viewed(Struct, frozen=True):
     """A view among the blocks of a sheet (вид), of a kind and in a scale: a scheme, a diagram."""
 
     block: Block
@@ -93,8 +93,7 @@ def view_of(name: str, scale: Scale | None, box: Bounds, spans: Iterable[Span]) 
     return View(name, box, f"μ_{{{letter}}}", scale.per_mm, tuple(spans))
 
 
-@dataclass(frozen=True, slots=True)
-class Blank:
+class Blank(Struct, frozen=True):
     """Paper that sheets are tried on; ``is_asked`` tells that no other may be taken."""
 
     format: Format
@@ -122,8 +121,7 @@ Tried: TypeAlias = tuple[bool, int, int]
 """What was given up: blocks left out, letter heights passed over, groups taken apart."""
 
 
-@dataclass(frozen=True, slots=True)
-class LaidPage:
+class LaidPage(Struct, frozen=True):
     """Blocks of one sheet with their upper left corners.
 
     ``title`` is its name, if it has one of its own. ``paper`` is the format of a sheet that goes on
@@ -136,8 +134,7 @@ class LaidPage:
     paper: str = ""
 
 
-@dataclass(frozen=True, slots=True)
-class Laid:
+class Laid(Struct, frozen=True):
     """Sheets that have room, and the scales of their views, units per mm by name."""
 
     pages: Sequence[LaidPage]
@@ -172,8 +169,7 @@ class Strategy(Protocol):
         """Yield what is to be tried, the best first."""
 
 
-@dataclass(frozen=True, slots=True)
-class Misfit:
+class Misfit(Struct, frozen=True):
     """What is said where nothing has room on any paper.
 
     ``error`` is that of a paper and an advice; ``less`` says what to ask less of where there is no
@@ -200,8 +196,7 @@ class Misfit:
         return self.less
 
 
-@dataclass(frozen=True, slots=True)
-class Packing:
+class Packing(Struct, frozen=True):
     """Blocks in reading order for a paper, a group for each sheet (`Proposal`)."""
 
     paper: Blank

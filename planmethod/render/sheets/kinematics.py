@@ -7,6 +7,9 @@ from itertools import chain, product
 from pathlib import Path
 from typing import Any
 
+from msgspec import Struct
+from msgspec.structs import replace
+
 from planmethod.construct.drafting import PROFILES, Profile
 from planmethod.errors import LayoutError
 from planmethod.languages import LANGUAGES, say
@@ -14,7 +17,6 @@ from planmethod.note.wording import Language, language
 from planmethod.paper import paper_format
 from planmethod.plans.model import FACTS, MOTION
 from planmethod.problem.model import Problem, Scales
-from planmethod.record import dataclass, replace
 from planmethod.render.frame.furniture import Furniture
 from planmethod.render.ink.drawing import Drawing
 from planmethod.render.sheets.composer import Blank, Laid, LaidPage, Misfit, compose, enlarged
@@ -134,8 +136,7 @@ def _check_positions(layout: Composition, solution: Solution) -> None:
             )
 
 
-@dataclass(frozen=True, slots=True)
-class Linkage:
+class Linkage(Struct, frozen=True):
     """How sheets of a linkage are searched for: which scales and how many positions on a sheet.
 
     ``solution`` is that whose views are the first guess.
@@ -196,8 +197,7 @@ class Linkage:
         return one.once(Solution.filling, views, scales)
 
 
-@dataclass(frozen=True, slots=True)
-class OnPaper:
+class OnPaper(Struct, frozen=True):
     """Sheets of a linkage on a paper, with so many positions on each (`Proposal`)."""
 
     of: Linkage

@@ -9,16 +9,17 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
+from msgspec import Struct
+from msgspec.structs import replace
+
 from planmethod.note.wording import Language
 from planmethod.plans.model import PlanKind
-from planmethod.record import dataclass, replace
 from planmethod.render.layout.cuttings import Arrange
 from planmethod.render.sheets.composer import Sizes
 from planmethod.solved.scaling import AS_HIGH, LESS, Views
 
 
-@dataclass(frozen=True, slots=True)
-class Entry:
+class Entry(Struct, frozen=True):
     """One block of a composition, as the file asks for it (блок компоновки).
 
     Attributes
@@ -69,8 +70,7 @@ class Entry:
     number: int = 0
 
 
-@dataclass(frozen=True, slots=True)
-class Composition:
+class Composition(Struct, frozen=True):
     """Blocks of the sheets, and how they are arranged (компоновка листов).
 
     Attributes
@@ -138,8 +138,7 @@ class Composition:
         return views
 
 
-@dataclass(frozen=True, slots=True)
-class Extras:
+class Extras(Struct, frozen=True):
     """What is asked of all blocks of a sheet: its language, and what it shows of drafting errors.
 
     ``errors`` are ellipses around points, ``sigma`` stands in the tables; None: in that of the
@@ -155,8 +154,7 @@ class Extras:
     traces: bool = True
 
 
-@dataclass(frozen=True, slots=True)
-class Manner:
+class Manner(Struct, frozen=True):
     """How a block is drawn on a certain sheet: what the file asks for, and the format's sizes.
 
     ``level`` counts the letter heights that did not fit; ``inside`` is the width inside the frame,

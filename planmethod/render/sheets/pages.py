@@ -7,7 +7,9 @@ from itertools import combinations, groupby, pairwise
 from math import inf
 from typing import TypeAlias
 
-from planmethod.record import dataclass, replace
+from msgspec import Struct
+from msgspec.structs import replace
+
 from planmethod.render.frame.furniture import Room
 from planmethod.render.layout.block import Block, Column, Row, Shapes
 from planmethod.render.layout.cuttings import GAP, Arrange, Group, Part
@@ -37,8 +39,7 @@ MOST_TURNS = 60
 """Most ways to divide blocks among pages that are tried."""
 
 
-@dataclass(frozen=True, slots=True)
-class Made:
+class Made(Struct, frozen=True):
     """A block that was made, and what the file says of it."""
 
     entry: Entry
@@ -195,8 +196,7 @@ def spread(entries: Sequence[Entry], solution: Solution) -> list[Entry]:
     return found
 
 
-@dataclass(frozen=True, slots=True)
-class _Stock:
+class _Stock(Struct, frozen=True):
     """Blocks that were made for a sheet: what is tried again is not made again."""
 
     solution: Solution

@@ -9,13 +9,15 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from math import ceil
 
+from msgspec import Struct
+from msgspec.structs import replace
+
 from planmethod.errors import LayoutError
 from planmethod.languages import LANGUAGES, say
 from planmethod.mechanism.structure import Structure
 from planmethod.note.wording import Language, language
 from planmethod.paper import STAMP_WIDTH, TRIED, paper_format
 from planmethod.problem.model import Problem
-from planmethod.record import dataclass, replace
 from planmethod.render.frame.clearance import is_clear
 from planmethod.render.ink.drawing import Drawing, Item
 from planmethod.render.ink.typeset import typeset
@@ -53,8 +55,7 @@ COLUMN = STAMP_WIDTH - 2 * EDGE
 """Width of tables and formulas that stand over the title block, mm."""
 
 
-@dataclass(frozen=True, slots=True)
-class Pictures:
+class Pictures(Struct, frozen=True):
     """Sizes of a sheet and of its pictures, mm (размеры надписей и видов).
 
     ``cell`` is the least width of a group's cell, ``step`` the greatest length of a grid unit of
@@ -128,8 +129,7 @@ def structure_sheet(
     return sheet
 
 
-@dataclass(frozen=True, slots=True)
-class _Structural:
+class _Structural(Struct, frozen=True):
     """How the structural sheet is searched for: by sizes of tables and pictures."""
 
     problem: Problem
@@ -145,8 +145,7 @@ class _Structural:
             yield _Columns(paper, self.problem, self.structure, pictures, self.words)
 
 
-@dataclass(frozen=True, slots=True)
-class _Columns:
+class _Columns(Struct, frozen=True):
     """Pictures on the left, tables and formulas on the right (`Proposal`)."""
 
     paper: Blank
@@ -306,8 +305,7 @@ def _grid(pictures: Sequence[Block], told: Sequence[Block], across: int, cell: f
     return Column(rows, gap=GAP + 2.0, align="centre")
 
 
-@dataclass(frozen=True, slots=True)
-class _Cell:
+class _Cell(Struct, frozen=True):
     """Picture over its caption in a room of a given width and height; both are centred."""
 
     view: Block

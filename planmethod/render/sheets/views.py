@@ -11,7 +11,6 @@ from planmethod.note.narrate.scales import common_scale
 from planmethod.note.numbers import is_nothing
 from planmethod.note.plaintext import plain_text
 from planmethod.plans.model import PlanKind
-from planmethod.record import dataclass
 from planmethod.render.ink.drawing import Arc, Disc, Item, Span
 from planmethod.render.ink.typeset import typeset
 from planmethod.render.layout.block import Block, Column, Line, Row, shaped
@@ -34,8 +33,7 @@ from planmethod.solved.solution import Solution
 NO_VIEWS: Mapping[int, complex] = MappingProxyType({})
 
 
-@dataclass(frozen=True)
-class PlanViewed(Viewed):
+class PlanViewed(Viewed, frozen=True):
     """Plans of some positions, in the order in which they are drawn."""
 
     solution: Solution
