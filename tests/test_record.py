@@ -10,7 +10,6 @@ from typing import Any
 
 import pytest
 
-from planmethod.pattern import pattern
 from planmethod.record import dataclass
 
 
@@ -104,12 +103,3 @@ def test_wrong_arguments_are_a_type_error(wrong: tuple[Any, ...]) -> None:
         More(*wrong)
     with pytest.raises(TypeError):
         Named(1)  # type: ignore[call-arg]
-
-
-def test_a_pattern_compiles_itself() -> None:
-    found = pattern(r"(\d+)")
-    assert "pattern" in vars(found)
-    assert "search" not in vars(found)
-    assert found.search("a12") is not None
-    assert found.sub("x", "a12") == "ax"
-    assert found.pattern == r"(\d+)"

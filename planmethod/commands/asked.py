@@ -5,7 +5,7 @@ from __future__ import annotations
 import functools
 from collections.abc import Callable, Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Protocol, TypeVar, cast
+from typing import TYPE_CHECKING, Any, TypeVar, cast
 
 import click
 
@@ -18,13 +18,6 @@ if TYPE_CHECKING:
 
 F = TypeVar("F", bound=Callable[..., Any])
 P = TypeVar("P", bound="KindProblem")
-
-
-class Settled(Protocol):
-    """Gives a problem, of whatever kind, all that is asked of its sheets."""
-
-    def __call__(self, problem: P) -> P:
-        """Return the problem with what is asked."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -49,7 +42,7 @@ class Asked:
     no_config: bool = False
 
     def settle(self) -> Settled:
-        """Read the config file, and return what gives a problem all that is asked of its sheets.
+        """Read the config file, and return what is asked of the sheets of every problem.
 
         The texts of the options are left to the sheets, as they outrank even computed numbers.
 
@@ -64,12 +57,7 @@ class Asked:
         from planmethod.render.frame.titleblock import check_fields
 
         check_fields(self.fields)
-        config, options = self._config(), SheetSettings(**self.sheet)  # type: ignore[arg-type]
-
-        def settled(problem: P) -> P:
-            return laid_over(config, problem, options)
-
-        return settled
+        return Settled(self.fields, self._config(), SheetSettings(**self.sheet))  # type: ignore[arg-type]
 
     def _config(self) -> Config:
         from planmethod.problem.config import Config, find_config, load_config
@@ -81,23 +69,40 @@ class Asked:
         path = self.config or find_config()
         return Config() if path is None else load_config(path)
 
+
+@dataclass(frozen=True, slots=True)
+class Settled:
+    """What is asked of the sheets of every problem.
+
+    Attributes
+    ----------
+    fields : mapping
+        Texts of the title block, from the options.
+    config : Config
+    options : SheetSettings
+    """
+
+    fields: Mapping[str, str]
+    config: Config
+    options: SheetSettings
+
+    def over(self, problem: P) -> P:
+        """Return a problem with the options over its settings, and the config file under them.
+
+        The title of the problem outranks one of the config file: it is what the sheets show.
+        """
+        from planmethod.render.frame.titleblock import merged
+
+        config = self.config
+        own = {"title": problem.title} if problem.title else {}
+        stamp = merged(config.stamp, own, problem.stamp) if config.stamp else problem.stamp
+        sheet = self.options.over(problem.sheet.over(config.sheet))
+        whole: Any = problem
+        return cast("P", replace(whole, stamp=stamp, sheet=sheet))
+
     def author(self, problem: KindProblem) -> str | None:
         """Return whom the files of a problem name as their author."""
         return self.fields.get("author", problem.stamp.get("author")) or None
-
-
-def laid_over(config: Config, problem: P, options: SheetSettings) -> P:
-    """Return a problem with the options over its settings, and a config file under them.
-
-    The title of the problem outranks one of the config file: it is what the sheets show.
-    """
-    from planmethod.render.frame.titleblock import merged
-
-    own = {"title": problem.title} if problem.title else {}
-    stamp = merged(config.stamp, own, problem.stamp) if config.stamp else problem.stamp
-    sheet = options.over(problem.sheet.over(config.sheet))
-    whole: Any = problem
-    return cast("P", replace(whole, stamp=stamp, sheet=sheet))
 
 
 # Options -----------------------------------------------------------------------------------------

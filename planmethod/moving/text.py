@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable
 
 from planmethod.moving.model import Law, PointProblem
@@ -10,7 +11,6 @@ from planmethod.note.numbers import MINUS, Notation, alike, significant, with_un
 from planmethod.note.plaintext import columns_text, heading, plain_text, spoken, table, wrap
 from planmethod.note.plaintext import given as written
 from planmethod.note.wording import Language, Wording, language
-from planmethod.pattern import pattern
 
 FEW = 3
 """Most moments that are told with formulas; more are rows of a table."""
@@ -118,11 +118,11 @@ def unit_of(name: str) -> str:
 
 def textbook(text: str, decimal: str) -> str:
     """Return a formula of a file as a textbook prints it, rich text: powers, roots, π."""
-    shown = _ROOT.sub("√", _PI.sub("π", text.replace(".", decimal).replace("-", MINUS)))
+    shown = re.sub(_ROOT, "√", re.sub(_PI, "π", text.replace(".", decimal).replace("-", MINUS)))
     return raised_powers(shown)
 
 
-_PI, _ROOT = pattern(r"\bpi\b"), pattern(r"\bsqrt\b")
+_PI, _ROOT = r"\bpi\b", r"\bsqrt\b"
 
 
 def raised_powers(text: str) -> str:
@@ -139,7 +139,7 @@ def raised_powers(text: str) -> str:
 
 def _end_of_power(tail: str) -> int:
     """Return where the power ends that a text begins with: ``-t``, ``(1/2)``, ``2^t``."""
-    named = _POWER.match(tail)
+    named = re.match(_POWER, tail)
     end = named.end() if named else 0
     if tail[end : end + 1] == "(":
         depth = 0
@@ -151,7 +151,7 @@ def _end_of_power(tail: str) -> int:
     return end + 1 + _end_of_power(tail[end + 1 :]) if tail[end : end + 1] == "^" else end
 
 
-_POWER = pattern(r" *[-+− ]*(?:[0-9.,]+(?:[eE][-+−]?[0-9]+)?|[A-Za-z_π√]+[0-9]*)?")
+_POWER = r" *[-+− ]*(?:[0-9.,]+(?:[eE][-+−]?[0-9]+)?|[A-Za-z_π√]+[0-9]*)?"
 
 
 def law_lines(

@@ -9,7 +9,6 @@ from collections.abc import Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from planmethod.note.numbers import Notation, rich_number, significant, trimmed
-from planmethod.pattern import pattern
 
 if TYPE_CHECKING:
     from planmethod.note.wording.model import Wording
@@ -25,8 +24,8 @@ NO_BREAK = "\N{NO-BREAK SPACE}"
 
 _SUPER = dict(zip("0123456789-−ntτkr", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻⁻ⁿᵗᵗᵏʳ", strict=True))
 _SUB = dict(zip("0123456789", "₀₁₂₃₄₅₆₇₈₉", strict=True))
-_UP = pattern(r"\^\{([^}]*)\}")
-_DOWN = pattern(r"_\{([^}]*)\}")
+_UP = r"\^\{([^}]*)\}"
+_DOWN = r"_\{([^}]*)\}"
 
 
 def plain_text(rich: str) -> str:
@@ -41,7 +40,7 @@ def plain_text(rich: str) -> str:
             return ""
         return "".join(_SUB[c] for c in text) if all(c in _SUB for c in text) else f"_{text}"
 
-    return _DOWN.sub(down, _UP.sub(up, rich))
+    return re.sub(_DOWN, down, re.sub(_UP, up, rich))
 
 
 def spoken(text: str, words: Wording) -> str:
@@ -150,7 +149,7 @@ def plain_columns(
 INDENT = " " * 5
 """What stands before the lines of a step, under its number."""
 
-_WORD = pattern(r"^[^\W\d_]+")
+_WORD = r"^[^\W\d_]+"
 """Letters that a unit begins with: between a number and them no line is cut."""
 
 
@@ -159,8 +158,8 @@ class Steps:
 
     def __init__(self, words: Wording) -> None:
         self.lines: list[str] = []
-        units = "|".join(name for unit in words.units.values() for name in _WORD.findall(unit))
-        self._unit = pattern(rf"(?<=\d) (?=(?:{units})(?![^\W\d_]))")
+        units = "|".join(name for unit in words.units.values() for name in re.findall(_WORD, unit))
+        self._unit = rf"(?<=\d) (?=(?:{units})(?![^\W\d_]))"
         self._step = self._chapter = self._part = 0
 
     def chapter(self, title: str) -> None:
@@ -182,7 +181,7 @@ class Steps:
             self._step += 1
         for i, line in enumerate(lines):
             first = f"{self._step:>3}) " if i == 0 and not more else INDENT
-            text = self._unit.sub(NO_BREAK, plain_text(line))
+            text = re.sub(self._unit, NO_BREAK, plain_text(line))
             self.lines += wrap(text, first=first, rest=INDENT)
 
     def formulas(self, lines: Sequence[str]) -> None:

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Collection, Iterable, Mapping
 from typing import TYPE_CHECKING
 
 from planmethod.languages import say
 from planmethod.mechanism.model import FRAME, Revolute
-from planmethod.pattern import pattern
 from planmethod.problem import fields, keys
 from planmethod.problem.extras import check_what, read_position
 from planmethod.problem.fields import Faults, Table
@@ -30,8 +30,8 @@ DIGIT_LIMIT = 8
 POINTS_LIMIT = 1000.0
 
 # No sign that would begin a formula in a spreadsheet, no space that a form could lose.
-_ID_RE = pattern(r"[^\W\d_][\w./@'{}^-]*\Z")
-_REACTION_RE = pattern(r"[FM]_(?P<joint>[^_/]+)_(?P<on>[^_/]+)/(?P<by>[^_/]+)\Z")
+_ID_RE = r"[^\W\d_][\w./@'{}^-]*\Z"
+_REACTION_RE = r"[FM]_(?P<joint>[^_/]+)_(?P<on>[^_/]+)/(?P<by>[^_/]+)\Z"
 _BALANCING = {"dr": "balance", "lever": "lever"}
 _TAKEN = (*keys.SCALES[1:], "ruler_mm")
 """What a row of a group's table is called that is no answer."""
@@ -75,7 +75,7 @@ def words_of(name: str, slides: Iterable[Slide]) -> str:
     if " " in name or "_" not in name:
         return name
     head, _, rest = name.partition("_")
-    reaction = _REACTION_RE.match(name)
+    reaction = re.match(_REACTION_RE, name)
     if reaction:
         return f"{head} {reaction['on']} {reaction['by']}"
     if head in ("M", "F") and rest in _BALANCING:
@@ -244,7 +244,7 @@ def _read_what(faults: Faults, path: str, name: str, words: str, scene: Scene) -
         faults.add(path, say("'{}' is of the flywheel", words), "Ask for the motion or the forces.")
     elif selector is not None and selector.kind in ANALOGUES:
         faults.add(path, say("'{}' is on no plan", words), "Ask for the motion or the forces.")
-    reaction = _REACTION_RE.match(name)
+    reaction = re.match(_REACTION_RE, name)
     if reaction and scene.points and len(faults) == before:
         joint, pair = reaction["joint"], {reaction["on"], reaction["by"]}
         if not _joined(joint, pair, scene):
@@ -276,7 +276,7 @@ def _read_id(faults: Faults, path: str, value: object) -> str:
         faults.add(
             path, say("'{}' is a row of its own in tables of answers", text), "Take another id."
         )
-    elif not _ID_RE.match(text):
+    elif not re.match(_ID_RE, text):
         hint = "A letter first, then letters, digits and _ . / @ ' - without spaces: v_B3."
         faults.expected(path, "the id of an answer", text, hint)
     return text

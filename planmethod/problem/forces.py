@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Collection, Iterable, Mapping
 
 from planmethod.languages import say
 from planmethod.mechanism.model import FRAME
-from planmethod.pattern import pattern
 from planmethod.problem import fields, keys
 from planmethod.problem.fields import Faults, Table
 from planmethod.problem.links import LinkText
@@ -17,7 +17,7 @@ from planmethod.problem.sizes import TURN, read_phase, read_size
 from planmethod.record import dataclass, replace
 
 NAME_LIMIT = 40
-_NAME_RE = pattern(r"(?:[^_^{}\\]|[_^](?:[^_^{}\\]|\{[^_^{}\\]+\}))+\Z")
+_NAME_RE = r"(?:[^_^{}\\]|[_^](?:[^_^{}\\]|\{[^_^{}\\]+\}))+\Z"
 
 
 @dataclass(frozen=True, slots=True)
@@ -101,7 +101,7 @@ def _read_names(faults: Faults, bodies: Iterable[Table]) -> list[str | None]:
         path, name = f"loads[{index}].name", None
         if "name" in body:
             name = fields.read_text(faults, path, body["name"], limit=NAME_LIMIT)
-        if name is not None and not _NAME_RE.match(name):
+        if name is not None and not re.match(_NAME_RE, name):
             faults.expected(
                 path, "a letter with its indices", name, "For example: F_{5}, P, M_{1}^{c}."
             )

@@ -21,7 +21,6 @@ from enum import Enum
 from types import MappingProxyType
 
 from planmethod.languages import say
-from planmethod.pattern import pattern
 from planmethod.problem.names import listed, near_hint, short
 from planmethod.record import dataclass
 
@@ -47,7 +46,7 @@ FUNCTIONS: Mapping[str, str] = MappingProxyType(
 CONSTANTS: Mapping[str, float] = MappingProxyType({"pi": math.pi, "e": math.e})
 TIME = "t"
 
-_TOKEN = pattern(
+_TOKEN = (
     r"(?P<number>(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?)"
     r"|(?P<name>[A-Za-z_][A-Za-z_0-9]*)|(?P<sign>\*\*|[-+*/^()])"
 )
@@ -110,9 +109,9 @@ def is_exact(text: str) -> bool:
     return Decimal(text) == Decimal(float(text))
 
 
-_PRINTED = pattern(_TOKEN.pattern.removesuffix(")") + "|[√²³π])")
+_PRINTED = _TOKEN.removesuffix(")") + "|[√²³π])"
 _AS_TYPED = str.maketrans("−–—·×∙÷:", "---***//")
-_COMMA = pattern(r"(?<=\d),(?=\d)")
+_COMMA = r"(?<=\d),(?=\d)"
 
 
 def work_out(text: str) -> float:
@@ -126,7 +125,7 @@ def work_out(text: str) -> float:
     if len(text) > LENGTH_LIMIT:
         raise FormulaError(say("it has {} characters, the limit is {}", len(text), LENGTH_LIMIT))
     stack: list[float] = []
-    for operation in Parser(_COMMA.sub(".", text.translate(_AS_TYPED)), printed=True).parse():
+    for operation in Parser(re.sub(_COMMA, ".", text.translate(_AS_TYPED)), printed=True).parse():
         try:
             stack.append(_carried_out(operation, stack))
         except ZeroDivisionError:
@@ -293,8 +292,9 @@ class Parser:
         return self.tokens[self.at][1]
 
 
-def _tokens(text: str, pattern: re.Pattern[str]) -> list[tuple[str, str, int]]:
+def _tokens(text: str, token: str) -> list[tuple[str, str, int]]:
     """Return kind, text and place (from 1) of every token, and an end."""
+    pattern = re.compile(token)
     found: list[tuple[str, str, int]] = []
     at = 0
     while at < len(text):

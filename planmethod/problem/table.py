@@ -3,26 +3,26 @@
 from __future__ import annotations
 
 import io
+import re
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
 from planmethod.languages import say
-from planmethod.pattern import pattern
 from planmethod.problem import keys
 from planmethod.problem.fields import Faults, is_number
 from planmethod.problem.names import fold, listed, near_hint, short, split_names
 from planmethod.problem.source import SIZE_LIMIT, table_text
 
 _UNITS = {"м": "m", "см": "cm", "мм": "mm", "m": "m", "cm": "cm", "mm": "mm"}
-_SI = pattern(
+_SI = (
     r"(?:°|град|deg|об/мин|rpm|(?:мин|с)[-⁻][12¹²]|(?:1|рад|rad|м|m)/[сs][²2]?"
     r"|кг|kg|Н|N|(?:Н|N|кг|kg)[·*][мm][²2]?)\Z"
 )
 """Units that the file has them in: they change nothing."""
 
-_HEAD = pattern(r"(?P<name>[^,(\[]+?)\s*(?:[,(\[]\s*(?P<unit>[^)\]]*)[)\]]?)?\Z")
-_NUMBER = pattern(r"[-+−]?[0-9]+(?:[.,][0-9]*)?(?:[eE][-+]?[0-9]+)?\Z")
+_HEAD = r"(?P<name>[^,(\[]+?)\s*(?:[,(\[]\s*(?P<unit>[^)\]]*)[)\]]?)?\Z"
+_NUMBER = r"[-+−]?[0-9]+(?:[.,][0-9]*)?(?:[eE][-+]?[0-9]+)?\Z"
 _GREEK = str.maketrans(
     {"φ": "phi", "ω": "omega", "ε": "epsilon", "∠": "", "_": "", "{": "", "}": ""}
 )
@@ -104,7 +104,7 @@ def _put(
     overrides: dict[str, Any], table: Mapping[str, Any], key: str, per: float, cell: str
 ) -> None:
     value: Any = cell
-    if _NUMBER.match(cell):
+    if re.match(_NUMBER, cell):
         plain = cell.replace(",", ".").replace("−", "-")
         value = float(plain) if not plain.lstrip("+-").isdigit() else int(plain)
     if per != 1.0:
@@ -121,7 +121,7 @@ def _column(
     faults: Faults, table: Mapping[str, Any], head: str, name: str
 ) -> tuple[str, float] | None:
     """Return the dotted key of a column, and by what its numbers are multiplied."""
-    match = _HEAD.match(head)
+    match = re.match(_HEAD, head)
     written = match["name"] if match else head
     names = dict(_names(table))
     first = fold(written).split(".")[0]
@@ -134,7 +134,7 @@ def _column(
         faults.add("variants", say("{}: no column is called '{}'", name, short(head)), hint)
         return None
     unit = (match["unit"] or "").strip() if match else ""
-    if not unit or _SI.match(unit):
+    if not unit or re.match(_SI, unit):
         return key, 1.0
     if unit not in _UNITS or not _is_length(key):
         faults.add("variants", say("{}: '{}' is not in the unit of the file", name, short(head)))

@@ -12,7 +12,6 @@ from pathlib import Path
 from typing import Any
 from unicodedata import combining, normalize
 
-from planmethod.pattern import pattern
 from planmethod.problem.fields import Faults
 from planmethod.problem.source import parse
 from planmethod.problem.variants import apply_variant, read_variants
@@ -134,14 +133,14 @@ class _Table:
     lines: list[str]
 
 
-_HEADER = pattern(r"\[{1,2}\s*([^\W\d][\w.\-\"' ]*?)\s*\]{1,2}\s*(?:#.*)?$")
+_HEADER = r"\[{1,2}\s*([^\W\d][\w.\-\"' ]*?)\s*\]{1,2}\s*(?:#.*)?$"
 
 
 def _tables(text: str) -> list[_Table]:
     """Return the text in tables; comments and blank lines over a header go with it."""
     found, count = [_Table("", [], [])], Counter[str]()
     for line in text.splitlines():
-        header = _HEADER.match(line)
+        header = re.match(_HEADER, line)
         if header is None:
             found[-1].lines.append(line)
             continue

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Iterator, Mapping
 from typing import Any, assert_never
 
@@ -11,16 +12,15 @@ from planmethod.construct.steps import LineName, Name, NumberName, Step
 from planmethod.note.numbers import with_unit
 from planmethod.note.plaintext import NO_BREAK, Steps, fixed, given, plain_text, table, wrap
 from planmethod.note.wording import Language
-from planmethod.pattern import pattern
 from planmethod.synthesis.drawn import Drawn
 from planmethod.synthesis.model import place
 
-_LETTERS = pattern(r"([^\d']+)(\d*)('*)")
+_LETTERS = r"([^\d']+)(\d*)('*)"
 
 
 def point_name(name: str) -> str:
     """Return a point's name as rich text: ``A2'`` gives ``A_{2}′``."""
-    match = _LETTERS.fullmatch(name)
+    match = re.fullmatch(_LETTERS, name)
     assert match is not None, name
     letter, index, primes = match.groups()
     return letter + (f"_{{{index}}}" if index else "") + "′" * len(primes)

@@ -19,7 +19,7 @@ from cases import each
 from click.testing import CliRunner
 
 import planmethod
-from planmethod.cli import COMMANDS, cli
+from planmethod.cli import COMMANDS, cli, command_of
 from planmethod.errors import PlanMethodError
 from planmethod.kinds import load
 from planmethod.languages import LANGUAGES, WRITTEN, say, speaking, spoken_to
@@ -192,7 +192,7 @@ def test_a_message_has_the_same_places_in_every_language(lang: str) -> None:
 
 def helps() -> Iterator[str]:
     """Yield the help of the commands and their options, and that of the program."""
-    for command in (cli, *cli.commands.values()):
+    for command in (cli, *map(command_of, COMMANDS)):
         yield inspect.cleandoc(command.help or "")
         for param in command.params:
             if isinstance(param, click.Option) and param.help:

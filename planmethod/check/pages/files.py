@@ -23,7 +23,6 @@ from planmethod.check.pages.results import results_xlsx
 from planmethod.check.pages.student import student_page
 from planmethod.errors import OutputError
 from planmethod.note.wording import language
-from planmethod.pattern import pattern
 from planmethod.problem.head import KindProblem
 from planmethod.problem.model import Problem
 from planmethod.record import replace
@@ -132,7 +131,7 @@ def _anonymous(checked: Checked, salt: str) -> Checked:
 LONGEST = 40
 """Letters of a file's name: with four bytes each and its ending it is short enough anywhere."""
 
-_RESERVED = pattern(r"(con|prn|aux|nul|com\d|lpt\d)(\.|$)", re.IGNORECASE)
+_RESERVED = r"(?i)(con|prn|aux|nul|com\d|lpt\d)(\.|$)"
 
 
 def file_names(students: Sequence[str]) -> list[str]:
@@ -142,7 +141,7 @@ def file_names(students: Sequence[str]) -> list[str]:
     for student in students:
         plain = re.sub(r"[^\w.-]+", "-", unicodedata.normalize("NFC", student))[:LONGEST]
         plain = plain.strip("-. ") or "student"
-        plain = f"_{plain}" if _RESERVED.match(plain) else plain
+        plain = f"_{plain}" if re.match(_RESERVED, plain) else plain
         name, copy = plain, 2
         while name.casefold() in taken:
             name, copy = f"{plain}-{copy}", copy + 1

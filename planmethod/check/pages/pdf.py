@@ -6,6 +6,7 @@ words are measured once here, and lines broken where they are full.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Iterator, Sequence
 from functools import lru_cache
 from io import BytesIO
@@ -17,7 +18,6 @@ from reportlab.pdfbase import pdfmetrics
 from reportlab.pdfgen.canvas import Canvas
 
 from planmethod.check.pages.speech import clean
-from planmethod.pattern import pattern
 from planmethod.render.backends.pdf import registered
 from planmethod.render.ink.lettering import STYLES, OutlineLettering
 
@@ -37,7 +37,7 @@ PAD = 3.0
 GREY = colors.HexColor("#8a8a8a")
 RULE = colors.HexColor("#bbbbbb")
 HEAD = colors.HexColor("#f4f4f4")
-_INDEX = pattern(r"([_^])\{([^{}]*)\}")
+_INDEX = r"([_^])\{([^{}]*)\}"
 
 
 @lru_cache(maxsize=10_000)
@@ -54,7 +54,7 @@ def _words(rich: str) -> Iterator[Word]:
     word: list[tuple[str, str]] = []
     start = 0
     text = clean(rich)
-    for match in [*_INDEX.finditer(text), None]:
+    for match in [*re.finditer(_INDEX, text), None]:
         plain = text[start : match.start() if match else len(text)]
         first, *others = plain.split(" ")
         word.append((first, ""))

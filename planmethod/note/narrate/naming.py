@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 
 from planmethod.construct import steps
@@ -10,7 +11,6 @@ from planmethod.mechanism.model import FRAME
 from planmethod.note.narrate.letters import shown_letters
 from planmethod.note.plaintext import given, plain_text
 from planmethod.note.wording.model import Wording
-from planmethod.pattern import pattern
 from planmethod.plans.dimensions import DimensionKind
 from planmethod.plans.model import (
     FACTS,
@@ -28,7 +28,7 @@ from planmethod.problem.model import Convention
 from planmethod.record import dataclass
 from planmethod.solved.solution import Solution
 
-_DIGITS = pattern(r"\d+")
+_DIGITS = r"\d+"
 SCALE_KIND = {FACTS[kind].scale: kind for kind in MOTION}
 SCALE_SYMBOL = {kind: f"μ_{{{FACTS[kind].letter}}}" for kind in MOTION}
 
@@ -107,7 +107,7 @@ class Names:
         return self.guides.get(name) or self._lowered(name)
 
     def _lowered(self, name: str) -> str:
-        return _DIGITS.sub(r"_{\g<0>}", name) if self.on_sheet else name
+        return re.sub(_DIGITS, r"_{\g<0>}", name) if self.on_sheet else name
 
     def _own(self, name: PointName, text: str) -> str:
         """Return the name of an auxiliary point, with as many primes as keep it apart."""

@@ -14,13 +14,13 @@ backslash is written with a backslash before it (``\_``); `escape` does that for
 from __future__ import annotations
 
 import cmath
+import re
 from functools import lru_cache
 from math import radians
 from typing import Literal, TypeAlias
 
 from planmethod.errors import LayoutError
 from planmethod.languages import say
-from planmethod.pattern import pattern
 from planmethod.record import dataclass, replace
 from planmethod.render.ink.drawing import Bounds, Item, Pen, Stroke, Text
 from planmethod.render.ink.lettering import OutlineLettering, in_use
@@ -35,8 +35,8 @@ PART_OF = "part-of:"
 Anchor: TypeAlias = Literal["left", "centre", "right"]
 
 _SPECIAL = "_^{}\\"
-_PLAIN = pattern(r"[^_^{}\\]+")
-_LINE = pattern(r"(?<![^\W\d_])([a-z])-\1(?![^\W\d_])")  # x-x in files, x–x on paper
+_PLAIN = r"[^_^{}\\]+"
+_LINE = r"(?<![^\W\d_])([a-z])-\1(?![^\W\d_])"  # x-x in files, x–x on paper
 _SUB_DROP = 0.3  # of h: how far an index below sinks under the base line
 _SUP_RISE = 0.5  # of h: how far the base line of an index above rises
 _STACK_GAP = 0.16  # of h: white between two stacked indices
@@ -212,7 +212,7 @@ def typeset(markup: str, height: float) -> Inscription:
 
 @lru_cache(maxsize=4096)
 def _typeset(markup: str, height: float, lettering: OutlineLettering) -> Inscription:
-    written = _LINE.sub(r"\1–\1", markup) if "-" in markup else markup
+    written = re.sub(_LINE, r"\1–\1", markup) if "-" in markup else markup
     nodes, end = _parse(written, 0, closing=False)
     assert end == len(written)
     setter = _Setter(lettering)
@@ -284,6 +284,7 @@ def _parse(markup: str, start: int, *, closing: bool) -> tuple[tuple[_Node, ...]
             nodes.append(_Letters(letters))
         letters = ""
 
+    plain_letters = re.compile(_PLAIN)
     while i < len(markup):
         sign = markup[i]
         if sign == "}" and closing:
@@ -303,7 +304,7 @@ def _parse(markup: str, start: int, *, closing: bool) -> tuple[tuple[_Node, ...]
             nodes.append(_merged(nodes, sign, body))
         elif sign in _SPECIAL:
             raise _fault(markup, i, say("'{}' does not pair or starts no known command", sign))
-        elif plain := _PLAIN.match(markup, i):
+        elif plain := plain_letters.match(markup, i):
             letters += plain[0]
             i = plain.end()
     if closing:
