@@ -6,7 +6,9 @@ import io
 import multiprocessing
 import os
 import signal
+import sys
 import threading
+import warnings
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import Future, ProcessPoolExecutor
 from concurrent.futures.process import BrokenProcessPool
@@ -58,7 +60,9 @@ def captured(work: Callable[[], R]) -> Outcome[R]:
     output, errors = io.StringIO(), io.StringIO()
     value: R | None = None
     error: Exception | None = None
-    with redirect_stdout(output), redirect_stderr(errors):
+    with redirect_stdout(output), redirect_stderr(errors), warnings.catch_warnings():
+        if not sys.warnoptions:  # as in the first process (`planmethod.__main__`)
+            warnings.simplefilter("ignore")
         try:
             value = work()
         except PlanMethodError as found:
