@@ -6,6 +6,9 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Any, cast
 
+from msgspec import Struct
+from msgspec.structs import replace
+
 from planmethod.check.calculation import Calculation
 from planmethod.check.checking import check, unknown_variant
 from planmethod.check.key import Key, key_of, key_of_task
@@ -17,7 +20,6 @@ from planmethod.kind import Kind
 from planmethod.kinds import kind_of, load
 from planmethod.problem import Problem, variant_names
 from planmethod.problem.head import KindProblem
-from planmethod.record import dataclass, replace
 from planmethod.solved.selected.asking import UnansweredError
 from planmethod.solved.solution import Solution
 
@@ -88,8 +90,7 @@ class Variants:
         return self._forms[plain(work.variant)]
 
 
-@dataclass(frozen=True, slots=True)
-class Group:
+class Group(Struct, frozen=True):
     """Checked works with the keys that they were checked by."""
 
     checked: tuple[Checked, ...]

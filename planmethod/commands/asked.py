@@ -8,9 +8,10 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar, cast
 
 import click
+from msgspec import Struct
+from msgspec.structs import replace
 
 from planmethod.options import BadParameter, UsageError
-from planmethod.record import dataclass, replace
 
 if TYPE_CHECKING:
     from planmethod.problem.config import Config
@@ -20,8 +21,7 @@ F = TypeVar("F", bound=Callable[..., Any])
 P = TypeVar("P", bound="KindProblem")
 
 
-@dataclass(frozen=True, slots=True)
-class Asked:
+class Asked(Struct, frozen=True):
     """What the command line asks of paper and title block (заказанное оформление).
 
     Attributes
@@ -70,8 +70,7 @@ class Asked:
         return Config() if path is None else load_config(path)
 
 
-@dataclass(frozen=True, slots=True)
-class Settled:
+class Settled(Struct, frozen=True):
     """What is asked of the sheets of every problem.
 
     Attributes

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
+from msgspec.structs import replace
 
 from planmethod.commands.helptext import Spoken
 from planmethod.commands.output import bar, json_text
@@ -15,7 +16,6 @@ from planmethod.commands.problems import Todo, each, finish, guarded, stem
 from planmethod.errors import ExitCode, PlanMethodError
 from planmethod.languages import say, spoken
 from planmethod.options import UsageError, jobs_option, lang_option, out_option
-from planmethod.record import replace
 
 if TYPE_CHECKING:
     from planmethod.check.group import Variants

@@ -7,6 +7,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
+from msgspec import Struct
+from msgspec.structs import replace
 
 from planmethod.commands.asked import Asked, Settled, sheet_options
 from planmethod.commands.helptext import Spoken
@@ -22,14 +24,12 @@ from planmethod.options import (
     problem_options,
     reading_options,
 )
-from planmethod.record import dataclass, replace
 
 if TYPE_CHECKING:
     from planmethod.render.sheets.controlled import Controlled
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class LintOptions:
+class LintOptions(Struct, frozen=True, kw_only=True):
     """Which sheets are looked over, and how it is told; the options of the command."""
 
     settled: Settled

@@ -17,10 +17,10 @@ from functools import partial
 from typing import Generic, TypeVar
 
 import click
+from msgspec import Struct
 
 from planmethod.errors import PlanMethodError
 from planmethod.languages import say, speaking, spoken
-from planmethod.record import dataclass
 
 T = TypeVar("T")
 R = TypeVar("R")
@@ -29,8 +29,7 @@ MOST = 61
 """Processes that every system can wait for."""
 
 
-@dataclass(frozen=True, slots=True)
-class Outcome(Generic[R]):
+class Outcome(Struct, Generic[R], frozen=True):
     """What came of one item in another process.
 
     Attributes

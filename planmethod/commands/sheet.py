@@ -7,6 +7,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Literal
 
 import click
+from msgspec import Struct
+from msgspec.structs import replace
 
 from planmethod.commands.asked import Asked, Settled, sheet_options
 from planmethod.commands.helptext import Spoken
@@ -35,7 +37,6 @@ from planmethod.options import (
     problem_options,
     reading_options,
 )
-from planmethod.record import dataclass, replace
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
@@ -45,8 +46,7 @@ if TYPE_CHECKING:
     from planmethod.render.ink.drawing import Drawing
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class SheetOptions:
+class SheetOptions(Struct, frozen=True, kw_only=True):
     """What is asked of the sheets of every problem; the options of the command."""
 
     settled: Settled

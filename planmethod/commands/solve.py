@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
+from msgspec import Struct
 
 from planmethod.commands.helptext import Spoken
 from planmethod.commands.output import bar, is_terminal, json_text, put_parts
@@ -38,7 +39,6 @@ from planmethod.options import (
     problem_options,
     read_labels,
 )
-from planmethod.record import dataclass
 
 if TYPE_CHECKING:
     from planmethod.note.records.spreadsheet import Table
@@ -59,8 +59,7 @@ LONG_TEXT, LONG_ARRAYS = 2_000_000, 50_000_000
 """Count of numbers that take about a second to write."""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class SolveOptions:
+class SolveOptions(Struct, frozen=True, kw_only=True):
     """What is computed of every problem, and in which form; the options of the command.
 
     Attributes

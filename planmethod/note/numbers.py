@@ -7,7 +7,7 @@ import re
 from collections.abc import Mapping, Sequence
 from typing import SupportsFloat
 
-from planmethod.record import dataclass
+from msgspec import Struct
 
 MINUS = "−"
 
@@ -80,8 +80,7 @@ def raised(unit: str) -> str:
 _POWER, _LEVEL = "[⁻¹²]+", str.maketrans("⁻¹²", f"{MINUS}12")
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Notation:
+class Notation(Struct, frozen=True, eq=False):
     """How a language writes numbers, units and symbols, as rich text (запись чисел).
 
     Attributes

@@ -20,9 +20,10 @@ from collections.abc import Mapping
 from enum import Enum
 from types import MappingProxyType
 
+from msgspec import Struct
+
 from planmethod.languages import say
 from planmethod.problem.names import listed, near_hint, short
-from planmethod.record import dataclass
 
 LENGTH_LIMIT = 500
 DEPTH_LIMIT = 40
@@ -81,8 +82,7 @@ class Kind(Enum):
     POWER = "^"
 
 
-@dataclass(frozen=True, slots=True)
-class Operation:
+class Operation(Struct, frozen=True):
     """One operation, which takes its operands from the results before it (действие).
 
     ``is_exact`` tells of a number whether float64 has it as it is written: 0.5, not 0.1.

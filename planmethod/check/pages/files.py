@@ -12,6 +12,8 @@ from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from typing import Any
 
+from msgspec.structs import replace
+
 from planmethod.check.key import Key
 from planmethod.check.marks import Settings
 from planmethod.check.model import Checked, Judged, Written
@@ -25,7 +27,6 @@ from planmethod.errors import OutputError
 from planmethod.note.wording import language
 from planmethod.problem.head import KindProblem
 from planmethod.problem.model import Problem
-from planmethod.record import replace
 from planmethod.render.backends.output import write
 from planmethod.solved.solution import Solution
 

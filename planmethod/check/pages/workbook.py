@@ -9,7 +9,7 @@ from io import BytesIO
 from typing import TYPE_CHECKING, Any
 from zipfile import ZIP_DEFLATED, ZipFile, ZipInfo
 
-from planmethod.record import dataclass
+from msgspec import Struct
 
 if TYPE_CHECKING:
     from openpyxl import Workbook
@@ -24,8 +24,7 @@ LINE = 15.0
 """Height of a line, points."""
 
 
-@dataclass(frozen=True, slots=True)
-class Filled:
+class Filled(Struct, frozen=True):
     """A cell with a ground: its value, and the colour as RRGGBB."""
 
     value: Any

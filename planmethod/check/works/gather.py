@@ -4,7 +4,10 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping
-from dataclasses import field, fields
+from dataclasses import fields
+
+from msgspec import Struct, field
+from msgspec.structs import replace
 
 from planmethod.check.model import Unread, Work, Written
 from planmethod.check.works.answer import NotReadError, read_scaled
@@ -12,7 +15,6 @@ from planmethod.check.works.cells import Cell, key, refused
 from planmethod.check.works.faults import WorksError
 from planmethod.check.works.units import Dimension, read_number, read_unit
 from planmethod.problem.names import fold
-from planmethod.record import dataclass, replace
 
 STUDENT_LIMIT = 2000
 ANSWER_LIMIT = 2000
@@ -44,8 +46,7 @@ def scale_name(text: str) -> str:
     return "" if match is None else f"mu_{'l' if match[1] == 's' else match[1]}".replace("f", "F")
 
 
-@dataclass(slots=True)
-class Draft:
+class Draft(Struct):
     """Work of a student while it is read."""
 
     student: str

@@ -7,10 +7,10 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Sequence
-from dataclasses import field
 from typing import Literal, Protocol, TypeAlias
 
-from planmethod.record import dataclass
+from msgspec import Struct, field
+
 from planmethod.render.ink.drawing import Bounds, Item, Pen, Stroke, shifted
 from planmethod.render.ink.typeset import (
     Inscription,
@@ -51,8 +51,7 @@ class Block(Protocol):
         ...
 
 
-@dataclass(frozen=True, slots=True)
-class Shapes:
+class Shapes(Struct, frozen=True):
     """A block that can be laid out in several ways (варианты блока); alone it is the first one."""
 
     ways: tuple[Block, ...]
@@ -78,8 +77,7 @@ def shaped(ways: Iterable[Block]) -> Block:
     return Shapes(found) if len(found) > 1 else found[0]
 
 
-@dataclass(frozen=True, slots=True)
-class Spacer:
+class Spacer(Struct, frozen=True):
     """Empty room, mm (промежуток)."""
 
     width: float
@@ -90,8 +88,7 @@ class Spacer:
         return []
 
 
-@dataclass(frozen=True, slots=True)
-class Picture:
+class Picture(Struct, frozen=True):
     """Ready items in their own coordinates; ``bounds`` is the room they take, mm."""
 
     items: tuple[Item, ...]
@@ -112,8 +109,7 @@ class Picture:
         return list(shifted(self.items, corner - complex(self.bounds[0], self.bounds[3])))
 
 
-@dataclass(frozen=True, slots=True)
-class Line:
+class Line(Struct, frozen=True):
     """One typeset line (строка); the block's box is its ink box.
 
     ``underline`` draws a thin line under it, as under the name of a view.
@@ -145,8 +141,7 @@ class Line:
         return items
 
 
-@dataclass(frozen=True, slots=True)
-class Lines:
+class Lines(Struct, frozen=True):
     """Typeset lines under one another with the line step of GOST 2.304 (абзац).
 
     ``indent`` moves every line but the first to the right, mm (left-aligned lines only).
@@ -197,8 +192,7 @@ class Lines:
         return items
 
 
-@dataclass(frozen=True)
-class Column:
+class Column(Struct, frozen=True):
     """Blocks from the top down (столбец)."""
 
     blocks: Sequence[Block]
@@ -223,8 +217,7 @@ class Column:
         return items
 
 
-@dataclass(frozen=True)
-class Row:
+class Row(Struct, frozen=True):
     """Blocks from left to right (ряд)."""
 
     blocks: Sequence[Block]

@@ -11,12 +11,13 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
-from dataclasses import field
 from itertools import accumulate, groupby
 from typing import Literal, TypeAlias
 
+from msgspec import Struct, field
+from msgspec.structs import replace
+
 from planmethod.errors import LayoutError
-from planmethod.record import dataclass, replace
 from planmethod.render.ink.drawing import Bounds, Item, Pen, Stroke
 from planmethod.render.ink.lettering import in_use
 from planmethod.render.ink.typeset import Inscription, smaller_heights, typeset
@@ -31,8 +32,7 @@ _SIGN_GAP = 1.2  # between a value and the sign of its sense, mm
 _NUMBER = r"[-−+]?\d+(?P<fraction>[.,]\d+)?( ± \d+([.,]\d+)?)?\*?$"
 
 
-@dataclass(frozen=True, slots=True)
-class Cell:
+class Cell(Struct, frozen=True):
     """One value (графа): rich text and, for ω and ε, the sense.
 
     ``sense`` is +1 (counter-clockwise) or -1 (clockwise): a small circular arrow beside the value;
@@ -43,8 +43,7 @@ class Cell:
     sense: int | None = None
 
 
-@dataclass(frozen=True, slots=True)
-class TableColumn:
+class TableColumn(Struct, frozen=True):
     """Column of a table (столбец): its symbol, unit and values, one per row.
 
     ``width`` is the width aimed at, mm: values that do not fit shrink to the next GOST height,
@@ -64,8 +63,7 @@ class TableColumn:
         return tuple(v if isinstance(v, Cell) else Cell(v) for v in self.values)
 
 
-@dataclass(frozen=True, slots=True)
-class _Set:
+class _Set(Struct, frozen=True):
     """Column with everything typeset: symbol, unit, values, and its width, mm."""
 
     source: TableColumn
@@ -77,8 +75,7 @@ class _Set:
     sign: complex  # centre of the signs of sense from the middle (real) and their size (imag)
 
 
-@dataclass(frozen=True)
-class TablePart:
+class TablePart(Struct, frozen=True):
     """One table on the paper: a block (таблица)."""
 
     columns: tuple[_Set, ...]
