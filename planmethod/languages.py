@@ -20,7 +20,7 @@ _WORDING = Path(__file__).parent / "note" / "wording"
 
 LANGUAGES = tuple(
     sorted(
-        (path.parent.name for path in _WORDING.glob("*/__init__.py")),
+        (path.parent.name for path in _WORDING.glob("*/note.toml")),
         key=lambda lang: (lang != "ru", lang),
     )
 )
@@ -89,25 +89,29 @@ def translated(sentence: str) -> str:
 @cache
 def _messages(lang: str) -> Mapping[str, str]:
     """Return the sentences of a language by the English ones, of all rooms."""
-    import json
-
     found: dict[str, str] = {}
-    for room in sorted((_WORDING / lang / "messages").glob("*.json")):
-        found |= json.loads(room.read_text(encoding="utf-8"))
+    for room in sorted((_WORDING / lang / "messages").glob("*.toml")):
+        found |= catalogue(lang, f"messages/{room.stem}")
     return found
 
 
 @cache
 def typed() -> Mapping[str, tuple[str, ...]]:
     """Return the keys and words of files by what is typed in their place, in any language."""
-    import json
-
     found: dict[str, tuple[str, ...]] = {}
-    for room in sorted(_WORDING.glob("*/typed.json")):
-        for key, words in json.loads(room.read_text(encoding="utf-8")).items():
+    for path in sorted(_WORDING.glob("*/typed.toml")):
+        for key, words in catalogue(path.parent.name, "typed").items():
             for word in words.split(", "):
                 found[word] = (*found.get(word, ()), key)
     return found
+
+
+@cache
+def catalogue(lang: str, name: str) -> dict[str, Any]:
+    """Return the words of one file of a language, as they stand there."""
+    import tomllib
+
+    return tomllib.loads((_WORDING / lang / f"{name}.toml").read_text(encoding="utf-8"))
 
 
 def spoken() -> str:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import ast
 import inspect
-import json
 import re
 import subprocess
 import sys
@@ -22,7 +21,7 @@ import planmethod
 from planmethod.cli import COMMANDS, cli
 from planmethod.errors import PlanMethodError
 from planmethod.kinds import load
-from planmethod.languages import LANGUAGES, WRITTEN, say, speaking, spoken_to
+from planmethod.languages import LANGUAGES, WRITTEN, catalogue, say, speaking, spoken_to
 
 HOME = Path(planmethod.__file__).parent
 WORDING = HOME / "note" / "wording"
@@ -143,13 +142,14 @@ def source() -> tuple[dict[str, str], dict[str, str], set[str]]:
     return said, formatted, every
 
 
-def catalogue(lang: str) -> dict[str, str]:
-    """Return the messages of a language; none is given twice."""
-    pairs: list[tuple[str, str]] = []
-    for room in (WORDING / lang / "messages").glob("*.json"):
-        pairs += json.loads(room.read_text("utf-8"), object_pairs_hook=list)
-    assert len(dict(pairs)) == len(pairs), "given twice"
-    return dict(pairs)
+def messages(lang: str) -> dict[str, str]:
+    """Return the messages of a language; none is given in two rooms."""
+    found: dict[str, str] = {}
+    for path in (WORDING / lang / "messages").glob("*.toml"):
+        room = catalogue(lang, f"messages/{path.stem}")
+        assert not found.keys() & room.keys(), "given twice"
+        found |= room
+    return found
 
 
 def places(text: str) -> tuple[set[str], set[str]]:
@@ -167,7 +167,7 @@ def places(text: str) -> tuple[set[str], set[str]]:
 def test_every_message_is_said_in_every_language(lang: str) -> None:
     said, formatted, _ = source()
     assert len(said) > 700
-    known = catalogue(lang)
+    known = messages(lang)
     missing = [f"{where}: {text}" for text, where in said.items() if text not in known]
     assert not missing, "add these to the catalogue of messages, or to NO_MESSAGES with the reason"
     assert not formatted, "a message is a sentence with places that say() fills in"
@@ -175,13 +175,13 @@ def test_every_message_is_said_in_every_language(lang: str) -> None:
 
 @pytest.mark.parametrize("lang", OTHERS)
 def test_no_message_is_kept_that_nobody_says(lang: str) -> None:
-    foreign = json.loads((WORDING / lang / "messages" / "foreign.json").read_text("utf-8"))
-    assert set(catalogue(lang)) - set(foreign) <= source()[2]
+    foreign = catalogue(lang, "messages/foreign")
+    assert set(messages(lang)) - set(foreign) <= source()[2]
 
 
 @pytest.mark.parametrize("lang", OTHERS)
 def test_a_message_has_the_same_places_in_every_language(lang: str) -> None:
-    for english, other in catalogue(lang).items():
+    for english, other in messages(lang).items():
         if english not in source()[0] or not re.search(r"\{[\w.\[\]]*[!:}]", english):
             continue
         shown, all_of_them = places(english)
@@ -201,7 +201,7 @@ def helps() -> Iterator[str]:
 
 @pytest.mark.parametrize("lang", OTHERS)
 def test_help_is_in_every_language(lang: str) -> None:
-    assert set(helps()) <= set(catalogue(lang))
+    assert set(helps()) <= set(messages(lang))
 
 
 def test_the_help_is_shown_in_russian() -> None:

@@ -9,21 +9,22 @@ from planmethod.check.pages.speech import Speech, quoted, told
 from planmethod.languages import say
 from planmethod.note.numbers import trimmed
 from planmethod.note.plaintext import NO_BREAK, plain_text, table, wrap
-from planmethod.note.wording.language import Language
+from planmethod.note.wording import Language, Words
 
 _NONE = "—"
 
 
 def compared_text(checked: Sequence[Checked], words: Language) -> str:
     """Return tables for a terminal, one for each work: his value, the exact one, how far apart."""
-    say, speech = words.check.compared, Speech(words)
+    speech = Speech(words)
+    say: Words = words.check["compared"]
     lines: list[str] = []
     for one in checked:
         name = " ".join(filter(None, (quoted(one.work.student), one.variant)))
         lines += [name] if name else []
         told = [judged for judged in one.answers if judged.written is not None]
         rows = [[plain_text(cell) for cell in _cells(judged, speech)] for judged in told]
-        lines += [*table(say.columns, rows), ""]
+        lines += [*table(say["columns"], rows), ""]
     lines += wrap(plain_text(say.note))
     return "\n".join(line.replace(NO_BREAK, " ") for line in lines) + "\n"
 

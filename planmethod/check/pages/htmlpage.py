@@ -8,7 +8,7 @@ from itertools import chain
 from planmethod.check.pages.overlay import Overlay, true_plan
 from planmethod.check.pages.speech import tagged
 from planmethod.check.pages.student import Page
-from planmethod.note.wording.language import Language
+from planmethod.note.wording import Language, Words
 from planmethod.plans.model import PlanKind
 from planmethod.problem.head import KindProblem
 from planmethod.render.backends import render
@@ -52,7 +52,7 @@ def html_page(page: Page, solution: Solution | KindProblem, words: Language) -> 
 
 
 def _parts(page: Page, solution: Solution | KindProblem, words: Language) -> Iterator[str]:
-    say = words.check.student
+    say: Words = words.check["student"]
     yield f'<!DOCTYPE html>\n<html lang="{page.lang}"><head><meta charset="utf-8">'
     yield '<meta name="viewport" content="width=device-width, initial-scale=1">'
     # What is shown comes from files of strangers: nothing of it may load or run anything.
@@ -68,7 +68,7 @@ def _parts(page: Page, solution: Solution | KindProblem, words: Language) -> Ite
     if page.redraw:
         yield f"<h2>{say.redraw}</h2>" + _listed(page.redraw)
     yield f"<h2>{say.answers}</h2><table><thead><tr>"
-    yield "".join(f"<th>{tagged(head)}</th>" for head in say.columns) + "</tr></thead><tbody>"
+    yield "".join(f"<th>{tagged(head)}</th>" for head in say["columns"]) + "</tr></thead><tbody>"
     for line in page.lines:
         cells = "".join(
             f"<td{' class=n' if column in (0, 4) else ''}>{tagged(cell)}</td>"

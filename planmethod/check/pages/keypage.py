@@ -13,8 +13,7 @@ from planmethod.check.pages.speech import Speech, told
 from planmethod.check.pages.workbook import add_sheet, new_workbook, saved
 from planmethod.note.plaintext import NO_BREAK, columns_text, heading, plain_text, wrap
 from planmethod.note.plaintext import table as text_table
-from planmethod.note.wording.check_model import KeyWording
-from planmethod.note.wording.language import Language
+from planmethod.note.wording import Language, Words
 from planmethod.plans.model import FACTS
 from planmethod.record import dataclass
 
@@ -46,9 +45,10 @@ class KeyPage:
     words: Language
 
     @property
-    def say(self) -> KeyWording:
+    def say(self) -> Words:
         """Words of the key."""
-        return self.words.check.key
+        said: Words = self.words.check["key"]
+        return said
 
     @property
     def speech(self) -> Speech:
@@ -105,7 +105,7 @@ class KeyPage:
                 whose.setdefault(code, []).append(key)
         lines = []
         for code, keys in whose.items():
-            known = self.words.check.mistakes.get(code)
+            known = self.words.check["mistakes"].get(code)
             found = {place for key in keys for place in key.hidden[code] if place}
             places = [place_letters(place) for place in sorted(found)]
             line = f"{code}: {known.name if known else code}"
@@ -125,7 +125,7 @@ class KeyPage:
     # Cells -------------------------------------------------------------------------------------
 
     def line(self, entry: KeyEntry) -> list[str]:
-        """Return an answer as the cells of a row, rich text, see `KeyWording.columns`."""
+        """Return an answer as the cells of a row, rich text, see ``columns`` of its ``key``."""
         speech = self.speech
         return [
             speech.letters(entry),
@@ -197,10 +197,10 @@ def key_text(keys: Sequence[Key], words: Language) -> str:
     lines += [*wrap(plain_text(page.scales())), ""]
     if page.is_single:
         rows = [[plain_text(cell) for cell in page.line(e)] for e in page.keys[0].entries]
-        lines += text_table(page.say.columns, rows)
+        lines += text_table(page.say["columns"], rows)
     else:
         rows_of = page.rows()
-        columns = [[page.say.rows[0], *(page.lead(row) for row in rows_of)]]
+        columns = [[page.say["rows"][0], *(page.lead(row) for row in rows_of)]]
         for entry in page.columns():
             cells = [
                 "; ".join(filter(None, page.cell(row.entries.get(entry.label)))) for row in rows_of
@@ -226,7 +226,7 @@ def key_pdf(keys: Sequence[Key], words: Language) -> bytes:
     pdf.gap(4.0)
     if page.is_single:
         rows = [page.line(entry) for entry in page.keys[0].entries]
-        pdf.table(page.say.columns, rows, SINGLE, right=(4,), size=TEXT)
+        pdf.table(page.say["columns"], rows, SINGLE, right=(4,), size=TEXT)
     else:
         for part in _parts(page):
             pdf.table(*_matrix(page, part), size=NOTE)
@@ -260,17 +260,18 @@ def _matrix(
         cells = [page.cell(row.entries.get(entry.label)) for entry in columns]
         rows.append([page.lead(row), *("; ".join(filter(None, cell)) for cell in cells)])
     width = min(48.0, (WIDE - LEAD) / len(columns))
-    header = [page.say.rows[0], *(page.head(entry) for entry in columns)]
+    header = [page.say["rows"][0], *(page.head(entry) for entry in columns)]
     return header, rows, [LEAD, *[width] * len(columns)]
 
 
 def key_xlsx(keys: Sequence[Key], words: Language) -> bytes:
     """Return the key as a workbook: a row for each answer of each variant."""
     page = KeyPage(tuple(keys), words)
-    quantity, value, unit, segment, mm, sense, points, note = page.say.columns
+    quantity, value, unit, segment, mm, sense, points, note = page.say["columns"]
     exact, _, tolerance = value.partition(" ± ")
     header = [
-        *page.say.rows, quantity, exact, f"± {tolerance}", unit, segment, mm, sense, points, note,
+        *page.say["rows"], quantity, exact, f"± {tolerance}", unit, segment, mm, sense, points,
+        note,
     ]  # fmt: skip
     rows = []
     for row in page.rows():

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Mapping
 from planmethod.check.model import Checked, Diagnosis, Judged, Verdict
 from planmethod.construct.steps import PointName
 from planmethod.note.narrate.scales import scale_inscription
-from planmethod.note.wording.language import Language
+from planmethod.note.wording import Language
 from planmethod.plans.model import FACTS, RATES, PlanKind
 from planmethod.record import dataclass
 from planmethod.render.ink.drawing import Bounds, Drawing, Fill, Item, shifted

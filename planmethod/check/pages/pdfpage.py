@@ -12,7 +12,7 @@ from planmethod.check.pages.overlay import Overlay
 from planmethod.check.pages.pdf import LETTERING, MARGIN, MM, NOTE, Document
 from planmethod.check.pages.student import GAP, Page
 from planmethod.note.plaintext import plain_text
-from planmethod.note.wording.language import Language
+from planmethod.note.wording import Language, Words
 from planmethod.render.backends.canvas import Options, draw_sheet
 from planmethod.render.backends.pdf import PdfCanvas, registered
 from planmethod.render.ink.drawing import Fill, Ink, Pen, Stroke
@@ -41,7 +41,7 @@ CAPTION = 16.0
 
 def pdf_page(page: Page, words: Language) -> bytes:
     """Return the page of a student as PDF."""
-    say = words.check.student
+    say: Words = words.check["student"]
     whose = plain_text(page.facts[0])
     pdf = Document(whose, foot=lambda number: say.page.format(student=whose, page=number))
     pdf.paragraph(page.title, 16.0)
@@ -56,7 +56,7 @@ def pdf_page(page: Page, words: Language) -> bytes:
         pdf.listed(page.redraw)
     pdf.heading(say.answers)
     pdf.table(
-        say.columns,
+        say["columns"],
         [line.cells for line in page.lines],
         WIDTHS,
         right=(0, 4),

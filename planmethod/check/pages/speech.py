@@ -8,8 +8,7 @@ from planmethod.check.model import Judged, KeyEntry, Sense, Written
 from planmethod.note.numbers import trimmed
 from planmethod.note.plaintext import NO_BREAK
 from planmethod.note.rounding import rounded_to, sigma_text
-from planmethod.note.wording.check_model import CheckWording
-from planmethod.note.wording.language import Language
+from planmethod.note.wording import Language, Words
 from planmethod.pattern import pattern
 from planmethod.record import dataclass
 
@@ -55,7 +54,7 @@ class Speech:
     words: Language
 
     @property
-    def say(self) -> CheckWording:
+    def say(self) -> Words:
         """Words of checking."""
         return self.words.check
 
@@ -78,8 +77,8 @@ class Speech:
         if written.why is None:
             return quoted(written.unreadable or written.raw)
         form = self.words.form
-        said = form.unread[written.why.value]
-        return said.format(text=quoted(written.fault), known=", ".join(form.units))
+        said: str = form["unread"][written.why.value]
+        return said.format(text=quoted(written.fault), known=", ".join(form["units"]))
 
     def number(self, value: float) -> str:
         """Return a number as a student would write it."""
@@ -87,7 +86,7 @@ class Speech:
 
     def sense(self, sense: Sense | None) -> str:
         """Return the sign of a sense; empty where there is none."""
-        return "" if sense is None else self.say.senses[sense.value][0]
+        return "" if sense is None else self.say["senses"][sense.value][0]
 
     def with_unit(self, number: str, key: KeyEntry) -> str:
         """Return a number with the unit of what is asked."""

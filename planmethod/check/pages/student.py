@@ -8,7 +8,7 @@ from planmethod.check.model import Checked, Judged, Verdict
 from planmethod.check.pages.overlay import Overlay, overlays
 from planmethod.check.pages.remarks import Remarks, what_stands
 from planmethod.check.pages.speech import Speech, quoted
-from planmethod.note.wording.language import Language
+from planmethod.note.wording import Language, Words
 from planmethod.plans.model import FACTS
 from planmethod.problem.head import KindProblem
 from planmethod.record import dataclass
@@ -102,7 +102,7 @@ def student_page(
         Empty where points are all there is.
     """
     speech = Speech(words)
-    say = words.check.student
+    say: Words = words.check["student"]
     solution = solved if isinstance(solved, Solution) else None
     problem = solved.problem if isinstance(solved, Solution) else solved
     remarks = Remarks(speech, checked, scales)
@@ -134,7 +134,7 @@ def student_page(
 
 
 def lines(answers: Sequence[Judged], speech: Speech) -> list[Line]:
-    """Return the answers as lines of a table, see `StudentWording.columns`."""
+    """Return the answers as lines of a table, see ``columns`` of its ``student``."""
     symbols = {judged.id: speech.symbol(judged) for judged in answers}
     return [
         Line((str(number), *_cells(judged, speech, symbols)), judged.verdict)
@@ -146,17 +146,17 @@ def _cells(judged: Judged, speech: Speech, symbols: Mapping[str, str]) -> tuple[
     key, written, say = judged.key, judged.written, speech.say
     own = speech.own(judged)
     if judged.verdict is Verdict.UNREADABLE and written is not None:
-        own = say.student.quoted.format(text=what_stands(written))
-    verdict = say.verdicts[judged.verdict.value]
+        own = say["student"].quoted.format(text=what_stands(written))
+    verdict = say["verdicts"][judged.verdict.value]
     if judged.follows in symbols:
-        verdict = say.student.source.format(source=symbols[judged.follows])
+        verdict = say["student"].source.format(source=symbols[judged.follows])
     return (
         speech.symbol(judged),
         own or "—",
         "—" if key is None else speech.right(key, judged.tolerance),
         _lengths(judged, speech),
         verdict,
-        say.student.share.format(points=speech.share(judged.points), of=speech.share(judged.of)),
+        say["student"].share.format(points=speech.share(judged.points), of=speech.share(judged.of)),
     )
 
 
@@ -173,8 +173,8 @@ def _lengths(judged: Judged, speech: Speech) -> str:
 
 
 def _caption(plan: Overlay, positions: int, words: Language) -> str:
-    say = words.check.student
-    name = say.plan_names[plan.kind.value]
+    say: Words = words.check["student"]
+    name = say["plan_names"][plan.kind.value]
     caption = say.plan_title.format(plan=name[:1].upper() + name[1:], scale=plan.scale)
     if positions > 1:
         caption += f", {say.position.format(position=plan.index)}"
@@ -182,10 +182,10 @@ def _caption(plan: Overlay, positions: int, words: Language) -> str:
 
 
 def _legend(plans: Sequence[Overlay], words: Language) -> str:
-    say = words.check.student
+    say: Words = words.check["student"]
     if not any(plan.own for plan in plans):
         return ""
     code = next((plan.mistake for plan in plans if plan.mistake), "")
-    if code in words.check.mistakes:
-        return say.legend_mistake.format(name=words.check.mistakes[code].name)
+    if code in words.check["mistakes"]:
+        return say.legend_mistake.format(name=words.check["mistakes"][code].name)
     return say.legend

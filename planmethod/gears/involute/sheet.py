@@ -158,7 +158,9 @@ def _checks(solved: Solved, words: Language, manner: Manner) -> Iterator[Block]:
     say = words.meshing
     yield heading(say.checked, manner.title, width=TEXT_WIDTH)
     for _, holds, text in solved.sentences(words):
-        yield paragraph(f"{text}: {say.holds[holds]}", manner.told, TEXT_WIDTH)
+        yield paragraph(
+            f"{text}: {say['holds']['yes' if holds else 'no']}", manner.told, TEXT_WIDTH
+        )
     for text in [*remarks(solved, words), given_text(solved, words)[1]]:
         yield paragraph(text, manner.told, TEXT_WIDTH)
 
@@ -171,13 +173,13 @@ def _tables(solved: Solved, words: Language, manner: Manner) -> Iterator[Block]:
 
 
 def _table(told: list[Told], words: Language, manner: Manner) -> Block:
-    say, say_names = words.meshing, words.meshing.names
+    say, say_names = words.meshing, words.meshing["names"]
     names = [escape(say_names[one.quantity.key] + unit_of(one, words)) for one in told]
     rows = [["—" if "nan" in text else text for text in one.shown(words.say)] for one in told]
     columns = [
-        TableColumn(say.columns[0], tuple(names)),
-        TableColumn(say.columns[1], tuple(symbol_of(one) for one in told)),
+        TableColumn(say["columns"][0], tuple(names)),
+        TableColumn(say["columns"][1], tuple(symbol_of(one) for one in told)),
     ]
-    heads = say.columns[2:] if len(rows[0]) == 2 else (say.pair,)
+    heads = say["columns"][2:] if len(rows[0]) == 2 else (say.pair,)
     columns += [TableColumn(h, tuple(r[k] for r in rows)) for k, h in enumerate(heads)]
     return table_block(columns, manner.text, width=TEXT_WIDTH, units="none", row_height=manner.row)

@@ -73,7 +73,7 @@ def chain(problem: Problem) -> list[tuple[str, float]]:
     Returns
     -------
     list of (str, float)
-        Names of the steps, `AuditWording.chain_steps`, and J_f of each, kg·m²; empty where the file
+        Names of the steps, keys of ``chain_steps``, and J_f of each, kg·m²; empty where the file
         does not print M and J of all positions of its table.
     """
     machine = problem.machine

@@ -12,8 +12,7 @@ from planmethod.note.narrate.forces.statement import mass_lines
 from planmethod.note.narrate.given import given
 from planmethod.note.narrate.scales import scale_inscription
 from planmethod.note.numbers import alike
-from planmethod.note.wording import Language
-from planmethod.note.wording.machine_model import MachineWording
+from planmethod.note.wording import Language, Words
 from planmethod.problem.load_records import Ordinates, Side, Signs
 from planmethod.problem.model import Convention
 from planmethod.solved.machine.drawing import FlywheelDrawing, split
@@ -37,7 +36,7 @@ class MachineTeller:
     def __init__(self, drawing: FlywheelDrawing, words: Language) -> None:
         self.drawing, self.words, self.say = drawing, words, words.say
         self.flywheel: Flywheel = drawing.flywheel
-        self.said: MachineWording = words.machine
+        self.said: Words = words.machine
         resisting = self.flywheel.machine.constant is Side.DRIVING
         self.changes, self.keeps = ("resisting", "driving")[:: 1 if resisting else -1]
 
@@ -83,7 +82,7 @@ class MachineTeller:
         delta = f"1/{round(inverse)}" if fraction else self.say.given(machine.delta)
         lines.append(f"δ = {delta}")
         speed = self.say.found(abs(problem.drive.rate))
-        mean = self.said.means[machine.mean.value]
+        mean = self.said["means"][machine.mean.value]
         lines.append(f"{self.letter('mean speed')} = {mean.format()} = {speed} {self.unit('1/s')}")
         lines.append(f"{self.letter(f'{self.keeps} moment')} = const")
         if machine.signs is Signs.SOURCE:
@@ -122,7 +121,7 @@ class MachineTeller:
             "bottom": round(tangents.at_min / step),
             "KL": f"{self.say.ruled(self.KL)} {mm}",
         }
-        return [sentence.format(**places) for sentence in self.said.steps]
+        return [sentence.format(**places) for sentence in self.said["steps"]]
 
     @property
     def KL(self) -> float:  # noqa: N802 - the letters of the textbook

@@ -57,7 +57,7 @@ def title_block(
         If a field is unknown.
     """
     check_fields(fields)
-    captions = language(lang).frame.captions
+    captions = language(lang).frame["captions"]
     values = merged({key: str(value).strip() for key, value in fields.items()})
     letters = values.get("letter", "").replace(" ", "")
     divided = len(letters) <= len(form.letters)

@@ -174,7 +174,7 @@ class Scene:
 
     def _scheme(self) -> View:
         kind = PlanKind.POSITION
-        view = View("scheme", self.words.sheets.views[kind.value][0], _unit(kind))
+        view = View("scheme", self.words.sheets["views"][kind.value][0], _unit(kind))
         bodies = self.problem.bodies
         points = dict.fromkeys(p for body in bodies.values() for p in body.points)
         known = [p for p in points if f"{p}.x" in self._row]
@@ -201,7 +201,7 @@ class Scene:
 
     def _plan(self, kind: PlanKind) -> View:
         plan, problem = self.construction.plan(kind), self.problem
-        view = View(kind.value, self.words.sheets.views[kind.value][0], _unit(kind))
+        view = View(kind.value, self.words.sheets["views"][kind.value][0], _unit(kind))
         letters = shown_letters(problem, plan)
         for tail, head in similar_lines(Solution(problem, positions=[]), plan):
             view.segments.append({"a": self._ref(tail), "b": self._ref(head), "style": "similar"})

@@ -257,7 +257,7 @@ def wheel_view(solution: Solution, indices: Sequence[int], manner: Manner) -> Bl
     picture = Picture(tuple(items), ink_bounds(items))
     told = ["; ".join(tell.size_lines(sizes))]
     lines = paragraph(told[0], height, manner.width(manner.sizes.column))
-    title = manner.entry.title or tell.said.sizes[sizes.shape.value]
+    title = manner.entry.title or tell.said["sizes"][sizes.shape.value]
     return named(picture, title, [tell.scale("l", scale, "m"), lines], manner)
 
 
