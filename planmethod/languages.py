@@ -82,17 +82,25 @@ def say(sentence: str, *facts: object, **named: object) -> str:
 
 
 def translated(sentence: str) -> str:
-    """Return a sentence, its places still empty, in the language that is spoken."""
-    return sentence if _spoken == WRITTEN else _messages(_spoken).get(sentence, sentence)
+    """Return a sentence, its places still empty, in the language that is spoken.
+
+    Of the catalogues of messages only those are parsed in which the sentence stands as a key.
+    """
+    if _spoken != WRITTEN:
+        import json
+
+        key = f"{json.dumps(sentence, ensure_ascii=False)} = "  # as TOML writes a string, too
+        for room, text in _messages(_spoken).items():
+            if key in text:
+                return str(catalogue(_spoken, f"messages/{room}").get(sentence, sentence))
+    return sentence
 
 
 @cache
 def _messages(lang: str) -> Mapping[str, str]:
-    """Return the sentences of a language by the English ones, of all rooms."""
-    found: dict[str, str] = {}
-    for room in sorted((_WORDING / lang / "messages").glob("*.toml")):
-        found |= catalogue(lang, f"messages/{room.stem}")
-    return found
+    """Return the text of each catalogue of messages of a language, by its name."""
+    paths = sorted((_WORDING / lang / "messages").glob("*.toml"))
+    return {path.stem: path.read_text(encoding="utf-8") for path in paths}
 
 
 @cache

@@ -21,7 +21,7 @@ import planmethod
 from planmethod.cli import COMMANDS, cli
 from planmethod.errors import PlanMethodError
 from planmethod.kinds import load
-from planmethod.languages import LANGUAGES, WRITTEN, catalogue, say, speaking, spoken_to
+from planmethod.languages import LANGUAGES, WRITTEN, catalogue, say, speaking, spoken_to, translated
 
 HOME = Path(planmethod.__file__).parent
 WORDING = HOME / "note" / "wording"
@@ -171,6 +171,14 @@ def test_every_message_is_said_in_every_language(lang: str) -> None:
     missing = [f"{where}: {text}" for text, where in said.items() if text not in known]
     assert not missing, "add these to the catalogue of messages, or to NO_MESSAGES with the reason"
     assert not formatted, "a message is a sentence with places that say() fills in"
+
+
+@pytest.mark.parametrize("lang", OTHERS)
+def test_every_message_of_a_catalogue_is_found(lang: str) -> None:
+    """Its key is written as it is looked for."""
+    with speaking(lang):
+        for english, other in messages(lang).items():
+            assert translated(english) == other
 
 
 @pytest.mark.parametrize("lang", OTHERS)

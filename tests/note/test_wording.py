@@ -246,6 +246,8 @@ def test_every_key_that_the_code_names_is_a_sentence() -> None:
         if not any(isinstance(table.get(key), str) for table in words)
     ]
     assert not wrong
+    methods = set(dir(dict))
+    assert not [key for words in WORDS.values() for key in words if key in methods]
 
 
 def test_every_sentence_is_said() -> None:
