@@ -13,9 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 from planmethod.errors import ExitCode, PlanMethodError
 from planmethod.languages import LANGUAGES, catalogue
-
-if TYPE_CHECKING:
-    from planmethod.note.numbers import Notation
+from planmethod.note.numbers import Notation, raised
 
 
 class UnknownLanguageError(PlanMethodError):
@@ -96,8 +94,6 @@ class Language:
     @cached_property
     def say(self) -> Notation:
         """Numbers, units and symbols."""
-        from planmethod.note.numbers import Notation, raised
-
         said = catalogue(self.lang, "numbers")
         return Notation(
             decimal=said["decimal"],
