@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import cmath
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import field
 from itertools import pairwise
 from math import radians, tau
 from typing import Any
+
+from msgspec import Struct, field
 
 from planmethod.construct.scale import Scale
 from planmethod.construct.steps import LineName, MeetCircles, MeetLineCircle, PointName
@@ -16,7 +17,6 @@ from planmethod.languages import LANGUAGES
 from planmethod.note.narrate.scales import scale_inscription
 from planmethod.note.wording import Language, language
 from planmethod.problem.model import Convention, Problem
-from planmethod.record import dataclass
 from planmethod.render import symbols
 from planmethod.render.control.unused import largest_empty
 from planmethod.render.frame.frame import paper_format, sheet_frame
@@ -176,8 +176,7 @@ def _picture(drawn: Drawn) -> Picture:
     return lettered(list(items), ink.labels())
 
 
-@dataclass
-class _Ink:
+class _Ink(Struct):
     """Lines and letters of a construction, mm."""
 
     drawn: Drawn

@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
+from msgspec import Struct
+
 from planmethod.check.key import Key
 from planmethod.check.model import KeyEntry
 from planmethod.check.pages.pdf import NOTE, TEXT, Document
@@ -15,14 +17,12 @@ from planmethod.note.plaintext import NO_BREAK, columns_text, heading, plain_tex
 from planmethod.note.plaintext import table as text_table
 from planmethod.note.wording import Language, Words
 from planmethod.plans.model import FACTS
-from planmethod.record import dataclass
 
 UNSEEN = "*"
 """Sign of an answer that the drawing does not show, where there is no room for words."""
 
 
-@dataclass(frozen=True, slots=True)
-class Row:
+class Row(Struct, frozen=True):
     """One variant in one position (строка ключа группы)."""
 
     key: Key
@@ -30,8 +30,7 @@ class Row:
     entries: Mapping[str, KeyEntry]
 
 
-@dataclass(frozen=True, slots=True)
-class KeyPage:
+class KeyPage(Struct, frozen=True):
     """The key of a group in a language.
 
     Attributes

@@ -7,10 +7,11 @@ from enum import StrEnum
 from types import MappingProxyType
 from typing import NamedTuple, TypeAlias
 
+from msgspec import Struct
+
 from planmethod.note.plaintext import plain_text
 from planmethod.note.wording import Words, language
 from planmethod.paper import FORMATS
-from planmethod.record import dataclass
 from planmethod.render.ink.drawing import Pen
 
 Segments: TypeAlias = tuple[tuple[str, float], ...]
@@ -120,8 +121,7 @@ def thing_text(name: str, words: Words) -> str:
     return thing.format(pen="" if pen is None else words["pens"][pen.value]) + told
 
 
-@dataclass(frozen=True, slots=True)
-class Finding:
+class Finding(Struct, frozen=True):
     """One thing the norm control has to say (замечание).
 
     Attributes

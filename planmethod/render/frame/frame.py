@@ -12,6 +12,8 @@ from math import radians
 from types import MappingProxyType
 from typing import NamedTuple
 
+from msgspec.structs import replace
+
 from planmethod.note.wording import Words, language
 from planmethod.paper import (
     FORMATS,
@@ -22,7 +24,6 @@ from planmethod.paper import (
     Format,
     paper_format,
 )
-from planmethod.record import replace
 from planmethod.render.frame.forms import Cell
 from planmethod.render.frame.furniture import Furniture
 from planmethod.render.frame.titleblock import (
