@@ -11,7 +11,7 @@ LINKAGES = $(sort $(filter-out $(TASKS) problems/point/% problems/gears/% proble
 # tree, also where the environment forbids it: to compile anew in every process is a tenth of the time.
 TESTS := PYTHONDONTWRITEBYTECODE= PYTHONPYCACHEPREFIX=$(CURDIR)/$(VENV)/bytecode $(BIN)/python -m pytest -n 2 --dist loadfile
 
-.PHONY: demo test test-every test-thorough lint format tables tasks gallery group bench clean
+.PHONY: demo test test-every test-thorough lint format tables schema tasks gallery group bench clean
 
 # The compat mode is a plain path entry: the default finder costs every command a tenth of a second.
 $(VENV)/.ready: pyproject.toml
@@ -49,6 +49,10 @@ format: $(VENV)/.ready
 # Files in byte order, as the test of the document has them.
 tables: $(VENV)/.ready
 	$(BIN)/planmethod audit --lang en -o docs/published.md $(LINKAGES)
+
+# What follows from the declared keys of flat tables: the schema, the references of keys in both languages.
+schema: $(VENV)/.ready
+	$(BIN)/python -m scripts.reference
 
 # The index of the shipped problems, docs/tasks.md and its pictures.
 tasks: $(VENV)/.ready

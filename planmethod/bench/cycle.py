@@ -8,7 +8,7 @@ import numpy as np
 
 from planmethod.bench.speed import clock
 from planmethod.construct.hand import Hand
-from planmethod.problem.load_records import Ordinates
+from planmethod.problem.load_records import Quadrature
 from planmethod.problem.model import Differentiation, Problem
 from planmethod.record import dataclass
 from planmethod.solved.machine.flywheel import Flywheel
@@ -85,7 +85,7 @@ def costs(problem: Problem) -> list[tuple[str, int, float]]:
     return found
 
 
-WAYS = tuple((way, method) for method in ("wittenbauer", "mertsalov") for way in Ordinates)
+WAYS = tuple((way, method) for method in ("wittenbauer", "mertsalov") for way in Quadrature)
 """How the work is integrated, and which tangents are drawn."""
 
 

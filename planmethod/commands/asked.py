@@ -109,10 +109,10 @@ def _reader(key: str) -> Callable[[click.Context, click.Parameter, str | None], 
     def read(ctx: click.Context, param: click.Parameter, value: str | None) -> str | None:
         if value is None:
             return None
-        from planmethod.problem.keys import SHEET_CHOICES
-        from planmethod.problem.sheet import chosen
+        from planmethod.problem.flat import chosen
+        from planmethod.problem.keys import CHOICES
 
-        names = SHEET_CHOICES[key]
+        names = CHOICES[key]
         name = chosen(value, names)
         if name is None:
             raise BadParameter("{!r} is not one of {}", value, ", ".join(names))
@@ -210,11 +210,11 @@ def sheet_options(command: F) -> F:
 
     @functools.wraps(command)
     def with_asked(*args: Any, **kwargs: Any) -> Any:
-        from planmethod.problem.keys import SHEET
+        from planmethod.problem.keys import known
 
         asked = Asked(
             fields=kwargs.pop("stamp"),
-            sheet={key: kwargs.pop(key) for key in SHEET if key in kwargs},
+            sheet={key: kwargs.pop(key) for key in known("sheet") if key in kwargs},
             config=kwargs.pop("config"),
             no_config=kwargs.pop("no_config"),
         )

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from planmethod.languages import say
 from planmethod.problem import fields, keys
 from planmethod.problem.fields import Faults
+from planmethod.problem.flat import read_flat
 from planmethod.problem.head import Published
 from planmethod.problem.names import listed, near_hint, segment, short
 from planmethod.problem.selector import (
@@ -22,7 +23,6 @@ from planmethod.problem.selector import (
 if TYPE_CHECKING:
     from planmethod.problem.load_records import Dynamics
 
-NOTE_LIMIT = 1000
 TABLE_KEYS = ("gears", "point", "meshing")
 
 
@@ -33,7 +33,7 @@ def read_published(
     *,
     positions: int = 0,
     example: str = 'value = 3, unit = "м/с", what = "v B"',
-    known: Sequence[str] = keys.PUBLISHED,
+    without: Collection[str] = (),
 ) -> tuple[Published, ...]:
     """Read ``[published."name"]``.
 
@@ -44,37 +44,23 @@ def read_published(
         quantity, and returns ``what`` as outputs have it.
     positions : int
         How many there are; 0 when not known.
-    example, known
-        An entry, and the keys that one may have.
+    example, without
+        An entry, and the keys that one may not have.
     """
     entries = fields.read_table(faults, "published", table, f'[published."v_B"] {example}') or {}
     if faults.beyond("published", "{} values, the limit is {}", len(entries), keys.PUBLISHED_LIMIT):
         return ()
+    own = {"position": partial(read_position, positions=positions)}
     found: list[Published] = []
     for name, entry in entries.items():
         path = f"published.{segment(name)}"
         body = fields.read_table(faults, path, entry, example)
         if fields.read_text(faults, path, name, limit=80) is None or body is None:
             continue
-        before = len(faults)
-        given = fields.read_keys(faults, path, body, known)
-        number = partial(fields.read_number, faults, high=1e12)
-        value = per_mm = None
+        given = read_flat(faults, path, body, Published, own, without=without)
+        given["what"] = check(f"{path}.what", given.get("what", ""), name)
         if "value" in given:
-            value = number(f"{path}.value", given["value"], "a number", low=-1e12)
-        elif len(faults) == before:
-            faults.add(f"{path}.value", "missing")
-        if "per_mm" in given:
-            scale = "a scale, unit per millimetre,"
-            per_mm = number(f"{path}.per_mm", given["per_mm"], scale, low=1e-12, positive=True)
-        unit, what, note = (
-            fields.read_text(faults, f"{path}.{key}", given.get(key, ""), limit=NOTE_LIMIT) or ""
-            for key in ("unit", "what", "note")
-        )
-        position = read_position(faults, f"{path}.position", given.get("position"), positions)
-        what = check(f"{path}.what", what, name)
-        if value is not None:
-            found.append(Published(name, value, unit, per_mm, what, note, position))
+            found.append(Published(name, **given))
     return tuple(found)
 
 

@@ -134,7 +134,7 @@ def _read_load(
     scene: Scene,
 ) -> Load | Couple | None:
     before = len(faults)
-    given = fields.read_keys(faults, path, body, keys.LOAD)
+    given = fields.read_keys(faults, path, body, keys.known("load"))
     # a misspelt key is reported once: the key it should have been is not called missing as well
     whole = len(faults) == before
     link = None

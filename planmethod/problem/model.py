@@ -10,10 +10,11 @@ from collections.abc import Mapping
 from dataclasses import field
 from enum import Enum
 from math import inf
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 from planmethod.languages import say
 from planmethod.mechanism.model import FRAME, Mechanism
+from planmethod.problem.declared import NumberKey, OwnKey, WholeKey, WordKey
 from planmethod.problem.head import KindProblem
 from planmethod.problem.names import told_length
 from planmethod.record import dataclass
@@ -310,6 +311,9 @@ class Drive:
         return MOMENT if self.is_crank else FORCE
 
 
+DIAGRAM_HINT = "Millimetres of the diagrams."
+
+
 class Zero(Enum):
     """Position zero by name: where the quicker stroke of the output starts, or the slower one."""
 
@@ -326,30 +330,62 @@ class Differentiation(Enum):
 
 
 @dataclass(frozen=True, slots=True)
+class PoleDistances:
+    """Pole distances of both differentiations (полюсные расстояния)."""
+
+    v: Annotated[
+        float,
+        NumberKey(
+            "of the first differentiation", "a length", "mm", 1.0, 500.0, positive=True,
+            hint=DIAGRAM_HINT,
+        ),
+    ] = 36.0  # fmt: skip
+    a: Annotated[
+        float,
+        NumberKey(
+            "of the second differentiation", "a length", "mm", 1.0, 500.0, positive=True,
+            hint=DIAGRAM_HINT,
+        ),
+    ] = 36.0  # fmt: skip
+
+
+@dataclass(frozen=True, slots=True)
 class CycleTask:
-    """What is asked of the cycle of a crank (цикл движения): ``[cycle]``.
+    """What is asked of the cycle of a crank (цикл движения): ``[cycle]``."""
 
-    Attributes
-    ----------
-    output : str or None
-        A link, or a point on a guide of the frame; None: the last link joined with the frame.
-    zero : Zero or float
-        Position zero; a number is the angle of the crank, degrees.
-    count : int
-        Positions of a turn, numbered in the sense of the driver.
-    length : float, mm
-        Of the axis of phi for a turn.
-    pole_v, pole_a : float, mm
-        Pole distances of both differentiations.
-    """
-
-    output: str | None = None
-    zero: Zero | float = Zero.EXTREME
-    count: int = 12
-    length: float = 288.0
-    pole_v: float = 36.0
-    pole_a: float = 36.0
-    differentiation: Differentiation = Differentiation.CHORDS
+    output: Annotated[
+        str | None,
+        OwnKey(
+            "a point on a guide of the frame, or a link; the last driven link that is joined with "
+            "the frame when absent"
+        ),
+    ] = None
+    zero: Annotated[
+        Zero | float,
+        OwnKey(
+            'position zero: `"extreme"` (the default), `"other extreme"`, or the angle of the '
+            "crank, degrees; numbered in the sense of the driver"
+        ),
+    ] = Zero.EXTREME
+    count: Annotated[int, WholeKey("positions of a turn", 3, 360)] = 12
+    length: Annotated[
+        float,
+        NumberKey(
+            "of the axis of φ for a turn", "a length", "mm", 20.0, 2000.0, positive=True,
+            hint=DIAGRAM_HINT,
+        ),
+    ] = 288.0  # fmt: skip
+    pole: Annotated[
+        PoleDistances,
+        OwnKey("pole distances of both differentiations: `{ v = 36, a = 36 }`, mm"),
+    ] = PoleDistances()
+    differentiation: Annotated[
+        Differentiation,
+        WordKey(
+            '`"chords"` (хорды), `"tangents"` (касательные) or `"curve"` (by chords of the drawn '
+            "curve)"
+        ),
+    ] = Differentiation.CHORDS
 
 
 class Convention(Enum):
@@ -367,11 +403,30 @@ class Scales:
     file and the sheet use.
     """
 
-    convention: Convention = Convention.UNIT_PER_MM
-    mu_l: float | None = None
-    mu_v: float | None = None
-    mu_a: float | None = None
-    mu_F: float | None = None  # noqa: N815 - the letter of the textbook
+    convention: Annotated[
+        Convention,
+        WordKey(
+            '`"unit/mm"` (μ): metres per millimetre; or `"mm/unit"` (масштаб): millimetres per '
+            "metre. It holds for the file and for the sheet"
+        ),
+    ] = Convention.UNIT_PER_MM
+    mu_l: Annotated[
+        float | None, NumberKey("lengths", "a scale", low=1e-12, high=1e12, positive=True)
+    ] = None
+    mu_v: Annotated[
+        float | None, NumberKey("velocities", "a scale", low=1e-12, high=1e12, positive=True)
+    ] = None
+    mu_a: Annotated[
+        float | None, NumberKey("accelerations", "a scale", low=1e-12, high=1e12, positive=True)
+    ] = None
+    mu_F: Annotated[  # noqa: N815 - the letter of the textbook
+        float | None,
+        NumberKey(
+            "forces, N per mm: one for all force plans; when absent, small ones have scales of "
+            "their own",
+            "a scale", low=1e-12, high=1e12, positive=True,
+        ),
+    ] = None  # fmt: skip
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -20,7 +20,7 @@ from planmethod.problem.fields import Faults, read_keys, read_word
 from planmethod.problem.joints import coincident_points, join
 from planmethod.problem.links import LinkText, check_arcs, read_links
 from planmethod.problem.model import Body, Geared, Problem, Slide
-from planmethod.problem.names import fold, listed, near
+from planmethod.problem.names import UNITS, fold, listed, near
 from planmethod.problem.sheet import read_head
 from planmethod.problem.slides import Frame, find_host, order_hosts, read_frame, read_slide
 from planmethod.problem.source import parse, read_source
@@ -226,7 +226,7 @@ def _read_parts(
 ) -> Problem | None:
     given = read_keys(faults, "", table, keys.TOP)
     if "units" in given:
-        faults.unit = read_word(faults, "units", given["units"], keys.UNITS) or faults.unit
+        faults.unit = read_word(faults, "units", given["units"], UNITS) or faults.unit
     head = read_head(faults, given)
     scales = read_scales(faults, given.get("scales", {}))
     tables = read_tables(faults, given)

@@ -5,19 +5,19 @@ A problem file has these tables, and so does a config file.
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping
+from collections.abc import Mapping
 from typing import Any
 
 from planmethod.errors import LayoutError
-from planmethod.languages import say
+from planmethod.languages import LANGUAGES, say
 from planmethod.paper import paper_format
 from planmethod.problem import keys
-from planmethod.problem.fields import Faults, read_flag, read_keys, read_table, read_text
-from planmethod.problem.head import SheetSettings
-from planmethod.problem.names import TITLE_LIMIT, fold, joined, near_hint, segment
+from planmethod.problem.fields import Faults, Table, read_keys, read_table, read_text
+from planmethod.problem.flat import read_choice, read_flat
+from planmethod.problem.head import STAMP_LIMIT, SheetSettings
+from planmethod.problem.names import TITLE_LIMIT, joined, segment
 
-STAMP_LIMIT = 200
-_WORD_LIMIT = 40
+_PAPER_LIMIT = 40
 
 
 def read_head(faults: Faults, given: Mapping[str, Any]) -> dict[str, Any]:
@@ -36,8 +36,8 @@ def _read_heading(faults: Faults, given: Mapping[str, Any], key: str) -> str:
 def read_stamp(faults: Faults, table: object) -> dict[str, str]:
     """Read ``[stamp]`` (основная надпись)."""
     stamp: dict[str, str] = {}
-    example = 'author = "Иванов"'
-    for key, value in _given(faults, "stamp", table, keys.STAMP, keys.SHEET, example).items():
+    given = _without_astray(faults, "stamp", table, "sheet", 'author = "Иванов"')
+    for key, value in read_keys(faults, "stamp", given, keys.known("stamp")).items():
         text = read_text(faults, f"stamp.{key}", value, limit=STAMP_LIMIT)
         if text is not None:
             stamp[key] = text
@@ -46,39 +46,34 @@ def read_stamp(faults: Faults, table: object) -> dict[str, str]:
 
 def read_sheet(faults: Faults, table: object) -> SheetSettings:
     """Read ``[sheet]`` (оформление листов)."""
-    told: dict[str, Any] = {}
-    given = _given(faults, "sheet", table, keys.SHEET, keys.STAMP, "side_columns = true")
-    for key, value in given.items():
-        path = f"sheet.{key}"
-        if key == "paper":
-            told[key] = _read_paper(faults, path, value)
-        elif key in keys.SHEET_CHOICES:
-            told[key] = _read_choice(faults, path, value, keys.SHEET_CHOICES[key])
-        else:
-            told[key] = read_flag(faults, path, value)
-    return SheetSettings(**told)
+    given = _without_astray(faults, "sheet", table, "stamp", "side_columns = true")
+    own = {"paper": _read_paper, "lang": _read_language}
+    return (
+        SheetSettings(**read_flat(faults, "sheet", given, SheetSettings, own)) if given else _NONE
+    )
 
 
-def _given(
-    faults: Faults,
-    path: str,
-    table: object,
-    known: Collection[str],
-    others: Collection[str],
-    example: str,
-) -> dict[str, Any]:
-    """Return the known keys of a table; the fault of a key of the other table says so."""
-    entries = read_table(faults, path, table, example) or {}
-    other = "sheet" if path == "stamp" else "stamp"
-    astray = [key for key in entries if key in others and key not in known]
-    for key in astray:
-        faults.add(joined(path, segment(key)), "unknown key", say("It stands in [{}].", other))
-    kept = {key: value for key, value in entries.items() if key not in astray}
-    return read_keys(faults, path, kept, known)
+_NONE = SheetSettings()
+
+
+def _without_astray(faults: Faults, path: str, table: object, other: str, example: str) -> Table:
+    """Return a table without the keys that stand in the other one, each of which is a fault."""
+    entries = read_table(faults, path, table, example)
+    if not entries:
+        return {}
+    astray = set(entries).intersection(keys.known(other)).difference(keys.known(path))
+    for key in entries:
+        if key in astray:
+            faults.add(joined(path, segment(key)), "unknown key", say("It stands in [{}].", other))
+    return {key: value for key, value in entries.items() if key not in astray}
+
+
+def _read_language(faults: Faults, path: str, value: object) -> str | None:
+    return read_choice(faults, path, value, LANGUAGES)
 
 
 def _read_paper(faults: Faults, path: str, value: object) -> str | None:
-    text = read_text(faults, path, value, limit=_WORD_LIMIT)
+    text = read_text(faults, path, value, limit=_PAPER_LIMIT)
     if text is None:
         return None
     try:
@@ -86,28 +81,3 @@ def _read_paper(faults: Faults, path: str, value: object) -> str | None:
     except LayoutError as error:
         faults.add(path, str(error).removesuffix("."))
         return None
-
-
-def _read_choice(faults: Faults, path: str, value: object, known: Collection[str]) -> str | None:
-    """Read one of a few words, in either alphabet and case."""
-    text = read_text(faults, path, value, limit=_WORD_LIMIT)
-    if text is None:
-        return None
-    word = chosen(text, known)
-    if word is None:
-        faults.expected(path, say("one of {}", ", ".join(known)), value, near_hint(text, known))
-    return word
-
-
-def chosen(text: str, known: Collection[str]) -> str | None:
-    """Return which of a few words a text is, in either alphabet and case, or None.
-
-    Type Б of the lettering is called B in Latin letters.
-
-    Examples
-    --------
-    >>> chosen("2А", ("1", "2a"))
-    '2a'
-    """
-    word = fold(text.replace("Б", "B")).replace(" ", "").casefold()
-    return next((name for name in known if name.casefold() == word), None)

@@ -11,7 +11,7 @@ from planmethod.languages import say
 from planmethod.pattern import pattern
 from planmethod.problem import keys
 from planmethod.problem.fields import Faults, is_number
-from planmethod.problem.names import fold, listed, near_hint, short, split_names
+from planmethod.problem.names import UNITS, fold, listed, near_hint, short, split_names
 from planmethod.problem.source import SIZE_LIMIT, table_text
 
 _UNITS = {"м": "m", "см": "cm", "мм": "mm", "m": "m", "cm": "cm", "mm": "mm"}
@@ -139,8 +139,8 @@ def _column(
     if unit not in _UNITS or not _is_length(key):
         faults.add("variants", say("{}: '{}' is not in the unit of the file", name, short(head)))
         return None
-    own = keys.UNITS.get(str(table.get("units", "m")), 1.0)
-    return key, own / keys.UNITS[_UNITS[unit]]
+    own = UNITS.get(str(table.get("units", "m")), 1.0)
+    return key, own / UNITS[_UNITS[unit]]
 
 
 def _is_length(key: str) -> bool:

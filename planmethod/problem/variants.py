@@ -118,7 +118,7 @@ def _numbered(base: Mapping[str, Any], path: Path) -> Path:
     return tuple(str(_key(_get(base, path[:i]), part)) for i, part in enumerate(path))
 
 
-_LOAD_TABLES = {"force": keys.TABLE, "couple": keys.TABLE, "phases": keys.PHASES}
+_LOAD_TABLES = {"force": "table", "couple": "table", "phases": "phases"}
 
 
 def _known_under(path: Path) -> tuple[str, ...]:
@@ -133,16 +133,16 @@ def _known_under(path: Path) -> tuple[str, ...]:
     if first == "frame":
         return {1: keys.FRAME, 3: keys.GUIDE}.get(len(path), ())
     if first == "published":
-        return keys.PUBLISHED if len(path) == 2 else ()
+        return keys.known("published") if len(path) == 2 else ()
     if first == "driver" and len(path) == 2:
         return keys.SPAN
     if first == "dynamics" and len(path) > 1:
-        return keys.MASS if path[1] == "links" and len(path) == 3 else ()
+        return keys.known("mass") if path[1] == "links" and len(path) == 3 else ()
     if first == "answers":
-        return keys.ANSWER if len(path) == 2 else ()
+        return keys.known("answer") if len(path) == 2 else ()
     if first == "loads":
-        return {2: keys.LOAD, 3: _LOAD_TABLES.get(path[-1], ())}.get(len(path), ())
-    return keys.KNOWN.get(first, ()) if len(path) == 1 else ()
+        return keys.known({2: "load", 3: _LOAD_TABLES.get(path[-1], "")}.get(len(path), ""))
+    return keys.known(first) if len(path) == 1 else ()
 
 
 def _may_add(path: Path) -> bool:
