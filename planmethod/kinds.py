@@ -72,7 +72,7 @@ def part_of(path: Path, *, variant: str | None, views: Views) -> tuple[str, Part
         return "", part
     faults = _of("planmethod.problem.fields", "Faults")()
     part = _of("planmethod.solved.part", "largest_part")(
-        _of("planmethod.problem.table", "with_table")(faults, table, path.parent),
+        _of("planmethod.problem.variants", "with_table")(faults, table, path.parent),
         source=str(path),
         name=path.stem,
         variant=variant,

@@ -13,8 +13,8 @@ from planmethod.options import BadParameter, UsageError
 from planmethod.record import dataclass, replace
 
 if TYPE_CHECKING:
-    from planmethod.problem.config import Config
     from planmethod.problem.head import KindProblem, SheetSettings
+    from planmethod.problem.sheet import Config
 
 F = TypeVar("F", bound=Callable[..., Any])
 P = TypeVar("P", bound="KindProblem")
@@ -72,7 +72,7 @@ class Asked:
         return settled
 
     def _config(self) -> Config:
-        from planmethod.problem.config import Config, find_config, load_config
+        from planmethod.problem.sheet import Config, find_config, load_config
 
         if self.no_config:
             if self.config is not None:

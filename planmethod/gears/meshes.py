@@ -12,7 +12,7 @@ from planmethod.languages import say
 from planmethod.problem import fields, keys
 from planmethod.problem.fields import Faults
 from planmethod.problem.flat import read_flat
-from planmethod.problem.gear_tables import GearWheelTable
+from planmethod.problem.head import GearWheelTable
 from planmethod.problem.names import fold, is_label, joined, looks_latin, segment
 from planmethod.record import dataclass
 

@@ -21,13 +21,12 @@ from planmethod.gears.model import GearProblem, PictureSettings, Train
 from planmethod.languages import say
 from planmethod.problem import fields, keys
 from planmethod.problem.answers import Plain, read_answers
-from planmethod.problem.extras import read_published
 from planmethod.problem.fields import Faults
 from planmethod.problem.flat import read_flat
-from planmethod.problem.gear_tables import PictureTable
-from planmethod.problem.head import Published
+from planmethod.problem.head import PictureTable, Published
 from planmethod.problem.names import fold, is_label, joined, segment
 from planmethod.problem.reader import varied
+from planmethod.problem.selector import read_published
 from planmethod.problem.sheet import read_head
 
 ASK_LIMIT = 100

@@ -10,13 +10,12 @@ from planmethod.languages import say
 from planmethod.mechanism.model import FRAME, Revolute
 from planmethod.pattern import pattern
 from planmethod.problem import fields, keys
-from planmethod.problem.extras import check_what, read_position
 from planmethod.problem.fields import Faults, Table
 from planmethod.problem.flat import OwnReader, read_flat
 from planmethod.problem.head import AnswerForm, AskedAnswer, AskedSense
 from planmethod.problem.model import Drive, Slide
 from planmethod.problem.names import short, split_pair
-from planmethod.problem.selector import ANALOGUES, MACHINE, Selector
+from planmethod.problem.selector import ANALOGUES, MACHINE, Selector, check_what, read_position
 from planmethod.record import dataclass
 
 if TYPE_CHECKING:

@@ -9,12 +9,14 @@ from collections.abc import Mapping
 
 from planmethod.languages import LANGUAGES
 from planmethod.problem.declared import declared
-from planmethod.problem.gear_tables import GearWheelTable, MeshingTable, PictureTable
 from planmethod.problem.head import (
     LETTERINGS,
     TITLE_BLOCK,
     TITLE_FORMS,
     AskedAnswer,
+    GearWheelTable,
+    MeshingTable,
+    PictureTable,
     Published,
     SheetSettings,
 )

@@ -106,7 +106,9 @@ _MOTOR = "kloss = { M_max = 60, s_k = 0.15, n_sync = 150 }"
 def _read_motor(faults: Faults, path: str, value: object) -> Motor | None:
     """Read a motor's characteristic, and reduce it to the crank."""
     before = len(faults)
-    table = fields.read_table(faults, path, value, _MOTOR) or {}
+    table = fields.read_table(faults, path, value, _MOTOR)
+    if table is None:
+        return None
     found = read_flat(faults, path, table, MotorTable)
     given = [form for form in keys.MOTOR_FORMS if form in found]
     if len(given) != 1 and set(table) <= {*keys.MOTOR_FORMS, "ratio"}:

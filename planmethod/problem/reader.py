@@ -15,17 +15,16 @@ from planmethod.problem.answers import Scene, read_answers
 from planmethod.problem.bodies import place_points
 from planmethod.problem.cycle import read_cycle
 from planmethod.problem.drive import read_assembly, read_drive, read_scales
-from planmethod.problem.extras import check_what, read_published, read_tables
 from planmethod.problem.fields import Faults, read_keys, read_word
 from planmethod.problem.joints import coincident_points, join
 from planmethod.problem.links import LinkText, check_arcs, read_links
 from planmethod.problem.model import Body, Geared, Problem, Slide
 from planmethod.problem.names import UNITS, fold, listed, near
+from planmethod.problem.selector import check_what, read_published, read_tables
 from planmethod.problem.sheet import read_head
 from planmethod.problem.slides import Frame, find_host, order_hosts, read_frame, read_slide
 from planmethod.problem.source import parse, read_source
-from planmethod.problem.table import with_table
-from planmethod.problem.variants import apply_variant, read_variants
+from planmethod.problem.variants import apply_variant, read_variants, with_table
 from planmethod.record import replace
 
 Variants: TypeAlias = Mapping[str, Mapping[tuple[str, ...], Any]]

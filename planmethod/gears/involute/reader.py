@@ -18,7 +18,7 @@ from planmethod.languages import say
 from planmethod.problem import fields
 from planmethod.problem.fields import Faults
 from planmethod.problem.flat import read_flat
-from planmethod.problem.gear_tables import MESHING_EXAMPLE, MeshingTable
+from planmethod.problem.head import MESHING_EXAMPLE, MeshingTable
 from planmethod.problem.reader import varied
 from planmethod.problem.sheet import read_head
 
