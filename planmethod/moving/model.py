@@ -7,7 +7,7 @@ from enum import Enum
 
 from planmethod.languages import say
 from planmethod.problem.fields import Faults, is_number
-from planmethod.problem.formula import LENGTH_LIMIT, FormulaError, Kind, Operation, Parser
+from planmethod.problem.formula import LENGTH_LIMIT, FormulaError, FormulaKind, Operation, Parser
 from planmethod.problem.head import KindProblem
 from planmethod.problem.model import Scales
 from planmethod.problem.names import describe_lookalikes, fold, lookalikes, short
@@ -35,7 +35,7 @@ class Formula:
     @property
     def is_constant(self) -> bool:
         """Whether time does not stand in it."""
-        return all(operation.kind is not Kind.TIME for operation in self.operations)
+        return all(operation.kind is not FormulaKind.TIME for operation in self.operations)
 
     @property
     def in_degrees(self) -> Formula:

@@ -42,7 +42,7 @@ _NO_SEGMENT = frozenset({*_TURNS, "phi", "angle F", "angle inertia", "angle load
 
 
 @dataclass(frozen=True, slots=True)
-class Scene:
+class AnswerScope:
     """What answers may name.
 
     Attributes
@@ -127,7 +127,7 @@ class Plain:
 
 
 def read_answers(
-    faults: Faults, given: Mapping[str, object], scene: Scene | Plain
+    faults: Faults, given: Mapping[str, object], scene: AnswerScope | Plain
 ) -> tuple[AskedAnswer, ...]:
     """Read ``[[answers]]`` of a file, in its order, and check its ``compare``."""
     if "compare" in given:
@@ -165,11 +165,11 @@ def read_answers(
 
 
 def _read_answer(
-    faults: Faults, path: str, body: Table, scene: Scene | Plain
+    faults: Faults, path: str, body: Table, scene: AnswerScope | Plain
 ) -> AskedAnswer | None:
     before = len(faults)
     positions = scene.positions if isinstance(scene, Plain) else 0
-    if isinstance(scene, Scene) and scene.drive:
+    if isinstance(scene, AnswerScope) and scene.drive:
         positions = len(scene.drive.positions)
     own: dict[str, OwnReader] = {
         "id": _read_id,
@@ -216,7 +216,9 @@ def _read_answer(
     return AskedAnswer(**usually | given | {"what": words})
 
 
-def _read_what(faults: Faults, path: str, name: str, words: str, scene: Scene) -> Selector | None:
+def _read_what(
+    faults: Faults, path: str, name: str, words: str, scene: AnswerScope
+) -> Selector | None:
     """Check a quantity, and the joint of a reaction, which its words do not name."""
     if name in scene.points:
         faults.add(
@@ -243,7 +245,7 @@ def _read_what(faults: Faults, path: str, name: str, words: str, scene: Scene) -
     return selector
 
 
-def _joined(joint: str, pair: set[str], scene: Scene) -> bool:
+def _joined(joint: str, pair: set[str], scene: AnswerScope) -> bool:
     return any(joint == r.point and pair <= set(r.links) for r in scene.revolutes) or any(
         pair == {slide.slider, slide.host} and joint in (slide.pin, slide.through)
         for slide in scene.slides.values()

@@ -10,7 +10,7 @@ from planmethod.languages import say
 from planmethod.problem import fields
 from planmethod.problem.fields import Faults, Table
 from planmethod.problem.flat import OwnReader, read_flat
-from planmethod.problem.forces import Scene, read_loads
+from planmethod.problem.forces import LoadScope, read_loads
 from planmethod.problem.links import LinkText
 from planmethod.problem.load_records import (
     GRAVITY,
@@ -55,7 +55,7 @@ def read_dynamics(
     """
     if "dynamics" not in given and "loads" not in given:
         return None
-    scene = Scene(links, fixed, drive, TURN if machine is None else machine.cycle_deg)
+    scene = LoadScope(links, fixed, drive, TURN if machine is None else machine.cycle_deg)
     found: dict[str, Any] = {"gravity": 0.0, "masses": {}}
     if "dynamics" in given:
         table = fields.read_table(faults, "dynamics", given["dynamics"], _EXAMPLE)
@@ -81,7 +81,7 @@ def _read_gravity(faults: Faults, path: str, value: object) -> float:
     return fields.read_number(faults, path, value, what, low=0.0, high=1e4) or 0.0
 
 
-def _read_masses(faults: Faults, path: str, table: object, scene: Scene) -> dict[str, Mass]:
+def _read_masses(faults: Faults, path: str, table: object, scene: LoadScope) -> dict[str, Mass]:
     masses: dict[str, Mass] = {}
     for key, value in (fields.read_table(faults, path, table, _EXAMPLE) or {}).items():
         where = f"{path}.{segment(key)}"
@@ -100,7 +100,9 @@ def _read_masses(faults: Faults, path: str, table: object, scene: Scene) -> dict
     return masses
 
 
-def _read_mass(faults: Faults, path: str, body: Table, link: LinkText, scene: Scene) -> Mass | None:
+def _read_mass(
+    faults: Faults, path: str, body: Table, link: LinkText, scene: LoadScope
+) -> Mass | None:
     before = len(faults)
     own = {"centre": partial(scene.find_point, link=link)}
     found = read_flat(faults, path, body, Mass, own)

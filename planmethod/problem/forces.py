@@ -21,7 +21,7 @@ _NAME_RE = pattern(r"(?:[^_^{}\\]|[_^](?:[^_^{}\\]|\{[^_^{}\\]+\}))+\Z")
 
 
 @dataclass(frozen=True, slots=True)
-class Scene:
+class LoadScope:
     """What masses and loads may name.
 
     Attributes
@@ -76,7 +76,7 @@ class Scene:
         return None
 
 
-def read_loads(faults: Faults, value: object, scene: Scene) -> tuple[Load | Couple, ...]:
+def read_loads(faults: Faults, value: object, scene: LoadScope) -> tuple[Load | Couple, ...]:
     """Read ``[[loads]]``, in file order."""
     if not isinstance(value, list) or not all(isinstance(item, Mapping) for item in value):
         faults.expected("loads", "tables [[loads]]", value)
@@ -131,7 +131,7 @@ def _read_load(
     body: Table,
     name: str | None,
     taken: Collection[str],
-    scene: Scene,
+    scene: LoadScope,
 ) -> Load | Couple | None:
     before = len(faults)
     given = fields.read_keys(faults, path, body, keys.known("load"))
@@ -164,7 +164,7 @@ def _read_force(
     path: str,
     given: Table,
     link: LinkText | None,
-    scene: Scene,
+    scene: LoadScope,
     *,
     whole: bool,
 ) -> Load | None:
@@ -204,7 +204,7 @@ def _read_force(
 
 
 def _read_couple(
-    faults: Faults, path: str, given: Table, link: LinkText | None, scene: Scene
+    faults: Faults, path: str, given: Table, link: LinkText | None, scene: LoadScope
 ) -> Couple | None:
     for key, why in (
         ("at", "A couple acts on the whole link."),

@@ -168,7 +168,7 @@ class Coordinate:
 
 
 @dataclass(frozen=True, slots=True)
-class Balancing:
+class BalancingQuantity:
     """What balances the driver (уравновешивающий момент, уравновешивающая сила).
 
     Records name it by ``quantity``; ``symbol`` stands for its letters, which a language has.
@@ -181,8 +181,8 @@ class Balancing:
     turns: bool
 
 
-MOMENT = Balancing("moment", "balancing moment", "M", "N·m", turns=True)
-FORCE = Balancing("force", "balancing force", "F", "N", turns=False)
+MOMENT = BalancingQuantity("moment", "balancing moment", "M", "N·m", turns=True)
+FORCE = BalancingQuantity("force", "balancing force", "F", "N", turns=False)
 
 
 @dataclass(frozen=True, slots=True)
@@ -306,7 +306,7 @@ class Drive:
         return Coordinate("s", "m", "s", "s", ("v", "a"), inf)
 
     @property
-    def balancing(self) -> Balancing:
+    def balancing(self) -> BalancingQuantity:
         """What balances it."""
         return MOMENT if self.is_crank else FORCE
 

@@ -30,8 +30,8 @@ class Selector:
         A key of `QUANTITIES` or of `FORCES`.
     names : tuple of str
         Points, or one link; the pole of a plan is ``p``. Coincident points have the number of
-        their link: ``B3`` is the point of link 3 under the pin B. Of a force: what the `Role` of
-        each says.
+        their link: ``B3`` is the point of link 3 under the pin B. Of a force: what the
+        `NameRole` of each says.
     over : Selector or None
         Divisor of a quotient such as ``vx D / omega 1``.
     """
@@ -72,7 +72,7 @@ LINK_KINDS = frozenset({"phi", "omega", "epsilon", "phi1", "phi2"})
 POLE = "p"
 
 
-class Role(Enum):
+class NameRole(Enum):
     """What a name of a force stands for."""
 
     LINK = "link"
@@ -81,28 +81,28 @@ class Role(Enum):
     LOAD = "load"  # an external load, by its letter in the file
 
 
-_ON_BY = (Role.BODY, Role.BODY)
-_LINE = (Role.POINT, Role.POINT)
+_ON_BY = (NameRole.BODY, NameRole.BODY)
+_LINE = (NameRole.POINT, NameRole.POINT)
 
-FORCES: Mapping[str, tuple[tuple[Role, ...], ...]] = {
+FORCES: Mapping[str, tuple[tuple[NameRole, ...], ...]] = {
     "F": (_ON_BY,),
     "Ft": ((*_ON_BY, *_LINE),),
     "Fn": ((*_ON_BY, *_LINE),),
     "M": (_ON_BY,),
-    "weight": ((Role.LINK,),),
-    "inertia": ((Role.LINK,),),
-    "inertia couple": ((Role.LINK,),),
-    "shift": ((Role.LINK,),),
-    "load": ((Role.LOAD,),),
+    "weight": ((NameRole.LINK,),),
+    "inertia": ((NameRole.LINK,),),
+    "inertia couple": ((NameRole.LINK,),),
+    "shift": ((NameRole.LINK,),),
+    "load": ((NameRole.LOAD,),),
     "angle F": (_ON_BY,),
-    "angle inertia": ((Role.LINK,),),
-    "angle load": ((Role.LOAD,),),
-    "arm F": ((*_ON_BY, Role.POINT),),
-    "arm weight": ((Role.LINK, Role.POINT),),
-    "arm inertia": ((Role.LINK, Role.POINT),),
-    "arm load": ((Role.LOAD, Role.POINT),),
-    "balance": ((), (Role.POINT,)),
-    "lever": ((), (Role.POINT,)),
+    "angle inertia": ((NameRole.LINK,),),
+    "angle load": ((NameRole.LOAD,),),
+    "arm F": ((*_ON_BY, NameRole.POINT),),
+    "arm weight": ((NameRole.LINK, NameRole.POINT),),
+    "arm inertia": ((NameRole.LINK, NameRole.POINT),),
+    "arm load": ((NameRole.LOAD, NameRole.POINT),),
+    "balance": ((), (NameRole.POINT,)),
+    "lever": ((), (NameRole.POINT,)),
 }
 """Kinds of quantity of the force analysis, and what the names of each are, in every form it has."""
 
@@ -208,11 +208,11 @@ def _must_differ(selector: Selector) -> list[tuple[str, ...]]:
     if selector.kind in MACHINE:
         return []
     told = roles(selector)
-    bodies = tuple(name for name, role in told if role is Role.BODY)
-    return [bodies, tuple(name for name, role in told if role is Role.POINT)]
+    bodies = tuple(name for name, role in told if role is NameRole.BODY)
+    return [bodies, tuple(name for name, role in told if role is NameRole.POINT)]
 
 
-def roles(selector: Selector) -> list[tuple[str, Role]]:
+def roles(selector: Selector) -> list[tuple[str, NameRole]]:
     """Return the names of a force, and what each stands for."""
     form = next(form for form in FORCES[selector.kind] if len(form) == len(selector.names))
     return list(zip(selector.names, form, strict=True))
@@ -244,10 +244,10 @@ def unknown_names(
         found += [name for name in selector.names[-1:] if not name.isdecimal()]
     elif selector.kind in FORCES:
         known = {
-            Role.LINK: links,
-            Role.BODY: {*links, FRAME},
-            Role.POINT: points,
-            Role.LOAD: loads,
+            NameRole.LINK: links,
+            NameRole.BODY: {*links, FRAME},
+            NameRole.POINT: points,
+            NameRole.LOAD: loads,
         }
         found = [name for name, role in roles(selector) if name not in known[role]]
     elif selector.kind in LINK_KINDS:
