@@ -6,6 +6,8 @@ from collections.abc import Callable, Collection, Iterable, Mapping
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
+from msgspec import Struct
+
 from planmethod.languages import say
 from planmethod.mechanism.model import FRAME, Revolute
 from planmethod.pattern import pattern
@@ -16,7 +18,6 @@ from planmethod.problem.head import AnswerForm, AskedAnswer, AskedSense
 from planmethod.problem.model import Drive, Slide
 from planmethod.problem.names import short, split_pair
 from planmethod.problem.selector import ANALOGUES, MACHINE, Selector, check_what, read_position
-from planmethod.record import dataclass
 
 if TYPE_CHECKING:
     from planmethod.problem.load_records import Dynamics
@@ -41,8 +42,7 @@ _VECTORS = frozenset(
 _NO_SEGMENT = frozenset({*_TURNS, "phi", "angle F", "angle inertia", "angle load"})
 
 
-@dataclass(frozen=True, slots=True)
-class AnswerScope:
+class AnswerScope(Struct, frozen=True):
     """What answers may name.
 
     Attributes
@@ -105,8 +105,7 @@ def _sliding(slides: Iterable[Slide]) -> dict[str, tuple[str, ...]]:
     return found
 
 
-@dataclass(frozen=True, slots=True)
-class Plain:
+class Plain(Struct, frozen=True):
     """What answers may name of a problem that is computed without plans.
 
     Attributes

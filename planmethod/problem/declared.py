@@ -15,13 +15,12 @@ from collections.abc import Iterator
 from types import NoneType
 from typing import Any, TypeAlias, get_args, get_type_hints
 
-from planmethod.record import dataclass
+from msgspec import Struct
 
 LENGTH_HINT = "Check the unit: the file is in SI units and degrees."
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class DeclaredKey:
+class DeclaredKey(Struct, frozen=True, kw_only=True):
     """What keys of every type have.
 
     Attributes
@@ -44,8 +43,7 @@ class DeclaredKey:
     absent: str = ""
 
 
-@dataclass(frozen=True, slots=True)
-class NumberKey(DeclaredKey):
+class NumberKey(DeclaredKey, frozen=True):
     """A number within bounds.
 
     Attributes
@@ -79,8 +77,7 @@ class NumberKey(DeclaredKey):
         return self.high >= 1e9
 
 
-@dataclass(frozen=True, slots=True)
-class WholeKey(DeclaredKey):
+class WholeKey(DeclaredKey, frozen=True):
     """A whole number within bounds."""
 
     sentence: str
@@ -88,45 +85,39 @@ class WholeKey(DeclaredKey):
     high: int
 
 
-@dataclass(frozen=True, slots=True)
-class AngleKey(DeclaredKey):
+class AngleKey(DeclaredKey, frozen=True):
     """An angle, degrees."""
 
     sentence: str
 
 
-@dataclass(frozen=True, slots=True)
-class FlagKey(DeclaredKey):
+class FlagKey(DeclaredKey, frozen=True):
     """``true`` or ``false``."""
 
     sentence: str
 
 
-@dataclass(frozen=True, slots=True)
-class TextKey(DeclaredKey):
+class TextKey(DeclaredKey, frozen=True):
     """A line of text of at most so many characters."""
 
     sentence: str
     limit: int
 
 
-@dataclass(frozen=True, slots=True)
-class WordKey(DeclaredKey):
+class WordKey(DeclaredKey, frozen=True):
     """A word of the enumeration that the field has."""
 
     sentence: str
 
 
-@dataclass(frozen=True, slots=True)
-class ChoiceKey(DeclaredKey):
+class ChoiceKey(DeclaredKey, frozen=True):
     """One of some words, in either alphabet and case."""
 
     sentence: str
     words: tuple[str, ...]
 
 
-@dataclass(frozen=True, slots=True)
-class OwnKey(DeclaredKey):
+class OwnKey(DeclaredKey, frozen=True):
     """A value that its table reads in its own way."""
 
     sentence: str
@@ -137,8 +128,7 @@ FlatKey: TypeAlias = (
 )
 
 
-@dataclass(frozen=True, slots=True)
-class FlatField:
+class FlatField(Struct, frozen=True):
     """A field of the record of a table with its key.
 
     Attributes

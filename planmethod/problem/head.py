@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import field, fields
+from dataclasses import fields
 from enum import Enum
 from types import MappingProxyType
 from typing import Annotated
+
+from msgspec import Struct, field
+from msgspec.structs import replace
 
 from planmethod.problem.declared import (
     ChoiceKey,
@@ -17,7 +20,6 @@ from planmethod.problem.declared import (
     WholeKey,
     WordKey,
 )
-from planmethod.record import dataclass, replace
 
 STAMP_LIMIT = 200
 
@@ -65,8 +67,7 @@ LETTERINGS = ("A", "A-upright", "B", "B-upright")
 """Types of the lettering of GOST 2.304, slanted where nothing else is said."""
 
 
-@dataclass(frozen=True, slots=True)
-class Published:
+class Published(Struct, frozen=True):
     """One value that the source prints (напечатанное значение)."""
 
     name: str
@@ -109,8 +110,7 @@ class AskedSense(Enum):
     ANGLE = "angle"  # degrees from +x
 
 
-@dataclass(frozen=True, slots=True)
-class AskedAnswer:
+class AskedAnswer(Struct, frozen=True):
     """What students are asked for (вопрос); ``what`` is in the words of ``[published]``."""
 
     id: Annotated[
@@ -193,8 +193,7 @@ class AskedAnswer:
     ] = None  # fmt: skip
 
 
-@dataclass(frozen=True, slots=True)
-class SheetSettings:
+class SheetSettings(Struct, frozen=True):
     """How the sheets are to be made up (оформление листов): ``[sheet]``; None: not given."""
 
     paper: Annotated[str | None, OwnKey('format: `"A3"`, `"A4x3"`, `"A3:portrait"`')] = None
@@ -228,8 +227,7 @@ class SheetSettings:
         return replace(lower, **told)
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class KindProblem:
+class KindProblem(Struct, frozen=True, kw_only=True):
     """What is read of a problem of any kind (задача).
 
     Attributes
@@ -261,8 +259,7 @@ MESHING_EXAMPLE = '[meshing] z = [12, 30], m = 5, x = "blocking"'
 MESHING_HINT = "Lengths of [meshing] are millimetres, as the standard has them."
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class MeshingTable:
+class MeshingTable(Struct, frozen=True, kw_only=True):
     """``[meshing]``: two wheels with involute teeth (эвольвентное зацепление)."""
 
     z: Annotated[
@@ -349,8 +346,7 @@ class MeshingTable:
     ] = 1.2
 
 
-@dataclass(frozen=True, slots=True)
-class PictureTable:
+class PictureTable(Struct, frozen=True):
     """``[gears.picture]``: scales of the pictures of velocities (масштабы картин скоростей)."""
 
     mu_l: Annotated[float, NumberKey("scale of the scheme", "a scale", "m/mm", 1e-9, 1e6)] = 0.001
@@ -365,8 +361,7 @@ class PictureTable:
     ] = 40.0
 
 
-@dataclass(frozen=True, slots=True)
-class GearWheelTable:
+class GearWheelTable(Struct, frozen=True):
     """A wheel of ``[gears]`` that is a table (колесо)."""
 
     z: Annotated[int | None, WholeKey("number of teeth (of a worm: starts)", 1, 10_000)] = None

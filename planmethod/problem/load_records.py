@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import field
 from enum import Enum
 from typing import Annotated
+
+from msgspec import Struct, field
 
 from planmethod.problem.declared import (
     AngleKey,
@@ -16,14 +17,12 @@ from planmethod.problem.declared import (
     WholeKey,
     WordKey,
 )
-from planmethod.record import dataclass
 
 GRAVITY = 9.81
 """Acceleration of free fall where the file gives no other, m/s²."""
 
 
-@dataclass(frozen=True, slots=True)
-class Mass:
+class Mass(Struct, frozen=True):
     """Inertia of a link (масса и момент инерции звена); it has a centre where it has a mass."""
 
     mass: Annotated[float, NumberKey("mass (масса)", "a mass", "kg", 0.0, 1e12)] = 0.0
@@ -71,8 +70,7 @@ class Interpolation(Enum):
     STEP = "step"  # a row holds until the next one
 
 
-@dataclass(frozen=True, slots=True)
-class SizeTable:
+class SizeTable(Struct, frozen=True):
     """Size of a load as a table (табличная сила или пара сил).
 
     Attributes
@@ -95,15 +93,13 @@ class SizeTable:
     turn: float = 360.0
 
 
-@dataclass(frozen=True, slots=True)
-class Fixed:
+class Fixed(Struct, frozen=True):
     """Direction that stays on the paper (неизменное направление), degrees from +x."""
 
     angle: float
 
 
-@dataclass(frozen=True, slots=True)
-class Against:
+class Against(Struct, frozen=True):
     """Sense of a resistance (сила сопротивления): against the motion; none where that stops."""
 
 
@@ -123,8 +119,7 @@ class TurningSense(Enum):
     CW = "cw"
 
 
-@dataclass(frozen=True, slots=True)
-class Phase:
+class Phase(Struct, frozen=True):
     """When a load acts (фаза действия нагрузки): where all that is given holds."""
 
     phi: Annotated[
@@ -147,8 +142,7 @@ class Phase:
     ] = None
 
 
-@dataclass(frozen=True, slots=True)
-class LoadEntry:
+class LoadEntry(Struct, frozen=True):
     """A table of ``[[loads]]`` as it is written; what it says is a `Load` or a `Couple`."""
 
     name: Annotated[
@@ -186,8 +180,7 @@ class LoadEntry:
     ] = Phase()
 
 
-@dataclass(frozen=True, slots=True)
-class Load:
+class Load(Struct, frozen=True):
     """External force on a link (внешняя сила).
 
     Attributes
@@ -212,8 +205,7 @@ class Load:
     phase: Phase | None = None
 
 
-@dataclass(frozen=True, slots=True)
-class Couple:
+class Couple(Struct, frozen=True):
     """External couple on a link (внешняя пара сил, момент).
 
     Attributes
@@ -236,8 +228,7 @@ class Couple:
     phase: Phase | None = None
 
 
-@dataclass(frozen=True, slots=True)
-class Dynamics:
+class Dynamics(Struct, frozen=True):
     """What the force analysis knows beside the motion (исходные данные силового расчёта).
 
     Attributes
@@ -319,8 +310,7 @@ class WheelShape(Enum):
     RIM = "rim"
 
 
-@dataclass(frozen=True, slots=True)
-class FlywheelTask:
+class FlywheelTask(Struct, frozen=True):
     """What the flywheel is to be like (исходные данные маховика)."""
 
     shape: Annotated[WheelShape, WordKey('`"disc"` or `"rim"`')] = WheelShape.DISC
@@ -339,8 +329,7 @@ class FlywheelTask:
     ] = 1.0  # fmt: skip
 
 
-@dataclass(frozen=True, slots=True)
-class KlossTable:
+class KlossTable(Struct, frozen=True):
     """Numbers of Kloss's formula as the file gives them, in one of two ways (формула Клосса)."""
 
     M_max: Annotated[float, NumberKey("greatest moment, N·m", low=1e-9)] = 0.0
@@ -360,8 +349,7 @@ class KlossTable:
     ] = 0.0
 
 
-@dataclass(frozen=True, slots=True)
-class LineTable:
+class LineTable(Struct, frozen=True):
     """Numbers of a straight characteristic as the file gives them, in one of two ways."""
 
     M_start: Annotated[float, NumberKey("moment at rest, N·m", low=1e-9)] = 0.0
@@ -373,8 +361,7 @@ class LineTable:
     n_nom: Annotated[float, NumberKey("speed of the nominal point, rev/min", low=1e-9)] = 0.0
 
 
-@dataclass(frozen=True, slots=True)
-class MotorTable:
+class MotorTable(Struct, frozen=True):
     """A motor as the file gives it: ``kloss`` or ``line`` (механическая характеристика)."""
 
     kloss: Annotated[
@@ -391,8 +378,7 @@ class MotorTable:
     ] = 1.0  # fmt: skip
 
 
-@dataclass(frozen=True, slots=True)
-class Motor:
+class Motor(Struct, frozen=True):
     """Characteristic of a motor, reduced to the crank (механическая характеристика двигателя).
 
     Attributes
@@ -418,8 +404,7 @@ class Motor:
         return 2.0 * self.moment * slip * critical / (slip * slip + critical * critical)
 
 
-@dataclass(frozen=True, slots=True)
-class Machine:
+class Machine(Struct, frozen=True):
     """What the choice of a flywheel knows beside masses and loads (исходные данные маховика)."""
 
     delta: Annotated[
@@ -531,8 +516,7 @@ class Weighing(Enum):
     PARTIAL = "partial"  # by the crank's counterweight alone
 
 
-@dataclass(frozen=True, slots=True)
-class CounterweightTask:
+class CounterweightTask(Struct, frozen=True):
     """What ``[balancing]`` asks (статическое уравновешивание)."""
 
     method: Annotated[

@@ -7,6 +7,8 @@ from enum import Enum
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
+from msgspec import Struct
+
 from planmethod.languages import say
 from planmethod.mechanism.model import FRAME
 from planmethod.problem import fields, keys
@@ -14,14 +16,12 @@ from planmethod.problem.fields import Faults
 from planmethod.problem.flat import read_flat
 from planmethod.problem.head import Published
 from planmethod.problem.names import listed, near, near_hint, segment, short
-from planmethod.record import dataclass
 
 if TYPE_CHECKING:
     from planmethod.problem.load_records import Dynamics
 
 
-@dataclass(frozen=True, slots=True)
-class Selector:
+class Selector(Struct, frozen=True):
     """One quantity of a solved problem (величина).
 
     Attributes

@@ -9,9 +9,10 @@ from __future__ import annotations
 import os
 import sys
 from collections.abc import Mapping
-from dataclasses import field
 from pathlib import Path
 from typing import Any
+
+from msgspec import Struct, field
 
 from planmethod.errors import ConfigError, Fault, LayoutError, ProblemError
 from planmethod.languages import LANGUAGES, say
@@ -22,7 +23,6 @@ from planmethod.problem.flat import read_choice, read_flat
 from planmethod.problem.head import STAMP_LIMIT, SheetSettings
 from planmethod.problem.names import TITLE_LIMIT, joined, segment
 from planmethod.problem.source import parse, read_source
-from planmethod.record import dataclass
 
 _PAPER_LIMIT = 40
 
@@ -94,8 +94,7 @@ VARIABLE = "PLANMETHOD_CONFIG"
 """Environment variable that names the config file."""
 
 
-@dataclass(frozen=True, slots=True)
-class Config:
+class Config(Struct, frozen=True):
     """What a config file says (настройки)."""
 
     stamp: Mapping[str, str] = field(default_factory=dict)
