@@ -11,7 +11,7 @@ LINKAGES = $(sort $(filter-out $(TASKS) problems/point/% problems/gears/% proble
 # tree, also where the environment forbids it: to compile anew in every process is a tenth of the time.
 TESTS := PYTHONDONTWRITEBYTECODE= PYTHONPYCACHEPREFIX=$(CURDIR)/$(VENV)/bytecode $(BIN)/python -m pytest -n 2 --dist loadfile
 
-.PHONY: demo test test-every test-thorough lint format tables tasks gallery group bench clean
+.PHONY: demo test test-every test-thorough outputs lint format tables tasks gallery group bench clean
 
 # The compat mode is a plain path entry: the default finder costs every command a tenth of a second.
 $(VENV)/.ready: pyproject.toml
@@ -35,6 +35,11 @@ test-every: $(VENV)/.ready
 
 test-thorough: $(VENV)/.ready
 	$(TESTS) --thorough
+
+# What differs from the outputs that were taken; SHOW=pattern shows how, TAKE=1 takes it.
+outputs: $(VENV)/.ready
+	PYTHONPATH=$(CURDIR):$(CURDIR)/tests:$(CURDIR)/tests/outputs $(BIN)/python tests/outputs/look.py \
+	  $(if $(SHOW),--show '$(SHOW)') $(if $(TAKE),--take)
 
 lint: $(VENV)/.ready
 	$(BIN)/ruff check .
