@@ -9,11 +9,12 @@ from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from msgspec import Struct
+
 from planmethod.errors import Fault, ProblemError
 from planmethod.languages import say
 from planmethod.pattern import pattern
 from planmethod.problem.source import parse, read_source
-from planmethod.record import dataclass
 
 if TYPE_CHECKING:
     from planmethod.construct.drafting import Profile
@@ -116,8 +117,7 @@ CALLED: Mapping[str, str] = {
 """What a kind may go without, in words."""
 
 
-@dataclass(frozen=True, slots=True)
-class Kind:
+class Kind(Struct, frozen=True):
     """A kind of problem (вид задачи).
 
     Attributes

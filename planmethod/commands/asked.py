@@ -8,9 +8,10 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Protocol, TypeVar, cast
 
 import click
+from msgspec import Struct
+from msgspec.structs import replace
 
 from planmethod.options import BadParameter, UsageError
-from planmethod.record import dataclass, replace
 
 if TYPE_CHECKING:
     from planmethod.problem.config import Config
@@ -27,8 +28,7 @@ class Settled(Protocol):
         """Return the problem with what is asked."""
 
 
-@dataclass(frozen=True, slots=True)
-class Asked:
+class Asked(Struct, frozen=True):
     """What the command line asks of paper and title block (заказанное оформление).
 
     Attributes

@@ -3,16 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import field
 from fractions import Fraction
 from typing import Any
+
+from msgspec import Struct, field
 
 from planmethod.gears.model import FLEXIBLE, HALF_MODULES, Mesh, MeshKind, Wheel
 from planmethod.languages import say
 from planmethod.problem import fields, keys
 from planmethod.problem.fields import Faults
 from planmethod.problem.names import fold, is_label, joined, looks_latin, segment
-from planmethod.record import dataclass
 
 WHEEL_LIMIT = 60
 TEETH_LIMIT = 10_000
@@ -24,8 +24,7 @@ def fraction(number: float) -> Fraction:
     return Fraction(repr(number))
 
 
-@dataclass
-class Draft:
+class Draft(Struct):
     """What is read so far of a train (черновик)."""
 
     module: Fraction | None

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from msgspec.structs import replace
 
 from planmethod.errors import ProblemError
 from planmethod.languages import say
@@ -24,7 +25,6 @@ from planmethod.problem.names import listed, near_hint, segment, short
 from planmethod.problem.reader import laid_over, varied
 from planmethod.problem.sheet import read_head
 from planmethod.problem.source import parse
-from planmethod.record import replace
 
 TOP = (
     "title", "source", "point", "scales", "stamp", "sheet", "published", "answers", "compare",

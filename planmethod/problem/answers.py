@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable, Collection, Iterable, Mapping
 from typing import TYPE_CHECKING
 
+from msgspec import Struct
+
 from planmethod.languages import say
 from planmethod.mechanism.model import FRAME, Revolute
 from planmethod.pattern import pattern
@@ -15,7 +17,6 @@ from planmethod.problem.head import AnswerForm, AskedAnswer, AskedSense
 from planmethod.problem.model import Drive, Slide
 from planmethod.problem.names import short, split_pair
 from planmethod.problem.selector import ANALOGUES, MACHINE, Selector
-from planmethod.record import dataclass
 
 if TYPE_CHECKING:
     from planmethod.problem.load_records import Dynamics
@@ -43,8 +44,7 @@ _VECTORS = frozenset(
 _NO_SEGMENT = frozenset({*_TURNS, "phi", "angle F", "angle inertia", "angle load"})
 
 
-@dataclass(frozen=True, slots=True)
-class Scene:
+class Scene(Struct, frozen=True):
     """What answers may name.
 
     Attributes
@@ -107,8 +107,7 @@ def _sliding(slides: Iterable[Slide]) -> dict[str, tuple[str, ...]]:
     return found
 
 
-@dataclass(frozen=True, slots=True)
-class Plain:
+class Plain(Struct, frozen=True):
     """What answers may name of a problem that is computed without plans.
 
     Attributes

@@ -8,8 +8,9 @@ from __future__ import annotations
 import os
 import sys
 from collections.abc import Mapping
-from dataclasses import field
 from pathlib import Path
+
+from msgspec import Struct, field
 
 from planmethod.errors import ConfigError, Fault, ProblemError
 from planmethod.languages import say
@@ -18,14 +19,12 @@ from planmethod.problem.fields import Faults, read_keys
 from planmethod.problem.head import SheetSettings
 from planmethod.problem.sheet import read_sheet, read_stamp
 from planmethod.problem.source import parse, read_source
-from planmethod.record import dataclass
 
 VARIABLE = "PLANMETHOD_CONFIG"
 """Environment variable that names the config file."""
 
 
-@dataclass(frozen=True, slots=True)
-class Config:
+class Config(Struct, frozen=True):
     """What a config file says (настройки)."""
 
     stamp: Mapping[str, str] = field(default_factory=dict)

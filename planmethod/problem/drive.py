@@ -5,6 +5,8 @@ from __future__ import annotations
 import math
 from collections.abc import Collection, Mapping
 
+from msgspec.structs import replace
+
 from planmethod.languages import say
 from planmethod.mechanism.model import FRAME
 from planmethod.problem import fields, keys
@@ -13,7 +15,6 @@ from planmethod.problem.links import LinkText
 from planmethod.problem.model import Convention, Drive, Geared, Rule, Scales, Where
 from planmethod.problem.names import is_point_name, listed, near, segment, split_pair
 from planmethod.problem.posed import is_length, is_place, is_posed, is_rate, read_posed
-from planmethod.record import replace
 
 Span = tuple[float, ...]
 

@@ -4,6 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Mapping
 
+from msgspec import Struct
+from msgspec.structs import replace
+
 from planmethod.languages import say
 from planmethod.mechanism.model import FRAME
 from planmethod.pattern import pattern
@@ -14,14 +17,12 @@ from planmethod.problem.load_records import Against, Couple, Fixed, Load
 from planmethod.problem.model import Drive
 from planmethod.problem.names import listed, near_hint
 from planmethod.problem.sizes import TURN, read_phase, read_size
-from planmethod.record import dataclass, replace
 
 NAME_LIMIT = 40
 _NAME_RE = pattern(r"(?:[^_^{}\\]|[_^](?:[^_^{}\\]|\{[^_^{}\\]+\}))+\Z")
 
 
-@dataclass(frozen=True, slots=True)
-class Scene:
+class Scene(Struct, frozen=True):
     """What masses and loads may name.
 
     Attributes

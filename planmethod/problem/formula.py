@@ -20,10 +20,11 @@ from collections.abc import Mapping
 from enum import Enum
 from types import MappingProxyType
 
+from msgspec import Struct
+
 from planmethod.languages import say
 from planmethod.pattern import pattern
 from planmethod.problem.names import listed, near_hint, short
-from planmethod.record import dataclass
 
 LENGTH_LIMIT = 500
 DEPTH_LIMIT = 40
@@ -82,8 +83,7 @@ class Kind(Enum):
     POWER = "^"
 
 
-@dataclass(frozen=True, slots=True)
-class Operation:
+class Operation(Struct, frozen=True):
     """One operation, which takes its operands from the results before it (действие).
 
     ``is_exact`` tells of a number whether float64 has it as it is written: 0.5, not 0.1.

@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import field, fields
 from enum import Enum
 
-from planmethod.record import dataclass, replace
+from msgspec import Struct, field
+from msgspec.structs import asdict, replace
 
 
-@dataclass(frozen=True, slots=True)
-class Published:
+class Published(Struct, frozen=True):
     """One value that the source prints (напечатанное значение)."""
 
     name: str
@@ -38,8 +37,7 @@ class AskedSense(Enum):
     ANGLE = "angle"  # degrees from +x
 
 
-@dataclass(frozen=True, slots=True)
-class AskedAnswer:
+class AskedAnswer(Struct, frozen=True):
     """What students are asked for (вопрос).
 
     Attributes
@@ -79,8 +77,7 @@ class AskedAnswer:
     tolerance: float | None = None
 
 
-@dataclass(frozen=True, slots=True)
-class SheetSettings:
+class SheetSettings(Struct, frozen=True):
     """How the sheets are to be made up (оформление листов): ``[sheet]``; None: not said.
 
     Attributes
@@ -110,16 +107,11 @@ class SheetSettings:
 
     def over(self, lower: SheetSettings) -> SheetSettings:
         """Return these settings, and those of ``lower`` where these say nothing."""
-        told = {
-            part.name: getattr(self, part.name)
-            for part in fields(self)
-            if getattr(self, part.name) is not None
-        }
-        return replace(lower, **told)
+        given = {name: value for name, value in asdict(self).items() if value is not None}
+        return replace(lower, **given)
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class KindProblem:
+class KindProblem(Struct, frozen=True, kw_only=True):
     """What is read of a problem of any kind (задача).
 
     Attributes

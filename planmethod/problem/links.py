@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Mapping
-from dataclasses import field
 from itertools import permutations
 from typing import Any
+
+from msgspec import Struct, field
 
 from planmethod.languages import say
 from planmethod.mechanism.model import FRAME
@@ -24,11 +25,9 @@ from planmethod.problem.names import (
     split_names,
     split_pair,
 )
-from planmethod.record import dataclass
 
 
-@dataclass(frozen=True, slots=True)
-class Length:
+class Length(Struct, frozen=True):
     """Length key of a link: metres between two of its points."""
 
     key: str
@@ -41,8 +40,7 @@ class Length:
         return self.b if point == self.a else self.a
 
 
-@dataclass(frozen=True, slots=True)
-class Angle:
+class Angle(Struct, frozen=True):
     """Angle key of a link: from one directed line of it to another, degrees, ccw positive.
 
     ``AOD``: from OA to OD; ``ABCD``: from AB to CD.
@@ -54,8 +52,7 @@ class Angle:
     value: float
 
 
-@dataclass(slots=True)
-class LinkText:
+class LinkText(Struct):
     """One link as written.
 
     Attributes

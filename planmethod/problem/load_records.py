@@ -5,14 +5,13 @@ from __future__ import annotations
 from collections.abc import Mapping
 from enum import Enum
 
-from planmethod.record import dataclass
+from msgspec import Struct
 
 GRAVITY = 9.81
 """Acceleration of free fall where the file gives no other, m/s²."""
 
 
-@dataclass(frozen=True, slots=True)
-class Mass:
+class Mass(Struct, frozen=True):
     """Inertia of a link (масса и момент инерции звена).
 
     Attributes
@@ -58,8 +57,7 @@ class Interpolation(Enum):
     STEP = "step"  # a row holds until the next one
 
 
-@dataclass(frozen=True, slots=True)
-class Table:
+class Table(Struct, frozen=True):
     """Size of a load as a table (табличная сила или пара сил).
 
     Attributes
@@ -82,15 +80,13 @@ class Table:
     turn: float = 360.0
 
 
-@dataclass(frozen=True, slots=True)
-class Fixed:
+class Fixed(Struct, frozen=True):
     """Direction that stays on the paper (неизменное направление), degrees from +x."""
 
     angle: float
 
 
-@dataclass(frozen=True, slots=True)
-class Against:
+class Against(Struct, frozen=True):
     """Sense of a resistance (сила сопротивления): against the motion; none where that stops."""
 
 
@@ -110,8 +106,7 @@ class Turning(Enum):
     CW = "cw"
 
 
-@dataclass(frozen=True, slots=True)
-class Phase:
+class Phase(Struct, frozen=True):
     """When a load acts (фаза действия нагрузки): where all that is given holds.
 
     Attributes
@@ -130,8 +125,7 @@ class Phase:
     turning: Turning | None = None
 
 
-@dataclass(frozen=True, slots=True)
-class Load:
+class Load(Struct, frozen=True):
     """External force on a link (внешняя сила).
 
     Attributes
@@ -156,8 +150,7 @@ class Load:
     phase: Phase | None = None
 
 
-@dataclass(frozen=True, slots=True)
-class Couple:
+class Couple(Struct, frozen=True):
     """External couple on a link (внешняя пара сил, момент).
 
     Attributes
@@ -180,8 +173,7 @@ class Couple:
     phase: Phase | None = None
 
 
-@dataclass(frozen=True, slots=True)
-class Dynamics:
+class Dynamics(Struct, frozen=True):
     """What the force analysis knows beside the motion (исходные данные силового расчёта).
 
     Attributes
@@ -245,8 +237,7 @@ class Shape(Enum):
     RIM = "rim"
 
 
-@dataclass(frozen=True, slots=True)
-class Wheel:
+class Wheel(Struct, frozen=True):
     """What the flywheel is to be like (исходные данные маховика).
 
     Attributes
@@ -266,8 +257,7 @@ class Wheel:
     ratio: float = 1.0
 
 
-@dataclass(frozen=True, slots=True)
-class Motor:
+class Motor(Struct, frozen=True):
     """Characteristic of a motor, reduced to the crank (механическая характеристика двигателя).
 
     Attributes
@@ -293,8 +283,7 @@ class Motor:
         return 2.0 * self.moment * slip * critical / (slip * slip + critical * critical)
 
 
-@dataclass(frozen=True, slots=True)
-class Machine:
+class Machine(Struct, frozen=True):
     """What the choice of a flywheel knows beside masses and loads (исходные данные маховика).
 
     Attributes
@@ -351,8 +340,7 @@ class Weighing(Enum):
     PARTIAL = "partial"  # by the crank's counterweight alone
 
 
-@dataclass(frozen=True, slots=True)
-class CounterweightTask:
+class CounterweightTask(Struct, frozen=True):
     """What ``[balancing]`` asks (статическое уравновешивание).
 
     Attributes

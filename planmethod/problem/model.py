@@ -7,16 +7,16 @@ then quadrants stay exact; the arithmetic of a reading turns them into direction
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import field
 from enum import Enum
 from math import inf
 from typing import TYPE_CHECKING, Any
+
+from msgspec import Struct, field
 
 from planmethod.languages import say
 from planmethod.mechanism.model import FRAME, Mechanism
 from planmethod.problem.head import KindProblem
 from planmethod.problem.names import told_length
-from planmethod.record import dataclass
 
 if TYPE_CHECKING:
     from fractions import Fraction
@@ -24,8 +24,7 @@ if TYPE_CHECKING:
     from planmethod.problem.load_records import CounterweightTask, Dynamics, Machine
 
 
-@dataclass(frozen=True, slots=True)
-class Body:
+class Body(Struct, frozen=True):
     """Points of a link in the link's own axes (собственные оси звена).
 
     The own axis is the real axis: the line of the link's first length (from its first letter,
@@ -54,8 +53,7 @@ class Body:
     arc: str | None = None
 
 
-@dataclass(frozen=True, slots=True)
-class PointForm:
+class PointForm(Struct, frozen=True):
     """How a third point is given (способ задания точки).
 
     ``kind`` is ``side``, ``on``, ``from`` or ``vertex``; ``line`` is the directed line it speaks
@@ -72,8 +70,7 @@ class PointForm:
     distance: float | None = None
 
 
-@dataclass(frozen=True, slots=True)
-class Slide:
+class Slide(Struct, frozen=True):
     """Line of a prismatic pair on the link that carries it (направляющая).
 
     Attributes
@@ -125,8 +122,7 @@ class Where(Enum):
     PARALLEL = "parallel"
 
 
-@dataclass(frozen=True, slots=True)
-class Rule:
+class Rule(Struct, frozen=True):
     """Assembly rule of a point (способ сборки).
 
     ``right|left|above|below`` compare with one point (``refs`` has one name), ``left of`` and
@@ -144,8 +140,7 @@ class Rule:
     continuous: bool = False
 
 
-@dataclass(frozen=True, slots=True)
-class Coordinate:
+class Coordinate(Struct, frozen=True):
     """What tells where the driver stands (обобщённая координата): ``phi``, deg or ``s``, m.
 
     Records name it by ``column``; ``symbol`` is rich text; ``rates`` are the velocity and the
@@ -166,8 +161,7 @@ class Coordinate:
         return f"{self.name} = {value:.{digits}g} {say(self.unit)}"
 
 
-@dataclass(frozen=True, slots=True)
-class Balancing:
+class Balancing(Struct, frozen=True):
     """What balances the driver (уравновешивающий момент, уравновешивающая сила).
 
     Records name it by ``quantity``; ``symbol`` stands for its letters, which a language has.
@@ -184,8 +178,7 @@ MOMENT = Balancing("moment", "balancing moment", "M", "N·m", turns=True)
 FORCE = Balancing("force", "balancing force", "F", "N", turns=False)
 
 
-@dataclass(frozen=True, slots=True)
-class Geared:
+class Geared(Struct, frozen=True):
     """Gear train through which a crank is driven (привод через зубчатый механизм).
 
     Attributes
@@ -219,8 +212,7 @@ class PosedBy(Enum):
     LENGTH = "length"
 
 
-@dataclass(frozen=True, slots=True)
-class Posed:
+class Posed(Struct, frozen=True):
     """Positions that the output tells (положения, заданные выходным звеном).
 
     Attributes
@@ -260,8 +252,7 @@ class Posed:
         return f"{self.by.value}_{self.of}" if self.of else self.by.value
 
 
-@dataclass(frozen=True, slots=True)
-class Drive:
+class Drive(Struct, frozen=True):
     """Law of motion of the driving link (начальное звено) in the positions asked for.
 
     Attributes
@@ -325,8 +316,7 @@ class Differentiation(Enum):
     CURVE = "curve"
 
 
-@dataclass(frozen=True, slots=True)
-class CycleTask:
+class CycleTask(Struct, frozen=True):
     """What is asked of the cycle of a crank (цикл движения): ``[cycle]``.
 
     Attributes
@@ -359,8 +349,7 @@ class Convention(Enum):
     MM_PER_UNIT = "mm/unit"
 
 
-@dataclass(frozen=True, slots=True)
-class Scales:
+class Scales(Struct, frozen=True):
     """Scales asked for in the file; None where the program chooses.
 
     ``mu_l, mu_v, mu_a, mu_F`` are always stored as unit per millimetre, whichever convention the
@@ -374,8 +363,7 @@ class Scales:
     mu_F: float | None = None  # noqa: N815 - the letter of the textbook
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Problem(KindProblem):
+class Problem(KindProblem, frozen=True, kw_only=True):
     """Task as read (задача).
 
     Attributes

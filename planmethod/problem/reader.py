@@ -7,6 +7,8 @@ from functools import lru_cache
 from pathlib import Path
 from typing import Any, TypeAlias
 
+from msgspec.structs import replace
+
 from planmethod.errors import Fault, ProblemError
 from planmethod.languages import say, spoken
 from planmethod.mechanism.model import FRAME, Mechanism
@@ -26,7 +28,6 @@ from planmethod.problem.slides import Frame, find_host, order_hosts, read_frame,
 from planmethod.problem.source import parse, read_source
 from planmethod.problem.table import with_table
 from planmethod.problem.variants import apply_variant, read_variants
-from planmethod.record import replace
 
 Variants: TypeAlias = Mapping[str, Mapping[tuple[str, ...], Any]]
 """Overrides of every variant, by path."""

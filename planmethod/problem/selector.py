@@ -5,14 +5,14 @@ from __future__ import annotations
 from collections.abc import Collection, Mapping
 from enum import Enum
 
+from msgspec import Struct
+
 from planmethod.languages import say
 from planmethod.mechanism.model import FRAME
 from planmethod.problem.names import near, short
-from planmethod.record import dataclass
 
 
-@dataclass(frozen=True, slots=True)
-class Selector:
+class Selector(Struct, frozen=True):
     """One quantity of a solved problem (величина).
 
     Attributes

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 
+from msgspec import Struct
+
 from planmethod.languages import say
 from planmethod.mechanism.model import FRAME
 from planmethod.problem import fields, keys
@@ -12,14 +14,12 @@ from planmethod.problem.fields import Faults, Table
 from planmethod.problem.links import LinkText, read_label
 from planmethod.problem.model import Body, Slide
 from planmethod.problem.names import looks_latin, segment
-from planmethod.record import dataclass
 
 Guide = tuple[str | None, complex, float]
 """Name of the fixed point (or None), base in m, angle in degrees."""
 
 
-@dataclass(frozen=True, slots=True)
-class Frame:
+class Frame(Struct, frozen=True):
     """Fixed points, m, and guides of the frame (стойка)."""
 
     points: Mapping[str, complex]

@@ -12,11 +12,12 @@ from pathlib import Path
 from typing import Any
 from unicodedata import combining, normalize
 
+from msgspec import Struct
+
 from planmethod.pattern import pattern
 from planmethod.problem.fields import Faults
 from planmethod.problem.source import parse
 from planmethod.problem.variants import apply_variant, read_variants
-from planmethod.record import dataclass
 
 LINKAGE = "linkage"
 """Kind of the problems that are linkages; the others are called as their table is."""
@@ -25,8 +26,7 @@ DYADS = {"PRR": "RRP", "PPR": "RPP"}
 """Other ways to write a dyad."""
 
 
-@dataclass(frozen=True, slots=True)
-class Task:
+class Task(Struct, frozen=True):
     """A shipped problem file (задача банка).
 
     Attributes
@@ -122,8 +122,7 @@ def text_for(task: Task, variant: str | None) -> str:
     return "\n".join(line for t in tables for line in (*t.before, *t.lines)).rstrip() + "\n"
 
 
-@dataclass(slots=True)
-class _Table:
+class _Table(Struct):
     """A table of a file as text: comments over it, the header with what follows, and its name.
 
     The first one has no header; of an array of tables each is called by its number too.

@@ -7,10 +7,11 @@ import json
 import re
 import unicodedata
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import asdict
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from typing import Any
+
+from msgspec.structs import asdict, replace
 
 from planmethod.check.key import Key
 from planmethod.check.marks import Settings
@@ -26,7 +27,6 @@ from planmethod.note.wording import language
 from planmethod.pattern import pattern
 from planmethod.problem.head import KindProblem
 from planmethod.problem.model import Problem
-from planmethod.record import replace
 from planmethod.render.backends.output import write
 from planmethod.solved.solution import Solution
 

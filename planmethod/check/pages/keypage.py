@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
+from msgspec import Struct
+
 from planmethod.check.key import Key
 from planmethod.check.model import KeyEntry
 from planmethod.check.pages.pdf import NOTE, TEXT, Document
@@ -16,14 +18,12 @@ from planmethod.note.plaintext import table as text_table
 from planmethod.note.wording.check_model import KeyWording
 from planmethod.note.wording.language import Language
 from planmethod.plans.model import FACTS
-from planmethod.record import dataclass
 
 UNSEEN = "*"
 """Sign of an answer that the drawing does not show, where there is no room for words."""
 
 
-@dataclass(frozen=True, slots=True)
-class Row:
+class Row(Struct, frozen=True):
     """One variant in one position (строка ключа группы)."""
 
     key: Key
@@ -31,8 +31,7 @@ class Row:
     entries: Mapping[str, KeyEntry]
 
 
-@dataclass(frozen=True, slots=True)
-class KeyPage:
+class KeyPage(Struct, frozen=True):
     """The key of a group in a language.
 
     Attributes

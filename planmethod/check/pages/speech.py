@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import html
 
+from msgspec import Struct
+
 from planmethod.check.model import Judged, KeyEntry, Sense, Written
 from planmethod.note.numbers import trimmed
 from planmethod.note.plaintext import NO_BREAK
@@ -11,7 +13,6 @@ from planmethod.note.rounding import rounded_to, sigma_text
 from planmethod.note.wording.check_model import CheckWording
 from planmethod.note.wording.language import Language
 from planmethod.pattern import pattern
-from planmethod.record import dataclass
 
 LONGEST = 60
 """Letters of what somebody else wrote that are repeated; the rest is cut."""
@@ -48,8 +49,7 @@ def shows_turn(key: KeyEntry) -> bool:
     return key.asks_sense and key.sense is not None and key.sense.turns
 
 
-@dataclass(frozen=True, slots=True)
-class Speech:
+class Speech(Struct, frozen=True):
     """How answers are told in a language."""
 
     words: Language

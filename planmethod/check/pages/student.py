@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
+from msgspec import Struct
+
 from planmethod.check.model import Checked, Judged, Verdict
 from planmethod.check.pages.overlay import Overlay, overlays
 from planmethod.check.pages.remarks import Remarks, what_stands
@@ -11,7 +13,6 @@ from planmethod.check.pages.speech import Speech, quoted
 from planmethod.note.wording.language import Language
 from planmethod.plans.model import FACTS
 from planmethod.problem.head import KindProblem
-from planmethod.record import dataclass
 from planmethod.solved.solution import Solution
 
 PAPER = (178.0, 92.0)
@@ -24,16 +25,14 @@ SMALLEST = 0.42
 """Plans that would be shrunk further stand one under the other."""
 
 
-@dataclass(frozen=True, slots=True)
-class Line:
+class Line(Struct, frozen=True):
     """One answer in the table, rich text."""
 
     cells: tuple[str, ...]
     verdict: Verdict
 
 
-@dataclass(frozen=True, slots=True)
-class Page:
+class Page(Struct, frozen=True):
     """What a student gets, rich text.
 
     Attributes

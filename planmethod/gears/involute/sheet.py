@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING
 
+from msgspec import Struct
+
 from planmethod.errors import LayoutError
 from planmethod.gears.involute.diagrams import (
     Contour,
@@ -20,7 +22,6 @@ from planmethod.languages import LANGUAGES
 from planmethod.note.numbers import Notation
 from planmethod.note.wording import Language, language
 from planmethod.paper import Format, paper_format
-from planmethod.record import dataclass
 from planmethod.render.frame.frame import STAMP_WIDTH, sheet_frame
 from planmethod.render.frame.furniture import Furniture, Room
 from planmethod.render.frame.titleblock import merged
@@ -42,8 +43,7 @@ TEXT_WIDTH = STAMP_WIDTH - 10.0
 """Width of the tables, which stand over the title block, mm."""
 
 
-@dataclass(frozen=True, slots=True)
-class Manner:
+class Manner(Struct, frozen=True):
     """Heights of letters on views, of titles, tables, checks; of rows; part of the paper for views.
 
     All but the last in mm.

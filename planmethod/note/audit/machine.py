@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import numpy as np
+from msgspec.structs import replace
 
 from planmethod.note.numbers import is_nothing
 from planmethod.problem.load_records import Ordinates, Signs
 from planmethod.problem.model import Problem
 from planmethod.problem.selector import Selector
-from planmethod.record import replace
 from planmethod.solved.machine.drawing import drawing_of
 from planmethod.solved.machine.flywheel import Flywheel, flywheel_of, touching
 from planmethod.solved.machine.sizes import size_of

@@ -12,6 +12,8 @@ from math import radians
 from types import MappingProxyType
 from typing import NamedTuple
 
+from msgspec.structs import replace
+
 from planmethod.note.wording import language
 from planmethod.note.wording.sheet_model import FrameWording
 from planmethod.paper import (
@@ -23,7 +25,6 @@ from planmethod.paper import (
     Format,
     paper_format,
 )
-from planmethod.record import replace
 from planmethod.render.frame.forms import Cell
 from planmethod.render.frame.furniture import Furniture
 from planmethod.render.frame.titleblock import (

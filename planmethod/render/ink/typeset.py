@@ -18,10 +18,12 @@ from functools import lru_cache
 from math import radians
 from typing import Literal, TypeAlias
 
+from msgspec import Struct
+from msgspec.structs import replace
+
 from planmethod.errors import LayoutError
 from planmethod.languages import say
 from planmethod.pattern import pattern
-from planmethod.record import dataclass, replace
 from planmethod.render.ink.drawing import Bounds, Item, Pen, Stroke, Text
 from planmethod.render.ink.lettering import OutlineLettering, in_use
 from planmethod.render.ink.style import HEIGHTS
@@ -45,8 +47,7 @@ _BAR_INSET = 0.1  # of h: white between an overbar and an index that follows
 _BAR_GAP = 0.16  # of h: white between the letter and its overbar
 
 
-@dataclass(frozen=True, slots=True)
-class Run:
+class Run(Struct, frozen=True):
     """Letters of one height, placed from the start of the inscription, mm."""
 
     x: float
@@ -55,8 +56,7 @@ class Run:
     height: float
 
 
-@dataclass(frozen=True, slots=True)
-class Inscription:
+class Inscription(Struct, frozen=True):
     """Typeset line (надпись): what it is made of and how much room it takes.
 
     Attributes
@@ -254,19 +254,16 @@ def text_corners(text: Text) -> list[complex]:
     return [text.at + turn * corner for corner in leaning]
 
 
-@dataclass(frozen=True, slots=True)
-class _Letters:
+class _Letters(Struct, frozen=True):
     text: str
 
 
-@dataclass(frozen=True, slots=True)
-class _Index:
+class _Index(Struct, frozen=True):
     below: tuple[_Node, ...]
     above: tuple[_Node, ...]
 
 
-@dataclass(frozen=True, slots=True)
-class _Bar:
+class _Bar(Struct, frozen=True):
     body: tuple[_Node, ...]
 
 

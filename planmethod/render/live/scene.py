@@ -7,11 +7,11 @@ inscriptions hang on outputs. Lengths in millimetres are told at the scales of t
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import field
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
+from msgspec import Struct, field
 
 from planmethod.construct.scale import Scale
 from planmethod.construct.steps import Name, PointName
@@ -27,7 +27,6 @@ from planmethod.plans.model import FACTS, RATES, PlanKind
 from planmethod.problem.bodies import rotation
 from planmethod.problem.load_records import Fixed, Interpolation, Over, Table, Turning
 from planmethod.problem.model import Problem
-from planmethod.record import dataclass
 from planmethod.render.ink.drawing import Stroke
 from planmethod.render.live.parts import Part, parts_of
 from planmethod.render.pictures.planview import COMPONENTS, similar_lines
@@ -61,8 +60,7 @@ _STEPS = {True: 72, False: 60}  # of the positions in which the scheme is drawn
 _LOOKS = 4  # so many times finer is the way looked at
 
 
-@dataclass(slots=True)
-class View:
+class View(Struct):
     """One picture that moves: the scheme, a plan, the lever.
 
     ``segments`` are ``{a, b, style, arrow, name, symbol}``; ``labels`` are ``{text, height}`` with

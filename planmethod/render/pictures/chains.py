@@ -12,11 +12,12 @@ from enum import Enum
 from itertools import pairwise
 from math import radians
 
+from msgspec import Struct
+
 from planmethod.mechanism.describe import pairs
 from planmethod.mechanism.groups import AssurGroup, Joint, links_of
 from planmethod.mechanism.model import FRAME, Mechanism, Prismatic, Revolute
 from planmethod.mechanism.structure import Structure
-from planmethod.record import dataclass
 from planmethod.render.pictures.embedding import Bar, Net, places
 
 
@@ -28,8 +29,7 @@ class Far(Enum):
     OPEN = "open"  # a link that the picture leaves out
 
 
-@dataclass(frozen=True, slots=True)
-class Pin:
+class Pin(Struct, frozen=True):
     """Revolute joint in a picture (шарнир); ``to`` is the link left out when it is open."""
 
     node: str
@@ -40,8 +40,7 @@ class Pin:
     count: int = 1
 
 
-@dataclass(frozen=True, slots=True)
-class Slide:
+class Slide(Struct, frozen=True):
     """Prismatic joint in a picture: the stone is a rectangle, the bar a line through it.
 
     ``node`` is that of the stone's own pin when the stone has nothing else (then ``pinned``).
@@ -56,8 +55,7 @@ class Slide:
     pinned: bool = False
 
 
-@dataclass(frozen=True, slots=True)
-class Shape:
+class Shape(Struct, frozen=True):
     """Link in a picture (звено).
 
     Attributes
@@ -76,8 +74,7 @@ class Shape:
     tips: tuple[tuple[str, str], ...] = ()
 
 
-@dataclass(frozen=True, slots=True)
-class Chain:
+class Chain(Struct, frozen=True):
     """Links of a picture with their joints (кинематическая цепь)."""
 
     pins: tuple[Pin, ...]
@@ -139,8 +136,7 @@ def group_chain(mechanism: Mechanism, group: AssurGroup) -> Chain:
     return _chain(mechanism, seen, rank)
 
 
-@dataclass(frozen=True, slots=True)
-class _Seen:
+class _Seen(Struct, frozen=True):
     """Joint as a picture sees it: which of its links are there, what is on the other side."""
 
     joint: Joint

@@ -9,15 +9,15 @@ from __future__ import annotations
 
 import cmath
 from collections.abc import Mapping
-from dataclasses import field
 from functools import lru_cache
 from itertools import pairwise
 from math import radians
 
+from msgspec import Struct, field
+
 from planmethod.mechanism.groups import AssurGroup
 from planmethod.mechanism.model import FRAME, Mechanism
 from planmethod.mechanism.structure import Structure
-from planmethod.record import dataclass
 from planmethod.render import symbols
 from planmethod.render.ink.drawing import Item, Pen, Stroke
 from planmethod.render.ink.extent import ink_bounds
@@ -160,8 +160,7 @@ def _picture(
     return draft.picture()
 
 
-@dataclass(slots=True)
-class _Draft:
+class _Draft(Struct):
     """Picture being drawn: lines, sliders over them, joints on top (чертёж цепи)."""
 
     chain: Chain

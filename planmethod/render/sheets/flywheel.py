@@ -12,7 +12,6 @@ from planmethod.errors import LayoutError
 from planmethod.note.narrate.given import point_name
 from planmethod.note.narrate.machine import MachineTeller
 from planmethod.problem.load_records import Load, Shape, Table
-from planmethod.record import dataclass
 from planmethod.render.ink.drawing import Arc, Disc, Item, Pen, Span, Stroke
 from planmethod.render.ink.extent import ink_bounds
 from planmethod.render.ink.typeset import typeset
@@ -71,8 +70,7 @@ def calculation_block(solution: Solution, indices: Sequence[int], manner: Manner
 # Diagrams of the construction --------------------------------------------------------------------
 
 
-@dataclass(frozen=True)
-class _DiagramsViewed(Viewed):
+class _DiagramsViewed(Viewed, frozen=True):
     """The diagrams of the construction, with KL and the pole distance as measured segments."""
 
     ends: tuple[tuple[str, complex, complex], ...]

@@ -6,13 +6,13 @@ from collections.abc import Sequence
 from math import ceil, floor
 
 import numpy as np
+from msgspec.structs import replace
 
 from planmethod.construct.scale import Scale, choose_scale
 from planmethod.note.narrate.given import point_name
 from planmethod.note.narrate.scales import scale_inscription
 from planmethod.problem.load_records import Couple, Interpolation, Load, Over, Table
 from planmethod.problem.model import Convention
-from planmethod.record import replace
 from planmethod.render.ink.drawing import Item, Pen, Stroke
 from planmethod.render.ink.typeset import typeset
 from planmethod.render.layout.block import Block, Column

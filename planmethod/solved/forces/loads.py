@@ -7,6 +7,7 @@ from typing import Protocol
 
 import numpy as np
 import numpy.typing as npt
+from msgspec.structs import replace
 
 from planmethod.construct.arithmetic import Number
 from planmethod.errors import Fault, ProblemError
@@ -29,7 +30,6 @@ from planmethod.problem.load_records import (
     Turning,
 )
 from planmethod.problem.model import Problem
-from planmethod.record import replace
 from planmethod.solved.course.motion import Moved, TurnMotion
 from planmethod.solved.reading import Complexes, Reals, Remembering
 from planmethod.solved.solution import LinkMotion, PointMotion

@@ -6,6 +6,8 @@ import math
 from collections.abc import Iterable
 from functools import cached_property
 
+from msgspec.structs import replace
+
 from planmethod.construct.scale import Scale
 from planmethod.construct.steps import NumberName, PointName
 from planmethod.errors import Fault, ProblemError
@@ -18,7 +20,6 @@ from planmethod.plans.forces.polygons import (
 )
 from planmethod.plans.segments import Ends
 from planmethod.problem.model import Balancing, Problem
-from planmethod.record import replace
 from planmethod.solved.forces.statics import statics_of
 from planmethod.solved.reading import Reading, Remembering, remembered
 from planmethod.solved.solution import Solution

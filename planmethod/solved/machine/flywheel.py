@@ -14,6 +14,8 @@ from math import pi
 from typing import TypeVar
 
 import numpy as np
+from msgspec import Struct
+from msgspec.structs import replace
 
 from planmethod.construct.arithmetic import Float64
 from planmethod.construct.evaluate import evaluate
@@ -31,7 +33,6 @@ from planmethod.problem.load_records import (
     Signs,
 )
 from planmethod.problem.model import Problem
-from planmethod.record import dataclass, replace
 from planmethod.solved.course.curve import Curve, joined
 from planmethod.solved.course.motion import TurnMotion
 from planmethod.solved.forces.statics import statics_of
@@ -45,8 +46,7 @@ BALANCE = 1e-9
 _STEPS = 2400  # of the equation of motion, in a turn
 
 
-@dataclass(frozen=True, slots=True)
-class Tangents:
+class Tangents(Struct, frozen=True):
     """A flywheel between two tangents of the energy-mass curve (касательные).
 
     Attributes
@@ -66,8 +66,7 @@ class Tangents:
     at_min: float
 
 
-@dataclass(frozen=True, slots=True)
-class Rows:
+class Rows(Struct, frozen=True):
     """A machine in even positions, ndarrays of shape (n,), as its tables have it (таблица).
 
     ``turned`` is in rad, ``moment`` in N·m, ``work`` and ``gain`` (dT) in J, ``inertia`` and its
@@ -86,8 +85,7 @@ class Rows:
     parts: Reduced
 
 
-@dataclass(frozen=True, slots=True)
-class Points:
+class Points(Struct, frozen=True):
     """What a construction by so many positions has without a pencil (построение по точкам).
 
     Attributes
@@ -107,8 +105,7 @@ class Points:
     tangents: Tangents
 
 
-@dataclass(frozen=True, slots=True)
-class Extreme:
+class Extreme(Struct, frozen=True):
     """A largest or least speed: 1/s, and the angle turned where it is, rad."""
 
     value: float

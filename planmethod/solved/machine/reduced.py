@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 import numpy as np
+from msgspec import Struct
 
 from planmethod.errors import Fault, ProblemError
 from planmethod.languages import say
@@ -23,7 +24,6 @@ from planmethod.problem.load_records import (
     Signs,
     Table,
 )
-from planmethod.record import dataclass
 from planmethod.solved.course.curve import Curve, resolved
 from planmethod.solved.course.motion import Moved, TurnMotion
 from planmethod.solved.forces.loads import MotionValues, external
@@ -33,8 +33,7 @@ NEVER = 1e-12
 """Share of the largest power below which a load does no work."""
 
 
-@dataclass(frozen=True, slots=True)
-class Reduced:
+class Reduced(Struct, frozen=True):
     """What is reduced to the crank, in some positions, ndarrays of shape (n,).
 
     Attributes

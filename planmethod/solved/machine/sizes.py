@@ -10,8 +10,9 @@ from __future__ import annotations
 
 from math import pi
 
+from msgspec import Struct
+
 from planmethod.problem.load_records import Shape, Wheel
-from planmethod.record import dataclass
 
 STEEL_FACTOR, STEEL = 0.38, 7800.0
 """D = 0.38·J^(1/5) of a steel disc, m and kg·m², and the density of a steel rim, kg/m³."""
@@ -20,8 +21,7 @@ DISC_WIDTH, RIM_WIDTH, RIM_BORE = 0.165, 0.2, 0.8
 """Width over diameter, and inner diameter of a rim over the outer one."""
 
 
-@dataclass(frozen=True, slots=True)
-class Sizes:
+class Sizes(Struct, frozen=True):
     """A flywheel as it is made (маховик).
 
     Attributes

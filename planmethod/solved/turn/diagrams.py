@@ -17,6 +17,7 @@ from itertools import pairwise
 from math import radians
 
 import numpy as np
+from msgspec import Struct
 
 from planmethod.construct.arithmetic import Arithmetic, Float64, Number
 from planmethod.construct.evaluate import Trace, evaluate
@@ -27,7 +28,6 @@ from planmethod.errors import AssemblyError
 from planmethod.plans.diagrams.board import Axes, Board
 from planmethod.plans.diagrams.calculus import differentiate, integrate, repeated
 from planmethod.problem.model import Convention, Differentiation
-from planmethod.record import dataclass
 from planmethod.solved.errors.drawing import Drafted, DrawnQuantity
 from planmethod.solved.errors.spread import Errors
 from planmethod.solved.reading import Reals, Remembering, remembered
@@ -81,8 +81,7 @@ def smooth(values: Reals, at: Reals) -> Reals:
     return np.asarray((1 - t) * y + t * y1 + bend, dtype=float)
 
 
-@dataclass(frozen=True)
-class Graph:
+class Graph(Struct, frozen=True):
     """The construction of the diagrams of one way (построение диаграмм).
 
     Attributes
@@ -113,8 +112,7 @@ class Graph:
         return np.array([float(np.reshape(y, -1)[0]) for y in drawn])
 
 
-@dataclass(frozen=True, slots=True)
-class Deviation:
+class Deviation(Struct, frozen=True):
     """How far a way is off the exact diagram, mm: the greatest and the mean square (отклонение)."""
 
     most: float

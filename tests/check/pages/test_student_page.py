@@ -7,12 +7,13 @@ import shutil
 import string
 import subprocess
 from collections.abc import Iterator
-from dataclasses import fields, is_dataclass, replace
 from html.parser import HTMLParser
 from pathlib import Path
 
 import ex3_work
 import pytest
+from msgspec import Struct
+from msgspec.structs import replace
 
 from planmethod.check.model import Checked, Diagnosis, Judged, Sense, Unread, Verdict, Written
 from planmethod.check.pages.htmlpage import html_page
@@ -290,9 +291,9 @@ def test_a_long_work_goes_on_over_pages() -> None:
 def _texts(words: object) -> Iterator[str]:
     if isinstance(words, str):
         yield words
-    elif is_dataclass(words):
-        for field in fields(words):
-            yield from _texts(getattr(words, field.name))
+    elif isinstance(words, Struct):
+        for name in words.__struct_fields__:
+            yield from _texts(getattr(words, name))
     elif isinstance(words, tuple):
         for word in words:
             yield from _texts(word)

@@ -5,8 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from itertools import islice
 
+from msgspec import Struct
+
 from planmethod.note.wording import Language
-from planmethod.record import dataclass
 from planmethod.render.control.texts import GRID
 from planmethod.render.frame.frame import paper_format, sheet_frame
 from planmethod.render.frame.furniture import Furniture
@@ -33,8 +34,7 @@ ALPHABETS = (
 """Letters and signs that the lettering has, whatever the language of the sheet."""
 
 
-@dataclass(frozen=True, slots=True)
-class Measured:
+class Measured(Struct, frozen=True):
     """A measure of the letters in parts of h: its sign, by the standard, on the ink."""
 
     symbol: str
