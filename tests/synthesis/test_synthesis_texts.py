@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 from functools import cache
+from itertools import pairwise
 from typing import Any
 
 import pytest
@@ -273,7 +274,7 @@ def test_supports_stand_away_from_the_links_with_the_hatching_behind_their_base(
         rises = []
         for pose in found.poses:
             for points in pose.links:
-                for p, q in zip(points, points[1:], strict=False):
+                for p, q in pairwise(points):
                     if pivot in (p, q):
                         way = place(drawn.paper, q if p == pivot else p) - place(drawn.paper, pivot)
                         rises.append((way / abs(way)).imag)
@@ -297,7 +298,7 @@ def test_stones_lie_along_their_slotted_links(name: str) -> None:
             along = place(drawn.paper, pin) - place(drawn.paper, foot)
             box = min(boxes, key=lambda points: abs(sum(points) / 4 - here))
             assert abs(sum(box) / 4 - here) < 1e-6
-            sides = sorted((b - a for a, b in zip(box, box[1:], strict=False)), key=abs)
+            sides = sorted((b - a for a, b in pairwise(box)), key=abs)
             assert abs(sides[-1]) > abs(sides[0]) + 1.0
             assert abs((sides[-1] * along.conjugate()).imag) < 1e-6 * abs(sides[-1] * along)
 
