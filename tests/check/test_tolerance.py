@@ -113,6 +113,20 @@ def test_what_a_drawing_may_be_off_by_is_not_held_against_an_answer(
         assert verdict(1.0 - off) is due
 
 
+def test_what_is_within_the_errors_of_a_drawing_is_not_told_to_be_inherited() -> None:
+    """It follows from a wrong number, but nobody can see that it is wrong itself."""
+    item: Any = SimpleNamespace(id="omega_2", question=SimpleNamespace(sign=Sign.SIZE))
+    shown = Limit(1.0, 0.02, 0.04, 0.02, 0.1, seen=True, zero=False, per_mm=0.01)
+    for off, due in ((0.3, Verdict.UNSEEN), (0.45, Verdict.INHERITED)):
+        parent = Examined(item, Written(id="omega_2"), shown, 1.3, signed=False, step=0.0)
+        own: Any = SimpleNamespace(id="v_B", question=SimpleNamespace(sign=Sign.SIZE))
+        child = Examined(own, Written(id="v_B"), UNSEEN, 1.0 + off, signed=False, step=0.0)
+        child.parents, child.follows = {"omega_2": 1.0}, True
+        sheet: Any = SimpleNamespace(order={})
+        decide(sheet, [parent, child], 1.5)
+        assert (parent.verdict, child.verdict) == (Verdict.WRONG, due)
+
+
 def test_who_contradicts_his_own_numbers_is_wrong_within_the_errors_too() -> None:
     assert verdict(1.3, contradicts=True) is Verdict.WRONG
     assert verdict(1.3, sense_right=False) is Verdict.WRONG

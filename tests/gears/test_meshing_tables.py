@@ -10,7 +10,7 @@ import pytest
 from cases import each
 from worked import PROBLEMS
 
-from planmethod.gears.involute.quantities import Solved
+from planmethod.gears.involute.quantities import Solved, Unit
 from planmethod.gears.involute.reader import load
 from planmethod.gears.involute.text import solved_text
 from planmethod.note.plaintext import plain_text
@@ -102,4 +102,4 @@ def test_sizes_that_grow_with_the_module_are_told_in_mm(key: str, tmp_path: Path
     for quantity, values, doubled in pairs:
         grows = doubled == pytest.approx([2 * v for v in values], rel=1e-9, nan_ok=True)
         if any(values) and not all(v != v for v in values):
-            assert grows == (quantity.unit.value[0] == "mm"), quantity.key
+            assert grows == (quantity.unit is Unit.MM), quantity.key

@@ -218,7 +218,7 @@ def test_printed_values_are_so_many_per_cent_more_than_the_exact_ones(name: str)
     assert seen
 
 
-FOUND = re.compile(r"(\S+) = ([μπ(\[].*?) = (\S+)(?: (\S+))? \(exact (\S+), σ = (\S+)\)")
+FOUND = re.compile(r"(\S+) = ([\dμπ(\[].*?) = (\S+)(?: (\S+))? \(exact (\S+), σ = (\S+)\)")
 
 
 @each("name", WITH_PICTURES)
@@ -240,18 +240,20 @@ def test_formulas_of_the_protocol_give_what_they_say_from_what_was_read(
     }
     scale = re.search(r"(μ_?\S) = (\S+) (rev/min|1/s|s⁻¹)/mm", said)
     assert scale is not None
-    count = 0
+    count, letters = 0, set()
     for symbol, formula, value, unit, exact, sigma in FOUND.findall(said):
         shown = re.sub(r"\((o[^()]*)\)", lambda m: f"({lengths[m[1]]})", formula)
         shown = shown.replace(scale[1], str(number(scale[2]))).replace("π", str(math.pi))
-        shown = shown.translate(str.maketrans({"·": "*", "−": "-", "[": "(", "]": ")"}))
+        shown = shown.translate(str.maketrans("·−[]", "*-()"))
         room = max(number(sigma), 0.02 * abs(number(value)))
         assert eval(shown) == pytest.approx(number(value), abs=room), (symbol, formula)
         assert abs(number(value) - number(exact)) <= 3 * number(sigma) + 0.02 * abs(number(exact))
         if not symbol.startswith("U"):
             assert unit == ("rev/min" if symbol[0] == "n" else "1/s"), symbol
+        letters.add(symbol[0])
         count += 1
     assert count >= 3
+    assert {"n", "ω"} <= letters  # asked for in both units
 
 
 def test_a_train_is_asked_in_both_units_and_told_in_each(tmp_path: Path) -> None:

@@ -15,11 +15,11 @@ from planmethod.cli import cli
 from planmethod.construct.drafting import PROFILES
 from planmethod.moving.construction import construct
 from planmethod.moving.course import course_of
-from planmethod.moving.motion import move
+from planmethod.moving.motion import COLUMNS, POLAR, ROLLED, move
 from planmethod.moving.pictures import hodograph_picture, trajectory_picture
 from planmethod.moving.reader import loads
 from planmethod.moving.sheet import drawings, sheet_scales
-from planmethod.moving.text import COLUMNS, POLAR, ROLLED, moment_lines, unit_of
+from planmethod.moving.text import moment_lines, unit_of
 from planmethod.note.wording import LANGUAGES, language
 from planmethod.record import replace
 from planmethod.render.ink.drawing import Arc, Disc, Drawing, Fill, Pen, Stroke, Text, View

@@ -55,6 +55,7 @@ def test_places_are_told_so_that_links_have_their_lengths(name: str) -> None:
     pivot, pin = problem.drive.pivot, next(
         p for p in problem.bodies[problem.drive.link].points if p != problem.drive.pivot
     )  # fmt: skip
+    assert pivot is not None
     origin = complex(problem.bodies["0"].points[pivot])
     length = abs(complex(solution.points[pin].place[0]) - origin)
     lines = result_tables(solution, "en").splitlines()

@@ -71,14 +71,11 @@ def way(solution: Solution, p: str, q: str, i: int) -> complex:
 def line_of(solution: Solution, term: Vector, direction: Direction, i: int) -> complex:
     """Return the direction of the line that a direction is told by, of the scheme."""
     if direction.points:
-        return way(solution, *direction.points, i)
+        tail, head = direction.points
+        return way(solution, tail, head, i)
     slides = [s for s in solution.problem.slides.values() if s.label == direction.guide]
-    (slide, *others) = slides
-    assert not others or len({s.angle for s in slides}) == 1
-    turn = math.radians(slide.angle)
-    if slide.host != FRAME:
-        turn += solution.links[slide.host].angle[i]
-    return cmath.rect(1.0, turn)
+    (angle,) = {slide.angle for slide in slides if slide.host == FRAME}
+    return cmath.rect(1.0, math.radians(angle))
 
 
 def terms(solution: Solution) -> Iterator[Vector]:

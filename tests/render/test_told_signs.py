@@ -41,7 +41,7 @@ def test_the_sign_beside_an_angular_velocity_is_the_way_the_link_turns_next(name
             one, two, three = np.unwrap(
                 [radians(float(s.links[link].phi_deg[0])) for s in (before, now, after)]
             )
-            turn = three - one
+            turn = float(three - one)
             if letter == "ε":
                 own = (float(s.links[link].omega[0]) for s in (before, after))
                 rates = list(own)
