@@ -11,6 +11,7 @@ from planmethod.construct.scale import Scale, choose_scale
 from planmethod.construct.steps import PointName
 from planmethod.errors import ProblemError
 from planmethod.mechanism.model import FRAME
+from planmethod.note.formula import escape
 from planmethod.note.narrate.given import point_name
 from planmethod.note.narrate.scales import scale_inscription
 from planmethod.note.narrate.turn import degrees, range_fact
@@ -20,7 +21,7 @@ from planmethod.plans.model import PlanKind
 from planmethod.problem.model import Convention
 from planmethod.render.forces.arrows import Acting, Turning, couple_items, force_items, lay_forces
 from planmethod.render.ink.drawing import Arc, Drawing, Item, Pen, Stroke
-from planmethod.render.ink.typeset import escape, typeset
+from planmethod.render.ink.typeset import typeset
 from planmethod.render.labels import Label
 from planmethod.render.layout.block import Block, Column, Picture, paragraph
 from planmethod.render.pictures.lettered import lettered

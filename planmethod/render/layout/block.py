@@ -11,11 +11,11 @@ from typing import Literal, Protocol, TypeAlias
 
 from msgspec import Struct
 
+from planmethod.note.formula import escape
 from planmethod.pattern import pattern
 from planmethod.render.ink.drawing import Bounds, Item, Pen, Stroke, shifted
 from planmethod.render.ink.typeset import (
     Inscription,
-    escape,
     line_step,
     smaller_heights,
     split_words,
