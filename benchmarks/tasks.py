@@ -8,9 +8,10 @@ from __future__ import annotations
 
 import json
 import re
-from dataclasses import asdict, replace
 from itertools import groupby
 from pathlib import Path
+
+from msgspec.structs import asdict, replace
 
 from planmethod.kinds import kind_of, load
 from planmethod.mechanism.structure import analyse

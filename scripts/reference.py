@@ -12,10 +12,12 @@ import json
 import re
 import tomllib
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import MISSING, fields
 from enum import Enum
 from pathlib import Path
 from typing import Any, cast
+
+from msgspec import NODEFAULT
+from msgspec.structs import fields
 
 from planmethod.problem import keys
 from planmethod.problem.declared import (
@@ -78,7 +80,7 @@ def defaults_of(kind: str) -> dict[str, object]:
     """Return the defaults of the fields that have one."""
     record: Any = keys.FLAT[kind]
     every = {one.name: one.default for one in fields(record)}
-    return {name: default for name, default in every.items() if default is not MISSING}
+    return {name: default for name, default in every.items() if default is not NODEFAULT}
 
 
 # The schema --------------------------------------------------------------------------------------

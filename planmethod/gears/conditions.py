@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping
-from dataclasses import field
 from fractions import Fraction
 from typing import Any
+
+from msgspec import Struct, field
 
 from planmethod.gears.model import PARALLEL, Mesh, MeshKind
 from planmethod.gears.motion import Motion
 from planmethod.note.wording import Language
-from planmethod.record import dataclass
 
 LEAST_TEETH = 17
 """Least teeth of a wheel without shift that the rack does not undercut."""
@@ -25,8 +25,7 @@ SIN2 = math.sin(math.radians(20)) ** 2
 MOST_SATELLITES = 24
 
 
-@dataclass(frozen=True, slots=True)
-class Condition:
+class Condition(Struct, frozen=True):
     """A condition and whether it holds (условие синтеза).
 
     Attributes

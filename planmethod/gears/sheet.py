@@ -7,6 +7,9 @@ from fractions import Fraction
 from itertools import product
 from typing import NamedTuple
 
+from msgspec import Struct
+from msgspec.structs import replace
+
 from planmethod.construct.drafting import Profile
 from planmethod.construct.scale import series_near
 from planmethod.errors import LayoutError
@@ -21,7 +24,6 @@ from planmethod.gears.scheme import Scheme
 from planmethod.gears.told import calculation, given, results
 from planmethod.languages import LANGUAGES
 from planmethod.note.wording import Language, language
-from planmethod.record import dataclass, replace
 from planmethod.render.frame.frame import STAMP_WIDTH, paper_format, sheet_frame
 from planmethod.render.frame.furniture import Furniture
 from planmethod.render.frame.titleblock import merged
@@ -196,8 +198,7 @@ DENSE = _Sizes(3.5, 3.5, 2.5, 5.5)
 """Where the format was asked for and nothing larger fits."""
 
 
-@dataclass(frozen=True)
-class _Viewed:
+class _Viewed(Struct, frozen=True):
     """Block that is a view, or some: their boxes from its upper left corner (вид на листе)."""
 
     block: Block
@@ -228,8 +229,7 @@ class _Viewed:
         ]
 
 
-@dataclass(frozen=True)
-class _Sheet:
+class _Sheet(Struct, frozen=True):
     """Blocks of a sheet."""
 
     motion: Motion

@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from fractions import Fraction
 
+from msgspec import Struct
+
 from planmethod.errors import PlanMethodError
 from planmethod.gears.answers import answer, rack_speed
 from planmethod.gears.conditions import conditions, sentence
@@ -15,7 +17,6 @@ from planmethod.gears.roles import Roles
 from planmethod.note.numbers import MINUS
 from planmethod.note.plaintext import columns_text, found, heading, spoken, table, wrap
 from planmethod.note.wording import Language, language
-from planmethod.record import dataclass
 
 
 def solved_text(problem: GearProblem, lang: str) -> str:
@@ -239,8 +240,7 @@ def _published(problem: GearProblem, motion: Motion, words: Language) -> list[st
     return table(list(say.columns_published), rows) + notes
 
 
-@dataclass(frozen=True, slots=True)
-class Turns:
+class Turns(Struct, frozen=True):
     """The table of one carrier (таблица вращений).
 
     Attributes

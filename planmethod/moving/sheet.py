@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import field
 from functools import partial
 from itertools import combinations, pairwise
 from typing import TypeAlias
 
 import numpy as np
+from msgspec import Struct, field
+from msgspec.structs import replace
 
 from planmethod.construct.drafting import Profile
 from planmethod.construct.scale import Scale, series_near
@@ -33,7 +34,6 @@ from planmethod.note.rounding import rounded_to, sigma_text
 from planmethod.note.wording import Language, language
 from planmethod.paper import Format
 from planmethod.problem.model import Convention
-from planmethod.record import dataclass, replace
 from planmethod.render.frame.frame import STAMP_WIDTH, paper_format, sheet_frame
 from planmethod.render.frame.furniture import Furniture, Room
 from planmethod.render.frame.titleblock import merged
@@ -67,8 +67,7 @@ MOST_STEPS = 3
 """Most members of the series that a scale goes on by."""
 
 
-@dataclass(frozen=True)
-class _Plan(Viewed):
+class _Plan(Viewed, frozen=True):
     """Hodograph of a kind, with the plan of the told moment."""
 
     built: Construction | None
@@ -90,16 +89,14 @@ class _Plan(Viewed):
 _Pages: TypeAlias = tuple[tuple[Placed, ...], ...]
 
 
-@dataclass(frozen=True, slots=True)
-class _Laid:
+class _Laid(Struct, frozen=True):
     """Sheets: their blocks with the upper left corners that they were put at; the scales."""
 
     pages: _Pages
     scales: dict[str, Scale]
 
 
-@dataclass(frozen=True, slots=True)
-class _Sheet:
+class _Sheet(Struct, frozen=True):
     """All that a sheet of a point shows, but for the sizes of its views."""
 
     problem: PointProblem

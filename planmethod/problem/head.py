@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import fields
 from enum import Enum
 from types import MappingProxyType
 from typing import Annotated
 
 from msgspec import Struct, field
-from msgspec.structs import replace
+from msgspec.structs import asdict, replace
 
 from planmethod.problem.declared import (
     ChoiceKey,
@@ -219,12 +218,8 @@ class SheetSettings(Struct, frozen=True):
 
     def over(self, lower: SheetSettings) -> SheetSettings:
         """Return these settings, and those of ``lower`` where these say nothing."""
-        told = {
-            part.name: getattr(self, part.name)
-            for part in fields(self)
-            if getattr(self, part.name) is not None
-        }
-        return replace(lower, **told)
+        given = {name: value for name, value in asdict(self).items() if value is not None}
+        return replace(lower, **given)
 
 
 class KindProblem(Struct, frozen=True, kw_only=True):

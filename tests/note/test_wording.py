@@ -2,12 +2,12 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Mapping
-from dataclasses import fields, is_dataclass
 from pathlib import Path
 from string import Formatter
 from types import CodeType
 
 import pytest
+from msgspec import Struct
 
 import planmethod
 from planmethod.errors import ExitCode
@@ -58,9 +58,9 @@ def said(words: object, path: str = "") -> Iterator[tuple[str, object]]:
     if isinstance(words, Language):
         for subject in Language.__annotations__:
             yield from said(getattr(words, subject), f"{path}.{subject}")
-    elif is_dataclass(words):
-        for field in fields(words):
-            yield from said(getattr(words, field.name), f"{path}.{field.name}")
+    elif isinstance(words, Struct):
+        for name in words.__struct_fields__:
+            yield from said(getattr(words, name), f"{path}.{name}")
     elif isinstance(words, Mapping):
         for key, value in words.items():
             yield from said(value, f"{path}[{key}]")
@@ -146,8 +146,7 @@ def _texts(kept: object) -> Iterator[str]:
 
 def test_every_sentence_of_the_forces_is_said() -> None:
     source = "".join(path.read_text("utf-8") for path in (HOME / "note").rglob("*.py"))
-    for field in fields(ForceWording):
-        name = field.name
+    for name in ForceWording.__struct_fields__:
         other = name == "lang" or name.startswith("side_")  # these are put together
         assert other or re.search(rf"(said\.|\"){name}\b", source), name
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import dataclasses
 from pathlib import Path
 
 import pytest
@@ -91,7 +90,7 @@ def test_the_centre_may_be_a_fixed_point() -> None:
 
 def test_records_are_frozen() -> None:
     found = dynamics_of('[dynamics.links.1]\nmass = 60\ncentre = "A"\n')
-    with pytest.raises(dataclasses.FrozenInstanceError):
+    with pytest.raises(AttributeError):
         found.masses["1"].mass = 1  # type: ignore[misc]
 
 

@@ -4,18 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
 
+from msgspec import Struct
+
 from planmethod.check.model import Checked, Diagnosis, Judged, Sense, Verdict, Written
 from planmethod.check.pages.speech import Speech, quoted
 from planmethod.note.wording.check_model import StudentWording
 from planmethod.plans.model import FACTS, RATES
-from planmethod.record import dataclass
 
 PLANS = {FACTS[kind].scale: kind for kind in RATES}
 OFF = (Verdict.WRONG, Verdict.NEAR)
 
 
-@dataclass(frozen=True, slots=True)
-class Remarks:
+class Remarks(Struct, frozen=True):
     """Remarks on one work, rich text.
 
     Attributes

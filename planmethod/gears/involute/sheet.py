@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING
 
+from msgspec import Struct
+
 from planmethod.errors import LayoutError
 from planmethod.gears.involute.diagrams import (
     Contour,
@@ -17,16 +19,15 @@ from planmethod.gears.involute.quantities import Solved, Told
 from planmethod.gears.involute.sizes import MeshingProblem
 from planmethod.gears.involute.text import given_text, remarks, symbol_of, unit_of
 from planmethod.languages import LANGUAGES
+from planmethod.note.formula import escape
 from planmethod.note.numbers import Notation
 from planmethod.note.wording import Language, language
 from planmethod.paper import Format, paper_format
-from planmethod.record import dataclass
 from planmethod.render.frame.frame import STAMP_WIDTH, sheet_frame
 from planmethod.render.frame.furniture import Furniture, Room
 from planmethod.render.frame.titleblock import merged
 from planmethod.render.ink.drawing import Drawing, Item, View
 from planmethod.render.ink.lettering import lettering, using
-from planmethod.render.ink.typeset import escape
 from planmethod.render.layout.block import Block, Column, Picture, heading, paragraph
 from planmethod.render.layout.cuttings import GAP, Group, Part
 from planmethod.render.layout.pack import EDGE, pack
@@ -42,8 +43,7 @@ TEXT_WIDTH = STAMP_WIDTH - 10.0
 """Width of the tables, which stand over the title block, mm."""
 
 
-@dataclass(frozen=True, slots=True)
-class Manner:
+class Manner(Struct, frozen=True):
     """Heights of letters on views, of titles, tables, checks; of rows; part of the paper for views.
 
     All but the last in mm.

@@ -8,6 +8,9 @@ from collections.abc import Iterable, Sequence
 from decimal import Decimal
 from enum import Enum
 
+from msgspec import Struct
+from msgspec.structs import replace
+
 from planmethod.languages import LANGUAGES
 from planmethod.note.numbers import significant
 from planmethod.note.plaintext import fixed, given, spoken
@@ -16,7 +19,6 @@ from planmethod.plans.model import FACTS, MOTION, PlanKind
 from planmethod.problem.head import KindProblem, Published
 from planmethod.problem.model import Problem, Scales
 from planmethod.problem.selector import FORCES, MACHINE, Selector, parse_selector
-from planmethod.record import dataclass, replace
 from planmethod.solved.selected.asking import PLANS, NoAnswer, UnansweredError
 from planmethod.solved.selected.quantities import Quantities, is_angle
 from planmethod.solved.selfcheck import verify
@@ -54,8 +56,7 @@ class Verdict(Enum):
     ABSENT = "absent"  # nothing to compare with
 
 
-@dataclass(frozen=True, slots=True)
-class Audited:
+class Audited(Struct, frozen=True):
     """One printed value and what it should have been (проверенное значение).
 
     Attributes

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from msgspec import Struct
+
 from planmethod.construct import steps
 from planmethod.construct.steps import LineName, Name, NumberName, PointName, Step
 from planmethod.mechanism.model import FRAME
@@ -25,7 +27,6 @@ from planmethod.plans.model import (
     pole_letter,
 )
 from planmethod.problem.model import Convention
-from planmethod.record import dataclass
 from planmethod.solved.solution import Solution
 
 _DIGITS = pattern(r"\d+")
@@ -33,8 +34,7 @@ SCALE_KIND = {FACTS[kind].scale: kind for kind in MOTION}
 SCALE_SYMBOL = {kind: f"μ_{{{FACTS[kind].letter}}}" for kind in MOTION}
 
 
-@dataclass(frozen=True, slots=True)
-class LineDirection:
+class LineDirection(Struct, frozen=True):
     """Direction of a drawn line: turned by ``angle`` degrees (in (-180, 180]) from ``base``."""
 
     base: str

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from typing import Any
 
+from msgspec.structs import replace
+
 from planmethod.mechanism.model import FRAME
 from planmethod.note.plaintext import heading, plain_text, table, wrap
 from planmethod.note.tables.results import position_line
 from planmethod.note.wording import Wording, wording
 from planmethod.plans.legend import QuantityKind
-from planmethod.record import replace
 from planmethod.solved.solution import Solution
 from planmethod.solved.trust.accuracy import Refereed, Verdict, examine
 

@@ -4,11 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from planmethod.record import dataclass
+from msgspec import Struct
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class AuditWording:
+class AuditWording(Struct, frozen=True, kw_only=True):
     """What the document of the audit says in one language.
 
     ``verdicts`` and ``counted`` are by the values of `planmethod.note.audit.audit.Verdict`,

@@ -4,11 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from planmethod.record import dataclass
+from msgspec import Struct
 
 
-@dataclass(frozen=True, slots=True)
-class MistakeWords:
+class MistakeWords(Struct, frozen=True):
     """What is said of one mistake.
 
     Attributes
@@ -26,8 +25,7 @@ class MistakeWords:
     advice: str
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class KeyWording:
+class KeyWording(Struct, frozen=True, kw_only=True):
     """What stands on the key; see `planmethod.check.pages.keypage`.
 
     ``columns`` are those of its table, ``rows`` the heads of the leading columns where several
@@ -50,8 +48,7 @@ class KeyWording:
     sheet_hidden: str
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class ComparedWording:
+class ComparedWording(Struct, frozen=True, kw_only=True):
     """What stands beside a student's own numbers before he hands them in.
 
     ``columns`` are the quantity, his value, the exact one, the difference, per cent of it.
@@ -61,8 +58,7 @@ class ComparedWording:
     note: str
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class ResultWording:
+class ResultWording(Struct, frozen=True, kw_only=True):
     """What stands in the tables of results: names of the sheets, heads of their columns.
 
     ``by_code`` and ``by_answer`` are the two tables on the sheet of the group's mistakes.
@@ -81,8 +77,7 @@ class ResultWording:
     files: str
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class StudentWording:
+class StudentWording(Struct, frozen=True, kw_only=True):
     """What stands on the page of a student; see `planmethod.check.pages.remarks`.
 
     ``columns`` are those of the table of answers. Places are ``answer`` (symbols of quantities),
@@ -139,8 +134,7 @@ class StudentWording:
     share: str
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class CheckWording:
+class CheckWording(Struct, frozen=True, kw_only=True):
     """What checking says in one language.
 
     ``verdicts`` are by the values of `planmethod.check.model.Verdict`, ``senses`` by those of
@@ -156,8 +150,7 @@ class CheckWording:
     compared: ComparedWording
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class FormWording:
+class FormWording(Struct, frozen=True, kw_only=True):
     """Words of the form (бланк ответов) and of works that come back.
 
     ``columns`` are in the order of the form; all of them, and ``student``, ``variant`` and

@@ -4,11 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from planmethod.record import dataclass
+from msgspec import Struct
 
 
-@dataclass(frozen=True, slots=True)
-class Said:
+class Said(Struct, frozen=True):
     """A remark in one language, templates of `str.format`.
 
     Besides its own places each may name ``place``, ``value`` and ``limit``. ``actions`` is what to
@@ -20,8 +19,7 @@ class Said:
     actions: Mapping[str, str]
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class ControlWording:
+class ControlWording(Struct, frozen=True, kw_only=True):
     """Remarks and the lines of the report in one language.
 
     Attributes

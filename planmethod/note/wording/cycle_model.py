@@ -4,11 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from planmethod.record import dataclass
+from msgspec import Struct
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class CycleWording:
+class CycleWording(Struct, frozen=True, kw_only=True):
     """Sentences, names and heads of tables of the cycle, rich text; templates of `str.format`."""
 
     title: str

@@ -4,11 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from planmethod.record import dataclass
+from msgspec import Struct
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class ForceWording:
+class ForceWording(Struct, frozen=True, kw_only=True):
     """Sentence templates of the force analysis in one language.
 
     As in `Wording`, every field is a template of `str.format`. A place on a force plan is put in

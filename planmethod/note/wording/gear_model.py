@@ -4,11 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from planmethod.record import dataclass
+from msgspec import Struct
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class GearSheetWording:
+class GearSheetWording(Struct, frozen=True, kw_only=True):
     """Titles, rich text, and sentences of steps, templates of `str.format` (лист и протокол).
 
     Attributes
@@ -44,8 +43,7 @@ class GearSheetWording:
     ruler: str
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class GearWording:
+class GearWording(Struct, frozen=True, kw_only=True):
     """Headings, columns and sentences of gear trains in one language, templates of `str.format`.
 
     Attributes
@@ -96,8 +94,7 @@ class GearWording:
     units: Mapping[str, str]
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class TeethWording:
+class TeethWording(Struct, frozen=True, kw_only=True):
     """Headings, columns and sentences in one language, templates of `str.format`.
 
     Attributes
@@ -121,8 +118,7 @@ class TeethWording:
     file: str
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class MeshingWording:
+class MeshingWording(Struct, frozen=True, kw_only=True):
     """Headings, names and sentences of a pair of wheels, templates of `str.format`.
 
     Attributes

@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from planmethod.record import dataclass
+from msgspec import Struct
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class LiveWording:
+class LiveWording(Struct, frozen=True, kw_only=True):
     """Words of buttons and headings, and sentences, plain text but for points in rich text.
 
     Attributes

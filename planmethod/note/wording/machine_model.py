@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from planmethod.record import dataclass
+from msgspec import Struct
 
 SYMBOLS = (
     "resisting moment",
@@ -23,8 +23,7 @@ SYMBOLS = (
 """Quantities whose letters a language's `Notation` has."""
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class MachineWording:
+class MachineWording(Struct, frozen=True, kw_only=True):
     """Names and sentences of the flywheel's sheet in one language, rich text.
 
     The letters of its quantities are symbols of the language's `Notation`.

@@ -4,11 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from planmethod.record import dataclass
+from msgspec import Struct
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class PointWording:
+class PointWording(Struct, frozen=True, kw_only=True):
     """Words of the moving point (движение точки).
 
     ``circle`` and ``line`` say along what a natural motion runs, ``wheel`` and ``tracks`` what

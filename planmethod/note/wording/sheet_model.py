@@ -4,11 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from planmethod.record import dataclass
+from msgspec import Struct
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class SheetWording:
+class SheetWording(Struct, frozen=True, kw_only=True):
     """Names of views and tables and sentences of the sheets in one language, rich text.
 
     As in `Wording`, every field is a template of `str.format`.
@@ -100,8 +99,7 @@ class SheetWording:
     not_drawn: str
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class FrameWording:
+class FrameWording(Struct, frozen=True, kw_only=True):
     """Captions of the forms of GOST 2.104 in one language.
 
     Attributes
@@ -121,8 +119,7 @@ class FrameWording:
     portrait: str
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class StructureWording:
+class StructureWording(Struct, frozen=True, kw_only=True):
     """Headings, tables, formulas and captions of the structural sheet in one language, rich text.
 
     As in `Wording`, every sentence is a template of `str.format`.

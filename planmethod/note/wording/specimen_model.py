@@ -4,11 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from planmethod.record import dataclass
+from msgspec import Struct
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class SpecimenWording:
+class SpecimenWording(Struct, frozen=True, kw_only=True):
     """Words of the specimen sheets in one language, rich text.
 
     Attributes

@@ -4,11 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from planmethod.record import dataclass
+from msgspec import Struct
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class SynthesisWording:
+class SynthesisWording(Struct, frozen=True, kw_only=True):
     """Headings and sentences of syntheses in one language, templates of `str.format`.
 
     Attributes

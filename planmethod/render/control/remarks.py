@@ -7,11 +7,12 @@ from enum import StrEnum
 from types import MappingProxyType
 from typing import NamedTuple, TypeAlias
 
+from msgspec import Struct
+
 from planmethod.note.plaintext import plain_text
 from planmethod.note.wording import language
 from planmethod.note.wording.control_model import ControlWording
 from planmethod.paper import FORMATS
-from planmethod.record import dataclass
 from planmethod.render.ink.drawing import Pen
 
 Segments: TypeAlias = tuple[tuple[str, float], ...]
@@ -119,8 +120,7 @@ def thing_text(name: str, words: ControlWording) -> str:
     return words.things[kind].format(pen="" if pen is None else words.pens[pen.value]) + told
 
 
-@dataclass(frozen=True, slots=True)
-class Finding:
+class Finding(Struct, frozen=True):
     """One thing the norm control has to say (замечание).
 
     Attributes

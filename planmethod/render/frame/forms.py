@@ -10,8 +10,9 @@ from collections.abc import Iterator, Mapping, Sequence
 from types import MappingProxyType
 from typing import NamedTuple, TypeAlias
 
+from msgspec import Struct
+
 from planmethod.paper import STAMP_HEIGHT, STAMP_WIDTH
-from planmethod.record import dataclass
 from planmethod.render.ink.drawing import Bounds
 from planmethod.render.layout.block import Align
 
@@ -27,8 +28,7 @@ class Cell(NamedTuple):
 Caption: TypeAlias = tuple[str, Bounds, Align]
 
 
-@dataclass(frozen=True, slots=True)
-class Form:
+class Form(Struct, frozen=True):
     """Form of the title block (форма основной надписи), mm from its lower left corner.
 
     Attributes

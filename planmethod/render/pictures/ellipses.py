@@ -7,12 +7,12 @@ from math import atan2, cos, hypot, sin, sqrt, tau
 from typing import TYPE_CHECKING
 
 import numpy as np
+from msgspec import Struct
 
 from planmethod.construct.steps import PointName
 from planmethod.mechanism.model import FRAME
 from planmethod.note.wording import Language
 from planmethod.plans.model import PlanKind
-from planmethod.record import dataclass
 from planmethod.render.ink.drawing import Fill, Item, Pen, Stroke
 from planmethod.render.ink.style import PENS
 from planmethod.solved.errors.motion import drafting_of
@@ -41,8 +41,7 @@ TAG = "ellipse"
 _CORNERS = 64
 
 
-@dataclass(frozen=True, slots=True)
-class Ellipses:
+class Ellipses(Struct, frozen=True):
     """Ellipses of one view, and what the view has to say about them.
 
     ``strained`` tells that some are dashed, ``too_large`` that some are larger than half of it,

@@ -5,8 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from typing import NamedTuple
 
+from msgspec import Struct
+
 from planmethod.note.wording.specimen_model import SpecimenWording
-from planmethod.record import dataclass
 from planmethod.render.ink.drawing import Bounds, Item, Pen, Stroke
 from planmethod.render.ink.typeset import line_step, typeset
 from planmethod.render.labels import Label
@@ -41,8 +42,7 @@ class Clause(NamedTuple):
         return words.clause.format(number=self.number, item=item)
 
 
-@dataclass(frozen=True, slots=True)
-class Cell:
+class Cell(Struct, frozen=True):
     """One symbol with its letters (клетка).
 
     Attributes

@@ -5,15 +5,17 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from itertools import islice
 
+from msgspec import Struct
+
+from planmethod.note.formula import escape
 from planmethod.note.wording import Language
-from planmethod.record import dataclass
 from planmethod.render.control.texts import GRID
 from planmethod.render.frame.frame import paper_format, sheet_frame
 from planmethod.render.frame.furniture import Furniture
 from planmethod.render.ink.drawing import Drawing, Item, Pen, Stroke, Text
 from planmethod.render.ink.lettering import OutlineLettering, in_use
 from planmethod.render.ink.style import HEIGHTS
-from planmethod.render.ink.typeset import escape, line_step, typeset
+from planmethod.render.ink.typeset import line_step, typeset
 from planmethod.render.layout.block import Column, Lines
 from planmethod.render.layout.pack import EDGE
 from planmethod.render.layout.tables import TableColumn, table_block
@@ -33,8 +35,7 @@ ALPHABETS = (
 """Letters and signs that the lettering has, whatever the language of the sheet."""
 
 
-@dataclass(frozen=True, slots=True)
-class Measured:
+class Measured(Struct, frozen=True):
     """A measure of the letters in parts of h: its sign, by the standard, on the ink."""
 
     symbol: str

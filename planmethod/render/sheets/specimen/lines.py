@@ -11,9 +11,10 @@ from collections.abc import Iterator, Mapping, Sequence
 from itertools import accumulate
 from math import radians
 
+from msgspec import Struct
+
 from planmethod.note.numbers import Notation
 from planmethod.note.wording import Language
-from planmethod.record import dataclass
 from planmethod.render import symbols
 from planmethod.render.frame.frame import sheet_frame
 from planmethod.render.frame.furniture import Furniture
@@ -45,8 +46,7 @@ ACROSS = 6
 """Pictures of rules in a row."""
 
 
-@dataclass(frozen=True, slots=True)
-class LineType:
+class LineType(Struct, frozen=True):
     """One type of line, by its name in `SpecimenWording.line_names` (тип линии)."""
 
     name: str
