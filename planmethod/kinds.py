@@ -9,11 +9,12 @@ from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from msgspec import Struct
+
 from planmethod.errors import Fault, ProblemError
 from planmethod.languages import say
 from planmethod.pattern import pattern
 from planmethod.problem.source import parse, read_source
-from planmethod.record import dataclass
 
 if TYPE_CHECKING:
     from planmethod.construct.drafting import Profile
@@ -72,7 +73,7 @@ def part_of(path: Path, *, variant: str | None, views: Views) -> tuple[str, Part
         return "", part
     faults = _of("planmethod.problem.fields", "Faults")()
     part = _of("planmethod.solved.part", "largest_part")(
-        _of("planmethod.problem.table", "with_table")(faults, table, path.parent),
+        _of("planmethod.problem.variants", "with_table")(faults, table, path.parent),
         source=str(path),
         name=path.stem,
         variant=variant,
@@ -116,8 +117,7 @@ CALLED: Mapping[str, str] = {
 """What a kind may go without, in words."""
 
 
-@dataclass(frozen=True, slots=True)
-class Kind:
+class Kind(Struct, frozen=True):
     """A kind of problem (вид задачи).
 
     Attributes

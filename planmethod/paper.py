@@ -10,9 +10,10 @@ from collections.abc import Iterator, Mapping
 from types import MappingProxyType
 from typing import NoReturn, TypeAlias
 
+from msgspec import Struct
+
 from planmethod.errors import LayoutError
 from planmethod.pattern import pattern
-from planmethod.record import dataclass
 
 Box: TypeAlias = tuple[float, float, float, float]
 """xmin, ymin, xmax, ymax in mm."""
@@ -25,8 +26,7 @@ STAMP_WIDTH, STAMP_HEIGHT = 185.0, 55.0
 """Title block of form 1, mm."""
 
 
-@dataclass(frozen=True, slots=True)
-class Format:
+class Format(Struct, frozen=True):
     """Paper format (формат), mm; ``name`` in Latin letters, as on the command line.
 
     Attributes

@@ -10,6 +10,8 @@ import math
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from functools import cached_property
 
+from msgspec.structs import replace
+
 from planmethod.check.diagnosis import passed_on
 from planmethod.check.explain import Explanation, Fit
 from planmethod.check.judge import Examined, decide, distance
@@ -31,7 +33,6 @@ from planmethod.plans.model import Plan
 from planmethod.problem.figures import Figure, Figures
 from planmethod.problem.head import AnswerForm, AskedAnswer, KindProblem
 from planmethod.problem.selector import Selector
-from planmethod.record import replace
 from planmethod.solved.selected.asking import NoAnswer, UnansweredError
 
 READ = "read"

@@ -5,9 +5,11 @@ from __future__ import annotations
 import hashlib
 import json
 from collections.abc import Mapping, Sequence
-from dataclasses import fields, is_dataclass
 from enum import Enum
 from typing import Any
+
+from msgspec import Struct
+from msgspec.structs import asdict
 
 from planmethod.check.model import KeyEntry
 from planmethod.check.pages.workbook import saved
@@ -42,8 +44,8 @@ def fingerprint_of(problem: KindProblem) -> str:
 
 def _parts(record: Any) -> Any:
     """Return what a record is made of, for JSON."""
-    if is_dataclass(record):
-        return {part.name: getattr(record, part.name) for part in fields(record)}
+    if isinstance(record, Struct):
+        return asdict(record)
     if isinstance(record, Mapping):
         return dict(record)
     return record.value if isinstance(record, Enum) else str(record)

@@ -5,6 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 
+from msgspec import Struct
+from msgspec.structs import replace
+
 from planmethod.check.calculation import Calculation
 from planmethod.check.checking import check, unknown_variant
 from planmethod.check.key import Key, key_of_task
@@ -14,7 +17,6 @@ from planmethod.check.model import Checked, Work
 from planmethod.check.task import Item, Task
 from planmethod.kinds import kind_of, load
 from planmethod.problem import variant_names
-from planmethod.record import dataclass, replace
 from planmethod.solved.selected.asking import UnansweredError
 from planmethod.solved.solution import Solution
 
@@ -78,8 +80,7 @@ class Variants:
         return self._forms[plain(work.variant)]
 
 
-@dataclass(frozen=True, slots=True)
-class Group:
+class Group(Struct, frozen=True):
     """Checked works with the keys that they were checked by."""
 
     checked: tuple[Checked, ...]

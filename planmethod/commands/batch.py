@@ -12,6 +12,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
+from msgspec import Struct
+from msgspec.structs import replace
 
 from planmethod.commands.asked import Asked, sheet_options
 from planmethod.commands.helptext import Spoken
@@ -30,7 +32,6 @@ from planmethod.options import (
     reading_options,
 )
 from planmethod.process import settle_process
-from planmethod.record import dataclass, replace
 
 if TYPE_CHECKING:
     from distributed import Client, Future
@@ -54,8 +55,7 @@ _ONE = threading.Lock()
 """Held by the thread of a worker that is at work: what it says is heard by the whole process."""
 
 
-@dataclass(frozen=True, slots=True)
-class Order:
+class Order(Struct, frozen=True):
     """What a machine is asked to make of one variant (заказ); nothing in it names a file here.
 
     Attributes

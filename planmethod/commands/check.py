@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, cast
 
 import click
+from msgspec.structs import replace
 
 from planmethod.commands.helptext import Spoken
 from planmethod.commands.output import bar, json_text
@@ -14,7 +15,6 @@ from planmethod.commands.problems import each, finish, guarded, stem
 from planmethod.errors import ExitCode, PlanMethodError
 from planmethod.languages import say, spoken
 from planmethod.options import UsageError, jobs_option, lang_option, out_option
-from planmethod.record import replace
 
 if TYPE_CHECKING:
     from planmethod.check.group import Variants

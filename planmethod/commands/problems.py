@@ -12,12 +12,12 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, NoReturn, TypeVar, cast
 
 import click
+from msgspec import Struct
 
 from planmethod.commands.output import is_terminal
 from planmethod.errors import AssemblyError, ExitCode, PlanMethodError
 from planmethod.languages import say
 from planmethod.options import UsageError
-from planmethod.record import dataclass
 
 if TYPE_CHECKING:
     from planmethod.commands.processes import Part
@@ -32,8 +32,7 @@ F = TypeVar("F", bound=Callable[..., Any])
 T = TypeVar("T")
 
 
-@dataclass(frozen=True, slots=True)
-class Todo:
+class Todo(Struct, frozen=True):
     """A problem that was read: its file, its kind (None for a linkage), what was read."""
 
     path: Path

@@ -14,11 +14,11 @@ from contextlib import contextmanager, redirect_stderr, redirect_stdout
 from typing import Any, Generic, TypeVar
 
 import click
+from msgspec import Struct
 
 from planmethod.errors import PlanMethodError
 from planmethod.languages import say, speaking, spoken
 from planmethod.process import settle_process
-from planmethod.record import dataclass
 
 T = TypeVar("T")
 R = TypeVar("R")
@@ -46,8 +46,7 @@ class _Ear(io.StringIO):
         return len(text)
 
 
-@dataclass(frozen=True, slots=True)
-class Part(Generic[T]):
+class Part(Struct, Generic[T], frozen=True):
     """What became of one item in another process.
 
     Attributes
@@ -90,8 +89,7 @@ def heard(work: Callable[[], T]) -> Part[T]:
 # Processes ---------------------------------------------------------------------------------------
 
 
-@dataclass
-class _Here:
+class _Here(Struct):
     """State of a process at work."""
 
     work: Callable[[Any], Any] | None = None

@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Literal, Protocol
 
 import click
+from msgspec.structs import replace
 
 from planmethod.commands.asked import Asked, sheet_options
 from planmethod.commands.helptext import Spoken
@@ -27,7 +28,6 @@ from planmethod.options import (
     problem_options,
     reading_options,
 )
-from planmethod.record import replace
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence

@@ -232,9 +232,9 @@ def solve(
         problems, variant, all_variants, compute, compute_other, jobs=jobs, take=found.append
     )
     if as_json and found:
-        from planmethod.note.written import Written
+        from planmethod.note.written import plain_of
 
-        texts = [Written(json_text).text(one) for one in found]
+        texts = [json_text(plain_of(one)) for one in found]
         click.echo(texts[0] if len(texts) == 1 else f"[{', '.join(texts)}]")
     if found and covariance_file is not None:
         from planmethod.note.records.covariance import covariance_text

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import asdict
 from itertools import groupby
 
 import click
+from msgspec.structs import asdict
 
 from planmethod.commands.helptext import Spoken
 from planmethod.commands.output import json_text

@@ -176,6 +176,8 @@ class _Teller:
             formula = "/".join(parts) if ratio else f"{scale}·{parts[0]}"
             if one.name.startswith("omega") and train.unit == "n":
                 formula = f"π/30·{formula}"
+            if one.name.startswith("n") and train.unit != "n":
+                formula = f"30/π·{formula}"
             value, sigma = float(self.seen.read.value[one.read]), self.seen.sigma[one.read]
             other = "1/s" if one.name.startswith("omega") else "1/min"
             shown = "" if ratio else raised(self.words.gears["units"][other])

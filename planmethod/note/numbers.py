@@ -6,8 +6,9 @@ import math
 from collections.abc import Mapping, Sequence
 from typing import SupportsFloat
 
+from msgspec import Struct
+
 from planmethod.pattern import pattern
-from planmethod.record import dataclass
 
 MINUS = "−"
 
@@ -80,8 +81,7 @@ def raised(unit: str) -> str:
 _POWER, _LEVEL = pattern("[⁻¹²]+"), str.maketrans("⁻¹²", f"{MINUS}12")
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Notation:
+class Notation(Struct, frozen=True, eq=False):
     """How a language writes numbers, units and symbols, as rich text (запись чисел).
 
     Attributes

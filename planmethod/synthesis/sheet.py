@@ -8,8 +8,6 @@ from itertools import pairwise
 from math import radians, tau
 from typing import Any
 
-from msgspec import Struct, field
-
 from planmethod.construct.scale import Scale
 from planmethod.construct.steps import LineName, MeetCircles, MeetLineCircle, PointName
 from planmethod.errors import LayoutError
@@ -176,16 +174,14 @@ def _picture(drawn: Drawn) -> Picture:
     return lettered(list(items), ink.labels())
 
 
-class _Ink(Struct):
+class _Ink:
     """Lines and letters of a construction, mm."""
 
-    drawn: Drawn
-    box: Bounds = field(init=False)
-
-    def __post_init__(self) -> None:
+    def __init__(self, drawn: Drawn) -> None:
+        self.drawn = drawn
         left, low, right, high = self.drawn.extent(self.drawn.paper)
         room = 1.5 * _BEYOND
-        self.box = (left - room, low - room, right + room, high + room)
+        self.box: Bounds = (left - room, low - room, right + room, high + room)
 
     def at(self, name: str) -> complex:
         return place(self.drawn.paper, name)

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import json
 import re
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 import pytest
+from msgspec.structs import replace
 from worked import ROOT, path_of
 
 from planmethod.check.checking import check
@@ -53,7 +54,7 @@ def asked(case: Case) -> tuple[Task, dict[str, str]]:
     """Return the task of a case, and what stands beside the settings of a department."""
     told: dict[str, Any] = {}
     beside: dict[str, str] = {}
-    known = {one.name for one in fields(Settings)}
+    known = set(Settings.__struct_fields__)
     for part in filter(None, case.settings.split(", ")):
         key, value = part.split(" ")
         if key in known:

@@ -7,13 +7,13 @@ import re
 import shutil
 import subprocess
 import zipfile
-from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import openpyxl
 import pytest
 from click.testing import CliRunner
+from msgspec.structs import replace
 from worked import path_of
 
 from planmethod.check.form import fingerprint_of, form_of

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from functools import cache
 from math import atan2, degrees, hypot, pi, sqrt
 
 import pytest
 from cases import each
 from loaded import with_resultant
+from msgspec.structs import replace
 from slotted import KULISA, SCALES, R, problem_of
 from worked import problem_of as worked
 

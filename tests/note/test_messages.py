@@ -22,11 +22,23 @@ from planmethod.cli import COMMANDS, cli
 from planmethod.errors import PlanMethodError
 from planmethod.kinds import load
 from planmethod.languages import LANGUAGES, WRITTEN, catalogue, say, speaking, spoken_to, translated
+from planmethod.problem import keys
+from planmethod.problem.declared import NumberKey, declared
+from planmethod.problem.head import TITLE_BLOCK
 
 HOME = Path(planmethod.__file__).parent
 WORDING = HOME / "note" / "wording"
 OTHERS = [lang for lang in LANGUAGES if lang != WRITTEN]
 FAULTY = sorted((HOME.parent / "tests" / "problem" / "faulty").glob("*.toml"))
+
+DECLARED = [one.key for record in keys.FLAT.values() for one in declared(record)]
+NUMBERS = [key for key in DECLARED if isinstance(key, NumberKey)]
+REFERENCE = {
+    *(text for key in DECLARED for text in (key.sentence, key.more, key.absent)),
+    *(key.what for key in NUMBERS if key.unit),  # said with the unit
+    *TITLE_BLOCK.values(),
+}
+"""Texts of the reference of keys, which are no messages."""
 
 SAYS = {
     "say", "translated", "Fault", "_fail", "_fault", "_load_fault", "expected", "beyond",
@@ -36,7 +48,7 @@ SAYS = {
 
 NO_MESSAGES = (
     "bench/",  # a document for developers
-    "check/pages/htmlpage.py",  # HTML
+    "check/pages/overlayview.py",  # HTML
     "check/sheet.py",  # names of answers
     "__init__.py",  # for programs in Python
     "check/works/vocabulary.py",  # what works of students say
@@ -132,13 +144,20 @@ def source() -> tuple[dict[str, str], dict[str, str], set[str]]:
                 case ast.Constant(str(told)) if node not in inside:
                     every.add(told)
                     message = node in direct and re.search(r"\S \S|\.$", told) and "=" not in told
-                    if (message or READS.match(told)) and told not in NOT_SAID and not silent:
+                    if (
+                        (message or READS.match(told))
+                        and told not in NOT_SAID | REFERENCE
+                        and not silent
+                    ):
                         said.setdefault(told, where)
                 case ast.JoinedStr() if not silent:
                     parts = [part.value for part in node.values if isinstance(part, ast.Constant)]
                     words = " ".join(map(str, parts))
                     if re.search(r"[a-z]{3,} +[a-z]{3,}|[A-Za-z]{3,} [a-z]{2,}", words):
                         formatted[where] = ast.unparse(node)
+    for key in NUMBERS:
+        said.setdefault(key.expected, "a declared key")
+        every.add(key.expected)
     return said, formatted, every
 
 

@@ -29,9 +29,10 @@ NO_WORDS = {
     "check/works/cells.py": "heads and words that works of students are written with",
     "check/works/units.py": "units, multiplication signs and e that they are written with",
     "check/works/gather.py": "scales that they are written with",
-    "problem/table.py": "units as the head of a table may have them",
+    "problem/variants.py": "units as the head of a table may have them",
     "problem/names.py": "Cyrillic letters that look like Latin ones, in names of problem files",
-    "problem/sheet.py": "type \u0411 of the lettering in a problem file, an example of a surname",
+    "problem/flat.py": "type \u0411 of the lettering in a problem file",
+    "problem/sheet.py": "an example of a surname",
     "paper.py": "names of formats that files and options may write in Cyrillic letters",
     "render/sheets/specimen/lettering.py": "the letters themselves, one by one",
     "render/ink/lettering/__init__.py": "letters that the lettering is measured by",
@@ -57,9 +58,12 @@ MACHINE = {
 TERMS = {
     "commands/asked.py",
     "commands/solve.py",
-    "problem/extras.py",
+    "problem/selector.py",
     "problem/forces.py",
+    "problem/head.py",
     "problem/links.py",
+    "problem/load_records.py",
+    "problem/model.py",
     "render/sheets/composition/reader.py",
 }
 """Where English help and messages quote what a file may say, or a field term in brackets."""

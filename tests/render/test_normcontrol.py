@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import re
-from dataclasses import replace
 from functools import cache
 from pathlib import Path
 
 import pytest
+from msgspec.structs import replace
 from worked import ROOT, drawn_sheets, every_file, problem_of
 
 from planmethod.mechanism.structure import analyse
@@ -74,7 +74,7 @@ def codes(drawing: Drawing) -> list[str]:
 
 
 def word(text: str = "слово", at: complex = AT, height: float = 5.0, **more: object) -> Text:
-    return replace(Text(at, text, height), **more)  # type: ignore[arg-type]
+    return replace(Text(at, text, height), **more)
 
 
 SHOWN: dict[str, tuple[Drawing, Drawing]] = {

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import html
-
 from msgspec import Struct
 
 from planmethod.check.model import Judged, KeyEntry, Sense, Written
@@ -11,25 +9,10 @@ from planmethod.note.numbers import trimmed
 from planmethod.note.plaintext import NO_BREAK
 from planmethod.note.rounding import rounded_to, sigma_text
 from planmethod.note.wording import Language, Words
-from planmethod.pattern import pattern
+from planmethod.note.writers.html import clean
 
 LONGEST = 60
 """Letters of what somebody else wrote that are repeated; the rest is cut."""
-
-_INDEX = pattern(r"([_^])\{([^{}]*)\}")
-_TAGS = {"_": "sub", "^": "sup"}
-_CONTROL = pattern("[^\x20-\x7e\xa0-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
-
-
-def tagged(rich: str) -> str:
-    """Return rich text with tags ``<sub>``, ``<sup>``; whatever else looks like one is escaped."""
-    text = html.escape(clean(rich))
-    return _INDEX.sub(lambda m: f"<{_TAGS[m[1]]}>{m[2]}</{_TAGS[m[1]]}>", text)
-
-
-def clean(text: str) -> str:
-    """Return a text without signs that no page can show."""
-    return _CONTROL.sub(" ", text)
 
 
 def quoted(text: str) -> str:

@@ -8,8 +8,9 @@ from io import BytesIO
 from typing import TYPE_CHECKING, Any
 from zipfile import ZIP_DEFLATED, ZipFile, ZipInfo
 
+from msgspec import Struct
+
 from planmethod.pattern import pattern
-from planmethod.record import dataclass
 
 if TYPE_CHECKING:
     from openpyxl import Workbook
@@ -24,8 +25,7 @@ LINE = 15.0
 """Height of a line, points."""
 
 
-@dataclass(frozen=True, slots=True)
-class Filled:
+class Filled(Struct, frozen=True):
     """A cell with a ground: its value, and the colour as RRGGBB."""
 
     value: Any

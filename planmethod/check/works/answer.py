@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
+from msgspec.structs import replace
+
 from planmethod.check.model import Sense, Unread, Written
 from planmethod.check.works.cells import Cell, found, read_name, read_sense, refused
 from planmethod.check.works.units import read_number, read_unit
 from planmethod.pattern import pattern
-from planmethod.record import replace
 
 POSITION_LIMIT = 100_000
 

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import field, fields
+
+from msgspec import Struct, field
+from msgspec.structs import replace
 
 from planmethod.check.model import Unread, Work, Written
 from planmethod.check.works.answer import NotReadError, read_scaled
@@ -12,7 +14,6 @@ from planmethod.check.works.faults import WorksError
 from planmethod.check.works.units import Dimension, read_number, read_unit
 from planmethod.pattern import pattern
 from planmethod.problem.names import fold
-from planmethod.record import dataclass, replace
 
 STUDENT_LIMIT = 2000
 ANSWER_LIMIT = 2000
@@ -44,8 +45,7 @@ def scale_name(text: str) -> str:
     return "" if match is None else f"mu_{'l' if match[1] == 's' else match[1]}".replace("f", "F")
 
 
-@dataclass(slots=True)
-class Draft:
+class Draft(Struct):
     """Work of a student while it is read."""
 
     student: str
@@ -224,12 +224,11 @@ def _joined(one: Written, other: Written) -> Written | None:
         return None
     blank = Written()
     said: dict[str, object] = {}
-    for each in fields(Written):
-        mine, theirs = getattr(one, each.name), getattr(other, each.name)
-        nothing = getattr(blank, each.name)
-        if each.name in _KEPT or theirs == nothing:
+    for name in Written.__struct_fields__:
+        mine, theirs, nothing = getattr(one, name), getattr(other, name), getattr(blank, name)
+        if name in _KEPT or theirs == nothing:
             continue
-        if mine not in (nothing, theirs) and each.name not in ("raw", "unit", "step", "mm_step"):
+        if mine not in (nothing, theirs) and name not in ("raw", "unit", "step", "mm_step"):
             return None
-        said[each.name] = theirs if mine == nothing else mine
-    return replace(one, **said)  # type: ignore[arg-type]
+        said[name] = theirs if mine == nothing else mine
+    return replace(one, **said)

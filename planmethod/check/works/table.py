@@ -6,13 +6,15 @@ import re
 from collections.abc import Iterator, Mapping, Sequence
 from functools import lru_cache
 
+from msgspec import Struct
+from msgspec.structs import replace
+
 from planmethod.check.model import Unread
 from planmethod.check.works.answer import read_answer
 from planmethod.check.works.cells import BLANK, HEADS, MM, POINT, Cell, cut, found, key, read_name
 from planmethod.check.works.gather import Draft, Gathering, scale_name
 from planmethod.check.works.units import read_unit
 from planmethod.pattern import pattern
-from planmethod.record import dataclass, replace
 
 ASPECTS = ("value", "mm", "sense", "unit", "segment")
 """What of an answer may stand in a column of its own."""
@@ -22,8 +24,7 @@ _LAST_WORD = pattern(r"(.*\S)\s+(\S+)\Z")
 _QUANTITY = pattern("[A-Za-zΑ-ωϕ]")
 
 
-@dataclass(frozen=True, slots=True)
-class Head:
+class Head(Struct, frozen=True):
     """What stands in a column (столбец).
 
     Attributes

@@ -8,9 +8,10 @@ import unicodedata
 from collections.abc import Iterator, Mapping
 from functools import lru_cache
 
+from msgspec import Struct
+
 from planmethod.check.model import Written
 from planmethod.pattern import pattern
-from planmethod.record import dataclass
 
 TEXT_LIMIT = 32
 
@@ -18,8 +19,7 @@ Dimension = tuple[int, int, int, int]
 """Powers of length, time, force and angle."""
 
 
-@dataclass(frozen=True, slots=True)
-class Unit:
+class Unit(Struct, frozen=True):
     """A unit (единица).
 
     Attributes
@@ -163,8 +163,7 @@ LARGEST = 1e30
 POWER_LIMIT = 40
 
 
-@dataclass(frozen=True, slots=True)
-class Number:
+class Number(Struct, frozen=True):
     """A number, and what stands behind it (число).
 
     Attributes

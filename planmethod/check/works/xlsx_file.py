@@ -7,11 +7,12 @@ import io
 import warnings
 import zipfile
 from collections.abc import Iterator
-from dataclasses import field
 from itertools import product
 from pathlib import Path
 from typing import Any
 from xml.etree.ElementTree import iterparse
+
+from msgspec import Struct, field
 
 from planmethod.check.model import Unread, Work
 from planmethod.check.works.cells import Cell, cut
@@ -19,7 +20,6 @@ from planmethod.check.works.faults import WorksError
 from planmethod.check.works.gather import Gathering
 from planmethod.check.works.table import HEAD_ROWS, Row, read_table
 from planmethod.pattern import pattern
-from planmethod.record import dataclass
 
 ROW_LIMIT = 20_000
 COLUMN_LIMIT = 400
@@ -159,8 +159,7 @@ def _rows(book: Any, sheet: Any, path: Path) -> Iterator[Row]:
         yield cells
 
 
-@dataclass(slots=True)
-class _Structure:
+class _Structure(Struct):
     """What a sheet has beside the values of its cells (строение листа).
 
     Attributes

@@ -19,6 +19,7 @@ from planmethod.gears.involute.quantities import Solved, Told
 from planmethod.gears.involute.sizes import MeshingProblem
 from planmethod.gears.involute.text import given_text, remarks, symbol_of, unit_of
 from planmethod.languages import LANGUAGES
+from planmethod.note.formula import escape
 from planmethod.note.numbers import Notation
 from planmethod.note.wording import Language, language
 from planmethod.paper import Format, paper_format
@@ -27,7 +28,6 @@ from planmethod.render.frame.furniture import Furniture, Room
 from planmethod.render.frame.titleblock import merged
 from planmethod.render.ink.drawing import Drawing, Item, View
 from planmethod.render.ink.lettering import lettering, using
-from planmethod.render.ink.typeset import escape
 from planmethod.render.layout.block import Block, Column, Picture, heading, paragraph
 from planmethod.render.layout.cuttings import GAP, Group, Part
 from planmethod.render.layout.pack import EDGE, pack

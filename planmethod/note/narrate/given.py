@@ -11,9 +11,8 @@ from planmethod.mechanism.model import FRAME
 from planmethod.note.numbers import MINUS, Notation, trimmed, with_unit
 from planmethod.note.wording import Language
 from planmethod.plans.legend import Quantity, QuantityKind
-from planmethod.problem.keys import UNITS
 from planmethod.problem.model import Body, Geared, Posed, PosedBy, Problem, Slide
-from planmethod.problem.names import split_names
+from planmethod.problem.names import UNITS, split_names
 from planmethod.solved.solution import Solution
 
 

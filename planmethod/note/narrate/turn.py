@@ -125,8 +125,8 @@ def diagram_steps(diagrams: Diagrams, words: Language) -> list[str]:
     way = task.differentiation
     return [
         said.scheme_steps.format(length=say.given(task.length), count=diagrams.count),
-        said["ray_steps"][way.value].format(pole=say.given(task.pole_v)),
-        said.again.format(pole=say.given(task.pole_a)),
+        said["ray_steps"][way.value].format(pole=say.given(task.pole.v)),
+        said.again.format(pole=say.given(task.pole.a)),
         said.scales.format(scales="; ".join(diagram_scales(diagrams, words))),
     ]
 

@@ -77,7 +77,7 @@ def sheet_frame(
     ----------
     paper : Format or str
     fields : mapping
-        Texts by the keys of `planmethod.problem.keys.STAMP`.
+        Texts by the keys of `planmethod.problem.head.TITLE_BLOCK`.
     furniture : Furniture
         Which form and which additional graphs.
     sheet : int

@@ -61,7 +61,7 @@ def diagrams_view(solution: Solution, indices: Sequence[int], manner: Manner) ->
     scales = diagram_scales(diagrams, words)
     k = [
         f"K_{{{number}}} = {words.say.given(pole)} {words.say.units['mm']}"
-        for number, pole in enumerate((diagrams.task.pole_v, diagrams.task.pole_a), 1)
+        for number, pole in enumerate((diagrams.task.pole.v, diagrams.task.pole.a), 1)
     ]
     lines = ["; ".join([*scales, *k]), drawn_note(diagrams.task.differentiation, words)]
     block = named(picture, manner.entry.title or title, lines, manner)

@@ -5,13 +5,13 @@ from __future__ import annotations
 import io
 import shutil
 import subprocess
-from dataclasses import replace
 from functools import cache
 from pathlib import Path
 
 import ex3_work
 import openpyxl
 import pytest
+from msgspec.structs import replace
 from worked import problem_of
 
 from planmethod.check.key import Key

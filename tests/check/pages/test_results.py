@@ -5,12 +5,12 @@ from __future__ import annotations
 import csv
 import io
 import json
-from dataclasses import replace
 from zipfile import ZipFile
 
 import ex3_work
 import openpyxl
 import pytest
+from msgspec.structs import replace
 
 from planmethod.check.model import Diagnosis, Judged, Verdict, Written
 from planmethod.check.pages.listing import COLUMNS, csv_bytes, record, safe

@@ -7,21 +7,20 @@ import shutil
 import string
 import subprocess
 from collections.abc import Iterator
-from dataclasses import replace
 from html.parser import HTMLParser
 from pathlib import Path
 
 import ex3_work
 import pytest
+from msgspec.structs import replace
 
 from planmethod.check.model import Checked, Diagnosis, Judged, Sense, Unread, Verdict, Written
-from planmethod.check.pages.htmlpage import html_page
 from planmethod.check.pages.overlay import overlays
-from planmethod.check.pages.pdfpage import pdf_page
 from planmethod.check.pages.remarks import Remarks
-from planmethod.check.pages.speech import Speech, tagged
-from planmethod.check.pages.student import Page, student_page
+from planmethod.check.pages.speech import Speech
+from planmethod.check.pages.student import Page, student_html, student_page, student_pdf
 from planmethod.note.wording import LANGUAGES, language
+from planmethod.note.writers.html import markup
 
 RU = language("ru")
 CODES = [
@@ -191,7 +190,9 @@ def test_absurd_numbers_break_no_page(value: float) -> None:
         replace(j, value=value, local=value, tolerance=abs(value), slip=True) for j in work.answers
     )
     page = page_of(replace(work, answers=answers, points=value, of=value))
-    assert pdf_page(page, RU) and html_page(page, ex3_work.solution(), RU)
+    assert student_pdf(page, ex3_work.solution(), RU) and student_html(
+        page, ex3_work.solution(), RU
+    )
 
 
 def _odd() -> Iterator[float | None]:
@@ -240,7 +241,7 @@ class _Strict(HTMLParser):
 def test_the_html_is_whole_loads_nothing_and_runs_nothing(lang: str) -> None:
     name = "<script>alert(1)</script><img src=x onerror=y>\x00"
     work = ex3_work.work(name)
-    text = html_page(page_of(work, lang), ex3_work.solution(), language(lang))
+    text = student_html(page_of(work, lang), ex3_work.solution(), language(lang))
     reader = _Strict()
     reader.feed(text)
     assert not reader.open and not reader.bad
@@ -249,7 +250,7 @@ def test_the_html_is_whole_loads_nothing_and_runs_nothing(lang: str) -> None:
 
 def test_nothing_is_told_by_colour_alone() -> None:
     work = ex3_work.work()
-    text = html_page(page_of(work), ex3_work.solution(), RU)
+    text = student_html(page_of(work), ex3_work.solution(), RU)
     for judged in work.answers:
         row = re.search(rf'<tr class="{judged.verdict.value}">.*?</tr>', text)
         assert row and re.search("верно|следует|чертёж|нет|не прочитано", row[0])
@@ -257,22 +258,24 @@ def test_nothing_is_told_by_colour_alone() -> None:
 
 
 def test_indices_become_tags_and_nothing_else_does() -> None:
-    assert tagged("v_{B3} <b> a^{τ}") == "v<sub>B3</sub> &lt;b&gt; a<sup>τ</sup>"
-    assert "<script>" not in tagged("x_{<script>}")
+    assert markup("v_{B3} <b> a^{τ}") == "v<sub>B3</sub> &lt;b&gt; a<sup>τ</sup>"
+    assert "<script>" not in markup("x_{<script>}")
 
 
 @pytest.mark.parametrize("lang", LANGUAGES)
 def test_the_pdf_is_the_same_each_time_and_embeds_its_letters(lang: str) -> None:
     page = page_of(ex3_work.work(), lang)
-    data = pdf_page(page, language(lang))
-    assert data == pdf_page(page, language(lang)) and data.startswith(b"%PDF")
+    data = student_pdf(page, ex3_work.solution(), language(lang))
+    assert data == student_pdf(page, ex3_work.solution(), language(lang)) and data.startswith(
+        b"%PDF"
+    )
     assert b"Helvetica" not in data and b"PlanmethodGOST" in data
 
 
 @pytest.mark.skipif(not shutil.which("pdftotext"), reason="poppler is absent")
 def test_the_text_of_the_pdf_can_be_searched(tmp_path: Path) -> None:
     work = ex3_work.work("Щукина Ёлка " + "длинное" * 30)
-    (tmp_path / "s.pdf").write_bytes(pdf_page(page_of(work), RU))
+    (tmp_path / "s.pdf").write_bytes(student_pdf(page_of(work), ex3_work.solution(), RU))
     done = subprocess.run(
         ["pdftotext", "-layout", str(tmp_path / "s.pdf"), "-"], capture_output=True, timeout=60
     )
@@ -283,7 +286,7 @@ def test_the_text_of_the_pdf_can_be_searched(tmp_path: Path) -> None:
 def test_a_long_work_goes_on_over_pages() -> None:
     work = ex3_work.work()
     many = replace(work, answers=work.answers * 20)
-    data = pdf_page(page_of(many), RU)
+    data = student_pdf(page_of(many), ex3_work.solution(), RU)
     assert data.count(b"/Type /Page\n") + data.count(b"/Type /Page ") >= 4
 
 

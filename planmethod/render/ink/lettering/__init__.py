@@ -16,9 +16,10 @@ from pathlib import Path
 from types import MappingProxyType
 from typing import Any, NamedTuple
 
+from msgspec import Struct
+
 from planmethod.errors import LayoutError
 from planmethod.pattern import pattern
-from planmethod.record import dataclass
 from planmethod.render.ink.lettering.proportions import SLANT, TYPES, Proportions
 
 FONTS = Path(__file__).parent.parent / "fonts"
@@ -26,8 +27,7 @@ FONTS = Path(__file__).parent.parent / "fonts"
 _NUMBER = pattern(r"-?\d+")
 
 
-@dataclass(frozen=True, slots=True)
-class Style:
+class Style(Struct, frozen=True):
     """One of the four letterings of GOST 2.304: type A or B, upright or slanted by about 75°."""
 
     kind: str
@@ -75,8 +75,7 @@ class Glyph(NamedTuple):
     strokes: str
 
 
-@dataclass(eq=False)
-class OutlineLettering:
+class OutlineLettering(Struct, eq=False, dict=True):
     """Lettering read from the data files that ``scripts/make_font.py`` makes.
 
     Letters stand side by side by their advances, some pairs closer: `places` tells where, so that

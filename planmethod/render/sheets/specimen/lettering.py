@@ -7,6 +7,7 @@ from itertools import islice
 
 from msgspec import Struct
 
+from planmethod.note.formula import escape
 from planmethod.note.wording import Language
 from planmethod.render.control.texts import GRID
 from planmethod.render.frame.frame import paper_format, sheet_frame
@@ -14,7 +15,7 @@ from planmethod.render.frame.furniture import Furniture
 from planmethod.render.ink.drawing import Drawing, Item, Pen, Stroke, Text
 from planmethod.render.ink.lettering import OutlineLettering, in_use
 from planmethod.render.ink.style import HEIGHTS
-from planmethod.render.ink.typeset import escape, line_step, typeset
+from planmethod.render.ink.typeset import line_step, typeset
 from planmethod.render.layout.block import Column, Lines
 from planmethod.render.layout.pack import EDGE
 from planmethod.render.layout.tables import TableColumn, table_block
