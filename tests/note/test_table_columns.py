@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import re
-from dataclasses import replace
 
 import numpy as np
 import pytest
 from cases import each
+from msgspec.structs import replace
 from worked import problem_of
 
 from planmethod.note.tables.results import result_tables

@@ -132,9 +132,9 @@ def _nodes(page: Page, solved: Solution | KindProblem, words: Language) -> Itera
         yield from map(Item, page.redraw)
     yield Chapter(say.answers, numbered=False)
     yield Table(
-        tuple(say.columns),
+        tuple(say["columns"]),
         tuple(line.cells for line in page.lines),
-        names=len(say.columns),
+        names=len(say["columns"]),
         right=(0, 4),
         tones=tuple(line.verdict.value for line in page.lines),
         toned=5,

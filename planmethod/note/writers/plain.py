@@ -32,7 +32,7 @@ _LINES = (" ", "─", "═")
 
 def plain_document(written: Document, words: Language) -> str:
     """Return a document as lines of at most `WIDTH` columns."""
-    return "\n".join(PlainWriter(words).lines(written))
+    return "\n".join(PlainWriter(words).lines(written)).replace(NO_BREAK, " ")
 
 
 class PlainWriter:
