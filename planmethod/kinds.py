@@ -80,7 +80,7 @@ def part_of(path: Path, *, variant: str | None, views: Views) -> tuple[str, Part
         The file cannot be read at all.
     """
     from planmethod.problem.fields import Faults
-    from planmethod.problem.table import with_table
+    from planmethod.problem.variants import with_table
     from planmethod.solved.part import Part, largest_part
 
     text = read_source(path)

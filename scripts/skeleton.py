@@ -9,12 +9,12 @@ from __future__ import annotations
 import re
 from cmath import exp, phase
 from collections.abc import Callable
+from dataclasses import dataclass
 from functools import lru_cache
 from itertools import pairwise
 from math import ceil, radians, tan, tau
 from typing import TypeAlias
 
-from planmethod.record import dataclass
 from planmethod.render.ink.lettering.proportions import TYPES, Proportions
 from scripts import shapes
 

@@ -24,9 +24,6 @@ FORCES = {
     "planmethod.note.narrate.forces.statement",
 }
 
-OTHER_WORDS = {f"planmethod.note.wording.ru.{name}" for name in ("check", "gears", "sheets")}
-"""Words of subjects that tables of results do not have."""
-
 
 def imported(folder: Path, *commands: tuple[str, ...]) -> set[str]:
     """Return the modules there are after commands in one process."""
@@ -95,7 +92,7 @@ def drawing(name: str, *args: str) -> tuple[tuple[str, ...], ...]:
             {*ALL, *FONTS, "fractions", "hashlib", "importlib.metadata", "logging"}
             | {"multiprocessing", "planmethod.problem.model"},
         ),
-        ((("solve", EX3),), {"numpy"}, {*FORCES, "fractions", *OTHER_WORDS}),
+        ((("solve", EX3),), {"numpy"}, {*FORCES, "fractions"}),
         (drawing(SIX_LINK, "--format", "svg", "--layout", "forces"), FORCES, {"matplotlib"}),
         (
             (("live", EX3), ("animate", EX3, "--format", "svg", "--frames", "8")),
@@ -144,3 +141,13 @@ def test_commands_import_what_they_use(
     modules = imported(tmp_path, *commands)
     assert needs <= modules
     assert modules & spares == set()
+
+
+def test_a_table_of_results_reads_the_words_of_no_other_subject(tmp_path: Path) -> None:
+    program = (
+        "from planmethod.cli import cli\n"
+        "from planmethod.note.wording import language\n"
+        f"cli(['solve', {EX3!r}, '--lang', 'ru'], standalone_mode=False)\n"
+        "print('\\nMODULES', *vars(language('ru')))\n"
+    )
+    assert run(tmp_path, program) == {"lang", "say", "note"}

@@ -11,6 +11,7 @@ from typing import Any
 
 import numpy as np
 import numpy.typing as npt
+from msgspec import Struct
 
 from planmethod.construct.arithmetic import Float64, Number
 from planmethod.construct.condition import plain
@@ -19,15 +20,13 @@ from planmethod.construct.referee import Precise
 from planmethod.errors import AssemblyError
 from planmethod.plans.legend import ZERO, Quantity, QuantityKind
 from planmethod.problem.model import Problem
-from planmethod.record import dataclass
 from planmethod.solved.many.sweep import FEW, Sweep
 from planmethod.solved.results import results_of
 from planmethod.solved.selfcheck import verify
 from planmethod.solved.solution import Solution
 
 
-@dataclass(frozen=True, slots=True)
-class Timing:
+class Timing(Struct, frozen=True):
     """Median and spread of repeated runs, seconds."""
 
     median: float
@@ -66,8 +65,7 @@ RIGHT = 60
 """Digits of the referee that the errors are counted from."""
 
 
-@dataclass(frozen=True, slots=True)
-class Reading:
+class Reading(Struct, frozen=True):
     """One way of reading a program: its time for a position, and its error.
 
     Attributes

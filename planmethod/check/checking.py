@@ -5,6 +5,8 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 
+from msgspec.structs import replace
+
 from planmethod.check.calculation import Calculation, Numbers
 from planmethod.check.diagnosis import diagnose
 from planmethod.check.judge import Examined, UnusableError, decide, examine, replay
@@ -16,7 +18,6 @@ from planmethod.check.sheet import Sheet
 from planmethod.check.task import Item, Task
 from planmethod.check.tolerance import limit_of
 from planmethod.plans.model import FACTS
-from planmethod.record import replace
 from planmethod.solved.selected.asking import UnansweredError
 
 SCALED = {facts.scale for facts in FACTS.values() if facts.scale}

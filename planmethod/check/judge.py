@@ -8,8 +8,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import field
 from functools import partial
+
+from msgspec import Struct, field
 
 from planmethod.check.explain import Fact
 from planmethod.check.model import Verdict, Written
@@ -20,7 +21,6 @@ from planmethod.check.tolerance import Limit, limit_of
 from planmethod.construct.evaluate import Trace
 from planmethod.construct.steps import Name, NumberName
 from planmethod.plans.model import FACTS, PlanKind
-from planmethod.record import dataclass
 from planmethod.solved.selected.asking import UnansweredError
 
 USABLE = 3.0
@@ -32,8 +32,7 @@ FELT = 1e-6
 MILLIMETRES = ("mm", "мм")
 
 
-@dataclass(slots=True)
-class Examined:
+class Examined(Struct):
     """One answer under examination (рассматриваемый ответ).
 
     Attributes

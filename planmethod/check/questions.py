@@ -6,6 +6,8 @@ import unicodedata
 from collections.abc import Callable, Iterator, Mapping
 from enum import Enum
 
+from msgspec import Struct
+
 from planmethod.check.letters import called, plain
 from planmethod.construct.arithmetic import Number
 from planmethod.construct.dual import angle
@@ -16,7 +18,6 @@ from planmethod.plans.legend import PLAN_OF, QuantityKind
 from planmethod.plans.model import FACTS, MOTION, PlanKind, VectorKind
 from planmethod.plans.segments import Ends, Segments
 from planmethod.problem.selector import FORCES, Selector
-from planmethod.record import dataclass
 from planmethod.solved.errors.drawing import RADIAN
 from planmethod.solved.forces.statics import Statics, statics_of
 from planmethod.solved.selected.asking import COMPONENTS, Asking, NoAnswer, UnansweredError
@@ -36,8 +37,7 @@ class Sign(Enum):
     ANGLE = "angle"  # degrees, whole turns do not count
 
 
-@dataclass(frozen=True, slots=True)
-class Question:
+class Question(Struct, frozen=True):
     """One quantity of a problem in one position, and the steps that give it (вопрос).
 
     Attributes

@@ -13,6 +13,7 @@ from types import MappingProxyType
 from typing import TypeAlias
 
 import numpy as np
+from msgspec import Struct
 
 from planmethod.check.model import Sense
 from planmethod.check.questions import Question, Questions, Sign
@@ -24,7 +25,6 @@ from planmethod.construct.program import Program
 from planmethod.construct.steps import Name, NumberName, Step
 from planmethod.plans.model import Plan
 from planmethod.plans.segments import Ends
-from planmethod.record import dataclass
 from planmethod.solved.errors.drawing import RADIAN, Drafted, DrawnKind, DrawnQuantity
 from planmethod.solved.errors.spread import Errors
 
@@ -51,8 +51,7 @@ def point(value: Number) -> complex:
     return complex(np.reshape(value, -1)[0])
 
 
-@dataclass(frozen=True, slots=True)
-class Local:
+class Local(Struct, frozen=True):
     """What a set of numbers leaves open of those that follow from it, to first order.
 
     Attributes

@@ -5,6 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from itertools import chain
 
+from msgspec import Struct
+from msgspec.structs import replace
+
 from planmethod.check.explain import Explanation, Explanations
 from planmethod.check.letters import plain
 from planmethod.check.marks import DEFAULT, Settings
@@ -19,7 +22,6 @@ from planmethod.plans.forces.board import SCALE
 from planmethod.plans.forces.loads import LoadKind
 from planmethod.problem.head import AskedAnswer, AskedSense, KindProblem
 from planmethod.problem.selector import Selector, SelectorError, is_force, parse_selector
-from planmethod.record import dataclass, replace
 from planmethod.solved.selected.asking import NoAnswer, UnansweredError
 from planmethod.solved.solution import Solution
 
@@ -116,8 +118,7 @@ def _forms(questions: Questions) -> Iterator[tuple[str, Selector]]:
             yield applied.name, Selector("load", (applied.name,))
 
 
-@dataclass(frozen=True, slots=True)
-class Item:
+class Item(Struct, frozen=True):
     """One thing that is asked, or that somebody answers without being asked (пункт задания).
 
     Attributes

@@ -14,8 +14,8 @@ from msgspec.structs import replace
 from planmethod.options import BadParameter, UsageError
 
 if TYPE_CHECKING:
-    from planmethod.problem.config import Config
     from planmethod.problem.head import KindProblem, SheetSettings
+    from planmethod.problem.sheet import Config
 
 F = TypeVar("F", bound=Callable[..., Any])
 P = TypeVar("P", bound="KindProblem")
@@ -60,7 +60,7 @@ class Asked(Struct, frozen=True):
         return Settled(self.fields, self._config(), SheetSettings(**self.sheet))  # type: ignore[arg-type]
 
     def _config(self) -> Config:
-        from planmethod.problem.config import Config, find_config, load_config
+        from planmethod.problem.sheet import Config, find_config, load_config
 
         if self.no_config:
             if self.config is not None:
@@ -113,10 +113,10 @@ def _reader(key: str) -> Callable[[click.Context, click.Parameter, str | None], 
     def read(ctx: click.Context, param: click.Parameter, value: str | None) -> str | None:
         if value is None:
             return None
-        from planmethod.problem.keys import SHEET_CHOICES
-        from planmethod.problem.sheet import chosen
+        from planmethod.problem.flat import chosen
+        from planmethod.problem.keys import CHOICES
 
-        names = SHEET_CHOICES[key]
+        names = CHOICES[key]
         name = chosen(value, names)
         if name is None:
             raise BadParameter("{!r} is not one of {}", value, ", ".join(names))
@@ -214,11 +214,11 @@ def sheet_options(command: F) -> F:
 
     @functools.wraps(command)
     def with_asked(*args: Any, **kwargs: Any) -> Any:
-        from planmethod.problem.keys import SHEET
+        from planmethod.problem.keys import known
 
         asked = Asked(
             fields=kwargs.pop("stamp"),
-            sheet={key: kwargs.pop(key) for key in SHEET if key in kwargs},
+            sheet={key: kwargs.pop(key) for key in known("sheet") if key in kwargs},
             config=kwargs.pop("config"),
             no_config=kwargs.pop("no_config"),
         )

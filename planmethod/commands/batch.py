@@ -170,7 +170,7 @@ def batch(
     except ImportError:
         raise UsageError(NEEDS) from None
     from planmethod.check.marks import DEFAULT, load_settings
-    from planmethod.problem.config import Config
+    from planmethod.problem.sheet import Config
     from planmethod.render.sheets.composition.reader import composition
     from planmethod.render.sheets.compositions import SHIPPED
 

@@ -223,9 +223,9 @@ def solve(
     act = functools.partial(compute, options=options)
     code = each(problems, variant, all_variants, act, jobs=jobs, take=found.append)
     if as_json and found:
-        from planmethod.note.written import Written
+        from planmethod.note.written import plain_of
 
-        texts = [Written(json_text).text(one) for one in found]
+        texts = [json_text(plain_of(one)) for one in found]
         click.echo(texts[0] if len(texts) == 1 else f"[{', '.join(texts)}]")
     if found and covariance_file is not None:
         from planmethod.note.records.covariance import covariance_text

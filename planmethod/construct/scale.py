@@ -7,14 +7,13 @@ from bisect import bisect_left, bisect_right
 from collections.abc import Sequence
 from functools import cache
 
-from planmethod.record import dataclass
+from msgspec import Struct
 
 SERIES: tuple[float, ...] = (1.0, 2.0, 2.5, 4.0, 5.0)
 """Mantissas of GOST 2.302, in which training drawings take their scales."""
 
 
-@dataclass(frozen=True, slots=True)
-class Scale:
+class Scale(Struct, frozen=True):
     """What one millimetre of a plan stands for (масштабный коэффициент).
 
     Attributes

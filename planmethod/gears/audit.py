@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from msgspec.structs import replace
+
 from planmethod.construct.drafting import PROFILES
 from planmethod.gears.answers import answer
 from planmethod.gears.construction import construct, read
@@ -9,7 +11,6 @@ from planmethod.gears.model import GearProblem
 from planmethod.gears.motion import solve_motion
 from planmethod.gears.picture import draw
 from planmethod.note.audit.audit import Audited
-from planmethod.record import replace
 from planmethod.solved.selected.asking import NoAnswer
 
 

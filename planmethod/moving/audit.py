@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+from msgspec.structs import replace
 
 from planmethod.construct.drafting import PROFILES
 from planmethod.moving.construction import construct
@@ -11,7 +12,6 @@ from planmethod.moving.model import PointProblem
 from planmethod.moving.motion import Undefined, move
 from planmethod.moving.sheet import sheet_scales
 from planmethod.note.audit.audit import Audited
-from planmethod.record import replace
 from planmethod.solved.selected.asking import NoAnswer
 
 

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import field
 from functools import partial
 from itertools import combinations, pairwise
 from typing import TypeAlias
 
 import numpy as np
+from msgspec import Struct, field
+from msgspec.structs import replace
 
 from planmethod.construct.drafting import Profile
 from planmethod.construct.scale import Scale, series_near
@@ -33,7 +34,6 @@ from planmethod.note.rounding import rounded_to, sigma_text
 from planmethod.note.wording import Language, language
 from planmethod.paper import Format
 from planmethod.problem.model import Convention
-from planmethod.record import dataclass, replace
 from planmethod.render.frame.frame import STAMP_WIDTH, paper_format, sheet_frame
 from planmethod.render.frame.furniture import Furniture, Room
 from planmethod.render.frame.titleblock import merged
@@ -67,8 +67,7 @@ MOST_STEPS = 3
 """Most members of the series that a scale goes on by."""
 
 
-@dataclass(frozen=True)
-class _Plan(Viewed):
+class _Plan(Viewed, frozen=True):
     """Hodograph of a kind, with the plan of the told moment."""
 
     built: Construction | None
@@ -90,16 +89,14 @@ class _Plan(Viewed):
 _Pages: TypeAlias = tuple[tuple[Placed, ...], ...]
 
 
-@dataclass(frozen=True, slots=True)
-class _Laid:
+class _Laid(Struct, frozen=True):
     """Sheets: their blocks with the upper left corners that they were put at; the scales."""
 
     pages: _Pages
     scales: dict[str, Scale]
 
 
-@dataclass(frozen=True, slots=True)
-class _Sheet:
+class _Sheet(Struct, frozen=True):
     """All that a sheet of a point shows, but for the sizes of its views."""
 
     problem: PointProblem
@@ -239,13 +236,13 @@ class _Sheet:
         blocks: list[Block] = [heading(self.words.point.at.format(time=time), TEXT, width=width)]
         lines: list[str] = []
         for line in moment_lines(self.problem, self.course.marks, k, self.words):
-            same = line.count("=") == 1 and line not in self.words.point.reasons.values()
+            same = line.count("=") == 1 and line not in self.words.point["reasons"].values()
             if lines and same and lines[-1].count("=") == 1:
                 lines[-1] += f";  {line}"  # two components
             else:
                 lines.append(line)
         for line in lines:
-            is_said = line in self.words.point.reasons.values()
+            is_said = line in self.words.point["reasons"].values()
             blocks.append((paragraph if is_said else formula_block)(line, TEXT, width=width))
         return Column(blocks, gap=2.6)
 
@@ -254,9 +251,9 @@ class _Sheet:
         whole = read_rows(built, self.course.marks, k, self.words, self.profile)
         rows, said = [row for row in whole if row[2] != "—"], self.words.point
         columns = [
-            TableColumn(head, tuple(row[n] for row in rows)) for n, head in enumerate(said.read)
+            TableColumn(head, tuple(row[n] for row in rows)) for n, head in enumerate(said["read"])
         ]
-        title = said.read_title.format(profile=self.words.note.profiles[self.profile.name])
+        title = said.read_title.format(profile=self.words.note["profiles"][self.profile.name])
         return Column([Line(typeset(title, TEXT)), table_block(columns, TEXT, units="none")], 2.5)
 
     def _table(self, room: float, scale: Scale) -> Block:

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 from planmethod.note.numbers import Notation, rich_number, significant, trimmed
 
 if TYPE_CHECKING:
-    from planmethod.note.wording.model import Wording
+    from planmethod.note.wording import Words
 
 
 WIDTH = 100
@@ -43,22 +43,22 @@ def plain_text(rich: str) -> str:
     return re.sub(_DOWN, down, re.sub(_UP, up, rich))
 
 
-def spoken(text: str, words: Wording) -> str:
+def spoken(text: str, words: Words) -> str:
     """Return a number with a decimal point as the language writes it."""
     return plain_text(rich_number(text, words.decimal))
 
 
-def found(value: float, words: Wording) -> str:
+def found(value: float, words: Words) -> str:
     """Return a result, four significant digits."""
     return spoken(significant(value), words)
 
 
-def given(value: float, words: Wording, digits: int | None = None) -> str:
+def given(value: float, words: Words, digits: int | None = None) -> str:
     """Return a given number, no more digits than it has."""
     return spoken(trimmed(value, digits), words)
 
 
-def fixed(value: float, words: Wording, places: int = 2) -> str:
+def fixed(value: float, words: Words, places: int = 2) -> str:
     """Return a number with so many digits after the decimal sign."""
     return spoken(f"{value + 0.0:.{places}f}", words)
 
@@ -156,9 +156,9 @@ _WORD = r"^[^\W\d_]+"
 class Steps:
     """Plain text while it is being written: headings, and steps numbered through all of them."""
 
-    def __init__(self, words: Wording) -> None:
+    def __init__(self, words: Words) -> None:
         self.lines: list[str] = []
-        units = "|".join(name for unit in words.units.values() for name in re.findall(_WORD, unit))
+        units = "|".join(n for unit in words["units"].values() for n in re.findall(_WORD, unit))
         self._unit = rf"(?<=\d) (?=(?:{units})(?![^\W\d_]))"
         self._step = self._chapter = self._part = 0
 

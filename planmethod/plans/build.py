@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import field
 from functools import cached_property
+
+from msgspec import Struct, field
 
 from planmethod.construct.program import Program
 from planmethod.construct.steps import Name, PointName, Step
@@ -19,11 +20,9 @@ from planmethod.plans.motion.dyads import drive_motion, group_motion
 from planmethod.plans.motion.leads import Kinematics
 from planmethod.plans.motion.position import place_driver, place_frame, place_group
 from planmethod.problem.model import Problem
-from planmethod.record import dataclass
 
 
-@dataclass(frozen=True, slots=True)
-class Section:
+class Section(Struct, frozen=True):
     """Steps of one structural group on one plan (раздел построения).
 
     ``group`` is None for the driver; the frame has a section of its own on the position plan only.
@@ -35,8 +34,7 @@ class Section:
     frame: bool = False
 
 
-@dataclass(frozen=True)
-class Construction:
+class Construction(Struct, frozen=True, dict=True):
     """A problem's program and what its names stand for.
 
     Attributes
@@ -78,8 +76,7 @@ class Construction:
         return next(plan for plan in self.plans if plan.kind is kind)
 
 
-@dataclass(slots=True)
-class _Cutter:
+class _Cutter(Struct):
     """Cut the growing list of steps into sections."""
 
     draft: Draft

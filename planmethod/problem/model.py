@@ -7,16 +7,17 @@ then quadrants stay exact; the arithmetic of a reading turns them into direction
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import field
 from enum import Enum
 from math import inf
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Annotated, Any
+
+from msgspec import Struct, field
 
 from planmethod.languages import say
 from planmethod.mechanism.model import FRAME, Mechanism
+from planmethod.problem.declared import NumberKey, OwnKey, WholeKey, WordKey
 from planmethod.problem.head import KindProblem
 from planmethod.problem.names import told_length
-from planmethod.record import dataclass
 
 if TYPE_CHECKING:
     from fractions import Fraction
@@ -24,8 +25,7 @@ if TYPE_CHECKING:
     from planmethod.problem.load_records import CounterweightTask, Dynamics, Machine
 
 
-@dataclass(frozen=True, slots=True)
-class Body:
+class Body(Struct, frozen=True):
     """Points of a link in the link's own axes (собственные оси звена).
 
     The own axis is the real axis: the line of the link's first length (from its first letter,
@@ -54,8 +54,7 @@ class Body:
     arc: str | None = None
 
 
-@dataclass(frozen=True, slots=True)
-class PointForm:
+class PointForm(Struct, frozen=True):
     """How a third point is given (способ задания точки).
 
     ``kind`` is ``side``, ``on``, ``from`` or ``vertex``; ``line`` is the directed line it speaks
@@ -72,8 +71,7 @@ class PointForm:
     distance: float | None = None
 
 
-@dataclass(frozen=True, slots=True)
-class Slide:
+class Slide(Struct, frozen=True):
     """Line of a prismatic pair on the link that carries it (направляющая).
 
     Attributes
@@ -125,8 +123,7 @@ class Where(Enum):
     PARALLEL = "parallel"
 
 
-@dataclass(frozen=True, slots=True)
-class Rule:
+class Rule(Struct, frozen=True):
     """Assembly rule of a point (способ сборки).
 
     ``right|left|above|below`` compare with one point (``refs`` has one name), ``left of`` and
@@ -144,8 +141,7 @@ class Rule:
     continuous: bool = False
 
 
-@dataclass(frozen=True, slots=True)
-class Coordinate:
+class Coordinate(Struct, frozen=True):
     """What tells where the driver stands (обобщённая координата): ``phi``, deg or ``s``, m.
 
     Records name it by ``column``; ``symbol`` is rich text; ``rates`` are the velocity and the
@@ -166,8 +162,7 @@ class Coordinate:
         return f"{self.name} = {value:.{digits}g} {say(self.unit)}"
 
 
-@dataclass(frozen=True, slots=True)
-class Balancing:
+class BalancingQuantity(Struct, frozen=True):
     """What balances the driver (уравновешивающий момент, уравновешивающая сила).
 
     Records name it by ``quantity``; ``symbol`` stands for its letters, which a language has.
@@ -180,12 +175,11 @@ class Balancing:
     turns: bool
 
 
-MOMENT = Balancing("moment", "balancing moment", "M", "N·m", turns=True)
-FORCE = Balancing("force", "balancing force", "F", "N", turns=False)
+MOMENT = BalancingQuantity("moment", "balancing moment", "M", "N·m", turns=True)
+FORCE = BalancingQuantity("force", "balancing force", "F", "N", turns=False)
 
 
-@dataclass(frozen=True, slots=True)
-class Geared:
+class Geared(Struct, frozen=True):
     """Gear train through which a crank is driven (привод через зубчатый механизм).
 
     Attributes
@@ -219,8 +213,7 @@ class PosedBy(Enum):
     LENGTH = "length"
 
 
-@dataclass(frozen=True, slots=True)
-class Posed:
+class Posed(Struct, frozen=True):
     """Positions that the output tells (положения, заданные выходным звеном).
 
     Attributes
@@ -260,8 +253,7 @@ class Posed:
         return f"{self.by.value}_{self.of}" if self.of else self.by.value
 
 
-@dataclass(frozen=True, slots=True)
-class Drive:
+class Drive(Struct, frozen=True):
     """Law of motion of the driving link (начальное звено) in the positions asked for.
 
     Attributes
@@ -305,9 +297,12 @@ class Drive:
         return Coordinate("s", "m", "s", "s", ("v", "a"), inf)
 
     @property
-    def balancing(self) -> Balancing:
+    def balancing(self) -> BalancingQuantity:
         """What balances it."""
         return MOMENT if self.is_crank else FORCE
+
+
+DIAGRAM_HINT = "Millimetres of the diagrams."
 
 
 class Zero(Enum):
@@ -325,31 +320,61 @@ class Differentiation(Enum):
     CURVE = "curve"
 
 
-@dataclass(frozen=True, slots=True)
-class CycleTask:
-    """What is asked of the cycle of a crank (цикл движения): ``[cycle]``.
+class PoleDistances(Struct, frozen=True):
+    """Pole distances of both differentiations (полюсные расстояния)."""
 
-    Attributes
-    ----------
-    output : str or None
-        A link, or a point on a guide of the frame; None: the last link joined with the frame.
-    zero : Zero or float
-        Position zero; a number is the angle of the crank, degrees.
-    count : int
-        Positions of a turn, numbered in the sense of the driver.
-    length : float, mm
-        Of the axis of phi for a turn.
-    pole_v, pole_a : float, mm
-        Pole distances of both differentiations.
-    """
+    v: Annotated[
+        float,
+        NumberKey(
+            "of the first differentiation", "a length", "mm", 1.0, 500.0, positive=True,
+            hint=DIAGRAM_HINT,
+        ),
+    ] = 36.0  # fmt: skip
+    a: Annotated[
+        float,
+        NumberKey(
+            "of the second differentiation", "a length", "mm", 1.0, 500.0, positive=True,
+            hint=DIAGRAM_HINT,
+        ),
+    ] = 36.0  # fmt: skip
 
-    output: str | None = None
-    zero: Zero | float = Zero.EXTREME
-    count: int = 12
-    length: float = 288.0
-    pole_v: float = 36.0
-    pole_a: float = 36.0
-    differentiation: Differentiation = Differentiation.CHORDS
+
+class CycleTask(Struct, frozen=True):
+    """What is asked of the cycle of a crank (цикл движения): ``[cycle]``."""
+
+    output: Annotated[
+        str | None,
+        OwnKey(
+            "a point on a guide of the frame, or a link; the last driven link that is joined with "
+            "the frame when absent"
+        ),
+    ] = None
+    zero: Annotated[
+        Zero | float,
+        OwnKey(
+            'position zero: `"extreme"` (the default), `"other extreme"`, or the angle of the '
+            "crank, degrees; numbered in the sense of the driver"
+        ),
+    ] = Zero.EXTREME
+    count: Annotated[int, WholeKey("positions of a turn", 3, 360)] = 12
+    length: Annotated[
+        float,
+        NumberKey(
+            "of the axis of φ for a turn", "a length", "mm", 20.0, 2000.0, positive=True,
+            hint=DIAGRAM_HINT,
+        ),
+    ] = 288.0  # fmt: skip
+    pole: Annotated[
+        PoleDistances,
+        OwnKey("pole distances of both differentiations: `{ v = 36, a = 36 }`, mm"),
+    ] = PoleDistances()
+    differentiation: Annotated[
+        Differentiation,
+        WordKey(
+            '`"chords"` (хорды), `"tangents"` (касательные) or `"curve"` (by chords of the drawn '
+            "curve)"
+        ),
+    ] = Differentiation.CHORDS
 
 
 class Convention(Enum):
@@ -359,23 +384,40 @@ class Convention(Enum):
     MM_PER_UNIT = "mm/unit"
 
 
-@dataclass(frozen=True, slots=True)
-class Scales:
+class Scales(Struct, frozen=True):
     """Scales asked for in the file; None where the program chooses.
 
     ``mu_l, mu_v, mu_a, mu_F`` are always stored as unit per millimetre, whichever convention the
     file and the sheet use.
     """
 
-    convention: Convention = Convention.UNIT_PER_MM
-    mu_l: float | None = None
-    mu_v: float | None = None
-    mu_a: float | None = None
-    mu_F: float | None = None  # noqa: N815 - the letter of the textbook
+    convention: Annotated[
+        Convention,
+        WordKey(
+            '`"unit/mm"` (μ): metres per millimetre; or `"mm/unit"` (масштаб): millimetres per '
+            "metre. It holds for the file and for the sheet"
+        ),
+    ] = Convention.UNIT_PER_MM
+    mu_l: Annotated[
+        float | None, NumberKey("lengths", "a scale", low=1e-12, high=1e12, positive=True)
+    ] = None
+    mu_v: Annotated[
+        float | None, NumberKey("velocities", "a scale", low=1e-12, high=1e12, positive=True)
+    ] = None
+    mu_a: Annotated[
+        float | None, NumberKey("accelerations", "a scale", low=1e-12, high=1e12, positive=True)
+    ] = None
+    mu_F: Annotated[  # noqa: N815 - the letter of the textbook
+        float | None,
+        NumberKey(
+            "forces, N per mm: one for all force plans; when absent, small ones have scales of "
+            "their own",
+            "a scale", low=1e-12, high=1e12, positive=True,
+        ),
+    ] = None  # fmt: skip
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Problem(KindProblem):
+class Problem(KindProblem, frozen=True, kw_only=True):
     """Task as read (задача).
 
     Attributes

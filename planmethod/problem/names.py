@@ -7,10 +7,13 @@ written together (``AB``, ``O3A``, ``CS3``) splits in one way only.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
+from types import MappingProxyType
 
 from planmethod.languages import say, typed
-from planmethod.problem.keys import UNITS
+
+UNITS: Mapping[str, float] = MappingProxyType({"m": 1.0, "cm": 100.0, "mm": 1000.0})
+"""Units in which a file may give its lengths: how many of them a metre has."""
 
 POINT_NAME_LIMIT = 8
 NAME_LIMIT = 24

@@ -25,7 +25,7 @@ DYADS = {"PRR": "RRP", "PPR": "RPP"}
 """Other ways to write a dyad."""
 
 
-class Task(Struct, frozen=True):
+class ShippedTask(Struct, frozen=True):
     """A shipped problem file (задача банка).
 
     Attributes
@@ -85,12 +85,12 @@ def home() -> Path:
 
 
 @cache
-def tasks() -> tuple[Task, ...]:
+def tasks() -> tuple[ShippedTask, ...]:
     """Return all of them as the index has them: by kind, linkages by structure."""
     rows: list[dict[str, Any]] = json.loads((home() / "index.json").read_text(encoding="utf-8"))
     for row in rows:
         row |= {key: tuple(row[key]) for key in ("groups", "variants")}
-    return tuple(Task(**row) for row in rows)
+    return tuple(ShippedTask(**row) for row in rows)
 
 
 def groups_of(written: str) -> tuple[str, ...]:
@@ -99,7 +99,7 @@ def groups_of(written: str) -> tuple[str, ...]:
     return tuple(DYADS.get(part, part) for part in parts)
 
 
-def text_for(task: Task, variant: str | None) -> str:
+def text_for(task: ShippedTask, variant: str | None) -> str:
     """Return the text of a task to start from; with a variant, its values in place of the base.
 
     Raises

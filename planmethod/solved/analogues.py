@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from msgspec.structs import replace
+
 from planmethod.problem.model import Problem
-from planmethod.record import replace
 from planmethod.solved.reading import Reals, remembered
 from planmethod.solved.solution import PointMotion, Solution
 

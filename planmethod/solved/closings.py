@@ -14,6 +14,7 @@ from functools import partial
 from typing import assert_never
 
 import numpy as np
+from msgspec.structs import replace
 
 from planmethod.construct.arithmetic import Float64
 from planmethod.construct.evaluate import evaluate
@@ -35,7 +36,6 @@ from planmethod.plans.motion.position import (
 )
 from planmethod.problem.model import Problem, Rule, Where
 from planmethod.problem.names import told_length, told_place
-from planmethod.record import replace
 from planmethod.solved.changes import changes
 from planmethod.solved.failures import Cause, Failure, Place, PositionError
 from planmethod.solved.impossible import explain

@@ -11,10 +11,10 @@ from functools import cached_property
 
 import numpy as np
 import numpy.typing as npt
+from msgspec import Struct
 
 from planmethod.errors import LayoutError
-from planmethod.problem.load_records import Dynamics, Over, Table
-from planmethod.record import dataclass
+from planmethod.problem.load_records import Dynamics, Over, SizeTable
 from planmethod.solved.forces.contact import JointForce
 from planmethod.solved.forces.reading import FAINT_SHARE, require_dynamics
 from planmethod.solved.forces.statics import statics_of
@@ -39,8 +39,7 @@ _ROUNDS = 3
 Rows = npt.NDArray[np.complex128]
 
 
-@dataclass(frozen=True, slots=True)
-class Piece:
+class Piece(Struct, frozen=True):
     """Part of a curve without a jump or a gap: positions and values, ndarrays of shape (m,).
 
     It may be one position alone, as the dead one in which a resistance is nothing.
@@ -50,8 +49,7 @@ class Piece:
     values: Complexes
 
 
-@dataclass(frozen=True, slots=True)
-class Peak:
+class Peak(Struct, frozen=True):
     """Largest size of a reaction, N, and the driver position where it is.
 
     ``is_limit``: next to a jump it is only come near to, and may not be there in the position.
@@ -211,7 +209,7 @@ def _around(steps: Reals) -> Reals:
 
 def only_in_positions(dynamics: Dynamics) -> bool:
     """Tell whether a load is known in the positions of the file only."""
-    tables = (load.size for load in dynamics.loads if isinstance(load.size, Table))
+    tables = (load.size for load in dynamics.loads if isinstance(load.size, SizeTable))
     return any(table.over is Over.POSITION for table in tables)
 
 

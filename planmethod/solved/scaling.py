@@ -6,6 +6,8 @@ from collections.abc import Mapping
 from functools import cached_property
 
 import numpy as np
+from msgspec import Struct
+from msgspec.structs import replace
 
 from planmethod.construct.scale import Scale, choose_scale, series_near
 from planmethod.construct.steps import PointName
@@ -14,13 +16,11 @@ from planmethod.paper import FORMATS, paper_format
 from planmethod.plans.build import Construction
 from planmethod.plans.model import FACTS, MOTION, PlanKind
 from planmethod.problem.model import Convention, Scales
-from planmethod.record import dataclass, replace
 from planmethod.solved.reading import Reading, Reals
 from planmethod.solved.room import FEW, Box, Texts, Ways, has_room
 
 
-@dataclass(frozen=True, slots=True)
-class Views:
+class Views(Struct, frozen=True):
     """Room that the drawn mechanism and the plans shall fill, mm (поля видов).
 
     It goes with a paper format: the sheet's layout keeps just this room, and the numbers of `solve`
@@ -267,8 +267,7 @@ def choose_scales(construction: Construction, si: Reading, views: Views) -> dict
     return {kind: Scale(FACTS[kind].scale, chosen[kind], FACTS[kind].unit) for kind in MOTION}
 
 
-@dataclass(frozen=True)
-class _Chosen:
+class _Chosen(Struct, frozen=True):
     """Scales at which the views fill a paper, units per mm by kind."""
 
     drawn: Mapping[PlanKind, _Drawn]
@@ -334,8 +333,7 @@ class _Chosen:
         return max(self.drawn[kind].size) / (wanted * per_mm)
 
 
-@dataclass(frozen=True)
-class _Drawn:
+class _Drawn(Struct, frozen=True, dict=True):
     """What is drawn of a kind, in SI, and the room that it has."""
 
     construction: Construction

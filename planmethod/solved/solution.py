@@ -9,6 +9,8 @@ from typing import Any
 
 import numpy as np
 import numpy.typing as npt
+from msgspec import Struct
+from msgspec.structs import replace
 
 from planmethod.construct.arithmetic import Arithmetic, Float64, Number
 from planmethod.construct.drafting import PROFILES, Profile
@@ -22,7 +24,6 @@ from planmethod.plans.legend import Quantity, QuantityKind
 from planmethod.plans.model import RATES, PlanKind
 from planmethod.plans.motion.leads import Relative
 from planmethod.problem.model import Problem
-from planmethod.record import dataclass, replace
 from planmethod.solved.closings import choose_closings, drive_data
 from planmethod.solved.enlarging import Knot, find_knots, least_shown, measured
 from planmethod.solved.failures import PositionError
@@ -43,8 +44,7 @@ def at_positions(
     return {name: value[chosen] if np.ndim(value) else value for name, value in values.items()}
 
 
-@dataclass(frozen=True, slots=True)
-class PointMotion:
+class PointMotion(Struct, frozen=True):
     """Place, velocity and acceleration of a point in every position, SI, ndarrays of shape (n,)."""
 
     place: Complexes
@@ -52,8 +52,7 @@ class PointMotion:
     acceleration: Complexes
 
 
-@dataclass(frozen=True, slots=True)
-class LinkMotion:
+class LinkMotion(Struct, frozen=True):
     """Direction of a link's own axis (degrees in (-180, 180]), omega (1/s), epsilon (1/s²)."""
 
     phi_deg: Reals
@@ -61,8 +60,7 @@ class LinkMotion:
     epsilon: Reals
 
 
-@dataclass(frozen=True, slots=True)
-class Segment:
+class Segment(Struct, frozen=True):
     """One segment of a plan, mm, ndarrays of shape (n,): exact and read with the ruler."""
 
     name: str
@@ -70,8 +68,7 @@ class Segment:
     read: Reals
 
 
-@dataclass(frozen=True, slots=True)
-class RelativeMotion:
+class RelativeMotion(Struct, frozen=True):
     """Sliding of a point of link ``of`` on link ``to``, SI, ndarrays of shape (n,) (vectors)."""
 
     point: str

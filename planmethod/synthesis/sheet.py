@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import cmath
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import field
 from itertools import pairwise
 from math import radians, tau
 from typing import Any
@@ -16,7 +15,6 @@ from planmethod.languages import LANGUAGES
 from planmethod.note.narrate.scales import scale_inscription
 from planmethod.note.wording import Language, language
 from planmethod.problem.model import Convention, Problem
-from planmethod.record import dataclass
 from planmethod.render import symbols
 from planmethod.render.control.unused import largest_empty
 from planmethod.render.frame.frame import paper_format, sheet_frame
@@ -83,7 +81,7 @@ def synthesis_sheet(
         When everything does not fit the paper.
     """
     words = language(problem.sheet.lang or LANGUAGES[0])
-    title = words.synthesis.titles[drawn.synthesis.kind]
+    title = words.synthesis["titles"][drawn.synthesis.kind]
     texts = merged({"sheets": "1"}, problem.stamp, {"title": title}, fields or {})
     furniture, fmt = Furniture.of(problem.sheet), paper_format(problem.sheet.paper or PAPER)
     room = furniture.room(fmt)
@@ -152,7 +150,7 @@ def _texts(
     rows = [f"{name}:{NBSP}{value}" for name, value in check_rows(checks, words)]
     measured = paragraph(";\n".join(rows) + ".", TEXT, COLUMN)
     blocks.append(Column([heading(said.measured, TEXT), measured], gap=3.0))
-    columns = zip(said.columns, zip(*size_rows(drawn, words), strict=True), strict=True)
+    columns = zip(said["columns"], zip(*size_rows(drawn, words), strict=True), strict=True)
     sizes = table_block(
         [TableColumn(head, tuple(values)) for head, values in columns],
         TEXT, width=COLUMN, units="none", row_height=6.5,
@@ -176,17 +174,14 @@ def _picture(drawn: Drawn) -> Picture:
     return lettered(list(items), ink.labels())
 
 
-@dataclass
 class _Ink:
     """Lines and letters of a construction, mm."""
 
-    drawn: Drawn
-    box: Bounds = field(init=False)
-
-    def __post_init__(self) -> None:
+    def __init__(self, drawn: Drawn) -> None:
+        self.drawn = drawn
         left, low, right, high = self.drawn.extent(self.drawn.paper)
         room = 1.5 * _BEYOND
-        self.box = (left - room, low - room, right + room, high + room)
+        self.box: Bounds = (left - room, low - room, right + room, high + room)
 
     def at(self, name: str) -> complex:
         return place(self.drawn.paper, name)

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from functools import cache
 
 import numpy as np
 import pytest
 from cases import some
+from msgspec.structs import replace
 from worked import SIX, problem_of
 
 from planmethod.construct.drafting import PROFILES, Sampled

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping
-from dataclasses import field
 from functools import cached_property
 from types import MappingProxyType
+
+from msgspec import Struct, field
 
 from planmethod.check.sheet import Sheet, scalar
 from planmethod.construct.program import Program
@@ -23,13 +24,11 @@ from planmethod.plans.forces.board import Board
 from planmethod.plans.model import PlanKind
 from planmethod.plans.motion.leads import Turning
 from planmethod.plans.segments import Segments
-from planmethod.record import dataclass
 
 Powers = tuple[tuple[NumberName, int], ...]
 
 
-@dataclass(frozen=True, slots=True)
-class Change:
+class Change(Struct, frozen=True):
     """One mistake at one place of a program (ошибка в одном месте).
 
     Attributes

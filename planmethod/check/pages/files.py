@@ -7,22 +7,19 @@ import json
 import re
 import unicodedata
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import asdict
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from typing import Any
 
-from msgspec.structs import replace
+from msgspec.structs import asdict, replace
 
 from planmethod.check.key import Key
 from planmethod.check.marks import Settings
 from planmethod.check.model import Checked, Judged, Written
-from planmethod.check.pages.htmlpage import html_page
 from planmethod.check.pages.listing import csv_bytes
 from planmethod.check.pages.overrides import HEAD
-from planmethod.check.pages.pdfpage import pdf_page
 from planmethod.check.pages.results import results_xlsx
-from planmethod.check.pages.student import student_page
+from planmethod.check.pages.student import student_html, student_page, student_pdf
 from planmethod.errors import OutputError
 from planmethod.note.wording import language
 from planmethod.problem.head import KindProblem
@@ -226,6 +223,6 @@ def _pages(
         solved = solutions[work.variant]
         page = student_page(work, solved, words, scales=key.scales, mark=mark)
         yield {
-            "html": html_page(page, solved, words).encode(),
-            "pdf": pdf_page(page, words),
+            "html": student_html(page, solved, words).encode(),
+            "pdf": student_pdf(page, solved, words),
         }

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping
-from dataclasses import fields
 
 from msgspec import Struct, field
 from msgspec.structs import replace
@@ -225,12 +224,11 @@ def _joined(one: Written, other: Written) -> Written | None:
         return None
     blank = Written()
     said: dict[str, object] = {}
-    for each in fields(Written):
-        mine, theirs = getattr(one, each.name), getattr(other, each.name)
-        nothing = getattr(blank, each.name)
-        if each.name in _KEPT or theirs == nothing:
+    for name in Written.__struct_fields__:
+        mine, theirs, nothing = getattr(one, name), getattr(other, name), getattr(blank, name)
+        if name in _KEPT or theirs == nothing:
             continue
-        if mine not in (nothing, theirs) and each.name not in ("raw", "unit", "step", "mm_step"):
+        if mine not in (nothing, theirs) and name not in ("raw", "unit", "step", "mm_step"):
             return None
-        said[each.name] = theirs if mine == nothing else mine
-    return replace(one, **said)  # type: ignore[arg-type]
+        said[name] = theirs if mine == nothing else mine
+    return replace(one, **said)

@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING
 
+from msgspec import Struct
+
 from planmethod.errors import LayoutError
 from planmethod.gears.involute.diagrams import (
     Contour,
@@ -17,16 +19,15 @@ from planmethod.gears.involute.quantities import Solved, Told
 from planmethod.gears.involute.sizes import MeshingProblem
 from planmethod.gears.involute.text import given_text, remarks, symbol_of, unit_of
 from planmethod.languages import LANGUAGES
+from planmethod.note.formula import escape
 from planmethod.note.numbers import Notation
 from planmethod.note.wording import Language, language
 from planmethod.paper import Format, paper_format
-from planmethod.record import dataclass
 from planmethod.render.frame.frame import STAMP_WIDTH, sheet_frame
 from planmethod.render.frame.furniture import Furniture, Room
 from planmethod.render.frame.titleblock import merged
 from planmethod.render.ink.drawing import Drawing, Item, View
 from planmethod.render.ink.lettering import lettering, using
-from planmethod.render.ink.typeset import escape
 from planmethod.render.layout.block import Block, Column, Picture, heading, paragraph
 from planmethod.render.layout.cuttings import GAP, Group, Part
 from planmethod.render.layout.pack import EDGE, pack
@@ -42,8 +43,7 @@ TEXT_WIDTH = STAMP_WIDTH - 10.0
 """Width of the tables, which stand over the title block, mm."""
 
 
-@dataclass(frozen=True, slots=True)
-class Manner:
+class Manner(Struct, frozen=True):
     """Heights of letters on views, of titles, tables, checks; of rows; part of the paper for views.
 
     All but the last in mm.
@@ -158,7 +158,9 @@ def _checks(solved: Solved, words: Language, manner: Manner) -> Iterator[Block]:
     say = words.meshing
     yield heading(say.checked, manner.title, width=TEXT_WIDTH)
     for _, holds, text in solved.sentences(words):
-        yield paragraph(f"{text}: {say.holds[holds]}", manner.told, TEXT_WIDTH)
+        yield paragraph(
+            f"{text}: {say['holds']['yes' if holds else 'no']}", manner.told, TEXT_WIDTH
+        )
     for text in [*remarks(solved, words), given_text(solved, words)[1]]:
         yield paragraph(text, manner.told, TEXT_WIDTH)
 
@@ -171,13 +173,13 @@ def _tables(solved: Solved, words: Language, manner: Manner) -> Iterator[Block]:
 
 
 def _table(told: list[Told], words: Language, manner: Manner) -> Block:
-    say, say_names = words.meshing, words.meshing.names
+    say, say_names = words.meshing, words.meshing["names"]
     names = [escape(say_names[one.quantity.key] + unit_of(one, words)) for one in told]
     rows = [["—" if "nan" in text else text for text in one.shown(words.say)] for one in told]
     columns = [
-        TableColumn(say.columns[0], tuple(names)),
-        TableColumn(say.columns[1], tuple(symbol_of(one) for one in told)),
+        TableColumn(say["columns"][0], tuple(names)),
+        TableColumn(say["columns"][1], tuple(symbol_of(one) for one in told)),
     ]
-    heads = say.columns[2:] if len(rows[0]) == 2 else (say.pair,)
+    heads = say["columns"][2:] if len(rows[0]) == 2 else (say.pair,)
     columns += [TableColumn(h, tuple(r[k] for r in rows)) for k, h in enumerate(heads)]
     return table_block(columns, manner.text, width=TEXT_WIDTH, units="none", row_height=manner.row)

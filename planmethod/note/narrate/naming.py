@@ -12,7 +12,7 @@ from planmethod.construct.steps import LineName, Name, NumberName, PointName, St
 from planmethod.mechanism.model import FRAME
 from planmethod.note.narrate.letters import shown_letters
 from planmethod.note.plaintext import given, plain_text
-from planmethod.note.wording.model import Wording
+from planmethod.note.wording import Words
 from planmethod.plans.dimensions import DimensionKind
 from planmethod.plans.model import (
     FACTS,
@@ -52,13 +52,13 @@ class Names:
     Parameters
     ----------
     solution : Solution
-    words : Wording
+    words : Words
     on_sheet : bool
         For formulas that are lettered: an index is lowered there, so that the ``3`` of ``O3`` is
         one as well, and no dash need keep the ends of a segment apart.
     """
 
-    def __init__(self, solution: Solution, words: Wording, *, on_sheet: bool = False) -> None:
+    def __init__(self, solution: Solution, words: Words, *, on_sheet: bool = False) -> None:
         self.solution, self.words, self.on_sheet = solution, words, on_sheet
         self.construction = solution.construction
         self.kin = solution.construction.kinematics

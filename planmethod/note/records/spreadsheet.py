@@ -9,6 +9,8 @@ from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from msgspec import Struct
+from msgspec.structs import replace
 
 from planmethod.languages import WRITTEN, speaking
 from planmethod.note.plaintext import columns_text, found, given, plain_text, wrap
@@ -16,7 +18,6 @@ from planmethod.note.wording import wording
 from planmethod.plans.legend import TURNING
 from planmethod.plans.model import MOTION
 from planmethod.problem.model import Problem
-from planmethod.record import dataclass, replace
 from planmethod.solved.many.positions import Gaps, blocks, common_scales, force_scale
 from planmethod.solved.reading import Reals
 from planmethod.solved.solution import Solution
@@ -27,8 +28,7 @@ if TYPE_CHECKING:
 Rows = Sequence[Sequence[Any]]
 
 
-@dataclass(frozen=True, slots=True)
-class Table:
+class Table(Struct, frozen=True):
     """Rows of a problem, made block by block while they are written.
 
     Attributes
@@ -278,7 +278,7 @@ def asked_text(swept: GappedSweep, lang: str = "ru") -> str:
         (swept.problem.title or swept.problem.name)
         + (f" ({swept.problem.variant})" if swept.problem.variant else "")
     )
-    symbol = f"{plain_text(coordinate.symbol)}, {words.units[coordinate.unit]}"
+    symbol = f"{plain_text(coordinate.symbol)}, {words['units'][coordinate.unit]}"
     count = len(swept.positions)
     columns = [
         [words.number, *(str(i) for i in range(count))],

@@ -7,14 +7,15 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Sequence
+from functools import cached_property
 from typing import Literal, Protocol, TypeAlias
 
-from msgspec import Struct, field
+from msgspec import Struct
 
+from planmethod.note.formula import escape
 from planmethod.render.ink.drawing import Bounds, Item, Pen, Stroke, shifted
 from planmethod.render.ink.typeset import (
     Inscription,
-    escape,
     line_step,
     smaller_heights,
     split_words,
@@ -192,19 +193,22 @@ class Lines(Struct, frozen=True):
         return items
 
 
-class Column(Struct, frozen=True):
+class Column(Struct, frozen=True, dict=True):
     """Blocks from the top down (столбец)."""
 
     blocks: Sequence[Block]
     gap: float = 5.0
     align: Align = "left"
-    width: float = field(init=False)
-    height: float = field(init=False)
 
-    def __post_init__(self) -> None:
-        gaps = self.gap * max(0, len(self.blocks) - 1)
-        object.__setattr__(self, "width", max((b.width for b in self.blocks), default=0.0))
-        object.__setattr__(self, "height", sum(b.height for b in self.blocks) + gaps)
+    @cached_property
+    def width(self) -> float:
+        """Width, mm."""
+        return max((b.width for b in self.blocks), default=0.0)
+
+    @cached_property
+    def height(self) -> float:
+        """Height, mm."""
+        return sum(b.height for b in self.blocks) + self.gap * max(0, len(self.blocks) - 1)
 
     def place(self, corner: complex) -> list[Item]:
         """Return the items of all blocks."""
@@ -217,19 +221,22 @@ class Column(Struct, frozen=True):
         return items
 
 
-class Row(Struct, frozen=True):
+class Row(Struct, frozen=True, dict=True):
     """Blocks from left to right (ряд)."""
 
     blocks: Sequence[Block]
     gap: float = 5.0
     align: Literal["top", "centre", "bottom"] = "top"
-    width: float = field(init=False)
-    height: float = field(init=False)
 
-    def __post_init__(self) -> None:
-        gaps = self.gap * max(0, len(self.blocks) - 1)
-        object.__setattr__(self, "width", sum(b.width for b in self.blocks) + gaps)
-        object.__setattr__(self, "height", max((b.height for b in self.blocks), default=0.0))
+    @cached_property
+    def width(self) -> float:
+        """Width, mm."""
+        return sum(b.width for b in self.blocks) + self.gap * max(0, len(self.blocks) - 1)
+
+    @cached_property
+    def height(self) -> float:
+        """Height, mm."""
+        return max((b.height for b in self.blocks), default=0.0)
 
     def place(self, corner: complex) -> list[Item]:
         """Return the items of all blocks."""

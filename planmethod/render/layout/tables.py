@@ -11,10 +11,11 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
+from functools import cached_property
 from itertools import accumulate, groupby
 from typing import Literal, TypeAlias
 
-from msgspec import Struct, field
+from msgspec import Struct
 from msgspec.structs import replace
 
 from planmethod.errors import LayoutError
@@ -75,19 +76,23 @@ class _Set(Struct, frozen=True):
     sign: complex  # centre of the signs of sense from the middle (real) and their size (imag)
 
 
-class TablePart(Struct, frozen=True):
+class TablePart(Struct, frozen=True, dict=True):
     """One table on the paper: a block (таблица)."""
 
     columns: tuple[_Set, ...]
     widths: tuple[float, ...]
     units: UnitsAt
     row_height: float
-    width: float = field(init=False)
-    height: float = field(init=False)
 
-    def __post_init__(self) -> None:
-        object.__setattr__(self, "width", sum(self.widths))
-        object.__setattr__(self, "height", sum(self._row_heights()))
+    @cached_property
+    def width(self) -> float:
+        """Width, mm."""
+        return sum(self.widths)
+
+    @cached_property
+    def height(self) -> float:
+        """Height, mm."""
+        return sum(self._row_heights())
 
     def _head_rows(self) -> int:
         return 1 if self.units == "none" else 2

@@ -7,11 +7,11 @@ inscriptions hang on outputs. Lengths in millimetres are told at the scales of t
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import field
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
+from msgspec import Struct, field
 
 from planmethod.construct.scale import Scale
 from planmethod.construct.steps import Name, PointName
@@ -25,9 +25,8 @@ from planmethod.plans.forces.polygons import Edge, Share
 from planmethod.plans.legend import Quantity, QuantityKind
 from planmethod.plans.model import FACTS, RATES, PlanKind
 from planmethod.problem.bodies import rotation
-from planmethod.problem.load_records import Fixed, Interpolation, Over, Table, Turning
+from planmethod.problem.load_records import Fixed, Interpolation, Over, SizeTable, TurningSense
 from planmethod.problem.model import Problem
-from planmethod.record import dataclass
 from planmethod.render.ink.drawing import Stroke
 from planmethod.render.live.parts import Part, parts_of
 from planmethod.render.pictures.planview import COMPONENTS, similar_lines
@@ -61,8 +60,7 @@ _STEPS = {True: 72, False: 60}  # of the positions in which the scheme is drawn
 _LOOKS = 4  # so many times finer is the way looked at
 
 
-@dataclass(slots=True)
-class View:
+class View(Struct):
     """One picture that moves: the scheme, a plan, the lever.
 
     ``segments`` are ``{a, b, style, arrow, name, symbol}``; ``labels`` are ``{text, height}`` with
@@ -174,7 +172,7 @@ class Scene:
 
     def _scheme(self) -> View:
         kind = PlanKind.POSITION
-        view = View("scheme", self.words.sheets.views[kind.value][0], _unit(kind))
+        view = View("scheme", self.words.sheets["views"][kind.value][0], _unit(kind))
         bodies = self.problem.bodies
         points = dict.fromkeys(p for body in bodies.values() for p in body.points)
         known = [p for p in points if f"{p}.x" in self._row]
@@ -201,7 +199,7 @@ class Scene:
 
     def _plan(self, kind: PlanKind) -> View:
         plan, problem = self.construction.plan(kind), self.problem
-        view = View(kind.value, self.words.sheets.views[kind.value][0], _unit(kind))
+        view = View(kind.value, self.words.sheets["views"][kind.value][0], _unit(kind))
         letters = shown_letters(problem, plan)
         for tail, head in similar_lines(Solution(problem, positions=[]), plan):
             view.segments.append({"a": self._ref(tail), "b": self._ref(head), "style": "similar"})
@@ -447,8 +445,8 @@ class Scene:
         """Return after how many degrees all is as before, the loads too."""
         dynamics, machine = self.problem.dynamics, self.problem.machine
         tables = [load.size for load in dynamics.loads] if dynamics is not None else []
-        turns = [table.turn for table in tables if isinstance(table, Table)]
-        if machine is not None and any(isinstance(table, Table) for table in tables):
+        turns = [table.turn for table in tables if isinstance(table, SizeTable)]
+        if machine is not None and any(isinstance(table, SizeTable) for table in tables):
             turns.append(machine.cycle_deg)
         return max([360.0, *turns])
 
@@ -468,7 +466,7 @@ class Scene:
         phase = load.phase
         told: dict[str, Any] = {"omega": self._row[f"{load.link}.omega"]}
         size = load.size
-        if isinstance(size, Table):
+        if isinstance(size, SizeTable):
             told["over"], told["step"] = size.over.value, size.interpolation is Interpolation.STEP
             told["at"], told["values"] = list(size.at), list(size.values)
             told["turn"] = size.turn
@@ -482,7 +480,7 @@ class Scene:
                 ahead = AHEAD[phase.moving]
                 told["ahead"] = [ahead.real, ahead.imag]
             if phase.turning is not None:
-                told["turning"] = 1 if phase.turning is Turning.CCW else -1
+                told["turning"] = 1 if phase.turning is TurningSense.CCW else -1
         if hasattr(load, "at"):
             told["place"], told["speed"] = self._row[f"{load.at}.x"], self._row[f"{load.at}.vx"]
             if isinstance(load.sense, Fixed):

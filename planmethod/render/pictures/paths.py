@@ -8,12 +8,12 @@ from functools import cached_property
 from math import tau
 
 import numpy as np
+from msgspec import Struct
 
 from planmethod.construct.arithmetic import Float64
 from planmethod.construct.steps import PointName
 from planmethod.mechanism.model import FRAME
 from planmethod.plans.draft import cis
-from planmethod.record import dataclass
 from planmethod.render.ink.drawing import Arc, Item, Pen, Stroke
 from planmethod.solved.reading import Complexes, Reals
 from planmethod.solved.solution import Solution
@@ -27,8 +27,7 @@ _FLAT = 0.02  # mm off its chord: a straight line on the paper
 _THIN = 0.05  # area of a closed line over that of a circle as long: it has no inside below that
 
 
-@dataclass(frozen=True)
-class Paths:
+class Paths(Struct, frozen=True, dict=True):
     """Where the points of a mechanism go between the positions of a solution."""
 
     solution: Solution

@@ -10,12 +10,13 @@ dash-dot lines with two dots (GOST 2.303), marked with one and two primes.
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import field
+
+from msgspec import Struct
+from msgspec.structs import replace
 
 from planmethod.construct.steps import PointName
 from planmethod.mechanism.model import FRAME
 from planmethod.note.narrate.given import point_name
-from planmethod.record import dataclass, replace
 from planmethod.render.ink.drawing import Arc, Disc, Item, Pen, Stroke
 from planmethod.render.ink.style import stroke_lines
 from planmethod.render.ink.typeset import typeset
@@ -35,8 +36,7 @@ _MARK = 0.7  # radius of the circle at a joint in another position, mm
 _LEAST_MARK = 0.45  # where circles would run into each other, mm
 
 
-@dataclass(slots=True)
-class Spot:
+class Spot(Struct):
     """One place of a point and the numbers of the positions that it is there in."""
 
     place: complex
@@ -44,7 +44,6 @@ class Spot:
     bold: bool = False
 
 
-@dataclass
 class Positions:
     """The other positions of a scheme.
 
@@ -58,16 +57,11 @@ class Positions:
     letter_height : float, mm
     """
 
-    solution: Solution
-    bold: int
-    overlay: tuple[int, ...]
-    letter_height: float
-    paths: Paths = field(init=False)
-    shown: Solution = field(init=False)
-    numbers: dict[int, str] = field(init=False)
-
-    def __post_init__(self) -> None:
-        s = self.solution
+    def __init__(
+        self, solution: Solution, bold: int, overlay: tuple[int, ...], letter_height: float
+    ) -> None:
+        s = self.solution = solution
+        self.bold, self.overlay, self.letter_height = bold, overlay, letter_height
         self.paths = Paths(s)
         extremes = self.paths.extremes if shows_extremes(s, self.overlay) else ()
         # The extreme positions behind the others, so that links have one length in all of them.

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Sequence
 
 import numpy as np
+from msgspec import Struct
 
 from planmethod.construct.scale import Scale, choose_scale
 from planmethod.note.narrate.forces.statement import cycle_statement, cycle_wanted, link_names
@@ -14,7 +15,6 @@ from planmethod.note.numbers import MINUS, Notation, half_up, with_unit
 from planmethod.note.wording import Language
 from planmethod.plans.forces.polygons import reaction_symbol
 from planmethod.problem.model import Convention
-from planmethod.record import dataclass
 from planmethod.render.forces.hodograph import (
     hodograph_picture,
     hodograph_scale,
@@ -55,8 +55,7 @@ def _line(manner: Manner, text: str) -> Line:
 # Diagrams ----------------------------------------------------------------------------------------
 
 
-@dataclass(frozen=True)
-class _Frame:
+class _Frame(Struct, frozen=True):
     """Where the positions stand on the axis of abscissae: its scale and its first position."""
 
     solution: Solution
@@ -148,7 +147,7 @@ def balance_diagram(solution: Solution, indices: Sequence[int], manner: Manner) 
         letter_height=manner.letter,
         name="balance",
     )
-    what = words.sheets.balance[balancing.quantity]
+    what = words.sheets["balance"][balancing.quantity]
     lines: list[str | Block] = [frame.scales(scale, say), *said, *_chords(forces, manner)]
     block = named(picture, manner.entry.title or what.format(symbol=symbol), lines, manner)
     return Viewed(block, "balance", scale)

@@ -17,7 +17,6 @@ from planmethod.note.numbers import Notation
 from planmethod.note.plaintext import plain_text
 from planmethod.plans.forces.polygons import Share
 from planmethod.plans.model import Known, PlanKind
-from planmethod.record import dataclass
 from planmethod.render.forces.cut import cut_picture, inner_picture, loads_picture
 from planmethod.render.forces.ellipses import vertex_ellipses
 from planmethod.render.forces.leverpicture import lever_picture
@@ -48,8 +47,7 @@ def _reading(solution: Solution, indices: Sequence[int], manner: Manner) -> Forc
 # Views -------------------------------------------------------------------------------------------
 
 
-@dataclass(frozen=True)
-class ForcePlanViewed(Viewed):
+class ForcePlanViewed(Viewed, frozen=True):
     """A force plan among the blocks of a sheet: what the hand measures on it are the reactions."""
 
     reading: ForceReading

@@ -5,10 +5,11 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from typing import Any
 
+from msgspec.structs import replace
+
 from planmethod.construct.scale import Scale, series_near
 from planmethod.plans.model import FACTS, MOTION, PlanKind
 from planmethod.problem.model import Convention, Scales
-from planmethod.record import replace
 from planmethod.render.sheets.pages import Page
 
 STEPS = 3

@@ -7,13 +7,15 @@ from functools import partial
 from itertools import chain, product
 from pathlib import Path
 
+from msgspec import Struct
+from msgspec.structs import replace
+
 from planmethod.construct.drafting import PROFILES, Profile
 from planmethod.errors import LayoutError
 from planmethod.languages import LANGUAGES, say
 from planmethod.note.wording import language
 from planmethod.paper import Format
 from planmethod.problem.model import Problem, Scales
-from planmethod.record import dataclass, replace
 from planmethod.render.frame.frame import paper_format, sheet_frame
 from planmethod.render.frame.furniture import Furniture, Room
 from planmethod.render.ink.drawing import Drawing
@@ -29,8 +31,7 @@ from planmethod.solved.selfcheck import verify
 from planmethod.solved.solution import Solution
 
 
-@dataclass(frozen=True, slots=True)
-class _Task:
+class _Task(Struct, frozen=True):
     """What is drawn, whatever the paper; ``views`` fill the paper's own boxes when absent.
 
     ``estimated`` is the solution whose views were the first guess.

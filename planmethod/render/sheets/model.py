@@ -9,9 +9,11 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
+from msgspec import Struct
+from msgspec.structs import replace
+
 from planmethod.note.wording import Language
 from planmethod.plans.model import PlanKind
-from planmethod.record import dataclass, replace
 from planmethod.render.layout.cuttings import Arrange
 from planmethod.solved.room import Box
 from planmethod.solved.scaling import AS_HIGH, LESS, Views
@@ -20,8 +22,7 @@ FORMATS = ("A4", "A3", "A2", "A1", "A0")
 """Basic formats: those that sizes are given for."""
 
 
-@dataclass(frozen=True, slots=True)
-class Sizes:
+class Sizes(Struct, frozen=True):
     """Letter heights and widths of a sheet, mm (высота шрифта, ширина столбца).
 
     ``letter``: letters of views; ``title``: names of views; ``text``: everything else;
@@ -41,8 +42,7 @@ class Sizes:
         return replace(self, column=share * self.column, boxes=boxes)
 
 
-@dataclass(frozen=True, slots=True)
-class Entry:
+class Entry(Struct, frozen=True):
     """One block of a composition, as the file asks for it (блок компоновки).
 
     Attributes
@@ -93,8 +93,7 @@ class Entry:
     number: int = 0
 
 
-@dataclass(frozen=True, slots=True)
-class Composition:
+class Composition(Struct, frozen=True):
     """Blocks of the sheets, and how they are arranged (компоновка листов).
 
     Attributes
@@ -162,8 +161,7 @@ class Composition:
         return views
 
 
-@dataclass(frozen=True, slots=True)
-class Extras:
+class Extras(Struct, frozen=True):
     """What is asked of all blocks of a sheet: its language, and what it shows of drafting errors.
 
     ``errors`` are ellipses around points, ``sigma`` stands in the tables; None: in that of the
@@ -179,8 +177,7 @@ class Extras:
     traces: bool = True
 
 
-@dataclass(frozen=True, slots=True)
-class Manner:
+class Manner(Struct, frozen=True):
     """How a block is drawn on a certain sheet: what the file asks for, and the format's sizes.
 
     ``level`` counts the letter heights that did not fit; ``inside`` is the width inside the frame,

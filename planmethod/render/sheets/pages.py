@@ -7,8 +7,10 @@ from itertools import combinations, groupby, pairwise
 from math import inf
 from typing import TypeAlias
 
+from msgspec import Struct
+from msgspec.structs import replace
+
 from planmethod.problem.model import Problem
-from planmethod.record import dataclass, replace
 from planmethod.render.frame.furniture import Room
 from planmethod.render.frame.titleblock import merged
 from planmethod.render.ink.drawing import Item, View
@@ -41,8 +43,7 @@ MOST_TURNS = 60
 """Most ways to divide blocks among pages that are tried."""
 
 
-@dataclass(frozen=True, slots=True)
-class Page:
+class Page(Struct, frozen=True):
     """What is inside the frame of one sheet.
 
     ``title`` is its name, if it has one of its own; ``tried`` says what was given up for it: blocks
@@ -57,8 +58,7 @@ class Page:
     paper: str = ""
 
 
-@dataclass(frozen=True, slots=True)
-class Made:
+class Made(Struct, frozen=True):
     """A block that was made, and what the file says of it."""
 
     entry: Entry
@@ -71,8 +71,7 @@ class Made:
         return not isinstance(one, Viewed)
 
 
-@dataclass(frozen=True, slots=True)
-class Paper:
+class Paper(Struct, frozen=True):
     """Paper that sheets are drawn on: its format, and the room of the sheet of a number, from 1.
 
     ``forced``: the format was asked for, so that a sheet of one position may take several pages.
@@ -241,8 +240,7 @@ def spread(entries: Sequence[Entry], solution: Solution) -> list[Entry]:
     return found
 
 
-@dataclass(frozen=True, slots=True)
-class _Stock:
+class _Stock(Struct, frozen=True):
     """Blocks that were made for a sheet: what is tried again is not made again."""
 
     solution: Solution

@@ -9,12 +9,13 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from math import ceil
 
+from msgspec import Struct
+
 from planmethod.errors import LayoutError
 from planmethod.languages import LANGUAGES, say
 from planmethod.mechanism.structure import Structure
 from planmethod.note.wording import Language, language
 from planmethod.problem.model import Problem
-from planmethod.record import dataclass
 from planmethod.render.frame.clearance import is_clear
 from planmethod.render.frame.frame import STAMP_WIDTH, paper_format, sheet_frame
 from planmethod.render.frame.furniture import Furniture, Room
@@ -57,8 +58,7 @@ COLUMN = STAMP_WIDTH - 2 * EDGE
 """Width of tables and formulas that stand over the title block, mm."""
 
 
-@dataclass(frozen=True, slots=True)
-class Manner:
+class Manner(Struct, frozen=True):
     """Sizes of a sheet, mm (размеры надписей и видов).
 
     ``column`` is the width of tables and formulas, ``cell`` the least width of a group's cell,
@@ -303,8 +303,7 @@ def _grid(pictures: Sequence[Block], told: Sequence[Block], across: int, cell: f
     return Column(rows, gap=GAP + 2.0, align="centre")
 
 
-@dataclass(frozen=True, slots=True)
-class _Cell:
+class _Cell(Struct, frozen=True):
     """Picture over its caption in a room of a given width and height; both are centred."""
 
     view: Block

@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from types import MappingProxyType
 
+from msgspec import Struct
+
 from planmethod.construct.scale import Scale
 from planmethod.note.narrate.formulas import knot_letter, view_name
 from planmethod.note.narrate.letters import shown_letters
@@ -12,7 +14,6 @@ from planmethod.note.narrate.scales import common_scale
 from planmethod.note.numbers import is_nothing
 from planmethod.note.plaintext import plain_text
 from planmethod.plans.model import PlanKind
-from planmethod.record import dataclass
 from planmethod.render.ink.drawing import Arc, Disc, Item, Span, View
 from planmethod.render.ink.typeset import typeset
 from planmethod.render.layout.block import Block, Column, Line, Row, shaped
@@ -34,8 +35,7 @@ from planmethod.solved.solution import Solution
 NO_VIEWS: Mapping[int, complex] = MappingProxyType({})
 
 
-@dataclass(frozen=True)
-class Viewed:
+class Viewed(Struct, frozen=True):
     """A view among the blocks of a sheet (вид), of a kind and in a scale: a scheme, a diagram."""
 
     block: Block
@@ -68,8 +68,7 @@ class Viewed:
         return ()
 
 
-@dataclass(frozen=True)
-class PlanViewed(Viewed):
+class PlanViewed(Viewed, frozen=True):
     """Plans of some positions, in the order in which they are drawn."""
 
     solution: Solution
@@ -225,7 +224,7 @@ def with_scale(
     ``more`` is said under the scale.
     """
     words = manner.words
-    one, many = words.sheets.views[kind.value]
+    one, many = words.sheets["views"][kind.value]
     chosen = manner.entry.position is not None and kind is not PlanKind.POSITION
     title = manner.entry.title or (one if len(solution.positions) == 1 or chosen else many)
     said = []

@@ -7,6 +7,7 @@ import math
 from collections.abc import Mapping, Sequence
 
 import numpy as np
+from msgspec import Struct
 
 from planmethod.construct.arithmetic import Float64, Number
 from planmethod.construct.condition import UNIT_ROUNDOFF, measured_reach, plain, reach
@@ -17,7 +18,6 @@ from planmethod.errors import PlanMethodError
 from planmethod.languages import say
 from planmethod.plans.legend import Quantity, QuantityKind
 from planmethod.problem.model import Problem
-from planmethod.record import dataclass
 from planmethod.solved.impossible import failing
 from planmethod.solved.results import natural_size, results_of
 from planmethod.solved.solution import Solution
@@ -32,8 +32,7 @@ VANISHED, NOISE = 1e-25, 1e-9
 which slopes in float64 are rounding."""
 
 
-@dataclass(frozen=True, slots=True)
-class Verdict:
+class Verdict(Struct, frozen=True):
     """Error of one result in one position, found by the referee (приговор арбитра).
 
     Attributes
@@ -71,8 +70,7 @@ class Verdict:
         return self.quantity.kind
 
 
-@dataclass(frozen=True, slots=True)
-class Refereed:
+class Refereed(Struct, frozen=True):
     """One position before the referee.
 
     Attributes

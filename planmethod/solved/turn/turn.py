@@ -12,6 +12,8 @@ from enum import Enum
 from functools import cached_property, partial
 
 import numpy as np
+from msgspec import Struct
+from msgspec.structs import replace
 
 from planmethod.construct.arithmetic import Float64
 from planmethod.construct.evaluate import TANGENT, evaluate
@@ -20,7 +22,6 @@ from planmethod.errors import Fault, ProblemError
 from planmethod.languages import say
 from planmethod.plans.model import PlanKind
 from planmethod.problem.model import CycleTask, Zero
-from planmethod.record import dataclass, replace
 from planmethod.solved.closings import drive_data
 from planmethod.solved.reading import Flags, Reading, Reals, Remembering, remembered
 from planmethod.solved.solution import Solution
@@ -52,16 +53,14 @@ class NoNumber(Enum):
     NO_RATE = "the crank stands still"
 
 
-@dataclass(frozen=True, slots=True)
-class Extreme:
+class Extreme(Struct, frozen=True):
     """Extreme position (крайнее положение): crank, degrees, and value of the output, m or deg."""
 
     phi: float
     value: float
 
 
-@dataclass(frozen=True, slots=True)
-class Peak:
+class Peak(Struct, frozen=True):
     """Greatest and least pressure angle, degrees, and where the crank then is, degrees."""
 
     most: float
