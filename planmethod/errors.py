@@ -9,8 +9,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 from enum import IntEnum
 
+from msgspec import Struct
+from msgspec.structs import force_setattr
+
 from planmethod.languages import say
-from planmethod.record import dataclass
 
 
 class ExitCode(IntEnum):
@@ -33,8 +35,7 @@ class PlanMethodError(Exception):
         super().__init__(say(message, *facts))
 
 
-@dataclass(frozen=True, slots=True)
-class Fault:
+class Fault(Struct, frozen=True):
     """One fault of a problem file (ошибка в файле задачи).
 
     ``path`` is where, as ``links.2.slides.on``; ``expected`` and ``got`` say what stands there;
@@ -46,8 +47,8 @@ class Fault:
     hint: str = ""
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "message", say(self.message))
-        object.__setattr__(self, "hint", say(self.hint))
+        force_setattr(self, "message", say(self.message))
+        force_setattr(self, "hint", say(self.hint))
 
     def __str__(self) -> str:
         text = f"{self.path}: {self.message}" if self.path else self.message

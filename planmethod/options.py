@@ -8,9 +8,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeAlias, TypeVar
 
 import click
+from msgspec.structs import replace
 
 from planmethod.languages import LANGUAGES, say
-from planmethod.record import replace
 
 if TYPE_CHECKING:
     import numpy as np

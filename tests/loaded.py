@@ -5,7 +5,8 @@ from __future__ import annotations
 import random
 import re
 import tomllib
-from dataclasses import replace
+
+from msgspec.structs import replace
 
 from benchmarks.generator import Pose, random_problem
 from planmethod.problem import loads

@@ -9,7 +9,9 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
+
+from msgspec.structs import replace
 
 from planmethod.mechanism.model import FRAME
 from planmethod.problem.model import Body, Problem, Rule, Scales, Slide, Where

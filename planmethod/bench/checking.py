@@ -6,10 +6,11 @@ import tempfile
 import time
 from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import field
 from pathlib import Path
 
 import numpy as np
+from msgspec import Struct, field
+from msgspec.structs import replace
 
 from planmethod.bench.speed import clock
 from planmethod.check.checking import check
@@ -22,7 +23,6 @@ from planmethod.check.pages.files import write_all
 from planmethod.check.questions import Sign
 from planmethod.check.task import Item, Task
 from planmethod.problem.model import Problem
-from planmethod.record import dataclass, replace
 from planmethod.solved.solution import Solution
 
 FLAT = (0.05, 0.10)
@@ -40,8 +40,7 @@ ALIKE = 1e-3
 OFF = (Verdict.WRONG, Verdict.NEAR, Verdict.INHERITED, Verdict.INCONSISTENT)
 
 
-@dataclass(slots=True)
-class Honest:
+class Honest(Struct):
     """Works without a mistake, by problem and profile.
 
     Attributes
@@ -69,8 +68,7 @@ class Honest:
     flat_hurt: Counter[float] = field(default_factory=Counter)
 
 
-@dataclass(slots=True)
-class Detected:
+class Detected(Struct):
     """One mistake in one problem: how many works have it, and what is said of them.
 
     Attributes
@@ -246,8 +244,7 @@ def hidden(problems: Sequence[Problem]) -> list[tuple[str, Key]]:
 # Speed ---------------------------------------------------------------------------------------
 
 
-@dataclass(frozen=True, slots=True)
-class Speed:
+class Speed(Struct, frozen=True):
     """Seconds that the checking of a problem takes.
 
     Attributes

@@ -5,12 +5,12 @@ from __future__ import annotations
 from functools import partial
 
 import numpy as np
+from msgspec import Struct
 
 from planmethod.bench.speed import clock
 from planmethod.construct.hand import Hand
-from planmethod.problem.load_records import Ordinates
+from planmethod.problem.load_records import Quadrature
 from planmethod.problem.model import Differentiation, Problem
-from planmethod.record import dataclass
 from planmethod.solved.machine.flywheel import Flywheel
 from planmethod.solved.machine.runup import RunUp
 from planmethod.solved.solution import Solution
@@ -27,8 +27,7 @@ RULERS = (0.1, 0.5, 1.0)
 """Steps of a ruler that the path is taken off with, mm."""
 
 
-@dataclass(frozen=True, slots=True)
-class Calculus:
+class Calculus(Struct, frozen=True):
     """Errors of graphical calculus with so many positions, mm of the diagrams.
 
     ``v`` and ``a`` by chords, ``s`` integrated from exact velocities by middle ordinates;
@@ -85,12 +84,11 @@ def costs(problem: Problem) -> list[tuple[str, int, float]]:
     return found
 
 
-WAYS = tuple((way, method) for method in ("wittenbauer", "mertsalov") for way in Ordinates)
+WAYS = tuple((way, method) for method in ("wittenbauer", "mertsalov") for way in Quadrature)
 """How the work is integrated, and which tangents are drawn."""
 
 
-@dataclass(frozen=True, slots=True)
-class Constructed:
+class Constructed(Struct, frozen=True):
     """J_f by construction without a pencil, less the exact one, %.
 
     ``off`` has a number for each of `WAYS`; ``count`` is None of the whole curves.

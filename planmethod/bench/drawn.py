@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
+from msgspec import Struct
 
 from planmethod.construct.drafting import PROFILES, Profile
 from planmethod.problem.model import Problem
-from planmethod.record import dataclass
 from planmethod.solved.errors.drawing import DrawnKind
 from planmethod.solved.errors.motion import drafting_of
 from planmethod.solved.errors.spread import SHORT
@@ -18,8 +18,7 @@ DRAWS = 4000
 SEED = 11
 
 
-@dataclass(frozen=True, slots=True)
-class Compared:
+class Compared(Struct, frozen=True):
     """One problem drawn by one hand.
 
     Attributes

@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 import numpy.typing as npt
+from msgspec import Struct
 
 from planmethod.bench.speed import RIGHT, Reading, clock, places, spread, turns_round
 from planmethod.construct.arithmetic import Float64, Number
@@ -15,7 +16,6 @@ from planmethod.construct.evaluate import evaluate
 from planmethod.construct.referee import Precise
 from planmethod.plans.forces.board import SCALE
 from planmethod.problem.model import Problem
-from planmethod.record import dataclass
 from planmethod.solved.errors.forces import drawn_forces, size_label
 from planmethod.solved.forces.statics import Statics, statics_of
 from planmethod.solved.solution import EVERY, UNIT_SCALES, Solution
@@ -129,8 +129,7 @@ def _hand_error(statics: Statics) -> float:
     return float(max(gaps) / max(sizes))
 
 
-@dataclass(frozen=True, slots=True)
-class Discrepancy:
+class Discrepancy(Struct, frozen=True):
     """Lever minus force plans of one problem over a turn, as a board draughtsman has it.
 
     Attributes

@@ -11,6 +11,7 @@ from collections.abc import Iterator, Mapping, Sequence
 
 import numpy as np
 import numpy.typing as npt
+from msgspec.structs import replace
 
 from planmethod.check.key import SEGMENT_CODES
 from planmethod.check.mistakes import changes
@@ -26,7 +27,6 @@ from planmethod.construct.drafting import Sampled
 from planmethod.construct.evaluate import Trace, evaluate
 from planmethod.construct.steps import Name, NumberName
 from planmethod.plans.model import MOTION
-from planmethod.record import replace
 
 DIGITS = 3
 """Significant digits of what is written; one more behind a leading 1, as on a slide rule."""

@@ -13,6 +13,8 @@ from functools import cached_property
 
 import numpy as np
 import numpy.typing as npt
+from msgspec import Struct
+from msgspec.structs import replace
 
 from planmethod.check.mistakes import changes
 from planmethod.check.mistakes.model import Change, Scene
@@ -20,7 +22,6 @@ from planmethod.check.sheet import Local, Own, Sheet
 from planmethod.construct.evaluate import Trace
 from planmethod.construct.program import Program
 from planmethod.construct.steps import Name, NumberName
-from planmethod.record import dataclass, replace
 
 WIDE = math.log(1e4)
 """Range of what a slip can make of a number, as the logarithm of a ratio."""
@@ -43,8 +44,7 @@ MISREAD_SENSE = 14.0
 """What a sense told the other way costs: one in a thousand is a slip of the pen."""
 
 
-@dataclass(frozen=True, slots=True)
-class Fact:
+class Fact(Struct, frozen=True):
     """One answer as the explanations have to give it.
 
     Attributes
@@ -85,8 +85,7 @@ class Fact:
         return value if self.signed else abs(value)
 
 
-@dataclass(frozen=True, slots=True)
-class Numbers:
+class Numbers(Struct, frozen=True):
     """A student's own numbers (собственные числа студента).
 
     Attributes
@@ -104,8 +103,7 @@ class Numbers:
     share: float = 1.0
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Explanation:
+class Explanation(Struct, frozen=True, eq=False):
     """What may have been done, and what it gives (объяснение).
 
     Attributes
@@ -148,8 +146,7 @@ class Explanation:
     program: Program | None = None
 
 
-@dataclass(frozen=True, slots=True)
-class Fit:
+class Fit(Struct, frozen=True):
     """How well an explanation fits.
 
     Attributes

@@ -5,6 +5,8 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Iterator, Mapping
 
+from msgspec import Struct
+
 from planmethod.check.marks import DEFAULT, Settings
 from planmethod.check.model import KeyEntry
 from planmethod.check.questions import Sign
@@ -13,12 +15,10 @@ from planmethod.check.task import Item, Task
 from planmethod.check.tolerance import Limit, limit_of
 from planmethod.plans.model import FACTS, PlanKind
 from planmethod.problem.head import KindProblem
-from planmethod.record import dataclass
 from planmethod.solved.solution import Solution
 
 
-@dataclass(frozen=True, slots=True)
-class Key:
+class Key(Struct, frozen=True):
     """Key of one variant (ключ варианта).
 
     Attributes

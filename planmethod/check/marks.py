@@ -8,12 +8,13 @@ from pathlib import Path
 from types import MappingProxyType
 from typing import Any
 
+from msgspec import Struct
+
 from planmethod.errors import ExitCode, ProblemError
 from planmethod.languages import say
 from planmethod.problem import fields
 from planmethod.problem.fields import Faults
 from planmethod.problem.source import parse, read_source
-from planmethod.record import dataclass
 
 PROFILES = ("board", "cad", "coarse")
 """Profiles of drafting errors that a tolerance can follow from."""
@@ -33,8 +34,7 @@ class SettingsError(ProblemError):
     head = "{0}: {1} fault{1:||s} in the settings file"
 
 
-@dataclass(frozen=True, slots=True)
-class Settings:
+class Settings(Struct, frozen=True):
     """How a department judges answers (настройки кафедры).
 
     Attributes

@@ -7,10 +7,9 @@ function of a key and a work: nothing here reads a file or draws.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import field
 from enum import Enum
 
-from planmethod.record import dataclass
+from msgspec import Struct, field
 
 
 class Sense(Enum):
@@ -61,8 +60,7 @@ class Unread(Enum):
     ROW = "row"  # a row of the form that is gone
 
 
-@dataclass(frozen=True, slots=True)
-class Written:
+class Written(Struct, frozen=True):
     """One answer as it stands in a work (записанный ответ).
 
     Attributes
@@ -121,8 +119,7 @@ class Written:
         return self.value is None and self.mm is None and not self.unreadable
 
 
-@dataclass(frozen=True, slots=True)
-class Work:
+class Work(Struct, frozen=True):
     """Answers of one student (работа студента).
 
     Attributes
@@ -157,8 +154,7 @@ class Work:
     fingerprint: str = ""
 
 
-@dataclass(frozen=True, slots=True)
-class KeyEntry:
+class KeyEntry(Struct, frozen=True):
     """What one answer should be (строка ключа).
 
     Attributes
@@ -226,8 +222,7 @@ class KeyEntry:
     per: float = 1.0
 
 
-@dataclass(frozen=True, slots=True)
-class Judged:
+class Judged(Struct, frozen=True):
     """Verdict of one answer (оценка ответа).
 
     Attributes
@@ -280,8 +275,7 @@ class Judged:
         return "" if self.written is None else self.written.where
 
 
-@dataclass(frozen=True, slots=True)
-class Diagnosis:
+class Diagnosis(Struct, frozen=True):
     """Why answers are wrong (распознанная ошибка).
 
     Attributes
@@ -308,8 +302,7 @@ class Diagnosis:
     places: Mapping[str, complex] = field(default_factory=dict)
 
 
-@dataclass(frozen=True, slots=True)
-class Checked:
+class Checked(Struct, frozen=True):
     """One work, judged (проверенная работа).
 
     Attributes

@@ -8,6 +8,8 @@ from collections.abc import Iterator
 from itertools import pairwise
 from typing import NamedTuple
 
+from msgspec.structs import replace
+
 from planmethod.check.explain import Explanation
 from planmethod.check.judge import Examined
 from planmethod.check.key import SEGMENT_CODES
@@ -16,7 +18,6 @@ from planmethod.check.questions import Question, Sign
 from planmethod.check.sheet import Sheet, point, scalar
 from planmethod.construct.steps import Compute, NumberName, Step
 from planmethod.plans.model import FACTS, MOTION, PlanKind
-from planmethod.record import replace
 
 METRES = (1e3, 1e-3)
 DEGREES = (180.0 / math.pi, math.pi / 180.0)

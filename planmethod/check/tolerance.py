@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import math
 
+from msgspec import Struct
+from msgspec.structs import replace
+
 from planmethod.check.marks import Settings
 from planmethod.check.questions import RATES, Question, Sign
 from planmethod.check.sheet import Sheet
-from planmethod.record import dataclass, replace
 
 LONG_MM = 100.0
 """Length on the drawing of a link that turns too little to be measured."""
@@ -19,8 +21,7 @@ FOLDED = 1.7
 """Lengths about nothing have no sign: the middle 68 % of them lie closer than their errors do."""
 
 
-@dataclass(frozen=True, slots=True)
-class Limit:
+class Limit(Struct, frozen=True):
     """How far an answer may be off (допуск).
 
     Attributes

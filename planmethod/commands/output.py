@@ -9,10 +9,11 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
 import click
+import msgspec
+from msgspec.structs import replace
 
 from planmethod.languages import say
 from planmethod.options import UsageError
-from planmethod.record import replace
 
 if TYPE_CHECKING:
     from planmethod.render.ink.drawing import Drawing
@@ -113,9 +114,12 @@ def write_set(drawings: Sequence[Drawing], path: Path, *, author: str | None = N
 
 def json_text(value: Any) -> str:
     """Return plain data as JSON in one line, in letters that the terminal's encoding has."""
-    import json
+    text = msgspec.json.format(msgspec.json.encode(value), indent=0).decode()
+    if is_narrow():
+        import json
 
-    return json.dumps(value, ensure_ascii=is_narrow(), allow_nan=False)
+        return json.dumps(json.loads(text))
+    return text
 
 
 def is_narrow() -> bool:

@@ -26,17 +26,16 @@ from typing import Any
 
 import numpy as np
 import numpy.typing as npt
+from msgspec import Struct
 
 from planmethod.construct.arithmetic import Float64, Number
 from planmethod.construct.dual import Dual, Duals, Rows, as_dual
 from planmethod.construct.evaluate import evaluate
 from planmethod.construct.hand import Hand
 from planmethod.construct.program import Program
-from planmethod.record import dataclass
 
 
-@dataclass(frozen=True, slots=True)
-class Profile:
+class Profile(Struct, frozen=True):
     """How well somebody draws (точность построений): standard deviations.
 
     Attributes

@@ -6,6 +6,7 @@ from collections.abc import Callable, Iterable, Mapping
 from typing import TypeAlias, assert_never
 
 import numpy as np
+from msgspec import Struct
 
 from planmethod.construct.arithmetic import Arithmetic, Number
 from planmethod.construct.program import Program
@@ -31,7 +32,6 @@ from planmethod.construct.steps import (
     Total,
     Touch,
 )
-from planmethod.record import dataclass
 
 PARALLEL = 1e-12
 """Sine of the angle between two lines below which their meeting is not defined."""
@@ -40,8 +40,7 @@ TANGENT = -1e-12
 """Margin of two arcs down to which they touch: rounding of the data, not a gap."""
 
 
-@dataclass(frozen=True, slots=True)
-class Trace:
+class Trace(Struct, frozen=True):
     """Values of every step and how far each stood from being impossible.
 
     Attributes

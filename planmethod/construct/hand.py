@@ -4,16 +4,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import field
 
 import numpy as np
+from msgspec import Struct, field
 
 from planmethod.construct.arithmetic import Float64, Number
-from planmethod.record import dataclass
 
 
-@dataclass(frozen=True)
-class Hand(Float64):
+class Hand(Float64, Struct, frozen=True):
     """Draughtsman who draws exactly and reads with a ruler (чертёжник с линейкой).
 
     Every length read on the drawing is rounded to the nearest ``ruler`` step, ties away from zero

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import field
+
+from msgspec import Struct, field
 
 from planmethod.construct.steps import (
     AtAngle,
@@ -35,11 +36,9 @@ from planmethod.construct.steps import (
     operands,
 )
 from planmethod.errors import ProgramError
-from planmethod.record import dataclass
 
 
-@dataclass(frozen=True, slots=True)
-class Program:
+class Program(Struct, frozen=True):
     """Ordered steps of a construction (программа построения).
 
     Each name is made once and before it is used; a line is never used as a point. Both are
@@ -86,8 +85,7 @@ class Program:
         return Program(tuple(reversed(kept)))
 
 
-@dataclass(slots=True)
-class Builder:
+class Builder(Struct):
     """Collect the steps of a construction; each verb returns the name it makes.
 
     The verbs are the steps; a line that was drawn once is found again instead of drawn twice,

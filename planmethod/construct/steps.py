@@ -11,7 +11,7 @@ from collections.abc import Iterator
 from enum import Enum
 from typing import NewType, TypeAlias, get_args
 
-from planmethod.record import dataclass
+from msgspec import Struct
 
 PointName = NewType("PointName", str)
 LineName = NewType("LineName", str)
@@ -33,22 +33,19 @@ class Way(Enum):
     BACKWARD = -1
 
 
-@dataclass(frozen=True, slots=True)
-class Given:
+class Given(Struct, frozen=True):
     """Point given before the construction starts (данная точка), mm."""
 
     out: PointName
 
 
-@dataclass(frozen=True, slots=True)
-class Known:
+class Known(Struct, frozen=True):
     """Number given before the construction starts (данная величина), in its own unit."""
 
     out: NumberName
 
 
-@dataclass(frozen=True, slots=True)
-class Join:
+class Join(Struct, frozen=True):
     """Line through two points, directed from the first to the second (прямая через две точки)."""
 
     out: LineName
@@ -56,8 +53,7 @@ class Join:
     head: PointName
 
 
-@dataclass(frozen=True, slots=True)
-class Parallel:
+class Parallel(Struct, frozen=True):
     """Line through a point parallel to a line, same sense (параллельная прямая)."""
 
     out: LineName
@@ -65,8 +61,7 @@ class Parallel:
     to: LineName
 
 
-@dataclass(frozen=True, slots=True)
-class Perpendicular:
+class Perpendicular(Struct, frozen=True):
     """Line through a point, a line's direction turned by +90 degrees (перпендикуляр)."""
 
     out: LineName
@@ -74,8 +69,7 @@ class Perpendicular:
     to: LineName
 
 
-@dataclass(frozen=True, slots=True)
-class AtAngle:
+class AtAngle(Struct, frozen=True):
     """Line through a point at an angle to a line, or to +x when there is none (под углом)."""
 
     out: LineName
@@ -84,8 +78,7 @@ class AtAngle:
     angle: NumberName
 
 
-@dataclass(frozen=True, slots=True)
-class LayOff:
+class LayOff(Struct, frozen=True):
     """Point at a signed length along a line from a point (отложить отрезок), mm."""
 
     out: PointName
@@ -94,8 +87,7 @@ class LayOff:
     length: NumberName
 
 
-@dataclass(frozen=True, slots=True)
-class MeetLines:
+class MeetLines(Struct, frozen=True):
     """Intersection of two lines (точка пересечения прямых)."""
 
     out: PointName
@@ -103,8 +95,7 @@ class MeetLines:
     second: LineName
 
 
-@dataclass(frozen=True, slots=True)
-class MeetLineCircle:
+class MeetLineCircle(Struct, frozen=True):
     """Intersection of a line and an arc, the forward or the backward one (засечка на прямой).
 
     ``branch``, where there is one, is +1, or -1 where the other one is meant.
@@ -118,8 +109,7 @@ class MeetLineCircle:
     branch: NumberName | None = None
 
 
-@dataclass(frozen=True, slots=True)
-class MeetCircles:
+class MeetCircles(Struct, frozen=True):
     """Intersection of two arcs on a side of the line of centres (засечки).
 
     ``branch``, where there is one, is +1, or -1 where the other side is meant.
@@ -134,8 +124,7 @@ class MeetCircles:
     branch: NumberName | None = None
 
 
-@dataclass(frozen=True, slots=True)
-class Touch:
+class Touch(Struct, frozen=True):
     """Point where a line from a point touches a circle (точка касания).
 
     ``side`` is the side of the directed line centre → source on which the touching point lies.
@@ -148,8 +137,7 @@ class Touch:
     side: Side
 
 
-@dataclass(frozen=True, slots=True)
-class Similar:
+class Similar(Struct, frozen=True):
     """Point of a plan similar to a point of the link, letters in the same order (теорема подобия).
 
     Triangle plan_b plan_c out is similar to link_b link_c link_s. ``side`` is the length of
@@ -169,8 +157,7 @@ class Similar:
     arm: NumberName | None = None
 
 
-@dataclass(frozen=True, slots=True)
-class Measure:
+class Measure(Struct, frozen=True):
     """Length between two points read with the ruler (измерить отрезок), mm."""
 
     out: NumberName
@@ -178,8 +165,7 @@ class Measure:
     head: PointName
 
 
-@dataclass(frozen=True, slots=True)
-class MeasureAlong:
+class MeasureAlong(Struct, frozen=True):
     """Signed length between two points of a line: positive along its direction, mm."""
 
     out: NumberName
@@ -188,8 +174,7 @@ class MeasureAlong:
     along: LineName
 
 
-@dataclass(frozen=True, slots=True)
-class Carry:
+class Carry(Struct, frozen=True):
     """Segment of a plan carried to another point, parallel to itself (перенести отрезок).
 
     ``out`` is ``origin`` plus ``times`` the segment from ``tail`` to ``head``; ``turned``: the
@@ -208,8 +193,7 @@ class Carry:
     turned: bool = False
 
 
-@dataclass(frozen=True, slots=True)
-class MeasureArm:
+class MeasureArm(Struct, frozen=True):
     """Arm of a vector of a plan about a point of another drawing (измерить плечо), mm.
 
     The vector from ``tail`` to ``head`` acts at ``at``: its line is drawn through there, and the
@@ -224,8 +208,7 @@ class MeasureArm:
     head: PointName
 
 
-@dataclass(frozen=True, slots=True)
-class Compute:
+class Compute(Struct, frozen=True):
     """Number from numbers: ``factor`` times a product of powers (вычислить).
 
     ``powers`` are (name, exponent): omega = v_CB / l_BC is factor 1 and (v_CB, 1), (l_BC, -1).
@@ -238,8 +221,7 @@ class Compute:
     size: bool = False
 
 
-@dataclass(frozen=True, slots=True)
-class Total:
+class Total(Struct, frozen=True):
     """Sum of computed numbers (алгебраическая сумма)."""
 
     out: NumberName

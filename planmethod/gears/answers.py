@@ -5,19 +5,19 @@ from __future__ import annotations
 import math
 from fractions import Fraction
 
+from msgspec import Struct
+
 from planmethod.gears.asked import Asked, parse
 from planmethod.gears.conditions import satellites_held
 from planmethod.gears.linear import solve
 from planmethod.gears.model import PARALLEL, Mesh, MeshKind
 from planmethod.gears.motion import Motion, mesh_row
-from planmethod.record import dataclass
 
 ALPHA = math.radians(20)
 """Pressure angle of the standard rack, rad."""
 
 
-@dataclass(frozen=True, slots=True)
-class Answer:
+class Answer(Struct, frozen=True):
     """The value of a quantity (значение).
 
     Attributes

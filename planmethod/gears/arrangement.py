@@ -8,13 +8,14 @@ each other's way, few shafts are hollow, no shaft runs through a wheel (`Arrange
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import field
 from enum import Enum
 from functools import cached_property
 from itertools import combinations, permutations
 
+from msgspec import Struct, field
+from msgspec.structs import replace
+
 from planmethod.gears.scheme import EPS, Across, Rim, Scheme
-from planmethod.record import dataclass, replace
 
 # What an arrangement costs
 _IMPOSSIBLE = 100.0  # two bodies of one axis in each other's way
@@ -34,8 +35,7 @@ class Part(Enum):
     APEX = "apex"  # where the axis of a bevel wheel across the others meets them
 
 
-@dataclass(frozen=True, slots=True)
-class Station:
+class Station(Struct, frozen=True):
     """A place along the axes: the rims of a column, a web of a ring, an arm, an apex.
 
     ``offset`` is its place from the apex of its column, mm.
@@ -49,8 +49,7 @@ class Station:
     across: Across | None = None
 
 
-@dataclass(frozen=True, slots=True)
-class Stub:
+class Stub(Struct, frozen=True):
     """Where a body comes out to the frame: a bearing, or the ground of a fixed one (опора).
 
     Attributes
@@ -66,8 +65,7 @@ class Stub:
     rank: float
 
 
-@dataclass(frozen=True)
-class Arrangement:
+class Arrangement(Struct, frozen=True, dict=True):
     """Stations in an order, and what follows from it (расстановка).
 
     Attributes
@@ -238,8 +236,7 @@ MOST_ORDERS = 24
 """Orders of the columns that the search begins from."""
 
 
-@dataclass(frozen=True, slots=True)
-class Order:
+class Order(Struct, frozen=True):
     """An order that is tried: columns, and on which side of which column webs and arms stand."""
 
     order: tuple[int, ...]

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Collection
 
+from msgspec import Struct
+
 from planmethod.languages import say
 from planmethod.problem.names import fold, listed, looks_latin, near, short
-from planmethod.record import dataclass
 
 PLAIN = ("W", "q")
 """Names without labels."""
@@ -22,8 +23,7 @@ class AskedError(ValueError):
     """What is asked cannot be understood; the message says why."""
 
 
-@dataclass(frozen=True, slots=True)
-class Asked:
+class Asked(Struct, frozen=True):
     """One quantity of a train (искомая величина)."""
 
     kind: str

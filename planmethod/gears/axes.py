@@ -3,16 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import field
 from fractions import Fraction
 from itertools import product
+
+from msgspec import Struct, field
 
 from planmethod.errors import Fault
 from planmethod.gears.linear import Row, Solved, solve
 from planmethod.gears.model import PARALLEL, Mesh, MeshKind, Train
 from planmethod.gears.roles import Roles
 from planmethod.languages import say
-from planmethod.record import dataclass
 
 MOST_CHOSEN = 10
 """Most meshes in loops between wheels off the main axis: each may be on either side."""
@@ -20,8 +20,7 @@ MOST_CHOSEN = 10
 HINT = "Check the teeth, and which wheels share an axis."
 
 
-@dataclass(frozen=True, slots=True)
-class Axes:
+class Axes(Struct, frozen=True):
     """Sizes of all wheels and heights of all axes that are at known distances (размеры).
 
     Attributes
@@ -39,8 +38,7 @@ class Axes:
     axis_of: Mapping[str, str]
 
 
-@dataclass
-class _Lines:
+class _Lines(Struct):
     """Bodies by the axis that they turn about; the main one is ``main``."""
 
     line: dict[str, str]

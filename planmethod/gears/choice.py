@@ -8,10 +8,10 @@ from fractions import Fraction
 
 import numpy as np
 import numpy.typing as npt
+from msgspec import Struct
 
 from planmethod.gears.conditions import RING_LESS, SIN2, ring_room
 from planmethod.gears.model import MeshKind
-from planmethod.record import dataclass
 
 Ints = npt.NDArray[np.int64]
 Mask = npt.NDArray[np.bool_]
@@ -24,8 +24,7 @@ BORDER = 1e-11
 """Relative nearness to a bound of the ratio at which it is judged in fractions."""
 
 
-@dataclass(frozen=True, slots=True)
-class Scheme:
+class Scheme(Struct, frozen=True):
     """A usual scheme of a train (схема).
 
     Attributes
@@ -73,8 +72,7 @@ SCHEMES = (
 """One-rim set with a ring, sets with two rims by their meshes, a pair, a coaxial pair of stages."""
 
 
-@dataclass(frozen=True, slots=True)
-class Wanted:
+class Wanted(Struct, frozen=True):
     """What is asked (техническое задание).
 
     Attributes
@@ -108,8 +106,7 @@ class Wanted:
         return int(one * both), int(other * both)
 
 
-@dataclass(frozen=True, slots=True)
-class TeethSet:
+class TeethSet(Struct, frozen=True):
     """Teeth that meet every condition (вариант).
 
     Attributes
@@ -128,8 +125,7 @@ class TeethSet:
     size: Fraction
 
 
-@dataclass(frozen=True, slots=True)
-class Chosen:
+class Chosen(Struct, frozen=True):
     """What a search has found (результат подбора).
 
     Attributes

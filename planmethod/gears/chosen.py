@@ -21,7 +21,7 @@ def chosen_text(chosen: Chosen, lang: str) -> str:
     rows = "" if wanted.modules is None else _modules(chosen, lang)
     rings = say.rings.format(ring_most=wanted.ring_most) if scheme.rings else ""
     texts = [
-        say.title.format(scheme=say.schemes[scheme.name]),
+        say.title.format(scheme=say["schemes"][scheme.name]),
         say.wanted.format(
             ratio=given(float(wanted.ratio), words.note),
             within=given(100 * float(wanted.within), words.note),
@@ -40,7 +40,7 @@ def chosen_text(chosen: Chosen, lang: str) -> str:
     lines = [line for text in texts for line in wrap(text)]
     if not chosen.sets:
         return "\n".join(lines)
-    number, *others = say.columns
+    number, *others = say["columns"]
     head = [number, *(f"z_{label}" for label in scheme.wheels), *others]
     cells = [
         [
@@ -100,7 +100,7 @@ def problem_text(chosen: Chosen, number: int, lang: str) -> str:
     wanted, one = chosen.wanted, chosen.sets[number - 1]
     scheme, say = wanted.scheme, language(lang).teeth
     lines = [f'title = "{say.file.format(number=number)}"', ""]
-    lines += [f"# {line}" for line in wrap(say.schemes[scheme.name])]
+    lines += [f"# {line}" for line in wrap(say["schemes"][scheme.name])]
     teeth = ", ".join(f"z_{x} = {z}" for x, z in zip(scheme.wheels, one.teeth, strict=True))
     lines += [f"# {teeth}", "[gears]", f"wheels = {{ {_wheels(chosen, one)} }}", "meshes = ["]
     carried = ', carrier = "H"' if scheme.carried else ""

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping
-from dataclasses import field
 from fractions import Fraction
 from typing import Any
+
+from msgspec import Struct, field
 
 from planmethod.gears.model import PARALLEL, Mesh, MeshKind
 from planmethod.gears.motion import Motion
 from planmethod.note.wording import Language
-from planmethod.record import dataclass
 
 LEAST_TEETH = 17
 """Least teeth of a wheel without shift that the rack does not undercut."""
@@ -25,8 +25,7 @@ SIN2 = math.sin(math.radians(20)) ** 2
 MOST_SATELLITES = 24
 
 
-@dataclass(frozen=True, slots=True)
-class Condition:
+class Condition(Struct, frozen=True):
     """A condition and whether it holds (условие синтеза).
 
     Attributes
@@ -52,7 +51,8 @@ def sentence(condition: Condition, words: Language) -> str:
     """Return a condition in words."""
     decimal = words.note.decimal
     facts = {name: value.replace(".", decimal) for name, value in condition.facts.items()}
-    return words.gears.conditions[condition.name].format(**facts)
+    said: str = words.gears["conditions"][condition.name]
+    return said.format(**facts)
 
 
 # Coaxiality --------------------------------------------------------------------------------------

@@ -9,9 +9,10 @@ at the pole distance, cut off segments as long as the bodies are quick.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import field
 from fractions import Fraction
 from itertools import combinations
+
+from msgspec import Struct
 
 from planmethod.construct.arithmetic import Float64, Number
 from planmethod.construct.drafting import Profile, sigmas
@@ -24,7 +25,6 @@ from planmethod.gears.asked import parse
 from planmethod.gears.motion import Motion
 from planmethod.gears.picture import Picture, carrier_of
 from planmethod.languages import say
-from planmethod.record import dataclass
 
 LETTERS = "abcdefghklmnqrstuvwxz"
 """Letters of contact points, in the order of the meshes; ``p`` is the pole."""
@@ -40,8 +40,7 @@ class PictureError(PlanMethodError):
     """The pictures contradict the mesh equations: a fault of the program (самопроверка)."""
 
 
-@dataclass(frozen=True, slots=True)
-class Spot:
+class Spot(Struct, frozen=True):
     """A point of the picture of linear velocities (точка картины).
 
     Attributes
@@ -69,8 +68,7 @@ class Spot:
     read: NumberName | None = None
 
 
-@dataclass(frozen=True, slots=True)
-class Found:
+class Found(Struct, frozen=True):
     """A quantity that is read off the pictures (снятая величина).
 
     Attributes
@@ -90,8 +88,7 @@ class Found:
     rays: tuple[str, ...]
 
 
-@dataclass(frozen=True, slots=True)
-class Construction:
+class Construction(Struct, frozen=True):
     """Both pictures as steps (построение).
 
     Attributes
@@ -129,8 +126,7 @@ class Construction:
         return {name: float(value) for name, value in self.data.items()} | {FEET: 0j, POLE: 0j}
 
 
-@dataclass(frozen=True, slots=True)
-class Reading:
+class Reading(Struct, frozen=True):
     """The construction drawn and read (чтение построения).
 
     Attributes
@@ -179,19 +175,16 @@ def construct(motion: Motion, picture: Picture) -> Construction:
     return _Drawing(motion, picture).construction()
 
 
-@dataclass
 class _Drawing:
     """A construction while it is made."""
 
-    motion: Motion
-    picture: Picture
-    builder: Builder = field(default_factory=Builder)
-    data: dict[str, Fraction] = field(default_factory=dict)
-    feet: dict[Fraction, PointName] = field(default_factory=dict)
-    lines: dict[str, LineName] = field(default_factory=dict)
-
-    def __post_init__(self) -> None:
-        train, scale = self.motion.train, self.motion.train.unit_m / self.picture.mu_l
+    def __init__(self, motion: Motion, picture: Picture) -> None:
+        self.motion, self.picture = motion, picture
+        self.builder = Builder()
+        self.data: dict[str, Fraction] = {}
+        self.feet: dict[Fraction, PointName] = {}
+        self.lines: dict[str, LineName] = {}
+        train, scale = motion.train, motion.train.unit_m / picture.mu_l
         used = {body for mesh in train.meshes for body in train.ends(mesh)} | set(train.carriers)
         self.heights = {b: self.motion.axes.heights[b] * scale for b in train.bodies if b in used}
         self.over = {body: carrier_of(self.motion, body) for body in self.heights}

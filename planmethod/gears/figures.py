@@ -11,6 +11,8 @@ from fractions import Fraction
 from functools import cached_property, partial
 from typing import TYPE_CHECKING
 
+from msgspec.structs import replace
+
 from planmethod.gears.answers import answer
 from planmethod.gears.asked import AskedError, parse
 from planmethod.gears.construction import construct, read
@@ -19,7 +21,6 @@ from planmethod.gears.motion import Motion, rows_of, solve_motion, speeds_by
 from planmethod.gears.picture import draw
 from planmethod.gears.told import symbol
 from planmethod.problem.figures import Figure, Mistaken
-from planmethod.record import replace
 
 if TYPE_CHECKING:
     from planmethod.construct.drafting import Profile

@@ -6,7 +6,7 @@ from collections.abc import Hashable, Mapping, Sequence
 from fractions import Fraction
 from typing import Generic, TypeVar
 
-from planmethod.record import dataclass
+from msgspec import Struct
 
 N = TypeVar("N", bound=Hashable)
 
@@ -14,8 +14,7 @@ Row = tuple[Mapping[N, Fraction], Fraction]
 """Coefficients by unknown, and the right side."""
 
 
-@dataclass(frozen=True, slots=True)
-class Solved(Generic[N]):
+class Solved(Struct, Generic[N], frozen=True):
     """What equations say of their unknowns.
 
     Attributes

@@ -7,8 +7,9 @@ from collections.abc import Mapping
 from enum import Enum
 from fractions import Fraction
 
+from msgspec import Struct
+
 from planmethod.problem.head import KindProblem
-from planmethod.record import dataclass
 
 
 class MeshKind(Enum):
@@ -35,8 +36,7 @@ HALF_MODULES = 1000
 """In a metre, for pictures without a module: it is then 2 mm."""
 
 
-@dataclass(frozen=True, slots=True)
-class Wheel:
+class Wheel(Struct, frozen=True):
     """A rim of teeth on a body (зубчатый венец).
 
     Attributes
@@ -64,8 +64,7 @@ class Wheel:
         return self.label.rstrip("'")
 
 
-@dataclass(frozen=True, slots=True)
-class Mesh:
+class Mesh(Struct, frozen=True):
     """Two wheels in mesh (зацепление).
 
     Attributes
@@ -93,8 +92,7 @@ class Mesh:
         return f"{self.first}-{self.second}"
 
 
-@dataclass(frozen=True, slots=True)
-class PictureSettings:
+class PictureSettings(Struct, frozen=True):
     """Scales of the pictures of velocities (масштабы картин скоростей).
 
     Attributes
@@ -111,8 +109,7 @@ class PictureSettings:
     pole_mm: Fraction = Fraction(40)
 
 
-@dataclass(frozen=True, slots=True)
-class Train:
+class Train(Struct, frozen=True):
     """A gear train (зубчатый механизм).
 
     Attributes
@@ -197,8 +194,7 @@ class Train:
         return None if mesh.carrier is None else self.body_of[mesh.carrier]
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class GearProblem(KindProblem):
+class GearProblem(KindProblem, frozen=True, kw_only=True):
     """A problem of a gear train (задача о передаче)."""
 
     train: Train

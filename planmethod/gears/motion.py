@@ -6,13 +6,15 @@ from collections.abc import Iterable, Mapping, Sequence
 from enum import Enum
 from fractions import Fraction
 
+from msgspec import Struct
+from msgspec.structs import replace
+
 from planmethod.errors import Fault, ProblemError
 from planmethod.gears.axes import Axes, find_axes
 from planmethod.gears.linear import Row, Solved, solve
 from planmethod.gears.model import GearProblem, Mesh, MeshKind, Train
 from planmethod.gears.roles import Roles, find_roles
 from planmethod.languages import say
-from planmethod.record import dataclass, replace
 
 
 class TrainKind(Enum):
@@ -24,8 +26,7 @@ class TrainKind(Enum):
     CLOSED = "closed differential"
 
 
-@dataclass(frozen=True, slots=True)
-class Structure:
+class Structure(Struct, frozen=True):
     """Mobility of a train, counted with one satellite of each set (структура).
 
     Attributes
@@ -58,8 +59,7 @@ class Structure:
         return self.mobility - (6 * self.moving - 5 * self.lower - 2 * self.higher)
 
 
-@dataclass(frozen=True, slots=True)
-class Motion:
+class Motion(Struct, frozen=True):
     """A solved train (решённый механизм).
 
     Attributes

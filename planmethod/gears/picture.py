@@ -8,13 +8,13 @@ from __future__ import annotations
 
 from fractions import Fraction
 
+from msgspec import Struct
+
 from planmethod.gears.model import PARALLEL, MeshKind, PictureSettings
 from planmethod.gears.motion import Motion
-from planmethod.record import dataclass
 
 
-@dataclass(frozen=True, slots=True)
-class Contact:
+class Contact(Struct, frozen=True):
     """A point of the picture of linear velocities (точка картины): its height and segment, mm."""
 
     name: str
@@ -22,8 +22,7 @@ class Contact:
     speed_mm: Fraction
 
 
-@dataclass(frozen=True, slots=True)
-class Picture:
+class Picture(Struct, frozen=True):
     """Both pictures (картины линейных и угловых скоростей).
 
     Attributes

@@ -14,7 +14,7 @@ from planmethod.gears.told import calculation, given, symbol
 from planmethod.note.numbers import raised
 from planmethod.note.plaintext import Steps, heading, plain_text, wrap
 from planmethod.note.rounding import rounded_to, sigma_text
-from planmethod.note.wording import Language, language
+from planmethod.note.wording import Language, Words, language
 
 
 def protocol_text(problem: GearProblem, lang: str, profile: Profile) -> str:
@@ -27,7 +27,7 @@ def protocol_text(problem: GearProblem, lang: str, profile: Profile) -> str:
     """
     motion = solve_motion(problem)
     words = language(lang)
-    say = words.gears.sheet
+    say: Words = words.gears["sheet"]
     out = Steps(words.note)
     out.lines += heading(say.protocol.format(title=problem.title), "═")
     if problem.source:
@@ -59,7 +59,8 @@ class _Teller:
         self, out: Steps, drawn: Construction, seen: Reading, profile: Profile, words: Language
     ) -> None:
         self.out, self.drawn, self.seen, self.profile = out, drawn, seen, profile
-        self.words, self.say, self.notation = words, words.gears.sheet, words.say
+        self.words, self.notation = words, words.say
+        self.say: Words = words.gears["sheet"]
         self.ends = {spot.end: spot for spot in drawn.spots}
         self.bodies = {line: body for body, line in drawn.lines.items()}
 
@@ -75,18 +76,18 @@ class _Teller:
         rays = next(k for k, step in enumerate(steps) if step.out == POLE)
         for step in steps[:rays]:
             self._step(step)
-        out.chapter(say.steps["rays"])
+        out.chapter(say["steps"]["rays"])
         self._item("pole", pole=self.notation.given(float(self.drawn.picture.pole_mm)))
         for body in self.drawn.rays:
             self._item("ray", body=self.drawn.label(body))
-        out.chapter(say.steps["readings"])
-        name = self.words.note.profiles.get(self.profile.name, self.profile.name)
+        out.chapter(say["steps"]["readings"])
+        name = self.words.note["profiles"].get(self.profile.name, self.profile.name)
         out.item([say.ruler.format(ruler=self.notation.given(self.profile.ruler), profile=name)])
         self._readings()
         self._found()
 
     def _item(self, key: str, **facts: str) -> None:
-        self.out.item([self.say.steps[key].format(**facts)])
+        self.out.item([self.say["steps"][key].format(**facts)])
 
     def _step(self, step: Step) -> None:
         """Tell a step; numbers and level lines are told where they are used."""
@@ -112,27 +113,29 @@ class _Teller:
     def _what(self, spot: Spot, case: str = "") -> str:
         """Return what a point of the picture is; ``of `` is what something is of."""
         kind, _, name = spot.contact.partition(" ")
-        return self.say.steps[case + ("pitch" if kind == "pitch" else "own")].format(name=name)
+        said: str = self.say["steps"][case + ("pitch" if kind == "pitch" else "own")]
+        return said.format(name=name)
 
     def _axis_at(self, height: float) -> str:
         """Return whose fixed axis is at a height that no contact has."""
         axes = self.motion.axes.heights
         scale = float(self.motion.train.unit_m / self.drawn.picture.mu_l)
         own = [b for b in self.drawn.lines if abs(float(axes[b]) * scale - height) < 1e-6]
-        return self.say.steps["own"].format(name=", ".join(own))
+        said: str = self.say["steps"]["own"]
+        return said.format(name=", ".join(own))
 
     def _start(self, spot: Spot, origin: PointName) -> None:
         body = next((b for b in self.drawn.starts if b in spot.bodies), spot.bodies[0])
         facts = {"foot": origin, "point": spot.letter, "what": self._what(spot, "of ")}
         mu_v = self.notation.short(self.drawn.picture.mu_v, 4)
         length = self._mm(abs(float(spot.speed)))
-        lines = [self.say.steps["laid"].format(**facts, length=length, mu_v=mu_v)]
+        lines = [self.say["steps"]["laid"].format(**facts, length=length, mu_v=mu_v)]
         if body in self.drawn.calculated:
-            lines.append(self.say.steps["calculated"].format(body=self.drawn.label(body)))
+            lines.append(self.say["steps"]["calculated"].format(body=self.drawn.label(body)))
         elif body not in self.motion.train.inputs:
             inputs = ", ".join(self.motion.train.inputs)
             told = {"body": self.drawn.label(body), "input": inputs}
-            lines.append(self.say.steps["any"].format(**told))
+            lines.append(self.say["steps"]["any"].format(**told))
         self.out.item(lines)
 
     def _mm(self, value: float) -> str:
@@ -144,7 +147,7 @@ class _Teller:
         named += [(n, f"o{self.drawn.label(body)}") for body, n in self.drawn.segments.items()]
         for number, name in named:
             lines.append(
-                self.say.steps["read"].format(
+                self.say["steps"]["read"].format(
                     name=name,
                     read=self.notation.ruled(float(self.seen.read.value[number])),
                     exact=self._mm(float(self.seen.exact.value[number])),
@@ -155,14 +158,14 @@ class _Teller:
 
     def _found(self) -> None:
         train = self.motion.train
-        known, unit = tuple(train.body_of), raised(self.words.gears.units[train.units[0]])
+        known, unit = tuple(train.body_of), raised(self.words.gears["units"][train.units[0]])
         inputs = set(train.inputs) & set(self.drawn.starts)
         mu = float(self.seen.read.value["mu"])  # type: ignore[index]
         scale, per_mm = f"μ_{{{train.letter}}}", self.notation.short(mu, 4)
         said = {"symbol": scale, "value": per_mm, "unit": unit}
         by_input = "input" in self.drawn.data and not inputs
-        said["from_what"] = self.say.steps["input" if by_input else "chosen"]
-        self.out.item([self.say.steps["scale"].format(**said)])
+        said["from_what"] = self.say["steps"]["input" if by_input else "chosen"]
+        self.out.item([self.say["steps"]["scale"].format(**said)])
         lines = []
         for one in self.drawn.found:
             rays = [self.drawn.label(body) for body in one.rays]
@@ -173,11 +176,13 @@ class _Teller:
             formula = "/".join(parts) if ratio else f"{scale}·{parts[0]}"
             if one.name.startswith("omega") and train.unit == "n":
                 formula = f"π/30·{formula}"
+            if one.name.startswith("n") and train.unit != "n":
+                formula = f"30/π·{formula}"
             value, sigma = float(self.seen.read.value[one.read]), self.seen.sigma[one.read]
             other = "1/s" if one.name.startswith("omega") else "1/min"
-            shown = "" if ratio else raised(self.words.gears.units[other])
+            shown = "" if ratio else raised(self.words.gears["units"][other])
             lines.append(
-                self.say.steps["found"]
+                self.say["steps"]["found"]
                 .format(
                     formula=_plain(f"{symbol(one.name, known)} = {formula}"),
                     read=self.notation.number(rounded_to(value, sigma)),

@@ -5,16 +5,16 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 
+from msgspec import Struct
+
 from planmethod.errors import Fault
 from planmethod.gears.model import Mesh, MeshKind, Train
 from planmethod.languages import say
-from planmethod.record import dataclass
 
 Vector = tuple[float, float, float]
 
 
-@dataclass(frozen=True, slots=True)
-class Roles:
+class Roles(Struct, frozen=True):
     """Who turns about what (роли звеньев).
 
     Attributes

@@ -6,9 +6,11 @@ from collections.abc import Iterator, Mapping
 from functools import cached_property
 from itertools import combinations
 
+from msgspec import Struct
+from msgspec.structs import replace
+
 from planmethod.gears.model import PARALLEL, Mesh, MeshKind
 from planmethod.gears.motion import Motion
-from planmethod.record import dataclass, replace
 
 WORM = 0.25
 """Radius of a worm by that of its wheel: it does not follow from its starts."""
@@ -23,8 +25,7 @@ EPS = 1e-6
 """Heights that differ by less are one, mm."""
 
 
-@dataclass(frozen=True, slots=True)
-class Rim:
+class Rim(Struct, frozen=True):
     """A wheel in a column (венец).
 
     Attributes
@@ -48,8 +49,7 @@ class Rim:
             yield (far, far) if self.ring else (min(self.centre, far), max(self.centre, far))
 
 
-@dataclass(frozen=True, slots=True)
-class Cone:
+class Cone(Struct, frozen=True):
     """A bevel mesh of a wheel across (коническое зацепление).
 
     Attributes
@@ -68,8 +68,7 @@ class Cone:
     side: int
 
 
-@dataclass(frozen=True, slots=True)
-class Across:
+class Across(Struct, frozen=True):
     """A body whose axis stands across the others, in the paper (поперечное звено)."""
 
     body: str
@@ -77,8 +76,7 @@ class Across:
     cones: tuple[Cone, ...]
 
 
-@dataclass(frozen=True, slots=True)
-class Worm:
+class Worm(Struct, frozen=True):
     """A worm mesh (червячная передача).
 
     Attributes
@@ -97,8 +95,7 @@ class Worm:
     is_level: bool
 
 
-@dataclass(frozen=True)
-class Scheme:
+class Scheme(Struct, frozen=True, dict=True):
     """Bodies of a train with their sizes on the paper, mm (данные схемы)."""
 
     motion: Motion

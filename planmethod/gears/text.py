@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from fractions import Fraction
 
+from msgspec import Struct
+
 from planmethod.errors import PlanMethodError
 from planmethod.gears.answers import answer, rack_speed
 from planmethod.gears.conditions import conditions, sentence
@@ -15,7 +17,6 @@ from planmethod.gears.roles import Roles
 from planmethod.note.numbers import MINUS
 from planmethod.note.plaintext import columns_text, found, heading, spoken, table, wrap
 from planmethod.note.wording import Language, language
-from planmethod.record import dataclass
 
 
 def solved_text(problem: GearProblem, lang: str) -> str:
@@ -43,7 +44,9 @@ def solved_text(problem: GearProblem, lang: str) -> str:
     if judged:
         lines += ["", say.checked]
     for one in judged:
-        lines += wrap(f"{sentence(one, words)}: {say.holds[one.holds]}", rest="  ")
+        lines += wrap(
+            f"{sentence(one, words)}: {say['holds']['yes' if one.holds else 'no']}", rest="  "
+        )
     lines += ["", say.picture, *_picture(motion, words)]
     if problem.published:
         lines += ["", say.published, *_published(problem, motion, words)]
@@ -65,7 +68,7 @@ def structure_text(problem: GearProblem, lang: str) -> str:
 
 def _structure(problem: GearProblem, roles: Roles, found: Structure, words: Language) -> list[str]:
     say, train = words.gears, problem.train
-    lines = ["", say.structure, say.kind.format(kind=say.kinds[found.kind.value])]
+    lines = ["", say.structure, say.kind.format(kind=say["kinds"][found.kind.value])]
     formula = str(found.formula).replace("-", MINUS)
     texts = [
         say.chebyshev.format(n=found.moving, low=found.lower, high=found.higher, w=formula),
@@ -124,17 +127,17 @@ def equation_of(motion: Motion, mesh: Mesh) -> tuple[str, str]:
 
 def _wheels(motion: Motion, words: Language) -> list[str]:
     train, say = motion.train, words.gears
-    said = {"letter": "z" if train.toothed else "r, " + say.units["m"]}
-    said["unit"] = say.units["m/2" if train.toothed else "m"]
+    said = {"letter": "z" if train.toothed else "r, " + say["units"]["m"]}
+    said["unit"] = say["units"]["m/2" if train.toothed else "m"]
     rows = []
     for label, size in motion.axes.sizes.items():
         height = motion.axes.heights.get(train.body_of[label])
         mark = "*" if label in train.unknown else ""
         shown = [_size(x, words) if x is not None else "—" for x in (size, height)]
         if train.toothed and not train.counted(label):
-            shown[0] = f"r = {shown[0]} {say.units['mm']}"
+            shown[0] = f"r = {shown[0]} {say['units']['mm']}"
         rows.append([label + mark, *shown])
-    return table([head.format(**said) for head in say.columns_wheels], rows)
+    return table([head.format(**said) for head in say["columns_wheels"]], rows)
 
 
 def _size(value: Fraction, words: Language) -> str:
@@ -146,13 +149,13 @@ def _size(value: Fraction, words: Language) -> str:
 def _speeds(motion: Motion, words: Language) -> list[str]:
     train, say = motion.train, words.gears
     said = {"letter": train.letter, "other": "ω" if train.letter == "n" else "n"}
-    said["unit"], said["other_unit"] = (say.units[unit] for unit in train.units)
+    said["unit"], said["other_unit"] = (say["units"][unit] for unit in train.units)
     rows, notes = [], []
     for label in train.numbers:
         body, speed = train.body_of[label], motion.speed(label)
         if body in train.racks:
             metres = rack_speed(motion, label)
-            shown = "—" if metres is None else f"{found(metres, words.note)} {say.units['m/s']}"
+            shown = "—" if metres is None else f"{found(metres, words.note)} {say['units']['m/s']}"
             rows.append([f"{label} ({say.rack})", shown, "—", "—", ""])
             continue
         relative = [
@@ -167,7 +170,7 @@ def _speeds(motion: Motion, words: Language) -> list[str]:
         rows.append([label, value, fraction_text(speed), other, "; ".join(relative)])
         if body in motion.roles.across:
             notes += wrap(say.across.format(label=label), rest="  ")
-    return table([head.format(**said) for head in say.columns_speeds], rows) + notes
+    return table([head.format(**said) for head in say["columns_speeds"]], rows) + notes
 
 
 def _tabular(motion: Motion, turns: Turns, words: Language) -> list[str]:
@@ -181,7 +184,7 @@ def _tabular(motion: Motion, turns: Turns, words: Language) -> list[str]:
             name.format(letter=letter, carrier=turns.carrier),
             *(fraction_text(part[body]) for body in total),
         ]
-        for name, part in zip(say.tabular_rows, (turns.together, turns.held, total), strict=True)
+        for name, part in zip(say["tabular_rows"], (turns.together, turns.held, total), strict=True)
     ]
     return [*head, *columns_text(list(zip(("", *total), *rows, strict=True)), 1)]
 
@@ -191,15 +194,15 @@ def _asked(motion: Motion, words: Language) -> list[str]:
     for name in motion.train.ask:
         one = answer(motion, name)
         if one.value is None:
-            reason = say.reasons[one.reason].format(label=one.label)
+            reason = say["reasons"][one.reason].format(label=one.label)
             notes += wrap(f"{name}: {reason}", rest="  ")
             continue
         exact = "" if one.exact is None else fraction_text(one.exact)
-        unit = say.units[one.unit] if one.unit else ""
+        unit = say["units"][one.unit] if one.unit else ""
         whole = one.exact is not None and one.exact.denominator == 1
         value = exact if whole else found(one.value, words.note)
         rows.append([name, value, exact, unit])
-    return [*(table(list(say.columns_asked), rows) if rows else []), *notes]
+    return [*(table(list(say["columns_asked"]), rows) if rows else []), *notes]
 
 
 def _picture(motion: Motion, words: Language) -> list[str]:
@@ -217,13 +220,13 @@ def _picture(motion: Motion, words: Language) -> list[str]:
         kind, _, name = one.name.partition(" ")
         both = (one.height_mm, one.speed_mm)
         shown = (found(float(mm), words.note) for mm in both)
-        points.append([say.points[kind].format(name=name), *shown])
+        points.append([say["points"][kind].format(name=name), *shown])
     rays = [[label, found(float(segment), words.note)] for label, segment in picture.rays]
     return [
         *wrap(scales, rest="  "),
-        *table(list(say.columns_contacts), points),
+        *table(list(say["columns_contacts"]), points),
         "",
-        *table(list(say.columns_rays), rays),
+        *table(list(say["columns_rays"]), rays),
     ]
 
 
@@ -236,11 +239,10 @@ def _published(problem: GearProblem, motion: Motion, words: Language) -> list[st
         rows.append([one.name, printed, "—" if exact is None else found(exact, words.note), off])
         if one.note:
             notes += wrap(f"{one.name}: {one.note}", rest="  ")
-    return table(list(say.columns_published), rows) + notes
+    return table(list(say["columns_published"]), rows) + notes
 
 
-@dataclass(frozen=True, slots=True)
-class Turns:
+class Turns(Struct, frozen=True):
     """The table of one carrier (таблица вращений).
 
     Attributes

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from enum import Enum
 
+from msgspec import Struct
+
 from planmethod.mechanism.model import FRAME, Mechanism
-from planmethod.record import dataclass
 
 
 class PairKind(Enum):
@@ -15,8 +16,7 @@ class PairKind(Enum):
     PRISMATIC = "prismatic"
 
 
-@dataclass(frozen=True, slots=True)
-class KinematicPair:
+class KinematicPair(Struct, frozen=True):
     """Row of the table of pairs (кинематическая пара).
 
     Attributes
@@ -65,8 +65,7 @@ class Role(Enum):
     """Кулиса: turns about a fixed point and slides along its stone."""
 
 
-@dataclass(frozen=True, slots=True)
-class LinkKind:
+class LinkKind(Struct, frozen=True):
     """Row of the table of links (движение звена)."""
 
     link: str

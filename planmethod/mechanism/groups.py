@@ -5,9 +5,10 @@ from __future__ import annotations
 from collections.abc import Collection, Sequence
 from typing import TypeAlias
 
+from msgspec import Struct
+
 from planmethod.mechanism.decompose import contours
 from planmethod.mechanism.model import Mechanism, Prismatic, Revolute
-from planmethod.record import dataclass
 
 Joint: TypeAlias = Revolute | Prismatic
 
@@ -15,8 +16,7 @@ DYADS = ("RRR", "RRP", "RPR", "PRP", "RPP")
 """Dyads (двухповодковые группы II класса) in the order of Artobolevsky's kinds 1 to 5."""
 
 
-@dataclass(frozen=True, slots=True)
-class Lead:
+class Lead(Struct, frozen=True):
     """Link of a group with the outer joint it hangs on (поводок).
 
     ``to`` is the link outside the group, already known, on the other side of the joint (the frame,
@@ -28,8 +28,7 @@ class Lead:
     to: str
 
 
-@dataclass(frozen=True, slots=True)
-class AssurGroup:
+class AssurGroup(Struct, frozen=True):
     """Group of zero mobility when joined to the frame (структурная группа, группа Ассура).
 
     Attributes

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from planmethod.record import dataclass
+from msgspec import Struct
 
 FRAME = "0"
 """Name of the frame (стойка) among the links."""
 
 
-@dataclass(frozen=True, slots=True)
-class Revolute:
+class Revolute(Struct, frozen=True):
     """Point shared by links (шарнир); k links make k - 1 revolute pairs.
 
     ``links`` are in file order, the frame (if the point is fixed) first.
@@ -24,8 +23,7 @@ class Revolute:
         return len(self.links) - 1
 
 
-@dataclass(frozen=True, slots=True)
-class Prismatic:
+class Prismatic(Struct, frozen=True):
     """Pair of a slider and the link that carries its line (поступательная пара)."""
 
     slider: str
@@ -33,8 +31,7 @@ class Prismatic:
     pin: str
 
 
-@dataclass(frozen=True, slots=True)
-class Mechanism:
+class Mechanism(Struct, frozen=True):
     """Links and joints of a planar mechanism (механизм).
 
     Attributes

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+from msgspec import Struct
+
 from planmethod.errors import StructureError
 from planmethod.mechanism.decompose import Node, blocks
 from planmethod.mechanism.groups import AssurGroup, make_group
 from planmethod.mechanism.mobility import refuse_immovable, refuse_unbalanced
 from planmethod.mechanism.model import FRAME, Mechanism
-from planmethod.record import dataclass
 
 WAYS_IN = 1
 """Number of drivers W0 (число начальных звеньев)."""
@@ -16,8 +17,7 @@ LOCAL_MOBILITY = 0
 """W_M: local mobilities (местные подвижности) come from rollers, and linkages have none."""
 
 
-@dataclass(frozen=True, slots=True)
-class Structure:
+class Structure(Struct, frozen=True):
     """Result of the structural analysis (структурный анализ).
 
     Attributes

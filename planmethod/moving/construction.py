@@ -8,11 +8,11 @@ The readings are those of every construction: exact, with a ruler, and with a pe
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import field
 from math import degrees
 from typing import Any
 
 import numpy as np
+from msgspec import Struct, field
 
 from planmethod.construct.arithmetic import Arithmetic, Float64
 from planmethod.construct.drafting import Profile, sigmas
@@ -25,7 +25,6 @@ from planmethod.moving.course import Course
 from planmethod.moving.model import Law, PointProblem
 from planmethod.moving.motion import Motion, Undefined
 from planmethod.moving.series import Reals
-from planmethod.record import dataclass
 
 READ = ("v", "a", "a_tangential", "a_normal", "rho")
 """Columns of the record that are read off the drawing."""
@@ -37,8 +36,7 @@ FREE = frozenset(POLES.values())
 """Points that may stand anywhere."""
 
 
-@dataclass(frozen=True, slots=True)
-class Vector:
+class Vector(Struct, frozen=True):
     """Vector of a construction: rich symbol, ends, which plan it is of, and whether it is whole.
 
     A part is a component or a projection of the whole one.
@@ -51,8 +49,7 @@ class Vector:
     is_whole: bool = False
 
 
-@dataclass(frozen=True, slots=True)
-class Construction:
+class Construction(Struct, frozen=True):
     """Construction of one moment (построение).
 
     Attributes
@@ -90,8 +87,7 @@ class Construction:
         return {key: float(found[name][0]) for key, name in self.results.items()}
 
 
-@dataclass(slots=True)
-class _Draft:
+class _Draft(Struct):
     """Construction in the making."""
 
     scales: Mapping[str, Scale]
@@ -299,8 +295,7 @@ def _rolling_velocity(
 # The drawn hodograph ------------------------------------------------------------------------------
 
 
-@dataclass(frozen=True, slots=True)
-class ChordReading:
+class ChordReading(Struct, frozen=True):
     """Accelerations that the drawn hodograph of the velocity gives (ускорения по годографу).
 
     The chord between the instants before and after stands for the tangent: what it misses is the

@@ -7,6 +7,8 @@ from itertools import pairwise
 from typing import Any, TypeAlias
 
 import numpy as np
+from msgspec import Struct
+from msgspec.structs import replace
 from numpy.typing import NDArray
 
 from planmethod.construct.scale import series_near
@@ -15,7 +17,6 @@ from planmethod.languages import say
 from planmethod.moving.model import PointProblem
 from planmethod.moving.motion import Motion, Undefined, move
 from planmethod.moving.series import Reals
-from planmethod.record import dataclass, replace
 
 Complexes: TypeAlias = NDArray[np.complexfloating[Any, Any]]
 
@@ -45,8 +46,7 @@ SHOWN = 3
 """Most moments of the file that have their vectors drawn."""
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Course:
+class Course(Struct, frozen=True, eq=False):
     """The drawn part of a motion (показанный участок).
 
     Attributes

@@ -7,6 +7,8 @@ from collections.abc import Iterator, Mapping
 from functools import cached_property, partial
 from typing import TYPE_CHECKING
 
+from msgspec.structs import replace
+
 from planmethod.moving.construction import construct
 from planmethod.moving.course import course_of
 from planmethod.moving.model import PointProblem
@@ -15,7 +17,6 @@ from planmethod.moving.reader import WHAT, column_of
 from planmethod.moving.sheet import sheet_scales
 from planmethod.moving.text import SYMBOLS, unit_of
 from planmethod.problem.figures import Figure, Mistaken, Taken
-from planmethod.record import replace
 
 if TYPE_CHECKING:
     from planmethod.construct.drafting import Profile

@@ -5,20 +5,21 @@ from __future__ import annotations
 from collections.abc import Mapping
 from enum import Enum
 
+from msgspec import Struct
+from msgspec.structs import replace
+
 from planmethod.languages import say
 from planmethod.problem.fields import Faults, is_number
-from planmethod.problem.formula import LENGTH_LIMIT, FormulaError, Kind, Operation, Parser
+from planmethod.problem.formula import LENGTH_LIMIT, FormulaError, FormulaKind, Operation, Parser
 from planmethod.problem.head import KindProblem
 from planmethod.problem.model import Scales
 from planmethod.problem.names import describe_lookalikes, fold, lookalikes, short
-from planmethod.record import dataclass, replace
 
 ANGULAR = ("sin", "cos", "tg", "ctg")
 """Those of angles."""
 
 
-@dataclass(frozen=True, slots=True)
-class Formula:
+class Formula(Struct, frozen=True):
     """A function of time (формула).
 
     Attributes
@@ -35,7 +36,7 @@ class Formula:
     @property
     def is_constant(self) -> bool:
         """Whether time does not stand in it."""
-        return all(operation.kind is not Kind.TIME for operation in self.operations)
+        return all(operation.kind is not FormulaKind.TIME for operation in self.operations)
 
     @property
     def in_degrees(self) -> Formula:
@@ -101,8 +102,7 @@ FORMULAS: Mapping[Law, tuple[str, ...]] = {
 """Keys of the formulas that state a motion."""
 
 
-@dataclass(frozen=True, slots=True)
-class Wheel:
+class Wheel(Struct, frozen=True):
     """Wheel that rolls without slipping and carries the point (катящееся колесо).
 
     Attributes
@@ -128,8 +128,7 @@ class Wheel:
     arm: float = 0.0
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class PointProblem(KindProblem):
+class PointProblem(KindProblem, frozen=True, kw_only=True):
     """A moving point (движущаяся точка).
 
     Attributes

@@ -5,11 +5,11 @@ from __future__ import annotations
 from enum import Enum
 
 import numpy as np
+from msgspec import Struct
 
 from planmethod.construct.jet import Jet
 from planmethod.moving.model import Law, PointProblem, Wheel
 from planmethod.moving.series import CALLS, ROUNDOFF, Bounded, Reals, bounded, evaluate, length
-from planmethod.record import dataclass
 
 
 class Undefined(Enum):
@@ -44,8 +44,7 @@ velocities P (мгновенный центр скоростей), where it touc
 round the origin, how fast the arm to it does."""
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Motion:
+class Motion(Struct, frozen=True, eq=False):
     """Motion of a point at all its moments (движение точки).
 
     Attributes

@@ -9,6 +9,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from math import ceil, floor
 
 import numpy as np
+from msgspec.structs import replace
 
 from planmethod.construct.scale import Scale, choose_scale, series_near
 from planmethod.construct.steps import PointName
@@ -18,7 +19,6 @@ from planmethod.moving.model import Law, PointProblem
 from planmethod.moving.motion import Motion
 from planmethod.note.numbers import Notation, trimmed
 from planmethod.problem.model import Convention
-from planmethod.record import replace
 from planmethod.render.ink.drawing import Arc, Disc, Ink, Item, Pen, Stroke
 from planmethod.render.ink.extent import ink_bounds
 from planmethod.render.ink.typeset import typeset, vector_markup

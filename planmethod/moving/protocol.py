@@ -76,8 +76,8 @@ def _readings(
     """Return what the drawing gives beside the exact values, with its error."""
     whole = read_rows(built, course.marks, k, words, profile)
     rows = [[plain_text(cell) for cell in row] for row in whole]
-    title = words.point.read_title.format(profile=words.note.profiles[profile.name])
-    return [title, *table(words.point.read, rows)]
+    title = words.point.read_title.format(profile=words.note["profiles"][profile.name])
+    return [title, *table(words.point["read"], rows)]
 
 
 def _hodograph(course: Course, scale: Scale, words: Language, profile: Profile) -> list[str]:
@@ -97,7 +97,7 @@ def _hodograph(course: Course, scale: Scale, words: Language, profile: Profile) 
         rows.append([plain_text(cell) for cell in cells])
     said = words.point
     return ["", *heading(said.by_hodograph), *wrap(plain_text(said.chord_told)), "",
-            *table(said.chords, rows, left=0)]  # fmt: skip
+            *table(said["chords"], rows, left=0)]  # fmt: skip
 
 
 class _Teller:
@@ -184,7 +184,7 @@ class _Teller:
         numbers += self._put(self.built.scales[plan].per_mm)
         line = self.step[along]
         turned = isinstance(line, steps.Perpendicular)
-        way = said.ways[("across" if turned else "along") + ("" if mm >= 0 else " back")]
+        way = said["ways"][("across" if turned else "along") + ("" if mm >= 0 else " back")]
         told = said.lay_off if plan != "l" else said.lay_off_side
         return told.format(
             symbol=symbol,

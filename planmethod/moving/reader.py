@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from msgspec.structs import replace
 
 from planmethod.errors import ProblemError
 from planmethod.languages import say
@@ -16,15 +17,14 @@ from planmethod.moving.series import ROUNDOFF, evaluate
 from planmethod.problem import fields, keys
 from planmethod.problem.answers import Plain, read_answers
 from planmethod.problem.drive import read_scales, spread, too_many
-from planmethod.problem.extras import read_published
 from planmethod.problem.fields import Faults
 from planmethod.problem.formula import is_exact
 from planmethod.problem.head import Published
 from planmethod.problem.names import listed, near_hint, segment, short
 from planmethod.problem.reader import laid_over, varied
+from planmethod.problem.selector import read_published
 from planmethod.problem.sheet import read_head
 from planmethod.problem.source import parse
-from planmethod.record import replace
 
 TOP = (
     "title", "source", "point", "scales", "stamp", "sheet", "published", "answers", "compare",

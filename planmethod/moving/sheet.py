@@ -208,13 +208,13 @@ class _Point(Struct, frozen=True):
         ]
         lines: list[str] = []
         for line in moment_lines(self.problem, self.course.marks, k, self.words):
-            same = line.count("=") == 1 and line not in self.words.point.reasons.values()
+            same = line.count("=") == 1 and line not in self.words.point["reasons"].values()
             if lines and same and lines[-1].count("=") == 1:
                 lines[-1] += f";  {line}"  # two components
             else:
                 lines.append(line)
         for line in lines:
-            is_said = line in self.words.point.reasons.values()
+            is_said = line in self.words.point["reasons"].values()
             blocks.append((paragraph if is_said else formula_block)(line, SIZES.text, width=width))
         return Column(blocks, gap=2.6)
 
@@ -223,9 +223,9 @@ class _Point(Struct, frozen=True):
         whole = read_rows(built, self.course.marks, k, self.words, self.profile)
         rows, said = [row for row in whole if row[2] != "—"], self.words.point
         columns = [
-            TableColumn(head, tuple(row[n] for row in rows)) for n, head in enumerate(said.read)
+            TableColumn(head, tuple(row[n] for row in rows)) for n, head in enumerate(said["read"])
         ]
-        title = said.read_title.format(profile=self.words.note.profiles[self.profile.name])
+        title = said.read_title.format(profile=self.words.note["profiles"][self.profile.name])
         return Column(
             [Line(typeset(title, SIZES.text)), table_block(columns, SIZES.text, units="none")], 2.5
         )

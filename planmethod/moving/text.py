@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable
 
 from planmethod.moving.model import Law, PointProblem
@@ -9,8 +10,7 @@ from planmethod.moving.motion import COLUMNS, POLAR, ROLLED, Motion, Undefined, 
 from planmethod.note.numbers import MINUS, Notation, alike, significant, with_unit
 from planmethod.note.plaintext import columns_text, heading, plain_text, spoken, table, wrap
 from planmethod.note.plaintext import given as written
-from planmethod.note.wording import Language, Wording, language
-from planmethod.pattern import pattern
+from planmethod.note.wording import Language, Words, language
 
 FEW = 3
 """Most moments that are told with formulas; more are rows of a table."""
@@ -40,7 +40,7 @@ def solved_text(problem: PointProblem, lang: str = "ru") -> str:
         for k, why in enumerate(motion.reasons):
             if why is not None:
                 time = written(problem.times[k], words)
-                lines += wrap(f"t = {time}: {said.point.reasons[why.value]}", rest="  ")
+                lines += wrap(f"t = {time}: {said.point['reasons'][why.value]}", rest="  ")
     if problem.law is Law.POLAR:
         lines += ["", said.point.polar, *_rows(motion, ("t", *POLAR), words)]
     if problem.law is Law.ROLLING:
@@ -53,10 +53,10 @@ def solved_text(problem: PointProblem, lang: str = "ru") -> str:
     return "\n".join([*lines, *(["", *printed] if printed else [])])
 
 
-def _rows(motion: Motion, names: tuple[str, ...], words: Wording) -> list[str]:
+def _rows(motion: Motion, names: tuple[str, ...], words: Words) -> list[str]:
     columns = []
     for name in names:
-        unit = words.units[unit_of(name)] if name != "t" else ""
+        unit = words["units"][unit_of(name)] if name != "t" else ""
         symbol = plain_text(SYMBOLS[name])
         values = [float(value) for value in motion.columns[name]]
         told = alike(values) if all(v == v for v in values) else [significant(v) for v in values]
@@ -67,7 +67,7 @@ def _rows(motion: Motion, names: tuple[str, ...], words: Wording) -> list[str]:
     return columns_text(columns, 1)
 
 
-def _printed(problem: PointProblem, motion: Motion, words: Wording, lang: str) -> list[str]:
+def _printed(problem: PointProblem, motion: Motion, words: Words, lang: str) -> list[str]:
     """Return printed values beside the exact ones."""
     rows = []
     for item in problem.published:
@@ -78,7 +78,7 @@ def _printed(problem: PointProblem, motion: Motion, words: Wording, lang: str) -
             spoken(significant(item.value - exact, 2), words),
         )
         rows.append((item.name, plain_text(SYMBOLS.get(item.what, "—")), *cells))
-    return table(language(lang).point.printed, rows, left=2) if rows else []
+    return table(language(lang).point["printed"], rows, left=2) if rows else []
 
 
 SYMBOLS = {
@@ -118,11 +118,11 @@ def unit_of(name: str) -> str:
 
 def textbook(text: str, decimal: str) -> str:
     """Return a formula of a file as a textbook prints it, rich text: powers, roots, π."""
-    shown = _ROOT.sub("√", _PI.sub("π", text.replace(".", decimal).replace("-", MINUS)))
+    shown = re.sub(_ROOT, "√", re.sub(_PI, "π", text.replace(".", decimal).replace("-", MINUS)))
     return raised_powers(shown)
 
 
-_PI, _ROOT = pattern(r"\bpi\b"), pattern(r"\bsqrt\b")
+_PI, _ROOT = r"\bpi\b", r"\bsqrt\b"
 
 
 def raised_powers(text: str) -> str:
@@ -139,7 +139,7 @@ def raised_powers(text: str) -> str:
 
 def _end_of_power(tail: str) -> int:
     """Return where the power ends that a text begins with: ``-t``, ``(1/2)``, ``2^t``."""
-    named = _POWER.match(tail)
+    named = re.match(_POWER, tail)
     end = named.end() if named else 0
     if tail[end : end + 1] == "(":
         depth = 0
@@ -151,7 +151,7 @@ def _end_of_power(tail: str) -> int:
     return end + 1 + _end_of_power(tail[end + 1 :]) if tail[end : end + 1] == "^" else end
 
 
-_POWER = pattern(r" *[-+− ]*(?:[0-9.,]+(?:[eE][-+−]?[0-9]+)?|[A-Za-z_π√]+[0-9]*)?")
+_POWER = r" *[-+− ]*(?:[0-9.,]+(?:[eE][-+−]?[0-9]+)?|[A-Za-z_π√]+[0-9]*)?"
 
 
 def law_lines(
@@ -177,7 +177,7 @@ def law_lines(
         wheel = problem.wheel
         kind = "line" if not wheel.track else "on" if wheel.track > 0 else "within"
         size = wheel.arm or abs(wheel.track)
-        track = said.tracks["arm" if wheel.arm else kind].format(radius=say.given(size))
+        track = said["tracks"]["arm" if wheel.arm else kind].format(radius=say.given(size))
         numbers = {
             "radius": say.given(wheel.radius),
             "r": say.given(wheel.r),
@@ -221,7 +221,7 @@ def moment_lines(problem: PointProblem, motion: Motion, k: int, words: Language)
     if why is None:
         lines.append(line("rho", "v^{2}/a_{n}", f"{put('v')}^{{2}}/{put('a_normal')}"))
     else:
-        lines.append(words.point.reasons[why.value])
+        lines.append(words.point["reasons"][why.value])
     return lines
 
 

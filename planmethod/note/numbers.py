@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Mapping, Sequence
 from typing import SupportsFloat
 
-from planmethod.pattern import pattern
-from planmethod.record import dataclass
+from msgspec import Struct
 
 MINUS = "−"
 
@@ -74,14 +74,13 @@ def rich_number(text: str, decimal: str) -> str:
 
 def raised(unit: str) -> str:
     """Return a unit of plain text as rich text: ``m/s²`` gives ``m/s^{2}``."""
-    return _POWER.sub(lambda power: f"^{{{power[0].translate(_LEVEL)}}}", unit)
+    return re.sub(_POWER, lambda power: f"^{{{power[0].translate(_LEVEL)}}}", unit)
 
 
-_POWER, _LEVEL = pattern("[⁻¹²]+"), str.maketrans("⁻¹²", f"{MINUS}12")
+_POWER, _LEVEL = "[⁻¹²]+", str.maketrans("⁻¹²", f"{MINUS}12")
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Notation:
+class Notation(Struct, frozen=True, eq=False):
     """How a language writes numbers, units and symbols, as rich text (запись чисел).
 
     Attributes

@@ -9,10 +9,9 @@ from collections.abc import Iterable, Iterator, Sequence
 from typing import TYPE_CHECKING
 
 from planmethod.note.numbers import Notation, rich_number, significant, trimmed
-from planmethod.pattern import pattern
 
 if TYPE_CHECKING:
-    from planmethod.note.wording.model import Wording
+    from planmethod.note.wording import Words
 
 
 WIDTH = 100
@@ -25,8 +24,8 @@ NO_BREAK = "\N{NO-BREAK SPACE}"
 
 _SUPER = dict(zip("0123456789-−ntτkr", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻⁻ⁿᵗᵗᵏʳ", strict=True))
 _SUB = dict(zip("0123456789", "₀₁₂₃₄₅₆₇₈₉", strict=True))
-_UP = pattern(r"\^\{([^}]*)\}")
-_DOWN = pattern(r"_\{([^}]*)\}")
+_UP = r"\^\{([^}]*)\}"
+_DOWN = r"_\{([^}]*)\}"
 
 
 def plain_text(rich: str) -> str:
@@ -41,25 +40,25 @@ def plain_text(rich: str) -> str:
             return ""
         return "".join(_SUB[c] for c in text) if all(c in _SUB for c in text) else f"_{text}"
 
-    return _DOWN.sub(down, _UP.sub(up, rich))
+    return re.sub(_DOWN, down, re.sub(_UP, up, rich))
 
 
-def spoken(text: str, words: Wording) -> str:
+def spoken(text: str, words: Words) -> str:
     """Return a number with a decimal point as the language writes it."""
     return plain_text(rich_number(text, words.decimal))
 
 
-def found(value: float, words: Wording) -> str:
+def found(value: float, words: Words) -> str:
     """Return a result, four significant digits."""
     return spoken(significant(value), words)
 
 
-def given(value: float, words: Wording, digits: int | None = None) -> str:
+def given(value: float, words: Words, digits: int | None = None) -> str:
     """Return a given number, no more digits than it has."""
     return spoken(trimmed(value, digits), words)
 
 
-def fixed(value: float, words: Wording, places: int = 2) -> str:
+def fixed(value: float, words: Words, places: int = 2) -> str:
     """Return a number with so many digits after the decimal sign."""
     return spoken(f"{value + 0.0:.{places}f}", words)
 
@@ -150,17 +149,17 @@ def plain_columns(
 INDENT = " " * 5
 """What stands before the lines of a step, under its number."""
 
-_WORD = pattern(r"^[^\W\d_]+")
+_WORD = r"^[^\W\d_]+"
 """Letters that a unit begins with: between a number and them no line is cut."""
 
 
 class Steps:
     """Plain text while it is being written: headings, and steps numbered through all of them."""
 
-    def __init__(self, words: Wording) -> None:
+    def __init__(self, words: Words) -> None:
         self.lines: list[str] = []
-        units = "|".join(name for unit in words.units.values() for name in _WORD.findall(unit))
-        self._unit = pattern(rf"(?<=\d) (?=(?:{units})(?![^\W\d_]))")
+        units = "|".join(n for unit in words["units"].values() for n in re.findall(_WORD, unit))
+        self._unit = rf"(?<=\d) (?=(?:{units})(?![^\W\d_]))"
         self._step = self._chapter = self._part = 0
 
     def chapter(self, title: str) -> None:
@@ -182,7 +181,7 @@ class Steps:
             self._step += 1
         for i, line in enumerate(lines):
             first = f"{self._step:>3}) " if i == 0 and not more else INDENT
-            text = self._unit.sub(NO_BREAK, plain_text(line))
+            text = re.sub(self._unit, NO_BREAK, plain_text(line))
             self.lines += wrap(text, first=first, rest=INDENT)
 
     def formulas(self, lines: Sequence[str]) -> None:

@@ -12,7 +12,7 @@ from planmethod.note.narrate.structure import group_title
 from planmethod.note.plaintext import NO_BREAK, Steps, given, heading, plain_text, wrap
 from planmethod.note.tables.results import position_line, position_tables, scale_texts
 from planmethod.note.tables.turn import cycle_protocol
-from planmethod.note.wording import Wording, language, wording
+from planmethod.note.wording import Words, language, wording
 from planmethod.plans.build import Section
 from planmethod.plans.model import PlanKind
 from planmethod.solved.solution import Solution
@@ -50,7 +50,7 @@ def protocol(solution: Solution, *, lang: str = "ru", position: int = 0) -> str:
 class _Writer(Steps):
     """Text of a protocol while it is being written."""
 
-    def __init__(self, solution: Solution, words: Wording, index: int) -> None:
+    def __init__(self, solution: Solution, words: Words, index: int) -> None:
         super().__init__(words)
         self.solution, self.words, self.index = solution, words, index
         self.names = Names(solution, words)
@@ -76,7 +76,7 @@ class _Writer(Steps):
                 continue  # guides alone: each is drawn where it is used
             if section.kind is not kind:
                 kind = section.kind
-                self.chapter(words.plans[kind.value])
+                self.chapter(words["plans"][kind.value])
                 self._open_plan(kind)
             self._section(section)
         if problem.dynamics is not None:

@@ -1,19 +1,17 @@
-"""Records of many positions, put together column by column, as plain data and as JSON."""
+"""Records of many positions, kept column by column and put together as plain data."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
-from types import NoneType
+from collections.abc import Mapping, Sequence
 from typing import Any, TypeAlias
 
-from planmethod.record import dataclass
+from msgspec import Struct
 
 Column: TypeAlias = list[Any]
 """What a record says in every position."""
 
 
-@dataclass(frozen=True)
-class Records:
+class Records(Struct, frozen=True):
     """Records of many positions, kept column by column: who reads them puts them together.
 
     Attributes
@@ -68,55 +66,3 @@ def plain_of(value: Any) -> Any:
     if isinstance(value, dict):
         return {key: plain_of(one) for key, one in value.items()}
     return value.plain() if isinstance(value, Records) else value
-
-
-class Written:
-    """Records as JSON, the same text as of their plain data, but columns are written at once.
-
-    Parameters
-    ----------
-    write : callable
-        Writes plain data as JSON, in one line.
-    """
-
-    def __init__(self, write: Callable[[Any], str]) -> None:
-        self._write = write
-        self._known: dict[tuple[Any, ...], list[str]] = {}
-
-    def text(self, value: Any) -> str:
-        """Return what holds records as JSON."""
-        if isinstance(value, dict):
-            told = (f"{self._write(key)}: {self.text(one)}" for key, one in value.items())
-            return "{" + ", ".join(told) + "}"
-        if not isinstance(value, Records):
-            return self._write(value)
-        texts: list[list[str]] = []
-        form = self._form(value, texts)
-        every = zip(*texts, strict=True) if texts else [()] * value.count
-        return f"[{', '.join([form % one for one in every])}]"
-
-    def _form(self, value: Column | Records, texts: list[list[str]]) -> str:
-        """Return a record with ``%s`` for what each position has, which goes to ``texts``."""
-        if not isinstance(value, Records):
-            texts.append(self._column(value))
-            return "%s"
-        forms = [self._form(column, texts) for column in value.columns]
-        if value.names is None:
-            return f"[{', '.join(forms)}]"
-        names = [self._write(name).replace("%", "%%") for name in value.names]
-        forms = [f"{name}: {form}" for name, form in zip(names, forms, strict=True)]
-        whole = ", ".join(forms)
-        if value.some:
-            more = {index: f", {self._write(one)[1:-1]}" for index, one in value.some.items()}
-            texts.append([more.get(index, "") for index in range(len(texts[-1]))])
-            whole += "%s"
-        return "{" + whole + "}"
-
-    def _column(self, column: Column) -> list[str]:
-        if not column or not set(map(type, column)) <= {float, NoneType}:
-            texts = {mark: self._write(one) for mark, one in {id(v): v for v in column}.items()}
-            return [texts[id(value)] for value in column]
-        known = tuple(column)  # what one link does to another is what that does to the one
-        if known not in self._known:
-            self._known[known] = self._write(column)[1:-1].split(", ")
-        return self._known[known]

@@ -6,12 +6,10 @@ from collections.abc import Mapping
 
 import numpy as np
 import numpy.typing as npt
+from msgspec import Struct
 
-from planmethod.record import dataclass
 
-
-@dataclass(frozen=True, slots=True)
-class Closing:
+class Closing(Struct, frozen=True):
     """In which of its two ways a group closes (способ сборки).
 
     Attributes

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from enum import Enum
 
-from planmethod.record import dataclass
+from msgspec import Struct
 
 
 class DimensionKind(Enum):
@@ -18,8 +18,7 @@ class DimensionKind(Enum):
     WAY = "s"  # of the driving slider
 
 
-@dataclass(frozen=True, slots=True)
-class Dimension:
+class Dimension(Struct, frozen=True):
     """Given number of a construction, in metres or in millimetres of the drawing (размер).
 
     Attributes

@@ -5,7 +5,6 @@ from __future__ import annotations
 import cmath
 import copy
 import math
-from dataclasses import field
 from typing import NamedTuple
 
 from planmethod.construct.program import Builder
@@ -15,7 +14,6 @@ from planmethod.plans.closing import Choice, Closing
 from planmethod.plans.dimensions import Dimension, DimensionKind
 from planmethod.plans.model import PlanKind
 from planmethod.problem.model import Problem, Slide
-from planmethod.record import dataclass
 
 TINY = 1e-12
 """Share of a link's size below which an offset is rounding, not a dimension."""
@@ -47,7 +45,6 @@ class Track(NamedTuple):
     line: LineName
 
 
-@dataclass(slots=True)
 class Draft:
     """State of a construction being planned (черновик построения).
 
@@ -82,25 +79,21 @@ class Draft:
         What points of the velocity and acceleration plans are called, as far as it is told early.
     """
 
-    problem: Problem
-    choice: Choice
-    b: Builder = field(default_factory=Builder)
-    numbers: dict[str, float] = field(default_factory=dict)
-    places: dict[str, complex] = field(default_factory=dict)
-    branches: dict[str, Closing] = field(default_factory=dict)
-    placed: dict[str, list[str]] = field(default_factory=dict)
-    axes: dict[str, LineName] = field(default_factory=dict)
-    mu_l: NumberName = field(init=False)
-    origin: complex = field(init=False)
-    read: list[tuple[str, str]] = field(default_factory=list)
-    dimensions: dict[NumberName, Dimension] = field(default_factory=dict)
-    feet: dict[PointName, str] = field(default_factory=dict)
-    plans: dict[Name, PlanKind] = field(default_factory=dict)
-    letters: dict[PointName, str] = field(default_factory=dict)
-
-    def __post_init__(self) -> None:
+    def __init__(self, problem: Problem, choice: Choice) -> None:
+        self.problem, self.choice = problem, choice
+        self.b = Builder()
+        self.numbers: dict[str, float] = {}
+        self.places: dict[str, complex] = {}
+        self.branches: dict[str, Closing] = {}
+        self.placed: dict[str, list[str]] = {}
+        self.axes: dict[str, LineName] = {}
         self.mu_l = self.b.known("mu_l")
-        self.origin = _origin(self.problem)
+        self.origin = _origin(problem)
+        self.read: list[tuple[str, str]] = []
+        self.dimensions: dict[NumberName, Dimension] = {}
+        self.feet: dict[PointName, str] = {}
+        self.plans: dict[Name, PlanKind] = {}
+        self.letters: dict[PointName, str] = {}
 
     def copy(self) -> Draft:
         """Return a draft that goes on from here, and leaves this one as it is."""

@@ -9,19 +9,19 @@ from __future__ import annotations
 from collections.abc import Iterator
 from enum import Enum, unique
 
+from msgspec import Struct
+
 from planmethod.construct.steps import Compute, LayOff, Name, NumberName, PointName
 from planmethod.plans.draft import Draft
 from planmethod.plans.model import PlanKind
 from planmethod.plans.motion.board import Motion, plain_letter
 from planmethod.plans.motion.leads import Kinematics
-from planmethod.record import dataclass
 
 ZERO = "0"
 """Name of the number zero, which nothing in a problem can be called."""
 
 
-@dataclass(frozen=True, slots=True)
-class KindFacts:
+class KindFacts(Struct, frozen=True):
     """What goes with a kind of quantity.
 
     Attributes
@@ -89,8 +89,7 @@ TURNING = (QuantityKind.DIRECTION, QuantityKind.OMEGA, QuantityKind.EPSILON)
 """Kinds of what is told of links."""
 
 
-@dataclass(frozen=True, slots=True)
-class Quantity:
+class Quantity(Struct, frozen=True):
     """One quantity of a solved problem (величина).
 
     Attributes
@@ -142,8 +141,7 @@ class Quantity:
         return tuple(stem + end for end in self.kind.columns) or (self.label,)
 
 
-@dataclass(frozen=True, slots=True)
-class PlanSegment:
+class PlanSegment(Struct, frozen=True):
     """Segment of a plan that is measured on paper (отрезок плана).
 
     Attributes

@@ -5,9 +5,10 @@ from __future__ import annotations
 from collections.abc import Mapping
 from enum import Enum
 
+from msgspec import Struct
+
 from planmethod.construct.steps import PointName
 from planmethod.problem.model import Convention, Problem
-from planmethod.record import dataclass
 
 
 class PlanKind(Enum):
@@ -20,8 +21,7 @@ class PlanKind(Enum):
     LEVER = "lever"
 
 
-@dataclass(frozen=True, slots=True)
-class PlanFacts:
+class PlanFacts(Struct, frozen=True):
     """What goes with a kind of plan (масштаб, полюс и единица плана).
 
     Attributes
@@ -100,8 +100,7 @@ class Relation(Enum):
     STILL = "still"  # no vector at all: = 0
 
 
-@dataclass(frozen=True, slots=True)
-class Direction:
+class Direction(Struct, frozen=True):
     """Direction of a vector as it is known before the plan is drawn (направление вектора).
 
     Attributes
@@ -134,8 +133,7 @@ def towards(p: str, q: str) -> Direction:
     return Direction(Relation.TOWARDS, (p, q))
 
 
-@dataclass(frozen=True, slots=True)
-class Vector:
+class Vector(Struct, frozen=True):
     """One term of a vector equation and the segment of the plan that shows it.
 
     Attributes
@@ -156,16 +154,14 @@ class Vector:
     direction: Direction | None = None
 
 
-@dataclass(frozen=True, slots=True)
-class VectorEquation:
+class VectorEquation(Struct, frozen=True):
     """``left = right[0] + right[1] + ...`` (векторное уравнение)."""
 
     left: Vector
     right: tuple[Vector, ...]
 
 
-@dataclass(frozen=True, slots=True)
-class Plan:
+class Plan(Struct, frozen=True):
     """One plan for all positions (план); its steps are in the program of the solution.
 
     Attributes

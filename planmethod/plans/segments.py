@@ -6,18 +6,18 @@ nothing that was laid off is read, and nothing is read twice.
 
 from __future__ import annotations
 
-from dataclasses import field
 from typing import TypeAlias
+
+from msgspec import Struct, field
+from msgspec.structs import replace
 
 from planmethod.construct.program import Builder
 from planmethod.construct.steps import LineName, NumberName, PointName
-from planmethod.record import dataclass, replace
 
 Ends: TypeAlias = tuple[PointName, PointName]
 
 
-@dataclass(slots=True)
-class Segments:
+class Segments(Struct):
     """Segments of one plan, or of plans with one scale.
 
     Attributes

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping
 from typing import TYPE_CHECKING, NamedTuple, Protocol
 
-from planmethod.record import dataclass
+from msgspec import Struct
 
 if TYPE_CHECKING:
     from planmethod.construct.drafting import Profile
@@ -14,8 +14,7 @@ Taken = Callable[[str, int], float | None]
 """Value of a quantity by its name and position; None where it has none."""
 
 
-@dataclass(frozen=True, slots=True)
-class Figure:
+class Figure(Struct, frozen=True):
     """What an answer should be (величина).
 
     Attributes

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Collection, Iterable, Mapping
+
+from msgspec import Struct
+from msgspec.structs import replace
 
 from planmethod.languages import say
 from planmethod.mechanism.model import FRAME
-from planmethod.pattern import pattern
 from planmethod.problem import fields, keys
 from planmethod.problem.fields import Faults, Table
 from planmethod.problem.links import LinkText
@@ -14,14 +17,12 @@ from planmethod.problem.load_records import Against, Couple, Fixed, Load
 from planmethod.problem.model import Drive
 from planmethod.problem.names import listed, near_hint
 from planmethod.problem.sizes import TURN, read_phase, read_size
-from planmethod.record import dataclass, replace
 
 NAME_LIMIT = 40
-_NAME_RE = pattern(r"(?:[^_^{}\\]|[_^](?:[^_^{}\\]|\{[^_^{}\\]+\}))+\Z")
+_NAME_RE = r"(?:[^_^{}\\]|[_^](?:[^_^{}\\]|\{[^_^{}\\]+\}))+\Z"
 
 
-@dataclass(frozen=True, slots=True)
-class Scene:
+class LoadScope(Struct, frozen=True):
     """What masses and loads may name.
 
     Attributes
@@ -76,7 +77,7 @@ class Scene:
         return None
 
 
-def read_loads(faults: Faults, value: object, scene: Scene) -> tuple[Load | Couple, ...]:
+def read_loads(faults: Faults, value: object, scene: LoadScope) -> tuple[Load | Couple, ...]:
     """Read ``[[loads]]``, in file order."""
     if not isinstance(value, list) or not all(isinstance(item, Mapping) for item in value):
         faults.expected("loads", "tables [[loads]]", value)
@@ -101,7 +102,7 @@ def _read_names(faults: Faults, bodies: Iterable[Table]) -> list[str | None]:
         path, name = f"loads[{index}].name", None
         if "name" in body:
             name = fields.read_text(faults, path, body["name"], limit=NAME_LIMIT)
-        if name is not None and not _NAME_RE.match(name):
+        if name is not None and not re.match(_NAME_RE, name):
             faults.expected(
                 path, "a letter with its indices", name, "For example: F_{5}, P, M_{1}^{c}."
             )
@@ -131,10 +132,10 @@ def _read_load(
     body: Table,
     name: str | None,
     taken: Collection[str],
-    scene: Scene,
+    scene: LoadScope,
 ) -> Load | Couple | None:
     before = len(faults)
-    given = fields.read_keys(faults, path, body, keys.LOAD)
+    given = fields.read_keys(faults, path, body, keys.known("load"))
     # a misspelt key is reported once: the key it should have been is not called missing as well
     whole = len(faults) == before
     link = None
@@ -164,7 +165,7 @@ def _read_force(
     path: str,
     given: Table,
     link: LinkText | None,
-    scene: Scene,
+    scene: LoadScope,
     *,
     whole: bool,
 ) -> Load | None:
@@ -204,7 +205,7 @@ def _read_force(
 
 
 def _read_couple(
-    faults: Faults, path: str, given: Table, link: LinkText | None, scene: Scene
+    faults: Faults, path: str, given: Table, link: LinkText | None, scene: LoadScope
 ) -> Couple | None:
     for key, why in (
         ("at", "A couple acts on the whole link."),

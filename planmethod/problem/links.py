@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Mapping
-from dataclasses import field
 from itertools import permutations
 from typing import Any
+
+from msgspec import Struct, field
 
 from planmethod.languages import say
 from planmethod.mechanism.model import FRAME
@@ -24,11 +25,9 @@ from planmethod.problem.names import (
     split_names,
     split_pair,
 )
-from planmethod.record import dataclass
 
 
-@dataclass(frozen=True, slots=True)
-class Length:
+class Length(Struct, frozen=True):
     """Length key of a link: metres between two of its points."""
 
     key: str
@@ -41,8 +40,7 @@ class Length:
         return self.b if point == self.a else self.a
 
 
-@dataclass(frozen=True, slots=True)
-class Angle:
+class Angle(Struct, frozen=True):
     """Angle key of a link: from one directed line of it to another, degrees, ccw positive.
 
     ``AOD``: from OA to OD; ``ABCD``: from AB to CD.
@@ -54,8 +52,7 @@ class Angle:
     value: float
 
 
-@dataclass(slots=True)
-class LinkText:
+class LinkText(Struct):
     """One link as written.
 
     Attributes
@@ -333,8 +330,8 @@ def _report_odd_key(faults: Faults, path: str, key: str, value: object, link: Li
 
 def _report_unknown_key(faults: Faults, path: str, key: str, link: LinkText, hint: str) -> None:
     """Note a key that no link has; ``hint`` is for one that is near to none."""
-    guess = near(key, (*keys.LINK, *_pair_names(link.points), *keys.MASS))
-    if guess in keys.MASS:
+    guess = near(key, (*keys.LINK, *_pair_names(link.points), *keys.known("mass")))
+    if guess in keys.known("mass"):
         hint = say("It stands in [dynamics.links.{}]: {} = ...", segment(link.name), guess)
     elif guess:
         hint = say("Did you mean '{}'?", guess)

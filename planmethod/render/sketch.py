@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import field
 from math import radians
+
+from msgspec import Struct, field
 
 from planmethod.construct.scale import Scale, choose_scale
 from planmethod.construct.steps import PointName
 from planmethod.errors import ProblemError
 from planmethod.mechanism.model import FRAME
+from planmethod.note.formula import escape
 from planmethod.note.narrate.given import point_name
 from planmethod.note.narrate.scales import scale_inscription
 from planmethod.note.narrate.turn import degrees, range_fact
@@ -17,10 +19,9 @@ from planmethod.note.wording import Language
 from planmethod.plans.draft import cis
 from planmethod.plans.model import PlanKind
 from planmethod.problem.model import Convention
-from planmethod.record import dataclass
 from planmethod.render.forces.arrows import Acting, Turning, couple_items, force_items, lay_forces
 from planmethod.render.ink.drawing import Arc, Drawing, Item, Pen, Stroke
-from planmethod.render.ink.typeset import escape, typeset
+from planmethod.render.ink.typeset import typeset
 from planmethod.render.labels import Label
 from planmethod.render.layout.block import Block, Column, Picture, paragraph
 from planmethod.render.pictures.lettered import lettered
@@ -48,8 +49,7 @@ _HALF = 60  # of a drawn arc, degrees
 _OUT = 6.0  # of the arc of possible positions beyond the crank's pin, mm
 
 
-@dataclass
-class _Marks:
+class _Marks(Struct):
     """What is drawn over the scheme."""
 
     items: list[Item] = field(default_factory=list)

@@ -9,11 +9,11 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 import numpy as np
+from msgspec import Struct
 
 from planmethod.construct.steps import Measure, MeasureAlong, NumberName, PointName
 from planmethod.plans.build import Construction
 from planmethod.plans.model import PlanKind
-from planmethod.record import dataclass
 from planmethod.solved.reading import Reading, Reals
 
 SHORT = 5.0
@@ -30,8 +30,7 @@ _WANTED = 10.0  # mm that the shortest segment of a knot has on its view
 _WIDEST = 60.0  # mm that such a view may be across
 
 
-@dataclass(frozen=True, slots=True)
-class Knot:
+class Knot(Struct, frozen=True):
     """Short segments in one place of a plan (узел, выносной элемент).
 
     Attributes

@@ -8,17 +8,18 @@ from __future__ import annotations
 
 from enum import Enum
 
+from msgspec import Struct
+from msgspec.structs import replace
+
 from planmethod.errors import AssemblyError
 from planmethod.languages import say
 from planmethod.plans.model import PlanKind
 from planmethod.problem.model import Coordinate, Problem
 from planmethod.problem.names import told_length
-from planmethod.record import dataclass, replace
 from planmethod.solved.reading import Reals
 
 
-@dataclass(frozen=True, slots=True)
-class Place:
+class Place(Struct, frozen=True):
     """Position that is told of (положение ведущего звена).
 
     Attributes
@@ -152,8 +153,7 @@ class Cause(Enum):
     )
 
 
-@dataclass(frozen=True, slots=True)
-class Failure:
+class Failure(Struct, frozen=True):
     """Why a position has no results (отказ).
 
     Attributes
@@ -249,8 +249,7 @@ class PositionError(AssemblyError):
         super().__init__(str(failure))
 
 
-@dataclass(frozen=True, slots=True)
-class Doubt:
+class Doubt(Struct, frozen=True):
     """Position whose results are good to few digits (сомнительное положение).
 
     Attributes
@@ -277,8 +276,7 @@ class Doubt:
         return say(told, self.place, nature, self.bound)
 
 
-@dataclass(frozen=True, slots=True)
-class MoreDoubts:
+class MoreDoubts(Struct, frozen=True):
     """Doubtful positions that are counted only, of how many."""
 
     more: int
@@ -288,8 +286,7 @@ class MoreDoubts:
         return say("so are {} more of {} positions, less badly.", self.more, self.count)
 
 
-@dataclass(frozen=True, slots=True)
-class Passed:
+class Passed(Struct, frozen=True):
     """Change points that a group passes between the asked positions (точка ветвления).
 
     Attributes
@@ -333,8 +330,7 @@ class Passed:
         return say("{} Say in [assembly] {}.", text, ", ".join(ways)) if c else text
 
 
-@dataclass(frozen=True, slots=True)
-class Contradiction:
+class Contradiction(Struct, frozen=True):
     """Two ways to find a motion that differ: a mistake of ours (противоречие).
 
     Attributes

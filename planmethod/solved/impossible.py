@@ -6,6 +6,7 @@ from collections.abc import Callable
 
 import numpy as np
 import numpy.typing as npt
+from msgspec.structs import replace
 
 from planmethod.construct import steps
 from planmethod.construct.evaluate import Trace, limit_of
@@ -13,7 +14,6 @@ from planmethod.construct.program import Program
 from planmethod.construct.steps import LineName, NumberName, PointName, Step, operands
 from planmethod.plans.draft import Draft
 from planmethod.plans.model import PlanKind
-from planmethod.record import replace
 from planmethod.solved.failures import Cause, Failure, Place
 from planmethod.solved.reading import Reading, Reals
 

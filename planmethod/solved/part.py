@@ -10,13 +10,15 @@ from collections.abc import Callable, Iterator, Mapping
 from itertools import combinations
 from typing import Any
 
+from msgspec import Struct
+from msgspec.structs import replace
+
 from planmethod.construct.arithmetic import Float64
 from planmethod.errors import Fault, PlanMethodError, ProblemError
 from planmethod.problem.fields import Faults
 from planmethod.problem.model import Problem
 from planmethod.problem.reader import TrainReader, read_parsed
 from planmethod.problem.variants import apply_variant, read_variants
-from planmethod.record import dataclass, replace
 from planmethod.solved.failures import Failure, PositionError
 from planmethod.solved.impossible import explain, failing
 from planmethod.solved.reading import Reals
@@ -32,8 +34,7 @@ _ASIDE = 1e-4  # of a dead position, degrees
 _FAR = [1.0e3, 1.7e3]  # nearest to it one of two closings is: which one does not matter
 
 
-@dataclass(frozen=True, slots=True)
-class Part:
+class Part(Struct, frozen=True):
     """What can be drawn of a file, and what is missing (часть механизма).
 
     Attributes

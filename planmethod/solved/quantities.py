@@ -6,6 +6,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
+from msgspec import Struct
 
 from planmethod.construct.program import Program
 from planmethod.construct.steps import NumberName
@@ -14,7 +15,6 @@ from planmethod.languages import say
 from planmethod.plans.build import Construction
 from planmethod.plans.draft import Draft
 from planmethod.plans.legend import Quantity, QuantityKind
-from planmethod.record import dataclass
 
 BY_NAME = (QuantityKind.UNIT, QuantityKind.CORIOLIS, QuantityKind.RELATIVE)
 """Kinds of what is given only when it is asked for by name."""
@@ -27,8 +27,7 @@ class UnknownQuantityError(PlanMethodError, ValueError):
     """A quantity is asked for that the problem does not have."""
 
 
-@dataclass(frozen=True, slots=True)
-class Quantities:
+class Quantities(Struct, frozen=True):
     """All quantities of a construction, and the program that makes them.
 
     Attributes

@@ -8,11 +8,11 @@ from typing import Any, Concatenate, ParamSpec, TypeVar
 
 import numpy as np
 import numpy.typing as npt
+from msgspec import Struct
 
 from planmethod.construct.arithmetic import Arithmetic, Number
 from planmethod.construct.evaluate import Trace, go_on
 from planmethod.construct.steps import LineName, Name, PointName, Step
-from planmethod.record import dataclass
 
 Complexes = npt.NDArray[np.complex128]
 Reals = npt.NDArray[np.float64]
@@ -22,8 +22,7 @@ Asked = ParamSpec("Asked")
 Memory = TypeVar("Memory", bound="Remembering")
 
 
-@dataclass(frozen=True, slots=True)
-class Reading:
+class Reading(Struct, frozen=True):
     """A program read in one arithmetic (прочтение программы).
 
     Attributes

@@ -9,10 +9,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any, TypeAlias
 
+from msgspec import Struct
+
 from planmethod.paper import STAMP_HEIGHT, STAMP_WIDTH, Format
 from planmethod.plans.build import Construction
 from planmethod.plans.model import RATES
-from planmethod.record import dataclass
 
 Box: TypeAlias = tuple[float, float]
 Ways: TypeAlias = frozenset[Box]
@@ -36,8 +37,7 @@ LETTERS = {"A4": (2.5, 2.5), "A3": (3.5, 2.5), "A2": (3.5, 3.0), "A1": (4.2, 3.5
 _OPTIONS = 8  # shapes of a run of blocks that are kept
 
 
-@dataclass(frozen=True, slots=True)
-class Texts:
+class Texts(Struct, frozen=True):
     """How much the texts of a sheet tell: vector equations and vectors of both plans."""
 
     equations: tuple[int, int]

@@ -6,8 +6,8 @@ from functools import cached_property
 from math import ceil
 
 import numpy as np
+from msgspec import Struct
 
-from planmethod.record import dataclass
 from planmethod.solved.reading import Reals
 from planmethod.solved.solution import Solution
 
@@ -17,8 +17,7 @@ _PARTS = 12  # parts of a step of a driving slider
 _MOST = 720  # points of a line
 
 
-@dataclass(frozen=True)
-class Travel:
+class Travel(Struct, frozen=True, dict=True):
     """Driver positions that a smooth line goes through (ход начального звена).
 
     A full turn asked in even steps is closed; other positions are joined from the first to the

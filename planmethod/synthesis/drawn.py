@@ -10,6 +10,8 @@ from math import tau
 from typing import Any
 
 import numpy as np
+from msgspec import Struct
+from msgspec.structs import replace
 
 from planmethod.construct import steps
 from planmethod.construct.drafting import Profile
@@ -18,7 +20,6 @@ from planmethod.construct.hand import Hand
 from planmethod.construct.scale import choose_scale, series_near
 from planmethod.construct.steps import LineName, NumberName, PointName, makes
 from planmethod.note.numbers import finite_or_none
-from planmethod.record import dataclass, replace
 from planmethod.solved.errors.drawing import Drafted, DrawnKind, DrawnQuantity, number
 from planmethod.solved.errors.spread import Errors
 from planmethod.synthesis.model import Synthesis, place, scaled
@@ -30,8 +31,7 @@ FAR = 1.2
 """A centre further from the rest than so many of its sizes is left off the sheet."""
 
 
-@dataclass(frozen=True)
-class Drawn:
+class Drawn(Struct, frozen=True, dict=True):
     """A construction on paper.
 
     Attributes

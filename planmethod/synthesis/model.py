@@ -4,26 +4,24 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import field
 from typing import Any, TypeAlias
 
 import numpy as np
+from msgspec import Struct, field
 
 from planmethod.construct.arithmetic import Float64
 from planmethod.construct.evaluate import Trace, evaluate, limit_of
 from planmethod.construct.program import Builder, Program
 from planmethod.construct.steps import LineName, Name, NumberName, PointName, Side, Way
 from planmethod.errors import AssemblyError, ExitCode, PlanMethodError
-from planmethod.record import dataclass
 
 Said: TypeAlias = tuple[str, Mapping[str, str | float]]
-"""Name of a sentence in `SynthesisWording.steps`, and its places: points by name, and numbers."""
+"""Key of a sentence in ``steps`` of the words, and its places: points by name, and numbers."""
 
 MU = NumberName("mu_l")
 """The scale, m per mm."""
 
 
-@dataclass(slots=True)
 class Board(Builder):
     """Drawing board of a synthesis: the steps with their data (чертёжная доска, построение).
 
@@ -160,8 +158,7 @@ class AskedError(PlanMethodError):
     exit_code = ExitCode.USAGE
 
 
-@dataclass(frozen=True, slots=True)
-class Pose:
+class Pose(Struct, frozen=True):
     """Position of the mechanism that the construction shows (положение).
 
     Attributes
@@ -180,8 +177,7 @@ class Pose:
     stones: tuple[tuple[str, str], ...] = ()
 
 
-@dataclass(frozen=True, slots=True)
-class Table:
+class Table(Struct, frozen=True):
     """A table of the problem file: its head, the word for it in the comment, its lines."""
 
     head: str
@@ -189,8 +185,7 @@ class Table:
     lines: tuple[str, ...]
 
 
-@dataclass(frozen=True, slots=True)
-class Synthesis:
+class Synthesis(Struct, frozen=True):
     """A construction, and the mechanism that it gives (синтез).
 
     Attributes

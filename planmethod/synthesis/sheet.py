@@ -8,7 +8,7 @@ from itertools import pairwise
 from math import radians, tau
 from typing import Any
 
-from msgspec import Struct, field
+from msgspec import Struct
 
 from planmethod.construct.scale import Scale
 from planmethod.construct.steps import LineName, MeetCircles, MeetLineCircle, PointName
@@ -108,7 +108,7 @@ class _Synthesis(Struct, frozen=True):
     def proposals(self, papers: Sequence[Blank]) -> Iterator[_Orders]:
         """Yield the blocks at letters and scales; the steps are left out at last."""
         drawn, words = self.drawn, self.words
-        title = words.synthesis.titles[drawn.synthesis.kind]
+        title = words.synthesis["titles"][drawn.synthesis.kind]
         for paper in papers:
             for heights in ((SIZES.text, 2.5), (SIZES.text, 2.5), (SIZES.text, 2.5, 0.0)):
                 view = _view(drawn, words)
@@ -174,7 +174,7 @@ def _texts(
     rows = [f"{name}:{NBSP}{value}" for name, value in check_rows(checks, words)]
     measured = paragraph(";\n".join(rows) + ".", SIZES.text, SIZES.column)
     blocks.append(Column([heading(said.measured, SIZES.text), measured], gap=3.0))
-    columns = zip(said.columns, zip(*size_rows(drawn, words), strict=True), strict=True)
+    columns = zip(said["columns"], zip(*size_rows(drawn, words), strict=True), strict=True)
     sizes = table_block(
         [TableColumn(head, tuple(values)) for head, values in columns],
         SIZES.text, width=SIZES.column, units="none", row_height=SIZES.row,
@@ -198,16 +198,14 @@ def _picture(drawn: Drawn) -> Picture:
     return lettered(list(items), ink.labels())
 
 
-class _Ink(Struct):
+class _Ink:
     """Lines and letters of a construction, mm."""
 
-    drawn: Drawn
-    box: Bounds = field(init=False)
-
-    def __post_init__(self) -> None:
+    def __init__(self, drawn: Drawn) -> None:
+        self.drawn = drawn
         left, low, right, high = self.drawn.extent(self.drawn.paper)
         room = 1.5 * _BEYOND
-        self.box = (left - room, low - room, right + room, high + room)
+        self.box: Bounds = (left - room, low - room, right + room, high + room)
 
     def at(self, name: str) -> complex:
         return place(self.drawn.paper, name)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Iterator, Mapping
 from typing import Any, assert_never
 
@@ -11,16 +12,15 @@ from planmethod.construct.steps import LineName, Name, NumberName, Step
 from planmethod.note.numbers import with_unit
 from planmethod.note.plaintext import NO_BREAK, Steps, fixed, given, plain_text, table, wrap
 from planmethod.note.wording import Language
-from planmethod.pattern import pattern
 from planmethod.synthesis.drawn import Drawn
 from planmethod.synthesis.model import place
 
-_LETTERS = pattern(r"([^\d']+)(\d*)('*)")
+_LETTERS = r"([^\d']+)(\d*)('*)"
 
 
 def point_name(name: str) -> str:
     """Return a point's name as rich text: ``A2'`` gives ``A_{2}′``."""
-    match = _LETTERS.fullmatch(name)
+    match = re.fullmatch(_LETTERS, name)
     assert match is not None, name
     letter, index, primes = match.groups()
     return letter + (f"_{{{index}}}" if index else "") + "′" * len(primes)
@@ -63,7 +63,8 @@ class Teller:
             name: self._points(value) if isinstance(value, str) else given(value, self.note, 6)
             for name, value in facts.items()
         }
-        return self.words.synthesis.steps[key].format(**shown)
+        said: str = self.words.synthesis["steps"][key]
+        return said.format(**shown)
 
     def _points(self, names: str) -> str:
         return ", ".join(point_name(name) for name in names.split(", "))
@@ -78,7 +79,7 @@ class Teller:
 
     def _mm(self, name: NumberName) -> str:
         value = abs(self._hand(name))
-        return f"{given(value, self.note, 5)} {self.note.units['mm']}"
+        return f"{given(value, self.note, 5)} {self.note['units']['mm']}"
 
     def _base(self, line: LineName) -> str:
         """Return what a line is called: by two of its points, in its sense; or the x axis."""
@@ -209,7 +210,7 @@ def given_facts(asked: Mapping[str, Any], words: Language) -> list[str]:
     for name, value in asked.items():
         if value is None:
             continue
-        symbol, unit = words.synthesis.given[name]
+        symbol, unit = words.synthesis["given"][name]
         if isinstance(value, tuple):
             rows = value if isinstance(value[0], tuple) else (value,)
             told = "; ".join(f"({f';{NO_BREAK}'.join(map(words.say.given, row))})" for row in rows)
@@ -241,7 +242,9 @@ def check_rows(checks: Mapping[str, Any], words: Language) -> list[tuple[str, st
     def row(name: str, value: float | None, unit: str) -> None:
         if value is not None:
             number = say.short(value, 6)
-            rows.append((said.checks[name], with_unit(number, say.units[unit]) if unit else number))
+            rows.append(
+                (said["checks"][name], with_unit(number, say.units[unit]) if unit else number)
+            )
 
     row("K_v", checks["K_v"], "")
     if checks["stroke_unit"] == "m":
@@ -252,12 +255,13 @@ def check_rows(checks: Mapping[str, Any], words: Language) -> list[tuple[str, st
     row("pressure", checks["pressure_angle"]["max_deg"], "deg")
     row("transmission", checks["transmission_angle"]["min_deg"], "deg")
     grashof = checks["grashof"]
-    told = f"{said.holds[grashof['holds']]}: {said.verdicts[grashof['type']]}"
-    rows.append((said.checks["grashof"], told))
+    holds = said["holds"]["yes" if grashof["holds"] else "no"]
+    told = f"{holds}: {said['verdicts'][grashof['type']]}"
+    rows.append((said["checks"]["grashof"], told))
     row("missed", checks.get("missed"), "m")
     for name in ("branch", "order"):
         if name in checks:
-            rows.append((said.checks[name], said.holds[checks[name]]))
+            rows.append((said["checks"][name], said["holds"]["yes" if checks[name] else "no"]))
     return rows
 
 
@@ -267,7 +271,7 @@ def synthesis_text(
     """Return the whole synthesis as plain text."""
     said, note = words.synthesis, words.note
     text = Steps(note)
-    text.lines.append(said.titles[drawn.synthesis.kind])
+    text.lines.append(said["titles"][drawn.synthesis.kind])
     facts = "; ".join(map(plain_text, given_facts(asked, words)))
     text.lines += wrap(note.given.format(given=facts))
     text.lines += wrap(plain_text(ruler_line(drawn, words)))
@@ -276,7 +280,7 @@ def synthesis_text(
         text.item([sentence])
     text.chapter(said.lengths)
     rows = [[plain_text(cell) for cell in row] for row in size_rows(drawn, words)]
-    text.lines += table(said.columns, rows)
+    text.lines += table(said["columns"], rows)
     text.chapter(said.measured)
     text.lines += [
         f"{plain_text(name)}: {plain_text(value)}" for name, value in check_rows(checks, words)

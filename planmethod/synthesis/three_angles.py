@@ -11,9 +11,9 @@ from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
+from msgspec.structs import replace
 
 from planmethod.errors import AssemblyError
-from planmethod.record import replace
 from planmethod.synthesis.model import AskedError, Board, Synthesis, chosen, lengths_of, place, read
 from planmethod.synthesis.three_positions import passage, synthesis_of
 

@@ -11,11 +11,11 @@ from typing import Any
 
 import numpy as np
 import numpy.typing as npt
+from msgspec import Struct
 
 from planmethod.construct.steps import PointName
 from planmethod.errors import AssemblyError
 from planmethod.note.numbers import finite_or_none
-from planmethod.record import dataclass
 from planmethod.synthesis.model import (
     AskedError,
     Board,
@@ -208,8 +208,7 @@ _PLACES = 721
 """Places of the driver on the way that are looked at."""
 
 
-@dataclass(frozen=True, slots=True)
-class Passage:
+class Passage(Struct, frozen=True):
     """What a four-bar makes of three positions (проход через положения).
 
     Attributes

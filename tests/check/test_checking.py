@@ -5,11 +5,11 @@ from __future__ import annotations
 import cmath
 import io
 import math
-from dataclasses import replace
 
 import openpyxl
 import pytest
 from cases import some
+from msgspec.structs import replace
 from planted import checked, exact, explanations, task_of, verdicts, work_of
 from worked import SIX, problem_of
 

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import json
 import re
-from dataclasses import dataclass, fields, replace
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 import pytest
+from msgspec.structs import replace
 from worked import ROOT, path_of
 
 from planmethod.check.checking import check
@@ -18,7 +19,7 @@ from planmethod.check.model import Checked, Verdict, Written
 from planmethod.check.questions import Sign
 from planmethod.check.task import Item, Task
 from planmethod.check.works.student import read_json
-from planmethod.note.wording.en.mistakes import MISTAKES
+from planmethod.note.wording import language
 from planmethod.problem import load
 from planmethod.solved.selectors.steps import NoValueError
 from planmethod.solved.solution import Solution
@@ -53,7 +54,7 @@ def asked(case: Case) -> tuple[Task, dict[str, str]]:
     """Return the task of a case, and what stands beside the settings of a department."""
     told: dict[str, Any] = {}
     beside: dict[str, str] = {}
-    known = {one.name for one in fields(Settings)}
+    known = set(Settings.__struct_fields__)
     for part in filter(None, case.settings.split(", ")):
         key, value = part.split(" ")
         if key in known:
@@ -150,7 +151,7 @@ def test_a_case_is_judged_as_the_document_says(case: Case) -> None:
 def test_the_document_lists_every_mistake() -> None:
     text = (ROOT / "docs" / "checking.md").read_text("utf-8")
     assert dict(re.findall(r"(?m)^\| `(\w+)` \| (.+) \|$", text)) == {
-        code: words.name for code, words in MISTAKES.items()
+        code: words.name for code, words in language("en").check["mistakes"].items()
     }
 
 

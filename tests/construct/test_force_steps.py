@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -13,6 +12,7 @@ from cases import each
 from hypothesis import given
 from hypothesis import strategies as st
 from jets import Jets, adjudicate
+from msgspec.structs import replace
 
 from planmethod.construct.arithmetic import Arithmetic, Float64
 from planmethod.construct.compiled.blocks import Blocks

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from functools import cache
 from pathlib import Path
 
 import pytest
 from click.testing import CliRunner
+from msgspec.structs import replace
 from slotted import R, problem_of
 from worked import every_file
 
@@ -116,7 +116,7 @@ def test_a_position_that_the_problem_does_not_have_is_said() -> None:
     late = replace(problem, published=(replace(problem.published[0], position=7),))
     (item,) = audit(late)
     assert item.why is NoValue.NO_POSITION
-    said = language("en").audit.whys[NoValue.NO_POSITION.value]
+    said = language("en").audit["whys"][NoValue.NO_POSITION.value]
     assert said in Document("en", 0.5).markdown([(late, [item])])
 
 

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import re
-from dataclasses import replace
 from functools import cache
 
 import pytest
 from cases import each, some
 from lettered import closing_lines, lever_lines, moment_lines
 from loaded import loaded_problem
+from msgspec.structs import replace
 from told import LANGUAGES, assert_readable, flat, told, worked
 from worked import path_of
 

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from functools import cache
 from math import atan2, degrees, hypot, pi, sqrt
 
 import pytest
 from cases import each
 from loaded import with_resultant
+from msgspec.structs import replace
 from slotted import KULISA, SCALES, R, problem_of
 from worked import problem_of as worked
 
@@ -258,7 +258,7 @@ def test_what_the_forces_do_not_have(problem: Problem, what: str, why: NoValue) 
     with pytest.raises(NoValueError) as caught:
         asked(problem, what)
     assert caught.value.why is why
-    assert all(language(lang).audit.whys[why.value] for lang in LANGUAGES)
+    assert all(language(lang).audit["whys"][why.value] for lang in LANGUAGES)
 
 
 def test_a_force_that_is_nothing_has_no_direction() -> None:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import random
-from dataclasses import replace
 from functools import cache
 
 import numpy as np
@@ -11,6 +10,7 @@ import numpy.typing as npt
 import pytest
 from cases import each, some
 from moved import Move
+from msgspec.structs import replace
 from worked import SIX, problem_of
 
 from benchmarks.generator import random_problem

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
-from dataclasses import replace
 from itertools import combinations
 from pathlib import Path
 
@@ -12,6 +11,7 @@ import pytest
 from cases import some
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from msgspec.structs import replace
 from worked import ROOT, SIX, drawn_sheets, path_of, problem_of
 
 from planmethod.errors import CompositionError, ExitCode, LayoutError

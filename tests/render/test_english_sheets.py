@@ -5,10 +5,10 @@ from __future__ import annotations
 import re
 from collections import Counter
 from collections.abc import Iterator
-from dataclasses import replace
 
 import pytest
 from cases import thinned
+from msgspec.structs import replace
 from worked import problem_of
 
 from planmethod.mechanism.structure import analyse

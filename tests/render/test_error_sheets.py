@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import re
-from dataclasses import replace
 from decimal import ROUND_HALF_EVEN, Decimal
 from itertools import product
 
 import pytest
 from cases import some, thinned
+from msgspec.structs import replace
 from test_sheets import MANY, format_of, marks, texts
 from worked import SIX, problem_of
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 import re
 from cmath import phase
 from collections.abc import Iterator, Sequence
-from dataclasses import replace
 from functools import cache
 from importlib.resources import files
 from itertools import combinations, pairwise
@@ -14,6 +13,7 @@ from math import degrees
 import pytest
 from click.testing import CliRunner
 from lettered import lever_lines, load_lines, moment_lines
+from msgspec.structs import replace
 from worked import drawn_sheets, path_of, problem_of
 
 from planmethod import loads

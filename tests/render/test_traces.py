@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from cmath import phase
-from dataclasses import replace
 
 import pytest
+from msgspec.structs import replace
 from worked import SIX, drawn_sheets, problem_of
 
 from planmethod.construct.steps import MeetCircles, MeetLineCircle, PointName

@@ -8,11 +8,11 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from planmethod.errors import LayoutError
+from planmethod.note.formula import escape
 from planmethod.render.ink.drawing import Pen, Stroke, Text
 from planmethod.render.ink.lettering import in_use
 from planmethod.render.ink.typeset import (
     PART_OF,
-    escape,
     index_height,
     smaller_heights,
     split_words,

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import re
-from dataclasses import replace
 
 import numpy as np
 import pytest
+from msgspec.structs import replace
 from worked import problem_of
 
 from planmethod.errors import AssemblyError, ExitCode, ProblemError, StructureError

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import math
 import re
-from dataclasses import replace
 from functools import cache
 from inspect import signature
 from pathlib import Path
 
 import numpy as np
 import pytest
+from msgspec.structs import replace
 from worked import PROBLEMS, SIX, problem_of
 
 from planmethod.construct.arithmetic import Float64

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import numpy as np
 import pytest
+from msgspec.structs import replace
 from worked import problem_of
 
 from planmethod.plans.model import RATES, PlanKind

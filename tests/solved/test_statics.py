@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections import Counter, defaultdict
 from collections.abc import Sequence
-from dataclasses import replace
 from functools import cache
 from itertools import pairwise
 
@@ -24,6 +23,7 @@ from full_system import (
 )
 from loaded import loaded_problem
 from moved import Move
+from msgspec.structs import replace
 from newton import Motion
 from newton import solve as newton
 from worked import problem_of

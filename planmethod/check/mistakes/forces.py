@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from msgspec.structs import replace
+
 from planmethod.check.mistakes.model import Change, Scene, times
 from planmethod.construct import steps
 from planmethod.construct.steps import LineName, Name, NumberName, Step
@@ -11,7 +13,6 @@ from planmethod.mechanism.model import FRAME
 from planmethod.plans.forces.board import Given
 from planmethod.plans.forces.loads import LoadKind
 from planmethod.plans.model import FACTS, PlanKind
-from planmethod.record import replace
 
 
 def _loads(scene: Scene, kind: LoadKind) -> Iterator[Given]:

@@ -5,12 +5,13 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
+from msgspec.structs import replace
+
 from planmethod.check.mistakes.model import Change, Scene
 from planmethod.construct import steps
 from planmethod.construct.steps import Name, NumberName, Side, Step
 from planmethod.plans.dimensions import DimensionKind
 from planmethod.plans.model import FACTS, MOTION, PlanKind
-from planmethod.record import replace
 
 READ = (steps.Measure, steps.MeasureAlong)
 

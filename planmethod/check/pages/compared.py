@@ -7,25 +7,29 @@ from collections.abc import Iterator, Sequence
 from planmethod.check.model import Checked, Judged, Unread, Verdict
 from planmethod.check.pages.speech import Speech, quoted, told
 from planmethod.languages import say
+from planmethod.note.document import Caption, Document, Node, Paragraph, table_of
 from planmethod.note.numbers import trimmed
-from planmethod.note.plaintext import NO_BREAK, plain_text, table, wrap
-from planmethod.note.wording.language import Language
+from planmethod.note.wording import Language, Words
+from planmethod.note.writers.plain import plain_document
 
 _NONE = "—"
 
 
 def compared_text(checked: Sequence[Checked], words: Language) -> str:
     """Return tables for a terminal, one for each work: his value, the exact one, how far apart."""
-    say, speech = words.check.compared, Speech(words)
-    lines: list[str] = []
+    return plain_document(Document.of(_nodes(checked, words)), words) + "\n"
+
+
+def _nodes(checked: Sequence[Checked], words: Language) -> Iterator[Node]:
+    speech = Speech(words)
+    say: Words = words.check["compared"]
     for one in checked:
         name = " ".join(filter(None, (quoted(one.work.student), one.variant)))
-        lines += [name] if name else []
-        told = [judged for judged in one.answers if judged.written is not None]
-        rows = [[plain_text(cell) for cell in _cells(judged, speech)] for judged in told]
-        lines += [*table(say.columns, rows), ""]
-    lines += wrap(plain_text(say.note))
-    return "\n".join(line.replace(NO_BREAK, " ") for line in lines) + "\n"
+        if name:
+            yield Caption(name)
+        written = (judged for judged in one.answers if judged.written is not None)
+        yield table_of(say["columns"], (list(_cells(judged, speech)) for judged in written))
+    yield Paragraph(say.note)
 
 
 def _cells(judged: Judged, speech: Speech) -> Iterator[str]:

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 
+from msgspec import Struct
+
 from planmethod.check.model import Checked, Diagnosis, Judged, Verdict
 from planmethod.construct.steps import PointName
 from planmethod.note.narrate.scales import scale_inscription
-from planmethod.note.wording.language import Language
+from planmethod.note.wording import Language
 from planmethod.plans.model import FACTS, RATES, PlanKind
-from planmethod.record import dataclass
 from planmethod.render.ink.drawing import Bounds, Drawing, Fill, Item, shifted
 from planmethod.render.ink.extent import ink_bounds
 from planmethod.render.layout.block import Picture
@@ -26,8 +27,7 @@ LARGEST = 2.5
 """A segment that is longer than so many true plans is not drawn: it would leave nothing to see."""
 
 
-@dataclass(frozen=True, slots=True)
-class Own:
+class Own(Struct, frozen=True):
     """A segment as the student has it, mm of the drawing (отрезок студента).
 
     ``number`` is that of its answer in the table, None of what belongs to a mistake's plan alone.
@@ -48,8 +48,7 @@ class Own:
         return vector_arrow(self.tail, self.head, length=4.0)
 
 
-@dataclass(frozen=True, slots=True)
-class Overlay:
+class Overlay(Struct, frozen=True):
     """One plan with a student's segments.
 
     Attributes

@@ -11,10 +11,12 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import TypeVar
 
+from msgspec import Struct
+from msgspec.structs import replace
+
 from planmethod.check.model import Checked, Judged
 from planmethod.errors import ExitCode, PlanMethodError
 from planmethod.problem.source import table_text
-from planmethod.record import dataclass, replace
 
 COLUMNS = ("student", "id", "points", "remark")
 HEAD = (";".join(COLUMNS) + "\r\n").encode("utf-8-sig")
@@ -29,8 +31,7 @@ class OverridesError(PlanMethodError):
     exit_code = ExitCode.USAGE
 
 
-@dataclass(frozen=True, slots=True)
-class Override:
+class Override(Struct, frozen=True):
     """What was set by hand for one answer, or for a whole work (правка).
 
     Attributes

@@ -5,12 +5,14 @@ from __future__ import annotations
 from collections.abc import Mapping
 from functools import lru_cache
 
+from msgspec import Struct
+from msgspec.structs import replace
+
 from planmethod.check.model import Sense, Unread, Written
 from planmethod.check.works.units import DASHES
 from planmethod.note.wording import language
 from planmethod.problem.names import fold, short
 from planmethod.problem.selector import SelectorError, parse_selector
-from planmethod.record import dataclass, replace
 
 
 def key(text: str) -> str:
@@ -80,8 +82,7 @@ TEXT_LIMIT = 200
 """Characters of a cell that are looked at."""
 
 
-@dataclass(frozen=True, slots=True)
-class Cell:
+class Cell(Struct, frozen=True):
     """A text and where it stands (клетка).
 
     Attributes
@@ -128,7 +129,7 @@ def refused(why: Unread, text: str, where: str, *, base: Written | None = None) 
     """Return an answer that cannot be read, or a remark."""
     words = language("en").form
     text = short(cut(text))
-    said = words.unread[why.value].format(text=text, known=", ".join(words.units))
+    said = words["unread"][why.value].format(text=text, known=", ".join(words["units"]))
     base = base or Written(raw=text)
     return replace(base, unreadable=said, where=where, why=why, fault=text)
 

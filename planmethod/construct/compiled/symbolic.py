@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import field
 from typing import Any
+
+from msgspec import Struct, field
 
 from planmethod.construct import steps
 from planmethod.construct.arithmetic import Exact, Number, unit_vectors
@@ -13,7 +14,6 @@ from planmethod.construct.compiled.tape import Ref, Tape, same
 from planmethod.construct.evaluate import apply, limit_of
 from planmethod.construct.program import Program
 from planmethod.construct.steps import Name, Step, operands
-from planmethod.record import dataclass
 
 
 def lifted(tape: Tape, value: Number) -> Symbol:
@@ -128,8 +128,7 @@ class Symbol:
         return Symbol(tape, tape.make("sqrt", squares))
 
 
-@dataclass(frozen=True, slots=True)
-class Guard:
+class Guard(Struct, frozen=True):
     """Margin that must exceed a limit for a step to exist."""
 
     step: Name
@@ -137,8 +136,7 @@ class Guard:
     limit: float
 
 
-@dataclass
-class Symbolic(Exact):
+class Symbolic(Exact, Struct):
     """Arithmetic that writes down what is to be computed, and knows some lengths beforehand.
 
     Attributes
@@ -227,8 +225,7 @@ class Symbolic(Exact):
         return tail, self.known(along)
 
 
-@dataclass(frozen=True)
-class Written:
+class Written(Struct, frozen=True):
     """A program written on a tape.
 
     Attributes

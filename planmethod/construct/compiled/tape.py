@@ -4,10 +4,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import field
 from typing import Any, NamedTuple, TypeAlias
 
-from planmethod.record import dataclass
+from msgspec import Struct, field
 
 Ref: TypeAlias = int | float
 """Operand: the number of a node (int), or a constant (float)."""
@@ -57,8 +56,7 @@ def _key(kind: str, operands: tuple[Ref, ...]) -> tuple[Any, ...]:
     return kind, *((type(operand), operand) for operand in operands)
 
 
-@dataclass
-class Tape:
+class Tape(Struct):
     """Operations in order, each made once.
 
     An operation on constants is carried out at once, and one that changes nothing (times 1, plus

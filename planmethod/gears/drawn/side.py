@@ -6,10 +6,11 @@ from collections.abc import Iterator, Mapping
 from functools import cached_property
 from itertools import pairwise
 
+from msgspec import Struct
+
 from planmethod.gears.arrangement import Arrangement, Part, Stub
 from planmethod.gears.model import PARALLEL, MeshKind
 from planmethod.gears.scheme import Across, Rim, Worm
-from planmethod.record import dataclass
 from planmethod.render.ink.drawing import Arc, Disc, Ink, Item, Pen, Stroke
 from planmethod.render.ink.typeset import typeset
 from planmethod.render.labels import BUSY, Label
@@ -35,8 +36,7 @@ BUSH = 3.0
 """Half the length of a bush, and how far a shaft goes out of one, mm."""
 
 
-@dataclass(frozen=True)
-class Side:
+class Side(Struct, frozen=True, dict=True):
     """The side view of an arrangement; its main axis is level zero, its first station x = 0.
 
     Attributes

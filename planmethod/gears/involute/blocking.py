@@ -9,9 +9,9 @@ from __future__ import annotations
 from enum import Enum
 
 import numpy as np
+from msgspec import Struct
 
 from planmethod.gears.involute.sizes import Pair, Reals
-from planmethod.record import dataclass
 
 STEP = 0.01
 """Chosen shifts are multiples of it."""
@@ -30,8 +30,7 @@ class LimitKind(Enum):
     TIPS = "tips"
 
 
-@dataclass(frozen=True, slots=True)
-class Limit:
+class Limit(Struct, frozen=True):
     """One limit (ограничение).
 
     Attributes

@@ -8,6 +8,7 @@ from math import ceil, floor
 
 import numpy as np
 from matplotlib.figure import Figure
+from msgspec import Struct
 from shapely import Polygon, contains_xy, prepare, union_all
 
 from planmethod.construct.scale import series_near
@@ -17,7 +18,6 @@ from planmethod.gears.involute.quantities import Solved
 from planmethod.gears.involute.sizes import Reals
 from planmethod.note.numbers import Notation, trimmed
 from planmethod.note.wording import Language
-from planmethod.record import dataclass
 from planmethod.render.ink.drawing import Disc, Ink, Item, Pen, Stroke
 from planmethod.render.ink.typeset import typeset
 from planmethod.render.labels import BUSY, Label
@@ -49,8 +49,7 @@ _APART = 11.0  # mm: between the numbers of an axis
 # The curves -----------------------------------------------------------------------------------
 
 
-@dataclass(frozen=True, slots=True)
-class Window:
+class Window(Struct, frozen=True):
     """Part of the plane of the shifts that is drawn: bounds of x₁ and of x₂."""
 
     left: float
@@ -145,8 +144,7 @@ def _polished(solved: Solved, limit: Limit, points: Reals) -> Reals:
 # The contour ------------------------------------------------------------------------------------
 
 
-@dataclass(frozen=True, slots=True)
-class Contour:
+class Contour(Struct, frozen=True):
     """Blocking contour of a pair: what is drawn of the plane, and the curves in it."""
 
     solved: Solved

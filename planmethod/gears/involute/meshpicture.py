@@ -10,11 +10,11 @@ from collections.abc import Iterator
 from math import cos, pi, sin
 
 import numpy as np
+from msgspec import Struct
 
 from planmethod.gears.involute.profile import Points, Tooth
 from planmethod.gears.involute.quantities import Solved
 from planmethod.note.wording import Language
-from planmethod.record import dataclass
 from planmethod.render.ink.drawing import Arc, Disc, Ink, Item, Pen, Stroke
 from planmethod.render.ink.extent import ink_bounds
 from planmethod.render.ink.typeset import typeset
@@ -48,8 +48,7 @@ _ASIDE = 22.0  # mm: from the circles to the dimension of the distance of the ax
 _OVER = 14.0  # mm: circles and lines go on beyond the teeth
 
 
-@dataclass(frozen=True)
-class View:
+class View(Struct, frozen=True):
     """How the picture lies on the paper (масштаб картины).
 
     Attributes

@@ -12,11 +12,11 @@ from functools import cached_property
 from math import pi
 
 import numpy as np
+from msgspec import Struct
 from numpy.typing import NDArray
 
 from planmethod.gears.angles import involute
 from planmethod.gears.involute.sizes import Pair, Reals
-from planmethod.record import dataclass
 
 Points = NDArray[np.complex128]
 
@@ -24,8 +24,7 @@ _HALVINGS = 80
 _SCANNED = 2000  # places of the fillet among which its crossing with the involute is looked for
 
 
-@dataclass(frozen=True)
-class Tooth:
+class Tooth(Struct, frozen=True, dict=True):
     """Tooth of a wheel of a pair (зуб колеса); ``wheel`` is 0 or 1."""
 
     pair: Pair
@@ -166,8 +165,7 @@ def halved(holds: Callable[[float], bool], low: float, high: float) -> float:
     return (low + high) / 2
 
 
-@dataclass(frozen=True)
-class Contact:
+class Contact(Struct, frozen=True):
     """The line of action, by the radius of curvature of wheel 1, mm (линия зацепления).
 
     Attributes

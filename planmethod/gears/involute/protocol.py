@@ -15,11 +15,11 @@ def protocol_text(problem: MeshingProblem, lang: str, profile: Profile) -> str:
     say, fields = words.meshing, solved.fields(words.say)
     lines, number, before = head(solved, words), 0, ""
     for key, formula in solved.formulas(words):
-        if key != before and key in say.steps:
+        if key != before and key in say["steps"]:
             number += 1
-            lines += ["", f"{number}. {say.steps[key]}"]
-        if key != before and key in say.beside:
-            lines += plainly(say.beside[key].format(**fields))
+            lines += ["", f"{number}. {say['steps'][key]}"]
+        if key != before and key in say["beside"]:
+            lines += plainly(say["beside"][key].format(**fields))
         lines += plainly(formula)
         before = key
     return "\n".join([*lines, *limits_text(solved, words)])

@@ -6,6 +6,8 @@ from collections.abc import Iterator
 from enum import Enum
 
 import numpy as np
+from msgspec import Struct
+from msgspec.structs import replace
 
 from planmethod.gears.angles import involute
 from planmethod.gears.involute.blocking import Limit, LimitKind, limits
@@ -13,7 +15,6 @@ from planmethod.gears.involute.profile import Contact, Tooth
 from planmethod.gears.involute.sizes import MeshingProblem, Pair, Reals
 from planmethod.note.numbers import Notation, trimmed
 from planmethod.note.wording import Language
-from planmethod.record import dataclass, replace
 
 
 class Unit(Enum):
@@ -31,8 +32,7 @@ class Unit(Enum):
         return self.value[1]
 
 
-@dataclass(frozen=True, slots=True)
-class Quantity:
+class Quantity(Struct, frozen=True):
     """One quantity of the record, the table and the protocol (величина).
 
     Attributes
@@ -218,8 +218,7 @@ _SIGNED_2 = ("z", "x", "d", "d_b", "d_w", "d_a", "d_f", "rho_a", "rho_p", "rho_l
 """What is negative in `Pair` of an internal pair, and of its wheel 2."""
 
 
-@dataclass(frozen=True, slots=True)
-class Told:
+class Told(Struct, frozen=True):
     """A quantity with its value: one, or those of both wheels."""
 
     quantity: Quantity
@@ -321,7 +320,7 @@ class Solved:
                         return text.replace("0,5", say.number("0.5"))
 
                     unit = "°" if q.unit is Unit.DEGREE else ""
-                    unit = f" {words.meshing.units['mm']}" if q.unit is Unit.MM else unit
+                    unit = f" {words.meshing['units']['mm']}" if q.unit is Unit.MM else unit
                     ring = _RING.get(q.key, (None, None))[k] if self.problem.cutter else None
                     formula, filled = ring or (q.formula, q.numbers)
                     letters = put(formula).replace("{tan}", tan)
@@ -358,6 +357,6 @@ class Solved:
             holds = value >= bound
             turned = self.shown(one, 1.0, 1.0)[0] < 0
             sign = ("≤" if turned else "≥") if holds else (">" if turned else "<")
-            text = say.conditions[one.kind.value].format(wheel=number, sign=sign, **shown)
+            text = say["conditions"][one.kind.value].format(wheel=number, sign=sign, **shown)
             found.append((one, holds, text))
         return found

@@ -20,12 +20,12 @@ from planmethod.gears.involute.quantities import Solved, Told
 from planmethod.gears.involute.sizes import MeshingProblem
 from planmethod.gears.involute.text import given_text, remarks, symbol_of, unit_of
 from planmethod.languages import LANGUAGES, say
+from planmethod.note.formula import escape
 from planmethod.note.numbers import Notation
 from planmethod.note.wording import Language, language
 from planmethod.paper import STAMP_WIDTH
 from planmethod.render.frame.furniture import Furniture, Room
 from planmethod.render.ink.drawing import Drawing
-from planmethod.render.ink.typeset import escape
 from planmethod.render.layout.block import Block, Column, Picture, heading, paragraph
 from planmethod.render.layout.cuttings import GAP, Group, Part
 from planmethod.render.layout.pack import EDGE
@@ -147,7 +147,7 @@ def _checks(solved: Solved, words: Language, title: float, text: float) -> Itera
     say = words.meshing
     yield heading(say.checked, title, width=TEXT_WIDTH)
     for _, holds, limit in solved.sentences(words):
-        yield paragraph(f"{limit}: {say.holds[holds]}", text, TEXT_WIDTH)
+        yield paragraph(f"{limit}: {say['holds']['yes' if holds else 'no']}", text, TEXT_WIDTH)
     for told in [*remarks(solved, words), given_text(solved, words)[1]]:
         yield paragraph(told, text, TEXT_WIDTH)
 
@@ -160,13 +160,13 @@ def _tables(solved: Solved, words: Language, sizes: Sizes) -> Iterator[Block]:
 
 
 def _table(told: list[Told], words: Language, sizes: Sizes) -> Block:
-    say, say_names = words.meshing, words.meshing.names
+    say, say_names = words.meshing, words.meshing["names"]
     names = [escape(say_names[one.quantity.key] + unit_of(one, words)) for one in told]
     rows = [["—" if "nan" in text else text for text in one.shown(words.say)] for one in told]
     columns = [
-        TableColumn(say.columns[0], tuple(names)),
-        TableColumn(say.columns[1], tuple(symbol_of(one) for one in told)),
+        TableColumn(say["columns"][0], tuple(names)),
+        TableColumn(say["columns"][1], tuple(symbol_of(one) for one in told)),
     ]
-    heads = say.columns[2:] if len(rows[0]) == 2 else (say.pair,)
+    heads = say["columns"][2:] if len(rows[0]) == 2 else (say.pair,)
     columns += [TableColumn(h, tuple(r[k] for r in rows)) for k, h in enumerate(heads)]
     return table_block(columns, sizes.text, width=sizes.column, units="none", row_height=sizes.row)

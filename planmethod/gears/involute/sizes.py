@@ -17,17 +17,16 @@ from math import cos, pi, sin, tan
 from typing import TypeAlias
 
 import numpy as np
+from msgspec import Struct
 from numpy.typing import NDArray
 
 from planmethod.gears.angles import angle_of_involute, involute
 from planmethod.problem.head import KindProblem
-from planmethod.record import dataclass
 
 Reals: TypeAlias = NDArray[np.float64]
 
 
-@dataclass(frozen=True, slots=True)
-class Rack:
+class Rack(Struct, frozen=True):
     """The basic rack, in modules (исходный контур, ГОСТ 13755).
 
     Attributes
@@ -68,8 +67,7 @@ class Rack:
         return complex(pi / 4 - depth * tan(self.alpha) - self.rho / cos(self.alpha), -depth)
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class MeshingProblem(KindProblem):
+class MeshingProblem(KindProblem, frozen=True, kw_only=True):
     """A pair of wheels to be drawn in mesh (лист «Синтез эвольвентного зацепления»).
 
     Attributes
@@ -103,8 +101,7 @@ class MeshingProblem(KindProblem):
     cutter: int = 0
 
 
-@dataclass(frozen=True)
-class Pair:
+class Pair(Struct, frozen=True, dict=True):
     """Two wheels in mesh without backlash (зубчатая пара).
 
     Attributes

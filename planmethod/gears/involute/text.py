@@ -14,8 +14,8 @@ def solved_text(problem: MeshingProblem, lang: str) -> str:
     say = words.meshing
     pair, wheels, contact = solved.told()
     lines = head(solved, words)
-    lines += ["", say.pair, *_table([*pair, *contact], words, say.columns[:2])]
-    lines += ["", say.wheels, *_table(wheels, words, say.columns)]
+    lines += ["", say.pair, *_table([*pair, *contact], words, say["columns"][:2])]
+    lines += ["", say.wheels, *_table(wheels, words, say["columns"])]
     return "\n".join([*lines, *limits_text(solved, words)])
 
 
@@ -25,12 +25,12 @@ def given_text(solved: Solved, words: Language) -> list[str]:
     fields = {name: shown.strip("()") for name, shown in solved.fields(words.say).items()}
     further = ""
     if problem.a_w is not None:
-        further = f", a_{{w}} = {words.say.given(problem.a_w)} {say.units['mm']}"
+        further = f", a_{{w}} = {words.say.given(problem.a_w)} {say['units']['mm']}"
     if problem.cutter:
         further += say.ring.format(cutter=problem.cutter)
     return [
         say.given.format(further=further, **fields),
-        say.shifts[problem.chosen].format(**fields),
+        say["shifts"]["chosen" if problem.chosen else "given"].format(**fields),
     ]
 
 
@@ -68,7 +68,7 @@ def plainly(rich: str, first: str = "  ") -> list[str]:
 def unit_of(one: Told, words: Language) -> str:
     """Return what stands after the name of a quantity: its unit, if it has one."""
     unit = one.quantity.unit
-    return f", {words.meshing.units[unit.value[0]]}" if unit in (Unit.MM, Unit.DEGREE) else ""
+    return f", {words.meshing['units'][unit.value[0]]}" if unit in (Unit.MM, Unit.DEGREE) else ""
 
 
 def symbol_of(one: Told) -> str:
@@ -79,7 +79,7 @@ def symbol_of(one: Told) -> str:
 def _table(told: list[Told], words: Language, columns: tuple[str, ...]) -> list[str]:
     rows = []
     for one in told:
-        name = words.meshing.names[one.quantity.key] + unit_of(one, words)
+        name = words.meshing["names"][one.quantity.key] + unit_of(one, words)
         shown = ["—" if "nan" in text else text for text in one.shown(words.say)]
         rows.append([name, plain_text(symbol_of(one)), *map(plain_text, shown)])
     head = list(columns) + ([""] if len(columns) == 2 else [])
@@ -91,7 +91,7 @@ def limits_text(solved: Solved, words: Language) -> list[str]:
     say = words.meshing
     lines = ["", say.checked]
     for _, holds, text in solved.sentences(words):
-        lines += plainly(f"{text}: {say.holds[holds]}")
+        lines += plainly(f"{text}: {say['holds']['yes' if holds else 'no']}")
     for text in remarks(solved, words):
         lines += plainly(text)
     return lines

@@ -9,7 +9,7 @@ from planmethod.mechanism.groups import AssurGroup, Joint, letter_of, links_of
 from planmethod.mechanism.model import FRAME, Mechanism, Revolute
 from planmethod.mechanism.structure import LOCAL_MOBILITY, WAYS_IN, Structure, roman
 from planmethod.note.plaintext import heading, table, wrap
-from planmethod.note.wording import Wording, wording
+from planmethod.note.wording import Words, wording
 
 _MINUS = str.maketrans("-", "−")
 
@@ -44,7 +44,7 @@ def structure_text(mechanism: Mechanism, structure: Structure, lang: str = "ru")
     return "\n".join(lines)
 
 
-def _static_counts(structure: Structure, words: Wording) -> str:
+def _static_counts(structure: Structure, words: Words) -> str:
     """Return equations and unknowns of the force analysis: without friction as many as needed."""
     equations = 3 * structure.moving_links
     pairs = 2 * structure.lower_pairs + structure.higher_pairs
@@ -60,38 +60,38 @@ def _static_counts(structure: Structure, words: Wording) -> str:
     )
 
 
-def local_letters(signature: str, words: Wording) -> str:
+def local_letters(signature: str, words: Words) -> str:
     """Return a signature in the letters of a language: RPR is ВПВ in Russian."""
-    return "".join(words.letters.get(letter, letter) for letter in signature)
+    return "".join(words["letters"].get(letter, letter) for letter in signature)
 
 
 # Pairs and links -----------------------------------------------------------------------------
 
 
-def _pair_table(mechanism: Mechanism, words: Wording) -> list[str]:
+def _pair_table(mechanism: Mechanism, words: Words) -> list[str]:
     kinds = {PairKind.REVOLUTE: words.revolute, PairKind.PRISMATIC: words.prismatic}
     rows = [[pair.name, "–".join(pair.links), kinds[pair.kind], "1"] for pair in pairs(mechanism)]
-    return table(words.columns_pairs, rows, left=3)
+    return table(words["columns_pairs"], rows, left=3)
 
 
-def _link_table(mechanism: Mechanism, words: Wording) -> list[str]:
+def _link_table(mechanism: Mechanism, words: Words) -> list[str]:
     rows = [
-        [row.link, words.roles[row.role.value], words.motions[row.motion.value]]
+        [row.link, words["roles"][row.role.value], words["motions"][row.motion.value]]
         for row in kind_of_motion(mechanism)
     ]
-    return table(words.columns_link, rows, left=3)
+    return table(words["columns_link"], rows, left=3)
 
 
-def _joint(joint: Joint, links: Sequence[str], words: Wording) -> str:
+def _joint(joint: Joint, links: Sequence[str], words: Words) -> str:
     """Return a pair by its point, the letter of its kind and its links: ``B (В, 1–2)``."""
     point = joint.point if isinstance(joint, Revolute) else joint.pin
-    return f"{point} ({words.letters[letter_of(joint)]}, {'–'.join(links)})"
+    return f"{point} ({words['letters'][letter_of(joint)]}, {'–'.join(links)})"
 
 
 # Mobility ------------------------------------------------------------------------------------
 
 
-def _mobility(structure: Structure, words: Wording) -> list[str]:
+def _mobility(structure: Structure, words: Words) -> list[str]:
     numbers = {
         "n": structure.moving_links,
         "p1": structure.lower_pairs,
@@ -101,7 +101,7 @@ def _mobility(structure: Structure, words: Wording) -> list[str]:
     return [words.mobility_counts.format(**numbers), words.chebyshev.format(**numbers)]
 
 
-def _redundant(structure: Structure, words: Wording) -> list[str]:
+def _redundant(structure: Structure, words: Words) -> list[str]:
     w = _signed(structure.spatial_mobility)
     return [
         words.spatial.format(n=structure.moving_links, p1=structure.lower_pairs, w=w),
@@ -116,7 +116,7 @@ def _signed(number: int) -> str:
 # Groups --------------------------------------------------------------------------------------
 
 
-def _counts(own: int, links: int, pairs: int, words: Wording) -> str:
+def _counts(own: int, links: int, pairs: int, words: Words) -> str:
     """Return own mobility W and redundant constraints q of a part, with ``own`` drivers."""
     mobility = 3 * links - 2 * pairs
     redundant = own + LOCAL_MOBILITY - (6 * links - 5 * pairs)
@@ -125,7 +125,7 @@ def _counts(own: int, links: int, pairs: int, words: Wording) -> str:
     return f"   {w};  {q}"
 
 
-def _primary(mechanism: Mechanism, words: Wording) -> list[str]:
+def _primary(mechanism: Mechanism, words: Words) -> list[str]:
     joints: tuple[Joint, ...] = (*mechanism.revolutes, *mechanism.prismatics)
     pair = next(joint for joint in joints if {FRAME, mechanism.driver} <= set(links_of(joint)))
     name = _joint(pair, (FRAME, mechanism.driver), words)
@@ -133,7 +133,7 @@ def _primary(mechanism: Mechanism, words: Wording) -> list[str]:
     return [*wrap(text), _counts(WAYS_IN, 1, 1, words)]
 
 
-def _group(group: AssurGroup, words: Wording) -> list[str]:
+def _group(group: AssurGroup, words: Words) -> list[str]:
     links, letters = "–".join(group.links), local_letters(group.signature, words)
     if group.kind is not None:
         text = words.assur_group.format(links=links, letters=letters, kind=group.kind)
@@ -157,7 +157,7 @@ def _inside(joint: Joint, group: AssurGroup) -> list[str]:
     return [link for link in group.links if link in links_of(joint)]
 
 
-def group_title(group: AssurGroup, words: Wording) -> str:
+def group_title(group: AssurGroup, words: Words) -> str:
     """Return a group's heading: links, letters, class, order and kind."""
     links = "–".join(group.links)
     if group.kind is None:

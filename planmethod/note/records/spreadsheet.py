@@ -278,7 +278,7 @@ def asked_text(swept: GappedSweep, lang: str = "ru") -> str:
         (swept.problem.title or swept.problem.name)
         + (f" ({swept.problem.variant})" if swept.problem.variant else "")
     )
-    symbol = f"{plain_text(coordinate.symbol)}, {words.units[coordinate.unit]}"
+    symbol = f"{plain_text(coordinate.symbol)}, {words['units'][coordinate.unit]}"
     count = len(swept.positions)
     columns = [
         [words.number, *(str(i) for i in range(count))],

@@ -11,7 +11,7 @@ from planmethod.note.narrate.forces.resultants import kept_lines, shift_lines
 from planmethod.note.numbers import plain
 from planmethod.note.plaintext import NO_BREAK, fixed, found, given, plain_text, wrap
 from planmethod.note.tables.sigmas import Sigmas
-from planmethod.note.wording import Wording
+from planmethod.note.wording import Words
 from planmethod.note.written import Column, Records, rows, together
 from planmethod.solved.errors.forces import (
     BALANCE,
@@ -168,7 +168,7 @@ def forces_records(solution: Solution) -> Records:
     return rows(columns)
 
 
-def forces_columns(solution: Solution, words: Wording) -> list[list[str]]:
+def forces_columns(solution: Solution, words: Words) -> list[list[str]]:
     """Return columns of many positions: the size of every reaction, then what balances."""
     statics = statics_of(solution)
     columns = [
@@ -177,11 +177,11 @@ def forces_columns(solution: Solution, words: Wording) -> list[list[str]]:
         for size in [np.abs(joint.force)]
     ]
     drive = solution.problem.drive
-    head = f"{drive.balancing.letter}{drive.link}, {words.units[drive.balancing.unit]}"
+    head = f"{drive.balancing.letter}{drive.link}, {words['units'][drive.balancing.unit]}"
     return [*columns, [head, *(found(float(value), words) for value in statics.balance)]]
 
 
-def _distance(solution: Solution, number: int, index: int, words: Wording) -> str:
+def _distance(solution: Solution, number: int, index: int, words: Words) -> str:
     """Return how far along its guide a reaction acts, m."""
     contact = statics_of(solution).contacts.get(number)
     b = np.nan if contact is None else float(contact.b()[index])
@@ -191,7 +191,7 @@ def _distance(solution: Solution, number: int, index: int, words: Wording) -> st
     return found(0.0 if abs(contact.joint.moment[index]) <= VANISHING * largest else b, words)
 
 
-def _edge_notes(solution: Solution, words: Wording, index: int) -> list[str]:
+def _edge_notes(solution: Solution, words: Words, index: int) -> list[str]:
     """Return what is told of the guides whose sliders bear at their edges."""
     lines = []
     for contact in statics_of(solution).contacts.values():
@@ -200,7 +200,7 @@ def _edge_notes(solution: Solution, words: Wording, index: int) -> list[str]:
             continue
         assert contact.length is not None
         told = [
-            f"{letter} = {found(abs(edge.force), words)} {words.units['N']} "
+            f"{letter} = {found(abs(edge.force), words)} {words['units']['N']} "
             f"(φ = {fixed(np.degrees(np.angle(edge.force)) % 360.0, words)}°)".replace(
                 " ", NO_BREAK
             )
@@ -221,7 +221,7 @@ def _edge_notes(solution: Solution, words: Wording, index: int) -> list[str]:
 
 
 def forces_tables(
-    solution: Solution, words: Wording, index: int, sigmas: Sigmas | None = None
+    solution: Solution, words: Words, index: int, sigmas: Sigmas | None = None
 ) -> list[str]:
     """Return the table of reactions of one position, and how the lever compares.
 
@@ -251,13 +251,13 @@ def forces_tables(
                 _distance(solution, number, index, words),
             ]
         )
-    header = sigmas.header(words.columns_forces, 3, 4, 5)
+    header = sigmas.header(words["columns_forces"], 3, 4, 5)
     lines = [words.table_forces, *sigmas.table(header, rows, left=2)]
     lines += _edge_notes(solution, words, index)
     for line in (*shift_lines(statics, words, index), *kept_lines(statics, words)):
         lines += wrap(plain_text(line))
     balancing = solution.problem.drive.balancing
-    balance, unit = words.balance[balancing.quantity], words.units[balancing.unit]
+    balance, unit = words["balance"][balancing.quantity], words["units"][balancing.unit]
     lines += wrap(balance.format(value=found(float(statics.balance[index]), words), unit=unit))
     if statics.lever is None:
         lines.append(words.lever_stands)

@@ -10,19 +10,19 @@ from planmethod.note.narrate.machine import (
     run_up_lines,
 )
 from planmethod.note.plaintext import columns_text, heading, plain_text, wrap
-from planmethod.note.wording import Wording, language
+from planmethod.note.wording import Words, language
 from planmethod.solved.machine.drawing import drawing_of
 from planmethod.solved.machine.flywheel import flywheel_of
 from planmethod.solved.solution import Solution
 
 
-def machine_teller(solution: Solution, words: Wording) -> MachineTeller:
+def machine_teller(solution: Solution, words: Words) -> MachineTeller:
     """Return who tells the machine of a solution."""
     drawing = drawing_of(flywheel_of(solution), solution.profile)
     return MachineTeller(drawing, language(words.lang))
 
 
-def machine_tables(solution: Solution, words: Wording) -> list[str]:
+def machine_tables(solution: Solution, words: Words) -> list[str]:
     """Return the table by positions, the formulas, the exact flywheel and its sizes."""
     tell = machine_teller(solution, words)
     columns = [
@@ -35,7 +35,7 @@ def machine_tables(solution: Solution, words: Wording) -> list[str]:
     sizes = tell.sizes
     if sizes is not None:
         told = "; ".join(tell.size_lines(sizes))
-        lines += wrap(plain_text(f"{tell.said.sizes[sizes.shape.value]}: {told}"), rest="  ")
+        lines += wrap(plain_text(f"{tell.said['sizes'][sizes.shape.value]}: {told}"), rest="  ")
     if asks_run_up(tell):
         lines += ["", *heading(plain_text(tell.said.run_up)), ""]
         for line in run_up_lines(tell):

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from typing import Any
 
+from msgspec.structs import replace
+
 from planmethod.mechanism.model import FRAME
 from planmethod.note.plaintext import heading, plain_text, table, wrap
 from planmethod.note.tables.results import position_line
-from planmethod.note.wording import Wording, wording
+from planmethod.note.wording import Words, wording
 from planmethod.plans.legend import QuantityKind
-from planmethod.record import replace
 from planmethod.solved.solution import Solution
 from planmethod.solved.trust.accuracy import Refereed, Verdict, examine
 
@@ -37,11 +38,11 @@ def referee_tables(solution: Solution, digits: int, lang: str = "ru") -> str:
     for index, position in enumerate(judged(solution, digits)):
         lines += ["", *heading(position_line(solution, words, index)), ""]
         rows = [_row(verdict, words) for verdict in position.verdicts]
-        lines += table(words.columns_referee, rows)
+        lines += table(words["columns_referee"], rows)
     return "\n".join(lines)
 
 
-def _row(verdict: Verdict, words: Wording) -> list[str]:
+def _row(verdict: Verdict, words: Words) -> list[str]:
     from mpmath import nstr
 
     real, imag = _parts(verdict)

@@ -20,7 +20,7 @@ from planmethod.note.plaintext import (
     wrap,
 )
 from planmethod.note.tables.sigmas import Sigmas, levelled
-from planmethod.note.wording import Wording, language, wording
+from planmethod.note.wording import Words, language, wording
 from planmethod.plans.legend import TURNING, Quantity, QuantityKind
 from planmethod.plans.model import FACTS, MOTION, PlanKind
 from planmethod.solved.reading import Reals
@@ -82,7 +82,7 @@ def result_tables(solution: Solution, lang: str = "ru", *, sigma: bool = False) 
     return "\n".join(lines)
 
 
-def _forces(solution: Solution, words: Wording, index: int, sigmas: Sigmas) -> list[str]:
+def _forces(solution: Solution, words: Words, index: int, sigmas: Sigmas) -> list[str]:
     if solution.problem.dynamics is None:
         return []
     from planmethod.note.tables.forces import forces_tables
@@ -90,21 +90,21 @@ def _forces(solution: Solution, words: Wording, index: int, sigmas: Sigmas) -> l
     return ["", *forces_tables(solution, words, index, sigmas)]
 
 
-def _causes(solution: Solution, words: Wording, index: int) -> list[str]:
+def _causes(solution: Solution, words: Words, index: int) -> list[str]:
     from planmethod.note.tables.causes import Causes
 
     lines = Causes(Names(solution, words)).lines(index)
     return ["", *lines] if lines else []
 
 
-def scale_texts(solution: Solution, words: Wording, index: int) -> list[str]:
+def scale_texts(solution: Solution, words: Words, index: int) -> list[str]:
     """Return the scales of a position as ``μ_v = 0,05 (м/с)/мм``, or in mm per unit."""
     say, convention = language(words.lang).say, solution.problem.scales.convention
     scales = (solution.own_scale(kind, index) for kind in MOTION)
     return [plain_text(scale_inscription(scale, convention, say)) for scale in scales]
 
 
-def position_line(solution: Solution, words: Wording, index: int) -> str:
+def position_line(solution: Solution, words: Words, index: int) -> str:
     """Return which position is told: its number and the driver's place."""
     coordinate = solution.problem.drive.coordinate
     value = given(float(solution.positions[index]), words)
@@ -113,7 +113,7 @@ def position_line(solution: Solution, words: Wording, index: int) -> str:
         number=index,
         count=count,
         symbol=plain_text(coordinate.symbol),
-        value=with_unit(value, words.units[coordinate.unit]),
+        value=with_unit(value, words["units"][coordinate.unit]),
     )
 
 
@@ -121,29 +121,29 @@ def position_line(solution: Solution, words: Wording, index: int) -> str:
 
 
 def position_tables(
-    solution: Solution, words: Wording, index: int, sigmas: Sigmas | None = None
+    solution: Solution, words: Words, index: int, sigmas: Sigmas | None = None
 ) -> list[str]:
     """Return the tables of one position: points, links, sliding, segments of the plans."""
     sigmas = sigmas or Sigmas(solution, words, asked=False)
     points = _points(solution, words, index, sigmas)
     parts = [
-        (words.table_points, sigmas.table(sigmas.header(words.columns_points, 4, 6), points)),
+        (words.table_points, sigmas.table(sigmas.header(words["columns_points"], 4, 6), points)),
         (words.table_links, _link_tables(solution, words, index, sigmas)),
     ]
     sliding = _sliding(solution, words, index, sigmas)
     if sliding:
-        header = sigmas.header(words.columns_sliding, 2, 4, 6)
+        header = sigmas.header(words["columns_sliding"], 2, 4, 6)
         parts.append((words.table_sliding, sigmas.table(header, sliding)))
     names = Names(solution, words)
     for kind, scale in zip(MOTION, scale_texts(solution, words, index), strict=True):
-        plan = words.plans[kind.value]
+        plan = words["plans"][kind.value]
         title = words.table_segments.format(plan=plan[:1].lower() + plan[1:], scale=scale)
         rows = _segments(solution, names, kind, index, sigmas)
         if kind is PlanKind.POSITION:
-            lines = sigmas.table(sigmas.header(words.columns_lengths, 2), rows)
+            lines = sigmas.table(sigmas.header(words["columns_lengths"], 2), rows)
         else:
-            unit = words.units[FACTS[kind].unit]
-            header = sigmas.header([text.format(unit=unit) for text in words.columns_vectors], 3)
+            unit = words["units"][FACTS[kind].unit]
+            header = sigmas.header([text.format(unit=unit) for text in words["columns_vectors"]], 3)
             lines = sigmas.table(header, rows, left=2)
         if rows:
             parts.append((title, lines))
@@ -159,7 +159,7 @@ def moving_points(solution: Solution) -> list[str]:
     return [name for name, at in velocity.named.items() if velocity.point[at] != velocity.pole]
 
 
-def _points(solution: Solution, words: Wording, i: int, sigmas: Sigmas) -> list[list[str]]:
+def _points(solution: Solution, words: Words, i: int, sigmas: Sigmas) -> list[list[str]]:
     rows, quantities = [], solution.quantities(QuantityKind.VELOCITY, QuantityKind.ACCELERATION)
     for name in moving_points(solution):
         place = solution.points[name].place[i]
@@ -177,7 +177,7 @@ def _found(solution: Solution, quantity: Quantity, i: int, sigmas: Sigmas) -> li
     return [*told, *sigmas.cell(quantity.label, i)]
 
 
-def _place(solution: Solution, metres: float, words: Wording) -> str:
+def _place(solution: Solution, metres: float, words: Words) -> str:
     """Return a coordinate; far from the origin with the digits that tell points apart."""
     draft = solution.construction.draft
     if draft.origin == 0:
@@ -186,18 +186,18 @@ def _place(solution: Solution, metres: float, words: Wording) -> str:
     return spoken(f"{metres:.{max(0, 4 - math.floor(math.log10(size)))}f}", words)
 
 
-def _link_tables(solution: Solution, words: Wording, i: int, sigmas: Sigmas) -> list[str]:
+def _link_tables(solution: Solution, words: Words, i: int, sigmas: Sigmas) -> list[str]:
     """Return the table of the links; with errors it is one of ω and one of ε: both are wide."""
     rows = _links(solution, words, i, sigmas)
     if not sigmas.asked:
-        return table(words.columns_links, rows)
-    header = sigmas.header(words.columns_links, 3, 6)
+        return table(words["columns_links"], rows)
+    header = sigmas.header(words["columns_links"], 3, 6)
     one = sigmas.table(header[:6], [row[:6] for row in rows])
     two = sigmas.table((header[0], *header[6:]), [[row[0], *row[6:]] for row in rows])
     return [*one, "", *two]
 
 
-def _links(solution: Solution, words: Wording, i: int, sigmas: Sigmas) -> list[list[str]]:
+def _links(solution: Solution, words: Words, i: int, sigmas: Sigmas) -> list[list[str]]:
     rows = []
     for name, quantities in solution.quantities(*TURNING).items():
         known = {quantity.kind: quantity for quantity in quantities}
@@ -215,13 +215,13 @@ def _links(solution: Solution, words: Wording, i: int, sigmas: Sigmas) -> list[l
     return rows
 
 
-def _sense(value: float, words: Wording) -> str:
+def _sense(value: float, words: Words) -> str:
     if abs(value) < 1e-12:
         return "—"
     return words.ccw if value > 0 else words.cw
 
 
-def _sliding(solution: Solution, words: Wording, i: int, sigmas: Sigmas) -> list[list[str]]:
+def _sliding(solution: Solution, words: Words, i: int, sigmas: Sigmas) -> list[list[str]]:
     rows = []
     quantities = solution.quantities(
         QuantityKind.SLIDING, QuantityKind.CORIOLIS, QuantityKind.RELATIVE
@@ -259,12 +259,12 @@ def _joined(segment: Segment) -> str:
     return segment.name.replace("-", "")
 
 
-def _lengths(segment: Segment, words: Wording, i: int) -> list[str]:
+def _lengths(segment: Segment, words: Words, i: int) -> list[str]:
     exact, read = float(segment.exact[i]), float(segment.read[i])
     return [fixed(exact, words), given(read, words, 6)]
 
 
-def _many_forces(solution: Solution, words: Wording) -> list[list[str]]:
+def _many_forces(solution: Solution, words: Words) -> list[list[str]]:
     if solution.problem.dynamics is None:
         return []
     from planmethod.note.tables.forces import forces_columns
@@ -272,7 +272,7 @@ def _many_forces(solution: Solution, words: Wording) -> list[list[str]]:
     return forces_columns(solution, words)
 
 
-def _resultants(solution: Solution, words: Wording) -> list[str]:
+def _resultants(solution: Solution, words: Words) -> list[str]:
     from planmethod.note.narrate.forces.resultants import kept_lines, shift_lines
     from planmethod.solved.forces.statics import statics_of
 
@@ -283,10 +283,10 @@ def _resultants(solution: Solution, words: Wording) -> list[str]:
 # Many positions --------------------------------------------------------------------------------
 
 
-def _many(solution: Solution, words: Wording, sigmas: Sigmas) -> list[str]:
+def _many(solution: Solution, words: Words, sigmas: Sigmas) -> list[str]:
     """Return tables with a row for each position."""
     coordinate = solution.problem.drive.coordinate
-    symbol = f"{plain_text(coordinate.symbol)}, {words.units[coordinate.unit]}"
+    symbol = f"{plain_text(coordinate.symbol)}, {words['units'][coordinate.unit]}"
     lead = [
         [words.number, *(str(i) for i in range(len(solution.positions)))],
         [symbol, *(given(float(p), words) for p in solution.positions)],

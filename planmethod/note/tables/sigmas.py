@@ -9,7 +9,7 @@ from planmethod.note.plaintext import spoken, table, wrap
 from planmethod.note.rounding import sigma_text
 
 if TYPE_CHECKING:
-    from planmethod.note.wording import Wording
+    from planmethod.note.wording import Words
     from planmethod.solved.errors.spread import Errors
     from planmethod.solved.solution import Solution
 
@@ -37,7 +37,7 @@ class Sigmas:
         Some cell that was made has the mark of a sigma found by random draws.
     """
 
-    def __init__(self, solution: Solution, words: Wording, *, asked: bool = True) -> None:
+    def __init__(self, solution: Solution, words: Words, *, asked: bool = True) -> None:
         self.solution, self.words, self.asked = solution, words, asked
         self.drawn = False
 
@@ -82,7 +82,7 @@ class Sigmas:
         if not self.asked:
             return []
         name = self.solution.profile.name
-        profile = self.words.profiles.get(name, name)
+        profile = self.words["profiles"].get(name, name)
         lines = wrap(self.words.sigma_note.format(profile=profile))
         if self.drawn:
             lines += wrap(self.words.drawn_note)

@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import field
+from msgspec import Struct, field
 
 from planmethod.construct.program import Builder
 from planmethod.construct.steps import LineName, NumberName, PointName
-from planmethod.record import dataclass
 
 
-@dataclass(frozen=True, slots=True)
-class Axes:
+class Axes(Struct, frozen=True):
     """Axes of a diagram: origin, axis of abscissae to the right, axis of ordinates up."""
 
     name: str
@@ -19,8 +17,7 @@ class Axes:
     up: LineName
 
 
-@dataclass(slots=True)
-class Board:
+class Board(Struct):
     """Steps of diagrams with their data (планшет диаграмм).
 
     Attributes

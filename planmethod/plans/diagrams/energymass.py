@@ -13,15 +13,15 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
+from msgspec import Struct
+
 from planmethod.construct.program import Program
 from planmethod.construct.steps import NumberName, PointName
 from planmethod.plans.diagrams.board import Axes, Board
 from planmethod.plans.diagrams.calculus import Integration, integrate
-from planmethod.record import dataclass
 
 
-@dataclass(frozen=True, slots=True)
-class Given:
+class Given(Struct, frozen=True):
     """Numbers that the diagrams are drawn of.
 
     Attributes
@@ -62,8 +62,7 @@ class Given:
     delta: float
 
 
-@dataclass(frozen=True, slots=True)
-class Places:
+class Places(Struct, frozen=True):
     """Origins of the diagrams on the paper, mm."""
 
     moment: complex = 0j
@@ -73,8 +72,7 @@ class Places:
     mass: complex = 0j  # below the origin of the energy-mass diagram, on the level of the inertia
 
 
-@dataclass(frozen=True, slots=True)
-class EnergyMass:
+class EnergyMass(Struct, frozen=True):
     """The diagrams as steps (диаграмма энергомасс).
 
     Attributes

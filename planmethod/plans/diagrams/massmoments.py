@@ -5,15 +5,14 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 
 import numpy as np
+from msgspec import Struct
 
 from planmethod.construct.program import Program
 from planmethod.construct.steps import NumberName, PointName
 from planmethod.plans.diagrams.board import Board
-from planmethod.record import dataclass
 
 
-@dataclass(frozen=True, slots=True)
-class MassMoments:
+class MassMoments(Struct, frozen=True):
     """The polygon as steps.
 
     Attributes

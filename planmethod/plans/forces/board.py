@@ -7,7 +7,9 @@ number, N·m. Places are those of the position plan, so arms are measured where 
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import field
+
+from msgspec import Struct
+from msgspec.structs import replace
 
 from planmethod.construct.arithmetic import Number
 from planmethod.construct.steps import LineName, NumberName, PointName
@@ -19,7 +21,6 @@ from planmethod.plans.model import FACTS, PlanKind
 from planmethod.plans.motion.leads import Kinematics
 from planmethod.plans.segments import Ends, Segments
 from planmethod.problem.load_records import Dynamics
-from planmethod.record import dataclass, replace
 
 SCALE = FACTS[PlanKind.FORCE].scale
 PREFIX = FACTS[PlanKind.FORCE].prefix
@@ -30,8 +31,7 @@ def plain_name(symbol: str) -> str:
     return symbol.replace("^{", "").replace("_{", "_").replace("}", "")
 
 
-@dataclass(frozen=True, slots=True)
-class Force:
+class Force(Struct, frozen=True):
     """Force on a link (сила): where it acts, its segment on a force plan, and its letter."""
 
     at: PointName
@@ -49,8 +49,7 @@ class Force:
         return replace(self, tail=self.head, head=self.tail, symbol=symbol)
 
 
-@dataclass(frozen=True, slots=True)
-class Given:
+class Given(Struct, frozen=True):
     """Load that does not come from a joint, as the plan has it; a force or a couple."""
 
     applied: Applied
@@ -58,8 +57,7 @@ class Given:
     couple: NumberName | None
 
 
-@dataclass(frozen=True, slots=True)
-class Reaction:
+class Reaction(Struct, frozen=True):
     """What one link of a joint does to the other (реакция в кинематической паре).
 
     Attributes
@@ -80,7 +78,6 @@ class Reaction:
     couple: NumberName | None = None
 
 
-@dataclass(slots=True)
 class Board:
     """State of the force plans while they are being planned (планы сил в работе).
 
@@ -91,31 +88,25 @@ class Board:
     from position to position, by name, with the known numbers that hold them.
     """
 
-    draft: Draft
-    kin: Kinematics
-    dynamics: Dynamics | None = None
-    data: dict[str, Number] = field(default_factory=dict)
-    forces: dict[str, list[Force]] = field(default_factory=dict)
-    couples: dict[str, list[NumberName]] = field(default_factory=dict)
-    given: list[Given] = field(default_factory=list)
-    reactions: list[Reaction] = field(default_factory=list)
-    plans: list[ForcePlan] = field(default_factory=list)
-    symbols: dict[NumberName, str] = field(default_factory=dict)
-    shifts: dict[str, Shift] = field(default_factory=dict)
-    starts: list[PointName] = field(default_factory=list)
-    arms: dict[tuple[PointName, PointName, NumberName], NumberName] = field(default_factory=dict)
-    changing: list[tuple[str, tuple[NumberName, ...]]] = field(default_factory=list)
-    segments: Segments = field(init=False)
-    accelerations: Segments = field(init=False)
-    pole: PointName = field(init=False)
-    _masses: dict[str, NumberName] = field(default_factory=dict)
-    _moments: dict[tuple[PointName, PointName, Ends], NumberName] = field(default_factory=dict)
-    _gravity: NumberName | None = None
-    _count: int = 0
-
-    def __post_init__(self) -> None:
-        self.segments = Segments(self.draft.b, self.draft.b.known(SCALE), PREFIX)
-        self.accelerations = self.kin.acceleration.segments.on(self.draft.b)
+    def __init__(self, draft: Draft, kin: Kinematics, dynamics: Dynamics | None = None) -> None:
+        self.draft, self.kin, self.dynamics = draft, kin, dynamics
+        self.data: dict[str, Number] = {}
+        self.forces: dict[str, list[Force]] = {}
+        self.couples: dict[str, list[NumberName]] = {}
+        self.given: list[Given] = []
+        self.reactions: list[Reaction] = []
+        self.plans: list[ForcePlan] = []
+        self.symbols: dict[NumberName, str] = {}
+        self.shifts: dict[str, Shift] = {}
+        self.starts: list[PointName] = []
+        self.arms: dict[tuple[PointName, PointName, NumberName], NumberName] = {}
+        self.changing: list[tuple[str, tuple[NumberName, ...]]] = []
+        self._masses: dict[str, NumberName] = {}
+        self._moments: dict[tuple[PointName, PointName, Ends], NumberName] = {}
+        self._gravity: NumberName | None = None
+        self._count = 0
+        self.segments = Segments(draft.b, draft.b.known(SCALE), PREFIX)
+        self.accelerations = kin.acceleration.segments.on(draft.b)
         self.pole = self.start()
 
     @property

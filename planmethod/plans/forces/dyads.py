@@ -13,6 +13,9 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from msgspec import Struct
+from msgspec.structs import replace
+
 from planmethod.construct.steps import LineName, NumberName, PointName
 from planmethod.mechanism.groups import AssurGroup, Lead
 from planmethod.mechanism.model import FRAME, Revolute
@@ -40,11 +43,9 @@ from planmethod.plans.motion.position import (
 )
 from planmethod.plans.segments import Ends
 from planmethod.problem.model import Slide
-from planmethod.record import dataclass, replace
 
 
-@dataclass(frozen=True, slots=True)
-class Driving:
+class Driving(Struct, frozen=True):
     """What balances the driving link (уравновешивающий момент, уравновешивающая сила).
 
     Attributes

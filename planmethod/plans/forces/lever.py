@@ -9,15 +9,15 @@ of inertia is a point of its link: there the lever has it beside the centre of m
 
 from __future__ import annotations
 
+from msgspec import Struct
+
 from planmethod.construct.steps import NumberName, PointName
 from planmethod.plans.forces.board import Board, Given
 from planmethod.plans.forces.dyads import Driving
 from planmethod.plans.forces.loads import Shift
-from planmethod.record import dataclass
 
 
-@dataclass(frozen=True, slots=True)
-class Lever:
+class Lever(Struct, frozen=True):
     """The lever of a mechanism (рычаг Жуковского).
 
     Attributes
@@ -37,8 +37,7 @@ class Lever:
     loads: tuple[LeverLoad, ...] = ()
 
 
-@dataclass(frozen=True, slots=True)
-class LeverLoad:
+class LeverLoad(Struct, frozen=True):
     """Load on the lever; of a force the point where it hangs, and its arm about the pole, mm."""
 
     given: Given

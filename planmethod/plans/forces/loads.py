@@ -6,11 +6,11 @@ from enum import Enum
 
 import numpy as np
 import numpy.typing as npt
+from msgspec import Struct
 
 from planmethod.construct.arithmetic import Number
 from planmethod.construct.steps import NumberName, PointName
 from planmethod.problem.model import Problem
-from planmethod.record import dataclass
 
 DOWN = -90.0
 """Direction of the weights, degrees."""
@@ -28,8 +28,7 @@ class LoadKind(Enum):
     EXTERNAL = "external"
 
 
-@dataclass(frozen=True, slots=True)
-class Applied:
+class Applied(Struct, frozen=True):
     """One force or couple on a link in every position (приложенная нагрузка).
 
     Attributes
@@ -69,8 +68,7 @@ def numbers_of(one: Applied) -> tuple[Number, ...]:
     return turned, np.abs(force)
 
 
-@dataclass(frozen=True, slots=True)
-class Shift:
+class Shift(Struct, frozen=True):
     """Force of inertia moved off the centre of mass (смещённая сила инерции).
 
     Attributes

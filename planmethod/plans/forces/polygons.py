@@ -8,11 +8,13 @@ from __future__ import annotations
 
 from enum import Enum
 
+from msgspec import Struct
+from msgspec.structs import replace
+
 from planmethod.construct.steps import NumberName, PointName
 from planmethod.mechanism.groups import Lead
 from planmethod.plans.model import Direction, Known, Relation
 from planmethod.plans.segments import Ends
-from planmethod.record import dataclass, replace
 
 
 class Share(Enum):
@@ -23,8 +25,7 @@ class Share(Enum):
     TANGENTIAL = "tangential"  # across the link (касательная)
 
 
-@dataclass(frozen=True, slots=True)
-class Edge:
+class Edge(Struct, frozen=True):
     """One side of a force polygon, and the term of the equation that it shows (вектор плана сил).
 
     Attributes
@@ -59,8 +60,7 @@ class Edge:
         return self.tail, self.head
 
 
-@dataclass(frozen=True, slots=True)
-class CoupleOn:
+class CoupleOn(Struct, frozen=True):
     """Couple on a link: a moment of inertia forces, of a guide, the balancing one (пара сил).
 
     ``at`` is the place it is about, or None where that is all the same.
@@ -72,16 +72,14 @@ class CoupleOn:
     at: PointName | None = None
 
 
-@dataclass(frozen=True, slots=True)
-class Balance:
+class Balance(Struct, frozen=True):
     """Equation of forces: the forces add up to nothing (уравнение сил)."""
 
     links: tuple[str, ...]
     edges: tuple[Edge, ...]
 
 
-@dataclass(frozen=True, slots=True)
-class Moments:
+class Moments(Struct, frozen=True):
     """Equation of moments that gives a force or a couple (уравнение моментов).
 
     Attributes
@@ -109,8 +107,7 @@ class Moments:
     arm: tuple[tuple[NumberName, int], ...] = ()
 
 
-@dataclass(frozen=True, slots=True)
-class ForcePlan:
+class ForcePlan(Struct, frozen=True):
     """Force plan of links that are cut free together (план сил группы или начального звена).
 
     Attributes
@@ -152,8 +149,7 @@ def reaction_symbol(on: str, by: str, share: Share = Share.WHOLE, letter: str = 
     return f"{letter}{above}_{{{index}}}"
 
 
-@dataclass(frozen=True, slots=True)
-class Components:
+class Components(Struct, frozen=True):
     """Reaction of a revolute lead in two shares (нормальная и касательная составляющие).
 
     ``line`` are the points of the link from the joint to the middle one, ``arm`` the

@@ -7,7 +7,7 @@ links coincide at a place but move differently, the place of the second carries 
 
 from __future__ import annotations
 
-from dataclasses import field
+from msgspec import Struct, field
 
 from planmethod.construct.steps import LineName, NumberName, PointName
 from planmethod.mechanism.model import FRAME
@@ -24,7 +24,6 @@ from planmethod.plans.model import (
     pole_letter,
 )
 from planmethod.plans.segments import Segments
-from planmethod.record import dataclass
 
 UNKNOWN_KINDS = (VectorKind.RELATIVE, VectorKind.SLIDING)
 """Components that end in a middle joint: from the pole they are its absolute vector as well."""
@@ -46,8 +45,7 @@ def _number(vector: Vector) -> str:
     return vector.symbol.replace("^{", "").replace("_{", "_").replace("}", "")
 
 
-@dataclass(slots=True)
-class Motion:
+class Motion(Struct):
     """One plan being planned (план скоростей или ускорений в работе).
 
     Attributes
@@ -171,8 +169,7 @@ def plain_letter(motion: Motion, point: PointName) -> str:
     return f"{head}_{tail}" if head in ("n", "k") else f"{head}{tail}"
 
 
-@dataclass(frozen=True, slots=True)
-class Ray:
+class Ray(Struct, frozen=True):
     """Half of a vector equation: where a lead's line starts on the plan and how it runs (луч).
 
     Attributes

@@ -11,7 +11,7 @@ Sources: the equations of plane motion and of compound motion, as in "Кинем
 
 from __future__ import annotations
 
-from dataclasses import field
+from msgspec import Struct, field
 
 from planmethod.construct.steps import LineName, NumberName, PointName
 from planmethod.mechanism.model import FRAME
@@ -30,11 +30,9 @@ from planmethod.plans.model import (
 )
 from planmethod.plans.motion.board import Motion, Ray
 from planmethod.problem.model import Problem, Slide
-from planmethod.record import dataclass
 
 
-@dataclass(slots=True)
-class Relative:
+class Relative(Struct):
     """Motion of a point of one link relative to the coincident point of another.
 
     The velocity is from ``start`` to ``head`` on the velocity plan; on the acceleration plan the
@@ -62,8 +60,7 @@ class Relative:
         return f"{letter}_{self.name}"
 
 
-@dataclass(frozen=True, slots=True)
-class Turning:
+class Turning(Struct, frozen=True):
     """Segment of a plan from which a link's angular velocity or acceleration was read.
 
     ``arm`` are the factors of the length between the joint and the place, m.
@@ -76,8 +73,7 @@ class Turning:
     arm: tuple[tuple[NumberName, int], ...]
 
 
-@dataclass(slots=True)
-class Kinematics:
+class Kinematics(Struct):
     """What both plans know of the links' motion (угловые скорости и ускорения).
 
     A link is in ``omega`` only when it turns; it is in ``epsilon`` only when its angular
@@ -103,8 +99,7 @@ class Kinematics:
                 table[link] = table[with_link]
 
 
-@dataclass(frozen=True, slots=True)
-class Arm:
+class Arm(Struct, frozen=True):
     """Segment of a link from a joint to a place, and how its length is known.
 
     ``length`` holds factors of a length in metres: a given ``l_BC``, or the millimetres read on the

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from msgspec import Struct
+
 from planmethod.construct.steps import LineName, PointName
 from planmethod.errors import AssemblyError
 from planmethod.mechanism.groups import AssurGroup, Lead
@@ -10,7 +12,6 @@ from planmethod.plans.closing import Closing
 from planmethod.plans.dimensions import Dimension, DimensionKind
 from planmethod.plans.draft import Draft, side, way
 from planmethod.problem.model import Problem, Slide
-from planmethod.record import dataclass
 
 EQUAL = 1e-9
 """Share of a length by which the opposite sides of a parallelogram may differ."""
@@ -140,8 +141,7 @@ def _place_parallel(draft: Draft, group: AssurGroup) -> None:
     draft.mark_placed(c)
 
 
-@dataclass(frozen=True, slots=True)
-class Quadrilateral:
+class Quadrilateral(Struct, frozen=True):
     """A dyad RRR and the corner across it: corner, near, its inner joint, far (четырёхзвенник).
 
     Attributes

@@ -6,14 +6,14 @@ from cmath import isfinite
 from collections.abc import Iterable, Iterator
 from typing import Literal, Protocol, assert_never
 
+from msgspec import Struct
+
 from planmethod.errors import PlanMethodError
-from planmethod.record import dataclass
 from planmethod.render.ink.drawing import Arc, Disc, Drawing, Fill, Item, Stroke, Text
 from planmethod.render.ink.lettering import OutlineLettering
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Options:
+class Options(Struct, frozen=True, kw_only=True):
     """Wishes that only some formats can grant.
 
     ``dpi`` is the resolution of a raster picture, dots to the inch; ``author`` goes into the

@@ -7,11 +7,11 @@ from enum import StrEnum
 from types import MappingProxyType
 from typing import NamedTuple, TypeAlias
 
+from msgspec import Struct
+
 from planmethod.note.plaintext import plain_text
-from planmethod.note.wording import language
-from planmethod.note.wording.control_model import ControlWording
+from planmethod.note.wording import Words, language
 from planmethod.paper import FORMATS
-from planmethod.record import dataclass
 from planmethod.render.ink.drawing import Pen
 
 Segments: TypeAlias = tuple[tuple[str, float], ...]
@@ -105,7 +105,7 @@ def _fact(fact: str | float | Segments, limit: float, lang: str) -> str:
     return number_text(fact, lang)
 
 
-def thing_text(name: str, words: ControlWording) -> str:
+def thing_text(name: str, words: Words) -> str:
     """Return what an inscription lies on (``stroke main``), or a line by itself (``line axis``)."""
     kind, _, rest = name.partition(" ")
     # The names of pens may have a space, as may what follows them.
@@ -115,12 +115,13 @@ def thing_text(name: str, words: ControlWording) -> str:
     told = f" ({tag})" if tag else ""
     if kind == "line":
         assert pen is not None, f"a line without a pen: {name}"
-        return words.lines[pen.value] + told
-    return words.things[kind].format(pen="" if pen is None else words.pens[pen.value]) + told
+        line: str = words["lines"][pen.value]
+        return line + told
+    thing: str = words["things"][kind]
+    return thing.format(pen="" if pen is None else words["pens"][pen.value]) + told
 
 
-@dataclass(frozen=True, slots=True)
-class Finding:
+class Finding(Struct, frozen=True):
     """One thing the norm control has to say (замечание).
 
     Attributes
@@ -159,11 +160,11 @@ class Finding:
 
     def what(self, lang: str) -> str:
         """Return what is wrong, where, with numbers."""
-        return self._filled(language(lang).control.remarks[self.code].what, lang)
+        return self._filled(language(lang).control["remarks"][self.code].what, lang)
 
     def action(self, lang: str) -> str:
         """Return what to do about it."""
-        actions = language(lang).control.remarks[self.code].actions
+        actions = language(lang).control["remarks"][self.code]["actions"]
         return self._filled(actions[str(self.facts.get("advice", ""))], lang)
 
     def _filled(self, template: str, lang: str) -> str:

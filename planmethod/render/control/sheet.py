@@ -19,7 +19,8 @@ from collections.abc import Iterable, Iterator, Sequence
 from itertools import pairwise
 from math import tau
 
-from planmethod.record import replace
+from msgspec.structs import replace
+
 from planmethod.render.control.misleading import holds, misleading
 from planmethod.render.control.remarks import Facts, Finding
 from planmethod.render.control.texts import beyond, lint, writings_of

@@ -17,10 +17,10 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 
+from msgspec import Struct
 from shapely import LineString, Point, Polygon, STRtree, union_all
 from shapely.geometry.base import BaseGeometry
 
-from planmethod.record import dataclass
 from planmethod.render.control.remarks import Finding
 from planmethod.render.frame.frame import MARGIN_NOTE, STAMP
 from planmethod.render.ink.drawing import Arc, Bounds, Disc, Fill, Ink, Item, Pen, Stroke, Text
@@ -39,8 +39,7 @@ GRID = "grid"
 _TOUCH = 0.05  # mm: what is not yet an overlap
 
 
-@dataclass(frozen=True, slots=True)
-class Writing:
+class Writing(Struct, frozen=True):
     """One inscription (надпись): its runs, the ink boxes, where in the drawing order it stands."""
 
     name: str

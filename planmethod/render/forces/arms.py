@@ -4,10 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 
+from msgspec import Struct
+from msgspec.structs import replace
+
 from planmethod.note.narrate.forces.common import arm_symbol
 from planmethod.note.numbers import Notation
 from planmethod.plans.forces.polygons import Moments
-from planmethod.record import dataclass, replace
 from planmethod.render.forces.arrows import MANNER, Acting, Segment
 from planmethod.render.ink.drawing import Item, Pen, Stroke
 from planmethod.render.labels import Label, segment_label
@@ -25,8 +27,7 @@ _MOST = 24  # arms on a picture: of more nobody finds one, and the equations tel
 _HEIGHT = 3.5  # of the letters, mm, where others are larger
 
 
-@dataclass(frozen=True, slots=True)
-class Arm:
+class Arm(Struct, frozen=True):
     """Arm of a force about a point, mm.
 
     Attributes

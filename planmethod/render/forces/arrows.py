@@ -10,10 +10,11 @@ from collections.abc import Iterable, Sequence
 from itertools import pairwise
 
 import numpy as np
+from msgspec import Struct
+from msgspec.structs import replace
 from numpy.typing import NDArray
 
 from planmethod.plans.draft import cis
-from planmethod.record import dataclass, replace
 from planmethod.render.ink.drawing import Arc, Disc, Fill, Item, Pen, Stroke
 from planmethod.render.ink.extent import arc_points
 from planmethod.render.ink.typeset import typeset, vector_markup
@@ -42,8 +43,7 @@ _STRANGER = 10.0  # cost of another joint on the way to an arrow, or under it
 Segment = tuple[complex, complex]
 
 
-@dataclass(frozen=True, slots=True)
-class Acting:
+class Acting(Struct, frozen=True):
     """Force to be drawn: its letter, where it acts, mm, and in which direction.
 
     ``gap`` is the white between its arrow and its point, mm, where it is not that of the others.
@@ -56,8 +56,7 @@ class Acting:
     gap: float | None = None
 
 
-@dataclass(frozen=True, slots=True)
-class Turning:
+class Turning(Struct, frozen=True):
     """Couple to be drawn: its letter, a place on its link, mm, and its sense."""
 
     symbol: str

@@ -6,8 +6,9 @@ A group is cut free at its outer joints: there the reactions stand for what was 
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import field
 from itertools import combinations
+
+from msgspec import field
 
 from planmethod.construct.steps import PointName
 from planmethod.mechanism.model import FRAME
@@ -15,7 +16,6 @@ from planmethod.note.narrate.given import point_name
 from planmethod.note.numbers import Notation
 from planmethod.plans.forces.polygons import CoupleOn, Edge, Moments, Share
 from planmethod.problem.model import Slide
-from planmethod.record import dataclass
 from planmethod.render.forces.arms import Arm, arm_items, arms_of
 from planmethod.render.forces.arrows import (
     Acting,
@@ -58,7 +58,6 @@ _BEYOND_POINT = 5.0
 """Length of it beyond the place of a reaction, mm."""
 
 
-@dataclass(slots=True)
 class Cut(Scheme):
     """Some links of a mechanism in one position, cut free from the others (группа отдельно).
 

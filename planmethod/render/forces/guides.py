@@ -8,9 +8,10 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Sequence
 
+from msgspec import Struct
+
 from planmethod.plans.model import PlanKind
 from planmethod.problem.model import Slide
-from planmethod.record import dataclass
 from planmethod.render.forces.arrows import Acting, Segment, distance
 from planmethod.render.ink.drawing import Disc, Ink, Item
 from planmethod.render.ink.typeset import typeset
@@ -44,8 +45,7 @@ def drawn_length(solution: Solution, slide: Slide, factor: float) -> float:
     return SIZES.slider_length * factor
 
 
-@dataclass(frozen=True, slots=True)
-class Span:
+class Span(Struct, frozen=True):
     """Distance to be dimensioned: its letter, and its ends on the guide, mm."""
 
     symbol: str
@@ -53,8 +53,7 @@ class Span:
     end: complex
 
 
-@dataclass(frozen=True, slots=True)
-class Pressed:
+class Pressed(Struct, frozen=True):
     """Reaction of a guide as it is drawn, in place of a force at the joint and a couple.
 
     Attributes

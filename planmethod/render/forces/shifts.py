@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 
+from msgspec import Struct
+
 from planmethod.note.narrate.forces.resultants import force_symbol, shift_symbol
 from planmethod.note.numbers import Notation, half_up
-from planmethod.record import dataclass
 from planmethod.render.forces.arrows import Acting, Segment
 from planmethod.render.ink.drawing import Disc, Ink, Item, Pen, Stroke
 from planmethod.render.ink.typeset import typeset
@@ -22,8 +23,7 @@ _ROOM = 6.0  # mm: a shorter shift has no room for the mark of its right angle
 _CORNER = 2.0  # side of that mark, mm
 
 
-@dataclass(frozen=True, slots=True)
-class Shifted:
+class Shifted(Struct, frozen=True):
     """Force moved off the centre of mass: its letter, that of its point, both places, mm.
 
     ``told`` is what is written at the line between them.

@@ -10,8 +10,9 @@ from collections.abc import Iterator, Mapping, Sequence
 from types import MappingProxyType
 from typing import NamedTuple, TypeAlias
 
+from msgspec import Struct
+
 from planmethod.paper import STAMP_HEIGHT, STAMP_WIDTH
-from planmethod.record import dataclass
 from planmethod.render.ink.drawing import Bounds
 from planmethod.render.layout.block import Align
 
@@ -27,8 +28,7 @@ class Cell(NamedTuple):
 Caption: TypeAlias = tuple[str, Bounds, Align]
 
 
-@dataclass(frozen=True, slots=True)
-class Form:
+class Form(Struct, frozen=True):
     """Form of the title block (форма основной надписи), mm from its lower left corner.
 
     Attributes
@@ -37,7 +37,7 @@ class Form:
         Lines, from (x0, y0) to (x1, y1); the outline is drawn besides. Thick ones part the graphs,
         thin ones the rows and the three small cells of "Лит.".
     captions : tuple of (str, Bounds, Align)
-        By their names in `FrameWording.captions`.
+        By their names in ``captions`` of a language's ``frame``.
     cells : mapping of str to Cell
         Where the fields go; a form leaves out fields that it has no graph for.
     organisation : Cell, optional

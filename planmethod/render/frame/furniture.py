@@ -6,11 +6,12 @@ from collections.abc import Mapping
 from types import MappingProxyType
 from typing import TypeAlias
 
+from msgspec import Struct
+
 from planmethod.errors import LayoutError
 from planmethod.languages import LANGUAGES
 from planmethod.paper import FRAME_OTHER, Format
 from planmethod.problem.head import SheetSettings
-from planmethod.record import dataclass
 from planmethod.render.frame.forms import FORM_1, FORM_2, FORM_2A, Form
 from planmethod.render.ink.drawing import Bounds
 
@@ -31,8 +32,7 @@ _BESIDE = 67.0  # mm: graphs 27 to 29 beside graph 26
 _ABOVE = {"1": 8.0, "2": 22.0}  # mm: graph 30, or 27 to 30, above the title block
 
 
-@dataclass(frozen=True, slots=True)
-class Room:
+class Room(Struct, frozen=True):
     """Where on a sheet the drawing may be (поле чертежа), mm.
 
     Attributes
@@ -50,8 +50,7 @@ class Room:
     taken: tuple[Bounds, ...] = ()
 
 
-@dataclass(frozen=True, slots=True)
-class Furniture:
+class Furniture(Struct, frozen=True):
     """What stands around the drawings of a set of sheets (оформление комплекта листов).
 
     Attributes

@@ -8,12 +8,13 @@ from __future__ import annotations
 
 from cmath import rect
 from collections.abc import Iterable, Iterator
-from dataclasses import field
 from enum import Enum
 from math import radians
 from typing import TypeAlias
 
-from planmethod.record import dataclass, replace
+from msgspec import Struct, field
+from msgspec.structs import replace
+
 from planmethod.render.ink.lettering import OutlineLettering, in_use
 
 
@@ -39,8 +40,7 @@ class Ink(Enum):
     WHITE = "white"
 
 
-@dataclass(frozen=True, slots=True)
-class Stroke:
+class Stroke(Struct, frozen=True):
     """Open or closed polyline.
 
     ``smooth`` tells that its points are of a curve without corners, which a format that has splines
@@ -54,8 +54,7 @@ class Stroke:
     smooth: bool = False
 
 
-@dataclass(frozen=True, slots=True)
-class Arc:
+class Arc(Struct, frozen=True):
     """Circular arc, counter-clockwise from ``start`` to ``end`` (radians); by default a circle."""
 
     centre: complex
@@ -66,8 +65,7 @@ class Arc:
     tag: str = ""
 
 
-@dataclass(frozen=True, slots=True)
-class Fill:
+class Fill(Struct, frozen=True):
     """Filled polygon: an arrowhead, a rigid corner, the white inside of a joint."""
 
     points: tuple[complex, ...]
@@ -75,8 +73,7 @@ class Fill:
     tag: str = ""
 
 
-@dataclass(frozen=True, slots=True)
-class Disc:
+class Disc(Struct, frozen=True):
     """Filled circle."""
 
     centre: complex
@@ -85,8 +82,7 @@ class Disc:
     tag: str = ""
 
 
-@dataclass(frozen=True, slots=True)
-class Text:
+class Text(Struct, frozen=True):
     """One run of letters; ``at`` is the left end of its base line (always left anchored).
 
     ``height`` is the cap height h of GOST 2.304 in mm, ``angle`` turns the run about ``at``,
@@ -109,8 +105,7 @@ Bounds: TypeAlias = tuple[float, float, float, float]
 """xmin, ymin, xmax, ymax in mm."""
 
 
-@dataclass(frozen=True, slots=True)
-class Span:
+class Span(Struct, frozen=True):
     """One segment of a plan as it lies on the sheet (отрезок плана).
 
     ``name`` is its letters, ``position`` the number of the position as the sheet has it (None when
@@ -137,8 +132,7 @@ VIEW_KINDS = (
 """Kinds of views: whoever tells of them has a word for each."""
 
 
-@dataclass(frozen=True, slots=True)
-class View:
+class View(Struct, frozen=True):
     """One view of a sheet, for those who look the sheet over (вид).
 
     Attributes
@@ -162,8 +156,7 @@ class View:
     spans: tuple[Span, ...] = ()
 
 
-@dataclass(slots=True)
-class Drawing:
+class Drawing(Struct):
     """Display list of one sheet, drawn in order (чертёж), and what its views are.
 
     ``lettering`` is that in which its texts were measured: the output formats draw them in it.

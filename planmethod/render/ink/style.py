@@ -14,12 +14,12 @@ from math import radians, tau
 from types import MappingProxyType
 from typing import Literal
 
-from planmethod.record import dataclass
+from msgspec import Struct
+
 from planmethod.render.ink.drawing import Arc, Pen, Stroke
 
 
-@dataclass(frozen=True, slots=True)
-class Dashes:
+class Dashes(Struct, frozen=True):
     """Dash pattern: stroke, gap, and for a dash-dot line the dots evenly in the gap.
 
     ``stroke`` is the length aimed at; the strokes of one line are equal, stretched or shrunk (to
@@ -52,8 +52,7 @@ class Dashes:
         return (*parts, reached - self.gap)
 
 
-@dataclass(frozen=True, slots=True)
-class PenStyle:
+class PenStyle(Struct, frozen=True):
     """How a pen draws: width in mm, dashes, grey from 0 (black) to 1 (white), line ends."""
 
     width: float
@@ -103,8 +102,7 @@ HEIGHTS = (1.8, 2.5, 3.5, 5.0, 7.0, 10.0, 14.0, 20.0, 28.0, 40.0)
 _CORNER = radians(20.0)
 
 
-@dataclass(frozen=True, slots=True)
-class ArrowStyle:
+class ArrowStyle(Struct, frozen=True):
     """Swept arrowhead: ``notch`` is how far its back is cut in along the shaft.
 
     There is one shape: an arrowhead of another length is as much narrower or wider.

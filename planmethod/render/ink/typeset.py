@@ -1,27 +1,17 @@
-r"""Rich text (набор строки с индексами): markup to runs of letters placed absolutely.
-
-The markup is small and reads like the textbook::
-
-    v_{CB}          index below; one sign needs no braces: v_B
-    a^{n}_{CB}      index above and index below, stacked, in either order
-    \bar{v}_{B}     overbar: a thin line above the letters in the braces
-    B_{3_{1}}       an index may have an index
-
-Any other text stands for itself, Russian included. A literal ``_``, ``^``, ``{``, ``}`` or
-backslash is written with a backslash before it (``\_``); `escape` does that for text from outside.
-"""
+"""Typesetting (набор строки с индексами): rich text to runs of letters placed absolutely."""
 
 from __future__ import annotations
 
 import cmath
+import re
 from functools import lru_cache
 from math import radians
 from typing import Literal, TypeAlias
 
-from planmethod.errors import LayoutError
-from planmethod.languages import say
-from planmethod.pattern import pattern
-from planmethod.record import dataclass, replace
+from msgspec import Struct
+from msgspec.structs import replace
+
+from planmethod.note.formula import Bar, Index, Letters, Node, parse
 from planmethod.render.ink.drawing import Bounds, Item, Pen, Stroke, Text
 from planmethod.render.ink.lettering import OutlineLettering, in_use
 from planmethod.render.ink.style import HEIGHTS
@@ -34,9 +24,7 @@ PART_OF = "part-of:"
 
 Anchor: TypeAlias = Literal["left", "centre", "right"]
 
-_SPECIAL = "_^{}\\"
-_PLAIN = pattern(r"[^_^{}\\]+")
-_LINE = pattern(r"(?<![^\W\d_])([a-z])-\1(?![^\W\d_])")  # x-x in files, x–x on paper
+_LINE = r"(?<![^\W\d_])([a-z])-\1(?![^\W\d_])"  # x-x in files, x–x on paper
 _SUB_DROP = 0.3  # of h: how far an index below sinks under the base line
 _SUP_RISE = 0.5  # of h: how far the base line of an index above rises
 _STACK_GAP = 0.16  # of h: white between two stacked indices
@@ -45,8 +33,7 @@ _BAR_INSET = 0.1  # of h: white between an overbar and an index that follows
 _BAR_GAP = 0.16  # of h: white between the letter and its overbar
 
 
-@dataclass(frozen=True, slots=True)
-class Run:
+class Run(Struct, frozen=True):
     """Letters of one height, placed from the start of the inscription, mm."""
 
     x: float
@@ -55,8 +42,7 @@ class Run:
     height: float
 
 
-@dataclass(frozen=True, slots=True)
-class Inscription:
+class Inscription(Struct, frozen=True):
     """Typeset line (надпись): what it is made of and how much room it takes.
 
     Attributes
@@ -133,11 +119,6 @@ class Inscription:
         )
 
 
-def escape(text: str) -> str:
-    r"""Return markup that shows the text as it stands (``_`` becomes ``\_``)."""
-    return "".join("\\" + sign if sign in _SPECIAL else sign for sign in text)
-
-
 def index_height(height: float) -> float:
     """Return the height of the indices of letters (высота индекса), mm.
 
@@ -194,7 +175,7 @@ def typeset(markup: str, height: float) -> Inscription:
     Parameters
     ----------
     markup : str
-        See the module's text.
+        Rich text.
     height : float, mm
         Cap height of the main letters.
 
@@ -212,9 +193,8 @@ def typeset(markup: str, height: float) -> Inscription:
 
 @lru_cache(maxsize=4096)
 def _typeset(markup: str, height: float, lettering: OutlineLettering) -> Inscription:
-    written = _LINE.sub(r"\1–\1", markup) if "-" in markup else markup
-    nodes, end = _parse(written, 0, closing=False)
-    assert end == len(written)
+    written = re.sub(_LINE, r"\1–\1", markup) if "-" in markup else markup
+    nodes = parse(written)
     setter = _Setter(lettering)
     end_x = setter.set(nodes, 0.0, 0.0, height)
     # Slanted letters lean out of the room that they take along the line.
@@ -254,99 +234,6 @@ def text_corners(text: Text) -> list[complex]:
     return [text.at + turn * corner for corner in leaning]
 
 
-@dataclass(frozen=True, slots=True)
-class _Letters:
-    text: str
-
-
-@dataclass(frozen=True, slots=True)
-class _Index:
-    below: tuple[_Node, ...]
-    above: tuple[_Node, ...]
-
-
-@dataclass(frozen=True, slots=True)
-class _Bar:
-    body: tuple[_Node, ...]
-
-
-_Node: TypeAlias = _Letters | _Index | _Bar
-
-
-def _parse(markup: str, start: int, *, closing: bool) -> tuple[tuple[_Node, ...], int]:
-    """Read nodes from ``start`` up to the closing brace or the end."""
-    nodes: list[_Node] = []
-    letters, i = "", start
-
-    def flush() -> None:
-        nonlocal letters
-        if letters:
-            nodes.append(_Letters(letters))
-        letters = ""
-
-    while i < len(markup):
-        sign = markup[i]
-        if sign == "}" and closing:
-            flush()
-            return tuple(nodes), i
-        if sign == "\\" and markup[i + 1 : i + 2] in tuple(_SPECIAL):
-            letters += markup[i + 1]
-            i += 2
-        elif markup.startswith("\\bar{", i):
-            flush()
-            body, end = _parse(markup, i + 5, closing=True)
-            nodes.append(_Bar(body))
-            i = end + 1
-        elif sign in "_^":
-            flush()
-            body, i = _index_body(markup, i)
-            nodes.append(_merged(nodes, sign, body))
-        elif sign in _SPECIAL:
-            raise _fault(markup, i, say("'{}' does not pair or starts no known command", sign))
-        elif plain := _PLAIN.match(markup, i):
-            letters += plain[0]
-            i = plain.end()
-    if closing:
-        raise _fault(markup, start, "the brace opened here is not closed")
-    flush()
-    return tuple(nodes), i
-
-
-def _index_body(markup: str, i: int) -> tuple[tuple[_Node, ...], int]:
-    """Read what follows the ``_`` or ``^`` at ``i``; return it and the place after it."""
-    following = markup[i + 1 : i + 2]
-    if following == "{":
-        body, end = _parse(markup, i + 2, closing=True)
-        if body:
-            return body, end + 1
-    elif following and following not in _SPECIAL and not following.isspace():
-        return (_Letters(following),), i + 2
-    raise _fault(markup, i, say("nothing stands after '{}'", markup[i]))
-
-
-def _merged(nodes: list[_Node], sign: str, body: tuple[_Node, ...]) -> _Index:
-    """Join an index with the one just before it when that has the other place free."""
-    before = nodes[-1] if nodes else None
-    if isinstance(before, _Index):
-        if sign == "_" and not before.below:
-            nodes.pop()
-            return _Index(body, before.above)
-        if sign == "^" and not before.above:
-            nodes.pop()
-            return _Index(before.below, body)
-    return _Index(body, ()) if sign == "_" else _Index((), body)
-
-
-def _fault(markup: str, i: int, what: str) -> LayoutError:
-    return LayoutError(
-        "Cannot set the inscription {!r}: {} (sign {}). Pair the braces, or write a "
-        "literal sign with a backslash before it.",
-        markup,
-        what,
-        i + 1,
-    )
-
-
 class _Setter:
     """Collect runs and bars from left to right and the room they take."""
 
@@ -357,19 +244,19 @@ class _Setter:
         self.ascent = 0.0
         self.descent = 0.0
 
-    def set(self, nodes: tuple[_Node, ...], x: float, y: float, height: float) -> float:
+    def set(self, nodes: tuple[Node, ...], x: float, y: float, height: float) -> float:
         """Set the nodes from (x, y) on and return the x where they end."""
-        before: _Node | None = None
+        before: Node | None = None
         for node in nodes:
             match node:
-                case _Letters(text):
-                    if isinstance(before, _Index) and (text[0] == "·" or text[0].isalpha()):
+                case Letters(text):
+                    if isinstance(before, Index) and (text[0] == "·" or text[0].isalpha()):
                         x += _AFTER_INDEX * height
                     x = self._letters(text, x, y, height)
-                case _Bar(body):
-                    x += _AFTER_INDEX * height if isinstance(before, _Index) else 0.0
+                case Bar(body):
+                    x += _AFTER_INDEX * height if isinstance(before, Index) else 0.0
                     x = self._bar(body, x, y, height)
-                case _Index(below, above):
+                case Index(below, above):
                     x = self._index(below, above, x, y, height)
             before = node
         return x
@@ -381,7 +268,7 @@ class _Setter:
         self.descent = max(self.descent, self.lettering.descent(text, height) - y)
         return x + self.lettering.width(text, height)
 
-    def _bar(self, body: tuple[_Node, ...], x: float, y: float, height: float) -> float:
+    def _bar(self, body: tuple[Node, ...], x: float, y: float, height: float) -> float:
         inner = _Setter(self.lettering)
         width = inner.set(body, 0.0, 0.0, height)
         self.set(body, x, y, height)
@@ -393,8 +280,8 @@ class _Setter:
 
     def _index(
         self,
-        below: tuple[_Node, ...],
-        above: tuple[_Node, ...],
+        below: tuple[Node, ...],
+        above: tuple[Node, ...],
         x: float,
         y: float,
         height: float,

@@ -8,9 +8,9 @@ from math import tau
 from typing import TypeAlias
 
 import numpy as np
+from msgspec import Struct
 from numpy.typing import NDArray
 
-from planmethod.record import dataclass
 from planmethod.render.ink.drawing import Bounds
 from planmethod.render.labels.model import ALONE, CLEAR, Label
 from planmethod.render.symbols import unit
@@ -23,8 +23,7 @@ _BESIDE = (0.0, 0.8, 2.0, 4.0)  # beyond the gap, mm
 _OTHER_SIDE = 3.0  # being on the other side of its segment than preferred, mm of distance
 
 
-@dataclass(frozen=True)
-class Candidates:
+class Candidates(Struct, frozen=True, dict=True):
     """Places of one label.
 
     Attributes

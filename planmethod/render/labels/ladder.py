@@ -14,9 +14,9 @@ from itertools import pairwise
 from typing import TypeAlias
 
 import numpy as np
+from msgspec import Struct
 from numpy.typing import NDArray
 
-from planmethod.record import dataclass
 from planmethod.render.labels.candidates import Candidates, Complexes, Floats, crossed
 from planmethod.render.labels.model import APART, Label
 from planmethod.render.labels.paper import CROSSED, Paper
@@ -39,8 +39,7 @@ _BAD = 1e9
 Standing: TypeAlias = Callable[[Candidates, NDArray[np.intp]], Floats]
 
 
-@dataclass(frozen=True, slots=True)
-class _Series:
+class _Series(Struct, frozen=True):
     """Labels in the order of their points along a column (upright) or row."""
 
     labels: tuple[Label, ...]

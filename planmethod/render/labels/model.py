@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from planmethod.record import dataclass
+from msgspec import Struct
+
 from planmethod.render.ink.drawing import Bounds, Fill, Ink, Item, Pen, Stroke
 from planmethod.render.ink.typeset import Inscription, typeset
 
@@ -19,8 +20,7 @@ BREAKABLE = frozenset({Pen.THIN, Pen.PALE, Pen.PHANTOM})
 """Pens of the lines that it may break."""
 
 
-@dataclass(frozen=True, slots=True)
-class Manner:
+class Manner(Struct, frozen=True):
     """How a label looks for its place; all lengths mm.
 
     Attributes
@@ -82,8 +82,7 @@ CROWDED = Manner(
 """One of a series of labels: many places, firm in its direction, a leader line soon."""
 
 
-@dataclass(frozen=True, slots=True)
-class Label:
+class Label(Struct, frozen=True):
     """Inscription that wants a place near a point or along a segment (надпись).
 
     Attributes
@@ -119,8 +118,7 @@ class Label:
     series: str = ""
 
 
-@dataclass(frozen=True, slots=True)
-class Placed:
+class Placed(Struct, frozen=True):
     """Label with its place: ``at`` is the left end of its base line, mm.
 
     ``leader`` is the leader line or None; ``free`` tells that nothing is crossed or overlapped;

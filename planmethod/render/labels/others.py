@@ -6,9 +6,9 @@ from collections.abc import Sequence
 from typing import TypeAlias
 
 import numpy as np
+from msgspec import Struct
 from numpy.typing import NDArray
 
-from planmethod.record import dataclass
 from planmethod.render.labels.candidates import Candidates, Floats, crossing, inside
 from planmethod.render.labels.model import APART, Label
 from planmethod.render.labels.paper import FORBIDDEN
@@ -21,8 +21,7 @@ Numbers: TypeAlias = NDArray[np.intp]
 _OFF_LEADERS = 0.5  # white between a label and another one's leader line, mm
 
 
-@dataclass(slots=True)
-class Met:
+class Met(Struct):
     """What the labels cost the places of one: shape (n, labels), and with which of their places."""
 
     candidates: Candidates

@@ -7,15 +7,14 @@ one or two others elsewhere. The same input gives the same places.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
-from dataclasses import field
+from collections.abc import Callable, Iterable, Sequence
 from functools import lru_cache
 from itertools import count
 
 import numpy as np
+from msgspec import Struct
 from numpy.typing import NDArray
 
-from planmethod.record import dataclass
 from planmethod.render.ink.drawing import Bounds, Item
 from planmethod.render.labels.candidates import (
     Candidates,
@@ -89,8 +88,7 @@ def _placed(
     return places.result()
 
 
-@dataclass(slots=True)
-class _Choice:
+class _Choice(Struct):
     """A set of places of one label with their costs, the cheapest first.
 
     Of ``every`` place only the free ones are there, until none of them will do; then it is None.
@@ -110,8 +108,7 @@ class _Choice:
         return cls(candidates, costs, order, Met.of(candidates, labels), every)
 
 
-@dataclass(slots=True)
-class _Taken:
+class _Taken(Struct):
     """The place that a label has."""
 
     choice: _Choice
@@ -121,16 +118,13 @@ class _Taken:
     ground: bool = False
 
 
-@dataclass
 class _Places:
     """Labels and the places that they have so far."""
 
-    paper: Paper
-    labels: Sequence[Label]
-    taken: dict[int, _Taken] = field(default_factory=dict)
-    stamps: Iterator[int] = field(default_factory=count)
-
-    def __post_init__(self) -> None:
+    def __init__(self, paper: Paper, labels: Sequence[Label]) -> None:
+        self.paper, self.labels = paper, labels
+        self.taken: dict[int, _Taken] = {}
+        self.stamps = count()
         self.strangers = list(
             dict.fromkeys(label.anchor for label in self.labels if label.manner.stranger)
         )

@@ -5,16 +5,17 @@ Every block is placed by its **upper left** corner, since a sheet is filled from
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Sequence
-from dataclasses import field
+from functools import cached_property
 from typing import Literal, Protocol, TypeAlias
 
-from planmethod.pattern import pattern
-from planmethod.record import dataclass
+from msgspec import Struct
+
+from planmethod.note.formula import escape
 from planmethod.render.ink.drawing import Bounds, Item, Pen, Stroke, shifted
 from planmethod.render.ink.typeset import (
     Inscription,
-    escape,
     line_step,
     smaller_heights,
     split_words,
@@ -22,10 +23,10 @@ from planmethod.render.ink.typeset import (
 )
 
 # What must not be taken apart when a word is broken: an escaped sign, a letter with its indices.
-_SIGNS = pattern(r"(?:\\bar\{[^{}]*\}|\\.|.)(?:[_^](?:\{[^{}]*\}|.))*")
+_SIGNS = r"(?:\\bar\{[^{}]*\}|\\.|.)(?:[_^](?:\{[^{}]*\}|.))*"
 
 # Letters of a unit are few, or there is a sign between them.
-_UNIT = pattern(r"[^\W\d_]{1,3}(?![^\W\d_])|[^\W\d_]+[·/]")
+_UNIT = r"[^\W\d_]{1,3}(?![^\W\d_])|[^\W\d_]+[·/]"
 
 Align: TypeAlias = Literal["left", "centre", "right"]
 
@@ -51,8 +52,7 @@ class Block(Protocol):
         ...
 
 
-@dataclass(frozen=True, slots=True)
-class Shapes:
+class Shapes(Struct, frozen=True):
     """A block that can be laid out in several ways (варианты блока); alone it is the first one."""
 
     ways: tuple[Block, ...]
@@ -78,8 +78,7 @@ def shaped(ways: Iterable[Block]) -> Block:
     return Shapes(found) if len(found) > 1 else found[0]
 
 
-@dataclass(frozen=True, slots=True)
-class Spacer:
+class Spacer(Struct, frozen=True):
     """Empty room, mm (промежуток)."""
 
     width: float
@@ -90,8 +89,7 @@ class Spacer:
         return []
 
 
-@dataclass(frozen=True, slots=True)
-class Picture:
+class Picture(Struct, frozen=True):
     """Ready items in their own coordinates; ``bounds`` is the room they take, mm."""
 
     items: tuple[Item, ...]
@@ -112,8 +110,7 @@ class Picture:
         return list(shifted(self.items, corner - complex(self.bounds[0], self.bounds[3])))
 
 
-@dataclass(frozen=True, slots=True)
-class Line:
+class Line(Struct, frozen=True):
     """One typeset line (строка); the block's box is its ink box.
 
     ``underline`` draws a thin line under it, as under the name of a view.
@@ -145,8 +142,7 @@ class Line:
         return items
 
 
-@dataclass(frozen=True, slots=True)
-class Lines:
+class Lines(Struct, frozen=True):
     """Typeset lines under one another with the line step of GOST 2.304 (абзац).
 
     ``indent`` moves every line but the first to the right, mm (left-aligned lines only).
@@ -197,20 +193,22 @@ class Lines:
         return items
 
 
-@dataclass(frozen=True)
-class Column:
+class Column(Struct, frozen=True, dict=True):
     """Blocks from the top down (столбец)."""
 
     blocks: Sequence[Block]
     gap: float = 5.0
     align: Align = "left"
-    width: float = field(init=False)
-    height: float = field(init=False)
 
-    def __post_init__(self) -> None:
-        gaps = self.gap * max(0, len(self.blocks) - 1)
-        object.__setattr__(self, "width", max((b.width for b in self.blocks), default=0.0))
-        object.__setattr__(self, "height", sum(b.height for b in self.blocks) + gaps)
+    @cached_property
+    def width(self) -> float:
+        """Width, mm."""
+        return max((b.width for b in self.blocks), default=0.0)
+
+    @cached_property
+    def height(self) -> float:
+        """Height, mm."""
+        return sum(b.height for b in self.blocks) + self.gap * max(0, len(self.blocks) - 1)
 
     def place(self, corner: complex) -> list[Item]:
         """Return the items of all blocks."""
@@ -223,20 +221,22 @@ class Column:
         return items
 
 
-@dataclass(frozen=True)
-class Row:
+class Row(Struct, frozen=True, dict=True):
     """Blocks from left to right (ряд)."""
 
     blocks: Sequence[Block]
     gap: float = 5.0
     align: Literal["top", "centre", "bottom"] = "top"
-    width: float = field(init=False)
-    height: float = field(init=False)
 
-    def __post_init__(self) -> None:
-        gaps = self.gap * max(0, len(self.blocks) - 1)
-        object.__setattr__(self, "width", sum(b.width for b in self.blocks) + gaps)
-        object.__setattr__(self, "height", max((b.height for b in self.blocks), default=0.0))
+    @cached_property
+    def width(self) -> float:
+        """Width, mm."""
+        return sum(b.width for b in self.blocks) + self.gap * max(0, len(self.blocks) - 1)
+
+    @cached_property
+    def height(self) -> float:
+        """Height, mm."""
+        return max((b.height for b in self.blocks), default=0.0)
 
     def place(self, corner: complex) -> list[Item]:
         """Return the items of all blocks."""
@@ -304,7 +304,7 @@ def _tied(words: Sequence[str]) -> list[str]:
     """Return words with a sign of equality, its sides and the unit of a number as one."""
     found: list[str] = []
     for before, word in zip(("", *words), words, strict=False):
-        is_unit = before[-1:].isdigit() and _UNIT.match(word) is not None
+        is_unit = before[-1:].isdigit() and re.match(_UNIT, word) is not None
         if found and ("=" in (before, word) or is_unit):
             found[-1] += f" {word}"
         else:
@@ -403,7 +403,7 @@ def _fitting(
             return block, False
     while len(broken) > 1 and not _fits(made(broken, size, 0.0), room):
         broken.pop()
-    last = _SIGNS.findall(broken[-1]) if broken else []
+    last = re.findall(_SIGNS, broken[-1]) if broken else []
     while last and typeset("".join(last) + "…", size).width > room[0]:
         last.pop()
     return made([*broken[:-1], "".join(last).rstrip() + "…"], size, 0.0), True
@@ -436,7 +436,7 @@ def _broken(word: str, size: float, width: float) -> list[str]:
     """Break a word wider than the cell; with a hyphen inside a run of letters."""
     if typeset(word, size).width <= width:
         return [word]
-    signs = _SIGNS.findall(word)
+    signs = re.findall(_SIGNS, word)
     pieces: list[str] = []
     while len(signs) > 1 and typeset("".join(signs), size).width > width:
         take = len(signs) - 1

@@ -5,7 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import Literal, TypeAlias
 
-from planmethod.record import dataclass, replace
+from msgspec import Struct
+from msgspec.structs import replace
+
 from planmethod.render.ink.drawing import Bounds
 from planmethod.render.layout.block import Block, Shapes
 
@@ -20,8 +22,7 @@ _OPTIONS = 12  # cuttings kept for one run of blocks: widths from the narrowest 
 Arrange: TypeAlias = Literal["free", "row", "column"]
 
 
-@dataclass(frozen=True, slots=True)
-class Part:
+class Part(Struct, frozen=True):
     """A block to be packed; ``text`` says that it stands together with neighbouring texts."""
 
     block: Block
@@ -33,8 +34,7 @@ class Part:
         return self.block.ways if isinstance(self.block, Shapes) else (self.block,)
 
 
-@dataclass(frozen=True, slots=True)
-class Group:
+class Group(Struct, frozen=True):
     """Parts and groups that stay together (группа блоков).
 
     ``arrange`` says how they may stand: as the paper has room, side by side, one under another.
@@ -68,8 +68,7 @@ class Group:
                 yield from member.parts()
 
 
-@dataclass(frozen=True, slots=True)
-class Leaf:
+class Leaf(Struct, frozen=True):
     """A block by its number, in one of its ways, and its size, mm."""
 
     number: int
@@ -80,8 +79,7 @@ class Leaf:
     group: bool = False
 
 
-@dataclass(frozen=True, slots=True)
-class Cut:
+class Cut(Struct, frozen=True):
     """Two parts side by side (``across`` false) or one above the other.
 
     ``text``: all in it are texts, which stand together; ``group``: it is a whole group.

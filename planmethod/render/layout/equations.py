@@ -13,12 +13,12 @@ from __future__ import annotations
 
 from bisect import bisect_right
 from collections.abc import Sequence
-from dataclasses import field
-from functools import partial
+from functools import cached_property, partial
+
+from msgspec import Struct
 
 from planmethod.note.narrate.letters import direction_text
 from planmethod.plans.model import Known, VectorEquation
-from planmethod.record import dataclass
 from planmethod.render.ink.drawing import Item, Pen, Stroke
 from planmethod.render.ink.typeset import (
     Inscription,
@@ -44,8 +44,7 @@ INDENT = 5.0
 """How far to the right the further lines of a formula begin, mm."""
 
 
-@dataclass(frozen=True, slots=True)
-class _Term:
+class _Term(Struct, frozen=True):
     """Term of the equation and its note, and where its left edge is in the row, mm."""
 
     inscription: Inscription
@@ -66,8 +65,7 @@ class _Term:
         return max(self.x + self.inscription.width, self.middle + self.note.width / 2)
 
 
-@dataclass(frozen=True, slots=True)
-class _EquationRow:
+class _EquationRow(Struct, frozen=True):
     terms: tuple[_Term, ...]
     signs: tuple[tuple[float, Inscription], ...]
 
@@ -77,19 +75,22 @@ class _EquationRow:
         return max([term.right for term in self.terms] + ends)
 
 
-@dataclass(frozen=True)
-class EquationBlock:
+class EquationBlock(Struct, frozen=True, dict=True):
     """Vector equation as a block (векторное уравнение)."""
 
     rows: tuple[_EquationRow, ...]
     letter: float
-    width: float = field(init=False)
-    height: float = field(init=False)
 
-    def __post_init__(self) -> None:
-        object.__setattr__(self, "width", max(row.right for row in self.rows))
+    @cached_property
+    def width(self) -> float:
+        """Width, mm."""
+        return max(row.right for row in self.rows)
+
+    @cached_property
+    def height(self) -> float:
+        """Height, mm."""
         gaps = _BETWEEN_ROWS * self.letter * (len(self.rows) - 1)
-        object.__setattr__(self, "height", sum(sum(self._levels(r)) for r in self.rows) + gaps)
+        return sum(sum(self._levels(r)) for r in self.rows) + gaps
 
     def _levels(self, row: _EquationRow) -> tuple[float, float, float, float]:
         """Return the levels of a row, mm.

@@ -11,13 +11,14 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
-from dataclasses import field
+from functools import cached_property
 from itertools import accumulate, groupby
 from typing import Literal, TypeAlias
 
+from msgspec import Struct
+from msgspec.structs import replace
+
 from planmethod.errors import LayoutError
-from planmethod.pattern import pattern
-from planmethod.record import dataclass, replace
 from planmethod.render.ink.drawing import Bounds, Item, Pen, Stroke
 from planmethod.render.ink.lettering import in_use
 from planmethod.render.ink.typeset import Inscription, smaller_heights, typeset
@@ -29,11 +30,10 @@ UnitsAt: TypeAlias = Literal["above", "below", "none"]
 
 _PAD = 1.5  # white on both sides of a cell's text, mm
 _SIGN_GAP = 1.2  # between a value and the sign of its sense, mm
-_NUMBER = pattern(r"[-−+]?\d+(?P<fraction>[.,]\d+)?( ± \d+([.,]\d+)?)?\*?$")
+_NUMBER = r"[-−+]?\d+(?P<fraction>[.,]\d+)?( ± \d+([.,]\d+)?)?\*?$"
 
 
-@dataclass(frozen=True, slots=True)
-class Cell:
+class Cell(Struct, frozen=True):
     """One value (графа): rich text and, for ω and ε, the sense.
 
     ``sense`` is +1 (counter-clockwise) or -1 (clockwise): a small circular arrow beside the value;
@@ -44,8 +44,7 @@ class Cell:
     sense: int | None = None
 
 
-@dataclass(frozen=True, slots=True)
-class TableColumn:
+class TableColumn(Struct, frozen=True):
     """Column of a table (столбец): its symbol, unit and values, one per row.
 
     ``width`` is the width aimed at, mm: values that do not fit shrink to the next GOST height,
@@ -65,8 +64,7 @@ class TableColumn:
         return tuple(v if isinstance(v, Cell) else Cell(v) for v in self.values)
 
 
-@dataclass(frozen=True, slots=True)
-class _Set:
+class _Set(Struct, frozen=True):
     """Column with everything typeset: symbol, unit, values, and its width, mm."""
 
     source: TableColumn
@@ -78,20 +76,23 @@ class _Set:
     sign: complex  # centre of the signs of sense from the middle (real) and their size (imag)
 
 
-@dataclass(frozen=True)
-class TablePart:
+class TablePart(Struct, frozen=True, dict=True):
     """One table on the paper: a block (таблица)."""
 
     columns: tuple[_Set, ...]
     widths: tuple[float, ...]
     units: UnitsAt
     row_height: float
-    width: float = field(init=False)
-    height: float = field(init=False)
 
-    def __post_init__(self) -> None:
-        object.__setattr__(self, "width", sum(self.widths))
-        object.__setattr__(self, "height", sum(self._row_heights()))
+    @cached_property
+    def width(self) -> float:
+        """Width, mm."""
+        return sum(self.widths)
+
+    @cached_property
+    def height(self) -> float:
+        """Height, mm."""
+        return sum(self._row_heights())
 
     def _head_rows(self) -> int:
         return 1 if self.units == "none" else 2
@@ -280,7 +281,7 @@ def _set_at(column: TableColumn, size: float) -> _Set:
     tail = sign + _SIGN_GAP if signed else 0.0
     room = max((value.width for value in values), default=0.0)
     lefts = tuple(-(value.width + tail) / 2 for value in values)
-    if all(_NUMBER.match(cell.text) for cell in column.cells):
+    if all(re.match(_NUMBER, cell.text) for cell in column.cells):
         # Digits of one place stand under one another (GOST 2.105).
         wholes = [_integer_width(cell.text, size) for cell in column.cells]
         fractions = (v.width - w for v, w in zip(values, wholes, strict=True))

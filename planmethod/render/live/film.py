@@ -8,11 +8,12 @@ that plays by itself (SMIL, no script), or its frames as a GIF.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from dataclasses import field
 from html import escape
 
 import numpy as np
 import numpy.typing as npt
+from msgspec import Struct, field
+from msgspec.structs import replace
 
 from planmethod.errors import AssemblyError
 from planmethod.languages import say
@@ -22,7 +23,6 @@ from planmethod.plans.draft import cis
 from planmethod.plans.legend import QuantityKind
 from planmethod.plans.model import PlanKind
 from planmethod.problem.model import Problem
-from planmethod.record import dataclass, replace
 from planmethod.render.backends.canvas import Options
 from planmethod.render.backends.svg import SvgCanvas
 from planmethod.render.ink.drawing import Drawing, Fill, Item, Pen, Stroke, placed
@@ -45,8 +45,7 @@ _WAYS = np.array([far * np.exp(1j * np.pi / 8 * k) for far in (1.0, 4.0, 8.0) fo
 _MOVED = 1.5  # what it costs to move on for a unit of these
 
 
-@dataclass(frozen=True, slots=True)
-class Body:
+class DrawnBody(Struct, frozen=True):
     """Items in their own axes, and where these are in every frame: places, mm, and degrees."""
 
     items: tuple[Item, ...]
@@ -54,8 +53,7 @@ class Body:
     turns: Reals
 
 
-@dataclass(frozen=True, slots=True)
-class Segment:
+class Segment(Struct, frozen=True):
     """Segment between two points, mm in every frame, with an arrowhead at its head or without."""
 
     tails: Complexes
@@ -71,8 +69,7 @@ class Segment:
         return [Stroke((tail, head), self.pen)]
 
 
-@dataclass(slots=True)
-class Film:
+class Film(Struct):
     """Frames of a moving mechanism (кадры); all is mm, y up, from the lower left corner.
 
     Attributes
@@ -96,7 +93,7 @@ class Film:
     height: float = 0.0
     still: list[Item] = field(default_factory=list)
     segments: list[Segment] = field(default_factory=list)
-    bodies: list[Body] = field(default_factory=list)
+    bodies: list[DrawnBody] = field(default_factory=list)
     readings: list[list[Item]] = field(default_factory=list)
 
     @property
@@ -307,7 +304,7 @@ class _Cutting:
                 turn = float(scene.shown.links[part.link].phi_deg[part.index])
                 own = tuple(placed(part.items, -start * cis(-turn), -turn))
                 turns = self.values[scene.row(f"{part.link}.phi_deg")]
-                made.bodies.append(Body(own, at(scene.place(scene.foot(part.link))), turns))
+                made.bodies.append(DrawnBody(own, at(scene.place(scene.foot(part.link))), turns))
         else:
             for one in view.segments:
                 pen = Pen.MAIN if one["style"] == "main" else Pen.THIN
@@ -333,7 +330,9 @@ class _Cutting:
 
     # Inscriptions --------------------------------------------------------------------------------
 
-    def _labels(self, view: View, at: Callable[..., Complexes], corner: complex) -> Iterator[Body]:
+    def _labels(
+        self, view: View, at: Callable[..., Complexes], corner: complex
+    ) -> Iterator[DrawnBody]:
         """Yield the inscriptions, each where it covers the least, and seldom changes its place."""
         at_left, top, width, height = view.box
         low = corner + complex(at_left, -top - height)
@@ -376,7 +375,7 @@ class _Cutting:
             centre = place + offs[_quiet(costs)]
             taken.append((centre, half.real, half.imag))
             start = complex(-half.real, text.descent - half.imag)
-            yield Body(tuple(text.at(start)), centre, np.zeros(len(place)))
+            yield DrawnBody(tuple(text.at(start)), centre, np.zeros(len(place)))
 
 
 def _quiet(costs: Reals) -> npt.NDArray[np.intp]:

@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 import numpy as np
+from msgspec import Struct
 
 from planmethod.construct.steps import PointName
 from planmethod.mechanism.model import FRAME
 from planmethod.plans.draft import cis
 from planmethod.problem.model import Slide
-from planmethod.record import dataclass
 from planmethod.render.ink.drawing import Disc, Ink, Item
 from planmethod.render.pictures.scheme import AXIS, Scheme
 from planmethod.render.symbols import SIZES, guide_line, slider, turn_arrow
@@ -18,8 +18,7 @@ from planmethod.render.symbols.axes import axis_line
 from planmethod.solved.solution import Solution
 
 
-@dataclass(frozen=True, slots=True)
-class Part:
+class Part(Struct, frozen=True):
     """Items that move with a link as one body, mm, as they lie in one position.
 
     ``layer`` tells which parts lie over which.

@@ -12,10 +12,10 @@ from itertools import pairwise
 from math import ceil, floor
 
 import numpy as np
+from msgspec import Struct
 
 from planmethod.construct.scale import series_near
 from planmethod.note.numbers import Notation, trimmed
-from planmethod.record import dataclass
 from planmethod.render.ink.drawing import Arc, Disc, Ink, Item, Pen, Stroke
 from planmethod.render.ink.typeset import typeset
 from planmethod.render.labels import BUSY, Label
@@ -45,8 +45,7 @@ class Mark(Enum):
     CROSS = "cross"
 
 
-@dataclass(frozen=True, slots=True)
-class Curve:
+class Curve(Struct, frozen=True):
     """Curve of a diagram: its letter (rich text), unbroken parts, mm, and its pen."""
 
     symbol: str
@@ -54,8 +53,7 @@ class Curve:
     pen: Pen = Pen.MAIN
 
 
-@dataclass(frozen=True, slots=True)
-class Ordinates:
+class Ordinates(Struct, frozen=True):
     """Axis of ordinates: what stands at its arrow, its scale, units per mm, and its numbers."""
 
     name: str
@@ -63,8 +61,7 @@ class Ordinates:
     say: Notation
 
 
-@dataclass(frozen=True, slots=True)
-class Abscissae:
+class Abscissae(Struct, frozen=True):
     """Axis of abscissae: what stands at its arrow, the drawn positions (mm) and their numbers.
 
     It goes on ``beyond`` what is drawn, mm.

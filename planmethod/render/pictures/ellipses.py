@@ -7,12 +7,12 @@ from math import atan2, cos, hypot, sin, sqrt, tau
 from typing import TYPE_CHECKING
 
 import numpy as np
+from msgspec import Struct
 
 from planmethod.construct.steps import PointName
 from planmethod.mechanism.model import FRAME
 from planmethod.note.wording import Language
 from planmethod.plans.model import PlanKind
-from planmethod.record import dataclass
 from planmethod.render.ink.drawing import Fill, Item, Pen, Stroke
 from planmethod.render.ink.style import PENS
 from planmethod.solved.errors.motion import drafting_of
@@ -41,8 +41,7 @@ TAG = "ellipse"
 _CORNERS = 64
 
 
-@dataclass(frozen=True, slots=True)
-class Ellipses:
+class Ellipses(Struct, frozen=True):
     """Ellipses of one view, and what the view has to say about them.
 
     ``strained`` tells that some are dashed, ``too_large`` that some are larger than half of it,
@@ -186,7 +185,7 @@ def ellipse_inscription(
 def told_ellipses(shown: Sequence[Ellipses], profile: Profile, words: Language) -> list[str]:
     """Return the lines that tell what some ellipses are, drawn by the hand of a profile."""
     said = words.sheets
-    hand = words.note.profiles.get(profile.name, profile.name)
+    hand = words.note["profiles"].get(profile.name, profile.name)
     if not any(view.strokes or view.too_large or view.undefined for view in shown):
         return [said.ellipses_thin.format(sigmas=SIGMAS, profile=hand)]
     enlarged = max(view.enlarged for view in shown)

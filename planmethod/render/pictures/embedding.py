@@ -8,15 +8,13 @@ length. Places are complex, in grid units, y up; the frame is the row y = 0.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import field
 from itertools import combinations
 from random import Random
 from typing import TypeAlias
 
 import numpy as np
+from msgspec import Struct, field
 from numpy.typing import NDArray
-
-from planmethod.record import dataclass
 
 Complexes: TypeAlias = NDArray[np.complex128]
 Floats: TypeAlias = NDArray[np.float64]
@@ -35,8 +33,7 @@ _ACUTE = 0.78  # cosine of the least angle between two bars in a joint
 _ALTITUDE = 0.85  # least height of a triangle
 
 
-@dataclass(frozen=True, slots=True)
-class Bar:
+class Bar(Struct, frozen=True):
     """Straight part of a link between two nodes (стержень); ``length`` is the length aimed at."""
 
     link: str
@@ -45,8 +42,7 @@ class Bar:
     length: float = 1.7
 
 
-@dataclass(frozen=True, slots=True)
-class Net:
+class Net(Struct, frozen=True):
     """What is to be laid out (граф структурной схемы).
 
     Attributes

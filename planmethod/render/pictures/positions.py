@@ -11,7 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 
-from msgspec import Struct, field
+from msgspec import Struct
 from msgspec.structs import replace
 
 from planmethod.construct.steps import PointName
@@ -44,7 +44,7 @@ class Spot(Struct):
     bold: bool = False
 
 
-class Positions(Struct):
+class Positions:
     """The other positions of a scheme.
 
     Parameters
@@ -57,16 +57,11 @@ class Positions(Struct):
     letter_height : float, mm
     """
 
-    solution: Solution
-    bold: int
-    overlay: tuple[int, ...]
-    letter_height: float
-    paths: Paths = field(init=False)
-    shown: Solution = field(init=False)
-    numbers: dict[int, str] = field(init=False)
-
-    def __post_init__(self) -> None:
-        s = self.solution
+    def __init__(
+        self, solution: Solution, bold: int, overlay: tuple[int, ...], letter_height: float
+    ) -> None:
+        s = self.solution = solution
+        self.bold, self.overlay, self.letter_height = bold, overlay, letter_height
         self.paths = Paths(s)
         extremes = self.paths.extremes if shows_extremes(s, self.overlay) else ()
         # The extreme positions behind the others, so that links have one length in all of them.

@@ -3,15 +3,14 @@
 from __future__ import annotations
 
 import math
-from dataclasses import field
 
 import numpy as np
+from msgspec import Struct, field
 
 from planmethod.construct.steps import PointName
 from planmethod.mechanism.model import FRAME, Revolute
 from planmethod.plans.draft import cis
 from planmethod.problem.model import Slide
-from planmethod.record import dataclass
 from planmethod.render import symbols
 from planmethod.render.ink.drawing import Disc, Ink, Item, Pen, Stroke
 from planmethod.render.ink.typeset import typeset
@@ -28,8 +27,7 @@ OVERHANG = 5.0
 """How far a bar goes on beyond the stone that slides on it, mm."""
 
 
-@dataclass(slots=True)
-class Scheme:
+class Scheme(Struct):
     """One mechanism being drawn in one position (схема).
 
     ``bodies``, ``lines``, ``corners`` and ``joints`` are drawn in this order: the sliders lie under

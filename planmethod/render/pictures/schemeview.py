@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import field
+
+from msgspec import Struct, field
 
 from planmethod.note.narrate.given import point_name
 from planmethod.plans.model import PlanKind
-from planmethod.record import dataclass
 from planmethod.render.ink.drawing import Item
 from planmethod.render.ink.typeset import typeset
 from planmethod.render.labels import Label
@@ -22,8 +22,7 @@ from planmethod.solved.reading import remembered
 from planmethod.solved.solution import Solution
 
 
-@dataclass(slots=True)
-class SchemeView:
+class SchemeView(Struct):
     """A drawn scheme and what is written on it."""
 
     scheme: Scheme

@@ -3,17 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import field
 from itertools import pairwise
 
 import numpy as np
+from msgspec import Struct, field
 
 from planmethod.mechanism.model import FRAME
 from planmethod.note.narrate.given import solution_peak
 from planmethod.note.numbers import is_noise
 from planmethod.plans.draft import cis
 from planmethod.plans.legend import QuantityKind
-from planmethod.record import dataclass
 from planmethod.render.ink.drawing import Arc, Item, Pen, Stroke
 from planmethod.render.ink.extent import arc_points
 from planmethod.render.ink.typeset import typeset
@@ -45,8 +44,7 @@ _OFF_BAR = (2.0, 3.6, 8.0)  # mm from the zero line of φ: no letter stands ther
 _BAR = 8.0  # mm further than the line itself
 
 
-@dataclass(slots=True)
-class Senses:
+class Senses(Struct):
     """Arrows of turns on a scheme (направления угловых скоростей и ускорений).
 
     An arrow is about the pivot of its link, that of ε well outside that of ω; on a link without

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from math import ceil
 
+from msgspec.structs import replace
+
 from planmethod.mechanism.model import FRAME
 from planmethod.plans.model import PlanKind
-from planmethod.record import replace
 from planmethod.render.ink.extent import ink_bounds
 from planmethod.render.labels import BUSY, Placed, place_labels
 from planmethod.render.labels.tidy import untidiness

@@ -9,15 +9,15 @@ from __future__ import annotations
 
 import cmath
 from collections.abc import Mapping
-from dataclasses import field
 from functools import lru_cache
 from itertools import pairwise
 from math import radians
 
+from msgspec import Struct, field
+
 from planmethod.mechanism.groups import AssurGroup
 from planmethod.mechanism.model import FRAME, Mechanism
 from planmethod.mechanism.structure import Structure
-from planmethod.record import dataclass
 from planmethod.render import symbols
 from planmethod.render.ink.drawing import Item, Pen, Stroke
 from planmethod.render.ink.extent import ink_bounds
@@ -26,10 +26,10 @@ from planmethod.render.labels import Label, place_labels, segment_label
 from planmethod.render.layout.block import Picture
 from planmethod.render.pictures.chains import (
     Chain,
+    DrawnSlide,
     Far,
     Pin,
     Shape,
-    Slide,
     driver_chain,
     group_chain,
     mechanism_chain,
@@ -160,8 +160,7 @@ def _picture(
     return draft.picture()
 
 
-@dataclass(slots=True)
-class _Draft:
+class _Draft(Struct):
     """Picture being drawn: lines, sliders over them, joints on top (чертёж цепи)."""
 
     chain: Chain
@@ -235,7 +234,7 @@ class _Draft:
 
     # Sliders ---------------------------------------------------------------------------------
 
-    def draw_slide(self, slide: Slide) -> None:
+    def draw_slide(self, slide: DrawnSlide) -> None:
         """Draw a stone and what it slides on."""
         place = self.at[slide.node]
         if slide.bar:
@@ -273,7 +272,7 @@ class _Draft:
                 away = 1j * turn if (1j * turn).imag >= 0 else -1j * turn
                 self._number(slide.stone, place + end * 3.0, end + 1.6 * away, gap=4.0)
 
-    def _cross_direction(self, place: complex, slide: Slide) -> complex:
+    def _cross_direction(self, place: complex, slide: DrawnSlide) -> complex:
         """Return the direction of a guide: level, or upright if a bar leaves along the level."""
         if slide.far is Far.FRAME:
             return 1 + 0j

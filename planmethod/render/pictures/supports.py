@@ -12,7 +12,8 @@ from itertools import combinations
 from math import pi, radians, sin
 from typing import TYPE_CHECKING
 
-from planmethod.record import dataclass
+from msgspec import Struct
+
 from planmethod.render.ink.drawing import Item, Stroke
 from planmethod.render.symbols import SIZES, fixed_pivots, foot_of
 
@@ -32,8 +33,7 @@ _MOST_STEP = 6.0  # mm: how much higher a pivot may stand than another on its ba
 _SMALLER = 0.65  # size of supports that overlap all the same
 
 
-@dataclass(frozen=True, slots=True)
-class Support:
+class Support(Struct, frozen=True):
     """Pivots on one hatched base (опора).
 
     Attributes

@@ -12,12 +12,13 @@ from collections.abc import Iterable, Iterator, Mapping
 from math import pi
 from typing import TypeAlias
 
+from msgspec import Struct
+
 from planmethod.construct import steps
 from planmethod.construct.steps import LineName, PointName, Step
 from planmethod.note.narrate.letters import direction_text, shown_letters
 from planmethod.note.plaintext import plain_text
 from planmethod.plans.model import Plan, PlanKind, Relation, Vector
-from planmethod.record import dataclass
 from planmethod.render.ink.drawing import Arc, Item, Pen, Stroke
 from planmethod.render.ink.typeset import typeset
 from planmethod.render.labels import Label
@@ -122,8 +123,7 @@ def _corner_of_triangle(step: steps.Similar, at: Mapping[PointName, complex]) ->
     return [_notch(end, corner, NOTCH / 2) for end in (b, c)]
 
 
-@dataclass(frozen=True, slots=True)
-class _Ray:
+class _Ray(Struct, frozen=True):
     """Direction in which an unknown vector was drawn, and what was laid off before it.
 
     ``along`` is the direction of its line, a unit vector; ``before`` the point that the vector

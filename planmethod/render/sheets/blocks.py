@@ -10,7 +10,8 @@ from importlib import import_module
 from types import MappingProxyType
 from typing import TypeAlias
 
-from planmethod.record import dataclass
+from msgspec import Struct
+
 from planmethod.render.layout.block import Block
 from planmethod.render.sheets.model import Manner
 from planmethod.render.sheets.results import results_block
@@ -27,8 +28,7 @@ Maker: TypeAlias = Callable[[Solution, Sequence[int], Manner], Block]
 """From a solution and the positions of a sheet to a block."""
 
 
-@dataclass(frozen=True, slots=True)
-class Kind:
+class Kind(Struct, frozen=True):
     """Kind of block: what makes it, and the keys of a composition file that it listens to.
 
     ``each``: there is one for every force plan, whose blocks in a row stand together.

@@ -7,13 +7,15 @@ from itertools import product
 from pathlib import Path
 from typing import Any
 
+from msgspec import Struct
+from msgspec.structs import replace
+
 from planmethod.construct.drafting import PROFILES, Profile
 from planmethod.construct.scale import series_near
 from planmethod.errors import PlanMethodError
 from planmethod.mechanism.structure import analyse
 from planmethod.note.numbers import trimmed
 from planmethod.problem.model import Convention, Problem
-from planmethod.record import dataclass, replace
 from planmethod.render.control.remarks import Finding
 from planmethod.render.control.sheet import SHORTEST, inspect
 from planmethod.render.frame.frame import FORMATS
@@ -29,8 +31,7 @@ KEYS = {"velocity": "mu_v", "acceleration": "mu_a", "forces": "mu_F"}
 """Keys of ``[scales]`` by the kind of view."""
 
 
-@dataclass(frozen=True, slots=True)
-class Controlled:
+class Controlled(Struct, frozen=True):
     """One sheet and what the norm control says of it."""
 
     drawing: Drawing

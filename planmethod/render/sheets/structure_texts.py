@@ -16,7 +16,7 @@ NBSP = "\u00a0"
 
 def pair_columns(mechanism: Mechanism, words: Language) -> list[TableColumn]:
     """Return the table of kinematic pairs (кинематические пары)."""
-    rows, kinds = pairs(mechanism), words.structure.pair_kinds
+    rows, kinds = pairs(mechanism), words.structure["pair_kinds"]
     cells = (
         tuple(letters(pair.name) for pair in rows),
         tuple(" – ".join(pair.links) for pair in rows),
@@ -24,7 +24,7 @@ def pair_columns(mechanism: Mechanism, words: Language) -> list[TableColumn]:
         tuple("V" for _ in rows),
         tuple("1" for _ in rows),
     )
-    return list(map(TableColumn, words.structure.columns_pairs, cells))
+    return list(map(TableColumn, words.structure["columns_pairs"], cells))
 
 
 def link_columns(mechanism: Mechanism, words: Language) -> list[TableColumn]:
@@ -33,11 +33,11 @@ def link_columns(mechanism: Mechanism, words: Language) -> list[TableColumn]:
     own = ([letters(pair.name) for pair in every if row.link in pair.links] for row in rows)
     cells = (
         tuple(row.link for row in rows),
-        tuple(words.note.roles[row.role.value] for row in rows),
-        tuple(words.structure.motions[row.motion.value] for row in rows),
+        tuple(words.note["roles"][row.role.value] for row in rows),
+        tuple(words.structure["motions"][row.motion.value] for row in rows),
         tuple(map(", ".join, own)),
     )
-    return list(map(TableColumn, words.structure.columns_links, cells))
+    return list(map(TableColumn, words.structure["columns_links"], cells))
 
 
 def formulas(mechanism: Mechanism, structure: Structure, words: Language) -> list[str]:
@@ -69,7 +69,7 @@ def driver_caption(mechanism: Mechanism, words: Language) -> list[str]:
     said = words.structure
     return [
         said.primary.format(
-            kind=said.pair_kinds[kind.value], links=_listed(FRAME, mechanism.driver)
+            kind=said["pair_kinds"][kind.value], links=_listed(FRAME, mechanism.driver)
         ),
         "W = 3·1 − 2·1 = 1".replace(" ", NBSP),
         "q = 1 − (6·1 − 5·1) = 0".replace(" ", NBSP),
@@ -82,7 +82,7 @@ def group_caption(group: AssurGroup, words: Language) -> list[str]:
     p = len(group.leads) + sum(
         sum(link in group.links for link in links_of(joint)) - 1 for joint in group.inner
     )
-    said, kind = words.structure, words.structure.group_leads.get(len(group.leads), "")
+    said, kind = words.structure, words.structure["group_leads"].get(str(len(group.leads)), "")
     if group.kind is not None:
         signature = local_letters(group.signature, words.note)
         kind = said.group_kind.format(kind=group.kind, letters=signature)

@@ -50,7 +50,7 @@ def equations_block(solution: Solution, indices: Sequence[int], manner: Manner) 
     size = manner.text(manner.sizes.text)
     height, width = max(3.5, min(5.0, size)), manner.width(manner.sizes.column)
     blocks: list[Block] = [
-        heading(manner.entry.title or manner.words.sheets.equations[kind.value], size)
+        heading(manner.entry.title or manner.words.sheets["equations"][kind.value], size)
     ]
     blocks += [equation_block(e, height, width=width) for e in plan.equations]
     return Column(blocks, gap=4.0)
@@ -63,7 +63,7 @@ def calculation_block(solution: Solution, indices: Sequence[int], manner: Manner
     index = shown_position(solution, indices, manner)
     height = manner.text(min(3.5, manner.sizes.text))
     said = manner.words.sheets
-    title = manner.entry.title or said.calculation[kind.value]
+    title = manner.entry.title or said["calculation"][kind.value]
     if len(solution.positions) > 1:
         title = said.of_position.format(title=title, number=index)
     lines = calculation(solution, kind, index, manner.words)

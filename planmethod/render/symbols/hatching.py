@@ -10,7 +10,8 @@ from collections.abc import Iterable, Sequence
 from math import ceil, radians
 from typing import TYPE_CHECKING
 
-from planmethod.record import replace
+from msgspec.structs import replace
+
 from planmethod.render.ink.drawing import Arc, Disc, Fill, Item, Pen, Stroke
 from planmethod.render.ink.extent import arc_points
 from planmethod.render.ink.style import PENS

@@ -5,11 +5,10 @@ from __future__ import annotations
 import cmath
 from math import degrees
 
-from planmethod.record import dataclass
+from msgspec import Struct
 
 
-@dataclass(frozen=True, slots=True)
-class Sizes:
+class Sizes(Struct, frozen=True):
     """Sizes of the symbols, mm, before ``factor``."""
 
     joint: float = 3.0  # diameter of a revolute pair

@@ -6,8 +6,7 @@ from collections.abc import Callable, Iterable
 
 import numpy as np
 import numpy.typing as npt
-
-from planmethod.record import dataclass
+from msgspec import Struct
 
 Reals = npt.NDArray[np.float64]
 
@@ -26,8 +25,7 @@ _FIT = np.cos(np.outer(np.arange(NODES), np.arccos(_UNIT))) * (2.0 / NODES)
 _FIT[0] /= 2.0
 
 
-@dataclass(frozen=True, slots=True)
-class Curve:
+class Curve(Struct, frozen=True):
     """Functions of one argument on joining pieces, with jumps and kinks at their edges only.
 
     Attributes

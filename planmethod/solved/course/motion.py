@@ -7,13 +7,14 @@ from functools import cached_property
 from math import pi
 
 import numpy as np
+from msgspec import Struct
+from msgspec.structs import replace
 
 from planmethod.errors import Fault, ProblemError
 from planmethod.languages import say
 from planmethod.plans.build import Construction
 from planmethod.problem.model import Problem
 from planmethod.problem.names import told_length
-from planmethod.record import dataclass, replace
 from planmethod.solved.course.curve import Curve, resolved
 from planmethod.solved.reading import Complexes, Reals
 from planmethod.solved.solution import LinkMotion, PointMotion, Solution
@@ -29,8 +30,7 @@ _SAME = 1e-9  # share of the largest size by which the ends of a cycle may diffe
 _COLUMNS = 6  # of a point: x and y of its place, velocity and acceleration
 
 
-@dataclass(frozen=True)
-class Moved:
+class Moved(Struct, frozen=True):
     """Motion in some positions, as loads need it: see `planmethod.solved.forces.loads`.
 
     Attributes
@@ -49,8 +49,7 @@ class Moved:
     links: Mapping[str, LinkMotion]
 
 
-@dataclass(frozen=True)
-class Stroke:
+class Stroke(Struct, frozen=True):
     """Course of a point between its dead positions (ход точки по прямой).
 
     Attributes

@@ -7,13 +7,13 @@ from enum import Enum
 
 import numpy as np
 import numpy.typing as npt
+from msgspec import Struct
 
 from planmethod.construct.arithmetic import Number
 from planmethod.construct.drafting import AS_SCALED, Profile
 from planmethod.construct.evaluate import Trace
 from planmethod.construct.program import Program
 from planmethod.construct.steps import Name, PointName
-from planmethod.record import dataclass
 from planmethod.solved.reading import Flags
 
 RADIAN = float(np.degrees(1.0))
@@ -28,8 +28,7 @@ class DrawnKind(Enum):
     DIRECTION = "direction"  # degrees
 
 
-@dataclass(frozen=True, slots=True)
-class DrawnQuantity:
+class DrawnQuantity(Struct, frozen=True):
     """A quantity that a drawing gives (величина чертежа).
 
     Attributes
@@ -57,8 +56,7 @@ class DrawnQuantity:
     direction: str = ""
 
 
-@dataclass(frozen=True, slots=True)
-class Drafted:
+class Drafted(Struct, frozen=True):
     """What is drawn, and what is taken off it (чертёж).
 
     Attributes

@@ -10,13 +10,13 @@ from collections.abc import Callable, Iterator
 from functools import cached_property, partial
 
 import numpy as np
+from msgspec import Struct
 
 from planmethod.construct.arithmetic import Number
 from planmethod.construct.dual import angle
 from planmethod.construct.evaluate import Trace
 from planmethod.construct.steps import AtAngle, NumberName, Parallel, Perpendicular, PointName
 from planmethod.plans.forces.board import Force, Reaction
-from planmethod.record import dataclass
 from planmethod.solved.errors.drawing import (
     RADIAN,
     Drafted,
@@ -52,8 +52,7 @@ def moment_label(joint: JointForce | Reaction) -> str:
     return f"M_{joint.on}_{joint.by}"
 
 
-@dataclass(frozen=True, slots=True)
-class Balances:
+class Balances(Struct, frozen=True):
     """What balances the driver by the force plans and by the lever, N·m or N, shape (n,)."""
 
     plans: Reals

@@ -6,13 +6,13 @@ from collections.abc import Callable, Iterator
 from functools import cached_property, partial
 
 import numpy as np
+from msgspec.structs import replace
 
 from planmethod.construct.arithmetic import Number
 from planmethod.construct.evaluate import Trace
 from planmethod.construct.steps import PointName
 from planmethod.plans.legend import QuantityKind
 from planmethod.plans.model import PlanKind
-from planmethod.record import replace
 from planmethod.solved.errors.drawing import (
     Drafted,
     DrawnKind,

@@ -13,6 +13,7 @@ from typing import Any, TypeVar
 
 import numpy as np
 import numpy.typing as npt
+from msgspec import Struct
 
 from planmethod.construct.arithmetic import Number
 from planmethod.construct.drafting import EVEN, Counted, Even, Propagated, Sampled
@@ -31,7 +32,6 @@ from planmethod.construct.steps import (
     operands,
 )
 from planmethod.errors import PlanMethodError
-from planmethod.record import dataclass
 from planmethod.solved.errors.drawing import RADIAN, Drafted, DrawnKind, DrawnQuantity
 from planmethod.solved.reading import Flags, Reals
 
@@ -63,8 +63,7 @@ class UnknownItemError(PlanMethodError, ValueError):
     """A covariance is asked of what a drawing does not give."""
 
 
-@dataclass(frozen=True, slots=True)
-class Spread:
+class Spread(Struct, frozen=True):
     """Drafting error of one quantity in every position (погрешность построения).
 
     Attributes
@@ -386,8 +385,7 @@ class _Spreads(Mapping[str, Spread]):
         return len(self._errors.items)
 
 
-@dataclass(frozen=True, slots=True)
-class _Slopes:
+class _Slopes(Struct, frozen=True):
     """What is taken, margins, points, leaves: with their slopes; the strokes behind the causes."""
 
     count: int
@@ -398,8 +396,7 @@ class _Slopes:
     strokes: list[str]
 
 
-@dataclass(frozen=True, slots=True)
-class _First:
+class _First(Struct, frozen=True):
     """First order: sigmas, strain of steps, covariances of points (2, 2, n).
 
     ``strain``: sigma of a step's margin, in parts of it. ``short``: sigmas of what is nearly

@@ -15,13 +15,13 @@ from functools import cached_property
 
 import numpy as np
 import numpy.typing as npt
+from msgspec import Struct
 
 from planmethod.construct.arithmetic import unit_vectors
 from planmethod.construct.steps import PointName
 from planmethod.mechanism.model import FRAME
 from planmethod.plans.draft import cis
 from planmethod.problem.model import Problem, Slide
-from planmethod.record import dataclass
 from planmethod.solved.reading import Complexes, Reals
 from planmethod.solved.solution import Solution
 
@@ -67,8 +67,7 @@ def edge_forces(normal: Reals, moment: Reals, length: float) -> tuple[Reals, Rea
     return half + moment / length, half - moment / length
 
 
-@dataclass(frozen=True, slots=True)
-class JointForce:
+class JointForce(Struct, frozen=True):
     """Reaction in a joint in every position (реакция), N and N·m, ndarrays of shape (n,).
 
     ``moment`` is about ``at`` (m, in the file's coordinates), counter-clockwise positive; zero in a
@@ -83,16 +82,14 @@ class JointForce:
     moment: Reals
 
 
-@dataclass(frozen=True, slots=True)
-class EdgeForce:
+class EdgeForce(Struct, frozen=True):
     """Reaction at an edge of a slider in one position: its place, m, and the force, N."""
 
     at: complex
     force: complex
 
 
-@dataclass(frozen=True)
-class Contact:
+class Contact(Struct, frozen=True, dict=True):
     """Reaction of one prismatic pair and its slider in every position, ndarrays of shape (n,).
 
     Attributes

@@ -5,16 +5,16 @@ from __future__ import annotations
 from collections.abc import Mapping
 from functools import cached_property
 
+from msgspec import Struct
+
 from planmethod.plans.forces.board import Reaction
 from planmethod.plans.forces.polygons import CoupleOn, reaction_symbol
-from planmethod.record import dataclass
 from planmethod.solved.forces.contact import Contact, EdgeForce
 from planmethod.solved.forces.reading import FAINT_SHARE, ForceReading
 from planmethod.solved.reading import remembered
 
 
-@dataclass(frozen=True)
-class Guided:
+class Guided(Struct, frozen=True, dict=True):
     """What one link of a prismatic pair does to the other, in one position.
 
     Attributes

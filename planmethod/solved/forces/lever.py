@@ -10,11 +10,12 @@ from __future__ import annotations
 from math import isfinite
 from typing import TypeAlias
 
+from msgspec import Struct
+
 from planmethod.construct.steps import NumberName, PointName
 from planmethod.plans.forces.board import Given
 from planmethod.plans.model import PlanKind
 from planmethod.plans.motion.board import letter
-from planmethod.record import dataclass
 from planmethod.solved.forces.reading import ForceReading
 
 _Own: TypeAlias = tuple[
@@ -26,8 +27,7 @@ _Own: TypeAlias = tuple[
 ]
 
 
-@dataclass(frozen=True, slots=True)
-class LeverForce:
+class LeverForce(Struct, frozen=True):
     """Force on the lever: letter, where it hangs (mm from the pole), N, and its arm, mm.
 
     The arm is as the hand measures it, positive where the force turns counter-clockwise; ``size``
@@ -42,8 +42,7 @@ class LeverForce:
     point: str
 
 
-@dataclass(frozen=True, slots=True)
-class OnLink:
+class OnLink(Struct, frozen=True):
     """Something on a link as the lever has the link.
 
     ``segment`` is the segment of the plan, mm, that stands for the link, ``ends`` are its points,
@@ -60,8 +59,7 @@ class OnLink:
     length: float
 
 
-@dataclass(frozen=True, slots=True)
-class LeverCouple(OnLink):
+class LeverCouple(OnLink, frozen=True):
     """Couple on the lever: its letter, its link, and its moment about the pole, N·mm.
 
     ``moment`` is that on the link as the hand has it, N·m.
@@ -71,8 +69,7 @@ class LeverCouple(OnLink):
     lever_moment: float
 
 
-@dataclass(frozen=True, slots=True)
-class LeverShift(OnLink):
+class LeverShift(OnLink, frozen=True):
     """Shift h of a force of inertia on the lever: from the centre of mass s to the point t, mm.
 
     ``letters`` are those of s and t, in rich text; ``line`` is where they are. ``shift`` is h as

@@ -5,13 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 import numpy as np
+from msgspec.structs import replace
 
 from planmethod.construct.arithmetic import Number
 from planmethod.construct.steps import Name
 from planmethod.plans.forces.board import SCALE, Board, Reaction
 from planmethod.plans.forces.polygons import reaction_symbol
 from planmethod.plans.legend import Quantity, QuantityKind
-from planmethod.record import replace
 from planmethod.solved.forces.loads import applied
 from planmethod.solved.forces.statics import Planned, plan_forces
 from planmethod.solved.quantities import Quantities

@@ -11,10 +11,10 @@ from collections.abc import Iterable
 from enum import Enum
 
 import numpy as np
+from msgspec import Struct
 
 from planmethod.plans.forces.loads import Applied, LoadKind
 from planmethod.problem.model import Problem
-from planmethod.record import dataclass
 from planmethod.solved.solution import Solution
 
 FAINT = 0.02
@@ -32,8 +32,7 @@ class Hindrance(Enum):
     FAR = "far"
 
 
-@dataclass(frozen=True, slots=True)
-class UnshiftedInertia:
+class UnshiftedInertia(Struct, frozen=True):
     """Link whose inertia stays a force and a couple, or a couple alone.
 
     ``moment`` is the couple; ``reach`` is the longest shift M_Φ/Φ of all positions, m; zero where

@@ -12,6 +12,8 @@ from types import MappingProxyType
 
 import numpy as np
 import numpy.typing as npt
+from msgspec import Struct
+from msgspec.structs import replace
 
 from planmethod.construct.arithmetic import Arithmetic, Float64, Number
 from planmethod.construct.evaluate import evaluate
@@ -27,7 +29,6 @@ from planmethod.plans.forces.loads import Applied
 from planmethod.plans.forces.polygons import ForcePlan
 from planmethod.plans.model import FACTS, PlanKind
 from planmethod.problem.model import Convention
-from planmethod.record import dataclass, replace
 from planmethod.solved.failures import PositionError
 from planmethod.solved.forces.contact import Contact, JointForce, contacts
 from planmethod.solved.forces.loads import applied
@@ -51,8 +52,7 @@ FAINT = 1e-6
 """A plan that is so small a part of what it is in its largest position is nothing."""
 
 
-@dataclass(frozen=True, slots=True)
-class Planned:
+class Planned(Struct, frozen=True):
     """Force plans of a problem as steps that go on from its kinematics (планы сил).
 
     ``lever`` is None where the driver stands.

@@ -15,6 +15,7 @@ from functools import cached_property
 from math import degrees
 
 import numpy as np
+from msgspec import Struct
 
 from planmethod.construct.arithmetic import Float64
 from planmethod.construct.drafting import Profile
@@ -27,7 +28,6 @@ from planmethod.mechanism.model import FRAME
 from planmethod.plans.diagrams.massmoments import MassMoments, build
 from planmethod.problem.load_records import Weighing
 from planmethod.problem.model import Problem
-from planmethod.record import dataclass
 from planmethod.solved.course.motion import TurnMotion
 from planmethod.solved.reading import Complexes, Reading, Reals, Remembering, remembered
 from planmethod.solved.solution import Solution
@@ -41,8 +41,7 @@ LONGEST = 80.0
 """Length of the longest vector of a polygon, mm."""
 
 
-@dataclass(frozen=True, slots=True)
-class Counterweight:
+class Counterweight(Struct, frozen=True):
     """A counterweight and what it balances (противовес).
 
     Attributes

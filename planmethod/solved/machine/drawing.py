@@ -6,6 +6,7 @@ from functools import cached_property
 from math import atan, degrees
 
 import numpy as np
+from msgspec import Struct
 
 from planmethod.construct.arithmetic import Float64
 from planmethod.construct.drafting import Profile
@@ -14,8 +15,7 @@ from planmethod.construct.hand import Hand
 from planmethod.construct.scale import choose_scale, series_near
 from planmethod.plans.diagrams.calculus import Integration
 from planmethod.plans.diagrams.energymass import EnergyMass, Given, Places, build
-from planmethod.problem.load_records import Method, Ordinates
-from planmethod.record import dataclass
+from planmethod.problem.load_records import FlywheelMethod, Quadrature
 from planmethod.solved.errors.drawing import Drafted, DrawnKind, DrawnQuantity, number
 from planmethod.solved.errors.spread import Errors
 from planmethod.solved.machine.flywheel import Flywheel, Points
@@ -31,8 +31,7 @@ _GAP = 24.0  # between two diagrams above each other, mm
 _BESIDE = 52.0  # from the last position to the axis of the energies of the energy-mass diagram, mm
 
 
-@dataclass(frozen=True, slots=True)
-class MachineScales:
+class MachineScales(Struct, frozen=True):
     """Scales of the diagrams (масштабы диаграмм), units per mm: rad, N·m, J, kg·m²."""
 
     phi: float
@@ -76,7 +75,7 @@ class FlywheelDrawing:
         machine, points, step = self.flywheel.machine, self.points, self.flywheel.cycle / self.count
         touched = (round(at / step) for at in (points.tangents.at_max, points.tangents.at_min))
         top, bottom = touched
-        middle = machine.ordinates is Ordinates.MIDDLE
+        middle = machine.ordinates is Quadrature.MIDDLE
         given = Given(
             (self.flywheel.sign * points.ordinates).tolist(),
             (self.flywheel.sign * points.middles).tolist(),
@@ -172,8 +171,7 @@ def _fitting(values: np.ndarray[tuple[int, ...], np.dtype[np.float64]], most: fl
     return choose_scale((float(np.max(np.abs(values))), 0.0), (most, 1.0))
 
 
-@dataclass(frozen=True, slots=True)
-class Split:
+class Split(Struct, frozen=True):
     """What a construction is off by, kg·m², in parts that add up (разложение расхождения).
 
     Attributes
@@ -202,7 +200,7 @@ def split(drawing: FlywheelDrawing) -> Split:
     exact = wheel.exact.inertia
     usual = wheel.tangents(1.0 + delta, 1.0 - delta, speed).inertia
     whole = wheel.tangents(*wheel.usual_slopes, speed).inertia
-    mertsalov = wheel.machine.method is Method.MERTSALOV
+    mertsalov = wheel.machine.method is FlywheelMethod.MERTSALOV
     return Split(
         usual - exact,
         whole - usual if mertsalov else 0.0,

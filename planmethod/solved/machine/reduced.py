@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 import numpy as np
+from msgspec import Struct
 
 from planmethod.errors import Fault, ProblemError
 from planmethod.languages import say
@@ -20,10 +21,9 @@ from planmethod.problem.load_records import (
     Load,
     Machine,
     Over,
-    Signs,
-    Table,
+    SizeTable,
+    WeightSigns,
 )
-from planmethod.record import dataclass
 from planmethod.solved.course.curve import Curve, resolved
 from planmethod.solved.course.motion import Moved, TurnMotion
 from planmethod.solved.forces.loads import MotionValues, external
@@ -33,8 +33,7 @@ NEVER = 1e-12
 """Share of the largest power below which a load does no work."""
 
 
-@dataclass(frozen=True, slots=True)
-class Reduced:
+class Reduced(Struct, frozen=True):
     """What is reduced to the crank, in some positions, ndarrays of shape (n,).
 
     Attributes
@@ -100,7 +99,7 @@ def reduce(motion: MotionValues, machine: Machine) -> Reduced:
         weights = weights + mass.mass * dynamics.gravity * centre.velocity.imag / speed
         links[link] = links[link] + mass.mass * np.abs(centre.velocity) ** 2 / speed**2
         growth = growth + mass.mass * (centre.velocity.conjugate() * centre.acceleration).real
-    if machine.signs is Signs.SOURCE:
+    if machine.signs is WeightSigns.SOURCE:
         weights = -weights
     inertia = np.asarray(sum(links.values(), nothing), dtype=float) + machine.crank_inertia
     return Reduced(loads, weights, links, inertia, 2.0 * growth / speed**3)
@@ -118,7 +117,7 @@ def reduced_curves(turn: TurnMotion, machine: Machine) -> Curve:
     dynamics = problem.dynamics
     assert dynamics is not None
     for index, load in enumerate(dynamics.loads):
-        if isinstance(load.size, Table) and load.size.over is Over.POSITION:
+        if isinstance(load.size, SizeTable) and load.size.over is Over.POSITION:
             raise _load_fault(turn, index, "{} is given for the positions of the file only", _OVER)
     cuts = [turn.curve.edges, *(_breaks(turn, load) for load in dynamics.loads)]
     edges = np.unique(np.concatenate(cuts))
@@ -180,7 +179,7 @@ def _found_breaks(turn: TurnMotion, load: Load | Couple) -> Iterator[Reals]:
             yield turn.column(load.at, way, velocity=True).roots()
         if phase is not None and phase.turning is not None:
             yield turn.omega(load.link).roots()
-    if not isinstance(size, Table):
+    if not isinstance(size, SizeTable):
         return
     nodes = np.unique(size.at)
     if size.over is Over.PHI:

@@ -15,8 +15,8 @@ from math import inf, pi, sqrt
 from typing import TypeAlias
 
 import numpy as np
+from msgspec import Struct
 
-from planmethod.record import dataclass
 from planmethod.solved.course.curve import joined
 from planmethod.solved.machine.flywheel import Flywheel, hermite, turning_points
 from planmethod.solved.reading import Reals, Remembering, remembered
@@ -55,8 +55,7 @@ class StalledError(Exception):
         self.turned, self.time = turned, time
 
 
-@dataclass(frozen=True, slots=True)
-class Course:
+class Course(Struct, frozen=True):
     """Motion by steps: ndarrays of shape (n,), rad, z in 1/s², s, and dz/dphi on both sides."""
 
     turned: Reals

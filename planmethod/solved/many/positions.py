@@ -6,6 +6,8 @@ from collections.abc import Callable, Iterator
 
 import numpy as np
 import numpy.typing as npt
+from msgspec import Struct
+from msgspec.structs import replace
 
 from planmethod.construct.arithmetic import Float64
 from planmethod.construct.scale import Scale
@@ -13,7 +15,6 @@ from planmethod.errors import AssemblyError
 from planmethod.languages import say
 from planmethod.plans.model import FACTS, MOTION, PlanKind
 from planmethod.problem.model import Problem
-from planmethod.record import dataclass, replace
 from planmethod.solved.failures import (
     Cause,
     Doubt,
@@ -50,8 +51,7 @@ _SPOILT = np.iinfo(np.int16).max
 """Code of a position whose steps exist and whose results rounding spoils."""
 
 
-@dataclass(frozen=True, slots=True)
-class Gaps:
+class Gaps(Struct, frozen=True):
     """Positions without results, and why.
 
     Attributes
@@ -130,8 +130,7 @@ class Gaps:
         return Gaps(reason, (*self.told, *other.told), other.unforced)
 
 
-@dataclass(frozen=True, slots=True)
-class Checked:
+class Checked(Struct, frozen=True):
     """Positions that were looked at.
 
     Attributes

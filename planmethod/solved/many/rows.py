@@ -4,18 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
+from msgspec import Struct
+
 from planmethod.construct.compiled.symbolic import Symbol, Written
 from planmethod.construct.compiled.tape import Ref
 from planmethod.construct.steps import Name
 from planmethod.plans.legend import Quantity, QuantityKind
 from planmethod.plans.model import FACTS, PlanKind
-from planmethod.record import dataclass
 
 FORCES = FACTS[PlanKind.FORCE].prefix
 
 
-@dataclass(frozen=True, slots=True)
-class Row:
+class Row(Struct, frozen=True):
     """One row of a sweep's output.
 
     Attributes

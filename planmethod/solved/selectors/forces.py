@@ -9,6 +9,8 @@ from __future__ import annotations
 import math
 from functools import cached_property
 
+from msgspec import Struct
+
 from planmethod.construct.arithmetic import Float64
 from planmethod.construct.evaluate import Trace
 from planmethod.construct.steps import Name, NumberName
@@ -19,7 +21,6 @@ from planmethod.plans.legend import ZERO
 from planmethod.plans.model import PlanKind
 from planmethod.plans.segments import Ends
 from planmethod.problem.selector import Selector
-from planmethod.record import dataclass
 from planmethod.solved.forces.contact import VANISHING
 from planmethod.solved.forces.statics import Statics, statics_of
 from planmethod.solved.reading import Reading
@@ -33,8 +34,7 @@ LOADS = {
 }
 
 
-@dataclass(frozen=True, slots=True)
-class Line:
+class Line(Struct, frozen=True):
     """Force with its line of action: its segment and place, and its moment about the place.
 
     ``sense`` is -1 where the plan has the force that acts back.

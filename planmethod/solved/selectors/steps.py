@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from enum import Enum
 
+from msgspec import Struct
+
 from planmethod.construct.steps import LayOff, NumberName, PointName, Step
 from planmethod.mechanism.model import FRAME
 from planmethod.plans.draft import Draft
@@ -13,7 +15,6 @@ from planmethod.plans.model import FACTS, MOTION, RATES, PlanKind
 from planmethod.plans.motion.board import Motion
 from planmethod.plans.segments import Segments
 from planmethod.problem.selector import ANALOGUES, POLE, Selector
-from planmethod.record import dataclass
 from planmethod.solved.solution import Solution
 
 PLANS: Mapping[str, PlanKind] = {
@@ -60,8 +61,7 @@ class NoValueError(Exception):
         self.why = why
 
 
-@dataclass(frozen=True, slots=True)
-class Selected:
+class Selected(Struct, frozen=True):
     """Number that answers a selector, or a quotient of two.
 
     Attributes

@@ -16,6 +16,7 @@ from functools import cached_property
 from math import atan2, degrees
 
 import numpy as np
+from msgspec import Struct
 
 from planmethod.construct.arithmetic import Float64, Number
 from planmethod.construct.evaluate import Trace, evaluate
@@ -26,7 +27,6 @@ from planmethod.mechanism.groups import AssurGroup, Lead
 from planmethod.mechanism.model import FRAME, Prismatic, Revolute
 from planmethod.plans.draft import cis
 from planmethod.plans.model import PlanKind
-from planmethod.record import dataclass
 from planmethod.solved.errors.drawing import Drafted, DrawnQuantity, number
 from planmethod.solved.errors.spread import Errors
 from planmethod.solved.reading import Complexes, remembered
@@ -47,8 +47,7 @@ class Locus(Enum):
     TANGENTS = "tangents"
 
 
-@dataclass(frozen=True)
-class Construction:
+class Construction(Struct, frozen=True, dict=True):
     """The construction of both extreme positions, in millimetres of the scheme.
 
     Attributes

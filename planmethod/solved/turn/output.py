@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 
 import numpy as np
+from msgspec import Struct
 
 from planmethod.construct.steps import PointName
 from planmethod.errors import Fault, ProblemError
@@ -12,7 +13,6 @@ from planmethod.mechanism.groups import AssurGroup, Lead
 from planmethod.mechanism.model import FRAME, Revolute
 from planmethod.plans.draft import cis
 from planmethod.problem.model import Slide
-from planmethod.record import dataclass
 from planmethod.solved.reading import Complexes, Reading, Reals
 from planmethod.solved.solution import Solution
 
@@ -20,8 +20,7 @@ Pressure = Callable[[Reading], Reals]
 """From a reading to the pressure angle, degrees from 0 to 90, ndarray of shape (n,)."""
 
 
-@dataclass(frozen=True)
-class Output:
+class Output(Struct, frozen=True):
     """Output of a mechanism (выход механизма).
 
     Attributes

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from functools import cache
 
+from msgspec.structs import replace
 from worked import problem_of
 
 from planmethod.check.model import (
@@ -140,4 +140,4 @@ def work(student: str = "s02") -> Checked:
 
 def changed(judged: Judged, verdict: Verdict, **fields: object) -> Judged:
     """Return a verdict of another kind."""
-    return replace(judged, verdict=verdict, **fields)  # type: ignore[arg-type]
+    return replace(judged, verdict=verdict, **fields)

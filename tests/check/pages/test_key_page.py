@@ -5,19 +5,19 @@ from __future__ import annotations
 import io
 import shutil
 import subprocess
-from dataclasses import replace
 from functools import cache
 from pathlib import Path
 
 import ex3_work
 import openpyxl
 import pytest
+from msgspec.structs import replace
 from worked import problem_of
 
 from planmethod.check.key import Key
 from planmethod.check.pages.keypage import key_pdf, key_text, key_xlsx
 from planmethod.note.plaintext import WIDTH
-from planmethod.note.wording import LANGUAGES, language
+from planmethod.note.wording import LANGUAGES, Words, language
 
 RU = language("ru")
 
@@ -35,7 +35,7 @@ def group(count: int) -> list[Key]:
 
 @pytest.mark.parametrize("lang", LANGUAGES)
 def test_the_key_of_one_variant_has_a_row_for_each_answer(lang: str) -> None:
-    say = language(lang).check.key
+    say: Words = language(lang).check["key"]
     text = key_text([key()], language(lang))
     for entry in ex3_work.entries():
         assert any(entry.symbol[0] in line for line in text.splitlines())

@@ -5,20 +5,19 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 import numpy as np
+from msgspec import Struct
 
 from planmethod.note.narrate.forces.common import ForceContext, arm_symbol, signed_sum
 from planmethod.note.narrate.forces.resultants import force_symbol
 from planmethod.note.numbers import significant
 from planmethod.note.rounding import sigma_text
 from planmethod.plans.model import PlanKind
-from planmethod.record import dataclass
 from planmethod.solved.errors.forces import drawn_forces
 from planmethod.solved.forces.lever import LeverCouple, LeverReading, LeverShift, OnLink
 from planmethod.solved.forces.reading import ForceReading
 
 
-@dataclass(frozen=True, slots=True)
-class PairText:
+class PairText(Struct, frozen=True):
     """How a couple stands on the lever: in letters, in numbers, and where those come from.
 
     ``letters`` is ``(bc)/l_{BC}``, ``numbers`` ``73,0/0,3``; ``segment`` tells both lengths, and

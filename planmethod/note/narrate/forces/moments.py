@@ -5,13 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 import numpy as np
+from msgspec import Struct
 
 from planmethod.note.narrate.forces.common import ForceContext, arm_symbol, closed, signed_sum
 from planmethod.note.narrate.given import point_name
 from planmethod.note.numbers import MINUS
 from planmethod.plans.forces.board import Force
 from planmethod.plans.forces.polygons import CoupleOn, Edge, ForcePlan, Moments
-from planmethod.record import dataclass
 from planmethod.solved.forces.guides import Guided, guide_of
 
 SIDES = ("right", "up", "left", "down")
@@ -19,8 +19,7 @@ CANCELLED = 1e-9
 """Share of the largest of a position below which known moments are told to cancel."""
 
 
-@dataclass(frozen=True, slots=True)
-class MomentText:
+class MomentText(Struct, frozen=True):
     """An equation of moments told (уравнение моментов).
 
     Attributes

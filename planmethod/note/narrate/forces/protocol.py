@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from msgspec.structs import replace
+
 from planmethod.construct.steps import Name
 from planmethod.mechanism.groups import AssurGroup
 from planmethod.note.narrate.equations import balance_lines
@@ -15,7 +17,6 @@ from planmethod.note.narrate.structure import group_title
 from planmethod.note.plaintext import INDENT, WIDTH, Steps
 from planmethod.plans.forces.polygons import ForcePlan
 from planmethod.plans.model import Known
-from planmethod.record import replace
 from planmethod.solved.forces.reading import ForceReading
 
 

@@ -7,6 +7,7 @@ output formats a `Drawing` brings it along.
 from __future__ import annotations
 
 import json
+import re
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from contextvars import ContextVar
@@ -16,18 +17,17 @@ from pathlib import Path
 from types import MappingProxyType
 from typing import Any, NamedTuple
 
+from msgspec import Struct
+
 from planmethod.errors import LayoutError
-from planmethod.pattern import pattern
-from planmethod.record import dataclass
 from planmethod.render.ink.lettering.proportions import SLANT, TYPES, Proportions
 
 FONTS = Path(__file__).parent.parent / "fonts"
 
-_NUMBER = pattern(r"-?\d+")
+_NUMBER = r"-?\d+"
 
 
-@dataclass(frozen=True, slots=True)
-class Style:
+class Style(Struct, frozen=True):
     """One of the four letterings of GOST 2.304: type A or B, upright or slanted by about 75°."""
 
     kind: str
@@ -75,8 +75,7 @@ class Glyph(NamedTuple):
     strokes: str
 
 
-@dataclass(eq=False)
-class OutlineLettering:
+class OutlineLettering(Struct, eq=False, dict=True):
     """Lettering read from the data files that ``scripts/make_font.py`` makes.
 
     Letters stand side by side by their advances, some pairs closer: `places` tells where, so that
@@ -214,7 +213,7 @@ class OutlineLettering:
         """Return what the middle of the pen does for a letter, in parts of h."""
         lines = []
         for line in self.glyph(char).strokes.split("M")[1:]:
-            numbers = [int(number) / self.cap_height for number in _NUMBER.findall(line)]
+            numbers = [int(number) / self.cap_height for number in re.findall(_NUMBER, line)]
             lines.append(tuple(accumulate(map(complex, numbers[::2], numbers[1::2]))))
         return tuple(lines)
 

@@ -6,11 +6,10 @@ from collections.abc import Mapping
 from math import radians, tan
 from types import MappingProxyType
 
-from planmethod.record import dataclass
+from msgspec import Struct
 
 
-@dataclass(frozen=True, slots=True)
-class Proportions:
+class Proportions(Struct, frozen=True):
     """Measures of a type of lettering, in line thicknesses d.
 
     Attributes

@@ -5,15 +5,17 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from itertools import islice
 
+from msgspec import Struct
+
+from planmethod.note.formula import escape
 from planmethod.note.wording import Language
-from planmethod.record import dataclass
 from planmethod.render.control.texts import GRID
 from planmethod.render.frame.frame import paper_format, sheet_frame
 from planmethod.render.frame.furniture import Furniture
 from planmethod.render.ink.drawing import Drawing, Item, Pen, Stroke, Text
 from planmethod.render.ink.lettering import OutlineLettering, in_use
 from planmethod.render.ink.style import HEIGHTS
-from planmethod.render.ink.typeset import escape, line_step, typeset
+from planmethod.render.ink.typeset import line_step, typeset
 from planmethod.render.layout.block import Column, Lines
 from planmethod.render.layout.pack import EDGE
 from planmethod.render.layout.tables import TableColumn, table_block
@@ -33,8 +35,7 @@ ALPHABETS = (
 """Letters and signs that the lettering has, whatever the language of the sheet."""
 
 
-@dataclass(frozen=True, slots=True)
-class Measured:
+class Measured(Struct, frozen=True):
     """A measure of the letters in parts of h: its sign, by the standard, on the ink."""
 
     symbol: str
@@ -75,7 +76,7 @@ def lettering_sheet(fields: Mapping[str, str], words: Language) -> Drawing:
     used, fmt = in_use(), paper_format(PAPER)
     said = words.specimens
     slope = said.slanted if used.style.slanted else said.upright
-    title = said.lettering.format(kind=said.kinds[used.style.kind], slope=slope)
+    title = said.lettering.format(kind=said["kinds"][used.style.kind], slope=slope)
     texts = {"title": title, "material": said.standard.format(number="2.304-81"), **fields}
     drawing = Drawing(fmt.width, fmt.height, title)
     items, inner, *_ = sheet_frame(fmt, texts, Furniture(graph_26=False, lang=words.lang))
@@ -88,7 +89,7 @@ def lettering_sheet(fields: Mapping[str, str], words: Language) -> Drawing:
         drawing.extend(_on_grid(row, complex(left, low), inner[2] - EDGE))
         low -= step
     heights = [height for height in HEIGHTS if 2.5 <= height <= 10.0]
-    samples = Column([_sample(said.samples, height) for height in heights], gap=10.0)
+    samples = Column([_sample(said["samples"], height) for height in heights], gap=10.0)
     drawing.extend(samples.place(complex(left, low + HEIGHT)))
     table = _proportions(used, words)
     drawing.extend(table.place(complex(inner[2] - EDGE - table.width, low + HEIGHT - 10.0)))
@@ -138,10 +139,10 @@ def _proportions(lettering: OutlineLettering, words: Language) -> Column:
     cap = lettering.style.proportions.cap
     heights = list(islice((h for h in HEIGHTS if h >= 2.5), 5))
     said, number = words.specimens, words.say.number
-    size, by_standard, found = said.columns_measured
+    size, by_standard, found = said["columns_measured"]
     columns = [
         TableColumn("", tuple(m.symbol for m in measures), least=8.0),
-        TableColumn(size, tuple(said.measures[m.symbol] for m in measures)),
+        TableColumn(size, tuple(said["measures"][m.symbol] for m in measures)),
         TableColumn(by_standard, tuple(f"{round(m.asked * cap)}/{cap} h" for m in measures)),
         TableColumn(found, tuple(number(f"{m.found * cap:.2f}") + f"/{cap} h" for m in measures)),
     ]
