@@ -99,9 +99,9 @@ ROOMS: Mapping[str, str] = {
     "load": "reader",
     "record": "record",
     "structure_record": "record",
-    "solved_text": "text",
-    "structure_text": "text",
-    "protocol_text": "protocol",
+    "solved_document": "text",
+    "structure_document": "text",
+    "protocol_document": "protocol",
     "drawings": "sheet",
     "audited": "audit",
     "asked_of": "figures",
@@ -110,7 +110,7 @@ ROOMS: Mapping[str, str] = {
 
 CALLED: Mapping[str, str] = {
     "drawings": "sheets",
-    "protocol_text": "protocol",
+    "protocol_document": "protocol",
     "audited": "audit",
     "asked_of": "checking of answers",
 }
@@ -146,7 +146,7 @@ class Kind(Struct, frozen=True):
 
     def solved_text(self, problem: KindProblem, lang: str) -> str:
         """Return what ``solve`` prints."""
-        return str(self._call("solved_text", problem, lang))
+        return self._written("solved_document", problem, lang)
 
     def structure_record(self, problem: KindProblem) -> dict[str, Any] | None:
         """Return what ``structure --json`` prints; None for what has no structure."""
@@ -155,8 +155,8 @@ class Kind(Struct, frozen=True):
 
     def structure_text(self, problem: KindProblem, lang: str) -> str | None:
         """Return what ``structure`` prints; None for what has no structure."""
-        tell = self._function("structure_text")
-        return None if tell is None else str(tell(problem, lang))
+        known = self._function("structure_document") is not None
+        return self._written("structure_document", problem, lang) if known else None
 
     def drawings(
         self,
@@ -187,7 +187,7 @@ class Kind(Struct, frozen=True):
         ProblemError
             Such problems have no protocol.
         """
-        return str(self._call("protocol_text", problem, lang, profile))
+        return self._written("protocol_document", problem, lang, profile)
 
     def audited(self, problem: KindProblem, ruler: float) -> list[Audited]:
         """Return printed values beside the exact ones and those read with a ruler.
@@ -210,6 +210,13 @@ class Kind(Struct, frozen=True):
         """
         asked: Figures = self._call("asked_of", problem)
         return asked
+
+    def _written(self, name: str, problem: KindProblem, lang: str, *args: Any) -> str:
+        """Return a document of a problem as plain text."""
+        words = _of("planmethod.note.wording", "language")(lang)
+        nodes = self._call(name, problem, words, *args)
+        whole = _of("planmethod.note.document", "Document").of(nodes)
+        return str(_of("planmethod.note.writers.plain", "plain_document")(whole, words))
 
     def _call(self, name: str, problem: Any, *args: Any, **options: Any) -> Any:
         """Call a function of the package; not every kind has every one."""

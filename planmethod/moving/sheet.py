@@ -26,7 +26,8 @@ from planmethod.moving.pictures import (
     trajectory_picture,
     vector_scales,
 )
-from planmethod.moving.text import SYMBOLS, law_lines, moment_lines, textbook, unit_of
+from planmethod.moving.text import SYMBOLS, law, moment, textbook, unit_of
+from planmethod.note.document import Formula, Note
 from planmethod.note.narrate.scales import scale_inscription
 from planmethod.note.numbers import alike, significant
 from planmethod.note.plaintext import plain_text
@@ -220,14 +221,18 @@ class _Sheet(Struct, frozen=True):
         """Return "Дано" and what is asked."""
         said, say = self.words.point, self.words.say
         decimal, times = say.decimal, self.problem.times
-        facts = law_lines(self.problem, self.words, lambda text: textbook(text, decimal))
+        facts = law(self.problem, self.words, lambda text: textbook(text, decimal))
         moments = said.moments.format(times="; ".join(map(say.given, times)))
         if len(times) > 3:
             ends = {"start": say.given(min(times)), "end": say.given(max(times))}
             moments = said.row.format(**ends, count=len(times))
+        else:
+            moments = unbroken([moments])
         # A formula is not broken within.
-        whole = [unbroken([fact]) if "=" in fact[:5] else fact for fact in (*facts, moments)]
-        texts = [self.words.note.given.format(given="; ".join(whole)), said.wanted]
+        whole = [
+            unbroken([fact.text]) if isinstance(fact, Formula) else fact.text for fact in facts
+        ]
+        texts = [self.words.note.given.format(given="; ".join([*whole, moments])), said.wanted]
         return Column([paragraph(text, TEXT, width=width) for text in texts], gap=3.0)
 
     def _calculation(self, k: int, width: float) -> Block:
@@ -235,15 +240,16 @@ class _Sheet(Struct, frozen=True):
         time = self.words.say.given(float(self.course.marks.columns["t"][k]))
         blocks: list[Block] = [heading(self.words.point.at.format(time=time), TEXT, width=width)]
         lines: list[str] = []
-        for line in moment_lines(self.problem, self.course.marks, k, self.words):
-            same = line.count("=") == 1 and line not in self.words.point.reasons.values()
-            if lines and same and lines[-1].count("=") == 1:
-                lines[-1] += f";  {line}"  # two components
+        notes: list[str] = []
+        for node in moment(self.problem, self.course.marks, k, self.words):
+            if isinstance(node, Note):
+                notes.append(node.text)
+            elif lines and node.text.count("=") == lines[-1].count("=") == 1:
+                lines[-1] += f";  {node.text}"  # two components
             else:
-                lines.append(line)
-        for line in lines:
-            is_said = line in self.words.point.reasons.values()
-            blocks.append((paragraph if is_said else formula_block)(line, TEXT, width=width))
+                lines.append(node.text)
+        blocks += [formula_block(line, TEXT, width=width) for line in lines]
+        blocks += [paragraph(note, TEXT, width=width) for note in notes]
         return Column(blocks, gap=2.6)
 
     def _read(self, built: Construction, k: int) -> Block:

@@ -124,6 +124,10 @@ class Table(Struct, frozen=True):
     names: int = 1
     repeated: int = 0
 
+    def columns(self) -> Iterator[tuple[Rich, tuple[Rich, ...]]]:
+        """Yield the head and the cells of each column."""
+        yield from zip(self.head, zip(*self.rows, strict=True), strict=True)
+
 
 class Figure(Struct, frozen=True):
     """A picture (рисунок): a view that can be drawn, and its caption.

@@ -27,6 +27,7 @@ _SUPER = dict(zip("0123456789-−ntτkr", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻⁻ⁿ�
 _SUB = dict(zip("0123456789", "₀₁₂₃₄₅₆₇₈₉", strict=True))
 _UP = pattern(r"\^\{([^}]*)\}")
 _DOWN = pattern(r"_\{([^}]*)\}")
+_LITERAL = pattern(r"\\([_^{}\\])")
 
 
 def plain_text(rich: str) -> str:
@@ -41,7 +42,7 @@ def plain_text(rich: str) -> str:
             return ""
         return "".join(_SUB[c] for c in text) if all(c in _SUB for c in text) else f"_{text}"
 
-    return _DOWN.sub(down, _UP.sub(up, rich))
+    return _LITERAL.sub(r"\1", _DOWN.sub(down, _UP.sub(up, rich)))
 
 
 def spoken(text: str, words: Wording) -> str:

@@ -41,7 +41,13 @@ from planmethod.render.sheets.texts import NBSP
 from planmethod.render.sheets.views import Viewed
 from planmethod.synthesis.drawn import Drawn, arc_over
 from planmethod.synthesis.model import place
-from planmethod.synthesis.text import Teller, check_rows, given_facts, point_name, size_rows
+from planmethod.synthesis.text import (
+    SynthesisNarrator,
+    check_rows,
+    given_facts,
+    point_name,
+    size_rows,
+)
 
 PAPER = "A3"
 
@@ -143,7 +149,7 @@ def _texts(
     if told:
         steps = [
             paragraph(f"{k}) {_kept(sentence)}", told, COLUMN)
-            for k, sentence in enumerate(Teller(drawn, words).sentences(), 1)
+            for k, sentence in enumerate(SynthesisNarrator(drawn, words).sentences(), 1)
         ]
         first.append(Column([heading(said.steps_title, TEXT), *steps], gap=0.6 * told))
     blocks: list[Block] = [Column(first, gap=6.0)]

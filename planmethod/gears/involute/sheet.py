@@ -15,11 +15,10 @@ from planmethod.gears.involute.diagrams import (
     sliding_scale,
 )
 from planmethod.gears.involute.meshpicture import meshing_picture, view_for
-from planmethod.gears.involute.quantities import Solved, Told
+from planmethod.gears.involute.quantities import Solved
 from planmethod.gears.involute.sizes import MeshingProblem
-from planmethod.gears.involute.text import given_text, remarks, symbol_of, unit_of
+from planmethod.gears.involute.text import quality, shifts, table
 from planmethod.languages import LANGUAGES
-from planmethod.note.formula import escape
 from planmethod.note.numbers import Notation
 from planmethod.note.wording import Language, language
 from planmethod.paper import Format, paper_format
@@ -157,27 +156,17 @@ def _checks(solved: Solved, words: Language, manner: Manner) -> Iterator[Block]:
     """Yield what is given and what the limits say."""
     say = words.meshing
     yield heading(say.checked, manner.title, width=TEXT_WIDTH)
-    for _, holds, text in solved.sentences(words):
-        yield paragraph(f"{text}: {say.holds[holds]}", manner.told, TEXT_WIDTH)
-    for text in [*remarks(solved, words), given_text(solved, words)[1]]:
+    for text in (*quality(solved, words), shifts(solved, words)):
         yield paragraph(text, manner.told, TEXT_WIDTH)
 
 
 def _tables(solved: Solved, words: Language, manner: Manner) -> Iterator[Block]:
     """Yield the tables of the pair and of the wheels."""
     pair, wheels, contact = solved.told()
-    for told in ([*pair, *contact], wheels):
-        yield _table([one for one in told if one.quantity.in_table], words, manner)
-
-
-def _table(told: list[Told], words: Language, manner: Manner) -> Block:
-    say, say_names = words.meshing, words.meshing.names
-    names = [escape(say_names[one.quantity.key] + unit_of(one, words)) for one in told]
-    rows = [["—" if "nan" in text else text for text in one.shown(words.say)] for one in told]
-    columns = [
-        TableColumn(say.columns[0], tuple(names)),
-        TableColumn(say.columns[1], tuple(symbol_of(one) for one in told)),
-    ]
-    heads = say.columns[2:] if len(rows[0]) == 2 else (say.pair,)
-    columns += [TableColumn(h, tuple(r[k] for r in rows)) for k, h in enumerate(heads)]
-    return table_block(columns, manner.text, width=TEXT_WIDTH, units="none", row_height=manner.row)
+    say = words.meshing
+    for told, head in (([*pair, *contact], (*say.columns[:2], say.pair)), (wheels, say.columns)):
+        shown = table([one for one in told if one.quantity.in_table], words, head)
+        columns = [TableColumn(*column) for column in shown.columns()]
+        yield table_block(
+            columns, manner.text, width=TEXT_WIDTH, units="none", row_height=manner.row
+        )

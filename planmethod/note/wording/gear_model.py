@@ -62,6 +62,7 @@ class GearWording(Struct, frozen=True, kw_only=True):
     kinds: Mapping[str, str]
     kind: str
     chebyshev: str
+    of_equal: str
     by_meshes: str
     redundant: str
     carrier: str

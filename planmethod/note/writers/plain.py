@@ -56,11 +56,15 @@ class PlainWriter:
 
     def _stands_apart(self, node: document.Node, before: document.Node | None) -> bool:
         """Tell whether a blank line stands before a node."""
+        if isinstance(before, document.Chapter) and before.numbered:
+            return True
         match node:
             case document.Chapter() | document.Part() | document.Caption():
                 return True
             case document.Table():
-                return isinstance(before, document.Table)
+                return isinstance(before, document.Table | document.Formula)
+            case document.Step() if isinstance(before, document.Formula):
+                return True
             case document.Equations() | document.Step() | document.Formula():
                 return isinstance(before, document.Chapter | document.Part | document.Equations)
             case document.Paragraph():

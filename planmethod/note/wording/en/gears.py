@@ -64,7 +64,7 @@ GEAR_SHEET = GearSheetWording(
         "scale": "{symbol} = {value} {unit}/mm, from {from_what}.",
         "chosen": "μ_v/(μ_l·H)",
         "input": "the ray of the input",
-        "found": "{formula} = {read} {unit} (exact {exact}, σ = {sigma}).",
+        "found": "{formula} = {read} (exact {exact}, σ = {sigma}).",
     },
     ruler="Segments are read with a ruler of {ruler} mm; the draughtsman is “{profile}”.",
 )
@@ -81,8 +81,8 @@ GEARS = GearWording(
         "closed differential": "closed differential",
     },
     kind="Kind of train: {kind}",
-    chebyshev="W = 3n − 2p₁ − p₂ = 3·{n} − 2·{low} − {high} = {w} (one satellite of each equal "
-    "ones)",
+    chebyshev="W = 3n − 2p_{{1}} − p_{{2}} = 3·{n} − 2·{low} − {high} = {w}",
+    of_equal=" (one satellite of each equal ones)",
     by_meshes="Independent meshes: {rank}; mobility W = {w}",
     redundant="Redundant constraints: in the plane q = {plane}, in space (teeth touch along "
     "lines) q = {space}",

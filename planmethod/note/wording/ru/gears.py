@@ -63,7 +63,7 @@ GEAR_SHEET = GearSheetWording(
         "scale": "{symbol} = {value} {unit}/мм, что следует из {from_what}.",
         "chosen": "μ_v/(μ_l·H)",
         "input": "луча ведущего звена",
-        "found": "{formula} = {read} {unit} (точно {exact}, σ = {sigma}).",
+        "found": "{formula} = {read} (точно {exact}, σ = {sigma}).",
     },
     ruler="Отрезки снимаются линейкой с ценой деления {ruler} мм; чертёжник «{profile}».",
 )
@@ -80,8 +80,8 @@ GEARS = GearWording(
         "closed differential": "замкнутый дифференциальный",
     },
     kind="Вид механизма: {kind}",
-    chebyshev="W = 3n − 2p₁ − p₂ = 3·{n} − 2·{low} − {high} = {w} (по одному сателлиту из каждых "
-    "одинаковых)",
+    chebyshev="W = 3n − 2p_{{1}} − p_{{2}} = 3·{n} − 2·{low} − {high} = {w}",
+    of_equal=" (по одному сателлиту из каждых одинаковых)",
     by_meshes="Независимых зацеплений: {rank}; степень подвижности W = {w}",
     redundant="Избыточные связи: на плоскости q = {plane}, в пространстве (зубья касаются по "
     "линии) q = {space}",
