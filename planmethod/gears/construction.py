@@ -102,6 +102,8 @@ class Construction(Struct, frozen=True):
         By body: its line, the end of its ray.
     segments : mapping
         By body: its segment on the line of the rays, as it is read.
+    mu : NumberName
+        Scale of the rays: given, or computed from the ray of an input.
     """
 
     motion: Motion
@@ -114,6 +116,7 @@ class Construction(Struct, frozen=True):
     lines: Mapping[str, LineName]
     rays: Mapping[str, PointName]
     segments: Mapping[str, NumberName]
+    mu: NumberName
     found: tuple[Found, ...]
 
     def label(self, body: str) -> str:
@@ -228,7 +231,7 @@ class _Drawing:
         return Construction(
             self.motion, self.picture, builder.program(), self.data, starts,
             tuple(body for body in starts if body in calculated), spots, self.lines, rays,
-            segments, found,
+            segments, mu, found,
         )  # fmt: skip
 
     def _known(self, name: str, value: Fraction) -> NumberName:

@@ -7,12 +7,13 @@ from collections.abc import Iterator
 
 from planmethod.construct import steps
 from planmethod.construct.drafting import Profile
+from planmethod.gears.answers import answer
 from planmethod.gears.asked import parse
 from planmethod.gears.construction import POLE, Construction, Found, Reading, Spot, construct, read
 from planmethod.gears.model import GearProblem
 from planmethod.gears.motion import solve_motion
 from planmethod.gears.picture import ContactKind, draw
-from planmethod.gears.told import calculation, given, symbol
+from planmethod.gears.told import calculation, given, symbol, unit_of
 from planmethod.note.document import Chapter, Item, Node, Paragraph, Step, Title
 from planmethod.note.formula import Rich, escape
 from planmethod.note.narrate.narrator import Line, StepNarrator
@@ -151,12 +152,12 @@ def _readings(
         )
     )
     unit = raised(words.gears.units[train.units[0]])
-    by_input = "input" in drawn.data and not set(train.inputs) & set(drawn.starts)
+    chosen = drawn.mu in drawn.data
     scale = say.steps["scale"].format(
         symbol=_scale(drawn),
-        value=notation.short(float(seen.read.value["mu"]), 4),  # type: ignore[index]
+        value=notation.short(float(seen.read.value[drawn.mu]), 4),
         unit=unit,
-        from_what=say.steps["input" if by_input else "chosen"],
+        from_what=say.steps["chosen" if chosen else "input"],
     )
     yield Step((scale,))
     yield Step(tuple(_found(one, drawn, seen, words) for one in drawn.found))
@@ -182,11 +183,10 @@ def _found(one: Found, drawn: Construction, seen: Reading, words: Language) -> R
     if asked.kind == "omega" and train.unit == "n":
         formula = f"π/30·{formula}"
     value, sigma = float(seen.read.value[one.read]), seen.sigma[one.read]
-    units = {"U": "", "n": "1/min", "omega": "1/s"}
-    unit = units[asked.kind] and f" {raised(words.gears.units[units[asked.kind]])}"
+    unit = unit_of(answer(drawn.motion, one.name), words)
     return words.gears.sheet.steps["found"].format(
         formula=_carried(f"{symbol(one.name, tuple(train.body_of))} = {formula}"),
-        read=notation.number(rounded_to(value, sigma)) + unit,
+        read=f"{notation.number(rounded_to(value, sigma))} {unit}".rstrip(),
         exact=notation.found(float(one.exact)),
         sigma=notation.number(sigma_text(sigma)),
     )

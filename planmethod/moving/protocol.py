@@ -22,7 +22,7 @@ from planmethod.moving.construction import (
 from planmethod.moving.course import Course, course_of
 from planmethod.moving.model import PointProblem
 from planmethod.moving.sheet import read_rows, sheet_scales
-from planmethod.moving.text import law, moment, title, unit_of
+from planmethod.moving.text import LEGEND, law, moment, title
 from planmethod.note.document import Caption, Chapter, Node, Paragraph, steps_of, table_of
 from planmethod.note.formula import Rich, escape
 from planmethod.note.narrate.narrator import Line, Reading, StepNarrator
@@ -186,7 +186,7 @@ class PointNarrator(StepNarrator):
         if column is None:
             return []
         found = self._number(step.out)
-        value = with_unit(self._put(found), self.words.say.units[unit_of(column)])
+        value = with_unit(self._put(found), self.words.say.units[LEGEND[column].unit])
         symbol, (length, _) = self.built.letters[step.out], step.powers[0]
         if not isinstance(self.step[length], steps.Measure | steps.MeasureAlong):
             if not np.isfinite(found):

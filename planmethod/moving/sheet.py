@@ -26,7 +26,7 @@ from planmethod.moving.pictures import (
     trajectory_picture,
     vector_scales,
 )
-from planmethod.moving.text import SYMBOLS, law, moment, textbook, unit_of
+from planmethod.moving.text import LEGEND, head_of, law, moment, textbook
 from planmethod.note.document import Formula, Note
 from planmethod.note.narrate.scales import scale_inscription
 from planmethod.note.numbers import alike, significant
@@ -274,8 +274,8 @@ class _Sheet(Struct, frozen=True):
             cells = tuple("0" if not text.strip("-0.") else say.number(text) for text in told)
             if name == "t":
                 cells = tuple(say.given(value) for value in values)
-            unit = say.units[unit_of(name)]
-            columns.append(TableColumn(SYMBOLS[name], cells, unit, least=8.0))
+            unit = say.units[LEGEND[name].unit]
+            columns.append(TableColumn(LEGEND[name].symbol, cells, unit, least=8.0))
         chords = read_hodograph(self.course, scale, self.profile)
         if len(chords.at) > 1:
             shown = ["—"] * count
@@ -301,7 +301,7 @@ def read_rows(
         exact = significant(float(marks.columns[name][k]) + 0.0)
         read = say.number(rounded_to(ruled[name], sigma[name])) if np.isfinite(ruled[name]) else "—"
         error = say.number(sigma_text(sigma[name])) if np.isfinite(sigma[name]) else "—"
-        yield f"{SYMBOLS[name]}, {say.units[unit_of(name)]}", say.number(exact), read, error
+        yield head_of(name, say), say.number(exact), read, error
 
 
 def _on_pages(parts: Sequence[Part], rooms: Sequence[Room]) -> _Pages | None:

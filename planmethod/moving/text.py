@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 
+from msgspec import Struct
+
 from planmethod.moving.model import Law, PointProblem
 from planmethod.moving.motion import COLUMNS, POLAR, ROLLED, Motion, Undefined, move
 from planmethod.note.document import (
@@ -66,8 +68,13 @@ def _table(motion: Motion, names: Sequence[str], say: Notation) -> Table:
             columns.append(["t", *map(say.given, values)])
             continue
         told = alike(values) if all(v == v for v in values) else map(significant, values)
-        columns.append([f"{SYMBOLS[name]}, {say.units[unit_of(name)]}", *map(say.number, told)])
+        columns.append([head_of(name, say), *map(say.number, told)])
     return table_of_columns(columns, repeated=1)
+
+
+def head_of(name: str, say: Notation) -> Rich:
+    """Return the head of a column: symbol and unit."""
+    return f"{LEGEND[name].symbol}, {say.units[LEGEND[name].unit]}"
 
 
 def _printed(problem: PointProblem, motion: Motion, say: Notation) -> Iterator[tuple[Rich, ...]]:
@@ -76,46 +83,51 @@ def _printed(problem: PointProblem, motion: Motion, say: Notation) -> Iterator[t
         exact = float(motion.columns[item.what][item.position or 0]) if item.what else float("nan")
         yield (
             escape(item.name),
-            SYMBOLS.get(item.what, "—"),
+            LEGEND[item.what].symbol if item.what else "—",
             say.given(item.value),
             say.number(significant(exact)),
             say.number(significant(item.value - exact, 2)),
         )
 
 
-SYMBOLS = {
-    **dict(zip(("t", "x", "y", "v", "a", "rho"), ("t", "x", "y", "v", "a", "ρ"), strict=True)),
-    "vx": "v_{x}",
-    "vy": "v_{y}",
-    "ax": "a_{x}",
-    "ay": "a_{y}",
-    "a_tangential": "a_{τ}",
-    "a_normal": "a_{n}",
-    "s": "s",
-    "r": "r",
-    "phi": "φ",
-    "v_r": "v_{r}",
-    "v_phi": "v_{φ}",
-    "a_r": "a_{r}",
-    "a_phi": "a_{φ}",
-    "omega": "ω",
-    "epsilon": "ε",
-    "xC": "x_{C}",
-    "yC": "y_{C}",
-    "xP": "x_{P}",
-    "yP": "y_{P}",
-    "omega_H": "ω_{H}",
-    "epsilon_H": "ε_{H}",
-    "theta": "θ",
+class PointQuantity(Struct, frozen=True):
+    """Quantity of a moving point (величина): its symbol, and its unit of SI."""
+
+    symbol: Rich
+    unit: str
+
+
+LEGEND = {
+    "t": PointQuantity("t", "s"),
+    "x": PointQuantity("x", "m"),
+    "y": PointQuantity("y", "m"),
+    "vx": PointQuantity("v_{x}", "m/s"),
+    "vy": PointQuantity("v_{y}", "m/s"),
+    "v": PointQuantity("v", "m/s"),
+    "ax": PointQuantity("a_{x}", "m/s²"),
+    "ay": PointQuantity("a_{y}", "m/s²"),
+    "a": PointQuantity("a", "m/s²"),
+    "a_tangential": PointQuantity("a_{τ}", "m/s²"),
+    "a_normal": PointQuantity("a_{n}", "m/s²"),
+    "rho": PointQuantity("ρ", "m"),
+    "s": PointQuantity("s", "m"),
+    "r": PointQuantity("r", "m"),
+    "phi": PointQuantity("φ", "rad"),
+    "v_r": PointQuantity("v_{r}", "m/s"),
+    "v_phi": PointQuantity("v_{φ}", "m/s"),
+    "a_r": PointQuantity("a_{r}", "m/s²"),
+    "a_phi": PointQuantity("a_{φ}", "m/s²"),
+    "omega": PointQuantity("ω", "1/s"),
+    "epsilon": PointQuantity("ε", "1/s²"),
+    "xC": PointQuantity("x_{C}", "m"),
+    "yC": PointQuantity("y_{C}", "m"),
+    "xP": PointQuantity("x_{P}", "m"),
+    "yP": PointQuantity("y_{P}", "m"),
+    "omega_H": PointQuantity("ω_{H}", "1/s"),
+    "epsilon_H": PointQuantity("ε_{H}", "1/s²"),
+    "theta": PointQuantity("θ", "rad"),
 }
-"""How columns of the record and formulas of the file are written, rich text."""
-
-
-def unit_of(name: str) -> str:
-    """Return the SI unit of a column."""
-    units = {"t": "s", "phi": "rad", "v": "m/s", "a": "m/s²", "omega": "1/s", "epsilon": "1/s²"}
-    name = name.removesuffix("_H")
-    return units.get(name, units.get(name[0], "m"))
+"""Columns of the record and formulas of the file."""
 
 
 def textbook(text: str, decimal: str) -> str:
@@ -166,8 +178,7 @@ def law(
     said, say = words.point, words.say
     for key, formula in problem.formulas.items():
         shown = written(formula.text.replace("**", "^").replace("*", "·"))
-        unit = say.units["rad" if key in ("phi", "theta") else "m"]
-        yield Formula(f"{SYMBOLS[key]} = {shown} ({unit})")
+        yield Formula(f"{LEGEND[key].symbol} = {shown} ({say.units[LEGEND[key].unit]})")
     if problem.law is Law.NATURAL:
         path = said.line
         if problem.radius is not None:
@@ -199,11 +210,11 @@ def moment(
 
     def line(name: str, formula: str = "", numbers: str = "") -> Formula:
         between = f"{formula} = {numbers} = " if formula else ""
-        found = with_unit(say.short(value[name]), say.units[unit_of(name)])
-        return Formula(f"{SYMBOLS[name]} = {between}{found}")
+        found = with_unit(say.short(value[name]), say.units[LEGEND[name].unit])
+        return Formula(f"{LEGEND[name].symbol} = {between}{found}")
 
     def root(x: str, y: str) -> tuple[str, str]:
-        letters = f"√({SYMBOLS[x]}^{{2}} + {SYMBOLS[y]}^{{2}})"
+        letters = f"√({LEGEND[x].symbol}^{{2}} + {LEGEND[y].symbol}^{{2}})"
         return letters, f"√({put(x)}^{{2}} + {put(y)}^{{2}})"
 
     if why is not Undefined.POSITION:
