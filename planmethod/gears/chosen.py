@@ -8,8 +8,9 @@ from typing import Any
 from planmethod.gears.choice import Chosen, TeethSet
 from planmethod.gears.conditions import RING_LESS
 from planmethod.note.numbers import MINUS
-from planmethod.note.plaintext import fixed, found, given, table, wrap
+from planmethod.note.plaintext import fixed, found, given
 from planmethod.note.wording import language
+from planmethod.note.writers.plain import table, wrap
 
 
 def chosen_text(chosen: Chosen, lang: str) -> str:

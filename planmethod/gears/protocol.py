@@ -12,9 +12,11 @@ from planmethod.gears.motion import Motion, solve_motion
 from planmethod.gears.picture import draw
 from planmethod.gears.told import calculation, given, symbol
 from planmethod.note.numbers import raised
-from planmethod.note.plaintext import Steps, heading, plain_text, wrap
+from planmethod.note.plaintext import plain_text
 from planmethod.note.rounding import rounded_to, sigma_text
 from planmethod.note.wording import Language, language
+from planmethod.note.writers.plain import heading, wrap
+from planmethod.note.writers.steps import Steps
 
 
 def protocol_text(problem: GearProblem, lang: str, profile: Profile) -> str:

@@ -15,8 +15,9 @@ from planmethod.gears.motion import Motion, Structure, TrainKind, analyse, mesh_
 from planmethod.gears.picture import draw
 from planmethod.gears.roles import Roles
 from planmethod.note.numbers import MINUS
-from planmethod.note.plaintext import columns_text, found, heading, spoken, table, wrap
+from planmethod.note.plaintext import found, spoken
 from planmethod.note.wording import Language, language
+from planmethod.note.writers.plain import columns_text, heading, table, wrap
 
 
 def solved_text(problem: GearProblem, lang: str) -> str:

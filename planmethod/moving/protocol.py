@@ -20,9 +20,10 @@ from planmethod.moving.sheet import read_rows, sheet_scales
 from planmethod.moving.text import law_lines, moment_lines, unit_of
 from planmethod.note.narrate.scales import scale_inscription
 from planmethod.note.numbers import significant, with_unit
-from planmethod.note.plaintext import heading, plain_text, table, wrap
+from planmethod.note.plaintext import plain_text
 from planmethod.note.rounding import rounded_to, sigma_text
 from planmethod.note.wording import Language, language
+from planmethod.note.writers.plain import heading, table, wrap
 
 
 def protocol_text(problem: PointProblem, lang: str, profile: Profile) -> str:

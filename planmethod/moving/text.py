@@ -7,9 +7,10 @@ from collections.abc import Callable
 from planmethod.moving.model import Law, PointProblem
 from planmethod.moving.motion import COLUMNS, POLAR, ROLLED, Motion, Undefined, move
 from planmethod.note.numbers import MINUS, Notation, alike, significant, with_unit
-from planmethod.note.plaintext import columns_text, heading, plain_text, spoken, table, wrap
 from planmethod.note.plaintext import given as written
+from planmethod.note.plaintext import plain_text, spoken
 from planmethod.note.wording import Language, Wording, language
+from planmethod.note.writers.plain import columns_text, heading, table, wrap
 from planmethod.pattern import pattern
 
 FEW = 3

@@ -9,8 +9,10 @@ from typing import Any, assert_never
 from planmethod.construct import steps
 from planmethod.construct.steps import LineName, Name, NumberName, Step
 from planmethod.note.numbers import with_unit
-from planmethod.note.plaintext import NO_BREAK, Steps, fixed, given, plain_text, table, wrap
+from planmethod.note.plaintext import NO_BREAK, fixed, given, plain_text
 from planmethod.note.wording import Language
+from planmethod.note.writers.plain import table, wrap
+from planmethod.note.writers.steps import Steps
 from planmethod.pattern import pattern
 from planmethod.synthesis.drawn import Drawn
 from planmethod.synthesis.model import place

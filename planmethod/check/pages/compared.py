@@ -8,8 +8,9 @@ from planmethod.check.model import Checked, Judged, Unread, Verdict
 from planmethod.check.pages.speech import Speech, quoted, told
 from planmethod.languages import say
 from planmethod.note.numbers import trimmed
-from planmethod.note.plaintext import NO_BREAK, plain_text, table, wrap
+from planmethod.note.plaintext import NO_BREAK, plain_text
 from planmethod.note.wording.language import Language
+from planmethod.note.writers.plain import table, wrap
 
 _NONE = "—"
 

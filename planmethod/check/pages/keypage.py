@@ -13,10 +13,11 @@ from planmethod.check.pages.pdf import NOTE, TEXT, Document
 from planmethod.check.pages.remarks import place_letters, scale_letters, segment_letters
 from planmethod.check.pages.speech import Speech, told
 from planmethod.check.pages.workbook import add_sheet, new_workbook, saved
-from planmethod.note.plaintext import NO_BREAK, columns_text, heading, plain_text, wrap
-from planmethod.note.plaintext import table as text_table
+from planmethod.note.plaintext import NO_BREAK, plain_text
 from planmethod.note.wording.check_model import KeyWording
 from planmethod.note.wording.language import Language
+from planmethod.note.writers.plain import columns_text, heading, wrap
+from planmethod.note.writers.plain import table as text_table
 from planmethod.plans.model import FACTS
 
 UNSEEN = "*"

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from planmethod.gears.involute.quantities import Solved, Told, Unit
 from planmethod.gears.involute.sizes import MeshingProblem
-from planmethod.note.plaintext import heading, plain_text, table, wrap
+from planmethod.note.plaintext import plain_text
 from planmethod.note.wording import Language, language
+from planmethod.note.writers.plain import heading, table, wrap
 
 
 def solved_text(problem: MeshingProblem, lang: str) -> str:

@@ -11,6 +11,7 @@ from planmethod.note.narrate.forces.moments import MomentNarrator
 from planmethod.note.narrate.forces.plan import ForcePlanNarrator
 from planmethod.note.narrate.forces.resultants import kept_lines, shift_lines
 from planmethod.note.narrate.forces.statement import link_names, plan_title, statement, wanted
+from planmethod.note.narrate.given import unbroken
 from planmethod.note.narrate.letters import direction_text
 from planmethod.note.narrate.scales import scale_inscription
 from planmethod.note.numbers import Notation
@@ -34,7 +35,7 @@ from planmethod.render.layout.block import Block, Column, Line, Row, heading, pa
 from planmethod.render.layout.equations import balance_block, formula_block
 from planmethod.render.pictures.ellipses import told_ellipses
 from planmethod.render.sheets.model import Manner
-from planmethod.render.sheets.texts import stated, unbroken
+from planmethod.render.sheets.texts import stated
 from planmethod.render.sheets.views import Viewed, named, shown_position
 from planmethod.solved.forces.reading import ForceReading, force_reading
 from planmethod.solved.solution import Solution

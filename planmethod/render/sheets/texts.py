@@ -4,15 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from planmethod.note.narrate.given import given, wanted
+from planmethod.note.narrate.given import given, unbroken, wanted
 from planmethod.note.narrate.steps import calculation
 from planmethod.render.layout.block import Block, Column, Row, Shapes, heading, paragraph
 from planmethod.render.layout.equations import equation_block, formula_block
 from planmethod.render.sheets.model import Manner
 from planmethod.render.sheets.views import shown_position
 from planmethod.solved.solution import Solution
-
-NBSP = "\u00a0"
 
 NARROW = 0.7
 """Part of the usual width that a text may be set to where that has more room."""
@@ -35,11 +33,6 @@ def stated(facts: Sequence[str], asked: str, manner: Manner, *more: str) -> Bloc
             lines.insert(0, heading(manner.entry.title, height, width=width))
         ways.append(Column(lines, gap=3.0))
     return Shapes(tuple(ways))
-
-
-def unbroken(facts: Sequence[str]) -> str:
-    """Return facts in one line that is broken between them only."""
-    return "; ".join(fact.replace(" ", NBSP) for fact in facts)
 
 
 def equations_block(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:

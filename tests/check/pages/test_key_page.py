@@ -16,8 +16,8 @@ from worked import problem_of
 
 from planmethod.check.key import Key
 from planmethod.check.pages.keypage import key_pdf, key_text, key_xlsx
-from planmethod.note.plaintext import WIDTH
 from planmethod.note.wording import LANGUAGES, language
+from planmethod.note.writers.plain import WIDTH
 
 RU = language("ru")
 
