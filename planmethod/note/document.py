@@ -96,11 +96,13 @@ class Term(Struct, frozen=True):
 class Equation(Struct, frozen=True):
     """A vector equation (векторное уравнение): sums of terms on both sides of the sign ``=``.
 
-    ``right`` is empty where the sum of the left side is nothing.
+    ``right`` is empty where the sum of the left side is nothing; ``name`` is what such a sum is
+    called, for writers that put it before the sum.
     """
 
     left: tuple[Term, ...]
     right: tuple[Term, ...] = ()
+    name: Rich = ""
 
 
 class Equations(Struct, frozen=True):

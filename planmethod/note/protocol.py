@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from functools import partial
 
 from planmethod.construct.steps import Compute, MeasureAlong, PointName
 from planmethod.mechanism.model import FRAME
@@ -20,7 +21,7 @@ from planmethod.note.document import (
     steps_of,
 )
 from planmethod.note.formula import Rich, escape
-from planmethod.note.narrate.equations import equation_of
+from planmethod.note.narrate.equations import direction_note, equation_of
 from planmethod.note.narrate.forces.common import closed
 from planmethod.note.narrate.given import given as given_facts
 from planmethod.note.narrate.given import unbroken
@@ -186,7 +187,8 @@ class _Protocol:
         found = [e for e in plan.equations if e.left.head in made]
         if found:
             yield Caption(self.words.equations)
-            yield Equations(tuple(equation_of(equation, self.names) for equation in found))
+            directed = partial(direction_note, self.names)
+            yield Equations(tuple(equation_of(equation, directed) for equation in found))
 
     def _constant_speed(self, section: Section) -> list[str]:
         drive = self.solution.problem.drive

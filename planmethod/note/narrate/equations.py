@@ -2,7 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from typing import TypeAlias
+
 from planmethod.note.document import Equation, Term
+from planmethod.note.formula import Rich
 from planmethod.note.narrate.letters import SIGN
 from planmethod.note.narrate.naming import Names
 from planmethod.note.plaintext import given
@@ -26,12 +30,16 @@ def direction_note(names: Names, direction: Direction | None) -> str:
             return f"{SIGN[direction.relation]} {names.base(direction)}"
 
 
-def equation_of(equation: VectorEquation, names: Names) -> Equation:
-    """Return a vector equation with the letters of a reader."""
-    left, *right = (term_of(names, one) for one in (equation.left, *equation.right))
+Directed: TypeAlias = Callable[[Direction | None], Rich]
+"""How a direction is written: `letters.direction_text`, or `direction_note` of some names."""
+
+
+def equation_of(equation: VectorEquation, directed: Directed) -> Equation:
+    """Return a vector equation as a reader has it."""
+    left, *right = (term_of(one, directed) for one in (equation.left, *equation.right))
     return Equation((left,), tuple(right))
 
 
-def term_of(names: Names, term: Vector | Edge) -> Term:
+def term_of(term: Vector | Edge, directed: Directed) -> Term:
     """Return a term: its symbol, how much of it is known, its direction."""
-    return Term(term.symbol, term.known.value, direction_note(names, term.direction))
+    return Term(term.symbol, term.known.value, directed(term.direction))

@@ -14,7 +14,7 @@ from msgspec import Struct
 from planmethod.errors import LayoutError
 from planmethod.languages import LANGUAGES, say
 from planmethod.mechanism.structure import Structure
-from planmethod.note.document import Table
+from planmethod.note.document import Formula, Table
 from planmethod.note.narrate.structure import (
     driver_caption,
     group_caption,
@@ -33,7 +33,7 @@ from planmethod.render.ink.drawing import Drawing, Item, View
 from planmethod.render.ink.lettering import lettering, using
 from planmethod.render.ink.typeset import typeset
 from planmethod.render.layout.block import Block, Column, Line, Row, Spacer, paragraph
-from planmethod.render.layout.equations import formula_block
+from planmethod.render.layout.nodes import blocks_of
 from planmethod.render.layout.tables import TableColumn, table_block
 from planmethod.render.pictures.structural import driver_picture, group_picture, mechanism_picture
 
@@ -224,9 +224,8 @@ def _title(text: str, manner: Manner) -> Block:
 
 
 def _formulas(lines: Iterable[str], manner: Manner, width: float, gap: float, title: str) -> Block:
-    blocks: list[Block] = [_title(title, manner)]
-    blocks += [formula_block(line, manner.text, width=width) for line in lines]
-    return Column(blocks, gap=gap)
+    made = blocks_of(map(Formula, lines), manner.text, width=width)
+    return Column([_title(title, manner), *made], gap=gap)
 
 
 # The left column: scheme and groups ------------------------------------------------------------

@@ -3,23 +3,21 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-
-from msgspec.structs import replace
+from functools import partial
 
 from planmethod.construct.steps import Name
 from planmethod.mechanism.groups import AssurGroup
 from planmethod.note.document import (
     Caption,
     Chapter,
-    Equation,
     Equations,
     Node,
     Part,
     Step,
     step_of,
 )
-from planmethod.note.narrate.equations import term_of
-from planmethod.note.narrate.forces.common import ForceContext
+from planmethod.note.narrate.equations import direction_note
+from planmethod.note.narrate.forces.common import ForceContext, balance_equation
 from planmethod.note.narrate.forces.lever import LeverNarrator
 from planmethod.note.narrate.forces.loads import LoadNarrator
 from planmethod.note.narrate.forces.moments import MomentNarrator
@@ -27,7 +25,6 @@ from planmethod.note.narrate.forces.plan import ForcePlanNarrator
 from planmethod.note.narrate.formulas import Formulas
 from planmethod.note.narrate.structure import group_title, links_of_group
 from planmethod.plans.forces.polygons import ForcePlan
-from planmethod.plans.model import Known
 from planmethod.solved.forces.reading import ForceReading
 
 
@@ -100,16 +97,11 @@ def _readable(context: ForceContext, *names: Name) -> bool:
 
 
 def _balances(context: ForceContext, plan: ForcePlan) -> Iterator[Node]:
-    said = context.said
+    said, directed = context.said, partial(direction_note, context.names)
     for balance in plan.balances:
-        edges = [
-            replace(edge, symbol=context.notation.symbol(edge.symbol))
-            for edge in balance.edges
-            if edge.known is not Known.BOTH or not context.reading.is_none(edge)
-        ]
         template = said.balance_link if len(balance.links) == 1 else said.balance_group
         yield Caption(template.format(links="–".join(balance.links)))
-        yield Equations((Equation(tuple(term_of(context.names, edge) for edge in edges)),))
+        yield Equations((balance_equation(balance, context, directed),))
 
 
 def _lever(context: ForceContext) -> Iterator[Node]:
