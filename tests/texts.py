@@ -2,6 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
+from planmethod.check.key import Key
+from planmethod.check.model import Checked
+from planmethod.check.pages.compared import compared_document
+from planmethod.check.pages.keypage import key_document
 from planmethod.mechanism.model import Mechanism
 from planmethod.mechanism.structure import Structure
 from planmethod.note.document import Document
@@ -10,7 +16,7 @@ from planmethod.note.protocol import protocol_document
 from planmethod.note.tables.referee import referee_document
 from planmethod.note.tables.results import results_document
 from planmethod.note.tables.turn import cycle_steps, cycle_tables
-from planmethod.note.wording import language
+from planmethod.note.wording import Language, language
 from planmethod.note.writers.plain import plain_document
 from planmethod.solved.solution import Solution
 
@@ -39,3 +45,11 @@ def cycle_protocol(solution: Solution, lang: str) -> str:
     words = language(lang)
     nodes = [*cycle_tables(solution, words), *cycle_steps(solution, words)]
     return plain_document(Document.of(nodes), words)
+
+
+def key_text(keys: Sequence[Key], words: Language) -> str:
+    return plain_document(key_document(keys, words), words) + "\n"
+
+
+def compared_text(checked: Sequence[Checked], words: Language) -> str:
+    return plain_document(compared_document(checked, words), words) + "\n"

@@ -35,7 +35,7 @@ _BODY = (document.Table, document.Step, document.Equations, document.Item, docum
 
 def plain_document(written: Document, words: Language) -> str:
     """Return a document as lines of at most `WIDTH` columns."""
-    return "\n".join(PlainWriter(words).lines(written))
+    return "\n".join(PlainWriter(words).lines(written)).replace(NO_BREAK, " ")
 
 
 class PlainWriter:
