@@ -49,15 +49,18 @@ def protocol(
     lang: str,
 ) -> None:
     """Tell the construction step by step, as the explanatory note does."""
-    from planmethod.note.protocol import protocol as narrate
+    from planmethod.note.protocol import protocol_document
+    from planmethod.note.wording import language
+    from planmethod.note.writers.plain import plain_document
 
     def tell(problem: Problem) -> None:
         solution = solution_of(problem, phi, drawn_by(profile, ruler))
         count = len(solution.positions)
         if position > count:
             raise UsageError("--position {}: {} has {}", position, problem.name, count)
-        text = narrate(solution, lang=lang, position=position - 1)
-        written(problem, text)
+        words = language(lang)
+        told = protocol_document(solution, words, position - 1)
+        written(problem, plain_document(told, words) + "\n")
 
     def tell_other(kind: Kind, problem: KindProblem) -> None:
         refuse_plans(kind, phi=phi is not None, position=position > 1)

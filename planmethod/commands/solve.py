@@ -177,11 +177,15 @@ def solve(
             if npz_file is not None:
                 _refuse_huge(made)
                 return made
-            from planmethod.note.records.spreadsheet import asked_text, swept_table
+            from planmethod.note.records.spreadsheet import swept_table
+            from planmethod.note.tables.asked import asked_document
+            from planmethod.note.wording import language
+            from planmethod.note.writers.plain import plain_document
 
             if csv_file is not None:
                 return held(swept_table(made, partial=partial))
-            click.echo(asked_text(made, lang))
+            words = language(lang)
+            click.echo(plain_document(asked_document(made, words), words))
         elif csv_file is not None:
             return held(_table(problem, phi, hand.ruler, partial))
         elif as_json:
@@ -196,14 +200,18 @@ def solve(
         elif covariance_file is not None:
             return solution_of(problem, phi, hand, hint=HINT)
         else:
-            from planmethod.note.tables.results import result_tables
+            from planmethod.note.tables.results import results_document
+            from planmethod.note.wording import language
+            from planmethod.note.writers.plain import plain_document
 
+            words = language(lang)
             solution = solution_of(problem, phi, hand, hint=HINT, forces=True)
-            click.echo(result_tables(solution, lang, sigma=sigma))
+            click.echo(plain_document(results_document(solution, words, sigma=sigma), words))
             if referee is not None:
-                from planmethod.note.tables.referee import referee_tables
+                from planmethod.note.tables.referee import referee_document
 
-                click.echo("\n" + referee_tables(solution, referee, lang))
+                judged = referee_document(solution, referee, words)
+                click.echo("\n" + plain_document(judged, words))
         return None
 
     def held(table: Table) -> Table:

@@ -61,12 +61,14 @@ def structure(
             whole = {**head, "structure": structure_record(found)}
             click.echo(json_text(whole))
             return
-        from planmethod.note.narrate.structure import structure_text
+        from planmethod.note.narrate.structure import structure_document
+        from planmethod.note.wording import language
+        from planmethod.note.writers.plain import plain_document
 
         if settled is not None:
             problem = settled(problem)
-        lang = asked.sheet["lang"] or problem.sheet.lang or LANGUAGES[0]
-        click.echo(structure_text(problem.mechanism, found, str(lang)))
+        words = language(str(asked.sheet["lang"] or problem.sheet.lang or LANGUAGES[0]))
+        click.echo(plain_document(structure_document(problem.mechanism, found, words), words))
         if settled is not None:
             from planmethod.render.sheets.structure import structure_sheet
 

@@ -28,6 +28,7 @@ from planmethod.moving.pictures import (
 )
 from planmethod.moving.text import LEGEND, head_of, law, moment, textbook
 from planmethod.note.document import Formula, Note
+from planmethod.note.narrate.given import unbroken
 from planmethod.note.narrate.scales import scale_inscription
 from planmethod.note.numbers import alike, significant
 from planmethod.note.plaintext import plain_text
@@ -47,7 +48,6 @@ from planmethod.render.layout.equations import formula_block
 from planmethod.render.layout.pack import EDGE, Placed, pack
 from planmethod.render.layout.tables import TableColumn, table_block
 from planmethod.render.pictures.planview import POLE
-from planmethod.render.sheets.texts import unbroken
 from planmethod.render.sheets.views import Viewed
 
 PAPERS = ("A3", "A2", "A1")

@@ -12,6 +12,7 @@ from planmethod.construct.scale import Scale
 from planmethod.construct.steps import LineName, MeetCircles, MeetLineCircle, PointName
 from planmethod.errors import LayoutError
 from planmethod.languages import LANGUAGES
+from planmethod.note.narrate.given import NBSP
 from planmethod.note.narrate.scales import scale_inscription
 from planmethod.note.wording import Language, language
 from planmethod.problem.model import Convention, Problem
@@ -37,7 +38,6 @@ from planmethod.render.layout.cuttings import Group, Part
 from planmethod.render.layout.pack import Placed, pack
 from planmethod.render.layout.tables import TableColumn, table_block
 from planmethod.render.pictures.lettered import lettered
-from planmethod.render.sheets.texts import NBSP
 from planmethod.render.sheets.views import Viewed
 from planmethod.synthesis.drawn import Drawn, arc_over
 from planmethod.synthesis.model import place

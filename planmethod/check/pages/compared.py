@@ -7,25 +7,26 @@ from collections.abc import Iterator, Sequence
 from planmethod.check.model import Checked, Judged, Unread, Verdict
 from planmethod.check.pages.speech import Speech, quoted, told
 from planmethod.languages import say
+from planmethod.note.document import Caption, Document, Node, Paragraph, table_of
 from planmethod.note.numbers import trimmed
-from planmethod.note.plaintext import NO_BREAK, plain_text, table, wrap
 from planmethod.note.wording.language import Language
 
 _NONE = "—"
 
 
-def compared_text(checked: Sequence[Checked], words: Language) -> str:
-    """Return tables for a terminal, one for each work: his value, the exact one, how far apart."""
+def compared_document(checked: Sequence[Checked], words: Language) -> Document:
+    """Return tables, one for each work: his value, the exact one, how far apart they are."""
+    return Document.of(_compared(checked, words))
+
+
+def _compared(checked: Sequence[Checked], words: Language) -> Iterator[Node]:
     say, speech = words.check.compared, Speech(words)
-    lines: list[str] = []
     for one in checked:
-        name = " ".join(filter(None, (quoted(one.work.student), one.variant)))
-        lines += [name] if name else []
-        told = [judged for judged in one.answers if judged.written is not None]
-        rows = [[plain_text(cell) for cell in _cells(judged, speech)] for judged in told]
-        lines += [*table(say.columns, rows), ""]
-    lines += wrap(plain_text(say.note))
-    return "\n".join(line.replace(NO_BREAK, " ") for line in lines) + "\n"
+        if name := " ".join(filter(None, (quoted(one.work.student), one.variant))):
+            yield Caption(name)
+        told = (judged for judged in one.answers if judged.written is not None)
+        yield table_of(say.columns, (tuple(_cells(judged, speech)) for judged in told))
+    yield Paragraph(say.note)
 
 
 def _cells(judged: Judged, speech: Speech) -> Iterator[str]:

@@ -13,8 +13,18 @@ from planmethod.check.pages.pdf import NOTE, TEXT, Document
 from planmethod.check.pages.remarks import place_letters, scale_letters, segment_letters
 from planmethod.check.pages.speech import Speech, told
 from planmethod.check.pages.workbook import add_sheet, new_workbook, saved
-from planmethod.note.plaintext import NO_BREAK, columns_text, heading, plain_text, wrap
-from planmethod.note.plaintext import table as text_table
+from planmethod.note import document
+from planmethod.note.document import (
+    Caption,
+    Item,
+    Node,
+    Note,
+    Paragraph,
+    Title,
+    table_of,
+    table_of_columns,
+)
+from planmethod.note.plaintext import plain_text
 from planmethod.note.wording.check_model import KeyWording
 from planmethod.note.wording.language import Language
 from planmethod.plans.model import FACTS
@@ -189,31 +199,31 @@ COLUMN = 34.0
 LEAD = 20.0
 
 
-def key_text(keys: Sequence[Key], words: Language) -> str:
+def key_document(keys: Sequence[Key], words: Language) -> document.Document:
     """Return the key for a terminal."""
-    page = KeyPage(tuple(keys), words)
-    lines = heading(plain_text(page.title), "═")
-    lines += [*wrap(plain_text(page.scales())), ""]
+    return document.Document.of(_key(KeyPage(tuple(keys), words)))
+
+
+def _key(page: KeyPage) -> Iterator[Node]:
+    yield Title(page.title)
+    if scales := page.scales():
+        yield Paragraph(scales)
     if page.is_single:
-        rows = [[plain_text(cell) for cell in page.line(e)] for e in page.keys[0].entries]
-        lines += text_table(page.say.columns, rows)
+        rows = (page.line(entry) for entry in page.keys[0].entries)
+        yield table_of(page.say.columns, rows)
     else:
         rows_of = page.rows()
         columns = [[page.say.rows[0], *(page.lead(row) for row in rows_of)]]
         for entry in page.columns():
-            cells = [
-                "; ".join(filter(None, page.cell(row.entries.get(entry.label)))) for row in rows_of
-            ]
-            columns.append([plain_text(page.head(entry)), *map(plain_text, cells)])
-        lines += columns_text(columns, 1)
-        lines += [f"{UNSEEN} — {page.say.unseen}."] if page.has_unseen else []
-    lines += ["", *wrap(plain_text(page.note()))]
+            cells = (page.cell(row.entries.get(entry.label)) for row in rows_of)
+            columns.append([page.head(entry), *("; ".join(filter(None, cell)) for cell in cells)])
+        yield table_of_columns(columns, repeated=1)
+        if page.has_unseen:
+            yield Note(f"{UNSEEN} — {page.say.unseen}.")
+    yield Paragraph(page.note())
     if hidden := page.hidden():
-        lines += ["", page.say.hidden]
-        lines += [
-            part for line in hidden for part in wrap(plain_text(line), first="  ", rest="    ")
-        ]
-    return "\n".join(line.replace(NO_BREAK, " ") for line in lines) + "\n"
+        yield Caption(page.say.hidden)
+        yield from map(Item, hidden)
 
 
 def key_pdf(keys: Sequence[Key], words: Language) -> bytes:

@@ -178,9 +178,7 @@ class Narrator(BoardNarrator):
 
     def is_reading(self, step: Step) -> bool:
         """Tell whether a step is the value of a segment that is read for it alone."""
-        if not (isinstance(step, steps.Compute) and self.motion.is_value(step)):
-            return False
-        return not isinstance(self.names.step[step.powers[1][0]], steps.MeasureAlong)
+        return self.motion.is_reading(step)
 
     def tell(self, step: Step) -> list[str]:
         """Return the lines that tell a step; none when another step tells it."""

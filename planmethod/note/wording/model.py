@@ -56,6 +56,7 @@ class Wording(Struct, frozen=True, kw_only=True):
     driver: str
     group: str
     higher_group: str
+    plain_group: str
     letters: Mapping[str, str]
 
     # Points, lines and directions
@@ -175,33 +176,9 @@ class Wording(Struct, frozen=True, kw_only=True):
     cause_read: str
 
     # Structure
-    structure_title: str
-    pairs: str
-    columns_pairs: tuple[str, ...]
-    revolute: str
-    prismatic: str
-    links: str
-    columns_link: tuple[str, ...]
     roles: Mapping[str, str]
-    motions: Mapping[str, str]
-    mobility: str
-    mobility_counts: str
-    chebyshev: str
-    redundant: str
-    spatial: str
-    reshetov: str
-    assur: str
-    primary: str
-    assur_group: str
-    assur_higher: str
-    own_mobility: str
-    own_redundant: str
-    structural_formula: str
-    kinematic_order: str
-    force_order: str
     static_counts: str
     statically_determinate: str
     statically_not: str
-    mechanism_class: str
     joint_outer: str
     joint_inner: str

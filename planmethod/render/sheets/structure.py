@@ -14,6 +14,15 @@ from msgspec import Struct
 from planmethod.errors import LayoutError
 from planmethod.languages import LANGUAGES, say
 from planmethod.mechanism.structure import Structure
+from planmethod.note.document import Formula, Table
+from planmethod.note.narrate.structure import (
+    driver_caption,
+    group_caption,
+    link_table,
+    mobility_formulas,
+    order_formulas,
+    pair_table,
+)
 from planmethod.note.wording import Language, language
 from planmethod.problem.model import Problem
 from planmethod.render.frame.clearance import is_clear
@@ -24,16 +33,9 @@ from planmethod.render.ink.drawing import Drawing, Item, View
 from planmethod.render.ink.lettering import lettering, using
 from planmethod.render.ink.typeset import typeset
 from planmethod.render.layout.block import Block, Column, Line, Row, Spacer, paragraph
-from planmethod.render.layout.equations import formula_block
+from planmethod.render.layout.nodes import blocks_of
 from planmethod.render.layout.tables import TableColumn, table_block
 from planmethod.render.pictures.structural import driver_picture, group_picture, mechanism_picture
-from planmethod.render.sheets.structure_texts import (
-    driver_caption,
-    formulas,
-    group_caption,
-    link_columns,
-    pair_columns,
-)
 
 PAPERS = ("A3", "A2", "A1")
 """Formats tried in turn when none is asked for."""
@@ -195,10 +197,13 @@ def _told(
     """Return tables and formulas, in rows as high as the room allows."""
     mechanism, said = problem.mechanism, words.structure
     for row in manner.rows:
-        lines = formulas(mechanism, structure, words)
+        lines = [
+            *mobility_formulas(mechanism, structure, words),
+            *order_formulas(mechanism, structure, words),
+        ]
         blocks = [
-            _table(pair_columns(mechanism, words), said.pairs, manner, width, row),
-            _table(link_columns(mechanism, words), said.links, manner, width, row),
+            _table(pair_table(mechanism, words), said.pairs, manner, width, row),
+            _table(link_table(mechanism, words), said.links, manner, width, row),
             _formulas(lines, manner, width, 0.55 * row, said.formulas),
         ]
         spare = height - sum(block.height for block in blocks)
@@ -207,9 +212,9 @@ def _told(
     return None
 
 
-def _table(
-    columns: Sequence[TableColumn], title: str, manner: Manner, width: float, row: float
-) -> Block:
+def _table(made: Table, title: str, manner: Manner, width: float, row: float) -> Block:
+    cells = zip(made.head, *made.rows, strict=True)
+    columns = [TableColumn(head, tuple(values)) for head, *values in cells]
     table = table_block(columns, manner.text, width=width, units="none", row_height=row)
     return Column([_title(title, manner), table], gap=3.0)
 
@@ -219,9 +224,8 @@ def _title(text: str, manner: Manner) -> Block:
 
 
 def _formulas(lines: Iterable[str], manner: Manner, width: float, gap: float, title: str) -> Block:
-    blocks: list[Block] = [_title(title, manner)]
-    blocks += [formula_block(line, manner.text, width=width) for line in lines]
-    return Column(blocks, gap=gap)
+    made = blocks_of(map(Formula, lines), manner.text, width=width)
+    return Column([_title(title, manner), *made], gap=gap)
 
 
 # The left column: scheme and groups ------------------------------------------------------------
