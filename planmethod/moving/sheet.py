@@ -44,7 +44,7 @@ from planmethod.render.ink.lettering import lettering, using
 from planmethod.render.ink.typeset import typeset
 from planmethod.render.layout.block import Block, Column, Line, heading, paragraph
 from planmethod.render.layout.cuttings import Group, Part
-from planmethod.render.layout.equations import formula_block
+from planmethod.render.layout.nodes import blocks_of
 from planmethod.render.layout.pack import EDGE, Placed, pack
 from planmethod.render.layout.tables import TableColumn, table_block
 from planmethod.render.pictures.planview import POLE
@@ -239,18 +239,13 @@ class _Sheet(Struct, frozen=True):
         """Return the formulas of one moment with their numbers."""
         time = self.words.say.given(float(self.course.marks.columns["t"][k]))
         blocks: list[Block] = [heading(self.words.point.at.format(time=time), TEXT, width=width)]
-        lines: list[str] = []
-        notes: list[str] = []
+        nodes: list[Formula | Note] = []
         for node in moment(self.problem, self.course.marks, k, self.words):
-            if isinstance(node, Note):
-                notes.append(node.text)
-            elif lines and node.text.count("=") == lines[-1].count("=") == 1:
-                lines[-1] += f";  {node.text}"  # two components
+            if nodes and _is_short(node) and _is_short(nodes[-1]):
+                nodes[-1] = Formula(f"{nodes[-1].text};  {node.text}")  # two components
             else:
-                lines.append(node.text)
-        blocks += [formula_block(line, TEXT, width=width) for line in lines]
-        blocks += [paragraph(note, TEXT, width=width) for note in notes]
-        return Column(blocks, gap=2.6)
+                nodes.append(node)
+        return Column([*blocks, *blocks_of(nodes, TEXT, width=width)], gap=2.6)
 
     def _read(self, built: Construction, k: int) -> Block:
         """Return what the drawing gives beside the exact values, and its error."""
@@ -290,6 +285,11 @@ class _Sheet(Struct, frozen=True):
         )
         notes = [] if len(chords.at) < 2 else [paragraph(said.chord_note, 2.5, STAMP_WIDTH)]
         return Column([Line(typeset(said.table, TEXT)), table, *notes], gap=2.5)
+
+
+def _is_short(node: Formula | Note) -> bool:
+    """Tell whether a node is a formula without a calculation, of which two fit a line."""
+    return isinstance(node, Formula) and node.text.count("=") == 1
 
 
 def read_rows(
