@@ -11,7 +11,7 @@ LINKAGES = $(sort $(filter-out $(TASKS) problems/point/% problems/gears/% proble
 # tree, also where the environment forbids it: to compile anew in every process is a tenth of the time.
 TESTS := PYTHONDONTWRITEBYTECODE= PYTHONPYCACHEPREFIX=$(CURDIR)/$(VENV)/bytecode $(BIN)/python -m pytest -n 2 --dist loadfile
 
-.PHONY: demo test test-every test-thorough lint format tables tasks gallery group bench clean
+.PHONY: demo test test-every test-thorough outputs lint size format tables schema tasks gallery group bench clean
 
 # The compat mode is a plain path entry: the default finder costs every command a tenth of a second.
 $(VENV)/.ready: pyproject.toml
@@ -36,11 +36,20 @@ test-every: $(VENV)/.ready
 test-thorough: $(VENV)/.ready
 	$(TESTS) --thorough
 
+# What differs from the outputs that were taken; SHOW=pattern shows how, TAKE=1 takes it.
+outputs: $(VENV)/.ready
+	PYTHONPATH=$(CURDIR):$(CURDIR)/tests:$(CURDIR)/tests/outputs $(BIN)/python tests/outputs/look.py \
+	  $(if $(SHOW),--show '$(SHOW)') $(if $(TAKE),--take)
+
 lint: $(VENV)/.ready
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .
 	$(BIN)/mypy
 	$(BIN)/lint-imports
+
+# Lines of code by room; fails above the budget of scripts/budget.toml.
+size: $(VENV)/.ready
+	$(BIN)/python scripts/size.py
 
 format: $(VENV)/.ready
 	$(BIN)/ruff check --fix .
@@ -49,6 +58,10 @@ format: $(VENV)/.ready
 # Files in byte order, as the test of the document has them.
 tables: $(VENV)/.ready
 	$(BIN)/planmethod audit --lang en -o docs/published.md $(LINKAGES)
+
+# What follows from the declared keys of flat tables: the schema, the references of keys in both languages.
+schema: $(VENV)/.ready
+	$(BIN)/python -m scripts.reference
 
 # The index of the shipped problems, docs/tasks.md and its pictures.
 tasks: $(VENV)/.ready

@@ -116,7 +116,7 @@ def commands(*, runs: int = 5) -> list[Command]:
             lines.append((name, [loaded[0], str(press if which == "press" else many), *rest]))
         plain = [[sys.executable, "-c", source] for source in YARDSTICKS]
         # The module is run as the installed script runs it.
-        start = "import sys; from planmethod.__main__ import launch; launch()"
+        start = "import sys; from planmethod.__main__ import main; main()"
         whole = [[sys.executable, "-c", start, *arguments] for _, arguments in lines]
         timings = clock_processes([*plain, *whole], runs=runs)
         count = len(YARDSTICKS)

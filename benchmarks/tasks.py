@@ -18,7 +18,7 @@ from planmethod.mechanism.structure import analyse
 from planmethod.note.wording import language
 from planmethod.problem import variant_names
 from planmethod.problem.model import Scales
-from planmethod.problem.tasks import LINKAGE, Task, home
+from planmethod.problem.tasks import LINKAGE, ShippedTask, home
 from planmethod.render.backends import render
 from planmethod.render.backends.output import write
 from planmethod.render.ink.drawing import Drawing, Pen, Stroke
@@ -49,7 +49,7 @@ LETTER = 2.5
 HEAD = 3.5
 
 
-def _order(task: Task) -> tuple[object, ...]:
+def _order(task: ShippedTask) -> tuple[object, ...]:
     """By kind; linkages by number of groups and structure; numbers in names as numbers."""
     parts = re.split(r"(\d+)", task.name)
     name = tuple((int(p), "") if p.isdigit() else (-1, p) for p in parts)
@@ -63,7 +63,7 @@ def name_of(file: str) -> str:
     return stem if stem.startswith(folder) else f"{folder}-{stem}"
 
 
-def task_of(path: Path) -> Task:
+def task_of(path: Path) -> ShippedTask:
     """Read a file for the index."""
     file, kind = path.relative_to(home()).as_posix(), kind_of(path)
     if kind is None:
@@ -73,21 +73,21 @@ def task_of(path: Path) -> Task:
     else:
         other = kind.load(path, None)
         groups, of, title, source = (), kind.table, other.title, other.source
-    return Task(name_of(file), file, of, title, source, groups, tuple(variant_names(path)))
+    return ShippedTask(name_of(file), file, of, title, source, groups, tuple(variant_names(path)))
 
 
-def index() -> list[Task]:
+def index() -> list[ShippedTask]:
     """Read all files."""
     return sorted(map(task_of, home().rglob("*.toml")), key=_order)
 
 
-def index_text(tasks: list[Task]) -> str:
+def index_text(tasks: list[ShippedTask]) -> str:
     """Return the index as it is kept: a line for each task."""
     rows = (json.dumps(asdict(task), ensure_ascii=False) for task in tasks)
     return "[\n" + ",\n".join(rows) + "\n]\n"
 
 
-def contact_sheet(tasks: list[Task], title: str) -> Drawing:
+def contact_sheet(tasks: list[ShippedTask], title: str) -> Drawing:
     """Draw the schemes of tasks in their first position, in rows, with their names."""
     rows = -(-len(tasks) // ACROSS)
     width, height = min(len(tasks), ACROSS) * WIDTH, rows * HEIGHT
@@ -108,13 +108,13 @@ def contact_sheet(tasks: list[Task], title: str) -> Drawing:
     return sheet
 
 
-def _first(task: Task) -> Solution:
+def _first(task: ShippedTask) -> Solution:
     """Return a task solved in its first position, small enough for a cell."""
     problem = replace(load(home() / task.file), scales=Scales())
     return Solution(problem, positions=problem.drive.positions[:1], views=Views.alone(ROOM))
 
 
-def document(tasks: list[Task]) -> dict[Path, bytes]:
+def document(tasks: list[ShippedTask]) -> dict[Path, bytes]:
     """Return docs/tasks.md and its pictures."""
     kinds = language("en").tasks
     files: dict[Path, bytes] = {}

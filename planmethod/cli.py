@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import io
 import sys
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Sequence
 from importlib import import_module
 from typing import Any
 
@@ -52,25 +52,6 @@ HELP = {
 COMMANDS = tuple(name for group in HELP.values() for name in group)
 
 
-class Commands(Mapping[str, click.Command]):
-    """Commands by name, each imported when it is first looked up."""
-
-    def __getitem__(self, name: str) -> click.Command:
-        if name not in COMMANDS:
-            raise KeyError(name)
-        command: click.Command = getattr(import_module(f"planmethod.commands.{name}"), name)
-        return command
-
-    def __iter__(self) -> Iterator[str]:
-        return iter(COMMANDS)
-
-    def __len__(self) -> int:
-        return len(COMMANDS)
-
-
-LAZY: Any = Commands()
-
-
 FIRST = """\
 planmethod draws and computes a mechanism from a problem file. To begin with:
 
@@ -82,8 +63,22 @@ All commands: planmethod --help. One of them: planmethod sheet --help."""
 """What is said to who calls the program for the first time."""
 
 
+def command_of(name: str) -> click.Command:
+    """Import a command."""
+    command: click.Command = getattr(import_module(f"planmethod.commands.{name}"), name)
+    return command
+
+
 class Commanded(Spoken, click.Group):
-    """Group of commands that answers in the language it is spoken to in."""
+    """Group of commands that answers in the language it is spoken to in; it imports them late."""
+
+    def list_commands(self, _ctx: click.Context) -> list[str]:
+        """Return the names of the commands."""
+        return list(COMMANDS)
+
+    def get_command(self, _ctx: click.Context, name: str) -> click.Command | None:
+        """Return a command; None where there is no such command."""
+        return command_of(name) if name in COMMANDS else None
 
     def format_commands(self, _ctx: click.Context, formatter: click.HelpFormatter) -> None:
         """Write what the commands do, none of them imported."""
@@ -101,7 +96,6 @@ class Commanded(Spoken, click.Group):
 @click.group(
     cls=Commanded,
     context_settings={"help_option_names": ["-h", "--help"]},
-    commands=LAZY,
     invoke_without_command=True,
 )
 @click.version_option(package_name="planmethod")

@@ -20,7 +20,7 @@ _WORDING = Path(__file__).parent / "note" / "wording"
 
 LANGUAGES = tuple(
     sorted(
-        (path.parent.name for path in _WORDING.glob("*/__init__.py")),
+        (path.parent.name for path in _WORDING.glob("*/note.toml")),
         key=lambda lang: (lang != "ru", lang),
     )
 )
@@ -82,32 +82,44 @@ def say(sentence: str, *facts: object, **named: object) -> str:
 
 
 def translated(sentence: str) -> str:
-    """Return a sentence, its places still empty, in the language that is spoken."""
-    return sentence if _spoken == WRITTEN else _messages(_spoken).get(sentence, sentence)
+    """Return a sentence, its places still empty, in the language that is spoken.
+
+    Of the catalogues of messages only those are parsed in which the sentence stands as a key.
+    """
+    if _spoken != WRITTEN:
+        import json
+
+        key = f"{json.dumps(sentence, ensure_ascii=False)} = "  # as TOML writes a string, too
+        for room, text in _messages(_spoken).items():
+            if key in text:
+                return str(catalogue(_spoken, f"messages/{room}").get(sentence, sentence))
+    return sentence
 
 
 @cache
 def _messages(lang: str) -> Mapping[str, str]:
-    """Return the sentences of a language by the English ones, of all rooms."""
-    import json
-
-    found: dict[str, str] = {}
-    for room in sorted((_WORDING / lang / "messages").glob("*.json")):
-        found |= json.loads(room.read_text(encoding="utf-8"))
-    return found
+    """Return the text of each catalogue of messages of a language, by its name."""
+    paths = sorted((_WORDING / lang / "messages").glob("*.toml"))
+    return {path.stem: path.read_text(encoding="utf-8") for path in paths}
 
 
 @cache
 def typed() -> Mapping[str, tuple[str, ...]]:
     """Return the keys and words of files by what is typed in their place, in any language."""
-    import json
-
     found: dict[str, tuple[str, ...]] = {}
-    for room in sorted(_WORDING.glob("*/typed.json")):
-        for key, words in json.loads(room.read_text(encoding="utf-8")).items():
+    for path in sorted(_WORDING.glob("*/typed.toml")):
+        for key, words in catalogue(path.parent.name, "typed").items():
             for word in words.split(", "):
                 found[word] = (*found.get(word, ()), key)
     return found
+
+
+@cache
+def catalogue(lang: str, name: str) -> dict[str, Any]:
+    """Return the words of one file of a language, as they stand there."""
+    import tomllib
+
+    return tomllib.loads((_WORDING / lang / f"{name}.toml").read_text(encoding="utf-8"))
 
 
 def spoken() -> str:

@@ -6,6 +6,7 @@ across; ``A3:portrait`` (``А3:книжная``) is the standing sheet.
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Mapping
 from types import MappingProxyType
 from typing import NoReturn, TypeAlias
@@ -13,7 +14,6 @@ from typing import NoReturn, TypeAlias
 from msgspec import Struct
 
 from planmethod.errors import LayoutError
-from planmethod.pattern import pattern
 
 Box: TypeAlias = tuple[float, float, float, float]
 """xmin, ymin, xmax, ymax in mm."""
@@ -108,7 +108,7 @@ FORMATS: Mapping[str, Format] = MappingProxyType({fmt.name: fmt for fmt in _form
 """All formats by name, the basic ones first, from A4 to A0."""
 
 _LATIN = str.maketrans("АаaХхX×*", "AAAxxxxx")
-_NAME = pattern(r"(A[0-4])(?:x([0-9]+))?")
+_NAME = r"(A[0-4])(?:x([0-9]+))?"
 _TURNS = MappingProxyType(
     {
         "portrait": True,
@@ -136,7 +136,7 @@ def paper_format(name: str) -> Format:
         If there is no such format, or A4 is to lie.
     """
     size, colon, turn = (part.strip() for part in name.partition(":"))
-    match = _NAME.fullmatch(size.translate(_LATIN))
+    match = re.fullmatch(_NAME, size.translate(_LATIN))
     if match is None:
         basic = ", ".join(_BASIC)
         raise LayoutError(

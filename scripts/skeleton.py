@@ -6,6 +6,7 @@ on the base line at the left end of the letter's room, y up.
 
 from __future__ import annotations
 
+import re
 from cmath import exp, phase
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -14,7 +15,6 @@ from itertools import pairwise
 from math import ceil, radians, tan, tau
 from typing import TypeAlias
 
-from planmethod.pattern import pattern
 from planmethod.render.ink.lettering.proportions import TYPES, Proportions
 from scripts import shapes
 
@@ -176,7 +176,7 @@ def _moved(strokes: Strokes, by: complex) -> Strokes:
 
 # The notation of the shapes ---------------------------------------------------------------------
 
-_POINT = pattern(r"(-?[\d.]+),(-?[\d.]+)(?:~([\d.]+))?$")
+_POINT = r"(-?[\d.]+),(-?[\d.]+)(?:~([\d.]+))?$"
 
 
 @lru_cache(maxsize=1024)
@@ -188,7 +188,7 @@ def parsed(shape: str) -> Strokes:
         closed = words[-1] == "@"
         points, radii = [], []
         for word in words[:-1] if closed else words:
-            match = _POINT.match(word)
+            match = re.match(_POINT, word)
             if match is None:
                 raise ValueError(f"{word!r} in the shape {shape!r} is no point: x,y or x,y~radius")
             points.append(complex(float(match[1]), float(match[2])))

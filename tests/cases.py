@@ -12,12 +12,17 @@ import pytest
 Test = Callable[..., None]
 T = TypeVar("T")
 
-_taken = {"everything": False}
+_taken = {"everything": False, "thinned": True}
 
 
-def take(*, everything: bool) -> None:
-    """Say, before the test modules are imported, whether all cases are taken."""
-    _taken["everything"] = everything
+def take(*, everything: bool, is_thin: bool) -> None:
+    """Say, before the test modules are imported, which cases are taken."""
+    _taken["everything"], _taken["thinned"] = everything, is_thin
+
+
+def is_thinned() -> bool:
+    """Return whether of tests with many cases some are left out."""
+    return _taken["thinned"]
 
 
 def some(count: int, few: int) -> int:

@@ -1,6 +1,7 @@
 from __future__ import annotations
 
 import gc
+import os
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -17,13 +18,22 @@ def pytest_addoption(parser: pytest.Parser) -> None:
     parser.addoption(
         "--thorough", action="store_true", help="all random mechanisms, many more examples"
     )
-    parser.addoption("--every", action="store_true", help="every case of every test")
+    parser.addoption(
+        "--every", action="store_true", help="every case of every test; implied by CI=true"
+    )
+
+
+def is_whole(config: pytest.Config) -> bool:
+    """Return whether every case is taken: if that is asked for, of named tests, and by CI."""
+    asked = config.getoption("--thorough") or config.getoption("--every")
+    named = any("::" in word for word in config.args)
+    return bool(asked or named or os.environ.get("CI") == "true")
 
 
 def pytest_configure(config: pytest.Config) -> None:
     thorough = bool(config.getoption("--thorough"))
     settings.load_profile("thorough" if thorough else "planmethod")
-    cases.take(everything=thorough)
+    cases.take(everything=thorough, is_thin=not is_whole(config))
     # As in the commands: what the tests share is large, and looking for cycles in it a twentieth.
     gc.set_threshold(100_000)
 
@@ -36,8 +46,7 @@ MANY = 4
 
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
     """Take every second to fifth case of a test that has many, unless every one is asked for."""
-    options = config.getoption("--thorough"), config.getoption("--every")
-    if any(options) or any("::" in word for word in config.args):
+    if is_whole(config):
         return
     found: dict[str, list[pytest.Item]] = {}
     for item in items:

@@ -606,9 +606,9 @@ def test_a_mistake_of_ours_is_code_5(tmp_path: Path) -> None:
         [
             sys.executable,
             "-c",
-            "import sys, planmethod.problem, planmethod.cli\n"
+            "import sys, planmethod.problem.reader, planmethod.cli\n"
             "def load(*a, **k): raise KeyError('oops')\n"
-            "planmethod.problem.load_each = load\n"
+            "planmethod.problem.reader.load_each = load\n"
             f"sys.argv = ['planmethod', 'solve', {EX1!r}]\n"
             "planmethod.cli.main()",
         ],

@@ -15,7 +15,8 @@ from cases import each, some
 from click.testing import CliRunner
 from worked import PROBLEMS, ROOT
 
-from planmethod.cli import cli
+from planmethod.cli import COMMANDS as NAMES
+from planmethod.cli import cli, command_of
 from planmethod.errors import ExitCode
 from planmethod.problem import loads
 from planmethod.solved.selfcheck import verify
@@ -88,13 +89,13 @@ def test_the_tour_works_from_the_first_command_to_the_last(desk: Path) -> None:
 @each("name", [*READMES, *COMMANDS, *PAGES, "CONTRIBUTING.md"])
 def test_every_command_line_parses(name: str) -> None:
     for command, *rest in planmethod_lines(name):
-        cli.commands[command].make_context(command, rest)
+        command_of(command).make_context(command, rest)
 
 
 @pytest.mark.parametrize("name", COMMANDS)
 def test_every_command_is_listed_and_shown(name: str) -> None:
-    assert sorted(first_cells(name, "`([a-z]+)`")) == sorted(cli.commands)
-    assert {words[0] for words in planmethod_lines(name)} == set(cli.commands)
+    assert sorted(first_cells(name, "`([a-z]+)`")) == sorted(NAMES)
+    assert {words[0] for words in planmethod_lines(name)} == set(NAMES)
 
 
 @pytest.mark.parametrize("name", COMMANDS)
@@ -106,7 +107,7 @@ def test_exit_codes_are_listed(name: str) -> None:
 def test_options_that_the_text_speaks_of_exist(name: str) -> None:
     known = {
         option
-        for command in cli.commands.values()
+        for command in map(command_of, NAMES)
         for param in command.params
         if isinstance(param, click.Option)
         for option in (*param.opts, *param.secondary_opts)

@@ -13,8 +13,16 @@ FILES = {
     for path in sorted((ROOT / "planmethod").rglob("*.py"))
 }
 
-LATE_IN = ("planmethod.commands.", "planmethod.options", "planmethod.render.backends")
-"""Where imports stand in functions: a command or a format imports what it uses when it is used."""
+LATE_IN = (
+    "planmethod.commands.",
+    "planmethod.gears.kind",
+    "planmethod.gears.involute.kind",
+    "planmethod.kinds",
+    "planmethod.moving.kind",
+    "planmethod.options",
+    "planmethod.render.backends",
+)
+"""Where imports stand in functions: of a command, a kind or a format, used when it is."""
 
 LATE_OF = {
     "planmethod.cli": "with its libraries, in a process that is settled",

@@ -15,7 +15,6 @@ TRAIN = str(PROBLEMS / "gears/gears-ex2.toml")
 SIX_LINK = str(path_of("levers/six-link"))
 
 ALL = "numpy", "shapely", "svgwrite", "reportlab", "matplotlib", "mpmath", "ezdxf", "scipy"
-TABLES = "svgwrite.data.svgparser", "svgwrite.data.full11", "svgwrite.data.tiny12"
 FONTS = ("fontTools",)
 """The subset of the font is made without the library that made the font."""
 FORCES = {
@@ -24,13 +23,6 @@ FORCES = {
     "planmethod.render.forces.cut",
     "planmethod.note.narrate.forces.statement",
 }
-
-OTHER_WORDS = {f"planmethod.note.wording.ru.{name}" for name in ("check", "gears", "sheets")}
-"""Words of subjects that tables of results do not have."""
-
-
-MOST = {"--help": 10, "structure": 113, "solve": 105, "sheet": 184}
-"""Most modules of this package that a command imports: each costs a third of a millisecond."""
 
 
 def imported(folder: Path, *commands: tuple[str, ...]) -> set[str]:
@@ -76,7 +68,7 @@ def drawing(name: str, *args: str) -> tuple[tuple[str, ...], ...]:
         (
             drawing(EX3, "--format", "pdf"),
             {"numpy", "shapely", "reportlab"},
-            {"matplotlib", "mpmath", "ezdxf", "svgwrite", "scipy", "fontTools", "PIL"},
+            {"matplotlib", "mpmath", "ezdxf", "svgwrite", "scipy", "fontTools"},
         ),
         (
             drawing(EX3, "--format", "png", "--dpi", "30"),
@@ -92,7 +84,7 @@ def drawing(name: str, *args: str) -> tuple[tuple[str, ...], ...]:
             drawing(SIX_LINK, "--format", "svg", "-o", "."),
             {"numpy", "shapely", "svgwrite"},
             {"matplotlib", "mpmath", "ezdxf", "reportlab", "scipy", "fontTools", "PIL", *FORCES}
-            | {"urllib.request", "csv", "difflib", *TABLES},
+            | {"csv", "difflib"},
         ),
         (
             (("--help",),),
@@ -100,7 +92,7 @@ def drawing(name: str, *args: str) -> tuple[tuple[str, ...], ...]:
             {*ALL, *FONTS, "fractions", "hashlib", "importlib.metadata", "logging"}
             | {"multiprocessing", "planmethod.problem.model"},
         ),
-        ((("solve", EX3),), {"numpy"}, {*FORCES, "fractions", *OTHER_WORDS}),
+        ((("solve", EX3),), {"numpy"}, {*FORCES, "fractions"}),
         (drawing(SIX_LINK, "--format", "svg", "--layout", "forces"), FORCES, {"matplotlib"}),
         (
             (("live", EX3), ("animate", EX3, "--format", "svg", "--frames", "8")),
@@ -151,10 +143,11 @@ def test_commands_import_what_they_use(
     assert modules & spares == set()
 
 
-@pytest.mark.parametrize("command", MOST)
-def test_commands_import_few_modules(command: str, tmp_path: Path) -> None:
-    rest = (
-        () if command == "--help" else (EX3, *(("--format", "svg") if command == "sheet" else ()))
+def test_a_table_of_results_reads_the_words_of_no_other_subject(tmp_path: Path) -> None:
+    program = (
+        "from planmethod.cli import cli\n"
+        "from planmethod.note.wording import language\n"
+        f"cli(['solve', {EX3!r}, '--lang', 'ru'], standalone_mode=False)\n"
+        "print('\\nMODULES', *vars(language('ru')))\n"
     )
-    own = {name for name in imported(tmp_path, (command, *rest)) if name.startswith("planmethod")}
-    assert len(own) <= MOST[command], sorted(own)
+    assert run(tmp_path, program) == {"lang", "say", "note"}

@@ -9,7 +9,7 @@ from msgspec import Struct
 
 from planmethod.bench.speed import clock
 from planmethod.construct.hand import Hand
-from planmethod.problem.load_records import Ordinates
+from planmethod.problem.load_records import Quadrature
 from planmethod.problem.model import Differentiation, Problem
 from planmethod.solved.machine.flywheel import Flywheel
 from planmethod.solved.machine.runup import RunUp
@@ -84,7 +84,7 @@ def costs(problem: Problem) -> list[tuple[str, int, float]]:
     return found
 
 
-WAYS = tuple((way, method) for method in ("wittenbauer", "mertsalov") for way in Ordinates)
+WAYS = tuple((way, method) for method in ("wittenbauer", "mertsalov") for way in Quadrature)
 """How the work is integrated, and which tangents are drawn."""
 
 

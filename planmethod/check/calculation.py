@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from functools import cached_property
+from typing import Any
 
 from msgspec.structs import replace
 
@@ -27,7 +28,7 @@ from planmethod.check.works.units import ratio
 from planmethod.construct.drafting import Profile
 from planmethod.construct.evaluate import Trace
 from planmethod.errors import Fault, ProblemError
-from planmethod.kinds import Kind
+from planmethod.kind import Kind
 from planmethod.languages import say
 from planmethod.plans.model import Plan
 from planmethod.problem.figures import Figure, Figures
@@ -107,7 +108,7 @@ class Calculation(Task):
 
     def __init__(
         self,
-        kind: Kind,
+        kind: Kind[Any],
         problem: KindProblem,
         settings: Settings,
         others: Callable[[], Iterable[Task]] | None = None,

@@ -16,8 +16,7 @@ from planmethod.check.pages.workbook import saved
 from planmethod.check.works.gather import is_of
 from planmethod.check.works.units import ratio_of, read_unit
 from planmethod.check.works.xlsx_file import META
-from planmethod.note.wording import language
-from planmethod.note.wording.check_model import FormWording
+from planmethod.note.wording import Words, language
 from planmethod.problem.head import KindProblem
 
 SCHEMA = 1
@@ -78,7 +77,7 @@ def form_of(
     sheet = book.active
     sheet.title = words.sheet
     asked = (entry.asked for entry in entries)
-    units = [unit for unit in dict.fromkeys((*words.units, *asked)) if unit and read_unit(unit)]
+    units = [unit for unit in dict.fromkeys((*words["units"], *asked)) if unit and read_unit(unit)]
     _write_meta(book, entries, units, problem, variant, fingerprint)
     scales = _write_head(sheet, entries, words, problem, variant, student, title)
     _write_rows(sheet, entries, words, units, scales)
@@ -123,7 +122,7 @@ def _write_meta(
 def _write_head(
     sheet: Any,
     entries: Sequence[KeyEntry],
-    words: FormWording,
+    words: Words,
     problem: str,
     variant: str | None,
     student: str,
@@ -134,7 +133,7 @@ def _write_head(
 
     _write(sheet["A1"], title or words.title)
     sheet["A1"].font = Font(bold=True, size=14)
-    for line in words.advice:
+    for line in words["advice"]:
         sheet.append([line])
     given = [(words.student, student), (words.group, ""), (words.variant, variant or "")]
     for label, text in (*given, (words.problem, problem)):
@@ -145,7 +144,7 @@ def _write_head(
             _open(cell)
     places: dict[str, str] = {}
     asked = {entry.scale for entry in entries if entry.mm is not None}
-    for name, label in words.scales.items():
+    for name, label in words["scales"].items():
         if name in asked:
             sheet.append([label])
             places[name] = f"$D${sheet.max_row}"
@@ -159,7 +158,7 @@ def _write_head(
 def _write_rows(
     sheet: Any,
     entries: Sequence[KeyEntry],
-    words: FormWording,
+    words: Words,
     units: Sequence[str],
     scales: Mapping[str, str],
 ) -> None:
@@ -169,7 +168,7 @@ def _write_rows(
 
     positions = any(entry.position for entry in entries)
     sheet.append([])
-    sheet.append([*words.columns, *([words.position] if positions else [])])
+    sheet.append([*words["columns"], *([words.position] if positions else [])])
     head = sheet.max_row
     for cell in sheet[head]:
         cell.font = Font(bold=True)
@@ -188,7 +187,7 @@ def _write_rows(
         offered = [(7, fitting)]
         if entry.asks_sense:
             turns = entry.unit in _TURNING
-            senses = list(words.senses.values())
+            senses = list(words["senses"].values())
             offered.append((8, tuple(senses[:2] if turns else senses[2:])))
         for column, choices in offered:
             if not choices:

@@ -4,21 +4,31 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from pathlib import Path
+from typing import Any, cast
 
 from msgspec import Struct
 from msgspec.structs import replace
 
 from planmethod.check.calculation import Calculation
 from planmethod.check.checking import check, unknown_variant
-from planmethod.check.key import Key, key_of_task
+from planmethod.check.key import Key, key_of, key_of_task
 from planmethod.check.letters import plain
 from planmethod.check.marks import DEFAULT, Settings
 from planmethod.check.model import Checked, Work
 from planmethod.check.task import Item, Task
+from planmethod.kind import Kind
 from planmethod.kinds import kind_of, load
-from planmethod.problem import variant_names
+from planmethod.problem import Problem, variant_names
+from planmethod.problem.head import KindProblem
 from planmethod.solved.selected.asking import UnansweredError
 from planmethod.solved.solution import Solution
+
+
+def key_of_problem(kind: Kind[Any] | None, problem: KindProblem, settings: Settings) -> Key:
+    """Return the key of a problem; its kind is None for a linkage."""
+    if kind is None:
+        return key_of(Solution(cast("Problem", problem)), settings)
+    return key_of_task(Calculation(kind, problem, settings))
 
 
 class Variants:

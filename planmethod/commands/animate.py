@@ -3,16 +3,12 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import click
 
 from planmethod.commands.helptext import Spoken
-from planmethod.commands.problems import each, finish, guarded, stem, warn
+from planmethod.commands.problems import Todo, each, finish, guarded, stem, warn
 from planmethod.options import BadParameter, lang_option, out_option, problem_options
-
-if TYPE_CHECKING:
-    from planmethod.problem.model import Problem
 
 FORMATS = ("gif", "svg")
 
@@ -61,7 +57,8 @@ def animate(
     from planmethod.render.backends.output import write
     from planmethod.render.live.film import film_of
 
-    def draw(problem: Problem) -> None:
+    def draw(todo: Todo) -> None:
+        problem = todo.linkage
         film = film_of(problem, lang, frames=frames, plans=plans)
         if film.skipped:
             warn(problem, film.skipped)
@@ -78,4 +75,4 @@ def animate(
             write(path, data)
             click.echo(str(path))
 
-    finish(each(problems, variant, all_variants, draw))
+    finish(each(problems, variant, all_variants, draw, kinds=False))

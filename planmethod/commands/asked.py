@@ -5,7 +5,7 @@ from __future__ import annotations
 import functools
 from collections.abc import Callable, Mapping
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Protocol, TypeVar, cast
+from typing import TYPE_CHECKING, Any, TypeVar, cast
 
 import click
 from msgspec import Struct
@@ -14,18 +14,11 @@ from msgspec.structs import replace
 from planmethod.options import BadParameter, UsageError
 
 if TYPE_CHECKING:
-    from planmethod.problem.config import Config
     from planmethod.problem.head import KindProblem, SheetSettings
+    from planmethod.problem.sheet import Config
 
 F = TypeVar("F", bound=Callable[..., Any])
 P = TypeVar("P", bound="KindProblem")
-
-
-class Settled(Protocol):
-    """Gives a problem, of whatever kind, all that is asked of its sheets."""
-
-    def __call__(self, problem: P) -> P:
-        """Return the problem with what is asked."""
 
 
 class Asked(Struct, frozen=True):
@@ -49,7 +42,7 @@ class Asked(Struct, frozen=True):
     no_config: bool = False
 
     def settle(self) -> Settled:
-        """Read the config file, and return what gives a problem all that is asked of its sheets.
+        """Read the config file, and return what is asked of the sheets of every problem.
 
         The texts of the options are left to the sheets, as they outrank even computed numbers.
 
@@ -64,15 +57,10 @@ class Asked(Struct, frozen=True):
         from planmethod.render.frame.titleblock import check_fields
 
         check_fields(self.fields)
-        config, options = self._config(), SheetSettings(**self.sheet)  # type: ignore[arg-type]
-
-        def settled(problem: P) -> P:
-            return laid_over(config, problem, options)
-
-        return settled
+        return Settled(self.fields, self._config(), SheetSettings(**self.sheet))  # type: ignore[arg-type]
 
     def _config(self) -> Config:
-        from planmethod.problem.config import Config, find_config, load_config
+        from planmethod.problem.sheet import Config, find_config, load_config
 
         if self.no_config:
             if self.config is not None:
@@ -81,23 +69,39 @@ class Asked(Struct, frozen=True):
         path = self.config or find_config()
         return Config() if path is None else load_config(path)
 
+
+class Settled(Struct, frozen=True):
+    """What is asked of the sheets of every problem.
+
+    Attributes
+    ----------
+    fields : mapping
+        Texts of the title block, from the options.
+    config : Config
+    options : SheetSettings
+    """
+
+    fields: Mapping[str, str]
+    config: Config
+    options: SheetSettings
+
+    def over(self, problem: P) -> P:
+        """Return a problem with the options over its settings, and the config file under them.
+
+        The title of the problem outranks one of the config file: it is what the sheets show.
+        """
+        from planmethod.render.frame.titleblock import merged
+
+        config = self.config
+        own = {"title": problem.title} if problem.title else {}
+        stamp = merged(config.stamp, own, problem.stamp) if config.stamp else problem.stamp
+        sheet = self.options.over(problem.sheet.over(config.sheet))
+        whole: Any = problem
+        return cast("P", replace(whole, stamp=stamp, sheet=sheet))
+
     def author(self, problem: KindProblem) -> str | None:
         """Return whom the files of a problem name as their author."""
         return self.fields.get("author", problem.stamp.get("author")) or None
-
-
-def laid_over(config: Config, problem: P, options: SheetSettings) -> P:
-    """Return a problem with the options over its settings, and a config file under them.
-
-    The title of the problem outranks one of the config file: it is what the sheets show.
-    """
-    from planmethod.render.frame.titleblock import merged
-
-    own = {"title": problem.title} if problem.title else {}
-    stamp = merged(config.stamp, own, problem.stamp) if config.stamp else problem.stamp
-    sheet = options.over(problem.sheet.over(config.sheet))
-    whole: Any = problem
-    return cast("P", replace(whole, stamp=stamp, sheet=sheet))
 
 
 # Options -----------------------------------------------------------------------------------------
@@ -109,10 +113,10 @@ def _reader(key: str) -> Callable[[click.Context, click.Parameter, str | None], 
     def read(ctx: click.Context, param: click.Parameter, value: str | None) -> str | None:
         if value is None:
             return None
-        from planmethod.problem.keys import SHEET_CHOICES
-        from planmethod.problem.sheet import chosen
+        from planmethod.problem.flat import chosen
+        from planmethod.problem.keys import CHOICES
 
-        names = SHEET_CHOICES[key]
+        names = CHOICES[key]
         name = chosen(value, names)
         if name is None:
             raise BadParameter("{!r} is not one of {}", value, ", ".join(names))
@@ -210,11 +214,11 @@ def sheet_options(command: F) -> F:
 
     @functools.wraps(command)
     def with_asked(*args: Any, **kwargs: Any) -> Any:
-        from planmethod.problem.keys import SHEET
+        from planmethod.problem.keys import known
 
         asked = Asked(
             fields=kwargs.pop("stamp"),
-            sheet={key: kwargs.pop(key) for key in SHEET if key in kwargs},
+            sheet={key: kwargs.pop(key) for key in known("sheet") if key in kwargs},
             config=kwargs.pop("config"),
             no_config=kwargs.pop("no_config"),
         )

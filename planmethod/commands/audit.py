@@ -9,13 +9,11 @@ import click
 
 from planmethod.commands.helptext import Spoken
 from planmethod.commands.output import put
-from planmethod.commands.problems import each, finish, guarded
+from planmethod.commands.problems import Todo, each, finish, guarded
 from planmethod.options import UsageError, lang_option, problem_options, ruler_option
 
 if TYPE_CHECKING:
-    from planmethod.kinds import Kind
     from planmethod.problem.head import KindProblem
-    from planmethod.problem.model import Problem
 
 
 @click.command(cls=Spoken)
@@ -46,12 +44,13 @@ def audit(
         raise UsageError("-o would write over the problem file {}; name another one", file)
     audits: list[tuple[KindProblem, Any]] = []
 
-    def compare(problem: Problem) -> None:
-        audits.append((problem, examine(problem, ruler=ruler)))
-
-    def compare_other(kind: Kind, problem: KindProblem) -> None:
-        audits.append((problem, kind.audited(problem, ruler)))
+    def compare(todo: Todo) -> None:
+        kind, problem = todo.kind, todo.problem
+        printed = (
+            examine(todo.linkage, ruler=ruler) if kind is None else kind.audited(problem, ruler)
+        )
+        audits.append((problem, printed))
 
     # A faulty problem ends the command here: the document is written whole or not at all.
-    finish(each(problems, variant, all_variants, compare, compare_other))
+    finish(each(problems, variant, all_variants, compare))
     put(Document(lang, ruler).markdown(audits), file)

@@ -9,7 +9,7 @@ from collections import Counter, deque
 from collections.abc import Callable, Iterator, Mapping
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal
 
 import click
 from msgspec import Struct
@@ -17,7 +17,8 @@ from msgspec.structs import replace
 
 from planmethod.commands.asked import Asked, sheet_options
 from planmethod.commands.helptext import Spoken
-from planmethod.commands.problems import Todo, begin, finish, guarded, stem, through
+from planmethod.commands.problems import Todo, finish, guarded, stem, through
+from planmethod.commands.sheet import SheetOptions, draw
 from planmethod.errors import PlanMethodError
 from planmethod.languages import LANGUAGES, say, speaking, spoken
 from planmethod.options import (
@@ -31,13 +32,12 @@ from planmethod.options import (
     problem_options,
     reading_options,
 )
-from planmethod.process import settle_process
 
 if TYPE_CHECKING:
     from distributed import Client, Future
 
     from planmethod.check.marks import Settings
-    from planmethod.commands.processes import Part
+    from planmethod.commands.processes import Outcome
 
 NEEDS = "batch needs dask: pip install 'planmethod[batch]'"
 
@@ -52,7 +52,7 @@ AHEAD = 4
 
 
 _ONE = threading.Lock()
-"""Held by the thread of a worker that is at work: what it says is heard by the whole process."""
+"""Held by the thread of a worker that is at work: what is printed is of the whole process."""
 
 
 class Order(Struct, frozen=True):
@@ -61,9 +61,9 @@ class Order(Struct, frozen=True):
     Attributes
     ----------
     todo : Todo
-        The problem with all that is asked of its sheets.
-    sheets : mapping of str to object, optional
-        Parameters of the command ``sheet``; no sheets when absent.
+        The problem.
+    sheets : SheetOptions, optional
+        What is asked of its sheets; no sheets when absent.
     layout : bytes, optional
         Text of the file that says what is on the sheets.
     settings : Settings, optional
@@ -73,42 +73,41 @@ class Order(Struct, frozen=True):
     """
 
     todo: Todo
-    sheets: Mapping[str, Any] | None
+    sheets: SheetOptions | None
     layout: bytes | None
     settings: Settings | None
     lang: str
 
 
-def made(order: Order) -> Part[dict[str, bytes]]:
+def made(order: Order) -> Outcome[dict[str, bytes]]:
     """Make the files of an order: called on the machines of the cluster."""
     from tempfile import TemporaryDirectory
 
-    from planmethod.commands.processes import heard
+    from planmethod.commands.processes import captured
 
-    settle_process()
     with _ONE, speaking(order.lang), TemporaryDirectory(prefix="planmethod-") as name:
-        return heard(partial(_files, order, Path(name)))
+        outcome = captured(partial(_files, order, Path(name)))
+    return replace(outcome, output="")  # names of files there
 
 
 def _files(order: Order, folder: Path) -> dict[str, bytes]:
-    out = folder / "out"
+    todo, out = order.todo, folder / "out"
     files: dict[str, bytes] = {}
     if order.sheets is not None:
-        params = {**order.sheets, "out": out}
+        options = replace(order.sheets, out=out)
         if order.layout is not None:
-            params["layout"] = str(folder / "layout.toml")
-            Path(params["layout"]).write_bytes(order.layout)
-        part = begin("sheet", params)(order.todo)
-        replace(part, said=tuple(told for told in part.said if told[0])).told()
+            layout = folder / "layout.toml"
+            layout.write_bytes(order.layout)
+            options = replace(options, layout=str(layout))
+        draw(todo, options)
         files = {path.name: path.read_bytes() for path in sorted(out.iterdir())}
     if order.settings is not None:
-        from planmethod.commands.check import key_files, key_of_problem
+        from planmethod.commands.check import key_files, key_of
         from planmethod.note.wording import language
 
-        key = key_of_problem(order.todo.kind, order.todo.problem, order.settings)
-        words = language(order.todo.problem.sheet.lang or LANGUAGES[0])
-        for ending, data in key_files([key], words):
-            files[f"{stem(order.todo.problem)}-key.{ending}"] = data
+        words = language(todo.problem.sheet.lang or LANGUAGES[0])
+        for ending, data in key_files([key_of(todo, order.settings)], words):
+            files[f"{stem(todo.problem)}-key.{ending}"] = data
     return files
 
 
@@ -148,12 +147,18 @@ def batch(
     out: Path,
     asked: Asked,
     layout: str | None,
+    ruler: float | None,
+    profile: str | None,
+    formats: tuple[str, ...],
+    errors: bool,
+    sigma: bool | None,
+    dpi: int,
+    dxf_text: Literal["text", "strokes"],
     sheets: bool,
     keys: bool,
     settings: Path | None,
     scheduler: str | None,
     jobs: int,
-    **_: object,
 ) -> None:
     """Make the sheets and keys of every variant on many machines; go on where it was left.
 
@@ -165,6 +170,7 @@ def batch(
     except ImportError:
         raise UsageError(NEEDS) from None
     from planmethod.check.marks import DEFAULT, load_settings
+    from planmethod.problem.sheet import Config
     from planmethod.render.sheets.composition.reader import composition
     from planmethod.render.sheets.compositions import SHIPPED
 
@@ -176,18 +182,27 @@ def batch(
         raise UsageError("--jobs is of this machine; --scheduler has workers of its own")
     if layout is not None:
         composition(layout)  # its faults are told once, before any problem is drawn
-    own = ("problems", "variant", "sheets", "keys", "settings", "scheduler", "out")
-    common = {n: v for n, v in click.get_current_context().params.items() if n not in own}
-    common |= {"problems": (), "variant": None, "all_variants": False, "jobs": 1, "one_file": None}
-    common |= {"config": None, "no_config": True, "watch": False}  # it is laid over problems here
+    settled = asked.settle()
+    options = SheetOptions(
+        settled=replace(settled, config=Config()),  # it is laid over the problems here
+        phi=phi,
+        ruler=ruler,
+        profile=profile,
+        layout=layout,
+        errors=errors,
+        sigma=sigma,
+        out=out,
+        formats=formats,
+        dpi=dpi,
+        dxf_text=dxf_text,
+    )
     ordered = partial(
         Order,
-        sheets=common if sheets else None,
+        sheets=options if sheets else None,
         layout=None if layout is None or layout in SHIPPED else Path(layout).read_bytes(),
         settings=None if not keys else DEFAULT if settings is None else load_settings(settings),
         lang=spoken(),
     )
-    settled = asked.settle()
     manifest = Manifest(out)
 
     def steps(todo: list[Todo]) -> Iterator[Callable[[], None]]:
@@ -202,8 +217,8 @@ def batch(
             )
         orders = []
         for one in todo:
-            order = ordered(replace(one, problem=settled(one.problem)))
-            orders.append((order, _hash(order, phi)))
+            order = ordered(replace(one, problem=settled.over(one.problem)))
+            orders.append((order, _hash(order)))
         if all(manifest.has(order, key) for order, key in orders):
             yield from (partial(manifest.keep) for _ in orders)
             return
@@ -215,15 +230,17 @@ def batch(
     finish(code)
 
 
-def _hash(order: Order, phi: Positions | None) -> str:
+def _hash(order: Order) -> str:
     """Return what tells whether files are made of the same."""
     from planmethod.problem.source import read_source
 
-    one, problem = order.todo, order.todo.problem
-    options = {**(order.sheets or {}), "phi": None if phi is None else phi.tolist()}
+    one, problem, options, phi = order.todo, order.todo.problem, order.sheets, None
+    if options is not None:
+        phi = None if options.phi is None else options.phi.tolist()
+        options = replace(options, phi=None, out=Path())
     parts = (
         installed(), read_source(one.path), repr(problem),  # with a table of variants beside it
-        order.sheets is None, sorted(options.items()), order.layout, order.settings,
+        options, phi, order.layout, order.settings,
     )  # fmt: skip
     return _digest(repr(parts).encode())
 
@@ -372,7 +389,7 @@ def _taken(future: Future, order: Order, key: str, manifest: Manifest) -> None:
 
     name = stem(order.todo.problem)
     try:
-        part: Part[dict[str, bytes]] = future.result()
+        outcome: Outcome[dict[str, bytes]] = future.result()
     except KilledWorker:
         raise PlanMethodError(
             "{}: every worker that took it was killed; perhaps it needs more memory than there "
@@ -387,4 +404,4 @@ def _taken(future: Future, order: Order, key: str, manifest: Manifest) -> None:
             name,
             manifest.made,
         ) from None
-    manifest.add(order, key, part.told() or {})
+    manifest.add(order, key, outcome.result() or {})

@@ -3,17 +3,13 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import click
 
 from planmethod.commands.helptext import Spoken
-from planmethod.commands.problems import each, finish, guarded
+from planmethod.commands.problems import Todo, each, finish, guarded
 from planmethod.languages import say
 from planmethod.options import UsageError, problem_options
-
-if TYPE_CHECKING:
-    from planmethod.problem.model import Problem
 
 SECTIONS = ("speed", "forces", "drafting", "cycle", "machine", "checking")
 
@@ -54,8 +50,9 @@ def bench(
                 "bench needs mpmath: pip install 'planmethod[referee]'; --only drafting, "
                 "cycle, machine and checking do not"
             ) from None
-    loaded: list[Problem] = []
-    finish(each(problems, variant, all_variants, loaded.append))
+    todo: list[Todo] = []
+    finish(each(problems, variant, all_variants, todo.append, kinds=False))
+    loaded = [one.linkage for one in todo]
     from planmethod.bench import report
 
     for name in wanted:

@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
+from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, cast
+from typing import TYPE_CHECKING, Any
 
 import click
 from msgspec.structs import replace
 
 from planmethod.commands.helptext import Spoken
 from planmethod.commands.output import bar, json_text
-from planmethod.commands.problems import each, finish, guarded, stem
+from planmethod.commands.problems import Todo, each, finish, guarded, stem
 from planmethod.errors import ExitCode, PlanMethodError
 from planmethod.languages import say, spoken
 from planmethod.options import UsageError, jobs_option, lang_option, out_option
@@ -21,11 +22,7 @@ if TYPE_CHECKING:
     from planmethod.check.key import Key
     from planmethod.check.marks import Settings
     from planmethod.check.model import Checked, Work
-    from planmethod.commands.processes import Part
-    from planmethod.kinds import Kind
     from planmethod.note.wording import Language
-    from planmethod.problem.head import KindProblem
-    from planmethod.problem.model import Problem
 
 POLICIES = ("construction", "department", "wider", "stricter")
 MANY_WORKS = 10
@@ -149,30 +146,40 @@ def _checked(variants: Variants, paths: list[Path], jobs: int) -> tuple[list[Che
 
 def _in_processes(variants: Variants, works: list[Work], jobs: int) -> Iterator[list[Checked]]:
     """Check works in several processes."""
-    from planmethod.commands.processes import shared
+    from planmethod.commands.processes import in_processes
 
     share = -(-len(works) // jobs)
     parts = [works[start : start + share] for start in range(0, len(works), share)]
-    told = shared(parts, jobs, _checker, variants.path, variants.default, variants.settings, works)
-    for part, heard in zip(parts, told, strict=True):
-        if heard is None:
+    act = partial(
+        check_part,
+        problem=variants.path,
+        variant=variants.default,
+        settings=variants.settings,
+        among=works,
+    )
+    for part, outcome in zip(parts, in_processes(act, parts, jobs), strict=True):
+        if outcome is None:
             raise PlanMethodError(
                 "The process at work on {} to {} was killed, twice; perhaps it needs more memory "
                 "than there is. Check fewer works at once.",
                 part[0].student or part[0].where,
                 part[-1].student or part[-1].where,
             )
-        yield heard.told() or []
+        yield outcome.result() or []
 
 
-def _checker(
-    problem: Path, variant: str | None, settings: Settings, works: list[Work]
-) -> Callable[[list[Work]], Part[list[Checked]]]:
+def check_part(
+    part: list[Work],
+    *,
+    problem: Path,
+    variant: str | None,
+    settings: Settings,
+    among: list[Work],
+) -> list[Checked]:
+    """Check some of the works of a group."""
     from planmethod.check.group import Variants, check_works
-    from planmethod.commands.processes import heard
 
-    variants = Variants(problem, settings, variant)
-    return lambda part: heard(lambda: list(check_works(variants, part, among=works)))
+    return list(check_works(Variants(problem, settings, variant), part, among=among))
 
 
 def _warn_of_others(problem: Path, works: list[Work]) -> None:
@@ -235,12 +242,7 @@ def _write_keys(
     from planmethod.problem import variant_names
     from planmethod.render.backends.output import write
 
-    def solve(problem: Problem) -> Key:
-        return key_of_problem(None, problem, settings)
-
-    def compute(kind: Kind, problem: KindProblem) -> Key:
-        return key_of_problem(kind, problem, settings)
-
+    act = partial(key_of, settings=settings)
     words = language(lang)
     code = ExitCode.DONE
     for path in files:
@@ -249,7 +251,7 @@ def _write_keys(
             every = all_variants or (variant is None and bool(variant_names(path)))
         except OSError:
             every = False
-        code = each((path,), variant, every, solve, compute, jobs=jobs, take=keys.append) or code
+        code = each((path,), variant, every, act, jobs=jobs, take=keys.append) or code
         if not keys:
             continue
         click.echo(plain_document(key_document(keys, words), words))
@@ -261,17 +263,11 @@ def _write_keys(
     finish(code)
 
 
-def key_of_problem(kind: Kind | None, problem: KindProblem, settings: Settings) -> Key:
-    """Return the key of a problem of any kind; None for a linkage."""
-    if kind is None:
-        from planmethod.check.key import key_of
-        from planmethod.solved.solution import Solution
+def key_of(todo: Todo, settings: Settings) -> Key:
+    """Return the key of a problem of any kind."""
+    from planmethod.check.group import key_of_problem
 
-        return key_of(Solution(cast("Problem", problem)), settings)
-    from planmethod.check.calculation import Calculation
-    from planmethod.check.key import key_of_task
-
-    return key_of_task(Calculation(kind, problem, settings))
+    return key_of_problem(todo.kind, todo.problem, settings)
 
 
 def key_files(keys: list[Key], words: Language) -> Iterator[tuple[str, bytes]]:

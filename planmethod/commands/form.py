@@ -3,18 +3,12 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import click
 
 from planmethod.commands.helptext import Spoken
-from planmethod.commands.problems import each, finish, guarded, stem
+from planmethod.commands.problems import Todo, each, finish, guarded, stem
 from planmethod.options import UsageError, lang_option, out_option, problem_options
-
-if TYPE_CHECKING:
-    from planmethod.kinds import Kind
-    from planmethod.problem.head import KindProblem
-    from planmethod.problem.model import Problem
 
 MOST_STUDENTS = 500
 
@@ -49,12 +43,10 @@ def form(
     The cells of the answers alone can be written in; senses and units are chosen from lists, and
     mm × μ is compared with the value while they are typed. planmethod check reads the forms back.
     """
-    from planmethod.check.calculation import Calculation
     from planmethod.check.form import fingerprint_of, form_of
-    from planmethod.check.key import Key, key_of, key_of_task
+    from planmethod.check.group import key_of_problem
     from planmethod.check.marks import DEFAULT
     from planmethod.render.backends.output import write
-    from planmethod.solved.solution import Solution
 
     if students is not None and names is not None:
         raise UsageError("give --students or --names, not both")
@@ -62,13 +54,8 @@ def form(
     if names is not None:
         who = _read_names(names)
 
-    def make_other(kind: Kind, problem: KindProblem) -> None:
-        write_forms(problem, key_of_task(Calculation(kind, problem, DEFAULT)))
-
-    def make(problem: Problem) -> None:
-        write_forms(problem, key_of(Solution(problem)))
-
-    def write_forms(problem: KindProblem, key: Key) -> None:
+    def make(todo: Todo) -> None:
+        problem, key = todo.problem, key_of_problem(todo.kind, todo.problem, DEFAULT)
         fingerprint = fingerprint_of(problem)
         for number, student in enumerate(who or [""], 1):
             tail = f"-{number:0{len(str(len(who)))}}" if who else ""
@@ -85,7 +72,7 @@ def form(
             write(path, data)
             click.echo(str(path))
 
-    finish(each(problems, variant, all_variants, make, make_other))
+    finish(each(problems, variant, all_variants, make))
 
 
 def _read_names(path: Path) -> list[str]:

@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
+from msgspec import Struct
+from msgspec.structs import replace
 
-from planmethod.commands.asked import Asked, sheet_options
+from planmethod.commands.asked import Asked, Settled, sheet_options
 from planmethod.commands.helptext import Spoken
 from planmethod.commands.output import json_text
-from planmethod.commands.problems import each, finish, guarded, refuse_plans, stem
+from planmethod.commands.problems import Todo, each, finish, guarded, refuse_plans, stem
 from planmethod.errors import ExitCode
 from planmethod.options import (
     Positions,
@@ -23,10 +26,22 @@ from planmethod.options import (
 )
 
 if TYPE_CHECKING:
-    from planmethod.kinds import Kind
-    from planmethod.problem.head import KindProblem
-    from planmethod.problem.model import Problem
     from planmethod.render.sheets.controlled import Controlled
+
+
+class LintOptions(Struct, frozen=True, kw_only=True):
+    """Which sheets are looked over, and how it is told; the options of the command."""
+
+    settled: Settled
+    phi: Positions | None
+    ruler: float | None
+    profile: str | None
+    layout: str | None
+    errors: bool
+    sigma: bool | None
+    structural: bool
+    strict: bool
+    as_json: bool
 
 
 @click.command(cls=Spoken)
@@ -67,15 +82,7 @@ def lint(
     with the same options, and are not written. Exit code 0 when there is nothing to correct, 1 when
     there are errors. The codes: docs/normcontrol.md.
     """
-    from planmethod.languages import LANGUAGES
-    from planmethod.render.control.remarks import Severity
     from planmethod.render.sheets.composition.reader import composition
-    from planmethod.render.sheets.control_report import control_record, control_text, counted
-    from planmethod.render.sheets.controlled import (
-        controlled_kinematics,
-        controlled_structure,
-        looked_over,
-    )
 
     if structural and (phi is not None or errors or sigma or layout is not None):
         raise UsageError(
@@ -84,56 +91,73 @@ def lint(
         )
     if layout is not None:
         composition(layout)  # its faults are told once, before any problem is drawn
-    positions = None if phi is None else phi.tolist()
-    settled = asked.settle()
+    options = LintOptions(
+        settled=asked.settle(),
+        phi=phi,
+        ruler=ruler,
+        profile=profile,
+        layout=layout,
+        errors=errors,
+        sigma=sigma,
+        structural=structural,
+        strict=strict,
+        as_json=as_json,
+    )
     looked: list[tuple[dict[str, Any] | None, int]] = []
-
-    def look(problem: Problem) -> tuple[dict[str, Any] | None, int]:
-        problem = settled(problem)
-        lang = problem.sheet.lang or LANGUAGES[0]
-        if structural:
-            sheets = controlled_structure(problem, fields=asked.fields)
-        else:
-            sheets = controlled_kinematics(
-                problem,
-                positions=positions,
-                profile=drawn_by(profile, ruler),
-                fields=asked.fields,
-                errors=errors,
-                sigma=sigma,
-                layout=layout,
-            )
-        return tell(problem, "structure" if structural else "kinematics", sheets, lang)
-
-    def look_other(kind: Kind, problem: KindProblem) -> tuple[dict[str, Any] | None, int]:
-        refuse_plans(
-            kind, phi=phi is not None, layout=layout, errors=errors, sigma=bool(sigma),
-            structure=structural,
-        )  # fmt: skip
-        problem = settled(problem)
-        drawings = kind.drawings(problem, fields=asked.fields, profile=drawn_by(profile, ruler))
-        return tell(
-            problem,
-            kind.table,
-            looked_over(drawings, kind.scales),
-            problem.sheet.lang or LANGUAGES[0],
-        )
-
-    def tell(
-        problem: KindProblem, kind: str, sheets: list[Controlled], lang: str
-    ) -> tuple[dict[str, Any] | None, int]:
-        marked = counted(sheets, Severity.ERROR)
-        if strict:
-            marked += counted(sheets, Severity.WARNING)
-        if as_json:
-            return control_record(problem.name, problem.variant, kind, sheets, lang), marked
-        click.echo(control_text(stem(problem), sheets, lang))
-        return None, marked
-
-    code = each(problems, variant, all_variants, look, look_other, jobs=jobs, take=looked.append)
+    act = partial(look, options=options)
+    code = each(problems, variant, all_variants, act, jobs=jobs, take=looked.append)
     records = [record for record, _ in looked if record is not None]
     if records:
         whole: Any = records[0] if len(records) == 1 else records
         click.echo(json_text(whole))
     finish(code)
     finish(ExitCode.FINDINGS if any(marked for _, marked in looked) else ExitCode.DONE)
+
+
+def look(todo: Todo, options: LintOptions) -> tuple[dict[str, Any] | None, int]:
+    """Look the sheets of a problem over; return the record, if it is asked, and what is marked."""
+    from planmethod.languages import LANGUAGES
+    from planmethod.render.control.remarks import Severity
+    from planmethod.render.sheets.control_report import control_record, control_text, counted
+
+    problem = options.settled.over(todo.problem)
+    what, sheets = _looked_over(replace(todo, problem=problem), options)
+    lang = problem.sheet.lang or LANGUAGES[0]
+    marked = counted(sheets, Severity.ERROR)
+    if options.strict:
+        marked += counted(sheets, Severity.WARNING)
+    if options.as_json:
+        return control_record(problem.name, problem.variant, what, sheets, lang), marked
+    click.echo(control_text(stem(problem), sheets, lang))
+    return None, marked
+
+
+def _looked_over(todo: Todo, options: LintOptions) -> tuple[str, list[Controlled]]:
+    """Return what the sheets of a problem show, and the sheets with what is remarked."""
+    from planmethod.render.sheets.controlled import (
+        controlled_kinematics,
+        controlled_structure,
+        looked_over,
+    )
+
+    phi, errors, sigma, layout = options.phi, options.errors, options.sigma, options.layout
+    fields, kind = options.settled.fields, todo.kind
+    if kind is not None:
+        refuse_plans(
+            kind, phi=phi is not None, layout=layout, errors=errors, sigma=bool(sigma),
+            structure=options.structural,
+        )  # fmt: skip
+        hand = drawn_by(options.profile, options.ruler)
+        drawings = kind.drawings(todo.problem, fields=fields, profile=hand)
+        return kind.table, looked_over(drawings, kind.scales)
+    if options.structural:
+        return "structure", controlled_structure(todo.linkage, fields=fields)
+    return "kinematics", controlled_kinematics(
+        todo.linkage,
+        positions=None if phi is None else phi.tolist(),
+        profile=drawn_by(options.profile, options.ruler),
+        fields=fields,
+        errors=errors,
+        sigma=sigma,
+        layout=layout,
+    )

@@ -3,17 +3,13 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import click
 
 from planmethod.commands.helptext import Spoken
 from planmethod.commands.output import put
-from planmethod.commands.problems import each, finish, guarded, stem
+from planmethod.commands.problems import Todo, each, finish, guarded, stem
 from planmethod.options import lang_option, out_option, problem_options
-
-if TYPE_CHECKING:
-    from planmethod.problem.model import Problem
 
 
 @click.command(cls=Spoken)
@@ -27,7 +23,8 @@ def live(
     """Write a page where the mechanism and its plans move: one HTML file for any browser."""
     from planmethod.render.live.page import live_page
 
-    def write(problem: Problem) -> None:
+    def write(todo: Todo) -> None:
+        problem = todo.linkage
         put(live_page(problem, lang), str(out / f"{stem(problem)}-live.html"))
 
-    finish(each(problems, variant, all_variants, write))
+    finish(each(problems, variant, all_variants, write, kinds=False))

@@ -4,10 +4,8 @@ from __future__ import annotations
 
 import functools
 import sys
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from contextvars import ContextVar
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from functools import partial
-from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NoReturn, TypeVar, cast
 
@@ -20,9 +18,8 @@ from planmethod.languages import say
 from planmethod.options import UsageError
 
 if TYPE_CHECKING:
-    from planmethod.commands.processes import Part
     from planmethod.construct.drafting import Profile
-    from planmethod.kinds import Kind
+    from planmethod.kind import Kind
     from planmethod.options import Positions
     from planmethod.problem.head import KindProblem
     from planmethod.problem.model import Problem
@@ -36,8 +33,13 @@ class Todo(Struct, frozen=True):
     """A problem that was read: its file, its kind (None for a linkage), what was read."""
 
     path: Path
-    kind: Kind | None
+    kind: Kind[Any] | None
     problem: KindProblem
+
+    @property
+    def linkage(self) -> Problem:
+        """The problem of a linkage."""
+        return cast("Problem", self.problem)
 
 
 MANY = 6
@@ -77,7 +79,7 @@ def load(path: Path, variant: str | None, all_variants: bool) -> list[Problem]:
 
 
 def _load_other(
-    kind: Kind, path: Path, variant: str | None, all_variants: bool
+    kind: Kind[Any], path: Path, variant: str | None, all_variants: bool
 ) -> list[KindProblem]:
     """Read the same of a problem that is no linkage."""
     return [kind.load(path, name) for name in variants_of(path, variant, all_variants)]
@@ -96,9 +98,9 @@ def each(
     paths: tuple[Path, ...],
     variant: str | None,
     all_variants: bool,
-    act: Callable[[Problem], T],
-    other: Callable[[Kind, KindProblem], T] | None = None,
+    act: Callable[[Todo], T],
     *,
+    kinds: bool = True,
     jobs: int = 1,
     take: Callable[[T], object] | None = None,
 ) -> ExitCode:
@@ -106,11 +108,14 @@ def each(
 
     Parameters
     ----------
-    other : callable, optional
-        Acts on problems that are no linkages (`planmethod.kinds`); without it they are faulty.
+    act : callable
+        Acts on one problem. Where there are jobs it is pickled: a function of a module, its
+        arguments in `functools.partial`.
+    kinds : bool
+        Whether problems that are no linkages are wanted, too; else they are faulty.
     jobs : int
-        Processes at work. Each begins the command for itself and comes as far as this function;
-        what a problem says and gives is said and taken here, in order, so the outcome is the same.
+        Processes at work; what is printed there is printed here, in order, so the outcome is the
+        same.
     take : callable, optional
         Gets what was returned for every problem, in order.
 
@@ -120,23 +125,14 @@ def each(
         Of the first error.
     """
 
-    def do(one: Todo) -> T:
-        if one.kind is None:
-            return act(cast("Problem", one.problem))
-        assert other is not None
-        return other(one.kind, one.problem)
-
-    if _beginning.get():
-        raise _BegunError(do)
-
     def steps(todo: list[Todo]) -> Iterator[Callable[[], T | None]]:
         # Problems that are called alike write the same files: the last one wins, as in one process.
         if jobs == 1 or len({stem(one.problem) for one in todo}) < max(2, len(todo)):
-            yield from (partial(do, one) for one in todo)
+            yield from (partial(act, one) for one in todo)
         else:
-            yield from in_processes(todo, jobs)
+            yield from _shared(act, todo, jobs)
 
-    return through(paths, variant, all_variants, steps, kinds=other is not None, take=take)
+    return through(paths, variant, all_variants, steps, kinds=kinds, take=take)
 
 
 def through(
@@ -194,46 +190,18 @@ def through(
 
 # Processes ---------------------------------------------------------------------------------------
 
-_beginning: ContextVar[bool] = ContextVar("beginning", default=False)
+
+def _shared(
+    act: Callable[[Todo], T], todo: list[Todo], jobs: int
+) -> Iterator[Callable[[], T | None]]:
+    """Yield what gives the result of every problem, each acted on in one of several processes."""
+    from planmethod.commands.processes import in_processes
+
+    for one, outcome in zip(todo, in_processes(act, todo, jobs), strict=True):
+        yield partial(_refuse_killed, one) if outcome is None else outcome.result
 
 
-class _BegunError(BaseException):
-    """Carries what a command does with one problem out of the command, for a process at work."""
-
-    def __init__(self, do: Callable[[Todo], Any]) -> None:
-        self.do = do
-
-
-def begin(command: str, params: Mapping[str, Any]) -> Callable[[Todo], Part[Any]]:
-    """Begin a command as far as `each`; return what it does with one problem, and hears it say."""
-    called: click.Command = getattr(import_module(f"planmethod.commands.{command}"), command)
-    token = _beginning.set(True)
-    try:
-        assert called.callback is not None
-        # Switches that another command has not are off; no process watches.
-        off = {one.name: False for one in called.params if getattr(one, "is_flag", False)}
-        called.callback(**{**off, **params, **({"watch": False} if "watch" in off else {})})
-    except _BegunError as begun:
-        do = begun.do
-        from planmethod.commands.processes import heard
-
-        return lambda one: heard(partial(do, one))
-    finally:
-        _beginning.reset(token)
-    raise AssertionError(command)  # it goes through no problems
-
-
-def in_processes(todo: list[Todo], jobs: int) -> Iterator[Callable[[], Any]]:
-    """Yield what tells of every problem that the running command gives to its processes."""
-    from planmethod.commands.processes import shared
-
-    context = click.get_current_context()
-    parts = shared(todo, jobs, begin, context.command.name, context.params)
-    for one, part in zip(todo, parts, strict=True):
-        yield partial(_told_of_killed, one) if part is None else part.told
-
-
-def _told_of_killed(one: Todo) -> NoReturn:
+def _refuse_killed(one: Todo) -> NoReturn:
     raise PlanMethodError(
         "{}: the process at work on it was killed, twice; perhaps it needs more memory than there "
         "is. Ask for fewer positions at once.",
@@ -247,7 +215,7 @@ def finish(code: ExitCode) -> None:
         sys.exit(code)
 
 
-def refuse_plans(kind: Kind, **options: object) -> None:
+def refuse_plans(kind: Kind[Any], **options: object) -> None:
     """Refuse options that only the plans of linkages have.
 
     Raises

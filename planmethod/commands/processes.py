@@ -1,4 +1,4 @@
-"""Work shared among processes: every one loads once, results come in order, no item is lost."""
+"""Work shared among processes: results come in order, no item is lost."""
 
 from __future__ import annotations
 
@@ -6,19 +6,21 @@ import io
 import multiprocessing
 import os
 import signal
+import sys
 import threading
+import warnings
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import Future, ProcessPoolExecutor
 from concurrent.futures.process import BrokenProcessPool
 from contextlib import contextmanager, redirect_stderr, redirect_stdout
-from typing import Any, Generic, TypeVar
+from functools import partial
+from typing import Generic, TypeVar
 
 import click
 from msgspec import Struct
 
 from planmethod.errors import PlanMethodError
 from planmethod.languages import say, speaking, spoken
-from planmethod.process import settle_process
 
 T = TypeVar("T")
 R = TypeVar("R")
@@ -27,55 +29,39 @@ MOST = 61
 """Processes that every system can wait for."""
 
 
-# What is said ------------------------------------------------------------------------------------
-
-
-class _Ear(io.StringIO):
-    """A stream whose parts are kept in the order in which both streams said them."""
-
-    def __init__(self, said: list[tuple[bool, str]], *, err: bool) -> None:
-        super().__init__()
-        self._said, self._err = said, err
-
-    def write(self, text: str) -> int:
-        """Keep a part."""
-        if not isinstance(text, str):
-            raise TypeError  # click tries which kind of stream this is
-        if text:
-            self._said.append((self._err, text))
-        return len(text)
-
-
-class Part(Struct, Generic[T], frozen=True):
-    """What became of one item in another process.
+class Outcome(Struct, Generic[R], frozen=True):
+    """What came of one item in another process.
 
     Attributes
     ----------
-    said : tuple of (bool, str)
-        What was printed, in order; whether on the stream of errors.
-    value : T or None
+    output, errors : str
+        What was printed on the two streams.
+    value : R or None
     error : PlanMethodError, UsageError or None
     """
 
-    said: tuple[tuple[bool, str], ...] = ()
-    value: T | None = None
+    output: str = ""
+    errors: str = ""
+    value: R | None = None
     error: Exception | None = None
 
-    def told(self) -> T | None:
-        """Say what was said there, and return the value or raise the error."""
-        for err, text in self.said:
-            click.echo(text, nl=False, err=err)
+    def result(self) -> R | None:
+        """Print what was printed there, and return the value or raise the error."""
+        click.echo(self.errors, nl=False, err=True)
+        click.echo(self.output, nl=False)
         if self.error is not None:
             raise self.error
         return self.value
 
 
-def heard(work: Callable[[], T]) -> Part[T]:
-    """Return what becomes of some work, and what it says; errors as those that can travel."""
-    said: list[tuple[bool, str]] = []
-    value: T | None = None
+def captured(work: Callable[[], R]) -> Outcome[R]:
+    """Return what comes of some work, and what it prints; errors as those that can be pickled."""
+    output, errors = io.StringIO(), io.StringIO()
+    value: R | None = None
     error: Exception | None = None
-    with redirect_stdout(_Ear(said, err=False)), redirect_stderr(_Ear(said, err=True)):
+    with redirect_stdout(output), redirect_stderr(errors), warnings.catch_warnings():
+        if not sys.warnoptions:  # as in the first process (`planmethod.__main__`)
+            warnings.simplefilter("ignore")
         try:
             value = work()
         except PlanMethodError as found:
@@ -83,87 +69,67 @@ def heard(work: Callable[[], T]) -> Part[T]:
             error.exit_code = found.exit_code
         except click.UsageError as found:
             error = click.UsageError(found.message)
-    return Part(tuple(said), value, error)
+    return Outcome(output.getvalue(), errors.getvalue(), value, error)
 
 
-# Processes ---------------------------------------------------------------------------------------
+# In the processes --------------------------------------------------------------------------------
 
 
-class _Here(Struct):
-    """State of a process at work."""
-
-    work: Callable[[Any], Any] | None = None
-    lang: str = ""
-    busy: bool = False
-
-
-_here = _Here()
-
-
-def _start(lang: str, begin: Callable[..., Callable[[T], R]], args: tuple[Any, ...]) -> None:
+def _start() -> None:
     """Get ready for work; end with the process that gave it."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # the first process alone says that it is stopped
+    signal.signal(signal.SIGTERM, _stop)
+    threading.Thread(target=_follow, daemon=True).start()
 
-    def stop(*_: object) -> None:
-        if _here.busy:
-            raise SystemExit  # a file half written is removed on the way
-        os._exit(1)
 
-    def watch() -> None:
-        parent = multiprocessing.parent_process()
-        if parent is not None:
-            parent.join()
-            os._exit(1)
+def _stop(*_: object) -> None:
+    raise SystemExit  # a file half written is removed on the way
 
-    signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl+C is told by the first process alone
-    signal.signal(signal.SIGTERM, stop)
-    threading.Thread(target=watch, daemon=True).start()
-    settle_process()
+
+def _follow() -> None:
+    parent = multiprocessing.parent_process()
+    if parent is not None:
+        parent.join()
+        os.kill(os.getpid(), signal.SIGTERM)
+
+
+def _work(act: Callable[[T], R], item: T, lang: str) -> Outcome[R]:
     try:
-        _here.lang = lang
         with speaking(lang):
-            _here.work = begin(*args)
-    except BaseException:  # the first process has begun the same before, and told of its faults
-        os._exit(1)
+            return captured(partial(act, item))
+    except SystemExit:  # else the executor would send it back, and take the next item
+        signal.signal(signal.SIGTERM, signal.SIG_DFL)
+        os.kill(os.getpid(), signal.SIGTERM)
+        raise
 
 
-def _do(item: T) -> Any:
-    assert _here.work is not None
-    _here.busy = True
-    try:
-        with speaking(_here.lang):
-            return _here.work(item)
-    except SystemExit:
-        os._exit(1)
-    finally:
-        _here.busy = False
+# In the first process ----------------------------------------------------------------------------
 
 
-def shared(
-    items: Sequence[T], jobs: int, begin: Callable[..., Callable[[T], R]], *args: Any
-) -> Iterator[R | None]:
-    """Yield what is made of every item by several processes, in order.
+def in_processes(
+    act: Callable[[T], R], items: Sequence[T], jobs: int
+) -> Iterator[Outcome[R] | None]:
+    """Yield what comes of every item in one of several processes, in order.
 
     Where a process is killed, the first item that is not done is begun again by a process that has
     nothing else; if that is killed, too, None stands in its place.
 
     Parameters
     ----------
-    items : sequence
-        Pickled one by one.
+    act : callable
+        Done to each item; it is pickled, as the items and its results are.
     jobs : int
         Number of processes.
-    begin : callable
-        Called with ``args`` once in each process; returns what is done to an item there.
     """
-    done: dict[int, R] = {}
+    done: dict[int, Outcome[R]] = {}
     number, alone = 0, False
     while number < len(items):
         left = [number] if alone else [n for n in range(number, len(items)) if n not in done]
-        futures: dict[int, Future[R]] = {}
-        with _pool(1 if alone else min(jobs, len(left)), begin, args) as pool:
+        futures: dict[int, Future[Outcome[R]]] = {}
+        with _pool(1 if alone else min(jobs, len(left))) as pool:
             try:
                 for one in left:
-                    futures[one] = pool.submit(_do, items[one])
+                    futures[one] = pool.submit(_work, act, items[one], spoken())
                 while number in done or number in futures:
                     yield done.pop(number) if number in done else futures[number].result()
                     number += 1
@@ -177,19 +143,17 @@ def shared(
                     number += 1
                 alone = not alone
                 if alone:
-                    told = "Warning: a process at work was killed; what it had is begun again."
-                    click.echo(say(told), err=True)
+                    click.echo(
+                        say("Warning: a process at work was killed; what it had is begun again."),
+                        err=True,
+                    )
 
 
 @contextmanager
-def _pool(
-    jobs: int, begin: Callable[..., Callable[[Any], Any]], args: tuple[Any, ...]
-) -> Iterator[ProcessPoolExecutor]:
+def _pool(jobs: int) -> Iterator[ProcessPoolExecutor]:
     """Give processes at work; they are ended at once where their giver ends early."""
     before = multiprocessing.active_children()
-    pool = ProcessPoolExecutor(
-        min(jobs, MOST), initializer=_start, initargs=(spoken(), begin, args)
-    )
+    pool = ProcessPoolExecutor(min(jobs, MOST), initializer=_start)
     try:
         yield pool
     except BaseException:

@@ -3,13 +3,20 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import click
 
 from planmethod.commands.helptext import Spoken
 from planmethod.commands.output import put
-from planmethod.commands.problems import each, finish, guarded, refuse_plans, solution_of, stem
+from planmethod.commands.problems import (
+    Todo,
+    each,
+    finish,
+    guarded,
+    refuse_plans,
+    solution_of,
+    stem,
+)
 from planmethod.options import (
     Positions,
     UsageError,
@@ -18,11 +25,6 @@ from planmethod.options import (
     problem_options,
     reading_options,
 )
-
-if TYPE_CHECKING:
-    from planmethod.kinds import Kind
-    from planmethod.problem.head import KindProblem
-    from planmethod.problem.model import Problem
 
 
 @click.command(cls=Spoken)
@@ -53,20 +55,20 @@ def protocol(
     from planmethod.note.wording import language
     from planmethod.note.writers.plain import plain_document
 
-    def tell(problem: Problem) -> None:
-        solution = solution_of(problem, phi, drawn_by(profile, ruler))
-        count = len(solution.positions)
-        if position > count:
-            raise UsageError("--position {}: {} has {}", position, problem.name, count)
-        words = language(lang)
-        told = protocol_document(solution, words, position - 1)
-        written(problem, plain_document(told, words) + "\n")
+    hand, words = drawn_by(profile, ruler), language(lang)
 
-    def tell_other(kind: Kind, problem: KindProblem) -> None:
-        refuse_plans(kind, phi=phi is not None, position=position > 1)
-        written(problem, kind.protocol_text(problem, lang, drawn_by(profile, ruler)))
-
-    def written(problem: KindProblem, text: str) -> None:
+    def tell(todo: Todo) -> None:
+        kind, problem = todo.kind, todo.problem
+        if kind is not None:
+            refuse_plans(kind, phi=phi is not None, position=position > 1)
+            told = kind.protocol_document(problem, words, hand)
+        else:
+            solution = solution_of(todo.linkage, phi, hand)
+            count = len(solution.positions)
+            if position > count:
+                raise UsageError("--position {}: {} has {}", position, problem.name, count)
+            told = protocol_document(solution, words, position - 1)
+        text = plain_document(told, words) + "\n"
         put(text, None if out is None else str(out / f"{stem(problem)}-protocol.txt"))
 
-    finish(each(problems, variant, all_variants, tell, tell_other))
+    finish(each(problems, variant, all_variants, tell))

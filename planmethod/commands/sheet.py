@@ -4,15 +4,24 @@ from __future__ import annotations
 
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Literal, Protocol
+from typing import TYPE_CHECKING, Literal
 
 import click
+from msgspec import Struct
 from msgspec.structs import replace
 
-from planmethod.commands.asked import Asked, sheet_options
+from planmethod.commands.asked import Asked, Settled, sheet_options
 from planmethod.commands.helptext import Spoken
 from planmethod.commands.output import write_drawings, write_set
-from planmethod.commands.problems import each, finish, guarded, refuse_plans, stem, tell_changes
+from planmethod.commands.problems import (
+    Todo,
+    each,
+    finish,
+    guarded,
+    refuse_plans,
+    stem,
+    tell_changes,
+)
 from planmethod.commands.watch import watch_option
 from planmethod.errors import LayoutError
 from planmethod.options import (
@@ -33,18 +42,25 @@ if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
 
     from planmethod.construct.drafting import Profile
-    from planmethod.kinds import Kind
-    from planmethod.problem.head import KindProblem
     from planmethod.problem.model import Problem
     from planmethod.render.ink.drawing import Drawing
 
 
-class _Draw(Protocol):
-    """Draws the sheets of a problem as a part of a set."""
+class SheetOptions(Struct, frozen=True, kw_only=True):
+    """What is asked of the sheets of every problem; the options of the command."""
 
-    def __call__(
-        self, *, before: int = ..., total: int | None = ..., hand: Profile = ...
-    ) -> list[Drawing]: ...
+    settled: Settled
+    phi: Positions | None
+    ruler: float | None
+    profile: str | None
+    layout: str | None
+    compact: bool = False
+    errors: bool
+    sigma: bool | None
+    out: Path
+    formats: tuple[str, ...]
+    dpi: int
+    dxf_text: Literal["text", "strokes"]
 
 
 def read_name(ctx: click.Context, param: click.Parameter, value: str | None) -> str | None:
@@ -121,9 +137,7 @@ def sheet(
     jobs: int,
 ) -> None:
     """Draw the framed sheet: scheme, velocity and acceleration plans, equations, tables."""
-    from planmethod.render.frame.furniture import Furniture
     from planmethod.render.sheets.composition.reader import composition
-    from planmethod.render.sheets.kinematics import kinematics_sheets
 
     if compact:
         if layout is not None:
@@ -131,80 +145,117 @@ def sheet(
         layout = "compact"
     if layout is not None:
         composition(layout)  # its faults are told once, before any problem is drawn
-    positions = None if phi is None else phi.tolist()
-    settled = asked.settle()
+    options = SheetOptions(
+        settled=asked.settle(),
+        phi=phi,
+        ruler=ruler,
+        profile=profile,
+        layout=layout,
+        compact=compact,
+        errors=errors,
+        sigma=sigma,
+        out=out,
+        formats=formats,
+        dpi=dpi,
+        dxf_text=dxf_text,
+    )
+    if one_file is None:
+        act = partial(draw, options=options)
+        finish(each(problems, variant, all_variants, act, jobs=jobs))
+        return
+    whole: list[tuple[Todo, int, list[Drawing]]] = []
 
-    hand = drawn_by(profile, ruler)
-    # What a CAD program measures is drawn as such programs draw, if nobody wants another hand.
-    cad = drawn_by(None, None, usual="cad") if profile is None and ruler is None else None
+    def keep(todo: Todo) -> None:
+        todo = _settled(todo, options)
+        before = sum(len(drawings) for *_, drawings in whole)
+        whole.append((todo, before, _drawn(todo, options, before=before)))
 
-    def drawn(
-        problem: Problem, *, before: int = 0, total: int | None = None, hand: Profile = hand
-    ) -> list[Drawing]:
-        return kinematics_sheets(
-            compacted(problem, positions) if compact else problem,
-            positions=positions,
-            profile=hand,
-            fields=asked.fields,
-            furniture=Furniture.of(problem.sheet, before=before, total=total),
-            errors=errors,
-            sigma=sigma,
-            layout=layout,
-        )
-
-    def drawn_other(
-        kind: Kind,
-        problem: KindProblem,
-        *,
-        before: int = 0,
-        total: int | None = None,
-        hand: Profile = hand,
-    ) -> list[Drawing]:
-        refuse_plans(kind, phi=phi is not None, layout=layout, errors=errors, sigma=bool(sigma))
-        return kind.drawings(problem, fields=asked.fields, profile=hand, before=before, total=total)
-
-    def written(
-        problem: KindProblem,
-        draw: _Draw,
-        formats: Iterable[str],
-        drawings: list[Drawing] | None = None,
-    ) -> None:
-        author = asked.author(problem)
-        apart = [fmt for fmt in formats if fmt == "dxf" and cad is not None]
-        for some in ([fmt for fmt in formats if fmt not in apart], apart):
-            if some:
-                made = draw(hand=cad) if some is apart and cad else drawings or draw()
-                write_drawings(
-                    made, out, stem(problem), some, dpi=dpi, author=author, dxf_text=dxf_text
-                )
-
-    whole: list[tuple[KindProblem, _Draw, list[Drawing]]] = []
-
-    def take(problem: KindProblem, draw: _Draw) -> None:
-        if one_file is None:
-            written(problem, draw, formats)
-            return
-        draw = partial(draw, before=sum(len(some) for *_, some in whole))
-        whole.append((problem, draw, draw()))
-
-    def draw(problem: Problem) -> None:
-        problem = settled(problem)
-        tell_changes(problem, phi)
-        take(problem, partial(drawn, problem))
-
-    def draw_other(kind: Kind, problem: KindProblem) -> None:
-        problem = settled(problem)
-        take(problem, partial(drawn_other, kind, problem))
-
-    jobs = jobs if one_file is None else 1
-    code = each(problems, variant, all_variants, draw, draw_other, jobs=jobs)
-    if one_file is not None and whole:
+    code = each(problems, variant, all_variants, keep)
+    if whole:
         # The first sheet says how many there are, which is known only now.
-        first, draw_first, _ = whole[0]
-        draw_first = partial(draw_first, total=sum(len(some) for *_, some in whole))
-        whole[0] = (first, draw_first, draw_first())
-        for one, draw_one, drawings in whole:
-            written(one, draw_one, [fmt for fmt in formats if fmt != "pdf"], drawings)
+        total = sum(len(drawings) for *_, drawings in whole)
+        first = whole[0][0]
+        whole[0] = (first, 0, _drawn(first, options, total=total))
+        apart = [fmt for fmt in formats if fmt != "pdf"]
+        for todo, before, drawings in whole:
+            named = total if todo is first else None
+            _write(todo, options, apart, drawings, before=before, total=named)
         pages = [drawing for *_, drawings in whole for drawing in drawings]
-        write_set(pages, out / one_file, author=asked.author(first))
+        write_set(pages, out / one_file, author=options.settled.author(first.problem))
     finish(code)
+
+
+def draw(todo: Todo, options: SheetOptions) -> None:
+    """Draw and write the sheets of a problem."""
+    todo = _settled(todo, options)
+    _write(todo, options, options.formats, None)
+
+
+def _settled(todo: Todo, options: SheetOptions) -> Todo:
+    """Return a problem with all that is asked of its sheets."""
+    todo = replace(todo, problem=options.settled.over(todo.problem))
+    if todo.kind is None:
+        tell_changes(todo.linkage, options.phi)
+    return todo
+
+
+def _drawn(
+    todo: Todo,
+    options: SheetOptions,
+    *,
+    before: int = 0,
+    total: int | None = None,
+    hand: Profile | None = None,
+) -> list[Drawing]:
+    """Draw the sheets of a problem; ``before`` of the set of ``total`` go before them."""
+    phi, errors, sigma, layout = options.phi, options.errors, options.sigma, options.layout
+    fields = options.settled.fields
+    hand = hand or drawn_by(options.profile, options.ruler)
+    kind = todo.kind
+    if kind is not None:
+        refuse_plans(kind, phi=phi is not None, layout=layout, errors=errors, sigma=bool(sigma))
+        return kind.drawings(todo.problem, fields=fields, profile=hand, before=before, total=total)
+    from planmethod.render.frame.furniture import Furniture
+    from planmethod.render.sheets.kinematics import kinematics_sheets
+
+    problem, positions = todo.linkage, None if phi is None else phi.tolist()
+    return kinematics_sheets(
+        compacted(problem, positions) if options.compact else problem,
+        positions=positions,
+        profile=hand,
+        fields=fields,
+        furniture=Furniture.of(problem.sheet, before=before, total=total),
+        errors=errors,
+        sigma=sigma,
+        layout=layout,
+    )
+
+
+def _write(
+    todo: Todo,
+    options: SheetOptions,
+    formats: Iterable[str],
+    drawings: list[Drawing] | None,
+    *,
+    before: int = 0,
+    total: int | None = None,
+) -> None:
+    """Write the sheets of a problem, drawn now if they are not drawn yet."""
+    formats = list(formats)
+    # What a CAD program measures is drawn as such programs draw, if nobody wants another hand.
+    cad = None
+    if "dxf" in formats and options.profile is None and options.ruler is None:
+        cad = drawn_by(None, None, usual="cad")
+        formats.remove("dxf")
+    write = partial(
+        write_drawings,
+        out=options.out,
+        stem=stem(todo.problem),
+        dpi=options.dpi,
+        author=options.settled.author(todo.problem),
+        dxf_text=options.dxf_text,
+    )
+    if formats:
+        write(drawings or _drawn(todo, options, before=before, total=total), formats=formats)
+    if cad is not None:
+        write(_drawn(todo, options, before=before, total=total, hand=cad), formats=["dxf"])

@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
+import functools
 import sys
 from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
+from msgspec import Struct
 
 from planmethod.commands.helptext import Spoken
 from planmethod.commands.output import bar, is_terminal, json_text, put_parts
 from planmethod.commands.problems import (
+    Todo,
     each,
     finish,
     guarded,
@@ -38,9 +41,7 @@ from planmethod.options import (
 )
 
 if TYPE_CHECKING:
-    from planmethod.kinds import Kind
     from planmethod.note.records.spreadsheet import Table
-    from planmethod.problem.head import KindProblem
     from planmethod.problem.model import Problem
     from planmethod.solved.many.gaps import GappedSweep
     from planmethod.solved.many.positions import Gaps
@@ -56,6 +57,44 @@ MOST_NUMBERS = 250_000_000
 
 LONG_TEXT, LONG_ARRAYS = 2_000_000, 50_000_000
 """Count of numbers that take about a second to write."""
+
+
+class SolveOptions(Struct, frozen=True, kw_only=True):
+    """What is computed of every problem, and in which form; the options of the command.
+
+    Attributes
+    ----------
+    csv, npz, covariance : bool
+        Whether a file or a table of that kind is made of all problems.
+    apart : bool
+        Whether it is computed in another process.
+    """
+
+    phi: Positions | None
+    ruler: float | None
+    profile: str | None
+    as_json: bool
+    csv: bool
+    npz: bool
+    ask: tuple[str, ...] | None
+    partial: bool
+    sigma: bool
+    covariance: bool
+    referee: int | None
+    lang: str
+    apart: bool
+
+    def of_linkages(self) -> dict[str, bool]:
+        """Return which options that only linkages have are given."""
+        return {
+            "--csv": self.csv,
+            "--npz": self.npz,
+            "--ask": self.ask is not None,
+            "--phi": self.phi is not None,
+            "--sigma": self.sigma,
+            "--covariance": self.covariance,
+            "--referee": self.referee is not None,
+        }
 
 
 @click.command(cls=Spoken)
@@ -165,80 +204,24 @@ def solve(
         )
     if npz_file is not None or (phi is not None and len(phi) > MOST_SHOWN):
         jobs = 1  # large tables are solved while they are written
-    found: list[Any] = []
-
-    def compute(problem: Problem) -> dict[str, Any] | Table | GappedSweep | Solution | None:
-        hand = drawn_by(profile, ruler)  # a train needs no arrays
-        if swept:
-            tell_changes(problem, phi)
-            if csv_file is None and npz_file is None:
-                _refuse_long(len(_asked(problem, phi)))
-            made = _sweep(problem, phi, ask, partial)
-            if npz_file is not None:
-                _refuse_huge(made)
-                return made
-            from planmethod.note.records.spreadsheet import swept_table
-            from planmethod.note.tables.asked import asked_document
-            from planmethod.note.wording import language
-            from planmethod.note.writers.plain import plain_document
-
-            if csv_file is not None:
-                return held(swept_table(made, partial=partial))
-            words = language(lang)
-            click.echo(plain_document(asked_document(made, words), words))
-        elif csv_file is not None:
-            return held(_table(problem, phi, hand.ruler, partial))
-        elif as_json:
-            from planmethod.note.records.solution import record_in_columns
-
-            solution, more = solution_of(problem, phi, hand, hint=HINT, forces=True), {}
-            if referee is not None:
-                from planmethod.note.tables.referee import referee_record
-
-                more["referee"] = referee_record(solution, referee)
-            return record_in_columns(solution, **more)
-        elif covariance_file is not None:
-            return solution_of(problem, phi, hand, hint=HINT)
-        else:
-            from planmethod.note.tables.results import results_document
-            from planmethod.note.wording import language
-            from planmethod.note.writers.plain import plain_document
-
-            words = language(lang)
-            solution = solution_of(problem, phi, hand, hint=HINT, forces=True)
-            click.echo(plain_document(results_document(solution, words, sigma=sigma), words))
-            if referee is not None:
-                from planmethod.note.tables.referee import referee_document
-
-                judged = referee_document(solution, referee, words)
-                click.echo("\n" + plain_document(judged, words))
-        return None
-
-    def held(table: Table) -> Table:
-        return table if jobs == 1 else table.held()
-
-    linkage_only = {
-        "--csv": csv_file is not None,
-        "--npz": npz_file is not None,
-        "--ask": ask is not None,
-        "--phi": phi is not None,
-        "--sigma": sigma,
-        "--covariance": covariance_file is not None,
-        "--referee": referee is not None,
-    }
-
-    def compute_other(kind: Kind, problem: KindProblem) -> dict[str, Any] | None:
-        for option, given in linkage_only.items():
-            if given:
-                raise UsageError("{} is for linkages, {} is none", option, problem.name)
-        if as_json:
-            return kind.record(problem, lang)
-        click.echo(kind.solved_text(problem, lang))
-        return None
-
-    code = each(
-        problems, variant, all_variants, compute, compute_other, jobs=jobs, take=found.append
+    options = SolveOptions(
+        phi=phi,
+        ruler=ruler,
+        profile=profile,
+        as_json=as_json,
+        csv=csv_file is not None,
+        npz=npz_file is not None,
+        ask=ask,
+        partial=partial,
+        sigma=sigma,
+        covariance=covariance_file is not None,
+        referee=referee,
+        lang=lang,
+        apart=jobs > 1,
     )
+    found: list[Any] = []
+    act = functools.partial(compute, options=options)
+    code = each(problems, variant, all_variants, act, jobs=jobs, take=found.append)
     if as_json and found:
         from planmethod.note.written import plain_of
 
@@ -253,6 +236,79 @@ def solve(
     if npz_file is not None and code is ExitCode.DONE:  # one file: all or nothing
         _write_arrays(found, npz_file)
     finish(code)
+
+
+def compute(
+    todo: Todo, options: SolveOptions
+) -> dict[str, Any] | Table | GappedSweep | Solution | None:
+    """Compute a problem; print its numbers, or return what several problems print together."""
+    kind, problem = todo.kind, todo.problem
+    if kind is None:
+        return _computed(todo.linkage, options)
+    for option, given in options.of_linkages().items():
+        if given:
+            raise UsageError("{} is for linkages, {} is none", option, problem.name)
+    if options.as_json:
+        return kind.record(problem, options.lang)
+    from planmethod.note.wording import language
+    from planmethod.note.writers.plain import plain_document
+
+    words = language(options.lang)
+    click.echo(plain_document(kind.solved_document(problem, words), words))
+    return None
+
+
+def _computed(
+    problem: Problem, options: SolveOptions
+) -> dict[str, Any] | Table | GappedSweep | Solution | None:
+    phi, referee = options.phi, options.referee
+    hand = drawn_by(options.profile, options.ruler)  # a train needs no arrays
+    if options.npz or options.ask is not None:
+        tell_changes(problem, phi)
+        if not (options.csv or options.npz):
+            _refuse_long(len(_asked(problem, phi)))
+        made = _sweep(problem, phi, options.ask, options.partial)
+        if options.npz:
+            _refuse_huge(made)
+            return made
+        from planmethod.note.records.spreadsheet import swept_table
+        from planmethod.note.tables.asked import asked_document
+        from planmethod.note.wording import language
+        from planmethod.note.writers.plain import plain_document
+
+        if options.csv:
+            table = swept_table(made, partial=options.partial)
+            return table.held() if options.apart else table
+        words = language(options.lang)
+        click.echo(plain_document(asked_document(made, words), words))
+    elif options.csv:
+        table = _table(problem, phi, hand.ruler, options.partial)
+        return table.held() if options.apart else table
+    elif options.as_json:
+        from planmethod.note.records.solution import record_in_columns
+
+        solution, more = solution_of(problem, phi, hand, hint=HINT, forces=True), {}
+        if referee is not None:
+            from planmethod.note.tables.referee import referee_record
+
+            more["referee"] = referee_record(solution, referee)
+        return record_in_columns(solution, **more)
+    elif options.covariance:
+        return solution_of(problem, phi, hand, hint=HINT)
+    else:
+        from planmethod.note.tables.results import results_document
+        from planmethod.note.wording import language
+        from planmethod.note.writers.plain import plain_document
+
+        words = language(options.lang)
+        solution = solution_of(problem, phi, hand, hint=HINT, forces=True)
+        click.echo(plain_document(results_document(solution, words, sigma=options.sigma), words))
+        if referee is not None:
+            from planmethod.note.tables.referee import referee_document
+
+            judged = referee_document(solution, referee, words)
+            click.echo("\n" + plain_document(judged, words))
+    return None
 
 
 def _need_mpmath() -> None:

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
 import click
 
 from planmethod.commands.asked import Asked, sheet_options
 from planmethod.commands.helptext import Spoken
 from planmethod.commands.output import json_text, write_drawings
-from planmethod.commands.problems import each, finish, guarded, stem
+from planmethod.commands.problems import Todo, each, finish, guarded, stem
 from planmethod.options import (
     UsageError,
     dxf_text_option,
@@ -20,9 +20,8 @@ from planmethod.options import (
 )
 
 if TYPE_CHECKING:
-    from planmethod.kinds import Kind
+    from planmethod.kind import Kind
     from planmethod.problem.head import KindProblem
-    from planmethod.problem.model import Problem
 
 
 @click.command(cls=Spoken)
@@ -48,11 +47,17 @@ def structure(
     """Analyse the structure: mobility, redundant constraints, Assur groups; text and drawing."""
     from planmethod.languages import LANGUAGES
     from planmethod.mechanism.structure import analyse
+    from planmethod.note.wording import language
+    from planmethod.note.writers.plain import plain_document
 
     drawn = not as_json and not no_drawing
     settled = asked.settle() if drawn else None
 
-    def show(problem: Problem) -> None:
+    def show(todo: Todo) -> None:
+        if todo.kind is not None:
+            show_other(todo.kind, todo.problem)
+            return
+        problem = todo.linkage
         found = analyse(problem.mechanism)
         if as_json:
             from planmethod.note.records.solution import structure_record
@@ -62,11 +67,9 @@ def structure(
             click.echo(json_text(whole))
             return
         from planmethod.note.narrate.structure import structure_document
-        from planmethod.note.wording import language
-        from planmethod.note.writers.plain import plain_document
 
         if settled is not None:
-            problem = settled(problem)
+            problem = settled.over(problem)
         words = language(str(asked.sheet["lang"] or problem.sheet.lang or LANGUAGES[0]))
         click.echo(plain_document(structure_document(problem.mechanism, found, words), words))
         if settled is not None:
@@ -78,15 +81,15 @@ def structure(
                 out,
                 f"{stem(problem)}-structure",
                 formats,
-                author=asked.author(problem),
+                author=settled.author(problem),
                 dxf_text=dxf_text,
             )
 
-    def show_other(kind: Kind, problem: KindProblem) -> None:
-        lang = str(asked.sheet["lang"] or LANGUAGES[0])
-        told = kind.structure_record(problem) if as_json else kind.structure_text(problem, lang)
-        if told is None:
+    def show_other(kind: Kind[Any], problem: KindProblem) -> None:
+        words = language(str(asked.sheet["lang"] or LANGUAGES[0]))
+        record, written = kind.structure_record(problem), kind.structure_document(problem, words)
+        if record is None or written is None:
             raise UsageError("{} is no mechanism, it has no structure", problem.name)
-        click.echo(told if isinstance(told, str) else json_text(told))
+        click.echo(json_text(record) if as_json else plain_document(written, words))
 
-    finish(each(problems, variant, all_variants, show, show_other))
+    finish(each(problems, variant, all_variants, show))

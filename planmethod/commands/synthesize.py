@@ -159,7 +159,7 @@ def synthesize(
     from planmethod.synthesis.drawn import Drawn, synthesis_record
     from planmethod.synthesis.measured import checks, problem_text
 
-    refuse_unknown("no kind of synthesis {!r}", kind, KINDS)
+    refuse_unknown("no kind of synthesis {!r}", kind, tuple(KINDS))
     given = {name: options[f"of_{name}"] for name, *_ in _OPTIONS}
     known = takes(kind)
     strange = [
@@ -173,7 +173,8 @@ def synthesize(
     words = language(str(asked.sheet["lang"] or LANGUAGES[0]))
     text = problem_text(made, _command(kind, wanted), words)
     try:
-        problem = asked.settle()(loads(text, name=out.stem if out else kind))
+        settled = asked.settle()
+        problem = settled.over(loads(text, name=out.stem if out else kind))
     except ProblemError as error:
         raise AssemblyError("Sizes were found that no problem file takes. {}", error) from error
     found = {**checks(made, problem), **made.facts}
@@ -196,7 +197,7 @@ def synthesize(
                 f"{out.stem if out is not None and is_file else kind}-synthesis",
                 formats,
                 dpi=dpi,
-                author=asked.author(problem),
+                author=settled.author(problem),
                 dxf_text=dxf_text,
             )
     if as_json:

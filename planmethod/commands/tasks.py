@@ -30,7 +30,7 @@ def tasks(group: str | None, search: str | None, as_json: bool, lang: str) -> No
 
     found, words = tasks(), language(lang)
     if group is not None:
-        letters = {said: letter for letter, said in words.note.letters.items()}
+        letters = {said: letter for letter, said in words.note["letters"].items()}
         asked = groups_of("".join(letters.get(one, one) for one in group.upper()))
         known = sorted({signature for task in found for signature in task.groups})
         for signature in asked:

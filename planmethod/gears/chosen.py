@@ -23,7 +23,7 @@ def chosen_document(chosen: Chosen, words: Language) -> Iterator[Node]:
     if wanted.modules is not None:
         first, second = (number(float(module)) for module in wanted.modules)
         modules = say.modules.format(first=first, second=second)
-    yield Paragraph(say.title.format(scheme=escape(say.schemes[scheme.name])))
+    yield Paragraph(say.title.format(scheme=escape(say["schemes"][scheme.name])))
     yield Paragraph(
         say.wanted.format(
             ratio=number(float(wanted.ratio)),
@@ -43,7 +43,7 @@ def chosen_document(chosen: Chosen, words: Language) -> Iterator[Node]:
         yield Paragraph(say.none)
         return
     yield Paragraph(say.found.format(found=chosen.found, shown=len(chosen.sets)))
-    first, *others = say.columns
+    first, *others = say["columns"]
     yield table_of(
         [first, *(escape(f"z_{label}") for label in scheme.wheels), *others],
         [
@@ -99,7 +99,7 @@ def problem_text(chosen: Chosen, number: int, lang: str) -> str:
     wanted, one = chosen.wanted, chosen.sets[number - 1]
     scheme, say = wanted.scheme, language(lang).teeth
     lines = [f'title = "{say.file.format(number=number)}"', ""]
-    lines.append(f"# {say.schemes[scheme.name]}")
+    lines.append(f"# {say['schemes'][scheme.name]}")
     teeth = ", ".join(f"z_{x} = {z}" for x, z in zip(scheme.wheels, one.teeth, strict=True))
     lines += [f"# {teeth}", "[gears]", f"wheels = {{ {_wheels(chosen, one)} }}", "meshes = ["]
     carried = ', carrier = "H"' if scheme.carried else ""

@@ -51,7 +51,8 @@ def sentence(condition: Condition, words: Language) -> str:
     """Return a condition in words."""
     decimal = words.note.decimal
     facts = {name: value.replace(".", decimal) for name, value in condition.facts.items()}
-    return words.gears.conditions[condition.name].format(**facts)
+    said: str = words.gears["conditions"][condition.name]
+    return said.format(**facts)
 
 
 # Coaxiality --------------------------------------------------------------------------------------

@@ -12,6 +12,8 @@ from planmethod.gears.model import FLEXIBLE, HALF_MODULES, Mesh, MeshKind, Wheel
 from planmethod.languages import say
 from planmethod.problem import fields, keys
 from planmethod.problem.fields import Faults
+from planmethod.problem.flat import read_flat
+from planmethod.problem.head import GearWheelTable
 from planmethod.problem.names import fold, is_label, joined, looks_latin, segment
 
 WHEEL_LIMIT = 60
@@ -115,32 +117,29 @@ def _read_wheel(faults: Faults, path: str, label: str, entry: object, draft: Dra
         teeth = fields.read_whole(faults, path, entry, 1, TEETH_LIMIT)
         return Wheel(label, Fraction(teeth or 1))
     table = fields.read_table(faults, path, entry, "{ r = 0.07 }") or {}
-    given = fields.read_keys(faults, path, table, keys.WHEEL)
+    own = {"r": fields.read_length, "axis": _read_axis}
+    given = GearWheelTable(**read_flat(faults, path, table, GearWheelTable, own))
     size: Fraction | None = None
-    if "z" in given and "r" in given:
+    if "z" in table and "r" in table:
         faults.add(path, "z and r are both given", "Keep one of them.")
-    elif "z" in given:
-        size = Fraction(fields.read_whole(faults, f"{path}.z", given["z"], 1, TEETH_LIMIT) or 1)
-    elif "r" in given:
-        radius = fields.read_length(faults, f"{path}.r", given["r"])
-        size = Fraction(1) if radius is None else fraction(radius)
+    elif "z" in table:
+        size = Fraction(given.z or 1)
+    elif "r" in table:
+        size = Fraction(1) if given.r is None else fraction(given.r)
         if draft.toothed:
             size *= HALF_MODULES if draft.module is None else 2 / draft.module
-    shift = fields.read_number(faults, f"{path}.x", given.get("x", 0), "a shift", low=-5, high=5)
-    axis = _read_axis(faults, path, given.get("axis"))
-    return Wheel(label, size, fraction(shift or 0.0), axis, "r" in given and draft.toothed)
+    plain = "r" in table and draft.toothed
+    return Wheel(label, size, fraction(given.x), given.axis, plain)
 
 
 def _read_axis(faults: Faults, path: str, value: object) -> tuple[float, float, float] | None:
-    if value is None:
-        return None
     numbers = value if isinstance(value, list) else []
     if len(numbers) != 3 or not all(fields.is_number(n) and abs(n) <= 1e6 for n in numbers):
-        faults.expected(f"{path}.axis", "[x, y, z]", value)
+        faults.expected(path, "[x, y, z]", value)
         return None
     x, y, z = map(float, numbers)
     if not any((x, y, z)):
-        faults.add(f"{path}.axis", "the axis has no direction")
+        faults.add(path, "the axis has no direction")
         return None
     return x, y, z
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 
 from planmethod.construct import steps
 from planmethod.construct.drafting import Profile
@@ -19,7 +19,7 @@ from planmethod.note.formula import Rich, escape
 from planmethod.note.narrate.narrator import Line, StepNarrator
 from planmethod.note.numbers import Notation, raised
 from planmethod.note.rounding import rounded_to, sigma_text
-from planmethod.note.wording import Language
+from planmethod.note.wording import Language, Words
 
 
 def protocol_document(problem: GearProblem, words: Language, profile: Profile) -> Iterator[Node]:
@@ -30,7 +30,8 @@ def protocol_document(problem: GearProblem, words: Language, profile: Profile) -
     ProblemError
         The train cannot be, or its inputs do not fit.
     """
-    motion, say = solve_motion(problem), words.gears.sheet
+    motion = solve_motion(problem)
+    say: Words = words.gears["sheet"]
     yield Title(say.protocol.format(title=escape(problem.title)))
     if problem.source:
         yield Paragraph(say.source.format(source=escape(problem.source)))
@@ -55,27 +56,29 @@ def _carried(rich: Rich) -> Rich:
 
 def _pictures(drawn: Construction, words: Language) -> Iterator[Node]:
     """Yield the steps that draw both pictures."""
-    say, narrator = words.gears.sheet, PictureNarrator(drawn, words)
+    narrator = PictureNarrator(drawn, words)
+    say: Words = words.gears["sheet"]
     yield Chapter(say.pictures)
-    yield Step((say.steps["axis"],))
+    yield Step((say["steps"]["axis"],))
     for step in drawn.program.steps:
         if step.out == POLE:
             break
         lines = narrator.tell(step)
         if lines:
             yield Step(tuple(lines))
-    yield Chapter(say.steps["rays"])
+    yield Chapter(say["steps"]["rays"])
     pole = words.say.given(float(drawn.picture.pole_mm))
-    yield Step((say.steps["pole"].format(pole=pole),))
+    yield Step((say["steps"]["pole"].format(pole=pole),))
     for body in drawn.rays:
-        yield Step((say.steps["ray"].format(body=drawn.label(body)),))
+        yield Step((say["steps"]["ray"].format(body=drawn.label(body)),))
 
 
 class PictureNarrator(StepNarrator):
     """Tells the picture of linear velocities; level lines are told where they are used."""
 
     def __init__(self, drawn: Construction, words: Language) -> None:
-        self.drawn, self.say, self.notation = drawn, words.gears.sheet.steps, words.say
+        self.drawn, self.notation = drawn, words.say
+        self.say: Mapping[str, str] = words.gears["sheet"]["steps"]
         self._bodies = {line: drawn.label(body) for body, line in drawn.lines.items()}
         self._ends = {spot.end: spot for spot in drawn.spots}
 
@@ -134,15 +137,16 @@ def _readings(
     drawn: Construction, seen: Reading, profile: Profile, words: Language
 ) -> Iterator[Node]:
     """Yield the segments as they are read, and what is computed from them."""
-    say, notation, train = words.gears.sheet, words.say, drawn.motion.train
-    yield Chapter(say.steps["readings"])
-    name = words.note.profiles.get(profile.name, profile.name)
+    notation, train = words.say, drawn.motion.train
+    say: Words = words.gears["sheet"]
+    yield Chapter(say["steps"]["readings"])
+    name = words.note["profiles"].get(profile.name, profile.name)
     yield Step((say.ruler.format(ruler=notation.given(profile.ruler), profile=name),))
     named = [(s.read, f"{s.foot}{s.letter}") for s in drawn.spots if s.read is not None]
     named += [(n, f"o{drawn.label(body)}") for body, n in drawn.segments.items()]
     yield Step(
         tuple(
-            say.steps["read"].format(
+            say["steps"]["read"].format(
                 name=name,
                 read=notation.ruled(float(seen.read.value[number])),
                 exact=_mm(float(seen.exact.value[number]), notation),
@@ -151,13 +155,13 @@ def _readings(
             for number, name in named
         )
     )
-    unit = raised(words.gears.units[train.units[0]])
+    unit = raised(words.gears["units"][train.units[0]])
     chosen = drawn.mu in drawn.data
-    scale = say.steps["scale"].format(
+    scale = say["steps"]["scale"].format(
         symbol=_scale(drawn),
         value=notation.short(float(seen.read.value[drawn.mu]), 4),
         unit=unit,
-        from_what=say.steps["chosen" if chosen else "input"],
+        from_what=say["steps"]["chosen" if chosen else "input"],
     )
     yield Step((scale,))
     yield Step(tuple(_found(one, drawn, seen, words) for one in drawn.found))
@@ -182,9 +186,12 @@ def _found(one: Found, drawn: Construction, seen: Reading, words: Language) -> R
     formula = "/".join(parts) if asked.kind == "U" else f"{_scale(drawn)}·{parts[0]}"
     if asked.kind == "omega" and train.unit == "n":
         formula = f"π/30·{formula}"
+    if asked.kind == "n" and train.unit != "n":
+        formula = f"30/π·{formula}"
     value, sigma = float(seen.read.value[one.read]), seen.sigma[one.read]
     unit = unit_of(answer(drawn.motion, one.name), words)
-    return words.gears.sheet.steps["found"].format(
+    found: str = words.gears["sheet"]["steps"]["found"]
+    return found.format(
         formula=_carried(f"{symbol(one.name, tuple(train.body_of))} = {formula}"),
         read=f"{notation.number(rounded_to(value, sigma))} {unit}".rstrip(),
         exact=notation.found(float(one.exact)),

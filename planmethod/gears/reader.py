@@ -21,18 +21,18 @@ from planmethod.gears.model import GearProblem, PictureSettings, Train
 from planmethod.languages import say
 from planmethod.problem import fields, keys
 from planmethod.problem.answers import Plain, read_answers
-from planmethod.problem.extras import read_published
 from planmethod.problem.fields import Faults
-from planmethod.problem.head import Published
+from planmethod.problem.flat import read_flat
+from planmethod.problem.head import PictureTable, Published
 from planmethod.problem.names import fold, is_label, joined, segment
 from planmethod.problem.reader import varied
+from planmethod.problem.selector import read_published
 from planmethod.problem.sheet import read_head
 
 ASK_LIMIT = 100
 TURNS = ("n", "omega")
 _NAMES = "For example: W, U_1_5, U_1_4^H, n_5, omega_H, z_5, a_w_1_2."
 GROUP_LIMIT = 60
-PUBLISHED = ("value", "unit", "what", "note")
 TOP = ("title", "source", "stamp", "sheet", "published", "answers", "compare", "variants", "gears")
 """Tables of the file that a gear train may have."""
 
@@ -191,14 +191,8 @@ def _read_satellites(faults: Faults, value: object, draft: Draft) -> dict[str, i
 
 def _read_picture(faults: Faults, value: object) -> PictureSettings:
     table = fields.read_table(faults, "gears.picture", value, "picture = { pole_mm = 40 }") or {}
-    told: dict[str, Fraction] = {}
-    for key, number in fields.read_keys(faults, "gears.picture", table, keys.PICTURE).items():
-        what = "a scale in m/mm" if key == "mu_l" else "a length in mm"
-        low, high = (1e-9, 1e6) if key == "mu_l" else (1.0, 1e4)
-        found = fields.read_number(faults, f"gears.picture.{key}", number, what, low=low, high=high)
-        if found is not None:
-            told[key] = fraction(found)
-    return PictureSettings(**told)
+    found = read_flat(faults, "gears.picture", table, PictureTable)
+    return PictureSettings(**{key: fraction(value) for key, value in found.items()})
 
 
 def _read_ask(faults: Faults, value: object, known: tuple[str, ...]) -> tuple[str, ...]:
@@ -245,4 +239,4 @@ def _read_published(faults: Faults, value: object, train: Train | None) -> tuple
         return what or name
 
     example = 'value = -375, what = "n_5"'
-    return read_published(faults, value, check, example=example, known=PUBLISHED)
+    return read_published(faults, value, check, example=example, without=("per_mm", "position"))

@@ -37,7 +37,7 @@ def record(problem: GearProblem, lang: str) -> dict[str, Any]:
         "radii_m": {x: _number(size) for x, size in metres.items()},
         "unit": train.units[0],
         "bodies": {label: _body(motion, label) for label in train.body_of},
-        "asked": {name: _answer(answer(motion, name), words.reasons) for name in train.ask},
+        "asked": {name: _answer(answer(motion, name), words["reasons"]) for name in train.ask},
         "conditions": [
             {
                 "name": one.name,
@@ -52,7 +52,7 @@ def record(problem: GearProblem, lang: str) -> dict[str, Any]:
         told["picture_reason"] = words.no_picture
     told["published"] = [
         {"name": one.name, "printed": one.value, "note": one.note, "unit": one.unit}
-        | _answer(answer(motion, one.what), words.reasons)
+        | _answer(answer(motion, one.what), words["reasons"])
         for one in problem.published
     ]
     return {**head(problem), "gears": told}

@@ -23,7 +23,7 @@ from planmethod.gears.picture import draw
 from planmethod.gears.scheme import Scheme
 from planmethod.gears.told import calculation, given, results
 from planmethod.languages import LANGUAGES
-from planmethod.note.wording import Language, language
+from planmethod.note.wording import Language, Words, language
 from planmethod.render.frame.frame import STAMP_WIDTH, paper_format, sheet_frame
 from planmethod.render.frame.furniture import Furniture
 from planmethod.render.frame.titleblock import merged
@@ -270,14 +270,14 @@ class _Sheet(Struct, frozen=True):
         return Column(lines, gap=2.5, align="centre")
 
     def _scale(self, key: str, value: float, **more: str) -> str:
-        say = self.words.say
-        return self.words.gears.sheet.inscriptions[key].format(value=say.short(value, 4), **more)
+        said: str = self.words.gears["sheet"]["inscriptions"][key]
+        return said.format(value=self.words.say.short(value, 4), **more)
 
     def _strip(self, scheme: Scheme, drawn: Construction | None, seen: Reading | None) -> _Viewed:
         """Return the side view and, at the same heights, the picture of linear velocities."""
-        say = self.words.gears.sheet
+        say: Words = self.words.gears["sheet"]
         if scheme.undrawn:
-            kinds = ", ".join(say.kinds[kind] for kind in scheme.undrawn)
+            kinds = ", ".join(say["kinds"][kind] for kind in scheme.undrawn)
             text = paragraph(say.no_scheme.format(kinds=kinds), self.sizes.text, STAMP_WIDTH)
             return _Viewed(text, ())
         spots = () if drawn is None else drawn.spots
@@ -331,7 +331,7 @@ class _Sheet(Struct, frozen=True):
         coarse = series_near(extent / MOST_FRONT, up=True)
         for mu_l in (own, coarse) if coarse > own else (own,):
             scheme = Scheme(self.motion, float(self.motion.train.unit_m) / mu_l)
-            title = self.words.gears.sheet.front
+            title = self.words.gears["sheet"].front
             scales = [self._scale("mu_l", mu_l)]
             yield self._titled(
                 front(scheme, self.sizes.letter), title, "position", "μ_{l}", mu_l, scales
@@ -369,7 +369,7 @@ class _Sheet(Struct, frozen=True):
         if self.motion.train.unit == "n":
             scales.append(self._scale("mu_n", float(picture.turn_per_mm)))
         spans = list(angular_spans(drawn, seen, 0j))
-        title = self.words.gears.sheet.angular
+        title = self.words.gears["sheet"].angular
         view = angular(drawn, seen, self.sizes.letter)
         return self._titled(view, title, "velocity", "μ_{ω}", per_mm, scales, spans)
 
@@ -380,7 +380,7 @@ class _Sheet(Struct, frozen=True):
         facts = (fact.replace(" ", "\u00a0") for fact in given(self.motion, self.words))
         text = self.words.note.given.format(given="; ".join(facts))
         blocks: list[Block] = [paragraph(text, self.sizes.text, width)]
-        blocks.append(heading(self.words.gears.sheet.calculation, self.sizes.text))
+        blocks.append(heading(self.words.gears["sheet"].calculation, self.sizes.text))
         lines = calculation(self.motion, self.words)
         blocks += [formula_block(line, self.sizes.text, width=width) for line in lines]
         return Column(blocks, gap=2.4)
@@ -395,10 +395,10 @@ class _Sheet(Struct, frozen=True):
         for body, name in drawn.segments.items():
             exact, ruled = (float(trace.value[name]) for trace in (seen.exact, seen.read))
             rows.append((f"o({drawn.label(body)})", "—", self._mm(exact), say.ruled(ruled)))
-        columns = self.words.gears.sheet.columns_segments
+        columns = self.words.gears["sheet"]["columns_segments"]
         table = _table(columns, rows, 27.0 * self.sizes.text, self.sizes)
         return Column(
-            [Line(typeset(self.words.gears.sheet.segments, self.sizes.text)), table], gap=2.5
+            [Line(typeset(self.words.gears["sheet"].segments, self.sizes.text)), table], gap=2.5
         )
 
     def _mm(self, value: float) -> str:
@@ -406,8 +406,8 @@ class _Sheet(Struct, frozen=True):
 
     def _results(self, drawn: Construction | None, seen: Reading | None) -> Block:
         whole = list(results(self.motion, drawn, seen, self.words))
-        say = self.words.gears.sheet
-        columns = say.columns_results if drawn is not None else say.columns_results[:3]
+        say: Words = self.words.gears["sheet"]
+        columns = say["columns_results"] if drawn is not None else say["columns_results"][:3]
         rows = [row[: len(columns)] for row in whole]
         table = _table(columns, rows, STAMP_WIDTH, self.sizes, SHARES)
         title = say.results if drawn is not None else self.words.gears.asked

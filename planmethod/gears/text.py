@@ -95,7 +95,7 @@ def _structure(
 
 def kind_of(found: Structure, words: Language) -> Rich:
     """Return which kind of train it is."""
-    return words.gears.kind.format(kind=words.gears.kinds[found.kind.value])
+    return words.gears.kind.format(kind=words.gears["kinds"][found.kind.value])
 
 
 def mobility(found: Structure, words: Language) -> Rich:
@@ -139,15 +139,15 @@ def equation_of(motion: Motion, mesh: Mesh) -> tuple[str, str]:
 
 def _wheels(motion: Motion, words: Language) -> Table:
     train, say = motion.train, words.gears
-    said = {"letter": "z" if train.toothed else "r, " + say.units["m"]}
-    said["unit"] = say.units["m/2" if train.toothed else "m"]
+    said = {"letter": "z" if train.toothed else "r, " + say["units"]["m"]}
+    said["unit"] = say["units"]["m/2" if train.toothed else "m"]
     rows = []
     for label, size in motion.axes.sizes.items():
         height = motion.axes.heights.get(train.body_of[label])
         mark = "*" if label in train.unknown else ""
         shown = [_size(x, words) if x is not None else "—" for x in (size, height)]
         if train.toothed and not train.counted(label):
-            shown[0] = f"r = {shown[0]} {say.units['mm']}"
+            shown[0] = f"r = {shown[0]} {say['units']['mm']}"
         rows.append([label + mark, *shown])
     return table_of([head.format(**said) for head in say.columns_wheels], rows)
 
@@ -161,13 +161,13 @@ def _size(value: Fraction, words: Language) -> Rich:
 def _speeds(motion: Motion, words: Language) -> Iterator[Node]:
     train, say = motion.train, words.gears
     said = {"letter": train.letter, "other": "ω" if train.letter == "n" else "n"}
-    said["unit"], said["other_unit"] = (say.units[unit] for unit in train.units)
+    said["unit"], said["other_unit"] = (say["units"][unit] for unit in train.units)
     rows = []
     for label in train.numbers:
         body, speed = train.body_of[label], motion.speed(label)
         if body in train.racks:
             metres = rack_speed(motion, label)
-            shown = "—" if metres is None else f"{words.say.found(metres)} {say.units['m/s']}"
+            shown = "—" if metres is None else f"{words.say.found(metres)} {say['units']['m/s']}"
             rows.append([f"{label} ({say.rack})", shown, "—", "—", ""])
             continue
         relative = [
@@ -211,11 +211,11 @@ def _asked(motion: Motion, words: Language) -> Iterator[Node]:
     for name in motion.train.ask:
         one = answer(motion, name)
         if one.value is None:
-            reason = say.reasons[one.reason].format(label=one.label)
+            reason = say["reasons"][one.reason].format(label=one.label)
             notes.append(Item(f"{escape(name)}: {reason}"))
             continue
         exact = "" if one.exact is None else fraction_text(one.exact)
-        unit = say.units[one.unit] if one.unit else ""
+        unit = say["units"][one.unit] if one.unit else ""
         whole = one.exact is not None and one.exact.denominator == 1
         rows.append([escape(name), exact if whole else words.say.found(one.value), exact, unit])
     if rows:
@@ -239,7 +239,7 @@ def _picture(motion: Motion, words: Language) -> Iterator[Node]:
     points = []
     for one in picture.contacts:
         shown = (number(float(mm)) for mm in (one.height_mm, one.speed_mm))
-        points.append([say.points[one.at.kind.value].format(name=one.at.of), *shown])
+        points.append([say["points"][one.at.kind.value].format(name=one.at.of), *shown])
     yield table_of(say.columns_contacts, points)
     rays = ((label, number(float(segment))) for label, segment in picture.rays)
     yield table_of(say.columns_rays, rays)

@@ -36,7 +36,7 @@ def symbol(name: str, known: Collection[str]) -> str:
 
 def unit_of(one: Answer, words: Language) -> str:
     """Return the unit of a value as rich text."""
-    return raised(words.gears.units[one.unit]) if one.unit else ""
+    return raised(words.gears["units"][one.unit]) if one.unit else ""
 
 
 def indexed(text: str) -> str:
@@ -46,16 +46,16 @@ def indexed(text: str) -> str:
 
 def given(motion: Motion, words: Language) -> list[str]:
     """Return what is given of a train, as rich text (дано)."""
-    train, say, told = motion.train, words.say, words.gears.sheet
+    train, say, told = motion.train, words.say, words.gears["sheet"]
     facts = []
     for label, size in motion.axes.sizes.items():
         letter, value = f"z_{{{label}}}", say.given(float(size))
         if not train.counted(label):
             letter = f"r_{{{label}}}"
-            value = f"{say.given(float(size * train.unit_m))} {words.gears.units['m']}"
+            value = f"{say.given(float(size * train.unit_m))} {words.gears['units']['m']}"
         by = told.by_coaxiality if label in train.unknown else "{symbol} = {value}"
         facts.append(by.format(symbol=letter, value=value))
-    unit = raised(words.gears.units[train.units[0]])
+    unit = raised(words.gears["units"][train.units[0]])
     for body, speed in train.inputs.items():
         value = say.given(float(speed))
         facts.append(f"{train.letter}_{{{body}}} = {value} {unit}")
@@ -78,7 +78,7 @@ def calculation(motion: Motion, words: Language) -> list[str]:
         if asked.kind != "U":
             continue
         if one.value is None:
-            told = say.reasons[one.reason].format(label=one.label)
+            told = say["reasons"][one.reason].format(label=one.label)
             lines.append(f"{symbol(name, known)}: {told}")
             continue
         hat = f"^{{({asked.carrier})}}" if asked.carrier else ""
@@ -89,7 +89,8 @@ def calculation(motion: Motion, words: Language) -> list[str]:
     rest = [one for name in dict.fromkeys(train.ask) for one in _plain(name, motion, words)]
     lines += ["; ".join(rest)] if rest else []
     lines += [
-        indexed(sentence(one, words)) + f": {say.holds[one.holds]}" for one in conditions(motion)
+        indexed(sentence(one, words)) + f": {say['holds']['yes' if one.holds else 'no']}"
+        for one in conditions(motion)
     ]
     return lines
 
@@ -101,7 +102,7 @@ def _plain(name: str, motion: Motion, words: Language) -> Iterator[str]:
         return
     one = answer(motion, name)
     if one.value is None:
-        yield f"{symbol(name, known)}: {words.gears.reasons[one.reason].format(label=one.label)}"
+        yield f"{symbol(name, known)}: {words.gears['reasons'][one.reason].format(label=one.label)}"
         return
     value = words.say.short(one.value, 4)
     yield f"{symbol(name, known)} = {value} {unit_of(one, words)}".rstrip()

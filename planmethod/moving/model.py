@@ -10,7 +10,7 @@ from msgspec.structs import replace
 
 from planmethod.languages import say
 from planmethod.problem.fields import Faults, is_number
-from planmethod.problem.formula import LENGTH_LIMIT, FormulaError, Kind, Operation, Parser
+from planmethod.problem.formula import LENGTH_LIMIT, FormulaError, FormulaKind, Operation, Parser
 from planmethod.problem.head import KindProblem
 from planmethod.problem.model import Scales
 from planmethod.problem.names import describe_lookalikes, fold, lookalikes, short
@@ -36,7 +36,7 @@ class Formula(Struct, frozen=True):
     @property
     def is_constant(self) -> bool:
         """Whether time does not stand in it."""
-        return all(operation.kind is not Kind.TIME for operation in self.operations)
+        return all(operation.kind is not FormulaKind.TIME for operation in self.operations)
 
     @property
     def in_degrees(self) -> Formula:

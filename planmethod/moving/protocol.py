@@ -68,7 +68,7 @@ def protocol_document(problem: PointProblem, words: Language, profile: Profile) 
             narrator = PointNarrator(built, words, profile)
             for step in built.program.steps:
                 yield from steps_of(narrator.tell(step))
-            yield Caption(said.read_title.format(profile=words.note.profiles[profile.name]))
+            yield Caption(said.read_title.format(profile=words.note["profiles"][profile.name]))
             yield table_of(said.read, read_rows(built, course.marks, k, words, profile))
     yield from _hodograph(course, scales["v"], words, profile)
 
@@ -168,7 +168,7 @@ class PointNarrator(StepNarrator):
         numbers = f"{self._put(abs(self._number(made.powers[0][0])))}/"
         numbers += self._put(self.built.scales[plan].per_mm)
         turned = isinstance(self.step[step.along], steps.Perpendicular)
-        way = said.ways[("across" if turned else "along") + ("" if mm >= 0 else " back")]
+        way = said["ways"][("across" if turned else "along") + ("" if mm >= 0 else " back")]
         told = said.lay_off_side if part is None else said.lay_off
         return [
             told.format(

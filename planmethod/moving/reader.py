@@ -17,12 +17,12 @@ from planmethod.moving.series import ROUNDOFF, evaluate
 from planmethod.problem import fields, keys
 from planmethod.problem.answers import Plain, read_answers
 from planmethod.problem.drive import read_scales, spread, too_many
-from planmethod.problem.extras import read_published
 from planmethod.problem.fields import Faults
 from planmethod.problem.formula import is_exact
 from planmethod.problem.head import Published
 from planmethod.problem.names import listed, near_hint, segment, short
 from planmethod.problem.reader import laid_over, varied
+from planmethod.problem.selector import read_published
 from planmethod.problem.sheet import read_head
 from planmethod.problem.source import parse
 

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from planmethod.construct.jet import Jet
 from planmethod.moving.model import Formula
-from planmethod.problem.formula import Kind
+from planmethod.problem.formula import FormulaKind
 
 Reals = NDArray[np.float64]
 
@@ -124,17 +124,17 @@ def evaluate(formula: Formula, times: Reals, *, blur: Reals | float = 0.0) -> Je
     with np.errstate(all="ignore"):
         for operation in formula.operations:
             match operation.kind:
-                case Kind.NUMBER | Kind.CONSTANT:
-                    is_exact = operation.kind is Kind.NUMBER and operation.is_exact
+                case FormulaKind.NUMBER | FormulaKind.CONSTANT:
+                    is_exact = operation.kind is FormulaKind.NUMBER and operation.is_exact
                     radius = 0.0 if is_exact else ROUNDOFF * operation.value
                     stack.append((Jet(Bounded(operation.value, radius)), True))
-                case Kind.TIME:
+                case FormulaKind.TIME:
                     now = Bounded(times, blur * np.abs(times))
                     stack.append((Jet(now, Bounded(1.0), Bounded(0.0)), False))
-                case Kind.MINUS:
+                case FormulaKind.MINUS:
                     jet, is_constant = stack.pop()
                     stack.append((-jet, is_constant))
-                case Kind.CALL:
+                case FormulaKind.CALL:
                     jet, is_constant = stack.pop()
                     stack.append(({**CALLS, **DEGREES}[operation.name](jet), is_constant))
                 case _:
@@ -151,14 +151,14 @@ def _spread(part: Any, times: Reals) -> Bounded:
     return Bounded(np.broadcast_to(one.value, shape), np.broadcast_to(one.radius, shape))
 
 
-def _joined(kind: Kind, left: Jet, right: Jet, *, steady: bool) -> Jet:
-    if kind is Kind.ADD:
+def _joined(kind: FormulaKind, left: Jet, right: Jet, *, steady: bool) -> Jet:
+    if kind is FormulaKind.ADD:
         return left + right
-    if kind is Kind.SUBTRACT:
+    if kind is FormulaKind.SUBTRACT:
         return left - right
-    if kind is Kind.MULTIPLY:
+    if kind is FormulaKind.MULTIPLY:
         return left * right
-    if kind is Kind.DIVIDE:
+    if kind is FormulaKind.DIVIDE:
         return left / right
     return _raised(left, right.value) if steady else CALLS["exp"](right * CALLS["ln"](left))
 

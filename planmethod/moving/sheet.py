@@ -252,9 +252,9 @@ class _Sheet(Struct, frozen=True):
         whole = read_rows(built, self.course.marks, k, self.words, self.profile)
         rows, said = [row for row in whole if row[2] != "—"], self.words.point
         columns = [
-            TableColumn(head, tuple(row[n] for row in rows)) for n, head in enumerate(said.read)
+            TableColumn(head, tuple(row[n] for row in rows)) for n, head in enumerate(said["read"])
         ]
-        title = said.read_title.format(profile=self.words.note.profiles[self.profile.name])
+        title = said.read_title.format(profile=self.words.note["profiles"][self.profile.name])
         return Column([Line(typeset(title, TEXT)), table_block(columns, TEXT, units="none")], 2.5)
 
     def _table(self, room: float, scale: Scale) -> Block:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Iterator, Sequence
 
 from msgspec import Struct
@@ -23,7 +24,6 @@ from planmethod.note.document import (
 from planmethod.note.formula import Rich, escape
 from planmethod.note.numbers import MINUS, Notation, alike, significant, with_unit
 from planmethod.note.wording import Language
-from planmethod.pattern import pattern
 
 FEW = 3
 """Most moments that are told with formulas; more are rows of a table."""
@@ -42,7 +42,7 @@ def solved_document(problem: PointProblem, words: Language) -> Iterator[Node]:
         yield _table(motion, COLUMNS, say)
         for k, why in enumerate(motion.reasons):
             if why is not None:
-                yield Item(f"t = {say.given(problem.times[k])}: {said.reasons[why.value]}")
+                yield Item(f"t = {say.given(problem.times[k])}: {said['reasons'][why.value]}")
     if problem.law is Law.POLAR:
         yield Caption(said.polar)
         yield _table(motion, ("t", *POLAR), say)
@@ -132,11 +132,11 @@ LEGEND = {
 
 def textbook(text: str, decimal: str) -> str:
     """Return a formula of a file as a textbook prints it, rich text: powers, roots, π."""
-    shown = _ROOT.sub("√", _PI.sub("π", text.replace(".", decimal).replace("-", MINUS)))
+    shown = re.sub(_ROOT, "√", re.sub(_PI, "π", text.replace(".", decimal).replace("-", MINUS)))
     return raised_powers(shown)
 
 
-_PI, _ROOT = pattern(r"\bpi\b"), pattern(r"\bsqrt\b")
+_PI, _ROOT = r"\bpi\b", r"\bsqrt\b"
 
 
 def raised_powers(text: str) -> str:
@@ -153,7 +153,7 @@ def raised_powers(text: str) -> str:
 
 def _end_of_power(tail: str) -> int:
     """Return where the power ends that a text begins with: ``-t``, ``(1/2)``, ``2^t``."""
-    named = _POWER.match(tail)
+    named = re.match(_POWER, tail)
     end = named.end() if named else 0
     if tail[end : end + 1] == "(":
         depth = 0
@@ -165,7 +165,7 @@ def _end_of_power(tail: str) -> int:
     return end + 1 + _end_of_power(tail[end + 1 :]) if tail[end : end + 1] == "^" else end
 
 
-_POWER = pattern(r" *[-+− ]*(?:[0-9.,]+(?:[eE][-+−]?[0-9]+)?|[A-Za-z_π√]+[0-9]*)?")
+_POWER = r" *[-+− ]*(?:[0-9.,]+(?:[eE][-+−]?[0-9]+)?|[A-Za-z_π√]+[0-9]*)?"
 
 
 def law(
@@ -188,7 +188,7 @@ def law(
         wheel = problem.wheel
         kind = "line" if not wheel.track else "on" if wheel.track > 0 else "within"
         size = wheel.arm or abs(wheel.track)
-        track = said.tracks["arm" if wheel.arm else kind].format(radius=say.given(size))
+        track = said["tracks"]["arm" if wheel.arm else kind].format(radius=say.given(size))
         numbers = {
             "radius": say.given(wheel.radius),
             "r": say.given(wheel.r),
@@ -232,7 +232,7 @@ def moment(
     if why is None:
         yield line("rho", "v^{2}/a_{n}", f"{put('v')}^{{2}}/{put('a_normal')}")
     else:
-        yield Note(words.point.reasons[why.value])
+        yield Note(words.point["reasons"][why.value])
 
 
 def _other_velocities(

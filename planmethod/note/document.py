@@ -8,7 +8,7 @@ or of a file format. Texts are rich text (`planmethod.note.formula`).
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
-from typing import Any, TypeAlias
+from typing import Any, Protocol, TypeAlias
 
 from msgspec import Struct
 
@@ -123,25 +123,52 @@ class Table(Struct, frozen=True):
     repeated : int
         Leading columns that stand again before the rest of a table that is cut for its width; 0: it
         is not cut.
+    right : tuple of int
+        Columns of numbers among those that name.
+    tones : tuple of str
+        What a row says, where it is one of a few kinds: the word of a verdict; a writer may give
+        the cell of column ``toned`` a ground by it.
     """
 
     head: tuple[Rich, ...]
     rows: tuple[tuple[Rich, ...], ...]
     names: int = 1
     repeated: int = 0
+    right: tuple[int, ...] = ()
+    tones: tuple[str, ...] = ()
+    toned: int = 0
+
+    @property
+    def numbers(self) -> frozenset[int]:
+        """Columns that are set to the right."""
+        return frozenset((*range(self.names, len(self.head)), *self.right))
 
     def columns(self) -> Iterator[tuple[Rich, tuple[Rich, ...]]]:
         """Yield the head and the cells of each column."""
         yield from zip(self.head, zip(*self.rows, strict=True), strict=True)
 
 
+class View(Protocol):
+    """What can be drawn wherever a document is written (вид)."""
+
+    @property
+    def size(self) -> tuple[float, float]:
+        """Width and height, mm."""
+        ...
+
+    def svg(self) -> str:
+        """Return an SVG element."""
+        ...
+
+    def draw(self, canvas: Any) -> None:
+        """Draw on a canvas of reportlab whose unit is the millimetre, the lower left at zero."""
+        ...
+
+
 class Figure(Struct, frozen=True):
-    """A picture (рисунок): a view that can be drawn, and its caption.
+    """A picture (рисунок) and its caption; writers of plain text give the caption alone."""
 
-    ``view`` is a block of `planmethod.render`; writers of plain text give the caption alone.
-    """
-
-    view: Any
+    view: View
     caption: Rich = ""
 
 

@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import SupportsFloat
 
 from msgspec import Struct
-
-from planmethod.pattern import pattern
 
 MINUS = "−"
 
@@ -75,10 +74,10 @@ def rich_number(text: str, decimal: str) -> str:
 
 def raised(unit: str) -> str:
     """Return a unit of plain text as rich text: ``m/s²`` gives ``m/s^{2}``."""
-    return _POWER.sub(lambda power: f"^{{{power[0].translate(_LEVEL)}}}", unit)
+    return re.sub(_POWER, lambda power: f"^{{{power[0].translate(_LEVEL)}}}", unit)
 
 
-_POWER, _LEVEL = pattern("[⁻¹²]+"), str.maketrans("⁻¹²", f"{MINUS}12")
+_POWER, _LEVEL = "[⁻¹²]+", str.maketrans("⁻¹²", f"{MINUS}12")
 
 
 class Notation(Struct, frozen=True, eq=False):

@@ -6,10 +6,9 @@ import re
 from typing import TYPE_CHECKING
 
 from planmethod.note.numbers import rich_number, significant, trimmed
-from planmethod.pattern import pattern
 
 if TYPE_CHECKING:
-    from planmethod.note.wording.model import Wording
+    from planmethod.note.wording import Words
 
 
 NO_BREAK = "\N{NO-BREAK SPACE}"
@@ -17,9 +16,9 @@ NO_BREAK = "\N{NO-BREAK SPACE}"
 
 _SUPER = dict(zip("0123456789-−ntτkr", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻⁻ⁿᵗᵗᵏʳ", strict=True))
 _SUB = dict(zip("0123456789", "₀₁₂₃₄₅₆₇₈₉", strict=True))
-_UP = pattern(r"\^\{([^}]*)\}")
-_DOWN = pattern(r"_\{([^}]*)\}")
-_LITERAL = pattern(r"\\([_^{}\\])")
+_UP = r"\^\{([^}]*)\}"
+_DOWN = r"_\{([^}]*)\}"
+_LITERAL = r"\\([_^{}\\])"
 
 
 def plain_text(rich: str) -> str:
@@ -34,24 +33,24 @@ def plain_text(rich: str) -> str:
             return ""
         return "".join(_SUB[c] for c in text) if all(c in _SUB for c in text) else f"_{text}"
 
-    return _LITERAL.sub(r"\1", _DOWN.sub(down, _UP.sub(up, rich)))
+    return re.sub(_LITERAL, r"\1", re.sub(_DOWN, down, re.sub(_UP, up, rich)))
 
 
-def spoken(text: str, words: Wording) -> str:
+def spoken(text: str, words: Words) -> str:
     """Return a number with a decimal point as the language writes it."""
     return plain_text(rich_number(text, words.decimal))
 
 
-def found(value: float, words: Wording) -> str:
+def found(value: float, words: Words) -> str:
     """Return a result, four significant digits."""
     return spoken(significant(value), words)
 
 
-def given(value: float, words: Wording, digits: int | None = None) -> str:
+def given(value: float, words: Words, digits: int | None = None) -> str:
     """Return a given number, no more digits than it has."""
     return spoken(trimmed(value, digits), words)
 
 
-def fixed(value: float, words: Wording, places: int = 2) -> str:
+def fixed(value: float, words: Words, places: int = 2) -> str:
     """Return a number with so many digits after the decimal sign."""
     return spoken(f"{value + 0.0:.{places}f}", words)

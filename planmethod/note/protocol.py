@@ -132,7 +132,7 @@ class _Protocol:
     # Plans of motion -------------------------------------------------------------------------
 
     def _open_plan(self, kind: PlanKind) -> Iterator[Node]:
-        yield Chapter(self.words.plans[kind.value])
+        yield Chapter(self.words["plans"][kind.value])
         if kind is PlanKind.POSITION:
             return
         words = self.words

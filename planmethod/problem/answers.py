@@ -2,21 +2,22 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Collection, Iterable, Mapping
-from typing import TYPE_CHECKING
+from functools import partial
+from typing import TYPE_CHECKING, Any
 
 from msgspec import Struct
 
 from planmethod.languages import say
 from planmethod.mechanism.model import FRAME, Revolute
-from planmethod.pattern import pattern
 from planmethod.problem import fields, keys
-from planmethod.problem.extras import check_what, read_position
 from planmethod.problem.fields import Faults, Table
+from planmethod.problem.flat import OwnReader, read_flat
 from planmethod.problem.head import AnswerForm, AskedAnswer, AskedSense
 from planmethod.problem.model import Drive, Slide
 from planmethod.problem.names import short, split_pair
-from planmethod.problem.selector import ANALOGUES, MACHINE, Selector
+from planmethod.problem.selector import ANALOGUES, MACHINE, Selector, check_what, read_position
 
 if TYPE_CHECKING:
     from planmethod.problem.load_records import Dynamics
@@ -25,16 +26,13 @@ WHAT_LIMIT = 200
 ID_LIMIT = 40
 LETTERS_LIMIT = 40
 SPELLING_LIMIT = 10
-UNIT_LIMIT = 20
 SEGMENT_LIMIT = 40
-DIGIT_LIMIT = 8
-POINTS_LIMIT = 1000.0
 
 # No sign that would begin a formula in a spreadsheet, no space that a form could lose.
-_ID_RE = pattern(r"[^\W\d_][\w./@'{}^-]*\Z")
-_REACTION_RE = pattern(r"[FM]_(?P<joint>[^_/]+)_(?P<on>[^_/]+)/(?P<by>[^_/]+)\Z")
+_ID_RE = r"[^\W\d_][\w./@'{}^-]*\Z"
+_REACTION_RE = r"[FM]_(?P<joint>[^_/]+)_(?P<on>[^_/]+)/(?P<by>[^_/]+)\Z"
 _BALANCING = {"dr": "balance", "lever": "lever"}
-_TAKEN = (*keys.SCALES[1:], "ruler_mm")
+_TAKEN = ("mu_l", "mu_v", "mu_a", "mu_F", "ruler_mm")
 """What a row of a group's table is called that is no answer."""
 
 _TURNS = frozenset({"omega", "epsilon", "M", "inertia couple"})
@@ -44,7 +42,7 @@ _VECTORS = frozenset(
 _NO_SEGMENT = frozenset({*_TURNS, "phi", "angle F", "angle inertia", "angle load"})
 
 
-class Scene(Struct, frozen=True):
+class AnswerScope(Struct, frozen=True):
     """What answers may name.
 
     Attributes
@@ -75,7 +73,7 @@ def words_of(name: str, slides: Iterable[Slide]) -> str:
     if " " in name or "_" not in name:
         return name
     head, _, rest = name.partition("_")
-    reaction = _REACTION_RE.match(name)
+    reaction = re.match(_REACTION_RE, name)
     if reaction:
         return f"{head} {reaction['on']} {reaction['by']}"
     if head in ("M", "F") and rest in _BALANCING:
@@ -128,7 +126,7 @@ class Plain(Struct, frozen=True):
 
 
 def read_answers(
-    faults: Faults, given: Mapping[str, object], scene: Scene | Plain
+    faults: Faults, given: Mapping[str, object], scene: AnswerScope | Plain
 ) -> tuple[AskedAnswer, ...]:
     """Read ``[[answers]]`` of a file, in its order, and check its ``compare``."""
     if "compare" in given:
@@ -166,69 +164,60 @@ def read_answers(
 
 
 def _read_answer(
-    faults: Faults, path: str, body: Table, scene: Scene | Plain
+    faults: Faults, path: str, body: Table, scene: AnswerScope | Plain
 ) -> AskedAnswer | None:
     before = len(faults)
-    given = fields.read_keys(faults, path, body, keys.ANSWER)
+    positions = scene.positions if isinstance(scene, Plain) else 0
+    if isinstance(scene, AnswerScope) and scene.drive:
+        positions = len(scene.drive.positions)
+    own: dict[str, OwnReader] = {
+        "id": _read_id,
+        "letters": _read_letters,
+        "position": partial(read_position, positions=positions),
+        "segment": _read_segment,
+    }
+    given = read_flat(faults, path, body, AskedAnswer, own)
     if "what" not in given:
-        if len(faults) == before:
-            faults.add(f"{path}.what", "missing", 'Say which quantity: what = "v B".')
         return None
     name = fields.read_text(faults, f"{path}.what", given["what"], limit=WHAT_LIMIT)
     if name is None:
         return None
     name = " ".join(fields.unmask(faults, f"{path}.what", name).split())
-    own_sense, selector, words, kind = None, None, name, ""
+    own_sense, selector, words, kind, usual = None, None, name, "", AnswerForm.BOTH
     if isinstance(scene, Plain):
+        usual = AnswerForm.VALUE
         if said := scene.fault(name):
             faults.add(f"{path}.what", said, scene.hint)
         else:
             kind, own_sense = name, AskedSense.TURN if scene.turns(name) else None
-        positions, usual = scene.positions, AnswerForm.VALUE
     else:
         words = words_of(name, scene.slides.values())
         selector = _read_what(faults, f"{path}.what", name, words, scene)
         if selector is not None:
             kind, own_sense = selector.kind, _own_sense(selector, scene.drive)
-        positions, usual = len(scene.drive.positions) if scene.drive else 0, AnswerForm.BOTH
-    position = read_position(faults, f"{path}.position", given.get("position"), positions)
-    own = name.replace(" / ", "/").replace(" ", "_")
-    if position is not None:
-        own += f"@{position}"
-    points = fields.read_number(
-        faults,
-        f"{path}.points",
-        given.get("points", 1.0),
-        "a number of points",
-        low=0.0,
-        high=POINTS_LIMIT,
-        hint="Points are those of a right answer.",
-    )
-    form = fields.read_member(faults, f"{path}.form", given.get("form", usual.value), AnswerForm)
-    if form is AnswerForm.MM and selector is not None and _has_no_segment(selector):
+    if given.get("form") is AnswerForm.MM and selector is not None and _has_no_segment(selector):
         faults.add(
             f"{path}.form",
             say("'{}' is no segment of a plan", short(name)),
             'Leave it, or form = "value".',
         )
-    asked = AskedAnswer(
-        id=_read_id(faults, f"{path}.id", given["id"]) if "id" in given else own,
-        what=words,
-        letters=_read_letters(faults, f"{path}.letters", given.get("letters", [])),
-        unit=fields.read_text(faults, f"{path}.unit", given.get("unit", ""), limit=UNIT_LIMIT)
-        or "",
-        points=points or 0.0,
-        form=form or AnswerForm.BOTH,
-        sense=_read_sense(faults, f"{path}.sense", given.get("sense", False), kind, own_sense),
-        position=position,
-        digits=_read_digits(faults, f"{path}.digits", given.get("digits")),
-        segment=_read_segment(faults, f"{path}.segment", given.get("segment", "")),
-        tolerance=_read_tolerance(faults, f"{path}.tolerance", given.get("tolerance")),
-    )
-    return asked if len(faults) == before else None
+    sense = given.get("sense", False)
+    given["sense"] = _read_sense(faults, f"{path}.sense", sense, kind, own_sense)
+    if len(faults) != before:
+        return None
+    if "tolerance" in given:
+        given["tolerance"] /= 100.0
+    position = given.get("position")
+    own_id = name.replace(" / ", "/").replace(" ", "_")
+    if position is not None:
+        own_id += f"@{position}"
+    usually: dict[str, Any] = {"id": own_id, "form": usual}
+    return AskedAnswer(**usually | given | {"what": words})
 
 
-def _read_what(faults: Faults, path: str, name: str, words: str, scene: Scene) -> Selector | None:
+def _read_what(
+    faults: Faults, path: str, name: str, words: str, scene: AnswerScope
+) -> Selector | None:
     """Check a quantity, and the joint of a reaction, which its words do not name."""
     if name in scene.points:
         faults.add(
@@ -243,7 +232,7 @@ def _read_what(faults: Faults, path: str, name: str, words: str, scene: Scene) -
         faults.add(path, say("'{}' is of the flywheel", words), "Ask for the motion or the forces.")
     elif selector is not None and selector.kind in ANALOGUES:
         faults.add(path, say("'{}' is on no plan", words), "Ask for the motion or the forces.")
-    reaction = _REACTION_RE.match(name)
+    reaction = re.match(_REACTION_RE, name)
     if reaction and scene.points and len(faults) == before:
         joint, pair = reaction["joint"], {reaction["on"], reaction["by"]}
         if not _joined(joint, pair, scene):
@@ -255,7 +244,7 @@ def _read_what(faults: Faults, path: str, name: str, words: str, scene: Scene) -
     return selector
 
 
-def _joined(joint: str, pair: set[str], scene: Scene) -> bool:
+def _joined(joint: str, pair: set[str], scene: AnswerScope) -> bool:
     return any(joint == r.point and pair <= set(r.links) for r in scene.revolutes) or any(
         pair == {slide.slider, slide.host} and joint in (slide.pin, slide.through)
         for slide in scene.slides.values()
@@ -275,7 +264,7 @@ def _read_id(faults: Faults, path: str, value: object) -> str:
         faults.add(
             path, say("'{}' is a row of its own in tables of answers", text), "Take another id."
         )
-    elif not _ID_RE.match(text):
+    elif not re.match(_ID_RE, text):
         hint = "A letter first, then letters, digits and _ . / @ ' - without spaces: v_B3."
         faults.expected(path, "the id of an answer", text, hint)
     return text
@@ -337,10 +326,6 @@ def _own_sense(selector: Selector, drive: Drive | None) -> AskedSense | None:
     return AskedSense.DIRECTION if selector.kind in _VECTORS else None
 
 
-def _read_digits(faults: Faults, path: str, value: object) -> int | None:
-    return None if value is None else fields.read_whole(faults, path, value, 1, DIGIT_LIMIT)
-
-
 def _read_segment(faults: Faults, path: str, value: object) -> str:
     """Read the letters of a segment, together or apart: ``pb3``, ``p b3``, ``p-b3``."""
     text = fields.read_text(faults, path, value, limit=SEGMENT_LIMIT)
@@ -352,11 +337,3 @@ def _read_segment(faults: Faults, path: str, value: object) -> str:
         faults.expected(path, "the two ends of a segment", value, 'For example: "p b3".')
         return ""
     return "-".join(ends)
-
-
-def _read_tolerance(faults: Faults, path: str, value: object) -> float | None:
-    if value is None:
-        return None
-    what, hint = "a tolerance in percent", "5 is 5 % of the value."
-    percent = fields.read_number(faults, path, value, what, low=0.1, high=100.0, hint=hint)
-    return None if percent is None else percent / 100.0

@@ -6,11 +6,10 @@ import cmath
 import math
 
 from planmethod.languages import say
-from planmethod.problem import keys
 from planmethod.problem.fields import Faults
 from planmethod.problem.links import Length, LinkText
 from planmethod.problem.model import Body, PointForm
-from planmethod.problem.names import listed, told_length
+from planmethod.problem.names import UNITS, listed, told_length
 
 COLLINEAR = 1e-9
 """Relative slack within which two distances are taken to put a point on the line."""
@@ -301,7 +300,7 @@ class _Placement:
         hint = say("Add a second distance.")
         if more is not None:
             stated = self.faults.stated.get(f"{self.link.path}.{length.key}")
-            at = length.value * keys.UNITS[self.faults.unit]
+            at = length.value * UNITS[self.faults.unit]
             hint = say(
                 'If it lies on {0}{1}, write {2} = {{ on = "{0}{1}", at = {3} }}; else add {1}{2} '
                 'and {2}.side = "left of {0}{1}", or angle.{1}{0}{2}.',

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from functools import partial
 
 from planmethod.languages import say
 from planmethod.mechanism.model import FRAME
-from planmethod.problem import fields, keys
+from planmethod.problem import fields
 from planmethod.problem.fields import Faults
-from planmethod.problem.model import Body, CycleTask, Differentiation, Drive, Slide, Zero
+from planmethod.problem.flat import OwnReader, read_flat
+from planmethod.problem.model import Body, CycleTask, Drive, PoleDistances, Slide, Zero
 
 _EXAMPLE = '[cycle] output = "B", zero = "extreme", count = 12'
 _NAMED = {zero.value: zero for zero in Zero}
@@ -34,61 +36,43 @@ def read_cycle(
     entries = fields.read_table(faults, "cycle", table, _EXAMPLE)
     if entries is None:
         return None
-    given = fields.read_keys(faults, "cycle", entries, keys.CYCLE)
     if drive is not None and not drive.is_crank:
         faults.add(
             "cycle",
             say("the driver, link {}, slides: it has no turn", drive.link),
             "A cycle is a turn of a crank. Delete [cycle], or let a crank drive.",
         )
-    output = None
-    if "output" in given:
-        output = _read_output(faults, given["output"], bodies, slides, drive)
-    zero: Zero | float | None = Zero.EXTREME
-    if fields.is_number(given.get("zero")):
-        zero = fields.read_angle(faults, "cycle.zero", given["zero"])
-    elif "zero" in given and isinstance(given["zero"], str):
-        word = fields.read_word(faults, "cycle.zero", given["zero"], _NAMED)
-        zero = None if word is None else _NAMED[word]
-    elif "zero" in given:
-        wanted = say(" or ").join(f'"{word}"' for word in _NAMED)
-        faults.expected("cycle.zero", say("{} or an angle in degrees", wanted), given["zero"])
-    count = fields.read_whole(faults, "cycle.count", given.get("count", 12), 3, keys.CYCLE_LIMIT)
-    length = _read_mm(faults, "cycle.length", given.get("length", 288), 20.0, 2000.0)
-    poles = fields.read_table(
-        faults, "cycle.pole", given.get("pole", {}), "pole = { v = 36, a = 36 }"
-    )
-    poles = fields.read_keys(faults, "cycle.pole", poles or {}, keys.POLE)
-    pole = [_read_mm(faults, f"cycle.pole.{key}", poles.get(key, 36), 1.0, 500.0)
-            for key in keys.POLE]  # fmt: skip
-    way = Differentiation.CHORDS
-    if "differentiation" in given:
-        ways = [one.value for one in Differentiation]
-        word = fields.read_word(faults, "cycle.differentiation", given["differentiation"], ways)
-        way = Differentiation(word) if word else way
-    if len(faults) > before or zero is None or count is None or length is None:
-        return None
-    pole_v, pole_a = pole
-    assert pole_v is not None and pole_a is not None
-    return CycleTask(output, zero, count, length, pole_v, pole_a, way)
+    output = partial(_read_output, bodies=bodies, slides=slides, drive=drive)
+    own: dict[str, OwnReader] = {"output": output, "zero": _read_zero, "pole": _read_pole}
+    found = read_flat(faults, "cycle", entries, CycleTask, own)
+    return None if len(faults) > before else CycleTask(**found)
 
 
-def _read_mm(faults: Faults, path: str, value: object, low: float, high: float) -> float | None:
-    hint = "Millimetres of the diagrams."
-    return fields.read_number(
-        faults, path, value, "a length in millimetres", low=low, high=high, positive=True, hint=hint
-    )
+def _read_zero(faults: Faults, path: str, value: object) -> Zero | float | None:
+    if fields.is_number(value):
+        return fields.read_angle(faults, path, value)
+    if isinstance(value, str):
+        word = fields.read_word(faults, path, value, _NAMED)
+        return None if word is None else _NAMED[word]
+    wanted = say(" or ").join(f'"{word}"' for word in _NAMED)
+    faults.expected(path, say("{} or an angle in degrees", wanted), value)
+    return None
+
+
+def _read_pole(faults: Faults, path: str, value: object) -> PoleDistances:
+    table = fields.read_table(faults, path, value, "pole = { v = 36, a = 36 }")
+    return PoleDistances(**read_flat(faults, path, table or {}, PoleDistances))
 
 
 def _read_output(
     faults: Faults,
+    path: str,
     value: object,
     bodies: Mapping[str, Body],
     slides: Mapping[str, Slide],
     drive: Drive | None,
 ) -> str | None:
     """Read the output: a link, or a point of a link that moves along a guide of the frame."""
-    path = "cycle.output"
     if not isinstance(value, str):
         hint = say('Write output = "{}".', value) if isinstance(value, int) else ""
         faults.expected(path, "a point or a link", value, hint)

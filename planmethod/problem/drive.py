@@ -11,6 +11,7 @@ from planmethod.languages import say
 from planmethod.mechanism.model import FRAME
 from planmethod.problem import fields, keys
 from planmethod.problem.fields import Faults, Table
+from planmethod.problem.flat import read_flat
 from planmethod.problem.links import LinkText
 from planmethod.problem.model import Convention, Drive, Geared, Rule, Scales, Where
 from planmethod.problem.names import is_point_name, listed, near, segment, split_pair
@@ -376,26 +377,9 @@ def _read_rule_table(
 def read_scales(faults: Faults, table: object) -> Scales:
     """Read ``[scales]``; the result is unit per millimetre whichever convention the file has."""
     entries = fields.read_table(faults, "scales", table, "mu_l = 0.002")
-    if entries is None:
+    if not entries:
         return Scales()
-    given = fields.read_keys(faults, "scales", entries, keys.SCALES)
-    convention = Convention.UNIT_PER_MM
-    if "convention" in given:
-        value = given["convention"]
-        known = [item.value for item in Convention]
-        if value not in known:
-            names = say(" or ").join(f'"{item}"' for item in known)
-            faults.expected("scales.convention", names, value)
-        else:
-            convention = Convention(value)
-    values: dict[str, float | None] = {}
-    for key in ("mu_l", "mu_v", "mu_a", "mu_F"):
-        scale = None
-        if key in given:
-            scale = fields.read_number(
-                faults, f"scales.{key}", given[key], "a scale", low=1e-12, high=1e12, positive=True
-            )
-        if scale is not None and convention is Convention.MM_PER_UNIT:
-            scale = 1.0 / scale
-        values[key] = scale
-    return Scales(convention, **values)
+    found = read_flat(faults, "scales", entries, Scales)
+    if found.get("convention") is Convention.MM_PER_UNIT:
+        found |= {key: 1.0 / scale for key, scale in found.items() if key != "convention"}
+    return Scales(**found)

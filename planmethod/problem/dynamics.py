@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping
+from functools import partial
 from typing import Any
 
 from planmethod.languages import say
-from planmethod.problem import fields, keys
+from planmethod.problem import fields
 from planmethod.problem.fields import Faults, Table
-from planmethod.problem.forces import Scene, read_loads
+from planmethod.problem.flat import OwnReader, read_flat
+from planmethod.problem.forces import LoadScope, read_loads
 from planmethod.problem.links import LinkText
 from planmethod.problem.load_records import (
     GRAVITY,
@@ -53,20 +55,19 @@ def read_dynamics(
     """
     if "dynamics" not in given and "loads" not in given:
         return None
-    scene = Scene(links, fixed, drive, TURN if machine is None else machine.cycle_deg)
-    gravity, masses, resultant = 0.0, {}, False
+    scene = LoadScope(links, fixed, drive, TURN if machine is None else machine.cycle_deg)
+    found: dict[str, Any] = {"gravity": 0.0, "masses": {}}
     if "dynamics" in given:
         table = fields.read_table(faults, "dynamics", given["dynamics"], _EXAMPLE)
-        known = fields.read_keys(faults, "dynamics", table or {}, keys.DYNAMICS)
-        gravity = _read_gravity(faults, known.get("gravity", GRAVITY))
-        masses = _read_masses(faults, known.get("links", {}), scene)
-        asked = fields.read_flag(faults, "dynamics.resultant", known.get("resultant", False))
-        resultant = bool(asked)
-    return Dynamics(gravity, masses, read_loads(faults, given.get("loads", []), scene), resultant)
+        own: dict[str, OwnReader] = {
+            "gravity": _read_gravity,
+            "links": partial(_read_masses, scene=scene),
+        }
+        found |= {"gravity": GRAVITY} | read_flat(faults, "dynamics", table or {}, Dynamics, own)
+    return Dynamics(loads=read_loads(faults, given.get("loads", []), scene), **found)
 
 
-def _read_gravity(faults: Faults, value: object) -> float:
-    path = "dynamics.gravity"
+def _read_gravity(faults: Faults, path: str, value: object) -> float:
     if value is False:
         return 0.0
     if value is True:
@@ -80,8 +81,7 @@ def _read_gravity(faults: Faults, value: object) -> float:
     return fields.read_number(faults, path, value, what, low=0.0, high=1e4) or 0.0
 
 
-def _read_masses(faults: Faults, table: object, scene: Scene) -> dict[str, Mass]:
-    path = "dynamics.links"
+def _read_masses(faults: Faults, path: str, table: object, scene: LoadScope) -> dict[str, Mass]:
     masses: dict[str, Mass] = {}
     for key, value in (fields.read_table(faults, path, table, _EXAMPLE) or {}).items():
         where = f"{path}.{segment(key)}"
@@ -100,40 +100,24 @@ def _read_masses(faults: Faults, table: object, scene: Scene) -> dict[str, Mass]
     return masses
 
 
-def _read_mass(faults: Faults, path: str, body: Table, link: LinkText, scene: Scene) -> Mass | None:
+def _read_mass(
+    faults: Faults, path: str, body: Table, link: LinkText, scene: LoadScope
+) -> Mass | None:
     before = len(faults)
-    given = fields.read_keys(faults, path, body, keys.MASS)
-    whole = len(faults) == before
-    mass = _read_amount(faults, f"{path}.mass", given.get("mass", 0.0), "a mass in kg")
-    inertia = _read_amount(
-        faults, f"{path}.inertia", given.get("inertia", 0.0), "a moment of inertia in kg·m²"
-    )
-    centre = None
-    if "centre" in given:
-        centre = scene.find_point(faults, f"{path}.centre", given["centre"], link)
-    elif len(link.points) == 1:
-        centre = link.points[0]
-    elif mass and whole and link.whole:
-        faults.add(
-            f"{path}.centre",
-            "missing",
-            say(
+    own = {"centre": partial(scene.find_point, link=link)}
+    found = read_flat(faults, path, body, Mass, own)
+    if len(faults) == before and "centre" not in found:
+        if len(link.points) == 1:
+            found["centre"] = link.points[0]
+        elif found.get("mass") and link.whole:
+            hint = say(
                 "Name the centre of mass among the points of link {} ({}), or give the link "
                 "another point there.",
                 link.name,
                 listed(link.points),
-            ),
-        )
-    if len(faults) != before or mass is None or inertia is None:
-        return None
-    return Mass(mass, centre, inertia)
-
-
-def _read_amount(faults: Faults, path: str, value: object, what: str) -> float | None:
-    if fields.is_number(value) and value < 0:
-        faults.add(path, say("expected {}, 0 or greater, got {:g}", what, value))
-        return None
-    return fields.read_number(faults, path, value, what, low=0.0, high=1e12)
+            )
+            faults.add(f"{path}.centre", "missing", hint)
+    return None if len(faults) != before else Mass(**found)
 
 
 _BALANCED = '[balancing] method = "full", radii = { 1 = 0.1, 3 = 0.08 }'
@@ -160,34 +144,34 @@ def read_balancing(
     table = fields.read_table(faults, "balancing", given["balancing"], _BALANCED)
     if table is None:
         return None
-    body = fields.read_keys(faults, "balancing", table, keys.BALANCING)
     hint = "Counterweights stand on the links of a crank mechanism: give it phi and n."
     fields.require_turning(faults, "balancing", drive, hint, "Give its speed: [driver] n or omega.")
     if dynamics is None or not any(one.mass for one in dynamics.masses.values()):
         hint = 'Give them: [dynamics.links.2] mass = 3, centre = "S2".'
         faults.add("balancing", "no link has a mass", hint)
-    method, share = Weighing.FULL, None
-    if "method" in body:
-        method = fields.read_member(faults, "balancing.method", body["method"], Weighing) or method
-    if "share" in body:
-        share = fields.read_number(
-            faults, "balancing.share", body["share"], "a share from 0 to 1", low=0.0, high=1.0,
-            hint="1/2 takes half of the force along the slide, and puts as much across it.",
-        )  # fmt: skip
-        if method is Weighing.FULL:
-            hint = 'Say method = "partial", or leave the share out.'
-            faults.add("balancing.share", "everything is balanced in full", hint)
+    found = read_flat(
+        faults, "balancing", table, CounterweightTask, {"radii": partial(_read_radii, links=links)}
+    )
+    if "share" in table and found.get("method", Weighing.FULL) is Weighing.FULL:
+        hint = 'Say method = "partial", or leave the share out.'
+        faults.add("balancing.share", "everything is balanced in full", hint)
+    return None if len(faults) != before else CounterweightTask(**found)
+
+
+def _read_radii(
+    faults: Faults, path: str, value: object, links: Collection[str]
+) -> dict[str, float]:
+    """Read distances by link, m."""
     radii: dict[str, float] = {}
-    path = "balancing.radii"
-    for link, value in (
-        fields.read_table(faults, path, body.get("radii", {}), _BALANCED) or {}
-    ).items():
+    for link, distance in (fields.read_table(faults, path, value, _BALANCED) or {}).items():
         where = f"{path}.{segment(link)}"
         if link not in links:
             hint = near_hint(link, links, say("There are {}.", listed(list(links))))
             faults.add(where, say("there is no link '{}'", link), hint)
             continue
-        found = fields.read_number(faults, where, value, "a distance in metres", low=1e-6, high=1e4)
+        found = fields.read_number(
+            faults, where, distance, "a distance in metres", low=1e-6, high=1e4
+        )
         if found is not None:
             radii[link] = found
-    return None if len(faults) != before else CounterweightTask(method, share, radii)
+    return radii

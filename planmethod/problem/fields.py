@@ -10,11 +10,11 @@ from typing import Any, TypeAlias, TypeGuard, TypeVar
 
 from planmethod.errors import Fault
 from planmethod.languages import say
-from planmethod.problem import keys
 from planmethod.problem.formula import FormulaError, work_out
 from planmethod.problem.mistyped import INSTEAD, value_hint
 from planmethod.problem.model import Drive
 from planmethod.problem.names import (
+    UNITS,
     describe_lookalikes,
     fold,
     is_point_name,
@@ -41,7 +41,7 @@ class Faults:
     Attributes
     ----------
     unit : str
-        Unit of the lengths of the file, a key of `keys.UNITS`.
+        Unit of the lengths of the file, a key of `UNITS`.
     stated : dict of str to str
         Arithmetic that stands for a number, as written, by path.
     """
@@ -222,7 +222,7 @@ def read_coordinate(
 def _read_metres(
     faults: Faults, path: str, value: object, kind: str, *, low: float, positive: bool = False
 ) -> float | None:
-    per, what = keys.UNITS[faults.unit], _SAID[faults.unit][kind]
+    per, what = UNITS[faults.unit], _SAID[faults.unit][kind]
     number = read_number(
         faults, path, value, what, low=low * per, high=1e6 * per, positive=positive
     )

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Collection, Iterable, Mapping
 
 from msgspec import Struct
@@ -9,7 +10,6 @@ from msgspec.structs import replace
 
 from planmethod.languages import say
 from planmethod.mechanism.model import FRAME
-from planmethod.pattern import pattern
 from planmethod.problem import fields, keys
 from planmethod.problem.fields import Faults, Table
 from planmethod.problem.links import LinkText
@@ -19,10 +19,10 @@ from planmethod.problem.names import listed, near_hint
 from planmethod.problem.sizes import TURN, read_phase, read_size
 
 NAME_LIMIT = 40
-_NAME_RE = pattern(r"(?:[^_^{}\\]|[_^](?:[^_^{}\\]|\{[^_^{}\\]+\}))+\Z")
+_NAME_RE = r"(?:[^_^{}\\]|[_^](?:[^_^{}\\]|\{[^_^{}\\]+\}))+\Z"
 
 
-class Scene(Struct, frozen=True):
+class LoadScope(Struct, frozen=True):
     """What masses and loads may name.
 
     Attributes
@@ -77,7 +77,7 @@ class Scene(Struct, frozen=True):
         return None
 
 
-def read_loads(faults: Faults, value: object, scene: Scene) -> tuple[Load | Couple, ...]:
+def read_loads(faults: Faults, value: object, scene: LoadScope) -> tuple[Load | Couple, ...]:
     """Read ``[[loads]]``, in file order."""
     if not isinstance(value, list) or not all(isinstance(item, Mapping) for item in value):
         faults.expected("loads", "tables [[loads]]", value)
@@ -102,7 +102,7 @@ def _read_names(faults: Faults, bodies: Iterable[Table]) -> list[str | None]:
         path, name = f"loads[{index}].name", None
         if "name" in body:
             name = fields.read_text(faults, path, body["name"], limit=NAME_LIMIT)
-        if name is not None and not _NAME_RE.match(name):
+        if name is not None and not re.match(_NAME_RE, name):
             faults.expected(
                 path, "a letter with its indices", name, "For example: F_{5}, P, M_{1}^{c}."
             )
@@ -132,10 +132,10 @@ def _read_load(
     body: Table,
     name: str | None,
     taken: Collection[str],
-    scene: Scene,
+    scene: LoadScope,
 ) -> Load | Couple | None:
     before = len(faults)
-    given = fields.read_keys(faults, path, body, keys.LOAD)
+    given = fields.read_keys(faults, path, body, keys.known("load"))
     # a misspelt key is reported once: the key it should have been is not called missing as well
     whole = len(faults) == before
     link = None
@@ -165,7 +165,7 @@ def _read_force(
     path: str,
     given: Table,
     link: LinkText | None,
-    scene: Scene,
+    scene: LoadScope,
     *,
     whole: bool,
 ) -> Load | None:
@@ -205,7 +205,7 @@ def _read_force(
 
 
 def _read_couple(
-    faults: Faults, path: str, given: Table, link: LinkText | None, scene: Scene
+    faults: Faults, path: str, given: Table, link: LinkText | None, scene: LoadScope
 ) -> Couple | None:
     for key, why in (
         ("at", "A couple acts on the whole link."),

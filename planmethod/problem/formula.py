@@ -23,7 +23,6 @@ from types import MappingProxyType
 from msgspec import Struct
 
 from planmethod.languages import say
-from planmethod.pattern import pattern
 from planmethod.problem.names import listed, near_hint, short
 
 LENGTH_LIMIT = 500
@@ -48,7 +47,7 @@ FUNCTIONS: Mapping[str, str] = MappingProxyType(
 CONSTANTS: Mapping[str, float] = MappingProxyType({"pi": math.pi, "e": math.e})
 TIME = "t"
 
-_TOKEN = pattern(
+_TOKEN = (
     r"(?P<number>(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?)"
     r"|(?P<name>[A-Za-z_][A-Za-z_0-9]*)|(?P<sign>\*\*|[-+*/^()])"
 )
@@ -68,7 +67,7 @@ _INSTEAD: Mapping[str, str] = MappingProxyType(
 )
 
 
-class Kind(Enum):
+class FormulaKind(Enum):
     """What one operation of a formula does (вид действия)."""
 
     NUMBER = "number"
@@ -89,7 +88,7 @@ class Operation(Struct, frozen=True):
     ``is_exact`` tells of a number whether float64 has it as it is written: 0.5, not 0.1.
     """
 
-    kind: Kind
+    kind: FormulaKind
     name: str = ""
     value: float = 0.0
     is_exact: bool = True
@@ -110,9 +109,9 @@ def is_exact(text: str) -> bool:
     return Decimal(text) == Decimal(float(text))
 
 
-_PRINTED = pattern(_TOKEN.pattern.removesuffix(")") + "|[√²³π])")
+_PRINTED = _TOKEN.removesuffix(")") + "|[√²³π])"
 _AS_TYPED = str.maketrans("−–—·×∙÷:", "---***//")
-_COMMA = pattern(r"(?<=\d),(?=\d)")
+_COMMA = r"(?<=\d),(?=\d)"
 
 
 def work_out(text: str) -> float:
@@ -126,7 +125,7 @@ def work_out(text: str) -> float:
     if len(text) > LENGTH_LIMIT:
         raise FormulaError(say("it has {} characters, the limit is {}", len(text), LENGTH_LIMIT))
     stack: list[float] = []
-    for operation in Parser(_COMMA.sub(".", text.translate(_AS_TYPED)), printed=True).parse():
+    for operation in Parser(re.sub(_COMMA, ".", text.translate(_AS_TYPED)), printed=True).parse():
         try:
             stack.append(_carried_out(operation, stack))
         except ZeroDivisionError:
@@ -141,21 +140,21 @@ def work_out(text: str) -> float:
 def _carried_out(operation: Operation, stack: list[float]) -> float:
     """Return the result of an operation; its operands are taken off the stack."""
     match operation.kind:
-        case Kind.NUMBER | Kind.CONSTANT:
+        case FormulaKind.NUMBER | FormulaKind.CONSTANT:
             return operation.value
-        case Kind.MINUS:
+        case FormulaKind.MINUS:
             return -stack.pop()
-        case Kind.CALL:
+        case FormulaKind.CALL:
             return math.sqrt(stack.pop())
     second, first = stack.pop(), stack.pop()
     match operation.kind:
-        case Kind.ADD:
+        case FormulaKind.ADD:
             return first + second
-        case Kind.SUBTRACT:
+        case FormulaKind.SUBTRACT:
             return first - second
-        case Kind.MULTIPLY:
+        case FormulaKind.MULTIPLY:
             return first * second
-        case Kind.DIVIDE:
+        case FormulaKind.DIVIDE:
             return first / second
     return math.pow(first, second)
 
@@ -205,7 +204,7 @@ class Parser:
         while (sign := self._text) in signs:
             self.at += 1
             part()
-            self.made.append(Operation(Kind(sign)))
+            self.made.append(Operation(FormulaKind(sign)))
 
     def _signed(self) -> None:
         negative = False
@@ -214,18 +213,21 @@ class Parser:
             self.at += 1
         self._power()
         if negative:
-            self.made.append(Operation(Kind.MINUS))
+            self.made.append(Operation(FormulaKind.MINUS))
 
     def _power(self) -> None:
         self._atom()
         while (raised := "²³".find(self._text)) >= 0 and self._text:
             self.at += 1
-            self.made += [Operation(Kind.NUMBER, value=raised + 2.0), Operation(Kind.POWER)]
+            self.made += [
+                Operation(FormulaKind.NUMBER, value=raised + 2.0),
+                Operation(FormulaKind.POWER),
+            ]
         if self._text in ("^", "**"):
             self._deeper()
             self._signed()
             self.depth -= 1
-            self.made.append(Operation(Kind.POWER))
+            self.made.append(Operation(FormulaKind.POWER))
 
     def _atom(self) -> None:
         kind, text, where = self.tokens[self.at]
@@ -236,7 +238,7 @@ class Parser:
                     say("character {}: the number {} is too large", where, short(text, 12))
                 )
             self.at += 1
-            self.made.append(Operation(Kind.NUMBER, value=number, is_exact=is_exact(text)))
+            self.made.append(Operation(FormulaKind.NUMBER, value=number, is_exact=is_exact(text)))
         elif kind == "name":
             self._name(text, where)
         elif text == "(":
@@ -245,10 +247,10 @@ class Parser:
             self._deeper()
             self._atom()
             self.depth -= 1
-            self.made.append(Operation(Kind.CALL, "sqrt"))
+            self.made.append(Operation(FormulaKind.CALL, "sqrt"))
         elif text == "π":
             self.at += 1
-            self.made.append(Operation(Kind.CONSTANT, "pi", math.pi))
+            self.made.append(Operation(FormulaKind.CONSTANT, "pi", math.pi))
         elif kind == "end":
             raise FormulaError("the formula ends where a number or a name is expected")
         else:
@@ -261,15 +263,15 @@ class Parser:
             hint = near_hint(text, self.names, say("Known: {}.", listed(self.names, limit=30)))
             raise FormulaError(say("character {}: unknown name '{}'", where, short(text)), hint)
         if text == TIME:
-            self.made.append(Operation(Kind.TIME))
+            self.made.append(Operation(FormulaKind.TIME))
         elif text in CONSTANTS:
-            self.made.append(Operation(Kind.CONSTANT, text, CONSTANTS[text]))
+            self.made.append(Operation(FormulaKind.CONSTANT, text, CONSTANTS[text]))
         else:
             if self._text != "(":
                 hint = f"Write {text}({TIME if TIME in self.names else 2})."
                 raise FormulaError(say("character {}: expected '(' after {}", where, text), hint)
             self._bracket()
-            self.made.append(Operation(Kind.CALL, FUNCTIONS[text]))
+            self.made.append(Operation(FormulaKind.CALL, FUNCTIONS[text]))
 
     def _bracket(self) -> None:
         where = self.tokens[self.at][2]
@@ -293,8 +295,9 @@ class Parser:
         return self.tokens[self.at][1]
 
 
-def _tokens(text: str, pattern: re.Pattern[str]) -> list[tuple[str, str, int]]:
+def _tokens(text: str, token: str) -> list[tuple[str, str, int]]:
     """Return kind, text and place (from 1) of every token, and an end."""
+    pattern = re.compile(token)
     found: list[tuple[str, str, int]] = []
     at = 0
     while at < len(text):

@@ -1,24 +1,96 @@
-"""What problem files of every kind state: names, title block, printed values, questions."""
+"""What problem files of every kind state, and the flat tables of gears: plain records."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 from enum import Enum
+from types import MappingProxyType
+from typing import Annotated
 
 from msgspec import Struct, field
 from msgspec.structs import asdict, replace
+
+from planmethod.problem.declared import (
+    ChoiceKey,
+    FlagKey,
+    NumberKey,
+    OwnKey,
+    TextKey,
+    WholeKey,
+    WordKey,
+)
+
+STAMP_LIMIT = 200
+
+TITLE_BLOCK: Mapping[str, str] = MappingProxyType(
+    {
+        "organisation": "организация",
+        "department": "кафедра",
+        "group": "группа",
+        "author": "surname in the row Разраб.",
+        "checker": "surname in the row Пров.",
+        "t_control": "surname in the row Т.контр.",
+        "norm_control": "surname in the row Н.контр.",
+        "approver": "surname in the row Утв.",
+        "extra": "surname in the free row",
+        "extra_role": "what the free row is for: Конс.",
+        "designation": "обозначение",
+        "title": "наименование",
+        "material": "материал; in coursework the subject",
+        "subject": "another name of `material`",
+        "letter": "Лит.",
+        "mass": "Масса",
+        "scale": "Масштаб",
+        "sheet": "Лист",
+        "sheets": "Листов",
+        "date": "another name of `author_date`",
+        "author_date": "Дата beside the author",
+        "checker_date": "Дата beside the checker",
+        "t_control_date": "Дата in the row Т.контр.",
+        "norm_control_date": "Дата in the row Н.контр.",
+        "approver_date": "Дата in the row Утв.",
+        "extra_date": "Дата in the free row",
+        "inventory": "side column Инв. № подл.",
+        "inventory_instead": "side column Взам. инв. №",
+        "inventory_copy": "side column Инв. № дубл.",
+        "reference": "side column Справ. №",
+        "first_use": "side column Перв. примен.",
+    }
+)
+"""Fields of ``[stamp]``, all of them optional texts; more of them: docs/title-block.md."""
+
+TITLE_FORMS = ("1", "1+2a", "2", "2a")
+"""Forms of the title block: of every sheet, or of the first and of the later ones."""
+
+LETTERINGS = ("A", "A-upright", "B", "B-upright")
+"""Types of the lettering of GOST 2.304, slanted where nothing else is said."""
 
 
 class Published(Struct, frozen=True):
     """One value that the source prints (напечатанное значение)."""
 
     name: str
-    value: float
-    unit: str = ""
-    per_mm: float | None = None
-    what: str = ""
-    note: str = ""
-    position: int | None = None
+    value: Annotated[float, NumberKey("the printed number", low=-1e12, high=1e12, required=True)]
+    unit: Annotated[str, TextKey("its unit, as text", 1000)] = ""
+    per_mm: Annotated[
+        float | None,
+        NumberKey(
+            "scale of its plan, unit per millimetre: the difference is then shown in millimetres "
+            "of the plan",
+            "a scale, unit per millimetre,", low=1e-12, high=1e12, positive=True,
+        ),
+    ] = None  # fmt: skip
+    what: Annotated[
+        str,
+        TextKey(
+            "which quantity it is, see below; without it the value is listed and not compared", 1000
+        ),
+    ] = ""
+    note: Annotated[str, TextKey("a remark, for instance why the source is wrong", 1000)] = ""
+    position: Annotated[
+        int | None,
+        OwnKey("which position of the driver, counted from 0; absent when there is one"),
+    ] = None
 
 
 class AnswerForm(Enum):
@@ -38,72 +110,111 @@ class AskedSense(Enum):
 
 
 class AskedAnswer(Struct, frozen=True):
-    """What students are asked for (вопрос).
+    """What students are asked for (вопрос); ``what`` is in the words of ``[published]``."""
 
-    Attributes
-    ----------
-    id : str
-        How it is called in every output; each has its own.
-    what : str
-        The quantity in the words of ``[published]``, also where the file has a name of ``--ask``.
-    letters : tuple of str
-        How the department writes it: ``VB₃``, ``v_B3``.
-    unit : str
-        As the file has it; empty for SI.
-    points : float
-    form : AnswerForm
-    sense : AskedSense or None
-        None where the sense is not asked.
-    position : int or None
-        Position of the driver, from 0; None where the file says none.
-    digits : int or None
-        Significant digits asked for.
-    segment : str
-        Letters of its segment: ``p-b3``; empty for that of the quantity.
-    tolerance : float or None
-        The department's own, as a share of the value: 0.05.
-    """
-
-    id: str
-    what: str
-    letters: tuple[str, ...] = ()
-    unit: str = ""
-    points: float = 1.0
-    form: AnswerForm = AnswerForm.BOTH
-    sense: AskedSense | None = None
-    position: int | None = None
-    digits: int | None = None
-    segment: str = ""
-    tolerance: float | None = None
+    id: Annotated[
+        str,
+        OwnKey(
+            "what outputs call the answer, each its own: a letter first, then letters, digits and "
+            "`_ . / @ ' -`, at most 40. When absent, `what` with `_` for spaces: `v_B3`, `an_E_D`; "
+            "with a `position` also that: `v_B3@4`"
+        ),
+    ]
+    what: Annotated[
+        str,
+        OwnKey(
+            "the quantity",
+            more=". The words of `[published]`, or a name as `--ask` has it: `v_B3`, "
+            "`omega_3`, `v_B3/2` for `vs B3 B`, `ak_B3/2`, `F_B_2/1` for `F 2 1`, `M_dr` for "
+            "`balance`. Words may be joined by `_` as well: `an_E_D`",
+            required=True,
+            missing='Say which quantity: what = "v B".',
+        ),
+    ]
+    letters: Annotated[
+        tuple[str, ...],
+        OwnKey(
+            "how the department writes it, a string or up to 10: keys and forms print the first, "
+            "columns of a group's table are known by any. In one position no two answers share "
+            "one"
+        ),
+    ] = ()
+    unit: Annotated[
+        str,
+        TextKey(
+            'unit in which it is asked, `"мм/с"`, `"об/мин"`: a number without a unit is in it, '
+            "keys, pages and the list of a form show it",
+            20,
+            absent="SI",
+        ),
+    ] = ""
+    points: Annotated[
+        float,
+        NumberKey(
+            "points of a right answer", "a number of points", low=0.0, high=1000.0,
+            hint="Points are those of a right answer.",
+        ),
+    ] = 1.0  # fmt: skip
+    form: Annotated[
+        AnswerForm,
+        WordKey(
+            '`"value"`; `"mm"`, the length on the student\'s own plan; `"both"`, either is taken'
+        ),
+    ] = AnswerForm.BOTH
+    sense: Annotated[
+        AskedSense | None,
+        OwnKey(
+            '`true`: the sense is asked, of ω, ε and moments as a turn (`"turn"`), of vectors as '
+            'left, right, up, down (`"direction"`); `"angle"`: the direction of a vector in '
+            "degrees from +x is an answer of its own, `angle_v_B3`, with the points of a sense; "
+            "`false` when absent"
+        ),
+    ] = None
+    position: Annotated[
+        int | None,
+        OwnKey("which position of the driver, counted from 0; absent when there is one"),
+    ] = None
+    digits: Annotated[int | None, WholeKey("significant digits asked for", 1, 8)] = None
+    segment: Annotated[
+        str,
+        OwnKey(
+            'letters of its segment on the plan, `"p b3"`, where it is another than that of the '
+            "quantity"
+        ),
+    ] = ""
+    tolerance: Annotated[
+        float | None,
+        NumberKey(
+            "the department's own for this answer",
+            "a tolerance", "percent", 0.1, 100.0,
+            hint="5 is 5 % of the value.", more=", of the value",
+        ),
+    ] = None  # fmt: skip
 
 
 class SheetSettings(Struct, frozen=True):
-    """How the sheets are to be made up (оформление листов): ``[sheet]``; None: not said.
+    """How the sheets are to be made up (оформление листов): ``[sheet]``; None: not given."""
 
-    Attributes
-    ----------
-    paper : str, optional
-        Format, as `planmethod.paper.paper_format` reads it.
-    form : str, optional
-        Form of the title block: ``1``, ``1+2a``, ``2`` or ``2a``.
-    graph_26, graphs_27_30, side_columns : bool, optional
-        Which of the additional graphs there are.
-    lettering : str, optional
-        Type of the lettering: ``A``, ``A-upright``, ``B`` or ``B-upright``.
-    lang : str, optional
-        Language of the sheets: ``ru`` or ``en``.
-    traces : bool, optional
-        Whether the traces of the construction are drawn.
-    """
-
-    paper: str | None = None
-    form: str | None = None
-    graph_26: bool | None = None
-    graphs_27_30: bool | None = None
-    side_columns: bool | None = None
-    lettering: str | None = None
-    lang: str | None = None
-    traces: bool | None = None
+    paper: Annotated[str | None, OwnKey('format: `"A3"`, `"A4x3"`, `"A3:portrait"`')] = None
+    form: Annotated[
+        str | None,
+        ChoiceKey('form of the title block: `"1"`, `"1+2a"`, `"2"` or `"2a"`', TITLE_FORMS),
+    ] = None
+    graph_26: Annotated[bool | None, FlagKey("the designation turned round, graph 26")] = None
+    graphs_27_30: Annotated[bool | None, FlagKey("graphs 27 to 30")] = None
+    side_columns: Annotated[bool | None, FlagKey("the side columns, graphs 19 to 25")] = None
+    lettering: Annotated[
+        str | None,
+        ChoiceKey('lettering: `"A"`, `"A-upright"`, `"B"` or `"B-upright"`', LETTERINGS),
+    ] = None
+    lang: Annotated[str | None, OwnKey('language of the sheets: `"ru"` or `"en"`')] = None
+    traces: Annotated[
+        bool | None,
+        FlagKey(
+            "traces of the construction (следы построения)",
+            absent="of one position, where the sheet has room,",
+        ),
+    ] = None
 
     def over(self, lower: SheetSettings) -> SheetSettings:
         """Return these settings, and those of ``lower`` where these say nothing."""
@@ -137,3 +248,124 @@ class KindProblem(Struct, frozen=True, kw_only=True):
     answers: tuple[AskedAnswer, ...] = ()
     variants: tuple[str, ...] = ()
     variant: str | None = None
+
+
+MESHING_EXAMPLE = '[meshing] z = [12, 30], m = 5, x = "blocking"'
+MESHING_HINT = "Lengths of [meshing] are millimetres, as the standard has them."
+
+
+class MeshingTable(Struct, frozen=True, kw_only=True):
+    """``[meshing]``: two wheels with involute teeth (эвольвентное зацепление)."""
+
+    z: Annotated[
+        tuple[int, int],
+        OwnKey("teeth of the driving wheel 1 and of wheel 2, 5 to 1000", required=True),
+    ]
+    m: Annotated[
+        float,
+        NumberKey("module", "a module", "mm", 0.05, 100.0, hint=MESHING_HINT, required=True),
+    ]
+    internal: Annotated[
+        bool,
+        FlagKey(
+            "wheel 2 has internal teeth (внутреннее зацепление), and more of them than wheel 1"
+        ),
+    ] = False
+    cutter: Annotated[
+        int | None,
+        WholeKey(
+            "teeth of the pinion cutter (долбяк) of an internal wheel 2, fewer than the wheel's",
+            8,
+            200,
+            absent="20",
+        ),
+    ] = None
+    alpha: Annotated[
+        float,
+        NumberKey(
+            "profile angle of the rack", "an angle", "degrees", 10.0, 30.0, hint=MESHING_HINT
+        ),
+    ] = 20.0
+    ha: Annotated[
+        float,
+        NumberKey(
+            "addendum factor h_a* of the rack",
+            "a factor of the module", low=0.5, high=1.3, hint=MESHING_HINT,
+        ),
+    ] = 1.0  # fmt: skip
+    c: Annotated[
+        float,
+        NumberKey(
+            "clearance factor c* of the rack",
+            "a factor of the module", low=0.05, high=0.5, hint=MESHING_HINT,
+        ),
+    ] = 0.25  # fmt: skip
+    x: Annotated[
+        tuple[float, float] | None,
+        OwnKey(
+            'shifts of the rack in modules, `[0.5, 0.3]`; or `"blocking"`: chosen by the blocking '
+            "limits"
+        ),
+    ] = None
+    x1: Annotated[
+        float | None,
+        NumberKey(
+            "shift of wheel 1 alone, beside `a_w`",
+            "a shift", "modules", -2.0, 3.0, hint=MESHING_HINT, more="; the other one follows",
+        ),
+    ] = None  # fmt: skip
+    x2: Annotated[
+        float | None,
+        NumberKey(
+            "shift of wheel 2 alone, beside `a_w`",
+            "a shift", "modules", -2.0, 3.0, hint=MESHING_HINT, more="; the other one follows",
+        ),
+    ] = None  # fmt: skip
+    a_w: Annotated[
+        float | None,
+        NumberKey(
+            "distance of the axes", "a distance", "mm", 0.1, 1e5, hint=MESHING_HINT,
+            more="; the sum of the shifts follows, and the limits choose how it is shared",
+        ),
+    ] = None  # fmt: skip
+    s_a_min: Annotated[
+        float,
+        NumberKey(
+            "least tooth thickness at the tip",
+            "a thickness", "modules", 0.0, 1.0, hint=MESHING_HINT,
+        ),
+    ] = 0.25  # fmt: skip
+    epsilon_min: Annotated[
+        float,
+        NumberKey("least contact ratio", "a contact ratio", low=1.0, high=2.0, hint=MESHING_HINT),
+    ] = 1.2
+
+
+class PictureTable(Struct, frozen=True):
+    """``[gears.picture]``: scales of the pictures of velocities (масштабы картин скоростей)."""
+
+    mu_l: Annotated[float, NumberKey("scale of the scheme", "a scale", "m/mm", 1e-9, 1e6)] = 0.001
+    longest_mm: Annotated[
+        float,
+        NumberKey(
+            "longest segment of the picture of linear velocities", "a length", "mm", 1.0, 1e4
+        ),
+    ] = 60.0
+    pole_mm: Annotated[
+        float, NumberKey("distance of the pole of the rays", "a length", "mm", 1.0, 1e4)
+    ] = 40.0
+
+
+class GearWheelTable(Struct, frozen=True):
+    """A wheel of ``[gears]`` that is a table (колесо)."""
+
+    z: Annotated[int | None, WholeKey("number of teeth (of a worm: starts)", 1, 10_000)] = None
+    r: Annotated[
+        float | None,
+        OwnKey("pitch radius, m, in place of teeth; beside wheels with teeth it needs `module`"),
+    ] = None
+    x: Annotated[float, NumberKey("shift, in modules", "a shift", low=-5.0, high=5.0)] = 0.0
+    axis: Annotated[
+        tuple[float, float, float] | None,
+        OwnKey("of a bevel wheel: `[x, y, z]` from the apex towards the wheel; z is the main axis"),
+    ] = None

@@ -11,12 +11,12 @@ from planmethod.problem.fields import Faults
 from planmethod.problem.links import LinkText
 from planmethod.problem.model import Slide
 from planmethod.problem.names import listed
-from planmethod.problem.slides import Frame
+from planmethod.problem.slides import FrameText
 
 
 def join(
     faults: Faults,
-    frame: Frame,
+    frame: FrameText,
     links: Mapping[str, LinkText],
     hosts: Mapping[str, str],
     driver: str,

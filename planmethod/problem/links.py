@@ -330,8 +330,8 @@ def _report_odd_key(faults: Faults, path: str, key: str, value: object, link: Li
 
 def _report_unknown_key(faults: Faults, path: str, key: str, link: LinkText, hint: str) -> None:
     """Note a key that no link has; ``hint`` is for one that is near to none."""
-    guess = near(key, (*keys.LINK, *_pair_names(link.points), *keys.MASS))
-    if guess in keys.MASS:
+    guess = near(key, (*keys.LINK, *_pair_names(link.points), *keys.known("mass")))
+    if guess in keys.known("mass"):
         hint = say("It stands in [dynamics.links.{}]: {} = ...", segment(link.name), guess)
     elif guess:
         hint = say("Did you mean '{}'?", guess)

@@ -4,29 +4,42 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from enum import Enum
+from typing import Annotated
 
-from msgspec import Struct
+from msgspec import Struct, field
+
+from planmethod.problem.declared import (
+    AngleKey,
+    FlagKey,
+    NumberKey,
+    OwnKey,
+    TextKey,
+    WholeKey,
+    WordKey,
+)
 
 GRAVITY = 9.81
 """Acceleration of free fall where the file gives no other, m/s²."""
 
 
 class Mass(Struct, frozen=True):
-    """Inertia of a link (масса и момент инерции звена).
+    """Inertia of a link (масса и момент инерции звена); it has a centre where it has a mass."""
 
-    Attributes
-    ----------
-    mass : float, kg
-        Zero for a link of which only the moment of inertia counts.
-    centre : str or None
-        Point of the link at its centre of mass (центр масс); None only where ``mass`` is zero.
-    inertia : float, kg·m²
-        Moment of inertia about the centre of mass (момент инерции).
-    """
-
-    mass: float
-    centre: str | None
-    inertia: float = 0.0
+    mass: Annotated[float, NumberKey("mass (масса)", "a mass", "kg", 0.0, 1e12)] = 0.0
+    centre: Annotated[
+        str | None,
+        OwnKey(
+            "centre of mass (центр масс): a point of the link by name. Required with a mass, "
+            "unless the link has one point only"
+        ),
+    ] = None
+    inertia: Annotated[
+        float,
+        NumberKey(
+            "moment of inertia (момент инерции) about the centre of mass",
+            "a moment of inertia", "kg·m²", 0.0, 1e12,
+        ),
+    ] = 0.0  # fmt: skip
 
 
 class Over(Enum):
@@ -41,7 +54,7 @@ class Over(Enum):
     STROKES = "strokes"  # strokes done since the cycle began: an indicator diagram
 
 
-class Law(Enum):
+class LoadLaw(Enum):
     """Kind of a table by one word (закон нагрузки), which says what it is over and how read."""
 
     TABLE = "table"  # over phi, straight between the rows
@@ -57,7 +70,7 @@ class Interpolation(Enum):
     STEP = "step"  # a row holds until the next one
 
 
-class Table(Struct, frozen=True):
+class SizeTable(Struct, frozen=True):
     """Size of a load as a table (табличная сила или пара сил).
 
     Attributes
@@ -90,7 +103,7 @@ class Against(Struct, frozen=True):
     """Sense of a resistance (сила сопротивления): against the motion; none where that stops."""
 
 
-class Moving(Enum):
+class MovingSense(Enum):
     """Sense of the velocity of a point (направление хода)."""
 
     UP = "up"
@@ -99,7 +112,7 @@ class Moving(Enum):
     RIGHT = "right"
 
 
-class Turning(Enum):
+class TurningSense(Enum):
     """Sense of the rotation of a link (направление вращения)."""
 
     CCW = "ccw"
@@ -107,22 +120,64 @@ class Turning(Enum):
 
 
 class Phase(Struct, frozen=True):
-    """When a load acts (фаза действия нагрузки): where all that is given holds.
+    """When a load acts (фаза действия нагрузки): where all that is given holds."""
 
-    Attributes
-    ----------
-    phi : tuple of (float, float), degrees
-        Each from the first angle of the driving crank counter-clockwise to the second, both ends
-        included; the load acts in any of them. Empty when it does not depend on phi.
-    moving : Moving or None
-        Sense in which the point of application moves.
-    turning : Turning or None
-        Sense in which the link turns.
-    """
+    phi: Annotated[
+        tuple[tuple[float, float], ...],
+        OwnKey(
+            "`[from, to]`, degrees, of the driving crank, or a list of such pairs. It runs "
+            "counter-clockwise whichever way the crank turns, through 360 where needed; both ends "
+            "included"
+        ),
+    ] = ()
+    moving: Annotated[
+        MovingSense | None,
+        WordKey(
+            'the sense in which the point of application moves: `"up"`, `"down"`, `"left"` or '
+            '`"right"`; never where it stands'
+        ),
+    ] = None
+    turning: Annotated[
+        TurningSense | None, WordKey('the sense in which the link turns: `"ccw"` or `"cw"`')
+    ] = None
 
-    phi: tuple[tuple[float, float], ...] = ()
-    moving: Moving | None = None
-    turning: Turning | None = None
+
+class LoadEntry(Struct, frozen=True):
+    """A table of ``[[loads]]`` as it is written; what it says is a `Load` or a `Couple`."""
+
+    name: Annotated[
+        str,
+        TextKey(
+            "letter for the sheets, with indices in braces: `F_{5}`, `M_{1}^{c}`, `P`",
+            40,
+            more=", each load its own. When absent: `F_{5}`, `F_{5}'`, ... for forces on link 5, "
+            "`M_{5}`, ... for couples",
+        ),
+    ] = ""
+    link: Annotated[str, OwnKey("name of the link", required=True)] = ""
+    at: Annotated[
+        str,
+        OwnKey(
+            "point of application (точка приложения): a point of that link by name; required with "
+            "a force, not for a couple"
+        ),
+    ] = ""
+    force: Annotated[float | SizeTable, OwnKey("force, N: a number or a table")] = 0.0
+    couple: Annotated[
+        float | SizeTable,
+        OwnKey("couple (момент), N·m: a number or a table; counter-clockwise positive"),
+    ] = 0.0
+    angle: Annotated[float | None, AngleKey("direction of the force from +x, degrees")] = None
+    against: Annotated[
+        str,
+        OwnKey(
+            '`"velocity"`: the force is opposite to the velocity of its point; `"rotation"`: the '
+            "couple is opposite to the rotation of its link"
+        ),
+    ] = ""
+    phases: Annotated[
+        Phase, OwnKey("when it acts (фазы действия), see below; always when absent")
+    ] = Phase()
 
 
 class Load(Struct, frozen=True):
@@ -134,7 +189,7 @@ class Load(Struct, frozen=True):
         Letter in rich text, ``F_{5}``.
     link, at : str
         The link and its point where the force acts (точка приложения).
-    size : float or Table, N
+    size : float or SizeTable, N
         A negative size acts the other way.
     sense : Fixed or Against
         Against the velocity of the point.
@@ -145,7 +200,7 @@ class Load(Struct, frozen=True):
     name: str
     link: str
     at: str
-    size: float | Table
+    size: float | SizeTable
     sense: Fixed | Against
     phase: Phase | None = None
 
@@ -158,7 +213,7 @@ class Couple(Struct, frozen=True):
     name : str
         Letter in rich text, ``M_{1}``.
     link : str
-    size : float or Table, N·m
+    size : float or SizeTable, N·m
         Counter-clockwise positive when ``sense`` is None.
     sense : Against or None
         Against the rotation of the link.
@@ -168,7 +223,7 @@ class Couple(Struct, frozen=True):
 
     name: str
     link: str
-    size: float | Table
+    size: float | SizeTable
     sense: Against | None = None
     phase: Phase | None = None
 
@@ -179,82 +234,148 @@ class Dynamics(Struct, frozen=True):
     Attributes
     ----------
     gravity : float, m/s²
-        Acceleration of free fall (ускорение свободного падения), along -y; zero: no weights.
+        Zero: no weights.
     masses : mapping of str to Mass
-        By link; a link that is not here has no mass (невесомое звено).
+        By link.
     loads : tuple of Load and Couple
         In file order, with different names.
     resultant : bool
-        The inertia of a link is shown as one force on a shifted line (равнодействующая сил
-        инерции) where it can be, not as a force at the centre of mass and a couple.
+        (равнодействующая сил инерции)
     """
 
-    gravity: float
-    masses: Mapping[str, Mass]
+    gravity: Annotated[
+        float,
+        OwnKey(
+            "acceleration of free fall (ускорение свободного падения), m/s², along -y; `0` or "
+            "`false` for no weights; 9.81 when absent"
+        ),
+    ]
+    masses: Annotated[
+        Mapping[str, Mass],
+        OwnKey(
+            "a table for each link that has mass; a link that is not named is massless (невесомое "
+            "звено)",
+            name="links",
+        ),
+    ]
     loads: tuple[Load | Couple, ...]
-    resultant: bool = False
+    resultant: Annotated[
+        bool,
+        FlagKey(
+            "the inertia forces of a link are one force on a shifted line, without a couple, where "
+            "that can be drawn ([forces.md](forces.md))"
+        ),
+    ] = False
 
 
-class Mean(Enum):
+class MeanSpeed(Enum):
     """What the mean speed of a machine is (средняя угловая скорость)."""
 
     HALF_SUM = "half-sum"  # of the largest and the least
     TIME = "time"
 
 
-class Side(Enum):
+class ConstantMoment(Enum):
     """Which reduced moment does not change (постоянный приведённый момент)."""
 
     DRIVING = "driving"
     RESISTING = "resisting"
 
 
-class Signs(Enum):
+class WeightSigns(Enum):
     """How weights are added to the loads (знаки сил тяжести)."""
 
     TRUE = "true"
     SOURCE = "source"  # with the other sign, as a coursework may have it
 
 
-class Ordinates(Enum):
+class Quadrature(Enum):
     """By what the work under a curve is measured (способ интегрирования)."""
 
     MIDDLE = "middle"
     TRAPEZOID = "trapezoid"
 
 
-class Method(Enum):
+class FlywheelMethod(Enum):
     """How the flywheel is found of the diagrams (метод определения момента инерции маховика)."""
 
     WITTENBAUER = "wittenbauer"
     MERTSALOV = "mertsalov"
 
 
-class Shape(Enum):
-    """Shape of a flywheel (форма маховика)."""
+class WheelShape(Enum):
+    """WheelShape of a flywheel (форма маховика)."""
 
     DISC = "disc"
     RIM = "rim"
 
 
-class Wheel(Struct, frozen=True):
-    """What the flywheel is to be like (исходные данные маховика).
+class FlywheelTask(Struct, frozen=True):
+    """What the flywheel is to be like (исходные данные маховика)."""
 
-    Attributes
-    ----------
-    shape : Shape
-    density : float or None, kg/m³
-        None: steel.
-    speed : float, m/s
-        Greatest speed of the rim.
-    ratio : float
-        Turns of the flywheel's shaft to one of the crank.
-    """
+    shape: Annotated[WheelShape, WordKey('`"disc"` or `"rim"`')] = WheelShape.DISC
+    density: Annotated[
+        float | None, NumberKey("density", "a density", "kg/m³", 100.0, 3e4, absent="steel")
+    ] = None
+    speed: Annotated[float, NumberKey("greatest speed of the rim", "a speed", "m/s", 0.1, 1e3)] = (
+        30.0
+    )
+    ratio: Annotated[
+        float,
+        NumberKey(
+            "turns of the flywheel's shaft to one of the crank",
+            "a ratio of speeds", low=1e-3, high=1e3,
+        ),
+    ] = 1.0  # fmt: skip
 
-    shape: Shape = Shape.DISC
-    density: float | None = None
-    speed: float = 30.0
-    ratio: float = 1.0
+
+class KlossTable(Struct, frozen=True):
+    """Numbers of Kloss's formula as the file gives them, in one of two ways (формула Клосса)."""
+
+    M_max: Annotated[float, NumberKey("greatest moment, N·m", low=1e-9)] = 0.0
+    s_k: Annotated[float, NumberKey("slip of the greatest moment", low=1e-9)] = 0.0
+    n_sync: Annotated[float, NumberKey("synchronous speed, rev/min", low=1e-9)] = 0.0
+    P_nom: Annotated[
+        float,
+        NumberKey(
+            "nominal power as the plate says it, W: with `n_nom`, `lambda` and `n_sync` in place "
+            "of the moment and its slip",
+            low=1e-9,
+        ),
+    ] = 0.0
+    n_nom: Annotated[float, NumberKey("nominal speed, rev/min", low=1e-9)] = 0.0
+    overload: Annotated[
+        float, NumberKey("`M_max` over the nominal moment", low=1e-9, name="lambda")
+    ] = 0.0
+
+
+class LineTable(Struct, frozen=True):
+    """Numbers of a straight characteristic as the file gives them, in one of two ways."""
+
+    M_start: Annotated[float, NumberKey("moment at rest, N·m", low=1e-9)] = 0.0
+    n_idle: Annotated[float, NumberKey("speed without load, rev/min", low=1e-9)] = 0.0
+    M_nom: Annotated[
+        float,
+        NumberKey("moment of a nominal point, N·m: with `n_nom` in place of `M_start`", low=1e-9),
+    ] = 0.0
+    n_nom: Annotated[float, NumberKey("speed of the nominal point, rev/min", low=1e-9)] = 0.0
+
+
+class MotorTable(Struct, frozen=True):
+    """A motor as the file gives it: ``kloss`` or ``line`` (механическая характеристика)."""
+
+    kloss: Annotated[
+        KlossTable,
+        OwnKey("a table: Kloss's formula M = 2M_max/(s/s_k + s_k/s), s = 1 − n/n_sync"),
+    ] = KlossTable()
+    line: Annotated[LineTable, OwnKey("a table: a straight line")] = LineTable()
+    ratio: Annotated[
+        float,
+        NumberKey(
+            "turns of the motor to one of the crank", "a ratio of speeds", low=1e-3, high=1e3,
+            more=". Inertia of its rotor, times ratio², belongs to `J_crank`",
+        ),
+    ] = 1.0  # fmt: skip
 
 
 class Motor(Struct, frozen=True):
@@ -284,53 +405,108 @@ class Motor(Struct, frozen=True):
 
 
 class Machine(Struct, frozen=True):
-    """What the choice of a flywheel knows beside masses and loads (исходные данные маховика).
+    """What the choice of a flywheel knows beside masses and loads (исходные данные маховика)."""
 
-    Attributes
-    ----------
-    delta : float
-        Irregularity of the motion (коэффициент неравномерности), between 0 and 1.
-    mean : Mean
-    constant : Side
-    cycle_deg : float
-        360, or 720 of a four-stroke engine.
-    crank_inertia : float, kg·m²
-        On the crank beside the links' own.
-    count : int
-        Positions of the construction in a cycle.
-    pole_mm, turn_mm : float, mm
-        Pole distance of the graphical integration, and the length of a cycle on the sheet.
-    mu_M, mu_J : float or None, N·m/mm and kg·m²/mm
-        None where the program chooses.
-    signs : Signs
-    ordinates : Ordinates
-    method : Method
-    start_deg : float or None
-        Driver angle of position 0; None: the first position of the file.
-    wheel : Wheel
-    motor : Motor or None
-        What drives in a run-up.
-    brake : float or None, N·m
-        Moment on the crank that stops it; None: not asked.
-    """
-
-    delta: float
-    mean: Mean = Mean.HALF_SUM
-    constant: Side = Side.DRIVING
-    cycle_deg: float = 360.0
-    crank_inertia: float = 0.0
-    count: int = 12
-    pole_mm: float = 30.0
-    turn_mm: float = 240.0
-    mu_M: float | None = None  # noqa: N815 - the letters of the textbook
-    mu_J: float | None = None  # noqa: N815
-    signs: Signs = Signs.TRUE
-    ordinates: Ordinates = Ordinates.MIDDLE
-    method: Method = Method.WITTENBAUER
-    start_deg: float | None = None
-    wheel: Wheel = Wheel()
-    motor: Motor | None = None
-    brake: float | None = None
+    delta: Annotated[
+        float,
+        OwnKey(
+            "irregularity of the motion (коэффициент неравномерности δ), between 0 and 1: a number "
+            'or a fraction such as `"1/18"`',
+            required=True,
+            missing='Give the irregularity: delta = "1/18".',
+        ),
+    ]
+    mean: Annotated[
+        MeanSpeed,
+        WordKey(
+            'what the speed of the driver is: `"half-sum"` of the greatest and the least, or the '
+            'mean in `"time"`'
+        ),
+    ] = MeanSpeed.HALF_SUM
+    constant: Annotated[
+        ConstantMoment,
+        WordKey(
+            'the reduced moment that does not change: `"driving"` (presses, pumps, compressors) or '
+            '`"resisting"` (engines)'
+        ),
+    ] = ConstantMoment.DRIVING
+    cycle_deg: Annotated[
+        float,
+        OwnKey("length of a cycle, degrees: 360, or 720 of a four-stroke engine; 360 when absent"),
+    ] = 360.0
+    crank_inertia: Annotated[
+        float,
+        NumberKey(
+            "moment of inertia that turns with the crank beside that of the links in `[dynamics]`",
+            "a moment of inertia", "kg·m²", 0.0, 1e12, name="J_crank",
+        ),
+    ] = 0.0  # fmt: skip
+    count: Annotated[
+        int,
+        WholeKey(
+            "positions of the construction in a cycle", 4, 72, absent="one for every 30 degrees"
+        ),
+    ] = 12
+    pole_mm: Annotated[
+        float,
+        NumberKey("pole distance of the graphical integration", "a distance", "mm", 5.0, 500.0),
+    ] = 30.0
+    turn_mm: Annotated[
+        float, NumberKey("length of the cycle on the sheet", "a length", "mm", 60.0, 1000.0)
+    ] = 240.0
+    mu_M: Annotated[  # noqa: N815 - the letters of the textbook
+        float | None,
+        NumberKey("scale of the moment", "a scale", "N·m/mm", 1e-12, 1e12, absent="chosen"),
+    ] = None
+    mu_J: Annotated[  # noqa: N815
+        float | None,
+        NumberKey("scale of the inertia", "a scale", "kg·m²/mm", 1e-12, 1e12, absent="chosen"),
+    ] = None
+    signs: Annotated[
+        WeightSigns,
+        WordKey(
+            'how weights are added to the loads: with their `"true"` sign, or as a `"source"` may '
+            "have it, with the other one"
+        ),
+    ] = WeightSigns.TRUE
+    ordinates: Annotated[
+        Quadrature,
+        WordKey(
+            'the work is integrated by `"middle"` ordinates or by a `"trapezoid"` over each '
+            "interval"
+        ),
+    ] = Quadrature.MIDDLE
+    method: Annotated[
+        FlywheelMethod,
+        WordKey('`"wittenbauer"`: tangents of slopes 1 ± δ; `"mertsalov"`: of slope 1'),
+    ] = FlywheelMethod.WITTENBAUER
+    start_deg: Annotated[
+        float | None,
+        AngleKey(
+            "angle of the crank in position 0, degrees",
+            name="phi_0",
+            absent="the first of `[driver]`",
+            more=". Positions follow in the sense of its rotation",
+        ),
+    ] = None  # fmt: skip
+    wheel: Annotated[
+        FlywheelTask, OwnKey("a table: what the flywheel is to be like", name="flywheel")
+    ] = FlywheelTask()
+    motor: Annotated[
+        Motor | None,
+        OwnKey(
+            "a table: the motor's characteristic (механическая характеристика двигателя), for the "
+            "run-up and the motion that it keeps; the driving moment that the flywheel is chosen "
+            "with stays constant"
+        ),
+    ] = None
+    brake: Annotated[
+        float | None,
+        NumberKey(
+            "moment on the crank that stops the machine", "a moment", "N·m", 0.0, 1e12,
+            more="; 0: it coasts. `planmethod sheet FILE --layout run-up` draws run-up and stop",
+        ),
+    ] = None  # fmt: skip
 
 
 class Weighing(Enum):
@@ -341,18 +517,24 @@ class Weighing(Enum):
 
 
 class CounterweightTask(Struct, frozen=True):
-    """What ``[balancing]`` asks (статическое уравновешивание).
+    """What ``[balancing]`` asks (статическое уравновешивание)."""
 
-    Attributes
-    ----------
-    method : Weighing
-    share : float or None
-        Share of the reciprocating mass that the crank balances; None: the first harmonic that turns
-        with the crank.
-    radii : mapping of str to float, m
-        By link, where its counterweight stands; elsewhere at the length of the link.
-    """
-
-    method: Weighing
-    share: float | None
-    radii: Mapping[str, float]
+    method: Annotated[
+        Weighing, WordKey('`"full"`, or `"partial"`: by the crank\'s counterweight alone')
+    ] = Weighing.FULL
+    share: Annotated[
+        float | None,
+        NumberKey(
+            "with partial, share of the reciprocating mass that the crank balances",
+            "a share from 0 to 1", low=0.0, high=1.0,
+            hint="1/2 takes half of the force along the slide, and puts as much across it.",
+            absent="the first harmonic of the force that turns with the crank",
+        ),
+    ] = None  # fmt: skip
+    radii: Annotated[
+        Mapping[str, float],
+        OwnKey(
+            "distance of the counterweight of a link from its axis (the crank's pin on a rod), m; "
+            "the length of the link when absent"
+        ),
+    ] = field(default_factory=dict)

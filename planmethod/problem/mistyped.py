@@ -8,8 +8,7 @@ from collections.abc import Sequence
 
 from planmethod.languages import say, typed
 from planmethod.problem.formula import FormulaError, work_out
-from planmethod.problem.keys import UNITS
-from planmethod.problem.names import describe_lookalikes, fold, listed, looks_latin
+from planmethod.problem.names import UNITS, describe_lookalikes, fold, listed, looks_latin
 
 _COMMA = r"[^#\"\[{=]*=\s*([-+]?\d+),(\d+)"
 """A number with a decimal comma (десятичная запятая) after its key."""

@@ -9,12 +9,13 @@ from __future__ import annotations
 from collections.abc import Mapping
 from enum import Enum
 from math import inf
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 from msgspec import Struct, field
 
 from planmethod.languages import say
 from planmethod.mechanism.model import FRAME, Mechanism
+from planmethod.problem.declared import NumberKey, OwnKey, WholeKey, WordKey
 from planmethod.problem.head import KindProblem
 from planmethod.problem.names import told_length
 
@@ -161,7 +162,7 @@ class Coordinate(Struct, frozen=True):
         return f"{self.name} = {value:.{digits}g} {say(self.unit)}"
 
 
-class Balancing(Struct, frozen=True):
+class BalancingQuantity(Struct, frozen=True):
     """What balances the driver (уравновешивающий момент, уравновешивающая сила).
 
     Records name it by ``quantity``; ``symbol`` stands for its letters, which a language has.
@@ -174,8 +175,8 @@ class Balancing(Struct, frozen=True):
     turns: bool
 
 
-MOMENT = Balancing("moment", "balancing moment", "M", "N·m", turns=True)
-FORCE = Balancing("force", "balancing force", "F", "N", turns=False)
+MOMENT = BalancingQuantity("moment", "balancing moment", "M", "N·m", turns=True)
+FORCE = BalancingQuantity("force", "balancing force", "F", "N", turns=False)
 
 
 class Geared(Struct, frozen=True):
@@ -296,9 +297,12 @@ class Drive(Struct, frozen=True):
         return Coordinate("s", "m", "s", "s", ("v", "a"), inf)
 
     @property
-    def balancing(self) -> Balancing:
+    def balancing(self) -> BalancingQuantity:
         """What balances it."""
         return MOMENT if self.is_crank else FORCE
+
+
+DIAGRAM_HINT = "Millimetres of the diagrams."
 
 
 class Zero(Enum):
@@ -316,30 +320,61 @@ class Differentiation(Enum):
     CURVE = "curve"
 
 
+class PoleDistances(Struct, frozen=True):
+    """Pole distances of both differentiations (полюсные расстояния)."""
+
+    v: Annotated[
+        float,
+        NumberKey(
+            "of the first differentiation", "a length", "mm", 1.0, 500.0, positive=True,
+            hint=DIAGRAM_HINT,
+        ),
+    ] = 36.0  # fmt: skip
+    a: Annotated[
+        float,
+        NumberKey(
+            "of the second differentiation", "a length", "mm", 1.0, 500.0, positive=True,
+            hint=DIAGRAM_HINT,
+        ),
+    ] = 36.0  # fmt: skip
+
+
 class CycleTask(Struct, frozen=True):
-    """What is asked of the cycle of a crank (цикл движения): ``[cycle]``.
+    """What is asked of the cycle of a crank (цикл движения): ``[cycle]``."""
 
-    Attributes
-    ----------
-    output : str or None
-        A link, or a point on a guide of the frame; None: the last link joined with the frame.
-    zero : Zero or float
-        Position zero; a number is the angle of the crank, degrees.
-    count : int
-        Positions of a turn, numbered in the sense of the driver.
-    length : float, mm
-        Of the axis of phi for a turn.
-    pole_v, pole_a : float, mm
-        Pole distances of both differentiations.
-    """
-
-    output: str | None = None
-    zero: Zero | float = Zero.EXTREME
-    count: int = 12
-    length: float = 288.0
-    pole_v: float = 36.0
-    pole_a: float = 36.0
-    differentiation: Differentiation = Differentiation.CHORDS
+    output: Annotated[
+        str | None,
+        OwnKey(
+            "a point on a guide of the frame, or a link; the last driven link that is joined with "
+            "the frame when absent"
+        ),
+    ] = None
+    zero: Annotated[
+        Zero | float,
+        OwnKey(
+            'position zero: `"extreme"` (the default), `"other extreme"`, or the angle of the '
+            "crank, degrees; numbered in the sense of the driver"
+        ),
+    ] = Zero.EXTREME
+    count: Annotated[int, WholeKey("positions of a turn", 3, 360)] = 12
+    length: Annotated[
+        float,
+        NumberKey(
+            "of the axis of φ for a turn", "a length", "mm", 20.0, 2000.0, positive=True,
+            hint=DIAGRAM_HINT,
+        ),
+    ] = 288.0  # fmt: skip
+    pole: Annotated[
+        PoleDistances,
+        OwnKey("pole distances of both differentiations: `{ v = 36, a = 36 }`, mm"),
+    ] = PoleDistances()
+    differentiation: Annotated[
+        Differentiation,
+        WordKey(
+            '`"chords"` (хорды), `"tangents"` (касательные) or `"curve"` (by chords of the drawn '
+            "curve)"
+        ),
+    ] = Differentiation.CHORDS
 
 
 class Convention(Enum):
@@ -356,11 +391,30 @@ class Scales(Struct, frozen=True):
     file and the sheet use.
     """
 
-    convention: Convention = Convention.UNIT_PER_MM
-    mu_l: float | None = None
-    mu_v: float | None = None
-    mu_a: float | None = None
-    mu_F: float | None = None  # noqa: N815 - the letter of the textbook
+    convention: Annotated[
+        Convention,
+        WordKey(
+            '`"unit/mm"` (μ): metres per millimetre; or `"mm/unit"` (масштаб): millimetres per '
+            "metre. It holds for the file and for the sheet"
+        ),
+    ] = Convention.UNIT_PER_MM
+    mu_l: Annotated[
+        float | None, NumberKey("lengths", "a scale", low=1e-12, high=1e12, positive=True)
+    ] = None
+    mu_v: Annotated[
+        float | None, NumberKey("velocities", "a scale", low=1e-12, high=1e12, positive=True)
+    ] = None
+    mu_a: Annotated[
+        float | None, NumberKey("accelerations", "a scale", low=1e-12, high=1e12, positive=True)
+    ] = None
+    mu_F: Annotated[  # noqa: N815 - the letter of the textbook
+        float | None,
+        NumberKey(
+            "forces, N per mm: one for all force plans; when absent, small ones have scales of "
+            "their own",
+            "a scale", low=1e-12, high=1e12, positive=True,
+        ),
+    ] = None  # fmt: skip
 
 
 class Problem(KindProblem, frozen=True, kw_only=True):

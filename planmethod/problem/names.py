@@ -6,11 +6,14 @@ written together (``AB``, ``O3A``, ``CS3``) splits in one way only.
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+import re
+from collections.abc import Iterable, Mapping
+from types import MappingProxyType
 
 from planmethod.languages import say, typed
-from planmethod.pattern import pattern
-from planmethod.problem.keys import UNITS
+
+UNITS: Mapping[str, float] = MappingProxyType({"m": 1.0, "cm": 100.0, "mm": 1000.0})
+"""Units in which a file may give its lengths: how many of them a metre has."""
 
 POINT_NAME_LIMIT = 8
 NAME_LIMIT = 24
@@ -29,10 +32,10 @@ _PRIMES = "'′’"
 _FOLD = str.maketrans(LOOKALIKES)
 _LETTER = r"[A-Za-zΓΔΘΛΞΠΣΦΨΩα-νξπ-ω]"
 _POINT = rf"{_LETTER}[0-9]{{0,3}}'{{0,3}}"
-_POINT_RE = pattern(rf"{_POINT}\Z")
-_POINT_FIND, _POINTS_RE = pattern(_POINT), pattern(rf"(?:{_POINT})+\Z")
-_PAIR_RE = pattern(rf"({_POINT})({_POINT})\Z")
-_LABEL_RE = pattern(r"[^\W_]+(?:[- ]?[^\W_]+)*'{0,3}\Z")
+_POINT_RE = rf"{_POINT}\Z"
+_POINTS_RE = rf"(?:{_POINT})+\Z"
+_PAIR_RE = rf"({_POINT})({_POINT})\Z"
+_LABEL_RE = r"[^\W_]+(?:[- ]?[^\W_]+)*'{0,3}\Z"
 
 
 _LENGTHS = {"m": "{} m", "cm": "{} cm", "mm": "{} mm"}
@@ -79,7 +82,7 @@ def describe_lookalikes(text: str) -> str:
 
 def is_point_name(text: str) -> bool:
     """Whether a text (already folded) may name a point."""
-    return len(text) <= POINT_NAME_LIMIT and _POINT_RE.match(text) is not None
+    return len(text) <= POINT_NAME_LIMIT and re.match(_POINT_RE, text) is not None
 
 
 def split_pair(text: str) -> tuple[str, str] | None:
@@ -90,7 +93,7 @@ def split_pair(text: str) -> tuple[str, str] | None:
     >>> split_pair("CS3")
     ('C', 'S3')
     """
-    match = _PAIR_RE.match(text)
+    match = re.match(_PAIR_RE, text)
     return (match.group(1), match.group(2)) if match else None
 
 
@@ -102,12 +105,12 @@ def split_names(text: str) -> tuple[str, ...]:
     >>> split_names("AO3D")
     ('A', 'O3', 'D')
     """
-    return tuple(_POINT_FIND.findall(text)) if _POINTS_RE.match(text) else ()
+    return tuple(re.findall(_POINT, text)) if re.match(_POINTS_RE, text) else ()
 
 
 def is_label(text: str) -> bool:
     """Whether a text may name a link, a guide or a variant: letters and digits of any alphabet."""
-    return 0 < len(text) <= NAME_LIMIT and _LABEL_RE.match(text) is not None
+    return 0 < len(text) <= NAME_LIMIT and re.match(_LABEL_RE, text) is not None
 
 
 def looks_latin(text: str) -> bool:

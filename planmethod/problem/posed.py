@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Collection, Mapping
 from functools import partial
 
 from planmethod.languages import say
-from planmethod.pattern import pattern
 from planmethod.problem import fields, keys
 from planmethod.problem.fields import Faults, Table
 from planmethod.problem.formula import FormulaError, work_out
@@ -21,7 +21,7 @@ _READERS: Mapping[str, Callable[[Faults, str, object], float | None]] = {
     "stroke": partial(fields.read_number, what="a share of the stroke", low=0.0, high=1.0, hint=""),
 }
 _SIDE = "|".join(keys.EXTREMES)
-_AT = pattern(rf"(?:(other|{_SIDE}) )?extreme(?: ({_SIDE}))?(?: ?([-+−].*))?\Z")
+_AT = rf"(?:(other|{_SIDE}) )?extreme(?: ({_SIDE}))?(?: ?([-+−].*))?\Z"
 _ROOT = 'For example: x_B = 0.12, root = "going right".'
 _WAYS = '"extreme", "other extreme", "left extreme", "extreme left + 30"'
 
@@ -168,7 +168,7 @@ def _read_actuator(
 
 def _read_extreme(faults: Faults, path: str, value: object) -> tuple[str, float] | None:
     """Read ``extreme left + 30``: which extreme, and how far after it, degrees."""
-    match = _AT.match(" ".join(value.split())) if isinstance(value, str) else None
+    match = re.match(_AT, " ".join(value.split())) if isinstance(value, str) else None
     if match is None or (match[1] and match[2]):
         faults.expected(path, "an extreme position", value, say("Known: {}.", _WAYS))
         return None

@@ -13,21 +13,20 @@ from planmethod.errors import Fault, ProblemError
 from planmethod.languages import say, spoken
 from planmethod.mechanism.model import FRAME, Mechanism
 from planmethod.problem import keys
-from planmethod.problem.answers import Scene, read_answers
+from planmethod.problem.answers import AnswerScope, read_answers
 from planmethod.problem.bodies import place_points
 from planmethod.problem.cycle import read_cycle
 from planmethod.problem.drive import read_assembly, read_drive, read_scales
-from planmethod.problem.extras import check_what, read_published, read_tables
 from planmethod.problem.fields import Faults, read_keys, read_word
 from planmethod.problem.joints import coincident_points, join
 from planmethod.problem.links import LinkText, check_arcs, read_links
 from planmethod.problem.model import Body, Geared, Problem, Slide
-from planmethod.problem.names import fold, listed, near
+from planmethod.problem.names import UNITS, fold, listed, near
+from planmethod.problem.selector import check_what, read_published, read_tables
 from planmethod.problem.sheet import read_head
-from planmethod.problem.slides import Frame, find_host, order_hosts, read_frame, read_slide
+from planmethod.problem.slides import FrameText, find_host, order_hosts, read_frame, read_slide
 from planmethod.problem.source import parse, read_source
-from planmethod.problem.table import with_table
-from planmethod.problem.variants import apply_variant, read_variants
+from planmethod.problem.variants import apply_variant, read_variants, with_table
 
 Variants: TypeAlias = Mapping[str, Mapping[tuple[str, ...], Any]]
 """Overrides of every variant, by path."""
@@ -227,7 +226,7 @@ def _read_parts(
 ) -> Problem | None:
     given = read_keys(faults, "", table, keys.TOP)
     if "units" in given:
-        faults.unit = read_word(faults, "units", given["units"], keys.UNITS) or faults.unit
+        faults.unit = read_word(faults, "units", given["units"], UNITS) or faults.unit
     head = read_head(faults, given)
     scales = read_scales(faults, given.get("scales", {}))
     tables = read_tables(faults, given)
@@ -297,7 +296,7 @@ def _read_parts(
 
     count = len(drive.positions) if drive else 0
     published = read_published(faults, given.get("published", {}), checked, positions=count)
-    scene = Scene(
+    scene = AnswerScope(
         () if faults else points,
         () if faults else tuple(links),
         mechanism.revolutes if mechanism else (),
@@ -408,7 +407,7 @@ def _driver_name(given: Mapping[str, Any]) -> object:
 
 
 def _find_hosts(
-    faults: Faults, links: Mapping[str, LinkText], frame: Frame
+    faults: Faults, links: Mapping[str, LinkText], frame: FrameText
 ) -> tuple[dict[str, str], dict[str, str | None]]:
     """Host of every slider, and its guide where the host is the frame."""
     hosts: dict[str, str] = {}
@@ -425,7 +424,7 @@ def _find_hosts(
 
 
 def _place(
-    faults: Faults, links: Mapping[str, LinkText], frame: Frame, hosts: Mapping[str, str]
+    faults: Faults, links: Mapping[str, LinkText], frame: FrameText, hosts: Mapping[str, str]
 ) -> dict[str, Body]:
     bodies = {FRAME: Body(dict(frame.points), None)}
     carriers = set(hosts.values())
@@ -448,7 +447,7 @@ def _place(
 def _read_slides(
     faults: Faults,
     links: Mapping[str, LinkText],
-    frame: Frame,
+    frame: FrameText,
     hosts: Mapping[str, str],
     guides: Mapping[str, str | None],
     bodies: Mapping[str, Body],

@@ -1,15 +1,24 @@
-"""What a published value is: the short grammar of ``what`` in ``[published]``."""
+"""Published values (напечатанные значения) and the short grammar of their ``what``."""
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping
+from collections.abc import Callable, Collection, Mapping
 from enum import Enum
+from functools import partial
+from typing import TYPE_CHECKING, Any
 
 from msgspec import Struct
 
 from planmethod.languages import say
 from planmethod.mechanism.model import FRAME
-from planmethod.problem.names import near, short
+from planmethod.problem import fields, keys
+from planmethod.problem.fields import Faults
+from planmethod.problem.flat import read_flat
+from planmethod.problem.head import Published
+from planmethod.problem.names import listed, near, near_hint, segment, short
+
+if TYPE_CHECKING:
+    from planmethod.problem.load_records import Dynamics
 
 
 class Selector(Struct, frozen=True):
@@ -21,8 +30,8 @@ class Selector(Struct, frozen=True):
         A key of `QUANTITIES` or of `FORCES`.
     names : tuple of str
         Points, or one link; the pole of a plan is ``p``. Coincident points have the number of
-        their link: ``B3`` is the point of link 3 under the pin B. Of a force: what the `Role` of
-        each says.
+        their link: ``B3`` is the point of link 3 under the pin B. Of a force: what the
+        `NameRole` of each says.
     over : Selector or None
         Divisor of a quotient such as ``vx D / omega 1``.
     """
@@ -63,7 +72,7 @@ LINK_KINDS = frozenset({"phi", "omega", "epsilon", "phi1", "phi2"})
 POLE = "p"
 
 
-class Role(Enum):
+class NameRole(Enum):
     """What a name of a force stands for."""
 
     LINK = "link"
@@ -72,28 +81,28 @@ class Role(Enum):
     LOAD = "load"  # an external load, by its letter in the file
 
 
-_ON_BY = (Role.BODY, Role.BODY)
-_LINE = (Role.POINT, Role.POINT)
+_ON_BY = (NameRole.BODY, NameRole.BODY)
+_LINE = (NameRole.POINT, NameRole.POINT)
 
-FORCES: Mapping[str, tuple[tuple[Role, ...], ...]] = {
+FORCES: Mapping[str, tuple[tuple[NameRole, ...], ...]] = {
     "F": (_ON_BY,),
     "Ft": ((*_ON_BY, *_LINE),),
     "Fn": ((*_ON_BY, *_LINE),),
     "M": (_ON_BY,),
-    "weight": ((Role.LINK,),),
-    "inertia": ((Role.LINK,),),
-    "inertia couple": ((Role.LINK,),),
-    "shift": ((Role.LINK,),),
-    "load": ((Role.LOAD,),),
+    "weight": ((NameRole.LINK,),),
+    "inertia": ((NameRole.LINK,),),
+    "inertia couple": ((NameRole.LINK,),),
+    "shift": ((NameRole.LINK,),),
+    "load": ((NameRole.LOAD,),),
     "angle F": (_ON_BY,),
-    "angle inertia": ((Role.LINK,),),
-    "angle load": ((Role.LOAD,),),
-    "arm F": ((*_ON_BY, Role.POINT),),
-    "arm weight": ((Role.LINK, Role.POINT),),
-    "arm inertia": ((Role.LINK, Role.POINT),),
-    "arm load": ((Role.LOAD, Role.POINT),),
-    "balance": ((), (Role.POINT,)),
-    "lever": ((), (Role.POINT,)),
+    "angle inertia": ((NameRole.LINK,),),
+    "angle load": ((NameRole.LOAD,),),
+    "arm F": ((*_ON_BY, NameRole.POINT),),
+    "arm weight": ((NameRole.LINK, NameRole.POINT),),
+    "arm inertia": ((NameRole.LINK, NameRole.POINT),),
+    "arm load": ((NameRole.LOAD, NameRole.POINT),),
+    "balance": ((), (NameRole.POINT,)),
+    "lever": ((), (NameRole.POINT,)),
 }
 """Kinds of quantity of the force analysis, and what the names of each are, in every form it has."""
 
@@ -199,11 +208,11 @@ def _must_differ(selector: Selector) -> list[tuple[str, ...]]:
     if selector.kind in MACHINE:
         return []
     told = roles(selector)
-    bodies = tuple(name for name, role in told if role is Role.BODY)
-    return [bodies, tuple(name for name, role in told if role is Role.POINT)]
+    bodies = tuple(name for name, role in told if role is NameRole.BODY)
+    return [bodies, tuple(name for name, role in told if role is NameRole.POINT)]
 
 
-def roles(selector: Selector) -> list[tuple[str, Role]]:
+def roles(selector: Selector) -> list[tuple[str, NameRole]]:
     """Return the names of a force, and what each stands for."""
     form = next(form for form in FORCES[selector.kind] if len(form) == len(selector.names))
     return list(zip(selector.names, form, strict=True))
@@ -235,10 +244,10 @@ def unknown_names(
         found += [name for name in selector.names[-1:] if not name.isdecimal()]
     elif selector.kind in FORCES:
         known = {
-            Role.LINK: links,
-            Role.BODY: {*links, FRAME},
-            Role.POINT: points,
-            Role.LOAD: loads,
+            NameRole.LINK: links,
+            NameRole.BODY: {*links, FRAME},
+            NameRole.POINT: points,
+            NameRole.LOAD: loads,
         }
         found = [name for name, role in roles(selector) if name not in known[role]]
     elif selector.kind in LINK_KINDS:
@@ -247,3 +256,112 @@ def unknown_names(
         extra = {POLE} if selector.kind.startswith("segment") else set()
         found = [name for name in selector.names if name not in points and name not in extra]
     return found + (unknown_names(selector.over, points, links, loads) if selector.over else [])
+
+
+TABLE_KEYS = ("gears", "point", "meshing")
+
+
+def read_published(
+    faults: Faults,
+    table: object,
+    check: Callable[[str, str, str], str],
+    *,
+    positions: int = 0,
+    example: str = 'value = 3, unit = "м/с", what = "v B"',
+    without: Collection[str] = (),
+) -> tuple[Published, ...]:
+    """Read ``[published."name"]``.
+
+    Parameters
+    ----------
+    check : callable
+        Gets the path, ``what`` (empty where it is absent) and the name, notes faults of the
+        quantity, and returns ``what`` as outputs have it.
+    positions : int
+        How many there are; 0 when not known.
+    example, without
+        An entry, and the keys that one may not have.
+    """
+    entries = fields.read_table(faults, "published", table, f'[published."v_B"] {example}') or {}
+    if faults.beyond("published", "{} values, the limit is {}", len(entries), keys.PUBLISHED_LIMIT):
+        return ()
+    own = {"position": partial(read_position, positions=positions)}
+    found: list[Published] = []
+    for name, entry in entries.items():
+        path = f"published.{segment(name)}"
+        body = fields.read_table(faults, path, entry, example)
+        if fields.read_text(faults, path, name, limit=80) is None or body is None:
+            continue
+        given = read_flat(faults, path, body, Published, own, without=without)
+        given["what"] = check(f"{path}.what", given.get("what", ""), name)
+        if "value" in given:
+            found.append(Published(name, **given))
+    return tuple(found)
+
+
+def read_position(faults: Faults, path: str, value: object, positions: int) -> int | None:
+    """Read which position of the driver is meant, from 0; ``positions`` is 0 when not known."""
+    if value is None:
+        return None
+    if not isinstance(value, int) or isinstance(value, bool) or value < 0:
+        faults.expected(path, "a whole number from 0", value)
+        return None
+    if positions and value >= positions:
+        faults.add(path, say("position {} of {}", value, positions), "The first position is 0.")
+        return None
+    return value
+
+
+def check_what(
+    faults: Faults,
+    path: str,
+    what: str,
+    points: Collection[str],
+    links: Collection[str],
+    dynamics: Dynamics | None,
+) -> Selector | None:
+    """Parse ``what`` and check its names; None where it cannot be parsed.
+
+    Parameters
+    ----------
+    points, links : collections of str
+        Names of the mechanism, with those of coincident points; empty when it could not be read.
+    """
+    try:
+        selector = parse_selector(what)
+    except SelectorError as error:
+        faults.add(path, str(error), 'For example: "v C", "an C B", "omega 2", "F 2 1".')
+        return None
+    if not points or not links:
+        return selector
+    if is_force(selector) and dynamics is None:
+        faults.add(
+            path,
+            say(
+                "'{}' is of the force analysis, and the file has no masses and no loads",
+                short(what),
+            ),
+            "Give [dynamics] or [[loads]].",
+        )
+        return selector
+    loads = [load.name for load in dynamics.loads] if dynamics else []
+    for name in unknown_names(selector, points, links, loads):
+        known = [say("Points: {}", listed(points))]
+        if is_force(selector):
+            known += [say("links: {}", listed(links))]
+            known += [say("loads: {}", listed(loads))] if loads else []
+        hint = near_hint(name, [*points, *links, *loads], f"{'; '.join(known)}.")
+        faults.add(path, say("the mechanism has no '{}'", name), hint)
+    return selector
+
+
+def read_tables(faults: Faults, table: Mapping[str, Any]) -> dict[str, Any]:
+    """Take over the tables that later parts read, checking no more than their TOML type."""
+    found: dict[str, Any] = {}
+    for key in TABLE_KEYS:
+        if key not in table:
+            continue
+        value = fields.read_table(faults, key, table[key])
+        if value is not None:
+            found[key] = value
+    return found

@@ -1,23 +1,30 @@
 """Title block and make-up of the sheets (основная надпись и оформление): ``[stamp]``, ``[sheet]``.
 
-A problem file has these tables, and so does a config file.
+A problem file has these tables, and so does the user's config file (файл настроек): a student
+writes surname, group and checker into it once; the problem file outranks it.
 """
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping
+import os
+import sys
+from collections.abc import Mapping
+from pathlib import Path
 from typing import Any
 
-from planmethod.errors import LayoutError
-from planmethod.languages import say
+from msgspec import Struct, field
+
+from planmethod.errors import ConfigError, Fault, LayoutError, ProblemError
+from planmethod.languages import LANGUAGES, say
 from planmethod.paper import paper_format
 from planmethod.problem import keys
-from planmethod.problem.fields import Faults, read_flag, read_keys, read_table, read_text
-from planmethod.problem.head import SheetSettings
-from planmethod.problem.names import TITLE_LIMIT, fold, joined, near_hint, segment
+from planmethod.problem.fields import Faults, Table, read_keys, read_table, read_text
+from planmethod.problem.flat import read_choice, read_flat
+from planmethod.problem.head import STAMP_LIMIT, SheetSettings
+from planmethod.problem.names import TITLE_LIMIT, joined, segment
+from planmethod.problem.source import parse, read_source
 
-STAMP_LIMIT = 200
-_WORD_LIMIT = 40
+_PAPER_LIMIT = 40
 
 
 def read_head(faults: Faults, given: Mapping[str, Any]) -> dict[str, Any]:
@@ -36,8 +43,8 @@ def _read_heading(faults: Faults, given: Mapping[str, Any], key: str) -> str:
 def read_stamp(faults: Faults, table: object) -> dict[str, str]:
     """Read ``[stamp]`` (основная надпись)."""
     stamp: dict[str, str] = {}
-    example = 'author = "Иванов"'
-    for key, value in _given(faults, "stamp", table, keys.STAMP, keys.SHEET, example).items():
+    given = _without_astray(faults, "stamp", table, "sheet", 'author = "Иванов"')
+    for key, value in read_keys(faults, "stamp", given, keys.known("stamp")).items():
         text = read_text(faults, f"stamp.{key}", value, limit=STAMP_LIMIT)
         if text is not None:
             stamp[key] = text
@@ -46,39 +53,34 @@ def read_stamp(faults: Faults, table: object) -> dict[str, str]:
 
 def read_sheet(faults: Faults, table: object) -> SheetSettings:
     """Read ``[sheet]`` (оформление листов)."""
-    told: dict[str, Any] = {}
-    given = _given(faults, "sheet", table, keys.SHEET, keys.STAMP, "side_columns = true")
-    for key, value in given.items():
-        path = f"sheet.{key}"
-        if key == "paper":
-            told[key] = _read_paper(faults, path, value)
-        elif key in keys.SHEET_CHOICES:
-            told[key] = _read_choice(faults, path, value, keys.SHEET_CHOICES[key])
-        else:
-            told[key] = read_flag(faults, path, value)
-    return SheetSettings(**told)
+    given = _without_astray(faults, "sheet", table, "stamp", "side_columns = true")
+    own = {"paper": _read_paper, "lang": _read_language}
+    return (
+        SheetSettings(**read_flat(faults, "sheet", given, SheetSettings, own)) if given else _NONE
+    )
 
 
-def _given(
-    faults: Faults,
-    path: str,
-    table: object,
-    known: Collection[str],
-    others: Collection[str],
-    example: str,
-) -> dict[str, Any]:
-    """Return the known keys of a table; the fault of a key of the other table says so."""
-    entries = read_table(faults, path, table, example) or {}
-    other = "sheet" if path == "stamp" else "stamp"
-    astray = [key for key in entries if key in others and key not in known]
-    for key in astray:
-        faults.add(joined(path, segment(key)), "unknown key", say("It stands in [{}].", other))
-    kept = {key: value for key, value in entries.items() if key not in astray}
-    return read_keys(faults, path, kept, known)
+_NONE = SheetSettings()
+
+
+def _without_astray(faults: Faults, path: str, table: object, other: str, example: str) -> Table:
+    """Return a table without the keys that stand in the other one, each of which is a fault."""
+    entries = read_table(faults, path, table, example)
+    if not entries:
+        return {}
+    astray = set(entries).intersection(keys.known(other)).difference(keys.known(path))
+    for key in entries:
+        if key in astray:
+            faults.add(joined(path, segment(key)), "unknown key", say("It stands in [{}].", other))
+    return {key: value for key, value in entries.items() if key not in astray}
+
+
+def _read_language(faults: Faults, path: str, value: object) -> str | None:
+    return read_choice(faults, path, value, LANGUAGES)
 
 
 def _read_paper(faults: Faults, path: str, value: object) -> str | None:
-    text = read_text(faults, path, value, limit=_WORD_LIMIT)
+    text = read_text(faults, path, value, limit=_PAPER_LIMIT)
     if text is None:
         return None
     try:
@@ -88,26 +90,75 @@ def _read_paper(faults: Faults, path: str, value: object) -> str | None:
         return None
 
 
-def _read_choice(faults: Faults, path: str, value: object, known: Collection[str]) -> str | None:
-    """Read one of a few words, in either alphabet and case."""
-    text = read_text(faults, path, value, limit=_WORD_LIMIT)
-    if text is None:
-        return None
-    word = chosen(text, known)
-    if word is None:
-        faults.expected(path, say("one of {}", ", ".join(known)), value, near_hint(text, known))
-    return word
+VARIABLE = "PLANMETHOD_CONFIG"
+"""Environment variable that names the config file."""
 
 
-def chosen(text: str, known: Collection[str]) -> str | None:
-    """Return which of a few words a text is, in either alphabet and case, or None.
+class Config(Struct, frozen=True):
+    """What a config file says (настройки)."""
 
-    Type Б of the lettering is called B in Latin letters.
+    stamp: Mapping[str, str] = field(default_factory=dict)
+    sheet: SheetSettings = field(default_factory=SheetSettings)
 
-    Examples
-    --------
-    >>> chosen("2А", ("1", "2a"))
-    '2a'
+
+def usual_place(environ: Mapping[str, str] = os.environ, platform: str = sys.platform) -> Path:
+    """Return where the config file is unless told otherwise; it need not exist."""
+    if platform == "win32":
+        folder = environ.get("APPDATA", "")
+        base = Path(folder) if folder else Path.home() / "AppData" / "Roaming"
+    else:
+        folder = environ.get("XDG_CONFIG_HOME", "")
+        # the XDG rule: a relative path counts as absent
+        base = Path(folder) if folder.startswith("/") else Path.home() / ".config"
+    return base / "planmethod" / "config.toml"
+
+
+def find_config(environ: Mapping[str, str] = os.environ) -> Path | None:
+    """Return the config file of the user, or None where there is none.
+
+    A file that `VARIABLE` names is returned whether it exists or not; the usual one if it exists.
     """
-    word = fold(text.replace("Б", "B")).replace(" ", "").casefold()
-    return next((name for name in known if name.casefold() == word), None)
+    named = environ.get(VARIABLE, "")
+    if named:
+        return Path(named)
+    try:
+        usual = usual_place(environ)
+        return usual if usual.exists() else None
+    except (OSError, RuntimeError):  # no home, or no permission to look into it
+        return None
+
+
+def load_config(path: Path) -> Config:
+    """Read a config file.
+
+    Raises
+    ------
+    ConfigError
+        With every fault of the file: path, what was expected, what was found, the nearest name.
+    """
+    name = str(path)
+    try:
+        if not path.exists():
+            hint = say("Check --config or {}, or go without: --no-config.", VARIABLE)
+            raise ConfigError(name, [Fault("", "there is no such file", hint)])
+        if path.is_dir():
+            raise ConfigError(
+                name, [Fault("", "this is a directory", "Name the file itself, config.toml.")]
+            )
+        table = parse(read_source(path), name=name)
+    except ConfigError:
+        raise
+    except ProblemError as error:
+        raise ConfigError(name, error.faults) from None
+    except OSError as error:
+        raise ConfigError(
+            name, [Fault("", say("the file cannot be read: {}", error.strerror), "Check the path.")]
+        ) from None
+    faults = Faults()
+    given = read_keys(faults, "", table, keys.CONFIG)
+    config = Config(
+        read_stamp(faults, given.get("stamp", {})), read_sheet(faults, given.get("sheet", {}))
+    )
+    if faults:
+        raise ConfigError(name, faults.found)
+    return config

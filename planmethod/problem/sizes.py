@@ -8,8 +8,8 @@ from itertools import pairwise
 from planmethod.languages import say
 from planmethod.problem import fields, keys
 from planmethod.problem.fields import Faults, Table
-from planmethod.problem.load_records import Interpolation, Law, Moving, Over, Phase, Turning
-from planmethod.problem.load_records import Table as SizeTable
+from planmethod.problem.flat import read_flat
+from planmethod.problem.load_records import Interpolation, LoadLaw, Over, Phase, SizeTable
 from planmethod.problem.model import Drive
 from planmethod.problem.names import listed
 
@@ -65,10 +65,10 @@ def _read_table(
     whole = len(faults) == before
     law = None
     if "law" in given:
-        law = fields.read_member(faults, f"{path}.law", given["law"], Law)
+        law = fields.read_member(faults, f"{path}.law", given["law"], LoadLaw)
         if law is None:
             return None
-    if law is Law.INDICATOR:
+    if law is LoadLaw.INDICATOR:
         return _read_indicator(faults, path, given, drive, couple=couple, whole=whole)
     for key in keys.INDICATOR:
         if key in given:
@@ -94,9 +94,9 @@ def _read_table(
 
 
 _LAWS = {
-    Law.TABLE: {"over": "phi", "interpolation": "linear"},
-    Law.PATH: {"over": "path", "interpolation": "linear"},
-    Law.STEPS: {"over": "phi", "interpolation": "step"},
+    LoadLaw.TABLE: {"over": "phi", "interpolation": "linear"},
+    LoadLaw.PATH: {"over": "path", "interpolation": "linear"},
+    LoadLaw.STEPS: {"over": "phi", "interpolation": "step"},
 }
 """What a law says where the file does not."""
 
@@ -353,30 +353,19 @@ def read_phase(
         faults.expected(path, "a table", value, say("For example: {}.", _PHASES))
         return None
     before = len(faults)
-    given = fields.read_keys(faults, path, value, keys.PHASES)
-    if not given and len(faults) == before:
+    found = read_flat(faults, path, value, Phase, {"phi": _read_spans})
+    if not value:
         hint = say("For example: {}.", _PHASES)
         faults.add(path, "expected phi, moving or turning, got an empty table", hint)
-    spans: Spans | None = ()
-    moving = turning = None
-    if "phi" in given:
-        spans = _read_spans(faults, f"{path}.phi", given["phi"])
-        if drive is not None and not drive.is_crank:
-            hint = 'Say which way the point moves: phases = { moving = "down" }.'
-            faults.add(f"{path}.phi", say("link {} slides, it has no phi", drive.link), hint)
-    if "moving" in given:
-        where = f"{path}.moving"
-        moving = fields.read_member(faults, where, given["moving"], Moving)
-        if couple:
-            hint = 'A couple has no point; it may have turning = "ccw" or "cw".'
-            faults.add(where, "does not go with a couple", hint)
-        elif still is not None:
-            faults.add(where, say("point {} is fixed and does not move", still))
-    if "turning" in given:
-        turning = fields.read_member(faults, f"{path}.turning", given["turning"], Turning)
-    if len(faults) != before or spans is None:
-        return None
-    return Phase(spans, moving, turning)
+    if "phi" in value and drive is not None and not drive.is_crank:
+        hint = 'Say which way the point moves: phases = { moving = "down" }.'
+        faults.add(f"{path}.phi", say("link {} slides, it has no phi", drive.link), hint)
+    if "moving" in value and couple:
+        hint = 'A couple has no point; it may have turning = "ccw" or "cw".'
+        faults.add(f"{path}.moving", "does not go with a couple", hint)
+    elif "moving" in value and still is not None:
+        faults.add(f"{path}.moving", say("point {} is fixed and does not move", still))
+    return None if len(faults) != before else Phase(**found)
 
 
 def _read_spans(faults: Faults, path: str, value: object) -> Spans | None:

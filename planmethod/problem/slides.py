@@ -19,7 +19,7 @@ Guide = tuple[str | None, complex, float]
 """Name of the fixed point (or None), base in m, angle in degrees."""
 
 
-class Frame(Struct, frozen=True):
+class FrameText(Struct, frozen=True):
     """Fixed points, m, and guides of the frame (стойка)."""
 
     points: Mapping[str, complex]
@@ -27,13 +27,13 @@ class Frame(Struct, frozen=True):
     sound: bool = True
 
 
-def read_frame(faults: Faults, table: object) -> Frame:
+def read_frame(faults: Faults, table: object) -> FrameText:
     """Read ``[frame]``."""
     before = len(faults)
     points: dict[str, complex] = {}
     entries = fields.read_table(faults, "frame", table, "[frame] A = [0, 0]") or {}
     if faults.beyond("frame", "{} points, the limit is {}", len(entries), keys.POINT_LIMIT):
-        return Frame({}, {}, sound=False)
+        return FrameText({}, {}, sound=False)
     rest: object = {}
     for key, value in entries.items():
         if key == "guides":
@@ -51,7 +51,7 @@ def read_frame(faults: Faults, table: object) -> Frame:
             # a point with a faulty place is still a point: others may name it
             points[name] = 0j if place is None else place
     guides = _read_guides(faults, rest, points)
-    return Frame(points, guides, sound=len(faults) == before)
+    return FrameText(points, guides, sound=len(faults) == before)
 
 
 def _read_guides(faults: Faults, table: object, points: Mapping[str, complex]) -> dict[str, Guide]:
@@ -88,7 +88,7 @@ def _read_guides(faults: Faults, table: object, points: Mapping[str, complex]) -
 
 
 def find_host(
-    faults: Faults, link: LinkText, links: Mapping[str, LinkText], frame: Frame
+    faults: Faults, link: LinkText, links: Mapping[str, LinkText], frame: FrameText
 ) -> tuple[str, str | None] | None:
     """Return the host of a slider and the guide it is on, if it is a guide."""
     assert link.slides is not None
@@ -151,7 +151,7 @@ def read_slide(
     host: str,
     guide: str | None,
     body: Body,
-    frame: Frame,
+    frame: FrameText,
     *,
     turn: float | None,
     bare: bool,

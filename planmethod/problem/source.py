@@ -13,7 +13,6 @@ from typing import Any
 
 from planmethod.errors import Fault, ProblemError
 from planmethod.languages import say
-from planmethod.pattern import pattern
 from planmethod.problem.mistyped import line_hint
 from planmethod.problem.names import near
 
@@ -22,9 +21,9 @@ LINE_LIMIT = 8192
 DOT_LIMIT = 64
 DEPTH_LIMIT = 12
 
-_WHERE_RE = pattern(r"^(?P<what>.*?) \(at (?P<where>line \d+, column \d+|end of document)\)$", re.S)
+_WHERE_RE = r"(?s)^(?P<what>.*?) \(at (?P<where>line \d+, column \d+|end of document)\)$"
 # the parser's time grows with the square of the parts of a key
-_DOTS_RE = pattern(rf"(?:\.[ \t]*[\"']?[\w-]+[\"']?[ \t]*){{{DOT_LIMIT}}}")
+_DOTS_RE = rf"(?:\.[ \t]*[\"']?[\w-]+[\"']?[ \t]*){{{DOT_LIMIT}}}"
 _BOMS = (
     (b"\xff\xfe", "UTF-16"),
     (b"\xfe\xff", "UTF-16"),
@@ -94,7 +93,7 @@ def parse(text: str, *, name: str) -> Mapping[str, Any]:
     """
     if len(text.encode("utf-8", "replace")) > SIZE_LIMIT:
         raise _too_large(name)
-    text = _VARIANT_HEADER.sub(_quoted, text.removeprefix("\ufeff"))
+    text = re.sub(_VARIANT_HEADER, _quoted, text.removeprefix("\ufeff"))
     lines = text.split("\n")
     for number, line in enumerate(lines, 1):
         if len(line) > LINE_LIMIT:
@@ -103,7 +102,7 @@ def parse(text: str, *, name: str) -> Mapping[str, Any]:
                 say("line {} has {} characters, the limit is {}", number, len(line), LINE_LIMIT),
                 "Break it up; lists may span several lines.",
             )
-        if line.count(".") >= DOT_LIMIT and _DOTS_RE.search(line):
+        if line.count(".") >= DOT_LIMIT and re.search(_DOTS_RE, line):
             raise _fail(
                 name, say("line {}: a key has over {} parts", number, DOT_LIMIT), _DEPTH_HINT
             )
@@ -121,7 +120,7 @@ def parse(text: str, *, name: str) -> Mapping[str, Any]:
     return table
 
 
-_VARIANT_HEADER = pattern(r"^([ \t]*\[[ \t]*variants[ \t]*\.[ \t]*)([^\W\d_][\w-]*)", re.MULTILINE)
+_VARIANT_HEADER = r"(?m)^([ \t]*\[[ \t]*variants[ \t]*\.[ \t]*)([^\W\d_][\w-]*)"
 
 
 def _quoted(header: re.Match[str]) -> str:
@@ -172,7 +171,7 @@ def _depth_exceeds(table: Mapping[str, Any], limit: int) -> bool:
 
 
 def _syntax_fault(message: str, lines: list[str]) -> Fault:
-    match = _WHERE_RE.match(message)
+    match = re.match(_WHERE_RE, message)
     if match is None:
         return Fault("", say("this is not TOML: {}", message))
     told, where = match["what"], match["where"]

@@ -14,7 +14,6 @@ from unicodedata import combining, normalize
 
 from msgspec import Struct
 
-from planmethod.pattern import pattern
 from planmethod.problem.fields import Faults
 from planmethod.problem.source import parse
 from planmethod.problem.variants import apply_variant, read_variants
@@ -26,7 +25,7 @@ DYADS = {"PRR": "RRP", "PPR": "RPP"}
 """Other ways to write a dyad."""
 
 
-class Task(Struct, frozen=True):
+class ShippedTask(Struct, frozen=True):
     """A shipped problem file (задача банка).
 
     Attributes
@@ -86,12 +85,12 @@ def home() -> Path:
 
 
 @cache
-def tasks() -> tuple[Task, ...]:
+def tasks() -> tuple[ShippedTask, ...]:
     """Return all of them as the index has them: by kind, linkages by structure."""
     rows: list[dict[str, Any]] = json.loads((home() / "index.json").read_text(encoding="utf-8"))
     for row in rows:
         row |= {key: tuple(row[key]) for key in ("groups", "variants")}
-    return tuple(Task(**row) for row in rows)
+    return tuple(ShippedTask(**row) for row in rows)
 
 
 def groups_of(written: str) -> tuple[str, ...]:
@@ -100,7 +99,7 @@ def groups_of(written: str) -> tuple[str, ...]:
     return tuple(DYADS.get(part, part) for part in parts)
 
 
-def text_for(task: Task, variant: str | None) -> str:
+def text_for(task: ShippedTask, variant: str | None) -> str:
     """Return the text of a task to start from; with a variant, its values in place of the base.
 
     Raises
@@ -133,14 +132,14 @@ class _Table(Struct):
     lines: list[str]
 
 
-_HEADER = pattern(r"\[{1,2}\s*([^\W\d][\w.\-\"' ]*?)\s*\]{1,2}\s*(?:#.*)?$")
+_HEADER = r"\[{1,2}\s*([^\W\d][\w.\-\"' ]*?)\s*\]{1,2}\s*(?:#.*)?$"
 
 
 def _tables(text: str) -> list[_Table]:
     """Return the text in tables; comments and blank lines over a header go with it."""
     found, count = [_Table("", [], [])], Counter[str]()
     for line in text.splitlines():
-        header = _HEADER.match(line)
+        header = re.match(_HEADER, line)
         if header is None:
             found[-1].lines.append(line)
             continue

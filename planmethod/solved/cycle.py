@@ -14,7 +14,7 @@ import numpy.typing as npt
 from msgspec import Struct
 
 from planmethod.errors import LayoutError
-from planmethod.problem.load_records import Dynamics, Over, Table
+from planmethod.problem.load_records import Dynamics, Over, SizeTable
 from planmethod.solved.forces.contact import JointForce
 from planmethod.solved.forces.reading import FAINT_SHARE, require_dynamics
 from planmethod.solved.forces.statics import statics_of
@@ -209,7 +209,7 @@ def _around(steps: Reals) -> Reals:
 
 def only_in_positions(dynamics: Dynamics) -> bool:
     """Tell whether a load is known in the positions of the file only."""
-    tables = (load.size for load in dynamics.loads if isinstance(load.size, Table))
+    tables = (load.size for load in dynamics.loads if isinstance(load.size, SizeTable))
     return any(table.over is Over.POSITION for table in tables)
 
 

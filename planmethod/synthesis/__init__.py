@@ -7,20 +7,45 @@ A kind says which options it takes (``TAKES``) and makes a `Synthesis` of their 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from importlib import import_module
-from typing import TYPE_CHECKING, Any
+from types import MappingProxyType
+from typing import Any, Protocol
 
-if TYPE_CHECKING:
-    from planmethod.synthesis.model import Synthesis
+from planmethod.synthesis import (
+    crank_rocker,
+    slider_crank,
+    slotted,
+    three_angles,
+    three_positions,
+)
+from planmethod.synthesis.model import Synthesis
 
-KINDS = ("slotted", "slider-crank", "crank-rocker", "three-positions", "three-angles")
-"""Kinds of synthesis; each is the module of its name."""
+
+class SynthesisModule(Protocol):
+    """What the module of a kind has."""
+
+    @property
+    def TAKES(self) -> tuple[str, ...]:  # noqa: N802
+        """Options that it takes."""
+
+    def synthesize(self, asked: Mapping[str, Any]) -> Synthesis:
+        """Find the mechanism."""
+
+
+KINDS: Mapping[str, SynthesisModule] = MappingProxyType(
+    {
+        "slotted": slotted,
+        "slider-crank": slider_crank,
+        "crank-rocker": crank_rocker,
+        "three-positions": three_positions,
+        "three-angles": three_angles,
+    }
+)
+"""Kinds of synthesis, a module each."""
 
 
 def takes(kind: str) -> tuple[str, ...]:
     """Return the options that a kind takes."""
-    names: tuple[str, ...] = _module(kind).TAKES
-    return names
+    return KINDS[kind].TAKES
 
 
 def synthesize(kind: str, asked: Mapping[str, Any]) -> Synthesis:
@@ -40,9 +65,4 @@ def synthesize(kind: str, asked: Mapping[str, Any]) -> Synthesis:
     AssemblyError
         There is no such mechanism; the message tells the limit.
     """
-    made: Synthesis = _module(kind).synthesize(asked)
-    return made
-
-
-def _module(kind: str) -> Any:
-    return import_module(f"{__name__}.{kind.replace('-', '_')}")
+    return KINDS[kind].synthesize(asked)

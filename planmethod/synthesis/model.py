@@ -16,7 +16,7 @@ from planmethod.construct.steps import LineName, Name, NumberName, PointName, Si
 from planmethod.errors import AssemblyError, ExitCode, PlanMethodError
 
 Said: TypeAlias = tuple[str, Mapping[str, str | float]]
-"""Name of a sentence in `SynthesisWording.steps`, and its places: points by name, and numbers."""
+"""Key of a sentence in ``steps`` of the words, and its places: points by name, and numbers."""
 
 MU = NumberName("mu_l")
 """The scale, m per mm."""

@@ -87,7 +87,7 @@ def synthesis_sheet(
         When everything does not fit the paper.
     """
     words = language(problem.sheet.lang or LANGUAGES[0])
-    title = words.synthesis.titles[drawn.synthesis.kind]
+    title = words.synthesis["titles"][drawn.synthesis.kind]
     texts = merged({"sheets": "1"}, problem.stamp, {"title": title}, fields or {})
     furniture, fmt = Furniture.of(problem.sheet), paper_format(problem.sheet.paper or PAPER)
     room = furniture.room(fmt)
@@ -156,7 +156,7 @@ def _texts(
     rows = [f"{name}:{NBSP}{value}" for name, value in check_rows(checks, words)]
     measured = paragraph(";\n".join(rows) + ".", TEXT, COLUMN)
     blocks.append(Column([heading(said.measured, TEXT), measured], gap=3.0))
-    columns = zip(said.columns, zip(*size_rows(drawn, words), strict=True), strict=True)
+    columns = zip(said["columns"], zip(*size_rows(drawn, words), strict=True), strict=True)
     sizes = table_block(
         [TableColumn(head, tuple(values)) for head, values in columns],
         TEXT, width=COLUMN, units="none", row_height=6.5,

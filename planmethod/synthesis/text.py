@@ -32,7 +32,7 @@ def synthesis_document(
 ) -> Iterator[Node]:
     """Yield what is given, the construction, the sizes, and what was measured."""
     said = words.synthesis
-    yield Title(said.titles[drawn.synthesis.kind])
+    yield Title(said["titles"][drawn.synthesis.kind])
     yield Paragraph(words.note.given.format(given="; ".join(given_facts(asked, words))))
     yield Paragraph(
         said.ruler.format(
@@ -99,7 +99,7 @@ class SynthesisNaming:
 
     def length(self, name: NumberName) -> Rich:
         """Return a length as the hand has it."""
-        return f"{given(abs(self.number(name)), self.note, 5)} {self.note.units['mm']}"
+        return f"{given(abs(self.number(name)), self.note, 5)} {self.note['units']['mm']}"
 
     def line(self, name: LineName) -> Rich:
         """Return a line in the genitive."""
@@ -185,7 +185,8 @@ class SynthesisNarrator(BoardNarrator):
             else given(value, self.words, 6)
             for name, value in facts.items()
         }
-        return self.said.steps[key].format(**shown)
+        sentence: str = self.said["steps"][key]
+        return sentence.format(**shown)
 
     def given(self, step: steps.Given) -> list[Rich]:
         """Tell a given point by its place."""
@@ -240,7 +241,7 @@ def given_facts(asked: Mapping[str, Any], words: Language) -> list[str]:
     for name, value in asked.items():
         if value is None:
             continue
-        symbol, unit = words.synthesis.given[name]
+        symbol, unit = words.synthesis["given"][name]
         if isinstance(value, tuple):
             rows = value if isinstance(value[0], tuple) else (value,)
             told = "; ".join(f"({f';{NO_BREAK}'.join(map(words.say.given, row))})" for row in rows)
@@ -271,7 +272,9 @@ def check_rows(checks: Mapping[str, Any], words: Language) -> list[tuple[str, st
     def row(name: str, value: float | None, unit: str) -> None:
         if value is not None:
             number = say.short(value, 6)
-            rows.append((said.checks[name], with_unit(number, say.units[unit]) if unit else number))
+            rows.append(
+                (said["checks"][name], with_unit(number, say.units[unit]) if unit else number)
+            )
 
     row("K_v", checks["K_v"], "")
     if checks["stroke_unit"] == "m":
@@ -282,10 +285,11 @@ def check_rows(checks: Mapping[str, Any], words: Language) -> list[tuple[str, st
     row("pressure", checks["pressure_angle"]["max_deg"], "deg")
     row("transmission", checks["transmission_angle"]["min_deg"], "deg")
     grashof = checks["grashof"]
-    told = f"{said.holds[grashof['holds']]}: {said.verdicts[grashof['type']]}"
-    rows.append((said.checks["grashof"], told))
+    holds = said["holds"]["yes" if grashof["holds"] else "no"]
+    told = f"{holds}: {said['verdicts'][grashof['type']]}"
+    rows.append((said["checks"]["grashof"], told))
     row("missed", checks.get("missed"), "m")
     for name in ("branch", "order"):
         if name in checks:
-            rows.append((said.checks[name], said.holds[checks[name]]))
+            rows.append((said["checks"][name], said["holds"]["yes" if checks[name] else "no"]))
     return rows

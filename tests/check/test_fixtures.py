@@ -19,7 +19,7 @@ from planmethod.check.model import Checked, Verdict, Written
 from planmethod.check.questions import Sign
 from planmethod.check.task import Item, Task
 from planmethod.check.works.student import read_json
-from planmethod.note.wording.en.mistakes import MISTAKES
+from planmethod.note.wording import language
 from planmethod.problem import load
 from planmethod.solved.selected.asking import UnansweredError
 from planmethod.solved.solution import Solution
@@ -151,7 +151,7 @@ def test_a_case_is_judged_as_the_document_says(case: Case) -> None:
 def test_the_document_lists_every_mistake() -> None:
     text = (ROOT / "docs" / "checking.md").read_text("utf-8")
     assert dict(re.findall(r"(?m)^\| `(\w+)` \| (.+) \|$", text)) == {
-        code: words.name for code, words in MISTAKES.items()
+        code: words.name for code, words in language("en").check["mistakes"].items()
     }
 
 

@@ -70,13 +70,13 @@ def filled(data: bytes, lang: str = "ru") -> bytes:
     cells = {
         (words.student, "D"): "Иванов И. И.",
         (words.variant, "D"): "Б",
-        (words.scales["mu_v"], "D"): 0.05,
+        (words["scales"]["mu_v"], "D"): 0.05,
         (words.ruler, "D"): "0,5",
         ("VB₃", "D"): 45.5,
         ("VB₃", "F"): 2275,
-        ("VB₃", "G"): words.units[1],
+        ("VB₃", "G"): words["units"][1],
         ("ω3", "F"): "15,2",
-        ("ω3", "H"): words.senses["cw"],
+        ("ω3", "H"): words["senses"]["cw"],
         ("φ3", "F"): 0,
     }
     for (name, column), value in cells.items():
@@ -188,7 +188,7 @@ def test_the_words_of_the_form_can_be_read_back(lang: str) -> None:
     for head in (*words.columns, words.position, words.student, words.variant, words.problem):
         assert key(head) in HEADS or head in HEADS, head
     assert all(map(read_unit, words.units))
-    assert {read_sense(text) for text in words.senses.values()} == set(Sense)
+    assert {read_sense(text) for text in words["senses"].values()} == set(Sense)
     assert list(words.unread) == [why.value for why in Unread]
 
 

@@ -5,17 +5,20 @@ from __future__ import annotations
 import multiprocessing
 import os
 import signal
+import subprocess
+import sys
 import time
 from collections.abc import Callable, Iterator
+from functools import partial
 from pathlib import Path
 
 import pytest
 from click.testing import CliRunner, Result
-from worked import PROBLEMS, path_of
+from worked import PROBLEMS, ROOT, path_of
 
 from planmethod.cli import cli
 from planmethod.commands.problems import Todo, through
-from planmethod.commands.processes import shared
+from planmethod.commands.processes import in_processes
 
 EX3 = path_of("linkages/ex3").read_text("utf-8")
 VARIANTS = """
@@ -72,44 +75,72 @@ def test_rows_of_two_processes_are_the_same(files: list[str]) -> None:
 # Killed and interrupted --------------------------------------------------------------------------
 
 
-def killed_by(folder: str) -> Callable[[int], int]:
-    """Return what is killed by 2 always, and by 5 once."""
-
-    def work(number: int) -> int:
-        flag = Path(folder) / str(number)
-        if number == 2 or (number == 5 and not flag.exists()):
-            flag.touch()
-            os.kill(os.getpid(), signal.SIGKILL)
-        return number**2
-
-    return work
+def killed_by_some(number: int, folder: Path) -> int:
+    """Return a square; 2 kills the process always, 5 once."""
+    flag = folder / str(number)
+    if number == 2 or (number == 5 and not flag.exists()):
+        flag.touch()
+        os.kill(os.getpid(), signal.SIGKILL)
+    return number**2
 
 
-def slow() -> Callable[[int], int]:
-    def work(number: int) -> int:
+def slow(number: int, folder: Path) -> int:
+    """Take a minute for each but 0; leave a file only while at work."""
+    at_work = folder / str(number)
+    at_work.touch()
+    try:
         time.sleep(60.0 * number)
-        return number
-
-    return work
+    finally:
+        at_work.unlink()
+    return number
 
 
 def test_what_kills_its_process_loses_none_of_the_others(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    found = list(shared(range(8), 2, killed_by, str(tmp_path)))
+    outcomes = list(in_processes(partial(killed_by_some, folder=tmp_path), range(8), 2))
+    found = [None if outcome is None else outcome.value for outcome in outcomes]
     assert found == [None if number == 2 else number**2 for number in range(8)]
     assert (tmp_path / "5").exists()
     assert "a process at work was killed" in capsys.readouterr().err
 
 
-def test_who_stops_early_leaves_no_process() -> None:
+def test_who_stops_early_leaves_no_process_and_no_file(tmp_path: Path) -> None:
     before = multiprocessing.active_children()
-    parts = shared(range(4), 2, slow)
-    assert next(parts) == 0
+    outcomes = in_processes(partial(slow, folder=tmp_path), range(4), 2)
+    first = next(outcomes)
+    assert first is not None
+    assert first.value == 0
+    wait_until(lambda: any(tmp_path.iterdir()))
     start = time.monotonic()
-    parts.close()  # type: ignore[attr-defined]
+    outcomes.close()  # type: ignore[attr-defined]
     assert time.monotonic() - start < 30
     assert multiprocessing.active_children() == before
+    assert not any(tmp_path.iterdir())
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="there a process is not killed by a signal")
+def test_processes_end_with_the_one_that_gave_them_work(tmp_path: Path) -> None:
+    code = (
+        "from functools import partial\n"
+        "from pathlib import Path\n"
+        "from commands.test_jobs import slow\n"
+        "from planmethod.commands.processes import in_processes\n"
+        f"list(in_processes(partial(slow, folder=Path({str(tmp_path)!r})), range(1, 4), 2))\n"
+    )
+    paths = os.pathsep.join([str(ROOT / "tests"), str(ROOT)])
+    giver = subprocess.Popen([sys.executable, "-c", code], env={**os.environ, "PYTHONPATH": paths})
+    wait_until(lambda: len(list(tmp_path.iterdir())) == 2)
+    giver.kill()
+    giver.wait()
+    wait_until(lambda: not any(tmp_path.iterdir()))
+
+
+def wait_until(is_so: Callable[[], bool]) -> None:
+    end = time.monotonic() + 30
+    while not is_so():
+        assert time.monotonic() < end
+        time.sleep(0.05)
 
 
 def test_an_interrupt_is_told_with_what_is_done(

@@ -116,7 +116,7 @@ def test_a_position_that_the_problem_does_not_have_is_said() -> None:
     late = replace(problem, published=(replace(problem.published[0], position=7),))
     (item,) = audit(late)
     assert item.why is NoAnswer.NO_POSITION
-    said = language("en").audit.whys[NoAnswer.NO_POSITION.value]
+    said = language("en").audit["whys"][NoAnswer.NO_POSITION.value]
     assert said in Document("en", 0.5).markdown([(late, [item])])
 
 

@@ -258,7 +258,7 @@ def test_what_the_forces_do_not_have(problem: Problem, what: str, why: NoAnswer)
     with pytest.raises(UnansweredError) as caught:
         asked(problem, what)
     assert caught.value.why is why
-    assert all(language(lang).audit.whys[why.value] for lang in LANGUAGES)
+    assert all(language(lang).audit["whys"][why.value] for lang in LANGUAGES)
 
 
 def test_a_force_that_is_nothing_has_no_direction() -> None:

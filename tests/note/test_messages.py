@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import ast
 import inspect
-import json
 import re
 import subprocess
 import sys
@@ -19,15 +18,27 @@ from cases import each
 from click.testing import CliRunner
 
 import planmethod
-from planmethod.cli import COMMANDS, cli
+from planmethod.cli import COMMANDS, cli, command_of
 from planmethod.errors import PlanMethodError
 from planmethod.kinds import load
-from planmethod.languages import LANGUAGES, WRITTEN, say, speaking, spoken_to
+from planmethod.languages import LANGUAGES, WRITTEN, catalogue, say, speaking, spoken_to, translated
+from planmethod.problem import keys
+from planmethod.problem.declared import NumberKey, declared
+from planmethod.problem.head import TITLE_BLOCK
 
 HOME = Path(planmethod.__file__).parent
 WORDING = HOME / "note" / "wording"
 OTHERS = [lang for lang in LANGUAGES if lang != WRITTEN]
 FAULTY = sorted((HOME.parent / "tests" / "problem" / "faulty").glob("*.toml"))
+
+DECLARED = [one.key for record in keys.FLAT.values() for one in declared(record)]
+NUMBERS = [key for key in DECLARED if isinstance(key, NumberKey)]
+REFERENCE = {
+    *(text for key in DECLARED for text in (key.sentence, key.more, key.absent)),
+    *(key.what for key in NUMBERS if key.unit),  # said with the unit
+    *TITLE_BLOCK.values(),
+}
+"""Texts of the reference of keys, which are no messages."""
 
 SAYS = {
     "say", "translated", "Fault", "_fail", "_fault", "_load_fault", "expected", "beyond",
@@ -37,7 +48,7 @@ SAYS = {
 
 NO_MESSAGES = (
     "bench/",  # a document for developers
-    "check/pages/htmlpage.py",  # HTML
+    "check/pages/overlayview.py",  # HTML
     "check/sheet.py",  # names of answers
     "__init__.py",  # for programs in Python
     "check/works/vocabulary.py",  # what works of students say
@@ -133,23 +144,31 @@ def source() -> tuple[dict[str, str], dict[str, str], set[str]]:
                 case ast.Constant(str(told)) if node not in inside:
                     every.add(told)
                     message = node in direct and re.search(r"\S \S|\.$", told) and "=" not in told
-                    if (message or READS.match(told)) and told not in NOT_SAID and not silent:
+                    if (
+                        (message or READS.match(told))
+                        and told not in NOT_SAID | REFERENCE
+                        and not silent
+                    ):
                         said.setdefault(told, where)
                 case ast.JoinedStr() if not silent:
                     parts = [part.value for part in node.values if isinstance(part, ast.Constant)]
                     words = " ".join(map(str, parts))
                     if re.search(r"[a-z]{3,} +[a-z]{3,}|[A-Za-z]{3,} [a-z]{2,}", words):
                         formatted[where] = ast.unparse(node)
+    for key in NUMBERS:
+        said.setdefault(key.expected, "a declared key")
+        every.add(key.expected)
     return said, formatted, every
 
 
-def catalogue(lang: str) -> dict[str, str]:
-    """Return the messages of a language; none is given twice."""
-    pairs: list[tuple[str, str]] = []
-    for room in (WORDING / lang / "messages").glob("*.json"):
-        pairs += json.loads(room.read_text("utf-8"), object_pairs_hook=list)
-    assert len(dict(pairs)) == len(pairs), "given twice"
-    return dict(pairs)
+def messages(lang: str) -> dict[str, str]:
+    """Return the messages of a language; none is given in two rooms."""
+    found: dict[str, str] = {}
+    for path in (WORDING / lang / "messages").glob("*.toml"):
+        room = catalogue(lang, f"messages/{path.stem}")
+        assert not found.keys() & room.keys(), "given twice"
+        found |= room
+    return found
 
 
 def places(text: str) -> tuple[set[str], set[str]]:
@@ -167,21 +186,29 @@ def places(text: str) -> tuple[set[str], set[str]]:
 def test_every_message_is_said_in_every_language(lang: str) -> None:
     said, formatted, _ = source()
     assert len(said) > 700
-    known = catalogue(lang)
+    known = messages(lang)
     missing = [f"{where}: {text}" for text, where in said.items() if text not in known]
     assert not missing, "add these to the catalogue of messages, or to NO_MESSAGES with the reason"
     assert not formatted, "a message is a sentence with places that say() fills in"
 
 
 @pytest.mark.parametrize("lang", OTHERS)
+def test_every_message_of_a_catalogue_is_found(lang: str) -> None:
+    """Its key is written as it is looked for."""
+    with speaking(lang):
+        for english, other in messages(lang).items():
+            assert translated(english) == other
+
+
+@pytest.mark.parametrize("lang", OTHERS)
 def test_no_message_is_kept_that_nobody_says(lang: str) -> None:
-    foreign = json.loads((WORDING / lang / "messages" / "foreign.json").read_text("utf-8"))
-    assert set(catalogue(lang)) - set(foreign) <= source()[2]
+    foreign = catalogue(lang, "messages/foreign")
+    assert set(messages(lang)) - set(foreign) <= source()[2]
 
 
 @pytest.mark.parametrize("lang", OTHERS)
 def test_a_message_has_the_same_places_in_every_language(lang: str) -> None:
-    for english, other in catalogue(lang).items():
+    for english, other in messages(lang).items():
         if english not in source()[0] or not re.search(r"\{[\w.\[\]]*[!:}]", english):
             continue
         shown, all_of_them = places(english)
@@ -192,7 +219,7 @@ def test_a_message_has_the_same_places_in_every_language(lang: str) -> None:
 
 def helps() -> Iterator[str]:
     """Yield the help of the commands and their options, and that of the program."""
-    for command in (cli, *cli.commands.values()):
+    for command in (cli, *map(command_of, COMMANDS)):
         yield inspect.cleandoc(command.help or "")
         for param in command.params:
             if isinstance(param, click.Option) and param.help:
@@ -201,7 +228,7 @@ def helps() -> Iterator[str]:
 
 @pytest.mark.parametrize("lang", OTHERS)
 def test_help_is_in_every_language(lang: str) -> None:
-    assert set(helps()) <= set(catalogue(lang))
+    assert set(helps()) <= set(messages(lang))
 
 
 def test_the_help_is_shown_in_russian() -> None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from typing import get_args
+from typing import cast, get_args
 
 import pytest
 from worked import ROOT
@@ -25,6 +25,7 @@ from planmethod.note.document import (
     Table,
     Term,
     Title,
+    View,
     step_of,
     table_of,
     table_of_columns,
@@ -50,7 +51,7 @@ ALONE: dict[type, tuple[Node, str]] = {
         "     v_C = v_B  + v_CB\n           ═══    ────\n           ⊥ AB",
     ),
     Table: (table_of(("link", "ω"), [("1", "20,00")]), "link      ω\n───────────\n1     20,00"),
-    Figure: (Figure(None, "Scheme"), "Scheme"),
+    Figure: (Figure(cast("View", None), "Scheme"), "Scheme"),
     Note: (Note("read"), "read"),
 }
 
@@ -66,7 +67,7 @@ def test_every_kind_of_node(kind: type) -> None:
 
 
 def test_chapters_parts_and_steps_are_numbered() -> None:
-    nodes = (
+    nodes: tuple[Node, ...] = (
         Chapter("One"), Step(("a",)),
         Chapter("Between", numbered=False),
         Chapter("Two"), Part("First"), Step(("b",)), Part("Second"), Step(("c",)),
@@ -135,7 +136,7 @@ def test_equations_are_cut_at_a_sign_that_is_repeated() -> None:
 
 @pytest.mark.parametrize("lang", ["ru", "en"])
 def test_a_number_and_its_unit_are_not_parted(lang: str) -> None:
-    metre = language(lang).note.units["m"]
+    metre = language(lang).note["units"]["m"]
     for count in range(80, 100):
         text = written(Paragraph("x" * count + f" 0.25 {metre} y"), lang=lang)
         assert f"0.25 {metre}" in text

@@ -1,21 +1,21 @@
 from __future__ import annotations
 
+import ast
 import re
 from collections.abc import Iterator, Mapping
+from functools import cache
 from pathlib import Path
 from string import Formatter
 from types import CodeType
 
 import pytest
-from msgspec import Struct
 
 import planmethod
 from planmethod.errors import ExitCode
+from planmethod.languages import WRITTEN
 from planmethod.note.audit.audit import Verdict
 from planmethod.note.numbers import Notation
-from planmethod.note.wording import LANGUAGES, Language, UnknownLanguageError, language
-from planmethod.note.wording.force_model import ForceWording
-from planmethod.note.wording.machine_model import SYMBOLS as MACHINE
+from planmethod.note.wording import LANGUAGES, Language, UnknownLanguageError, Words, language
 from planmethod.problem import FAMILIES, OTHER_FAMILIES
 from planmethod.problem.model import FORCE, MOMENT
 from planmethod.solved.selected.asking import NoAnswer
@@ -29,21 +29,41 @@ NO_WORDS = {
     "check/works/cells.py": "heads and words that works of students are written with",
     "check/works/units.py": "units, multiplication signs and e that they are written with",
     "check/works/gather.py": "scales that they are written with",
-    "problem/table.py": "units as the head of a table may have them",
+    "problem/variants.py": "units as the head of a table may have them",
     "problem/names.py": "Cyrillic letters that look like Latin ones, in names of problem files",
-    "problem/sheet.py": "type \u0411 of the lettering in a problem file, an example of a surname",
+    "problem/flat.py": "type \u0411 of the lettering in a problem file",
+    "problem/sheet.py": "an example of a surname",
     "paper.py": "names of formats that files and options may write in Cyrillic letters",
     "render/sheets/specimen/lettering.py": "the letters themselves, one by one",
     "render/ink/lettering/__init__.py": "letters that the lettering is measured by",
 }
 """Where Cyrillic letters stand that no language says to a reader, and why."""
 
+MACHINE = {
+    "resisting moment",
+    "driving moment",
+    "resisting work",
+    "driving work",
+    "energy gain",
+    "reduced inertia",
+    "flywheel",
+    "crank inertia",
+    "mean speed",
+    "moment by lever",
+    "motor moment",
+    "braking moment",
+}
+"""Quantities of machines whose letters a language's `Notation` has."""
+
 TERMS = {
     "commands/asked.py",
     "commands/solve.py",
-    "problem/extras.py",
+    "problem/selector.py",
     "problem/forces.py",
+    "problem/head.py",
     "problem/links.py",
+    "problem/load_records.py",
+    "problem/model.py",
     "render/sheets/composition/reader.py",
 }
 """Where English help and messages quote what a file may say, or a field term in brackets."""
@@ -54,9 +74,6 @@ def said(words: object, path: str = "") -> Iterator[tuple[str, object]]:
     if isinstance(words, Language):
         for subject in Language.__annotations__:
             yield from said(getattr(words, subject), f"{path}.{subject}")
-    elif isinstance(words, Struct):
-        for name in words.__struct_fields__:
-            yield from said(getattr(words, name), f"{path}.{name}")
     elif isinstance(words, Mapping):
         for key, value in words.items():
             yield from said(value, f"{path}[{key}]")
@@ -79,7 +96,7 @@ def test_a_language_says_all_that_russian_says_with_the_same_places(lang: str) -
         assert type(text) is type(other[path])
         # Rich text without places has braces of its own.
         if isinstance(text, str) and not path.startswith(
-            (".say", ".layouts", ".specimens.samples")
+            (".layouts", ".note[units]", ".note[symbols]", ".specimens[samples]")
         ):
             assert places(text) == places(str(other[path])), path
 
@@ -88,12 +105,13 @@ def test_a_language_says_all_that_russian_says_with_the_same_places(lang: str) -
 def test_a_language_has_the_names_of_what_it_tells(lang: str) -> None:
     words = language(lang)
     lever = {f"lever {one.quantity}" for one in (MOMENT, FORCE)}
-    assert set(words.say.symbols) == {MOMENT.symbol, FORCE.symbol, *lever, *MACHINE}
-    for balance in (words.note.balance, words.sheets.balance, words.forces.and_balance):
+    assert set(words.say.symbols) == {MOMENT.symbol, FORCE.symbol} | lever | MACHINE
+    for balance in (words.note["balance"], words.sheets["balance"], words.forces["and_balance"]):
         assert set(balance) == {MOMENT.quantity, FORCE.quantity}
     assert list(words.families) == [*FAMILIES, *OTHER_FAMILIES]
-    assert set(words.audit.whys) == {why.value for why in NoAnswer}
-    assert list(words.audit.verdicts) == list(words.audit.counted) == [v.value for v in Verdict]
+    audit = words.audit
+    assert set(audit["whys"]) == {why.value for why in NoAnswer}
+    assert list(audit["verdicts"]) == list(audit["counted"]) == [v.value for v in Verdict]
 
 
 def test_russian_is_russian_and_english_is_english() -> None:
@@ -101,7 +119,7 @@ def test_russian_is_russian_and_english_is_english() -> None:
         assert not CYRILLIC.search(str(text)), path
     names = re.compile(r"\{\w*\}|planmethod|toml|ГОСТ|PROBLEM|\[\w+\]|--\w+|`[^`]*`|\$\w+")
     for path, text in said(language("ru")):
-        if path.startswith((".say", ".lang", ".layouts", ".note.lang", ".forces.lang")):
+        if path.startswith((".layouts", ".note[lang]", ".note[units]", ".note[symbols]")):
             continue
         words = re.findall("[A-Za-z]{4,}", names.sub(" ", str(text)))
         assert set(words) <= {"float", "board", "grow", "true"}, (path, words)
@@ -140,11 +158,116 @@ def _texts(kept: object) -> Iterator[str]:
             yield from _texts(one)
 
 
-def test_every_sentence_of_the_forces_is_said() -> None:
-    source = "".join(path.read_text("utf-8") for path in (HOME / "note").rglob("*.py"))
-    for name in ForceWording.__struct_fields__:
-        other = name == "lang" or name.startswith("side_")  # these are put together
-        assert other or re.search(rf"(said\.|\"){name}\b", source), name
+WORDS = {subject: getattr(language(WRITTEN), subject) for subject in Language.__annotations__}
+
+
+def tables(words: Words) -> Iterator[Words]:
+    """Yield a table of words and all tables in it."""
+    yield words
+    for one in words.values():
+        if isinstance(one, Words):
+            yield from tables(one)
+
+
+EVERY = [table for words in WORDS.values() for table in tables(words)]
+
+
+NO_KEYS = {*dir(dict), *dir(Language("en")), *WORDS}
+"""What is asked of a table, or of a whole language."""
+
+
+@cache
+def trees() -> dict[str, ast.Module]:
+    """Return the modules of the package that are read for keys."""
+    paths = [path for path in sorted(HOME.rglob("*.py")) if "wording" not in path.parts]
+    return {p.relative_to(HOME).as_posix(): ast.parse(p.read_text("utf-8")) for p in paths}
+
+
+def table_of(node: ast.AST, known: Mapping[str, list[Words]]) -> list[Words] | None:
+    """Return the tables that an expression may be; None where it is no words."""
+    match node:
+        case ast.Attribute(value, subject) if subject in WORDS:
+            of = ast.unparse(value)
+            if re.search(r"(^|\.)(words|language)$|^language\(.*\)$", of) and of not in known:
+                return [WORDS[subject]]
+        case ast.Call(ast.Name("wording")):
+            return [WORDS["note"]]
+        case ast.Subscript(value, ast.Constant(str(key))):
+            inside = table_of(value, known)
+            return (inside and [t[key] for t in inside if isinstance(t.get(key), Words)]) or None
+        case ast.Attribute(_, "said" | "words"):
+            return known.get(ast.unparse(node), EVERY)
+    return known.get(ast.unparse(node)) if isinstance(node, (ast.Name, ast.Attribute)) else None
+
+
+def bound(scope: ast.AST, known: Mapping[str, list[Words]]) -> dict[str, list[Words]]:
+    """Return what names of a function, or of ``self``, may be which tables of words."""
+    found = dict(known)
+    other: set[str] = set()
+    for node in ast.walk(scope):
+        pairs: list[tuple[ast.AST, ast.AST]] = []
+        match node:
+            case ast.arg(name, ast.Name("Words")):
+                found[name] = EVERY
+            case ast.FunctionDef(name, returns=ast.Name("Words")):
+                found[f"self.{name}"] = EVERY
+            case ast.AnnAssign(target, ast.Name("Words"), value):
+                found[ast.unparse(target)] = (value and table_of(value, found)) or EVERY
+            case ast.Assign([ast.Tuple(names)], ast.Tuple(values)) if len(names) == len(values):
+                pairs = list(zip(names, values, strict=True))
+            case ast.Assign(targets, value):
+                pairs = [(target, value) for target in targets]
+        for left, right in pairs:
+            if words := table_of(right, found):
+                found[ast.unparse(left)] = words
+            else:
+                other.add(ast.unparse(left))
+    return {name: words for name, words in found.items() if name not in other}
+
+
+def keys_read() -> Iterator[tuple[str, str, list[Words]]]:
+    """Yield where a sentence of words is named in the code, its key, the tables it may be of."""
+    for module, tree in trees().items():
+        of_self = {n: w for n, w in bound(tree, {}).items() if n.startswith("self.")}
+        for scope in ast.walk(tree):
+            if not isinstance(scope, ast.FunctionDef):
+                continue
+            known = bound(scope, of_self)
+            for node in ast.walk(scope):
+                if isinstance(node, ast.Attribute) and node.attr not in NO_KEYS:
+                    words = table_of(node.value, known)
+                    if words is not None:
+                        yield f"{module}:{node.lineno}", node.attr, words
+
+
+def test_every_key_that_the_code_names_is_a_sentence() -> None:
+    """``words.note.lay_off`` is a sentence; what is no sentence is ``words.note["plans"]``."""
+    found = list(keys_read())
+    assert len(found) > 600
+    wrong = [
+        (where, key)
+        for where, key, words in found
+        if not any(isinstance(table.get(key), str) for table in words)
+    ]
+    assert not wrong
+    methods = set(dir(dict))
+    assert not [key for words in WORDS.values() for key in words if key in methods]
+
+
+def test_every_sentence_is_said() -> None:
+    texts = {
+        node.value if isinstance(node, ast.Constant) else getattr(node, "attr", "")
+        for tree in trees().values()
+        for node in ast.walk(tree)
+        if isinstance(node, (ast.Constant, ast.Attribute))
+    }
+    silent = {
+        f"{subject}.{key}"
+        for subject, words in WORDS.items()
+        for key in words
+        if key not in texts and subject not in ("layouts", "families")
+    }
+    assert {name for name in silent if not name.startswith("forces.side_")} == set()
 
 
 def test_a_notation_writes_numbers_and_names_what_has_a_role() -> None:

@@ -415,8 +415,8 @@ FAULTS = {
     "several": (
         A + V + "points = true\ndigits = 2.5\nunit = 'метров в секунду за секунду'\n",
         [
-            "answers[0].points: expected a number of points, got the boolean true",
             "answers[0].unit: the text has 27 characters, the limit is 20. Shorten it.",
+            "answers[0].points: expected a number of points, got the boolean true",
             "answers[0].digits: expected a whole number from 1 to 8, got the number 2.5",
         ],
     ),

@@ -7,8 +7,8 @@ from pathlib import Path
 import pytest
 
 from planmethod.errors import ConfigError, ExitCode
-from planmethod.problem.config import VARIABLE, find_config, load_config, usual_place
 from planmethod.problem.head import SheetSettings
+from planmethod.problem.sheet import VARIABLE, find_config, load_config, usual_place
 
 
 def written(folder: Path, text: str) -> Path:

@@ -16,11 +16,11 @@ from planmethod.problem.load_records import (
     Interpolation,
     Load,
     Mass,
-    Moving,
+    MovingSense,
     Over,
     Phase,
-    Table,
-    Turning,
+    SizeTable,
+    TurningSense,
 )
 
 DOCS = Path(__file__).parents[2] / "docs" / "problem-file.md"
@@ -119,9 +119,9 @@ def test_forces_and_couples() -> None:
         """
     assert dynamics_of(text).loads == (
         Load("F_{5C}", "3", "C", -6000, Fixed(-90)),
-        Load("F_{2}", "2", "S2", 350.4, Against(), Phase(moving=Moving.DOWN)),
+        Load("F_{2}", "2", "S2", 350.4, Against(), Phase(moving=MovingSense.DOWN)),
         Couple("M_{1}", "1", 20),
-        Couple("M_{1}'", "1", 5, Against(), Phase(((300, 30),), turning=Turning.CW)),
+        Couple("M_{1}'", "1", 5, Against(), Phase(((300, 30),), turning=TurningSense.CW)),
     )
 
 
@@ -136,18 +136,18 @@ def test_loads_without_a_name_have_different_letters() -> None:
 def test_tables() -> None:
     rows = "values = [[0, 0], [90, 730], [360, 0]]"
     text = f'force = {{ over = "phi", {rows}, interpolation = "linear" }}\nangle = 90'
-    assert force(text).size == Table(Over.PHI, (0, 90, 360), (0, 730, 0), Interpolation.LINEAR)
+    assert force(text).size == SizeTable(Over.PHI, (0, 90, 360), (0, 730, 0), Interpolation.LINEAR)
     rows = "values = [[-0.1, 5], [0.2, 7]]"
     assert force(f'force = {{ over = "x", {rows}, interpolation = "step" }}\nangle = 90').size == (
-        Table(Over.X, (-0.1, 0.2), (5, 7), Interpolation.STEP)
+        SizeTable(Over.X, (-0.1, 0.2), (5, 7), Interpolation.STEP)
     )
     found = one('link = "1"\ncouple = { over = "position", values = [1, 2, 3, 4] }')
-    assert found.size == Table(Over.POSITION, (), (1, 2, 3, 4), Interpolation.STEP)
+    assert found.size == SizeTable(Over.POSITION, (), (1, 2, 3, 4), Interpolation.STEP)
 
 
 def test_a_table_over_the_way_of_a_driving_slider() -> None:
     size = '{ over = "s", values = [[0.3, 1], [0.35, 2]], interpolation = "linear" }'
-    assert one(f'link = "1"\ncouple = {size}', SLIDER).size == Table(
+    assert one(f'link = "1"\ncouple = {size}', SLIDER).size == SizeTable(
         Over.S, (0.3, 0.35), (1, 2), Interpolation.LINEAR
     )
 
@@ -223,9 +223,9 @@ def test_a_variant_overrides_a_load_by_number_or_name(key: str) -> None:
 def test_a_variant_replaces_a_table_whole_or_one_key_of_it() -> None:
     rows = '{ over = "x", values = [[0, 1], [1, 2]], interpolation = "step" }'
     whole = variant(f"v = {{ loads.P.force = {rows} }}").loads[0].size
-    assert whole == Table(Over.X, (0, 1), (1, 2), Interpolation.STEP)
+    assert whole == SizeTable(Over.X, (0, 1), (1, 2), Interpolation.STEP)
     key = variant('v = { "loads.P.force.interpolation" = "step" }').loads[0].size
-    assert key == Table(Over.PHI, (0, 90), (0, 730), Interpolation.STEP)
+    assert key == SizeTable(Over.PHI, (0, 90), (0, 730), Interpolation.STEP)
 
 
 def test_a_variant_replaces_all_loads() -> None:

@@ -15,7 +15,7 @@ from mechanisms import CRANK, LOADED
 from planmethod.errors import ProblemError
 from planmethod.problem import Problem, loads, template
 from planmethod.problem.families import FAMILIES
-from planmethod.problem.keys import KNOWN
+from planmethod.problem.keys import KINDS, known
 from planmethod.problem.reader import read_parsed
 
 ASKED = """
@@ -32,7 +32,7 @@ form = "mm"
 GOOD = [*map(template, FAMILIES), CRANK + ASKED + LOADED]
 NAMES = ["A", "B", "C", "D", "O", "S2", "AB", "BC", "CD", "OA", "1", "2", "3", "x-x", "А", "0", ""]
 WORDS = [
-    *(key for keys in KNOWN.values() for key in keys),
+    *(key for kind in KINDS for key in known(kind)),
     *NAMES,
     *("right of A", "left of AB", "left of", "v B", "segment velocity p B", "mm/unit"),
 ]

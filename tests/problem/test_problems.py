@@ -16,14 +16,22 @@ from cases import each, thinned
 from worked import every_file, every_task
 
 from planmethod.problem import FAMILIES, keys, load, loads, template, variant_names
+from planmethod.problem.declared import (
+    AngleKey,
+    FlagKey,
+    NumberKey,
+    TextKey,
+    WholeKey,
+    WordKey,
+    declared,
+)
 from planmethod.problem.model import Convention
 from planmethod.problem.selector import FORCES, MACHINE, QUANTITIES, parse_selector
+from scripts import reference
 
 ROOT = Path(__file__).parents[2]
 PROBLEMS = every_file()
-SCHEMA: dict[str, Any] = json.loads(
-    (ROOT / "planmethod" / "problem" / "schema.json").read_text(encoding="utf-8")
-)
+SCHEMA: dict[str, Any] = json.loads(reference.SCHEMA.read_text(encoding="utf-8"))
 DOCS = (ROOT / "docs" / "problem-file.md").read_text(encoding="utf-8")
 LINKAGES = ROOT / "problems" / "linkages"
 LEVERS = ROOT / "problems" / "levers"
@@ -167,57 +175,66 @@ SCHEMA_TABLES = {
     "span": SCHEMA["$defs"]["span"]["properties"],
     "rule": SCHEMA["$defs"]["assembly"]["additionalProperties"]["anyOf"][1]["properties"],
     "moving": SCHEMA["$defs"]["moving"]["properties"],
-    "cycle": SCHEMA["$defs"]["cycle"]["properties"],
-    "pole": SCHEMA["$defs"]["cycle"]["properties"]["pole"]["properties"],
     "rolling": SCHEMA["$defs"]["rolling"]["properties"],
-    "scales": SCHEMA["$defs"]["scales"]["properties"],
-    "stamp": SCHEMA["$defs"]["stamp"]["properties"],
-    "sheet": SCHEMA["$defs"]["sheet"]["properties"],
-    "published": SCHEMA["$defs"]["published"]["additionalProperties"]["properties"],
-    "answer": SCHEMA["$defs"]["answer"]["properties"],
-    "dynamics": SCHEMA["$defs"]["dynamics"]["properties"],
-    "mass": SCHEMA["$defs"]["mass"]["properties"],
-    "load": SCHEMA["$defs"]["load"]["properties"],
     "table": SCHEMA["$defs"]["table"]["properties"],
-    "phases": SCHEMA["$defs"]["phases"]["properties"],
-    "machine": SCHEMA["$defs"]["machine"]["properties"],
-    "flywheel": SCHEMA["$defs"]["machine"]["properties"]["flywheel"]["properties"],
-    "motor": SCHEMA["$defs"]["machine"]["properties"]["motor"]["properties"],
-    "kloss": SCHEMA["$defs"]["machine"]["properties"]["motor"]["properties"]["kloss"]["properties"],
-    "line": SCHEMA["$defs"]["machine"]["properties"]["motor"]["properties"]["line"]["properties"],
-    "balancing": SCHEMA["$defs"]["balancing"]["properties"],
     "gears": SCHEMA["$defs"]["gears"]["properties"],
-    "wheel": SCHEMA["$defs"]["gearWheel"]["properties"],
     "mesh": SCHEMA["$defs"]["gearMesh"]["properties"],
-    "picture": SCHEMA["$defs"]["gears"]["properties"]["picture"]["properties"],
-    "meshing": SCHEMA["$defs"]["meshing"]["properties"],
+    **{kind: reference.table_at(SCHEMA, kind)["properties"] for kind in reference.PLACES},
 }
 
 
-@each("kind", keys.KNOWN)
+def test_what_follows_from_declared_keys_is_current() -> None:
+    assert reference.SCHEMA.read_text("utf-8") == reference.schema_text(), "run make schema"
+    assert reference.ENGLISH.read_text("utf-8") == reference.english_text(), "run make schema"
+    assert reference.RUSSIAN.read_text("utf-8") == reference.russian_text(), "run make schema"
+
+
+def test_every_declared_table_is_in_the_schema_and_in_both_references() -> None:
+    kinds = {*keys.FLAT, "stamp"}
+    assert set(reference.PLACES) == kinds
+    for path in (reference.ENGLISH, reference.RUSSIAN):
+        text = path.read_text("utf-8")
+        assert set(re.findall(r"(?m)^<!-- keys of (\w+) -->$", text)) == kinds
+    sentences = tomllib.loads(reference.SENTENCES.read_text("utf-8"))
+    for kind in kinds:
+        assert set(sentences[kind]) == set(keys.known(kind)), kind
+
+
+@each("kind", keys.FLAT)
+def test_declared_keys_agree_with_the_types_of_their_fields(kind: str) -> None:
+    kinds = {WholeKey: int, FlagKey: bool, TextKey: str, NumberKey: float, AngleKey: float}
+    for one in declared(keys.FLAT[kind]):
+        if isinstance(one.key, WordKey):
+            sentence = one.key.sentence
+            assert all(f'"{word.value}"' in sentence for word in one.kind), one
+        elif type(one.key) in kinds:
+            assert one.kind is kinds[type(one.key)], one
+
+
+@each("kind", keys.KINDS)
 def test_every_key_stands_in_the_references_of_both_languages(kind: str) -> None:
     docs = Path(__file__).parents[2] / "docs"
     english = (docs / "problem-file.md").read_text("utf-8")
     russian = (docs / "ru" / "keys.md").read_text("utf-8")
     (section,) = re.findall(rf"(?ms)^## [^\n]*: `{kind}`\n(.*?)(?=^## |\Z)", russian)
-    for key in keys.KNOWN[kind]:
+    for key in keys.known(kind):
         assert f"`{key}`" in section, key
         assert re.search(rf"[`.]{key}[`.]", english), key
 
 
-@each("kind", keys.KNOWN)
+@each("kind", keys.KINDS)
 def test_the_schema_has_exactly_the_keys_the_reader_knows(kind: str) -> None:
-    assert set(SCHEMA_TABLES[kind]) == set(keys.KNOWN[kind])
+    assert set(SCHEMA_TABLES[kind]) == set(keys.known(kind))
 
 
-@each("kind", keys.KNOWN)
+@each("kind", keys.KINDS)
 def test_every_key_is_documented(kind: str) -> None:
     rows = re.findall(r"^\| (`[^|]*`) \|", DOCS, re.MULTILINE)
     documented = {name.split(".")[-1] for row in rows for name in re.findall(r"`([^`]+)`", row)}
     if kind == "frame":
         assert "`guides`" in DOCS
     else:
-        assert set(keys.KNOWN[kind]) <= documented
+        assert set(keys.known(kind)) <= documented
 
 
 @each("kind", [*QUANTITIES, *FORCES, *MACHINE])

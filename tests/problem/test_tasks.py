@@ -17,7 +17,7 @@ from planmethod.kinds import load
 from planmethod.problem import Problem, variant_names
 from planmethod.problem.fields import Faults
 from planmethod.problem.source import parse
-from planmethod.problem.tasks import LINKAGE, Task, groups_of, home, tasks, text_for
+from planmethod.problem.tasks import LINKAGE, ShippedTask, groups_of, home, tasks, text_for
 from planmethod.problem.variants import apply_variant, read_variants
 from planmethod.render.control.remarks import Severity
 from planmethod.render.sheets.controlled import controlled_kinematics
@@ -47,7 +47,7 @@ def test_the_index_and_the_documents_are_those_of_the_files() -> None:
 
 
 @each("task", [task for task in TASKS.values() if task.variants])
-def test_a_variant_is_written_into_the_text(task: Task) -> None:
+def test_a_variant_is_written_into_the_text(task: ShippedTask) -> None:
     table = parse(task.text, name=task.file)
     overrides = read_variants(Faults(), table)
     for variant in thinned(task.variants, 3):

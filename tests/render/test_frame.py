@@ -13,8 +13,7 @@ from reading import texts
 from worked import ROOT
 
 from planmethod.errors import LayoutError
-from planmethod.problem.keys import SHEET as READER_SHEET_KEYS
-from planmethod.problem.keys import STAMP as STAMP_FIELDS
+from planmethod.problem import keys
 from planmethod.render.control.texts import lint
 from planmethod.render.frame.forms import FORM_1, FORM_2, FORM_2A, Form
 from planmethod.render.frame.frame import (
@@ -151,7 +150,7 @@ def test_more_than_three_letters_take_the_place_of_the_three_cells() -> None:
 def test_every_key_of_the_problem_file_has_its_place() -> None:
     columns = Furniture(side_columns=True, graph_26=False)
     bare = len(texts(sheet_frame("A3", {"sheets": ""}, columns).items))
-    for key in STAMP_FIELDS:
+    for key in keys.known("stamp"):
         assert len(texts(sheet_frame("A3", {"sheets": "", key: "8"}, columns).items)) == bare + 1, (
             key
         )
@@ -160,7 +159,7 @@ def test_every_key_of_the_problem_file_has_its_place() -> None:
 def test_the_documents_have_every_field_and_where_it_goes() -> None:
     text = (ROOT / "docs" / "title-block.md").read_text(encoding="utf-8")
     rows = re.findall(r"(?m)^\| `(\w+)` \| ([\d, ]+) \| .* \| ([\w, ]+) \|$", text)
-    assert {key for key, _, _ in rows} == set(STAMP_FIELDS)
+    assert {key for key, _, _ in rows} == set(keys.known("stamp"))
     for key, _, forms in rows:
         place = ALIASES.get(key, key)
         shown = {
@@ -171,8 +170,8 @@ def test_the_documents_have_every_field_and_where_it_goes() -> None:
             or (place == "letter" and form.letters)
         }
         assert forms == (", ".join(sorted(shown)) or "all"), key
-    keys = [*re.findall(r"(?m)^\| `(\w+)` \| [`|]", text), "lettering"]
-    assert set(keys) == set(READER_SHEET_KEYS)
+    there = [*re.findall(r"(?m)^\| `(\w+)` \| [`|]", text), "lettering"]
+    assert set(there) == set(keys.known("sheet"))
 
 
 def test_unknown_field_is_told_with_the_nearest() -> None:
@@ -472,7 +471,7 @@ texts_of_fields = st.text(alphabet="Жащфу. -№WI1_{^\\", min_size=1, max_s
 
 @settings(deadline=None)
 @given(
-    st.dictionaries(st.sampled_from(sorted(STAMP_FIELDS)), texts_of_fields),
+    st.dictionaries(st.sampled_from(sorted(keys.known("stamp"))), texts_of_fields),
     st.sampled_from(sorted(FORMS)),
     st.sampled_from(["A4", "A3", "A3:portrait"]),
 )

@@ -10,7 +10,7 @@ from msgspec.structs import replace
 from worked import problem_of
 
 from planmethod.note.wording import language
-from planmethod.problem.load_records import Interpolation, Over, Table
+from planmethod.problem.load_records import Interpolation, Over, SizeTable
 from planmethod.problem.model import Problem
 from planmethod.render.ink.drawing import Arc, Item, Stroke
 from planmethod.render.pictures.diagram import AXIS, CURVE
@@ -24,7 +24,7 @@ LAYOUT = composition("forces")
 MANNER = Manner(ENTRY, LAYOUT.sizes_for("A1"), 800.0, Extras(language("en")))
 
 
-def with_table(table: Table, phi: float) -> list[Item]:
+def with_table(table: SizeTable, phi: float) -> list[Item]:
     problem = problem_of("press/press")
     assert problem.dynamics is not None
     (load,) = problem.dynamics.loads
@@ -46,7 +46,7 @@ def test_a_ring_stands_on_the_curve_where_the_load_is(
 ) -> None:
     """Wherever the rows of a turn begin, the axis is from 0 to 360 degrees."""
     at = (turned, turned + 90.0, turned + 200.0)
-    items = with_table(Table(Over.PHI, at, (100.0, 500.0, 300.0), interpolation), 250.0)
+    items = with_table(SizeTable(Over.PHI, at, (100.0, 500.0, 300.0), interpolation), 250.0)
     (ring,) = (item.centre for item in items if isinstance(item, Arc))
     parts = [i.points for i in items if isinstance(i, Stroke) and i.tag.startswith(CURVE)]
     start = corner(items)
@@ -63,7 +63,9 @@ def test_a_ring_stands_on_the_curve_where_the_load_is(
 
 def test_where_a_load_does_not_act_its_diagram_shows_no_size() -> None:
     assert not [
-        i for i in with_table(Table(Over.PHI, (0.0, 90.0), (0.0, 0.0)), 50.0) if isinstance(i, Arc)
+        i
+        for i in with_table(SizeTable(Over.PHI, (0.0, 90.0), (0.0, 0.0)), 50.0)
+        if isinstance(i, Arc)
     ]
 
 

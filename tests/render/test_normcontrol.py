@@ -194,7 +194,7 @@ def test_every_code_has_its_heading() -> None:
     text = (ROOT / "docs" / "normcontrol.md").read_text("utf-8")
     parts = re.split(r"(?m)^## ", text)
     headings = {part.splitlines()[0]: part for part in parts[1:]}
-    english, russian = (language(lang).control.remarks for lang in ("en", "ru"))
+    english, russian = (language(lang).control["remarks"] for lang in ("en", "ru"))
     assert list(headings) == [f"{code}: {said.title}" for code, said in english.items()]
     for code, said in english.items():
         body = headings[f"{code}: {said.title}"]
@@ -503,7 +503,7 @@ def test_the_structural_sheet_is_looked_at_too() -> None:
 def test_every_view_and_every_pen_has_a_word(lang: str) -> None:
     words = language(lang).control
     assert set(words.views) == {*VIEW_KINDS, "stamp", ""}
-    assert len(set(words.views.values())) == len(words.views)
+    assert len(set(words["views"].values())) == len(words["views"])
     for pen in Pen:
         assert thing_text(f"stroke {pen.value} some tag", words).endswith("(some tag)")
         if PENS[pen].dashes is not None:

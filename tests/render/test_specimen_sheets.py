@@ -63,7 +63,7 @@ def test_every_symbol_has_a_name_and_a_clause_of_its_own() -> None:
 
 
 def test_the_symbols_asked_for_are_there() -> None:
-    told = " ".join(RU.specimens.cells[cell.name].lower() for cell in symbol_cells())
+    told = " ".join(RU.specimens["cells"][cell.name].lower() for cell in symbol_cells())
     for name in (
         "неподвижная опора",
         "двусторонней",
@@ -137,7 +137,7 @@ def test_the_table_has_the_widths_of_the_pens() -> None:
     told = letters(lines_sheet({}, RU))
     for kind in TYPES:
         assert f"{PENS[kind.pen].width:g}".replace(".", ",") in told
-        assert RU.specimens.line_names[kind.name].split("\n")[0] in told
+        assert RU.specimens["line_names"][kind.name].split("\n")[0] in told
 
 
 def test_the_rules_are_kept_in_their_own_pictures() -> None:

@@ -16,7 +16,7 @@ from planmethod.construct.evaluate import evaluate
 from planmethod.note.records.solution import cycle_record
 from planmethod.note.wording import language
 from planmethod.paper import FORMATS
-from planmethod.problem.model import CycleTask, Differentiation
+from planmethod.problem.model import CycleTask, Differentiation, PoleDistances
 from planmethod.render.control.texts import lint
 from planmethod.render.ink.drawing import VIEW_KINDS, Disc, Stroke
 from planmethod.render.pictures.diagram import AXIS
@@ -62,7 +62,7 @@ def test_the_points_of_the_diagrams_stand_where_the_numbers_say() -> None:
 @pytest.mark.parametrize("way", Differentiation)
 def test_every_ray_is_parallel_to_its_chord(way: Differentiation) -> None:
     """The slope of what a ray cuts off over the pole distance is that of the path."""
-    made = diagrams(press(differentiation=way, pole_v=30.0))
+    made = diagrams(press(differentiation=way, pole=PoleDistances(v=30.0)))
     s, v, _ = made.drawn(way)
     chords = np.diff(s) / 24.0
     tangents = (s[(np.arange(12) + 1) % 12] - s[(np.arange(12) - 1) % 12]) / 48.0

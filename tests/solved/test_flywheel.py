@@ -19,7 +19,7 @@ from planmethod.errors import ProblemError
 from planmethod.note.audit.audit import Verdict, audit
 from planmethod.note.audit.machine import chain
 from planmethod.problem import load, loads
-from planmethod.problem.load_records import Ordinates
+from planmethod.problem.load_records import Quadrature
 from planmethod.solved.machine.drawing import FlywheelDrawing, split
 from planmethod.solved.machine.flywheel import Flywheel
 
@@ -82,7 +82,7 @@ def test_the_flywheel_is_exact_and_evens_out_the_motion(name: str) -> None:
     }
     for key, pair in slopes.items():
         assert near(made.tangents(*pair, made.middle_speed).inertia, wanted[key]), key
-    ways = {"trapezoid": Ordinates.TRAPEZOID, "mid_ordinates": Ordinates.MIDDLE}
+    ways = {"trapezoid": Quadrature.TRAPEZOID, "mid_ordinates": Quadrature.MIDDLE}
     for key, value in CASES[name]["J_f_polygon"].items():
         count, kind, way = key.split("/")
         assert near(made.by_points(int(count), ways[way], slopes[kind]).tangents.inertia, value)

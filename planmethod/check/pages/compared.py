@@ -9,23 +9,25 @@ from planmethod.check.pages.speech import Speech, quoted, told
 from planmethod.languages import say
 from planmethod.note.document import Caption, Document, Node, Paragraph, table_of
 from planmethod.note.numbers import trimmed
-from planmethod.note.wording.language import Language
+from planmethod.note.wording import Language, Words
 
 _NONE = "—"
 
 
 def compared_document(checked: Sequence[Checked], words: Language) -> Document:
-    """Return tables, one for each work: his value, the exact one, how far apart they are."""
-    return Document.of(_compared(checked, words))
+    """Return tables, one for each work: his value, the exact one, how far apart."""
+    return Document.of(_nodes(checked, words))
 
 
-def _compared(checked: Sequence[Checked], words: Language) -> Iterator[Node]:
-    say, speech = words.check.compared, Speech(words)
+def _nodes(checked: Sequence[Checked], words: Language) -> Iterator[Node]:
+    speech = Speech(words)
+    say: Words = words.check["compared"]
     for one in checked:
-        if name := " ".join(filter(None, (quoted(one.work.student), one.variant))):
+        name = " ".join(filter(None, (quoted(one.work.student), one.variant)))
+        if name:
             yield Caption(name)
-        told = (judged for judged in one.answers if judged.written is not None)
-        yield table_of(say.columns, (tuple(_cells(judged, speech)) for judged in told))
+        written = (judged for judged in one.answers if judged.written is not None)
+        yield table_of(say["columns"], (list(_cells(judged, speech)) for judged in written))
     yield Paragraph(say.note)
 
 

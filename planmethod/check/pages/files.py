@@ -16,15 +16,12 @@ from msgspec.structs import asdict, replace
 from planmethod.check.key import Key
 from planmethod.check.marks import Settings
 from planmethod.check.model import Checked, Judged, Written
-from planmethod.check.pages.htmlpage import html_page
 from planmethod.check.pages.listing import csv_bytes
 from planmethod.check.pages.overrides import HEAD
-from planmethod.check.pages.pdfpage import pdf_page
 from planmethod.check.pages.results import results_xlsx
-from planmethod.check.pages.student import student_page
+from planmethod.check.pages.student import student_html, student_page, student_pdf
 from planmethod.errors import OutputError
 from planmethod.note.wording import language
-from planmethod.pattern import pattern
 from planmethod.problem.head import KindProblem
 from planmethod.problem.model import Problem
 from planmethod.render.backends.output import write
@@ -132,7 +129,7 @@ def _anonymous(checked: Checked, salt: str) -> Checked:
 LONGEST = 40
 """Letters of a file's name: with four bytes each and its ending it is short enough anywhere."""
 
-_RESERVED = pattern(r"(con|prn|aux|nul|com\d|lpt\d)(\.|$)", re.IGNORECASE)
+_RESERVED = r"(?i)(con|prn|aux|nul|com\d|lpt\d)(\.|$)"
 
 
 def file_names(students: Sequence[str]) -> list[str]:
@@ -142,7 +139,7 @@ def file_names(students: Sequence[str]) -> list[str]:
     for student in students:
         plain = re.sub(r"[^\w.-]+", "-", unicodedata.normalize("NFC", student))[:LONGEST]
         plain = plain.strip("-. ") or "student"
-        plain = f"_{plain}" if _RESERVED.match(plain) else plain
+        plain = f"_{plain}" if re.match(_RESERVED, plain) else plain
         name, copy = plain, 2
         while name.casefold() in taken:
             name, copy = f"{plain}-{copy}", copy + 1
@@ -226,6 +223,6 @@ def _pages(
         solved = solutions[work.variant]
         page = student_page(work, solved, words, scales=key.scales, mark=mark)
         yield {
-            "html": html_page(page, solved, words).encode(),
-            "pdf": pdf_page(page, words),
+            "html": student_html(page, solved, words).encode(),
+            "pdf": student_pdf(page, solved, words),
         }

@@ -9,25 +9,27 @@ from msgspec import Struct
 
 from planmethod.check.key import Key
 from planmethod.check.model import KeyEntry
-from planmethod.check.pages.pdf import NOTE, TEXT, Document
+from planmethod.check.pages.overlayview import LETTERING
 from planmethod.check.pages.remarks import place_letters, scale_letters, segment_letters
 from planmethod.check.pages.speech import Speech, told
 from planmethod.check.pages.workbook import add_sheet, new_workbook, saved
-from planmethod.note import document
 from planmethod.note.document import (
     Caption,
+    Document,
     Item,
     Node,
     Note,
     Paragraph,
+    Table,
     Title,
-    table_of,
     table_of_columns,
 )
 from planmethod.note.plaintext import plain_text
-from planmethod.note.wording.check_model import KeyWording
-from planmethod.note.wording.language import Language
+from planmethod.note.wording import Language, Words
+from planmethod.note.writers.pdf import pdf_document
+from planmethod.note.writers.plain import plain_document
 from planmethod.plans.model import FACTS
+from planmethod.render.backends.pdf import registered
 
 UNSEEN = "*"
 """Sign of an answer that the drawing does not show, where there is no room for words."""
@@ -55,9 +57,10 @@ class KeyPage(Struct, frozen=True):
     words: Language
 
     @property
-    def say(self) -> KeyWording:
+    def say(self) -> Words:
         """Words of the key."""
-        return self.words.check.key
+        key: Words = self.words.check["key"]
+        return key
 
     @property
     def speech(self) -> Speech:
@@ -114,7 +117,7 @@ class KeyPage(Struct, frozen=True):
                 whose.setdefault(code, []).append(key)
         lines = []
         for code, keys in whose.items():
-            known = self.words.check.mistakes.get(code)
+            known = self.words.check["mistakes"].get(code)
             found = {place for key in keys for place in key.hidden[code] if place}
             places = [place_letters(place) for place in sorted(found)]
             line = f"{code}: {known.name if known else code}"
@@ -134,7 +137,7 @@ class KeyPage(Struct, frozen=True):
     # Cells -------------------------------------------------------------------------------------
 
     def line(self, entry: KeyEntry) -> list[str]:
-        """Return an answer as the cells of a row, rich text, see `KeyWording.columns`."""
+        """Return an answer as the cells of a row, rich text, see `Words.columns`."""
         speech = self.speech
         return [
             speech.letters(entry),
@@ -190,34 +193,36 @@ class KeyPage(Struct, frozen=True):
         return len(self.rows()) == 1
 
 
-SINGLE = (22.0, 36.0, 17.0, 21.0, 15.0, 14.0, 15.0, 46.0)
-"""Widths of the columns of one variant, mm."""
-
-WIDE = 273.0
-
-COLUMN = 34.0
-LEAD = 20.0
+def key_document(keys: Sequence[Key], words: Language) -> Document:
+    """Return the key as a document: one table, of several variants a row for each."""
+    return Document.of(_nodes(KeyPage(tuple(keys), words)))
 
 
-def key_document(keys: Sequence[Key], words: Language) -> document.Document:
+def key_text(keys: Sequence[Key], words: Language) -> str:
     """Return the key for a terminal."""
-    return document.Document.of(_key(KeyPage(tuple(keys), words)))
+    return plain_document(key_document(keys, words), words) + "\n"
 
 
-def _key(page: KeyPage) -> Iterator[Node]:
+def key_pdf(keys: Sequence[Key], words: Language) -> bytes:
+    """Return the key as PDF: a standing page for one variant, lying ones for several."""
+    page = KeyPage(tuple(keys), words)
+    return pdf_document(
+        Document.of(_nodes(page)),
+        title=plain_text(page.title),
+        font=registered(LETTERING),
+        wide=not page.is_single,
+    )
+
+
+def _nodes(page: KeyPage) -> Iterator[Node]:
     yield Title(page.title)
     if scales := page.scales():
         yield Paragraph(scales)
     if page.is_single:
-        rows = (page.line(entry) for entry in page.keys[0].entries)
-        yield table_of(page.say.columns, rows)
+        lines = tuple(tuple(page.line(entry)) for entry in page.keys[0].entries)
+        yield Table(tuple(page.say.columns), lines)
     else:
-        rows_of = page.rows()
-        columns = [[page.say.rows[0], *(page.lead(row) for row in rows_of)]]
-        for entry in page.columns():
-            cells = (page.cell(row.entries.get(entry.label)) for row in rows_of)
-            columns.append([page.head(entry), *("; ".join(filter(None, cell)) for cell in cells)])
-        yield table_of_columns(columns, repeated=1)
+        yield table_of_columns(_columns(page), repeated=1)
         if page.has_unseen:
             yield Note(f"{UNSEEN} — {page.say.unseen}.")
     yield Paragraph(page.note())
@@ -226,57 +231,19 @@ def _key(page: KeyPage) -> Iterator[Node]:
         yield from map(Item, hidden)
 
 
-def key_pdf(keys: Sequence[Key], words: Language) -> bytes:
-    """Return the key as PDF: a standing page for one variant, lying ones for several."""
-    page = KeyPage(tuple(keys), words)
-    pdf = Document(plain_text(page.title), wide=not page.is_single)
-    pdf.paragraph(page.title, 14.0)
-    pdf.paragraph(page.scales(), NOTE)
-    pdf.gap(4.0)
-    if page.is_single:
-        rows = [page.line(entry) for entry in page.keys[0].entries]
-        pdf.table(page.say.columns, rows, SINGLE, right=(4,), size=TEXT)
-    else:
-        for part in _parts(page):
-            pdf.table(*_matrix(page, part), size=NOTE)
-            pdf.gap(5.0)
-        if page.has_unseen:
-            pdf.paragraph(f"{UNSEEN} — {page.say.unseen}.", NOTE)
-    pdf.gap(3.0)
-    pdf.paragraph(page.note(), NOTE)
-    if hidden := page.hidden():
-        pdf.heading(page.say.hidden)
-        pdf.listed(hidden, NOTE)
-    return pdf.close()
-
-
-def _parts(page: KeyPage) -> Iterator[list[KeyEntry]]:
-    """Cut the columns into tables that fit on a lying page, about as wide as each other."""
-    columns = page.columns()
-    most = int((WIDE - LEAD) // COLUMN)
-    tables = -(-len(columns) // most)
-    size = -(-len(columns) // max(1, tables))
-    for start in range(0, len(columns), size):
-        yield columns[start : start + size]
-
-
-def _matrix(
-    page: KeyPage, columns: Sequence[KeyEntry]
-) -> tuple[list[str], list[list[str]], list[float]]:
-    """Return head, rows and widths of a table with a column for each answer."""
-    rows = []
-    for row in page.rows():
-        cells = [page.cell(row.entries.get(entry.label)) for entry in columns]
-        rows.append([page.lead(row), *("; ".join(filter(None, cell)) for cell in cells)])
-    width = min(48.0, (WIDE - LEAD) / len(columns))
-    header = [page.say.rows[0], *(page.head(entry) for entry in columns)]
-    return header, rows, [LEAD, *[width] * len(columns)]
+def _columns(page: KeyPage) -> Iterator[list[str]]:
+    """Yield the columns of a group's table: variants, and each answer."""
+    rows = page.rows()
+    yield [page.say.rows[0], *(page.lead(row) for row in rows)]
+    for entry in page.columns():
+        cells = (page.cell(row.entries.get(entry.label)) for row in rows)
+        yield [page.head(entry), *("; ".join(filter(None, cell)) for cell in cells)]
 
 
 def key_xlsx(keys: Sequence[Key], words: Language) -> bytes:
     """Return the key as a workbook: a row for each answer of each variant."""
     page = KeyPage(tuple(keys), words)
-    quantity, value, unit, segment, mm, sense, points, note = page.say.columns
+    quantity, value, unit, segment, mm, sense, points, note = page.say["columns"]
     exact, _, tolerance = value.partition(" ± ")
     header = [
         *page.say.rows, quantity, exact, f"± {tolerance}", unit, segment, mm, sense, points, note,

@@ -9,7 +9,7 @@ from msgspec import Struct
 from planmethod.check.model import Checked, Diagnosis, Judged, Verdict
 from planmethod.construct.steps import PointName
 from planmethod.note.narrate.scales import scale_inscription
-from planmethod.note.wording.language import Language
+from planmethod.note.wording import Language
 from planmethod.plans.model import FACTS, RATES, PlanKind
 from planmethod.render.ink.drawing import Bounds, Drawing, Fill, Item, shifted
 from planmethod.render.ink.extent import ink_bounds

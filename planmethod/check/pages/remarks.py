@@ -8,7 +8,7 @@ from msgspec import Struct
 
 from planmethod.check.model import Checked, Diagnosis, Judged, Sense, Verdict, Written
 from planmethod.check.pages.speech import Speech, quoted
-from planmethod.note.wording.check_model import StudentWording
+from planmethod.note.wording import Words
 from planmethod.plans.model import FACTS, RATES
 
 PLANS = {FACTS[kind].scale: kind for kind in RATES}
@@ -31,9 +31,10 @@ class Remarks(Struct, frozen=True):
     scales: Mapping[str, float]
 
     @property
-    def say(self) -> StudentWording:
+    def say(self) -> Words:
         """Words of a student's page."""
-        return self.speech.say.student
+        said: Words = self.speech.say["student"]
+        return said
 
     def sentences(self) -> list[str]:
         """Return all remarks; one that all is right where it is."""
@@ -60,7 +61,7 @@ class Remarks(Struct, frozen=True):
                 (key.segment, key.scale),
                 self.say.redraw_line.format(
                     segment=segment_letters(key.segment),
-                    plan=self.say.plan_names[plan.value],
+                    plan=self.say["plan_names"][plan.value],
                     right=self.speech.mm(key.mm),
                 ),
             )
@@ -83,7 +84,7 @@ class Remarks(Struct, frozen=True):
             yield " ".join(parts)
 
     def _why(self, diagnosis: Diagnosis, root: Judged) -> str:
-        words = [self.speech.say.mistakes[c] for c in diagnosis.codes if c in self._codes]
+        words = [self.speech.say["mistakes"][c] for c in diagnosis.codes if c in self._codes]
         if not words:
             return self._not_known(root)
         if not diagnosis.sure or len(words) > 1:
@@ -104,7 +105,8 @@ class Remarks(Struct, frozen=True):
         if not where:
             return ""
         kind = "pair" if "/" in where else "link" if where.isdigit() else ""
-        return self.say.mistake_here[kind].format(where=place_letters(where))
+        said: str = self.say["mistake_here"][kind]
+        return said.format(where=place_letters(where))
 
     def _not_known(self, judged: Judged) -> str:
         if judged.key is None or judged.key.mm is None or not judged.key.segment:
@@ -188,7 +190,7 @@ class Remarks(Struct, frozen=True):
                 yield f"{places['answer']}: {quoted(judged.remark)}"
 
     def _sense(self, sense: Sense | None) -> str:
-        return "" if sense is None else " ".join(self.speech.say.senses[sense.value])
+        return "" if sense is None else " ".join(self.speech.say["senses"][sense.value])
 
     def _lost(self, judged: Judged) -> str:
         if judged.points >= judged.of:
@@ -244,7 +246,8 @@ class Remarks(Struct, frozen=True):
 
     @property
     def _codes(self) -> Mapping[str, object]:
-        return self.speech.say.mistakes
+        said: Words = self.speech.say["mistakes"]
+        return said
 
     def _compared(self, judged: Judged) -> str:
         if judged.key is None:

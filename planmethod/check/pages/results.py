@@ -11,8 +11,7 @@ from planmethod.check.pages.listing import codes_of
 from planmethod.check.pages.speech import Speech, told
 from planmethod.check.pages.workbook import Filled, add_sheet, new_workbook, saved
 from planmethod.note.plaintext import plain_text
-from planmethod.note.wording.check_model import CheckWording
-from planmethod.note.wording.language import Language
+from planmethod.note.wording import Language, Words
 
 COLOURS: Mapping[Verdict, str] = {
     Verdict.OK: "D9EFDC",
@@ -43,36 +42,36 @@ def results_xlsx(
     settings : mapping
         What the last sheet shows: settings of the run and its files.
     """
-    say = words.check.results
-    first, second, third, fourth = say.sheets
-    verdicts = [words.check.verdicts[verdict.value] for verdict in Verdict]
+    say: Words = words.check["results"]
+    first, second, third, fourth = say["sheets"]
+    verdicts = [words.check["verdicts"][verdict.value] for verdict in Verdict]
     book = new_workbook()
     add_sheet(
         book,
         first,
-        [*say.summary[:6], *verdicts, *say.summary[6:]],
+        [*say["summary"][:6], *verdicts, *say["summary"][6:]],
         list(_summary(works, marks, words)),
         formats={2: POINTS, 3: POINTS, 4: SHARE},
     )
     add_sheet(
         book,
         second,
-        say.answers,
+        say["answers"],
         list(_answers(works, words)),
         frozen=3,
         formats={5: VALUE, 6: VALUE, 7: VALUE, 9: LENGTH, 10: LENGTH, 13: VALUE, 14: POINTS},
     )
     by_code = list(_by_code(works, words.check))
-    add_sheet(book, third, say.by_code, by_code)
+    add_sheet(book, third, say["by_code"], by_code)
     add_sheet(
         book,
         third,
-        say.by_answer,
+        say["by_answer"],
         list(_by_answer(works)),
         formats={3: SHARE},
         row=len(by_code) + 3,
     )
-    add_sheet(book, fourth, say.settings, list((settings or {}).items()))
+    add_sheet(book, fourth, say["settings"], list((settings or {}).items()))
     return saved(book)
 
 
@@ -94,7 +93,7 @@ def _summary(
         ]
 
 
-def told_mistakes(checked: Checked, say: CheckWording) -> str:
+def told_mistakes(checked: Checked, say: Words) -> str:
     """Return the mistakes of a work: codes and names, each with the answers where it begins."""
     labels = _labels(checked)
     begins: dict[str, list[str]] = {}
@@ -111,26 +110,27 @@ def _labels(checked: Checked) -> dict[str, str]:
     return {judged.id: judged.key.label for judged in checked.answers if judged.key is not None}
 
 
-def _name(diagnosis: Diagnosis, say: CheckWording) -> str:
+def _name(diagnosis: Diagnosis, say: Words) -> str:
+    results: Words = say["results"]
     names = [
-        f"{code} {say.mistakes[code].name}" if code in say.mistakes else code
+        f"{code} {say['mistakes'][code].name}" if code in say["mistakes"] else code
         for code in diagnosis.codes
     ]
     if not names:
-        return say.results.unknown
-    return " / ".join(names) if diagnosis.sure else f"{say.results.perhaps}: {' / '.join(names)}"
+        return results.unknown
+    return " / ".join(names) if diagnosis.sure else f"{results.perhaps}: {' / '.join(names)}"
 
 
 def _notes(checked: Checked, words: Language) -> Iterator[str]:
     say = words.check
     if checked.suspicious:
-        yield say.results.suspicious
+        yield say["results"].suspicious
     if checked.by_hand or any(judged.by_hand for judged in checked.answers):
-        yield say.results.by_hand
+        yield say["results"].by_hand
     if checked.remark:
         yield checked.remark
     for written in checked.work.remarks:
-        yield f"{say.verdicts['unreadable']}: {written.where} {Speech(words).unread(written)}"
+        yield f"{say['verdicts']['unreadable']}: {written.where} {Speech(words).unread(written)}"
 
 
 def _answers(works: Sequence[Checked], words: Language) -> Iterator[list[Any]]:
@@ -145,7 +145,7 @@ def _answers(works: Sequence[Checked], words: Language) -> Iterator[list[Any]]:
                 checked.work.student,
                 checked.variant,
                 judged.id if key is None else key.label,
-                Filled(say.verdicts[judged.verdict.value], COLOURS[judged.verdict]),
+                Filled(say["verdicts"][judged.verdict.value], COLOURS[judged.verdict]),
                 labels.get(judged.follows, judged.follows),
                 judged.value if key is None else _size(judged.value, key),
                 None if key is None else told(key.exact, key),
@@ -167,11 +167,11 @@ def _size(value: float | None, key: KeyEntry) -> float | None:
     return None if value is None else told(value, key)
 
 
-def _sign(sense: Sense | None, say: CheckWording) -> str:
-    return "" if sense is None else say.senses[sense.value][0]
+def _sign(sense: Sense | None, say: Words) -> str:
+    return "" if sense is None else say["senses"][sense.value][0]
 
 
-def _by_code(works: Sequence[Checked], say: CheckWording) -> Iterator[list[Any]]:
+def _by_code(works: Sequence[Checked], say: Words) -> Iterator[list[Any]]:
     """Yield the mistakes by how many made them, a student once for each."""
     sure: dict[str, list[str]] = {}
     perhaps: dict[str, list[str]] = {}
@@ -185,10 +185,10 @@ def _by_code(works: Sequence[Checked], say: CheckWording) -> Iterator[list[Any]]
                     known.setdefault(code, []).append(checked.work.student)
     codes = {*sure, *perhaps}
     for code in sorted(codes, key=lambda c: (-len(sure.get(c, ())), -len(perhaps.get(c, ())), c)):
-        words = say.mistakes.get(code)
+        words = say["mistakes"].get(code)
         yield [
             code or "—",
-            say.results.unknown if words is None else words.name,
+            say["results"].unknown if words is None else words.name,
             len(sure.get(code, ())),
             len(perhaps.get(code, ())),
             ", ".join([*sure.get(code, ()), *(f"{who}?" for who in perhaps.get(code, ()))]),

@@ -2,35 +2,17 @@
 
 from __future__ import annotations
 
-import html
-
 from msgspec import Struct
 
 from planmethod.check.model import Judged, KeyEntry, Sense, Written
 from planmethod.note.numbers import trimmed
 from planmethod.note.plaintext import NO_BREAK
 from planmethod.note.rounding import rounded_to, sigma_text
-from planmethod.note.wording.check_model import CheckWording
-from planmethod.note.wording.language import Language
-from planmethod.pattern import pattern
+from planmethod.note.wording import Language, Words
+from planmethod.note.writers.html import clean
 
 LONGEST = 60
 """Letters of what somebody else wrote that are repeated; the rest is cut."""
-
-_INDEX = pattern(r"([_^])\{([^{}]*)\}")
-_TAGS = {"_": "sub", "^": "sup"}
-_CONTROL = pattern("[^\x20-\x7e\xa0-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
-
-
-def tagged(rich: str) -> str:
-    """Return rich text with tags ``<sub>``, ``<sup>``; whatever else looks like one is escaped."""
-    text = html.escape(clean(rich))
-    return _INDEX.sub(lambda m: f"<{_TAGS[m[1]]}>{m[2]}</{_TAGS[m[1]]}>", text)
-
-
-def clean(text: str) -> str:
-    """Return a text without signs that no page can show."""
-    return _CONTROL.sub(" ", text)
 
 
 def quoted(text: str) -> str:
@@ -55,7 +37,7 @@ class Speech(Struct, frozen=True):
     words: Language
 
     @property
-    def say(self) -> CheckWording:
+    def say(self) -> Words:
         """Words of checking."""
         return self.words.check
 
@@ -78,8 +60,8 @@ class Speech(Struct, frozen=True):
         if written.why is None:
             return quoted(written.unreadable or written.raw)
         form = self.words.form
-        said = form.unread[written.why.value]
-        return said.format(text=quoted(written.fault), known=", ".join(form.units))
+        said: str = form["unread"][written.why.value]
+        return said.format(text=quoted(written.fault), known=", ".join(form["units"]))
 
     def number(self, value: float) -> str:
         """Return a number as a student would write it."""
@@ -87,7 +69,7 @@ class Speech(Struct, frozen=True):
 
     def sense(self, sense: Sense | None) -> str:
         """Return the sign of a sense; empty where there is none."""
-        return "" if sense is None else self.say.senses[sense.value][0]
+        return "" if sense is None else self.say["senses"][sense.value][0]
 
     def with_unit(self, number: str, key: KeyEntry) -> str:
         """Return a number with the unit of what is asked."""

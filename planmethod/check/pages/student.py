@@ -2,17 +2,34 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 
 from msgspec import Struct
 
 from planmethod.check.model import Checked, Judged, Verdict
 from planmethod.check.pages.overlay import Overlay, overlays
+from planmethod.check.pages.overlayview import LETTERING, STYLE, OverlayView
 from planmethod.check.pages.remarks import Remarks, what_stands
 from planmethod.check.pages.speech import Speech, quoted
-from planmethod.note.wording.language import Language
+from planmethod.note.document import (
+    Caption,
+    Chapter,
+    Document,
+    Figure,
+    Item,
+    Node,
+    Note,
+    Paragraph,
+    Table,
+    Title,
+)
+from planmethod.note.plaintext import plain_text
+from planmethod.note.wording import Language, Words
+from planmethod.note.writers.html import html_document
+from planmethod.note.writers.pdf import pdf_document
 from planmethod.plans.model import FACTS
 from planmethod.problem.head import KindProblem
+from planmethod.render.backends.pdf import registered
 from planmethod.solved.solution import Solution
 
 PAPER = (178.0, 92.0)
@@ -63,8 +80,8 @@ class Page(Struct, frozen=True):
     tolerance: str
     lang: str
 
-    def rows(self) -> list[list[tuple[Overlay, float, str]]]:
-        """Return the plans, by how much each is shrunk, and their captions, row by row.
+    def shares(self) -> list[float]:
+        """Return by how much each plan is shrunk.
 
         They stand side by side, shrunk alike, or one under the other where that were too small.
         """
@@ -75,10 +92,60 @@ class Page(Struct, frozen=True):
         whole = sum(w for w, _ in sizes)
         both = min(1.0, (width - GAP * (len(sizes) - 1)) / whole, *(height / h for _, h in sizes))
         if both >= SMALLEST:
-            shown = zip(self.plans, [both] * len(sizes), self.captions, strict=True)
-            return [list(shown)]
-        alone = [min(1.0, width / w, height / h) for w, h in sizes]
-        return [[one] for one in zip(self.plans, alone, self.captions, strict=True)]
+            return [both] * len(sizes)
+        return [min(1.0, width / w, height / h) for w, h in sizes]
+
+
+def student_document(page: Page, solved: Solution | KindProblem, words: Language) -> Document:
+    """Return the page as a document."""
+    return Document.of(_nodes(page, solved, words))
+
+
+def student_html(page: Page, solved: Solution | KindProblem, words: Language) -> str:
+    """Return the page as one HTML file."""
+    written = student_document(page, solved, words)
+    return html_document(written, title=page.facts[0], lang=page.lang, style=STYLE)
+
+
+def student_pdf(page: Page, solved: Solution | KindProblem, words: Language) -> bytes:
+    """Return the page as PDF, with the name of the student at the foot of each sheet."""
+    whose = plain_text(page.facts[0])
+    say: Words = words.check["student"]
+    return pdf_document(
+        student_document(page, solved, words),
+        title=whose,
+        font=registered(LETTERING),
+        foot=lambda number: say.page.format(student=whose, page=number),
+    )
+
+
+def _nodes(page: Page, solved: Solution | KindProblem, words: Language) -> Iterator[Node]:
+    say: Words = words.check["student"]
+    yield Title(page.title)
+    yield Paragraph(page.subtitle)
+    yield Caption(" · ".join(page.facts))
+    yield Paragraph(page.counted)
+    yield Chapter(say.remarks, numbered=False)
+    yield from map(Item, page.remarks)
+    if page.redraw:
+        yield Chapter(say.redraw, numbered=False)
+        yield from map(Item, page.redraw)
+    yield Chapter(say.answers, numbered=False)
+    yield Table(
+        tuple(say["columns"]),
+        tuple(line.cells for line in page.lines),
+        names=len(say["columns"]),
+        right=(0, 4),
+        tones=tuple(line.verdict.value for line in page.lines),
+        toned=5,
+    )
+    yield Note(page.tolerance)
+    if isinstance(solved, Solution) and page.plans:
+        yield Chapter(say.plans, numbered=False)
+        for plan, share, caption in zip(page.plans, page.shares(), page.captions, strict=True):
+            yield Figure(OverlayView(plan, share, solved), caption)
+        if page.legend:
+            yield Note(page.legend)
 
 
 def student_page(
@@ -101,7 +168,7 @@ def student_page(
         Empty where points are all there is.
     """
     speech = Speech(words)
-    say = words.check.student
+    say: Words = words.check["student"]
     solution = solved if isinstance(solved, Solution) else None
     problem = solved.problem if isinstance(solved, Solution) else solved
     remarks = Remarks(speech, checked, scales)
@@ -145,17 +212,17 @@ def _cells(judged: Judged, speech: Speech, symbols: Mapping[str, str]) -> tuple[
     key, written, say = judged.key, judged.written, speech.say
     own = speech.own(judged)
     if judged.verdict is Verdict.UNREADABLE and written is not None:
-        own = say.student.quoted.format(text=what_stands(written))
-    verdict = say.verdicts[judged.verdict.value]
+        own = say["student"].quoted.format(text=what_stands(written))
+    verdict = say["verdicts"][judged.verdict.value]
     if judged.follows in symbols:
-        verdict = say.student.source.format(source=symbols[judged.follows])
+        verdict = say["student"].source.format(source=symbols[judged.follows])
     return (
         speech.symbol(judged),
         own or "—",
         "—" if key is None else speech.right(key, judged.tolerance),
         _lengths(judged, speech),
         verdict,
-        say.student.share.format(points=speech.share(judged.points), of=speech.share(judged.of)),
+        say["student"].share.format(points=speech.share(judged.points), of=speech.share(judged.of)),
     )
 
 
@@ -172,8 +239,8 @@ def _lengths(judged: Judged, speech: Speech) -> str:
 
 
 def _caption(plan: Overlay, positions: int, words: Language) -> str:
-    say = words.check.student
-    name = say.plan_names[plan.kind.value]
+    say: Words = words.check["student"]
+    name = say["plan_names"][plan.kind.value]
     caption = say.plan_title.format(plan=name[:1].upper() + name[1:], scale=plan.scale)
     if positions > 1:
         caption += f", {say.position.format(position=plan.index)}"
@@ -181,10 +248,10 @@ def _caption(plan: Overlay, positions: int, words: Language) -> str:
 
 
 def _legend(plans: Sequence[Overlay], words: Language) -> str:
-    say = words.check.student
+    say: Words = words.check["student"]
     if not any(plan.own for plan in plans):
         return ""
     code = next((plan.mistake for plan in plans if plan.mistake), "")
-    if code in words.check.mistakes:
-        return say.legend_mistake.format(name=words.check.mistakes[code].name)
+    if code in words.check["mistakes"]:
+        return say.legend_mistake.format(name=words.check["mistakes"][code].name)
     return say.legend

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Mapping, Sequence
 from io import BytesIO
 from typing import TYPE_CHECKING, Any
@@ -10,13 +11,11 @@ from zipfile import ZIP_DEFLATED, ZipFile, ZipInfo
 
 from msgspec import Struct
 
-from planmethod.pattern import pattern
-
 if TYPE_CHECKING:
     from openpyxl import Workbook
 
-_CLOCK = pattern(rb"(<dcterms:(?:created|modified)[^>]*>)[^<]*")
-_CONTROL = pattern("[\x00-\x08\x0b\x0c\x0e-\x1f\ud800-\udfff\ufffe\uffff]")
+_CLOCK = rb"(<dcterms:(?:created|modified)[^>]*>)[^<]*"
+_CONTROL = "[\x00-\x08\x0b\x0c\x0e-\x1f\ud800-\udfff\ufffe\uffff]"
 LONGEST = 1000
 WIDEST, NUMBER = 60, 7
 """Letters in the widest column, and in a number."""
@@ -111,7 +110,7 @@ class _Looks:
         is_text = isinstance(value, str)
         # Set as text whatever it looks like: a name that begins with "=" stays one, in Excel too.
         is_quoted = is_text and value[:1] in ("=", "+", "-", "@", "'")
-        cell.value = _CONTROL.sub(" ", value)[:LONGEST] if is_text else value
+        cell.value = re.sub(_CONTROL, " ", value)[:LONGEST] if is_text else value
         if is_text:
             cell.data_type = "s"
         look = (is_text, is_quoted, colour, form, bold)
@@ -166,7 +165,7 @@ def saved(book: Workbook) -> bytes:
         for name in old.namelist():
             data = old.read(name)
             if name == "docProps/core.xml":
-                data = _CLOCK.sub(rb"\g<1>1980-01-01T00:00:00Z", data)
+                data = re.sub(_CLOCK, rb"\g<1>1980-01-01T00:00:00Z", data)
             entry = ZipInfo(name)  # of 1980
             entry.compress_type = ZIP_DEFLATED
             new.writestr(entry, data)

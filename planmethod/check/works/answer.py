@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
 
 from msgspec.structs import replace
@@ -9,12 +10,11 @@ from msgspec.structs import replace
 from planmethod.check.model import Sense, Unread, Written
 from planmethod.check.works.cells import Cell, found, read_name, read_sense, refused
 from planmethod.check.works.units import read_number, read_unit
-from planmethod.pattern import pattern
 
 POSITION_LIMIT = 100_000
 
 _MM = read_unit("mm")
-_BREAK = pattern(r"[\s(,;]+")
+_BREAK = r"[\s(,;]+"
 
 Scaled = tuple[float, float, str, Sense | None]
 """Value and step, SI; unit as written; sense."""
@@ -90,7 +90,7 @@ def read_scaled(cell: Cell, unit: Cell) -> Scaled:
     number = read_number(cell.text)
     if number is None:
         raise NotReadError(Unread.NUMBER, cell.text, cell)
-    for split in (len(number.rest), *(m.start() for m in _BREAK.finditer(number.rest))):
+    for split in (len(number.rest), *(m.start() for m in re.finditer(_BREAK, number.rest))):
         own, tail = number.rest[:split].strip(), number.rest[split:].strip()
         sense = read_sense(tail or own)
         if tail and not sense:

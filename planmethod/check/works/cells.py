@@ -129,7 +129,7 @@ def refused(why: Unread, text: str, where: str, *, base: Written | None = None) 
     """Return an answer that cannot be read, or a remark."""
     words = language("en").form
     text = short(cut(text))
-    said = words.unread[why.value].format(text=text, known=", ".join(words.units))
+    said = words["unread"][why.value].format(text=text, known=", ".join(words["units"]))
     base = base or Written(raw=text)
     return replace(base, unreadable=said, where=where, why=why, fault=text)
 

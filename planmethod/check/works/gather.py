@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
 
 from msgspec import Struct, field
@@ -12,16 +13,15 @@ from planmethod.check.works.answer import NotReadError, read_scaled
 from planmethod.check.works.cells import Cell, key, refused
 from planmethod.check.works.faults import WorksError
 from planmethod.check.works.units import Dimension, read_number, read_unit
-from planmethod.pattern import pattern
 from planmethod.problem.names import fold
 
 STUDENT_LIMIT = 2000
 ANSWER_LIMIT = 2000
 
-_SCALE = pattern(r"(?:mu|μ|µ|мю)[\s_{]*([lvafs])[\s}]*\Z")
-_RATIO = pattern(r"(?:[MМ]\s*)?1\s*:\s*(\S+)\Z")
-_WORD = pattern(r"([\s_\-{}(),]+)")
-_POINT = pattern(r"([^\W\d_])([0-9]*'*)")
+_SCALE = r"(?:mu|μ|µ|мю)[\s_{]*([lvafs])[\s}]*\Z"
+_RATIO = r"(?:[MМ]\s*)?1\s*:\s*(\S+)\Z"
+_WORD = r"([\s_\-{}(),]+)"
+_POINT = r"([^\W\d_])([0-9]*'*)"
 _MM = 1e-3
 _OF_SCALES: dict[str, Dimension] = {
     "mu_l": (1, 0, 0, 0),
@@ -41,7 +41,7 @@ def is_of(unit: str, scale: str) -> bool:
 
 def scale_name(text: str) -> str:
     """Return the scale that a text names, ``mu_v``, or nothing: ``μᵥ``, ``mu v``, ``μ_v``."""
-    match = _SCALE.match(fold(text.strip().casefold().replace("ᵥ", "v").replace("ₐ", "a")))
+    match = re.match(_SCALE, fold(text.strip().casefold().replace("ᵥ", "v").replace("ₐ", "a")))
     return "" if match is None else f"mu_{'l' if match[1] == 's' else match[1]}".replace("f", "F")
 
 
@@ -88,7 +88,7 @@ class Draft(Struct):
         """Take one of his scales, in SI per millimetre; also ``1:2`` of lengths."""
         if cell.is_blank:
             return
-        ratio = _RATIO.match(cell.text) if name == "mu_l" and cell.why is None else None
+        ratio = re.match(_RATIO, cell.text) if name == "mu_l" and cell.why is None else None
         value = 0.0
         if ratio is not None:
             number = read_number(ratio[1])
@@ -210,9 +210,9 @@ def _per_mm(scale: str, unit: str) -> float:
 
 def _called(text: str, names: Mapping[str, str], *, skip: int = 0) -> str:
     """Return a text with other names of points, from behind so many of its words."""
-    words = _WORD.split(text)
+    words = re.split(_WORD, text)
     for number in range(2 * skip, len(words), 2):
-        if match := _POINT.fullmatch(words[number]):
+        if match := re.fullmatch(_POINT, words[number]):
             name = names.get(match[0]) or names.get(match[1], match[1]) + match[2]
             words[number] = name
     return "".join(words)

@@ -14,14 +14,13 @@ from planmethod.check.works.answer import read_answer
 from planmethod.check.works.cells import BLANK, HEADS, MM, POINT, Cell, cut, found, key, read_name
 from planmethod.check.works.gather import Draft, Gathering, scale_name
 from planmethod.check.works.units import read_unit
-from planmethod.pattern import pattern
 
 ASPECTS = ("value", "mm", "sense", "unit", "segment")
 """What of an answer may stand in a column of its own."""
 
 _PLAN_LENGTHS = ("length", "segment", "arm", "shift")
-_LAST_WORD = pattern(r"(.*\S)\s+(\S+)\Z")
-_QUANTITY = pattern("[A-Za-zΑ-ωϕ]")
+_LAST_WORD = r"(.*\S)\s+(\S+)\Z"
+_QUANTITY = "[A-Za-zΑ-ωϕ]"
 
 
 class Head(Struct, frozen=True):
@@ -62,7 +61,7 @@ def read_quantity(text: str) -> Head:
     """Return the quantity of a column and what of it stands there: ``v_B3 (мм)``, ``v_B3, м/с``."""
     if read_name(text)[0]:
         return Head("value", text)
-    match = _LAST_WORD.match(text)
+    match = re.match(_LAST_WORD, text)
     if match and (aspect := read_aspect(match[2])):
         return _of_aspect(match[1].rstrip(",;: "), aspect)
     for base, suffix in _parted(text):
@@ -71,7 +70,7 @@ def read_quantity(text: str) -> Head:
         if read_unit(suffix):
             return Head("value", base, suffix)
     # Words without a letter of the plans: a mark, a signature.
-    return Head("value", text) if _QUANTITY.search(text) and len(text) <= 60 else Head()
+    return Head("value", text) if re.search(_QUANTITY, text) and len(text) <= 60 else Head()
 
 
 def read_aspect(text: str) -> str:

@@ -11,7 +11,6 @@ from functools import lru_cache
 from msgspec import Struct
 
 from planmethod.check.model import Written
-from planmethod.pattern import pattern
 
 TEXT_LIMIT = 32
 
@@ -68,7 +67,7 @@ def _plain(text: str) -> str:
 
 
 _KNOWN = {_plain(name): unit for name, unit in _SYMBOLS.items()}
-_TOKEN = pattern(r"([^\W\d_]+|°)(-?\d)?|([*/()])|(1)(?=/)")
+_TOKEN = r"([^\W\d_]+|°)(-?\d)?|([*/()])|(1)(?=/)"
 
 
 class _NoUnitError(Exception):
@@ -98,9 +97,10 @@ def read_unit(text: str) -> Unit | None:
 
 def _tokens(plain: str) -> Iterator[tuple[str, int]]:
     """Yield the names of a unit with their powers, and what stands between them."""
+    pattern = re.compile(_TOKEN)
     at = 0
     while at < len(plain):
-        match = _TOKEN.match(plain, at)
+        match = pattern.match(plain, at)
         if match is None:
             raise _NoUnitError
         at = match.end()
@@ -182,7 +182,7 @@ class Number(Struct, frozen=True):
 DASHES = "−–—‒―﹣－‐‑"
 _DASHES = str.maketrans(dict.fromkeys(DASHES, "-"))
 _RAISED = str.maketrans("⁺⁻⁰¹²³⁴⁵⁶⁷⁸⁹", "+-0123456789")
-_NUMBER = pattern(
+_NUMBER = (
     r"(?P<sign>[+-]?) ?"
     r"(?P<digits>(?:[0-9]{1,3}(?:[ '][0-9]{3})+(?![0-9])|[0-9]+)?(?:[.,][0-9]+)*)[.,]?"
     r"(?: ?[·*×xх⋅∙•] ?10 ?(?:(?:\^|\*\*) ?[({]? ?(?P<power>[+-]? ?[0-9]+) ?[)}]?"
@@ -203,7 +203,7 @@ def read_number(text: str) -> Number | None:
     Number(value=123.45, step=0.01, rest='мм')
     """
     text = " ".join(text.translate(_DASHES).split()).lstrip("≈~≃≅= ")
-    match = _NUMBER.match(text) if len(text) <= NUMBER_LIMIT else None
+    match = re.match(_NUMBER, text) if len(text) <= NUMBER_LIMIT else None
     digits = _decimal(re.sub("[ ']", "", match["digits"])) if match else None
     if match is None or digits is None:
         return None

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import datetime
 import io
+import re
 import warnings
 import zipfile
 from collections.abc import Iterator
@@ -19,7 +20,6 @@ from planmethod.check.works.cells import Cell, cut
 from planmethod.check.works.faults import WorksError
 from planmethod.check.works.gather import Gathering
 from planmethod.check.works.table import HEAD_ROWS, Row, read_table
-from planmethod.pattern import pattern
 
 ROW_LIMIT = 20_000
 COLUMN_LIMIT = 400
@@ -32,9 +32,9 @@ MERGED_LIMIT = 20_000
 META = "_meta"
 """Hidden sheet of the form."""
 
-_DECIMALS = pattern(r"0\.(0+)")
-_PLACE = pattern(r"([A-Z]{1,3})([0-9]{1,7})\Z")
-_SPAN = pattern(r"([A-Z]{1,3})([0-9]{1,7}):([A-Z]{1,3})([0-9]{1,7})\Z")
+_DECIMALS = r"0\.(0+)"
+_PLACE = r"([A-Z]{1,3})([0-9]{1,7})\Z"
+_SPAN = r"([A-Z]{1,3})([0-9]{1,7}):([A-Z]{1,3})([0-9]{1,7})\Z"
 _MAIN = "{http://schemas.openxmlformats.org/spreadsheetml/2006/main}"
 
 
@@ -189,10 +189,12 @@ def _structure(stream: Any) -> _Structure:
             name = element.get("r", "")
             if element.find(f"{_MAIN}f") is not None and not element.findtext(f"{_MAIN}v"):
                 there.formulas.add(name)
-            if len(element) and (place := _PLACE.match(name)):
+            if len(element) and (place := re.match(_PLACE, name)):
                 there.rows = max(there.rows, int(place[2]))
                 there.columns = max(there.columns, column_index_from_string(place[1]))
-        elif element.tag == f"{_MAIN}mergeCell" and (span := _SPAN.match(element.get("ref", ""))):
+        elif element.tag == f"{_MAIN}mergeCell" and (
+            span := re.match(_SPAN, element.get("ref", ""))
+        ):
             top, bottom = int(span[2]), min(int(span[4]), ROW_LIMIT)
             left, right = map(column_index_from_string, (span[1], span[3]))
             columns = range(left, min(right, COLUMN_LIMIT) + 1)
@@ -214,7 +216,7 @@ def _text(cell: Any) -> tuple[str, Unread | None]:
         return str(value), Unread.DATE
     if isinstance(value, int | float):
         text = f"{value:.15g}"
-        shown = _DECIMALS.search(str(cell.number_format)[:40])
+        shown = re.search(_DECIMALS, str(cell.number_format)[:40])
         decimals = len(shown[1]) if shown else 0
         if "e" in text or "n" in text or decimals <= len(text.partition(".")[2]):
             return text, None

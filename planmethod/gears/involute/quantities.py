@@ -323,7 +323,7 @@ class Solved:
                         return text.replace("0,5", say.number("0.5"))
 
                     unit = "°" if q.unit is Unit.DEGREE else ""
-                    unit = f" {words.meshing.units['mm']}" if q.unit is Unit.MM else unit
+                    unit = f" {words.meshing['units']['mm']}" if q.unit is Unit.MM else unit
                     ring = _RING.get(q.key, (None, None))[k] if self.problem.cutter else None
                     formula, filled = ring or (q.formula, q.numbers)
                     letters = put(formula).replace("{tan}", tan)
@@ -360,6 +360,6 @@ class Solved:
             holds = value >= bound
             turned = self.shown(one, 1.0, 1.0)[0] < 0
             sign = ("≤" if turned else "≥") if holds else (">" if turned else "<")
-            text = say.conditions[one.kind.value].format(wheel=number, sign=sign, **shown)
+            text = say["conditions"][one.kind.value].format(wheel=number, sign=sign, **shown)
             found.append((one, holds, text))
         return found

@@ -15,8 +15,10 @@ from planmethod.gears.involute.blocking import HIGH, LOW, LimitKind, choose, is_
 from planmethod.gears.involute.profile import Tooth
 from planmethod.gears.involute.sizes import MeshingProblem, Pair, Rack
 from planmethod.languages import say
-from planmethod.problem import fields, keys
+from planmethod.problem import fields
 from planmethod.problem.fields import Faults
+from planmethod.problem.flat import read_flat
+from planmethod.problem.head import MESHING_EXAMPLE, MeshingTable
 from planmethod.problem.reader import varied
 from planmethod.problem.sheet import read_head
 
@@ -29,20 +31,7 @@ BLOCKING = "blocking"
 CUTTER = 20
 """Teeth of the pinion cutter where the file does not say."""
 
-_EXAMPLE = '[meshing] z = [12, 30], m = 5, x = "blocking"'
 _WAYS = 'Give x = [0.5, 0.3], x = "blocking", or a_w = 110 (mm), with x1 or x2 beside it or alone.'
-_NUMBERS = {
-    "m": ("a module in mm", 0.05, 100.0, None),
-    "alpha": ("an angle in degrees", 10.0, 30.0, 20.0),
-    "ha": ("a factor of the module", 0.5, 1.3, 1.0),
-    "c": ("a factor of the module", 0.05, 0.5, 0.25),
-    "x1": ("a shift in modules", -2.0, 3.0, None),
-    "x2": ("a shift in modules", -2.0, 3.0, None),
-    "a_w": ("a distance in mm", 0.1, 1e5, None),
-    "s_a_min": ("a thickness in modules", 0.0, 1.0, 0.25),
-    "epsilon_min": ("a contact ratio", 1.0, 2.0, 1.2),
-}
-"""What the numbers are, their bounds, and what they are where the file does not say."""
 
 
 def load(path: str | Path, *, variant: str | None = None) -> MeshingProblem:
@@ -57,7 +46,7 @@ def load(path: str | Path, *, variant: str | None = None) -> MeshingProblem:
     table, variants, faults = varied(path, variant)
     given = fields.read_keys(faults, "", table, TOP)
     head = read_head(faults, given)
-    body = fields.read_table(faults, "meshing", given.get("meshing", {}), _EXAMPLE)
+    body = fields.read_table(faults, "meshing", given.get("meshing", {}), MESHING_EXAMPLE)
     told = None if body is None else _read(faults, body)
     if faults or told is None:
         raise ProblemError(str(path), faults.found)
@@ -70,58 +59,46 @@ def load(path: str | Path, *, variant: str | None = None) -> MeshingProblem:
 
 def _read(faults: Faults, body: Mapping[str, Any]) -> dict[str, Any] | None:
     """Return the fields of a problem that stand in its table."""
-    given = fields.read_keys(faults, "meshing", body, keys.MESHING)
-    number: dict[str, float | None] = {}
-    for key, (what, low, high, usual) in _NUMBERS.items():
-        number[key] = usual
-        if key in given:
-            path, value = f"meshing.{key}", given[key]
-            hint = "Lengths of [meshing] are millimetres, as the standard has them."
-            read = fields.read_number(faults, path, value, what, low=low, high=high, hint=hint)
-            number[key] = read
-    for key in ("z", "m"):
-        if key not in given:
-            faults.add(f"meshing.{key}", "missing", say("For example: {}", _EXAMPLE))
-    z = _read_teeth(faults, given["z"]) if "z" in given else None
-    x = _read_shifts(faults, given)
-    if faults or z is None:
+    own = {"z": _read_teeth}
+    found = read_flat(faults, "meshing", body, MeshingTable, own, example=MESHING_EXAMPLE)
+    x = _read_shifts(faults, body)
+    if faults:
         return None
-    m, alpha, ha, c, tip, overlap = (
-        float(number[key] or 0.0) for key in ("m", "alpha", "ha", "c", "s_a_min", "epsilon_min")
-    )
-    rack = Rack(radians(alpha), ha, c)
+    given = MeshingTable(**found | {"x": x})
+    rack = Rack(radians(given.alpha), given.ha, given.c)
     if rack.half_tip <= 0.0:
         most = (np.pi / 4) / np.tan(rack.alpha)
         faults.add(
             "meshing",
             say(
                 "the rack's tooth ends before its tip: ha + c = {:g}, at {:g}° at most {:.3f}",
-                ha + c,
-                alpha,
+                given.ha + given.c,
+                given.alpha,
                 most,
             ),
             "The standard rack has alpha = 20, ha = 1, c = 0.25.",
         )
         return None
-    cutter = _read_cutter(faults, given, z)
+    cutter = _cutter(faults, given)
     if cutter is None:
         return None
-    pair = Pair((z[0], -z[1] if cutter else z[1]), m, rack, np.zeros(2), cutter)
-    settled = _settle(faults, pair, x, (number["x1"], number["x2"]), number["a_w"], tip, overlap)
+    z = given.z
+    pair = Pair((z[0], -z[1] if cutter else z[1]), given.m, rack, np.zeros(2), cutter)
+    settled = _settle(faults, pair, given)
     return settled and {
         "z": z,
-        "m": m,
+        "m": given.m,
         "rack": rack,
         "x": settled,
-        "chosen": x is None and number["x1"] is number["x2"] is None,
-        "a_w": number["a_w"],
+        "chosen": x is None and given.x1 is given.x2 is None,
+        "a_w": given.a_w,
         "cutter": cutter,
-        "tip": tip,
-        "overlap": overlap,
+        "tip": given.s_a_min,
+        "overlap": given.epsilon_min,
     }
 
 
-def _read_teeth(faults: Faults, value: object) -> tuple[int, int] | None:
+def _read_teeth(faults: Faults, path: str, value: object) -> tuple[int, int] | None:
     if not isinstance(value, list) or len(value) != 2:
         faults.expected("meshing.z", "two numbers of teeth", value, "z = [12, 30]")
         return None
@@ -136,23 +113,21 @@ def _read_teeth(faults: Faults, value: object) -> tuple[int, int] | None:
     return None if one is None or two is None else (one, two)
 
 
-def _read_cutter(faults: Faults, given: Mapping[str, Any], z: tuple[int, int]) -> int | None:
-    """Read the teeth of the cutter of an internal wheel; 0 of an external one, None of a fault."""
-    internal = given.get("internal", False)
-    if not isinstance(internal, bool):
-        faults.expected("meshing.internal", "true or false", internal)
-        return None
-    if not internal:
-        if "cutter" in given:
+def _cutter(faults: Faults, given: MeshingTable) -> int | None:
+    """Return the teeth of the cutter of an internal wheel, 0 of an external one; None: a fault."""
+    if not given.internal:
+        if given.cutter is not None:
             faults.add("meshing.cutter", "goes with internal = true", "Leave it out.")
             return None
         return 0
-    told = fields.read_whole(faults, "meshing.cutter", given.get("cutter", CUTTER), 8, 200)
-    if told is not None and z[1] - max(z[0], told) < 1:
-        what = say("a ring of {} teeth, a wheel of {}, a cutter of {}", z[1], z[0], told)
+    teeth = CUTTER if given.cutter is None else given.cutter
+    if given.z[1] - max(given.z[0], teeth) < 1:
+        what = say(
+            "a ring of {} teeth, a wheel of {}, a cutter of {}", given.z[1], given.z[0], teeth
+        )
         faults.add("meshing.z", what, "The second wheel is the ring, with the most teeth.")
         return None
-    return told
+    return teeth
 
 
 def _read_shifts(faults: Faults, given: Mapping[str, Any]) -> tuple[float, float] | None:
@@ -165,9 +140,10 @@ def _read_shifts(faults: Faults, given: Mapping[str, Any]) -> tuple[float, float
             return None
         for key in (*alone, *(["a_w"] if "a_w" in given else [])):
             faults.add(f"meshing.{key}", "both shifts are given in x", "Keep one of them.")
-        what, low, high, _ = _NUMBERS["x1"]
         found = [
-            fields.read_number(faults, f"meshing.x[{i}]", one, what, low=low, high=high)
+            fields.read_number(
+                faults, f"meshing.x[{i}]", one, "a shift in modules", low=-2.0, high=3.0
+            )
             for i, one in enumerate(value)
         ]
         one, two = found
@@ -184,18 +160,11 @@ def _read_shifts(faults: Faults, given: Mapping[str, Any]) -> tuple[float, float
     return None
 
 
-def _settle(
-    faults: Faults,
-    pair: Pair,
-    x: tuple[float, float] | None,
-    alone: tuple[float | None, float | None],
-    a_w: float | None,
-    tip: float,
-    overlap: float,
-) -> tuple[float, float] | None:
+def _settle(faults: Faults, pair: Pair, given: MeshingTable) -> tuple[float, float] | None:
     """Return the shifts: as given, from the distance of the axes, or chosen."""
-    if x is not None:
-        return x
+    if given.x is not None:
+        return given.x
+    tip, overlap, a_w = given.s_a_min, given.epsilon_min, given.a_w
     total = None
     if a_w is not None:
         least = abs(pair.a) * cos(pair.rack.alpha)
@@ -206,11 +175,10 @@ def _settle(
         alpha_w = float(np.arccos(least / a_w))
         grown = float(involute(alpha_w) - involute(pair.rack.alpha))
         total = grown * abs(sum(pair.z)) / (2 * float(np.tan(pair.rack.alpha)))
-        one, two = alone
-        if one is not None:
-            return one, total - pair.side * one
-        if two is not None:
-            return pair.side * (total - two), two
+        if given.x1 is not None:
+            return given.x1, total - pair.side * given.x1
+        if given.x2 is not None:
+            return pair.side * (total - given.x2), given.x2
     asked = limits(tip, overlap, internal=bool(pair.cutter))
     found = choose(pair, asked, total)
     if found is None:

@@ -36,7 +36,7 @@ def _given(solved: Solved, words: Language) -> Rich:
     problem, say = solved.problem, words.meshing
     further = ""
     if problem.a_w is not None:
-        further = f", a_{{w}} = {words.say.given(problem.a_w)} {say.units['mm']}"
+        further = f", a_{{w}} = {words.say.given(problem.a_w)} {say['units']['mm']}"
     if problem.cutter:
         further += say.ring.format(cutter=problem.cutter)
     return say.given.format(further=further, **_bare(solved, words))
@@ -79,7 +79,7 @@ def table(told: Sequence[Told], words: Language, head: Sequence[str]) -> Table:
 def _row(one: Told, words: Language) -> tuple[Rich, ...]:
     say, quantity = words.meshing, one.quantity
     has_unit = quantity.unit in (Unit.MM, Unit.DEGREE)
-    unit = f", {say.units[quantity.unit.value[0]]}" if has_unit else ""
+    unit = f", {say['units'][quantity.unit.value[0]]}" if has_unit else ""
     # Of both wheels without a number.
     symbol = quantity.symbol.replace("#", "").replace("_{}", "")
-    return escape(say.names[quantity.key] + unit), symbol, *one.shown(words.say)
+    return escape(say["names"][quantity.key] + unit), symbol, *one.shown(words.say)

@@ -38,12 +38,12 @@ UNITS = {
     written: symbol
     for words in _WORDS
     for unit, symbol in (("m", "mu_l"), ("m/s", "mu_v"), ("m/s²", "mu_a"))
-    for written in (words.units[unit], words.units[unit].replace("²", "^2"))
+    for written in (words["units"][unit], words["units"][unit].replace("²", "^2"))
 }
 """Of which plan a scale ``per_mm`` is, by the unit of its value, in any language."""
 
 NEWTONS, METRES, RADIANS = (
-    tuple(words.units[unit] for words in _WORDS) for unit in ("N", "m", "rad")
+    tuple(words["units"][unit] for words in _WORDS) for unit in ("N", "m", "rad")
 )
 
 
@@ -300,7 +300,7 @@ class Document:
             "ruler": given(self.ruler, self.words),
             "limit": given(DRAFTING_MM, self.words),
         }
-        parts = [f"# {self.says.title}", *(text.format(**limits) for text in self.says.intro)]
+        parts = [f"# {self.says.title}", *(text.format(**limits) for text in self.says["intro"])]
         if len(audits) > 1:
             parts.append(self._counts(audits))
         parts += [self._section(problem, items) for problem, items in audits]
@@ -312,7 +312,7 @@ class Document:
             [_plain(name(problem)), str(len(items)), *map(str, count(items).values())]
             for problem, items in audits
         ]
-        return _table([says.problem, says.values, *says.counted.values()], rows, "lrrrrr")
+        return _table([says.problem, says.how_many, *says["counted"].values()], rows, "lrrrrr")
 
     def _section(self, problem: KindProblem, items: Sequence[Audited]) -> str:
         says = self.says
@@ -325,7 +325,7 @@ class Document:
         head.append(says.summary.format(values=len(items), **counts))
         rows = [self._row(item) for item in items]
         return "\n\n".join(
-            [*head, _table(list(says.columns), rows, "llrrrrrrll"), *self._chain(problem)]
+            [*head, _table(list(says["columns"]), rows, "llrrrrrrll"), *self._chain(problem)]
         )
 
     def _chain(self, problem: KindProblem) -> list[str]:
@@ -337,16 +337,16 @@ class Document:
         rows, before = [], 0.0
         for step, value in chain(problem):
             change = 100.0 * (value / before - 1.0) if before else None
-            told = self.says.chain_steps[step]
+            told = self.says["chain_steps"][step]
             rows.append([self._number(value, 6), self._hundredths(change), *told])
             before = value
         if not rows:
             return []
-        return [self.says.chain, _table(list(self.says.chain_columns), rows, "rrll")]
+        return [self.says.chain, _table(list(self.says["chain_columns"]), rows, "rrll")]
 
     def _row(self, item: Audited) -> list[str]:
         published, says = item.published, self.says
-        reasons = [says.whys[item.why.value] if item.why else "", published.note]
+        reasons = [says["whys"][item.why.value] if item.why else "", published.note]
         return [
             _plain(published.name),
             _plain(published.unit),
@@ -356,7 +356,7 @@ class Document:
             self._number(item.difference, 2),
             self._hundredths(item.percent),
             self._hundredths(item.mm),
-            says.verdicts[item.verdict.value],
+            says["verdicts"][item.verdict.value],
             _plain("; ".join(reason for reason in reasons if reason)),
         ]
 

@@ -6,7 +6,7 @@ import numpy as np
 from msgspec.structs import replace
 
 from planmethod.note.numbers import is_nothing
-from planmethod.problem.load_records import Ordinates, Signs
+from planmethod.problem.load_records import Quadrature, WeightSigns
 from planmethod.problem.model import Problem
 from planmethod.problem.selector import Selector
 from planmethod.solved.machine.drawing import drawing_of
@@ -73,7 +73,7 @@ def chain(problem: Problem) -> list[tuple[str, float]]:
     Returns
     -------
     list of (str, float)
-        Names of the steps, `AuditWording.chain_steps`, and J_f of each, kg·m²; empty where the file
+        Names of the steps, keys of ``chain_steps``, and J_f of each, kg·m²; empty where the file
         does not print M and J of all positions of its table.
     """
     machine = problem.machine
@@ -87,7 +87,7 @@ def chain(problem: Problem) -> list[tuple[str, float]]:
         return []
     source, true = (
         Flywheel(replace(problem, machine=replace(machine, signs=signs)))
-        for signs in (Signs.SOURCE, Signs.TRUE)
+        for signs in (WeightSigns.SOURCE, WeightSigns.TRUE)
     )
     speed = printed.get("machine omega", source.middle_speed)
     delta = printed.get("machine delta", machine.delta)
@@ -105,7 +105,7 @@ def chain(problem: Problem) -> list[tuple[str, float]]:
 
     def by_points(wheel: Flywheel, number: int) -> float:
         slopes = 1.0 + machine.delta, 1.0 - machine.delta
-        return wheel.by_points(number, Ordinates.TRAPEZOID, slopes).tangents.inertia
+        return wheel.by_points(number, Quadrature.TRAPEZOID, slopes).tangents.inertia
 
     found = []
     if {"machine KL", "machine mu_A"} <= printed.keys():

@@ -38,10 +38,10 @@ class BalancingTeller:
     def lines(self) -> list[str]:
         """Return all of it with numbers, a sentence each."""
         made, said = self.balancing, self.said
-        method = said.weighings[made.task.method.value]
+        method = said["weighings"][made.task.method.value]
         if made.task.share is not None:
             method += f", k = {self.say.given(made.task.share)}"
-        lines = [f"{said.structures[made.structure]}, {method}"]
+        lines = [f"{said['structures'][made.structure]}, {method}"]
         lines[0] = lines[0][:1].upper() + lines[0][1:]
         a, b = made.crank_pin, made.rod_pin
         places = {"link": made.rod, "A": a, "B": b}

@@ -168,7 +168,8 @@ def view_name(knot: Knot, words: Language) -> str:
 
 def knot_letter(knot: Knot, words: Language) -> str:
     """Return the letter of an enlarged view."""
-    return words.sheets.knots[knot.number % len(words.sheets.knots)]
+    letters: tuple[str, ...] = words.sheets["knots"]
+    return letters[knot.number % len(letters)]
 
 
 def _shown(value: float) -> float:

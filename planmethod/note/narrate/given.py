@@ -11,9 +11,8 @@ from planmethod.mechanism.model import FRAME
 from planmethod.note.numbers import MINUS, Notation, trimmed, with_unit
 from planmethod.note.wording import Language
 from planmethod.plans.legend import Quantity, QuantityKind
-from planmethod.problem.keys import UNITS
 from planmethod.problem.model import Body, Geared, Posed, PosedBy, Problem, Slide
-from planmethod.problem.names import split_names
+from planmethod.problem.names import UNITS, split_names
 from planmethod.solved.solution import Solution
 
 NBSP = "\u00a0"
@@ -160,7 +159,7 @@ def _posed(posed: Posed, of: Sequence[int], text: As) -> str:
         told = []
         for where, after in ((posed.extremes[k], posed.values[k]) for k in of):
             sign = f" {MINUS if after < 0 else '+'} {text.say.given(abs(after))}°"
-            told.append(note.given_extremes[where] + (sign if after else ""))
+            told.append(note["given_extremes"][where] + (sign if after else ""))
         return note.given_position.format(position=", ".join(told))
 
     def said(value: float) -> str:
@@ -183,7 +182,7 @@ def _posed(posed: Posed, of: Sequence[int], text: As) -> str:
         return f"{acted} ({letter} = {say.found(drive.rate)} {say.units[unit]})"
     letter = {PosedBy.PHI: "φ", PosedBy.STROKE: "s/H"}.get(posed.by, posed.by.value)
     symbol = f"{letter}_{{{posed.of}}}" if posed.of else letter
-    way = note.given_going[posed.going] if posed.going else ""
+    way = note["given_going"][posed.going] if posed.going else ""
     return f"{symbol} = {', '.join(map(said, values))}{way}"
 
 

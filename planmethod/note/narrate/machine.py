@@ -12,9 +12,8 @@ from planmethod.note.narrate.forces.statement import mass_lines
 from planmethod.note.narrate.given import given
 from planmethod.note.narrate.scales import scale_inscription
 from planmethod.note.numbers import alike
-from planmethod.note.wording import Language
-from planmethod.note.wording.machine_model import MachineWording
-from planmethod.problem.load_records import Ordinates, Side, Signs
+from planmethod.note.wording import Language, Words
+from planmethod.problem.load_records import ConstantMoment, Quadrature, WeightSigns
 from planmethod.problem.model import Convention
 from planmethod.solved.machine.drawing import FlywheelDrawing, split
 from planmethod.solved.machine.flywheel import Extreme, Flywheel
@@ -37,8 +36,8 @@ class MachineTeller:
     def __init__(self, drawing: FlywheelDrawing, words: Language) -> None:
         self.drawing, self.words, self.say = drawing, words, words.say
         self.flywheel: Flywheel = drawing.flywheel
-        self.said: MachineWording = words.machine
-        resisting = self.flywheel.machine.constant is Side.DRIVING
+        self.said: Words = words.machine
+        resisting = self.flywheel.machine.constant is ConstantMoment.DRIVING
         self.changes, self.keeps = ("resisting", "driving")[:: 1 if resisting else -1]
 
     def letter(self, name: str) -> str:
@@ -83,10 +82,10 @@ class MachineTeller:
         delta = f"1/{round(inverse)}" if fraction else self.say.given(machine.delta)
         lines.append(f"δ = {delta}")
         speed = self.say.found(abs(problem.drive.rate))
-        mean = self.said.means[machine.mean.value]
+        mean = self.said["means"][machine.mean.value]
         lines.append(f"{self.letter('mean speed')} = {mean.format()} = {speed} {self.unit('1/s')}")
         lines.append(f"{self.letter(f'{self.keeps} moment')} = const")
-        if machine.signs is Signs.SOURCE:
+        if machine.signs is WeightSigns.SOURCE:
             lines.append(self.said.source_signs)
         return lines
 
@@ -101,7 +100,7 @@ class MachineTeller:
         drawing, machine, mm = self.drawing, self.flywheel.machine, self.unit("mm")
         scales, tangents = drawing.scales, drawing.points.tangents
         step = self.flywheel.cycle / drawing.count
-        middle = machine.ordinates is Ordinates.MIDDLE
+        middle = machine.ordinates is Quadrature.MIDDLE
         constant = float(drawing.points.work[-1]) / self.flywheel.cycle
         places = {
             "M": self.moment,
@@ -122,7 +121,7 @@ class MachineTeller:
             "bottom": round(tangents.at_min / step),
             "KL": f"{self.say.ruled(self.KL)} {mm}",
         }
-        return [sentence.format(**places) for sentence in self.said.steps]
+        return [sentence.format(**places) for sentence in self.said["steps"]]
 
     @property
     def KL(self) -> float:  # noqa: N802 - the letters of the textbook

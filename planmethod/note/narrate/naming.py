@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator
 
 from msgspec import Struct
@@ -11,8 +12,7 @@ from planmethod.construct.steps import LineName, Name, NumberName, PointName, St
 from planmethod.mechanism.model import FRAME
 from planmethod.note.narrate.letters import shown_letters
 from planmethod.note.plaintext import given, plain_text
-from planmethod.note.wording.model import Wording
-from planmethod.pattern import pattern
+from planmethod.note.wording import Words
 from planmethod.plans.dimensions import DimensionKind
 from planmethod.plans.model import (
     FACTS,
@@ -29,7 +29,7 @@ from planmethod.plans.model import (
 from planmethod.problem.model import Convention
 from planmethod.solved.solution import Solution
 
-_DIGITS = pattern(r"\d+")
+_DIGITS = r"\d+"
 SCALE_KIND = {FACTS[kind].scale: kind for kind in MOTION}
 SCALE_SYMBOL = {kind: f"μ_{{{FACTS[kind].letter}}}" for kind in MOTION}
 
@@ -52,13 +52,13 @@ class Names:
     Parameters
     ----------
     solution : Solution
-    words : Wording
+    words : Words
     on_sheet : bool
         For formulas that are lettered: an index is lowered there, so that the ``3`` of ``O3`` is
         one as well, and no dash need keep the ends of a segment apart.
     """
 
-    def __init__(self, solution: Solution, words: Wording, *, on_sheet: bool = False) -> None:
+    def __init__(self, solution: Solution, words: Words, *, on_sheet: bool = False) -> None:
         self.solution, self.words, self.on_sheet = solution, words, on_sheet
         self.construction = solution.construction
         self.kin = solution.construction.kinematics
@@ -107,7 +107,7 @@ class Names:
         return self.guides.get(name) or self._lowered(name)
 
     def _lowered(self, name: str) -> str:
-        return _DIGITS.sub(r"_{\g<0>}", name) if self.on_sheet else name
+        return re.sub(_DIGITS, r"_{\g<0>}", name) if self.on_sheet else name
 
     def _own(self, name: PointName, text: str) -> str:
         """Return the name of an auxiliary point, with as many primes as keep it apart."""

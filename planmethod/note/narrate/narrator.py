@@ -13,7 +13,7 @@ from planmethod.construct import steps
 from planmethod.construct.steps import LineName, NumberName, PointName, Step
 from planmethod.note.formula import Rich
 from planmethod.note.plaintext import fixed, given
-from planmethod.note.wording.model import Wording
+from planmethod.note.wording import Words
 
 Line: TypeAlias = steps.Join | steps.Parallel | steps.Perpendicular | steps.AtAngle
 Reading: TypeAlias = steps.Measure | steps.MeasureAlong
@@ -124,7 +124,7 @@ class StepNarrator:
 class BoardNarrator(StepNarrator):
     """Tells what is drawn with compasses and ruler alike in every construction."""
 
-    def __init__(self, naming: Naming, words: Wording) -> None:
+    def __init__(self, naming: Naming, words: Words) -> None:
         self.naming, self.words = naming, words
 
     def meet(self, step: steps.MeetLines) -> list[Rich]:

@@ -12,7 +12,7 @@ from planmethod.note.document import Caption, Document, Item, Node, Step, Table,
 from planmethod.note.formula import Rich
 from planmethod.note.narrate.letters import pair_letters
 from planmethod.note.numbers import MINUS
-from planmethod.note.wording import Language, Wording
+from planmethod.note.wording import Language, Words
 
 NBSP = "\u00a0"
 
@@ -49,10 +49,10 @@ def pair_table(mechanism: Mechanism, words: Language, *, lettered: bool = False)
 
     ``lettered``: with the letter of each kind, by which `group_caption` calls it.
     """
-    kinds = {kind: words.structure.pair_kinds[kind.value] for kind in PairKind}
+    kinds = {kind: words.structure["pair_kinds"][kind.value] for kind in PairKind}
     if lettered:
         signs = {PairKind.REVOLUTE: "R", PairKind.PRISMATIC: "P"}
-        kinds = {kind: f"{kinds[kind]} ({words.note.letters[signs[kind]]})" for kind in kinds}
+        kinds = {kind: f"{kinds[kind]} ({words.note['letters'][signs[kind]]})" for kind in kinds}
     rows = (
         (pair_letters(pair.name), " – ".join(pair.links), kinds[pair.kind], "V", "1")
         for pair in pairs(mechanism)
@@ -66,8 +66,8 @@ def link_table(mechanism: Mechanism, words: Language) -> Table:
     rows = (
         (
             row.link,
-            words.note.roles[row.role.value],
-            said.motions[row.motion.value],
+            words.note["roles"][row.role.value],
+            said["motions"][row.motion.value],
             ", ".join(pair_letters(pair.name) for pair in every if row.link in pair.links),
         )
         for row in kind_of_motion(mechanism)
@@ -105,7 +105,7 @@ def order_formulas(mechanism: Mechanism, structure: Structure, words: Language) 
     yield said.force_order.format(order=backwards)
 
 
-def _static_counts(structure: Structure, words: Wording) -> Rich:
+def _static_counts(structure: Structure, words: Words) -> Rich:
     """Return equations and unknowns of the force analysis: without friction as many as needed."""
     equations = 3 * structure.moving_links
     reactions = 2 * structure.lower_pairs + structure.higher_pairs
@@ -138,14 +138,14 @@ def driver_caption(mechanism: Mechanism, words: Language) -> list[Rich]:
     kind = next(pair.kind for pair in pairs(mechanism) if set(pair.links) == ends)
     said = words.structure
     links = _listed(FRAME, mechanism.driver)
-    named = said.primary.format(kind=said.pair_kinds[kind.value], links=links)
+    named = said.primary.format(kind=said["pair_kinds"][kind.value], links=links)
     return [named, *_counts(WAYS_IN, 1, 1)]
 
 
 def group_caption(group: AssurGroup, words: Language) -> list[Rich]:
     """Return class, order, kind, mobility and redundant constraints of a group."""
     count = len(group.leads) + sum(len(_inside(joint, group)) - 1 for joint in group.inner)
-    said, kind = words.structure, words.structure.group_leads.get(len(group.leads), "")
+    said, kind = words.structure, words.structure["group_leads"].get(len(group.leads), "")
     if group.kind is not None:
         signature = local_letters(group.signature, words.note)
         kind = said.group_kind.format(kind=group.kind, letters=signature)
@@ -166,7 +166,7 @@ def _listed(*links: str) -> str:
     return f",{NBSP}".join(links)
 
 
-def _joints(group: AssurGroup, words: Wording) -> Rich:
+def _joints(group: AssurGroup, words: Words) -> Rich:
     """Return the outer and the inner pairs of a group."""
     outer = (_joint(lead.joint, (lead.to, lead.link), words) for lead in group.leads)
     inner = (_joint(joint, _inside(joint, group), words) for joint in group.inner)
@@ -177,22 +177,22 @@ def _joints(group: AssurGroup, words: Wording) -> Rich:
     return "; ".join(told) + "."
 
 
-def _joint(joint: Joint, links: Sequence[str], words: Wording) -> Rich:
+def _joint(joint: Joint, links: Sequence[str], words: Words) -> Rich:
     """Return a pair by its point, the letter of its kind and its links: ``B (В, 1–2)``."""
     point = joint.point if isinstance(joint, Revolute) else joint.pin
-    return f"{pair_letters(point)} ({words.letters[letter_of(joint)]}, {'–'.join(links)})"
+    return f"{pair_letters(point)} ({words['letters'][letter_of(joint)]}, {'–'.join(links)})"
 
 
 def _inside(joint: Joint, group: AssurGroup) -> list[str]:
     return [link for link in group.links if link in links_of(joint)]
 
 
-def local_letters(signature: str, words: Wording) -> str:
+def local_letters(signature: str, words: Words) -> str:
     """Return a signature in the letters of a language: RPR is ВПВ in Russian."""
-    return "".join(words.letters.get(letter, letter) for letter in signature)
+    return "".join(words["letters"].get(letter, letter) for letter in signature)
 
 
-def group_title(group: AssurGroup, words: Wording) -> Rich:
+def group_title(group: AssurGroup, words: Words) -> Rich:
     """Return a group's heading: links, letters, class, order and kind."""
     links = "–".join(group.links)
     if group.kind is None:
@@ -203,6 +203,6 @@ def group_title(group: AssurGroup, words: Wording) -> Rich:
     return words.group.format(links=links, letters=letters, kind=group.kind)
 
 
-def links_of_group(group: AssurGroup, words: Wording) -> Rich:
+def links_of_group(group: AssurGroup, words: Words) -> Rich:
     """Return a group by its links alone: ``Группа 4–5``."""
     return words.plain_group.format(links="–".join(group.links))

@@ -49,7 +49,7 @@ def stroke_facts(turn: Turn, words: Language) -> list[str]:
     size = (
         degrees(turn.stroke, words) if is_angle else with_unit(words.say.found(turn.stroke), unit)
     )
-    return [words.cycle.stroke[turn.output.unit].format(stroke=size)]
+    return [words.cycle["stroke"][turn.output.unit].format(stroke=size)]
 
 
 def ratio_facts(turn: Turn, words: Language) -> list[str]:
@@ -73,7 +73,7 @@ def turn_facts(turn: Turn, words: Language) -> list[str]:
         # Of a full turn as the table beside has it; within a range as its limits are.
         return degrees(phi if turn.range else round(phi % TURN, 2) % TURN, words)
 
-    facts = [said.output[output.unit].format(name=output_name(output), link=output.link)]
+    facts = [said["output"][output.unit].format(name=output_name(output), link=output.link)]
     facts.append(range_fact(turn, words))
     if turn.range is None and turn.tightest is not None:
         closest, at = turn.tightest
@@ -110,7 +110,7 @@ def range_fact(turn: Turn, words: Language) -> str:
 
 
 def _none(what: str, why: NoNumber, words: Language) -> str:
-    return words.cycle.none.format(what=what, why=words.cycle.why[why.name])
+    return words.cycle.none.format(what=what, why=words.cycle["why"][why.name])
 
 
 def diagram_scales(diagrams: Diagrams, words: Language) -> list[str]:
@@ -125,15 +125,15 @@ def diagram_steps(diagrams: Diagrams, words: Language) -> list[str]:
     way = task.differentiation
     return [
         said.scheme_steps.format(length=say.given(task.length), count=diagrams.count),
-        said.ray_steps[way.value].format(pole=say.given(task.pole_v)),
-        said.again.format(pole=say.given(task.pole_a)),
+        said["ray_steps"][way.value].format(pole=say.given(task.pole.v)),
+        said.again.format(pole=say.given(task.pole.a)),
         said.scales.format(scales="; ".join(diagram_scales(diagrams, words))),
     ]
 
 
 def drawn_note(way: Differentiation, words: Language) -> str:
     """Return what the lines of the drawn diagrams are."""
-    return words.cycle.drawn.format(way=words.cycle.chords[way.value])
+    return words.cycle.drawn.format(way=words.cycle["chords"][way.value])
 
 
 def radius_names(made: Construction) -> tuple[str, str, str]:
@@ -173,7 +173,7 @@ def extreme_steps(turn: Turn, made: Construction | None, words: Language) -> lis
         "far_mm": mm("l+r") if arcs else "", "near_mm": mm("l-r") if arcs else "",
     }  # fmt: skip
     angles = [
-        said.constructed["phi"].format(
+        said["constructed"]["phi"].format(
             name=f"φ{p}",
             read=degrees((phi + made.off(k)) % TURN, words),
             exact=degrees(round(phi % TURN, 2) % TURN, words),
@@ -188,11 +188,11 @@ def extreme_steps(turn: Turn, made: Construction | None, words: Language) -> lis
             return degrees(value, words)
         return with_unit(say.number(significant(value, digits)), say.units["m"])
 
-    told = said.constructed[unit].format(
+    told = said["constructed"][unit].format(
         angles="; ".join(angles),
         link=made.link,
         read=size(made.stroke(made.read), 4),
         exact=size(made.stroke(made.exact), 4),
         sigma=size(made.sigma[2], 2),
     )
-    return [said.construction[made.locus.value].format(**facts), told]
+    return [said["construction"][made.locus.value].format(**facts), told]

@@ -9,7 +9,7 @@ import numpy as np
 
 from planmethod.construct.drafting import Profile
 from planmethod.note.numbers import plain
-from planmethod.problem.load_records import Ordinates
+from planmethod.problem.load_records import Quadrature
 from planmethod.solved.machine.drawing import FlywheelDrawing, drawing_of, split
 from planmethod.solved.machine.flywheel import Extreme, Flywheel
 from planmethod.solved.machine.runup import MOST_CYCLES, Course, RunUp, run_up_of
@@ -106,7 +106,7 @@ def _inertias(flywheel: Flywheel, drawing: FlywheelDrawing) -> dict[str, Any]:
     points = {
         f"{name}_{count}": told(flywheel.by_points(count, way, usual).tangents.inertia)
         for count in dict.fromkeys((machine.count, 12, 24, 36))
-        for name, way in (("middle", Ordinates.MIDDLE), ("trapezoid", Ordinates.TRAPEZOID))
+        for name, way in (("middle", Quadrature.MIDDLE), ("trapezoid", Quadrature.TRAPEZOID))
     }
     parts = split(drawing)
     reason = "" if exact > 0.0 else "the machine is even enough without a flywheel"

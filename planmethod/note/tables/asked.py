@@ -10,7 +10,7 @@ from planmethod.note.document import Document, Node, Paragraph, table_of_columns
 from planmethod.note.formula import escape
 from planmethod.note.plaintext import found
 from planmethod.note.tables.results import heading_of, lead_columns
-from planmethod.note.wording import Language, Wording
+from planmethod.note.wording import Language, Words
 from planmethod.solved.many.gaps import GappedSweep
 
 
@@ -19,7 +19,7 @@ def asked_document(swept: GappedSweep, words: Language) -> Document:
     return Document.of(_asked(swept, words.note))
 
 
-def _asked(swept: GappedSweep, words: Wording) -> Iterator[Node]:
+def _asked(swept: GappedSweep, words: Words) -> Iterator[Node]:
     count = len(swept.positions)
     yield Paragraph(heading_of(swept.problem))
     columns = lead_columns(swept.problem.drive.coordinate, swept.positions.tolist(), words)

@@ -33,7 +33,7 @@ class Causes:
 
     def __init__(self, names: Names) -> None:
         self.names, self.words, self.solution = names, names.words, names.solution
-        titles = names.words.plans.items()
+        titles = names.words["plans"].items()
         self._titles = {kind: title[:1].lower() + title[1:] for kind, title in titles}
 
     def nodes(self, index: int) -> Iterator[Node]:
@@ -49,7 +49,7 @@ class Causes:
                 symbol=quantity.symbol,
                 value=spoken(rounded_to(value, sigma), words),
                 sigma=spoken(sigma_text(sigma), words),
-                unit=words.units[quantity.kind.unit],
+                unit=words["units"][quantity.kind.unit],
                 part=fixed(100 * sigma / abs(value), words, 0 if sigma > 0.02 * abs(value) else 1),
             )
         )

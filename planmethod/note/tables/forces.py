@@ -14,7 +14,7 @@ from planmethod.note.narrate.forces.resultants import kept_lines, shift_lines
 from planmethod.note.numbers import plain
 from planmethod.note.plaintext import NO_BREAK, fixed, found, given
 from planmethod.note.tables.sigmas import Sigmas
-from planmethod.note.wording import Wording
+from planmethod.note.wording import Words
 from planmethod.note.written import Column, Records, rows, together
 from planmethod.solved.errors.forces import (
     BALANCE,
@@ -171,7 +171,7 @@ def forces_records(solution: Solution) -> Records:
     return rows(columns)
 
 
-def forces_columns(solution: Solution, words: Wording) -> list[list[str]]:
+def forces_columns(solution: Solution, words: Words) -> list[list[str]]:
     """Return columns of many positions: the size of every reaction, then what balances."""
     statics = statics_of(solution)
     columns = [
@@ -180,11 +180,11 @@ def forces_columns(solution: Solution, words: Wording) -> list[list[str]]:
         for size in [np.abs(joint.force)]
     ]
     drive = solution.problem.drive
-    head = f"{drive.balancing.letter}{drive.link}, {words.units[drive.balancing.unit]}"
+    head = f"{drive.balancing.letter}{drive.link}, {words['units'][drive.balancing.unit]}"
     return [*columns, [head, *(found(float(value), words) for value in statics.balance)]]
 
 
-def _distance(solution: Solution, number: int, index: int, words: Wording) -> str:
+def _distance(solution: Solution, number: int, index: int, words: Words) -> str:
     """Return how far along its guide a reaction acts, m."""
     contact = statics_of(solution).contacts.get(number)
     b = np.nan if contact is None else float(contact.b()[index])
@@ -194,14 +194,14 @@ def _distance(solution: Solution, number: int, index: int, words: Wording) -> st
     return found(0.0 if abs(contact.joint.moment[index]) <= VANISHING * largest else b, words)
 
 
-def resultant_notes(solution: Solution, words: Wording, index: int | None = None) -> Iterator[Rich]:
+def resultant_notes(solution: Solution, words: Words, index: int | None = None) -> Iterator[Rich]:
     """Yield where forces of inertia act that stand for couples, too, and which do not."""
     statics = statics_of(solution)
     yield from shift_lines(statics, words, index)
     yield from kept_lines(statics, words)
 
 
-def _edge_notes(solution: Solution, words: Wording, index: int) -> Iterator[Rich]:
+def _edge_notes(solution: Solution, words: Words, index: int) -> Iterator[Rich]:
     """Yield what is to be known of the guides whose sliders bear at their edges."""
     for contact in statics_of(solution).contacts.values():
         edges = contact.edges(index)
@@ -209,7 +209,7 @@ def _edge_notes(solution: Solution, words: Wording, index: int) -> Iterator[Rich
             continue
         assert contact.length is not None
         told = [
-            f"{letter} = {found(abs(edge.force), words)} {words.units['N']} "
+            f"{letter} = {found(abs(edge.force), words)} {words['units']['N']} "
             f"(φ = {fixed(np.degrees(np.angle(edge.force)) % 360.0, words)}°)".replace(
                 " ", NO_BREAK
             )
@@ -226,7 +226,7 @@ def _edge_notes(solution: Solution, words: Wording, index: int) -> Iterator[Rich
         )
 
 
-def forces_tables(solution: Solution, words: Wording, index: int, sigmas: Sigmas) -> Iterator[Node]:
+def forces_tables(solution: Solution, words: Words, index: int, sigmas: Sigmas) -> Iterator[Node]:
     """Yield the table of reactions of one position, and how the lever compares."""
     statics = statics_of(solution)
     drawn, largest = drawn_forces(statics), statics.largest(index)
@@ -256,7 +256,7 @@ def forces_tables(solution: Solution, words: Wording, index: int, sigmas: Sigmas
     yield from map(Note, _edge_notes(solution, words, index))
     yield from map(Note, resultant_notes(solution, words, index))
     balancing = solution.problem.drive.balancing
-    balance, unit = words.balance[balancing.quantity], words.units[balancing.unit]
+    balance, unit = words["balance"][balancing.quantity], words["units"][balancing.unit]
     yield Note(balance.format(value=found(float(statics.balance[index]), words), unit=unit))
     if statics.lever is None:
         yield Note(words.lever_stands)

@@ -39,7 +39,7 @@ def machine_tables(solution: Solution, words: Language) -> Iterator[Node]:
     sizes = tell.sizes
     if sizes is not None:
         lines = "; ".join(tell.size_lines(sizes))
-        yield Item(f"{tell.said.sizes[sizes.shape.value]}: {lines}")
+        yield Item(f"{tell.said['sizes'][sizes.shape.value]}: {lines}")
     if asks_run_up(tell):
         yield Chapter(tell.said.run_up, numbered=False)
         yield from map(Item, run_up_lines(tell))

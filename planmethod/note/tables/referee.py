@@ -10,7 +10,7 @@ from msgspec.structs import replace
 from planmethod.mechanism.model import FRAME
 from planmethod.note.document import Chapter, Document, Node, Paragraph, table_of
 from planmethod.note.tables.results import position_line
-from planmethod.note.wording import Language, Wording
+from planmethod.note.wording import Language, Words
 from planmethod.plans.legend import QuantityKind
 from planmethod.solved.solution import Solution
 from planmethod.solved.trust.accuracy import Refereed, Verdict, examine
@@ -37,7 +37,7 @@ def referee_document(solution: Solution, digits: int, words: Language) -> Docume
     return Document.of(_referee(solution, digits, words.note))
 
 
-def _referee(solution: Solution, digits: int, words: Wording) -> Iterator[Node]:
+def _referee(solution: Solution, digits: int, words: Words) -> Iterator[Node]:
     yield Paragraph(words.referee_note.format(digits=digits))
     for index, position in enumerate(judged(solution, digits)):
         yield Chapter(position_line(solution, words, index), numbered=False)
@@ -45,7 +45,7 @@ def _referee(solution: Solution, digits: int, words: Wording) -> Iterator[Node]:
         yield table_of(words.columns_referee, rows)
 
 
-def _row(verdict: Verdict, words: Wording) -> list[str]:
+def _row(verdict: Verdict, words: Words) -> list[str]:
     from mpmath import nstr
 
     real, imag = _parts(verdict)

@@ -23,7 +23,7 @@ from planmethod.note.narrate.scales import common_scale, scale_inscription
 from planmethod.note.numbers import with_unit
 from planmethod.note.plaintext import fixed, found, given, spoken
 from planmethod.note.tables.sigmas import Sigmas, levelled
-from planmethod.note.wording import Language, Wording
+from planmethod.note.wording import Language, Words
 from planmethod.plans.legend import TURNING, Quantity, QuantityKind
 from planmethod.plans.model import FACTS, MOTION, PlanKind
 from planmethod.problem.model import Coordinate, Problem
@@ -92,7 +92,7 @@ def further_tables(solution: Solution, words: Language) -> Iterator[Node]:
         yield from balancing_tables(solution, words)
 
 
-def _causes(solution: Solution, note: Wording, index: int) -> Iterator[Node]:
+def _causes(solution: Solution, note: Words, index: int) -> Iterator[Node]:
     from planmethod.note.tables.causes import Causes
 
     yield from Causes(Names(solution, note)).nodes(index)
@@ -105,7 +105,7 @@ def scale_texts(solution: Solution, words: Language, index: int) -> list[Rich]:
     return [scale_inscription(scale, convention, words.say) for scale in scales]
 
 
-def position_line(solution: Solution, words: Wording, index: int) -> Rich:
+def position_line(solution: Solution, words: Words, index: int) -> Rich:
     """Return which position is told: its number and the driver's place."""
     coordinate = solution.problem.drive.coordinate
     value = given(float(solution.positions[index]), words)
@@ -114,7 +114,7 @@ def position_line(solution: Solution, words: Wording, index: int) -> Rich:
         number=index,
         count=count,
         symbol=coordinate.symbol,
-        value=with_unit(value, words.units[coordinate.unit]),
+        value=with_unit(value, words["units"][coordinate.unit]),
     )
 
 
@@ -141,12 +141,12 @@ def position_tables(
         rows = _segments(solution, names, kind, index, sigmas)
         if not rows:
             continue
-        plan = note.plans[kind.value]
+        plan = note["plans"][kind.value]
         yield Caption(note.table_segments.format(plan=plan[:1].lower() + plan[1:], scale=scale))
         if kind is PlanKind.POSITION:
             yield sigmas.table(note.columns_lengths, (2,), rows)
         else:
-            unit = note.units[FACTS[kind].unit]
+            unit = note["units"][FACTS[kind].unit]
             head = [text.format(unit=unit) for text in note.columns_vectors]
             yield sigmas.table(head, (3,), rows, names=2)
     if solution.problem.dynamics is not None:
@@ -161,7 +161,7 @@ def moving_points(solution: Solution) -> list[str]:
     return [name for name, at in velocity.named.items() if velocity.point[at] != velocity.pole]
 
 
-def _points(solution: Solution, words: Wording, i: int, sigmas: Sigmas) -> list[list[str]]:
+def _points(solution: Solution, words: Words, i: int, sigmas: Sigmas) -> list[list[str]]:
     rows, quantities = [], solution.quantities(QuantityKind.VELOCITY, QuantityKind.ACCELERATION)
     for name in moving_points(solution):
         place = solution.points[name].place[i]
@@ -179,7 +179,7 @@ def _found(solution: Solution, quantity: Quantity, i: int, sigmas: Sigmas) -> li
     return [*told, *sigmas.cell(quantity.label, i)]
 
 
-def _place(solution: Solution, metres: float, words: Wording) -> str:
+def _place(solution: Solution, metres: float, words: Words) -> str:
     """Return a coordinate; far from the origin with the digits that tell points apart."""
     draft = solution.construction.draft
     if draft.origin == 0:
@@ -188,7 +188,7 @@ def _place(solution: Solution, metres: float, words: Wording) -> str:
     return spoken(f"{metres:.{max(0, 4 - math.floor(math.log10(size)))}f}", words)
 
 
-def _link_tables(solution: Solution, words: Wording, i: int, sigmas: Sigmas) -> Iterator[Table]:
+def _link_tables(solution: Solution, words: Words, i: int, sigmas: Sigmas) -> Iterator[Table]:
     """Yield the table of the links; with errors it is one of ω and one of ε: both are wide."""
     rows, head = _links(solution, words, i, sigmas), words.columns_links
     if not sigmas.asked:
@@ -198,7 +198,7 @@ def _link_tables(solution: Solution, words: Wording, i: int, sigmas: Sigmas) -> 
     yield sigmas.table((head[0], *head[5:]), (2,), [[row[0], *row[6:]] for row in rows])
 
 
-def _links(solution: Solution, words: Wording, i: int, sigmas: Sigmas) -> list[list[str]]:
+def _links(solution: Solution, words: Words, i: int, sigmas: Sigmas) -> list[list[str]]:
     rows = []
     for name, quantities in solution.quantities(*TURNING).items():
         known = {quantity.kind: quantity for quantity in quantities}
@@ -216,13 +216,13 @@ def _links(solution: Solution, words: Wording, i: int, sigmas: Sigmas) -> list[l
     return rows
 
 
-def _sense(value: float, words: Wording) -> str:
+def _sense(value: float, words: Words) -> str:
     if abs(value) < 1e-12:
         return "—"
     return words.ccw if value > 0 else words.cw
 
 
-def _sliding(solution: Solution, words: Wording, i: int, sigmas: Sigmas) -> list[list[str]]:
+def _sliding(solution: Solution, words: Words, i: int, sigmas: Sigmas) -> list[list[str]]:
     rows = []
     quantities = solution.quantities(
         QuantityKind.SLIDING, QuantityKind.CORIOLIS, QuantityKind.RELATIVE
@@ -260,7 +260,7 @@ def _joined(segment: Segment) -> str:
     return segment.name.replace("-", "")
 
 
-def _lengths(segment: Segment, words: Wording, i: int) -> list[str]:
+def _lengths(segment: Segment, words: Words, i: int) -> list[str]:
     exact, read = float(segment.exact[i]), float(segment.read[i])
     return [fixed(exact, words), given(read, words, 6)]
 
@@ -307,10 +307,10 @@ def _many(solution: Solution, words: Language, sigmas: Sigmas) -> Iterator[Node]
 
 
 def lead_columns(
-    coordinate: Coordinate, positions: Sequence[float], words: Wording
+    coordinate: Coordinate, positions: Sequence[float], words: Words
 ) -> list[list[Rich]]:
     """Return the columns that each part of a table of positions begins with: number and place."""
-    symbol = f"{coordinate.symbol}, {words.units[coordinate.unit]}"
+    symbol = f"{coordinate.symbol}, {words['units'][coordinate.unit]}"
     return [
         [words.number, *map(str, range(len(positions)))],
         [symbol, *(given(float(p), words) for p in positions)],

@@ -11,7 +11,7 @@ from planmethod.note.plaintext import spoken
 from planmethod.note.rounding import sigma_text
 
 if TYPE_CHECKING:
-    from planmethod.note.wording import Wording
+    from planmethod.note.wording import Words
     from planmethod.solved.errors.spread import Errors
     from planmethod.solved.solution import Solution
 
@@ -39,7 +39,7 @@ class Sigmas:
         Some cell that was made has the mark of a sigma found by random draws.
     """
 
-    def __init__(self, solution: Solution, words: Wording, *, asked: bool = True) -> None:
+    def __init__(self, solution: Solution, words: Words, *, asked: bool = True) -> None:
         self.solution, self.words, self.asked = solution, words, asked
         self.drawn = False
 
@@ -85,7 +85,7 @@ class Sigmas:
         if not self.asked:
             return
         name = self.solution.profile.name
-        profile = self.words.profiles.get(name, name)
+        profile = self.words["profiles"].get(name, name)
         yield Paragraph(self.words.sigma_note.format(profile=profile))
         if self.drawn:
             yield Paragraph(self.words.drawn_note)

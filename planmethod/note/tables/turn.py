@@ -67,7 +67,7 @@ def deviation_columns(diagrams: Diagrams, words: Language) -> Columns:
     ways = list(Differentiation)
     exactly, ruled = deviations(diagrams, ways), deviations(diagrams, ways, hand)
     rows: list[tuple[str, str, Deviation | None, Deviation]] = [
-        (said.ways[way.value], letter, exactly[way, letter], ruled[way, letter])
+        (said["ways"][way.value], letter, exactly[way, letter], ruled[way, letter])
         for way in ways
         for letter in "va"
     ]
@@ -91,10 +91,10 @@ def deviation_columns(diagrams: Diagrams, words: Language) -> Columns:
     return [
         (said.way, "", tuple(row[0] for row in rows)),
         ("", "", tuple(row[1] for row in rows)),
-        (said.greatest[0].format(), "", column(2, "most")),
-        (said.mean[0].format(), "", column(2, "rms")),
-        (said.greatest[1].format(), "", column(3, "most")),
-        (said.mean[1].format(), "", column(3, "rms")),
+        (said["greatest"][0].format(), "", column(2, "most")),
+        (said["mean"][0].format(), "", column(2, "rms")),
+        (said["greatest"][1].format(), "", column(3, "most")),
+        (said["mean"][1].format(), "", column(3, "rms")),
         (said.sigma, "", tuple(told)),
     ]
 

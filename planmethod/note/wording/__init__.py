@@ -1,22 +1,126 @@
-"""All words that a person reads: a folder for each language, a module for each subject (фразы).
+"""All words that a person reads: a folder for each language, a catalogue for each subject (фразы).
 
-What a language must be able to say stand in the modules beside this one; the folders fill them in.
+The catalogues are TOML, their sentences templates of `str.format` with named places. Keys and
+places are the same in every language; `tests/note/test_wording.py` compares them, and looks for
+the keys that the code names. The messages that `planmethod.languages.say` says by their English
+sentence stand in the folder ``messages`` of the other languages.
 """
 
 from __future__ import annotations
 
-from functools import cache
+from functools import cache, cached_property
+from typing import TYPE_CHECKING, Any
 
 from planmethod.errors import ExitCode, PlanMethodError
-from planmethod.languages import LANGUAGES
-from planmethod.note.wording.language import Language
-from planmethod.note.wording.model import Wording
+from planmethod.languages import LANGUAGES, catalogue
+from planmethod.note.numbers import Notation, raised
 
 
 class UnknownLanguageError(PlanMethodError):
     """A language was asked for that nobody speaks here (неизвестный язык)."""
 
     exit_code = ExitCode.USAGE
+
+
+class Words(dict[str, Any]):
+    """A table of a catalogue; its keys are attributes, too: sentences, tuples of them, tables."""
+
+    __slots__ = ()
+
+    def __getattr__(self, key: str) -> str:
+        """Return the words of a key."""
+        try:
+            return self[key]  # type: ignore[no-any-return]
+        except KeyError:
+            raise AttributeError(f"no words {key!r} among {', '.join(self)}") from None
+
+
+class Language:
+    """A language, handed down to all that write in it (язык).
+
+    The catalogue of a subject is read when it is first used.
+
+    Attributes
+    ----------
+    lang : str
+        Its name, that of its folder.
+    note : Words
+        Protocol and tables; with what `say` is made of.
+    forces : Words
+        The force analysis.
+    sheets, structure, frame : Words
+        Sheets of the plans, the structural sheet, frame and title block.
+    control : Words
+        The norm control.
+    specimens, audit : Words
+    check, form : Words
+        The checking of works; the form to fill in, and what cannot be read in works.
+    point, cycle, machine, synthesis : Words
+        The moving point, the turn of a crank, a machine and its flywheel, syntheses.
+    gears, teeth, meshing : Words
+        Gear trains, the choice of their teeth, two wheels in mesh.
+    live : Words
+        The page of a moving mechanism.
+    layouts, families, tasks : Words
+        Of the shipped layouts by the places of their files, the families of ready problem files,
+        the list of shipped tasks.
+    """
+
+    note: Words
+    forces: Words
+    sheets: Words
+    structure: Words
+    frame: Words
+    control: Words
+    specimens: Words
+    audit: Words
+    check: Words
+    form: Words
+    point: Words
+    gears: Words
+    cycle: Words
+    machine: Words
+    meshing: Words
+    synthesis: Words
+    teeth: Words
+    live: Words
+    layouts: Words
+    families: Words
+    tasks: Words
+
+    def __init__(self, lang: str) -> None:
+        self.lang = lang
+
+    @cached_property
+    def say(self) -> Notation:
+        """Numbers, units and symbols."""
+        said = catalogue(self.lang, "numbers")
+        return Notation(
+            decimal=said["decimal"],
+            units={name: raised(unit) for name, unit in said["units"].items()},
+            symbols=said["symbols"],
+            degrees=said["degrees"],
+        )
+
+    if not TYPE_CHECKING:  # what is not declared above is no subject
+
+        def __getattr__(self, subject: str) -> Words:
+            """Read the catalogue of a subject."""
+            if subject not in Language.__annotations__:
+                raise AttributeError(f"a language has no {subject!r}")
+            read = catalogue(self.lang, subject)
+            if subject == "note":
+                read = catalogue(self.lang, "numbers") | read
+            words = _words(read)
+            setattr(self, subject, words)
+            return words
+
+
+def _words(read: Any) -> Any:
+    """Return what was read from a catalogue with tuples for lists."""
+    if isinstance(read, dict):
+        return Words((key, _words(value)) for key, value in read.items())
+    return tuple(map(_words, read)) if isinstance(read, list) else read
 
 
 @cache
@@ -34,7 +138,7 @@ def language(lang: str) -> Language:
     return Language(lang)
 
 
-def wording(lang: str) -> Wording:
+def wording(lang: str) -> Words:
     """Return the sentences of protocol and tables in a language.
 
     Raises
@@ -48,7 +152,7 @@ __all__ = [
     "LANGUAGES",
     "Language",
     "UnknownLanguageError",
-    "Wording",
+    "Words",
     "language",
     "wording",
 ]

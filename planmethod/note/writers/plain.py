@@ -43,7 +43,7 @@ class PlainWriter:
     """Writes nodes one after another, and numbers chapters, parts and steps."""
 
     def __init__(self, words: Language) -> None:
-        units = {name for unit in words.note.units.values() for name in re.findall(_WORD, unit)}
+        units = {name for unit in words.note["units"].values() for name in re.findall(_WORD, unit)}
         self._unit = rf"(?<=\d) (?=(?:{'|'.join(sorted(units))})(?![^\W\d_]))"
         self._chapter = self._part = self._step = 0
 

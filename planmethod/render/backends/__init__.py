@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from importlib import import_module
+from collections.abc import Sequence
 from importlib.util import find_spec
-from types import MappingProxyType
 
 from planmethod.errors import OutputError
 from planmethod.render.backends.canvas import Canvas, Options, draw_sheet
@@ -22,13 +20,8 @@ def is_absent(fmt: str) -> bool:
     return fmt == "dxf" and find_spec("ezdxf") is None
 
 
-BACKENDS: Mapping[str, str] = MappingProxyType(
-    {"svg": "SvgCanvas", "pdf": "PdfCanvas", "png": "PngCanvas", "dxf": "DxfCanvas"}
-)
-"""Output formats: the suffix of their files, which their module is called, too, and their canvas.
-
-A canvas draws one sheet.
-"""
+BACKENDS = ("svg", "pdf", "png", "dxf")
+"""Output formats: the suffixes of their files."""
 
 PAGED = frozenset({"pdf"})
 """Formats whose files have pages: their canvases draw several sheets."""
@@ -42,7 +35,7 @@ def render(drawing: Drawing, fmt: str, *, options: Options | None = None) -> byt
     drawing
         The display list.
     fmt
-        A key of `BACKENDS`: ``"svg"``, ``"pdf"``, ``"png"`` or ``"dxf"``.
+        One of `BACKENDS`: ``"svg"``, ``"pdf"``, ``"png"`` or ``"dxf"``.
     options
         Resolution and the like; the defaults when absent.
 
@@ -84,10 +77,25 @@ def render_pages(
 
 
 def _canvas(fmt: str, options: Options | None) -> Canvas:
-    if fmt not in BACKENDS:
-        raise OutputError("Unknown format '{}'. Use one of: {}.", fmt, ", ".join(BACKENDS))
+    """Return the canvas of a format; it draws one sheet."""
+    options = options or Options()
     if is_absent(fmt):
         raise OutputError(DXF_NEEDS)
-    module = import_module(f"planmethod.render.backends.{fmt}")
-    canvas: Canvas = getattr(module, BACKENDS[fmt])(options or Options())
-    return canvas
+    match fmt:
+        case "svg":
+            from planmethod.render.backends.svg import SvgCanvas
+
+            return SvgCanvas(options)
+        case "pdf":
+            from planmethod.render.backends.pdf import PdfCanvas
+
+            return PdfCanvas(options)
+        case "png":
+            from planmethod.render.backends.png import PngCanvas
+
+            return PngCanvas(options)
+        case "dxf":
+            from planmethod.render.backends.dxf import DxfCanvas
+
+            return DxfCanvas(options)
+    raise OutputError("Unknown format '{}'. Use one of: {}.", fmt, ", ".join(BACKENDS))

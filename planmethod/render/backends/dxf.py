@@ -7,6 +7,7 @@ item is its layer, and its width, dashes and grey are those of the layer whereve
 
 from __future__ import annotations
 
+import re
 from cmath import exp, phase
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
@@ -21,7 +22,6 @@ from ezdxf.enums import TextEntityAlignment
 from ezdxf.lldxf.const import VALID_DXF_LINEWEIGHTS
 from ezdxf.math import global_bspline_interpolation
 
-from planmethod.pattern import pattern
 from planmethod.render.backends.canvas import Canvas, Options
 from planmethod.render.backends.layers import (
     ARROWS,
@@ -52,7 +52,7 @@ _WITHIN = 2e-3  # mm: how far a polygon may leave the curve that it stands for
 _BY_BLOCK = -2  # line weight of what takes that of its block
 _SMOOTH = radians(20.0)
 _DEGREE = 3  # of splines
-_NOT_TEXT = pattern("[\x00-\x1f\x7f-\x9f]")
+_NOT_TEXT = "[\x00-\x1f\x7f-\x9f]"
 
 
 def line_weight(pen: Pen) -> int:
@@ -74,7 +74,7 @@ def _escaped(text: str) -> str:
 
 
 def _clean(text: str) -> str:
-    return _NOT_TEXT.sub("�", text)
+    return re.sub(_NOT_TEXT, "�", text)
 
 
 @contextmanager

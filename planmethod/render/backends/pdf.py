@@ -4,34 +4,23 @@ from __future__ import annotations
 
 from cmath import exp
 from functools import cache
-from importlib import import_module
 from io import BytesIO
 from math import radians, tau
-from types import ModuleType
 from typing import Any
+
+from reportlab import rl_config
+from reportlab.pdfbase import pdfmetrics
+from reportlab.pdfbase.ttfonts import TTFont
+from reportlab.pdfgen.canvas import FILL_NON_ZERO
+from reportlab.pdfgen.canvas import Canvas as Pages
 
 from planmethod.render.backends.canvas import Canvas, Options
 from planmethod.render.backends.curves import arc_curves
-from planmethod.render.backends.later import LateFunctions, LateModule, imported
 from planmethod.render.ink.drawing import Arc, Disc, Fill, Ink, Pen, Stroke, Text
 from planmethod.render.ink.lettering import OutlineLettering
 from planmethod.render.ink.style import PENS, arc_spans, closes, stroke_lines
 
-_PICTURES = ModuleType("PIL")
-_PICTURES.Image = LateModule("PIL.Image")  # type: ignore[attr-defined]
-_LATER = {
-    "PIL": _PICTURES,
-    "reportlab.lib.rltempfile": LateFunctions("reportlab.lib.rltempfile"),
-    "reportlab.lib.rl_safe_eval": LateFunctions("reportlab.lib.rl_safe_eval"),
-}
-"""What reportlab needs for pictures, files of its own and colours by name."""
-
-_RL_CONFIG = imported("reportlab.rl_config", _LATER)
-_RL_CONFIG.useA85 = 0  # bytes as they are: a fifth smaller than as text, and quicker
-
-_FONTS = import_module("reportlab.pdfbase.pdfmetrics")
-_TTF = import_module("reportlab.pdfbase.ttfonts")
-_CANVAS = import_module("reportlab.pdfgen.canvas")
+rl_config.useA85 = 0  # bytes as they are: a fifth smaller than as text, and quicker
 
 _MM = 72.0 / 25.4
 _CAPS = {"butt": 0, "round": 1}
@@ -40,7 +29,7 @@ _CAPS = {"butt": 0, "round": 1}
 @cache
 def registered(lettering: OutlineLettering) -> str:
     """Return the name of a lettering, registered when it is first asked for."""
-    _FONTS.registerFont(_TTF.TTFont(lettering.name, str(lettering.font_file)))
+    pdfmetrics.registerFont(TTFont(lettering.name, str(lettering.font_file)))
     return lettering.name
 
 
@@ -72,7 +61,7 @@ class PdfCanvas(Canvas):
 
     def _begin(self, size: tuple[float, float], title: str) -> None:
         """Begin the file with the size of its first page, points."""
-        self._pdf = _CANVAS.Canvas(
+        self._pdf = Pages(
             self._file,
             pagesize=size,
             pageCompression=1,
@@ -139,7 +128,7 @@ class PdfCanvas(Canvas):
         else:
             _trace(path, item.points)
         path.close()
-        self._pdf.drawPath(path, stroke=0, fill=1, fillMode=_CANVAS.FILL_NON_ZERO)
+        self._pdf.drawPath(path, stroke=0, fill=1, fillMode=FILL_NON_ZERO)
 
     def text(self, item: Text) -> None:
         """Draw a run of letters as text."""

@@ -8,9 +8,9 @@ letters are, printed with them, and read aloud; no eye sees in which font.
 
 from __future__ import annotations
 
+import re
 from cmath import exp
 from collections.abc import Iterable, Sequence
-from importlib import import_module
 from itertools import pairwise
 from math import pi, radians, tau
 from types import SimpleNamespace
@@ -18,9 +18,10 @@ from typing import Any
 from xml.etree.ElementTree import Element
 from zlib import crc32
 
-from planmethod.pattern import pattern
+from svgwrite import Drawing
+from svgwrite.params import Parameter
+
 from planmethod.render.backends.canvas import Canvas, Options, draw
-from planmethod.render.backends.later import LateFunctions, LateModule, imported
 from planmethod.render.ink.drawing import Arc, Disc, Fill, Ink, Item, Pen, Stroke, Text
 from planmethod.render.ink.lettering import OutlineLettering
 from planmethod.render.ink.style import PENS, arc_spans, closes, stroke_lines
@@ -37,21 +38,7 @@ _LINES = {
 _HEADING, _LETTERS = 5.0, 8  # mm, and letters: an inscription larger and longer is a heading
 # XML 1.0 cannot hold these, not even as references. All others, negated, take ten times as long
 # to compile.
-_NOT_XML = pattern(r"[\x00-\x08\x0b\x0c\x0e-\x1f\ud800-\udfff\ufffe\uffff]")
-
-
-_LATER = {
-    "urllib.request": LateFunctions,
-    "svgwrite.data.svgparser": LateFunctions,
-    "svgwrite.data.full11": LateModule,
-    "svgwrite.data.tiny12": LateModule,
-}
-"""What svgwrite needs for downloads and checks alone: two thirds of its import."""
-
-
-_SVGWRITE = imported("svgwrite", {name: kind(name) for name, kind in _LATER.items()})
-# That of drawings that are not checked: it would ask for the tables.
-import_module("svgwrite.validator2").validator_cache.setdefault("fullFalse", None)
+_NOT_XML = r"[\x00-\x08\x0b\x0c\x0e-\x1f\ud800-\udfff\ufffe\uffff]"
 
 
 class _Letters:
@@ -68,7 +55,7 @@ class _Letters:
 
 
 def _clean(text: str) -> str:
-    return _NOT_XML.sub("�", text)
+    return re.sub(_NOT_XML, "�", text)
 
 
 def _escaped(text: str) -> str:
@@ -109,10 +96,8 @@ class SvgCanvas(Canvas):
         self._height = height
         self._lettering = lettering
         white = _INKS[Ink.WHITE]
-        unchecked = SimpleNamespace(_parameter=import_module("svgwrite.params").Parameter(False))
-        self._sheet = _SVGWRITE.Drawing(
-            size=(f"{w}mm", f"{h}mm"), viewBox=f"0 0 {w} {h}", factory=unchecked
-        )
+        unchecked = SimpleNamespace(_parameter=Parameter(False))
+        self._sheet = Drawing(size=(f"{w}mm", f"{h}mm"), viewBox=f"0 0 {w} {h}", factory=unchecked)
         # What is marked with the mouse is the text, not the letters over it.
         self._sheet["pointer-events"] = "none"
         self._title = _clean(title)

@@ -10,8 +10,7 @@ from typing import NamedTuple, TypeAlias
 from msgspec import Struct
 
 from planmethod.note.plaintext import plain_text
-from planmethod.note.wording import language
-from planmethod.note.wording.control_model import ControlWording
+from planmethod.note.wording import Words, language
 from planmethod.paper import FORMATS
 from planmethod.render.ink.drawing import Pen
 
@@ -106,7 +105,7 @@ def _fact(fact: str | float | Segments, limit: float, lang: str) -> str:
     return number_text(fact, lang)
 
 
-def thing_text(name: str, words: ControlWording) -> str:
+def thing_text(name: str, words: Words) -> str:
     """Return what an inscription lies on (``stroke main``), or a line by itself (``line axis``)."""
     kind, _, rest = name.partition(" ")
     # The names of pens may have a space, as may what follows them.
@@ -116,8 +115,10 @@ def thing_text(name: str, words: ControlWording) -> str:
     told = f" ({tag})" if tag else ""
     if kind == "line":
         assert pen is not None, f"a line without a pen: {name}"
-        return words.lines[pen.value] + told
-    return words.things[kind].format(pen="" if pen is None else words.pens[pen.value]) + told
+        line: str = words["lines"][pen.value]
+        return line + told
+    thing: str = words["things"][kind]
+    return thing.format(pen="" if pen is None else words["pens"][pen.value]) + told
 
 
 class Finding(Struct, frozen=True):
@@ -159,11 +160,11 @@ class Finding(Struct, frozen=True):
 
     def what(self, lang: str) -> str:
         """Return what is wrong, where, with numbers."""
-        return self._filled(language(lang).control.remarks[self.code].what, lang)
+        return self._filled(language(lang).control["remarks"][self.code].what, lang)
 
     def action(self, lang: str) -> str:
         """Return what to do about it."""
-        actions = language(lang).control.remarks[self.code].actions
+        actions = language(lang).control["remarks"][self.code]["actions"]
         return self._filled(actions[str(self.facts.get("advice", ""))], lang)
 
     def _filled(self, template: str, lang: str) -> str:

@@ -37,7 +37,7 @@ class Form(Struct, frozen=True):
         Lines, from (x0, y0) to (x1, y1); the outline is drawn besides. Thick ones part the graphs,
         thin ones the rows and the three small cells of "Лит.".
     captions : tuple of (str, Bounds, Align)
-        By their names in `FrameWording.captions`.
+        By their names in ``captions`` of a language's ``frame``.
     cells : mapping of str to Cell
         Where the fields go; a form leaves out fields that it has no graph for.
     organisation : Cell, optional

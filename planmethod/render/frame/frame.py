@@ -14,8 +14,7 @@ from typing import NamedTuple
 
 from msgspec.structs import replace
 
-from planmethod.note.wording import language
-from planmethod.note.wording.sheet_model import FrameWording
+from planmethod.note.wording import Words, language
 from planmethod.paper import (
     FORMATS,
     FRAME_LEFT,
@@ -78,7 +77,7 @@ def sheet_frame(
     ----------
     paper : Format or str
     fields : mapping
-        Texts by the keys of `planmethod.problem.keys.STAMP`.
+        Texts by the keys of `planmethod.problem.head.TITLE_BLOCK`.
     furniture : Furniture
         Which form and which additional graphs.
     sheet : int
@@ -127,7 +126,7 @@ _FROM_ABOVE = (("first_use", 60.0), ("reference", 60.0))
 
 
 def _side_columns(
-    paper: Format, fields: Mapping[str, str], words: FrameWording, *, first: bool
+    paper: Format, fields: Mapping[str, str], words: Words, *, first: bool
 ) -> Iterator[Item]:
     """Yield the cells in the binding margin; their texts read from the bottom up."""
     _, low, _, high = paper.inner
@@ -140,7 +139,7 @@ def _side_columns(
         high -= length
     for key, bottom, top in cells:
         for (x0, x1), text, size in (
-            (_CAPTION_COLUMN, words.captions[key], 2.5),
+            (_CAPTION_COLUMN, words["captions"][key], 2.5),
             (_VALUE_COLUMN, str(fields.get(key, "")), 3.5),
         ):
             box = (x0, bottom, x1, top)
@@ -174,7 +173,7 @@ def _turned(items: Iterable[Item], about: complex, angle: float, box: Bounds) ->
             yield replace(item, points=tuple(about + turn * (p - about) for p in item.points))
 
 
-def _under_the_frame(paper: Format, words: FrameWording) -> list[Item]:
+def _under_the_frame(paper: Format, words: Words) -> list[Item]:
     """Return the notes below the title block: who copied, which format (графы 31, 32)."""
     right = paper.width - FRAME_OTHER
     base = (FRAME_OTHER - 2.5) / 2

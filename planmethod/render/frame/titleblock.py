@@ -8,7 +8,7 @@ from types import MappingProxyType
 from planmethod.errors import LayoutError
 from planmethod.languages import LANGUAGES, say
 from planmethod.note.wording import language
-from planmethod.problem import keys
+from planmethod.problem.head import TITLE_BLOCK
 from planmethod.problem.names import near_hint
 from planmethod.render.frame.forms import FORM_1, Cell, Form
 from planmethod.render.ink.drawing import Bounds, Item, Pen, Stroke
@@ -57,7 +57,7 @@ def title_block(
         If a field is unknown.
     """
     check_fields(fields)
-    captions = language(lang).frame.captions
+    captions = language(lang).frame["captions"]
     values = merged({key: str(value).strip() for key, value in fields.items()})
     letters = values.get("letter", "").replace(" ", "")
     divided = len(letters) <= len(form.letters)
@@ -101,8 +101,8 @@ def check_fields(fields: Iterable[str]) -> None:
     LayoutError
     """
     for key in fields:
-        if key not in keys.STAMP:
-            hint = near_hint(key, keys.STAMP, say("Known: {}.", ", ".join(keys.STAMP)))
+        if key not in TITLE_BLOCK:
+            hint = near_hint(key, TITLE_BLOCK, say("Known: {}.", ", ".join(TITLE_BLOCK)))
             raise LayoutError("Unknown field {!r} of the title block. {}", key, hint)
 
 

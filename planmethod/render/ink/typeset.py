@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import cmath
+import re
 from functools import lru_cache
 from math import radians
 from typing import Literal, TypeAlias
@@ -11,7 +12,6 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from planmethod.note.formula import Bar, Index, Letters, Node, parse
-from planmethod.pattern import pattern
 from planmethod.render.ink.drawing import Bounds, Item, Pen, Stroke, Text
 from planmethod.render.ink.lettering import OutlineLettering, in_use
 from planmethod.render.ink.style import HEIGHTS
@@ -24,7 +24,7 @@ PART_OF = "part-of:"
 
 Anchor: TypeAlias = Literal["left", "centre", "right"]
 
-_LINE = pattern(r"(?<![^\W\d_])([a-z])-\1(?![^\W\d_])")  # x-x in files, x–x on paper
+_LINE = r"(?<![^\W\d_])([a-z])-\1(?![^\W\d_])"  # x-x in files, x–x on paper
 _SUB_DROP = 0.3  # of h: how far an index below sinks under the base line
 _SUP_RISE = 0.5  # of h: how far the base line of an index above rises
 _STACK_GAP = 0.16  # of h: white between two stacked indices
@@ -193,7 +193,7 @@ def typeset(markup: str, height: float) -> Inscription:
 
 @lru_cache(maxsize=4096)
 def _typeset(markup: str, height: float, lettering: OutlineLettering) -> Inscription:
-    written = _LINE.sub(r"\1–\1", markup) if "-" in markup else markup
+    written = re.sub(_LINE, r"\1–\1", markup) if "-" in markup else markup
     nodes = parse(written)
     setter = _Setter(lettering)
     end_x = setter.set(nodes, 0.0, 0.0, height)

@@ -5,6 +5,7 @@ Every block is placed by its **upper left** corner, since a sheet is filled from
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable, Sequence
 from functools import cached_property
 from typing import Literal, Protocol, TypeAlias
@@ -12,7 +13,6 @@ from typing import Literal, Protocol, TypeAlias
 from msgspec import Struct
 
 from planmethod.note.formula import escape
-from planmethod.pattern import pattern
 from planmethod.render.ink.drawing import Bounds, Item, Pen, Stroke, shifted
 from planmethod.render.ink.typeset import (
     Inscription,
@@ -23,10 +23,10 @@ from planmethod.render.ink.typeset import (
 )
 
 # What must not be taken apart when a word is broken: an escaped sign, a letter with its indices.
-_SIGNS = pattern(r"(?:\\bar\{[^{}]*\}|\\.|.)(?:[_^](?:\{[^{}]*\}|.))*")
+_SIGNS = r"(?:\\bar\{[^{}]*\}|\\.|.)(?:[_^](?:\{[^{}]*\}|.))*"
 
 # Letters of a unit are few, or there is a sign between them.
-_UNIT = pattern(r"[^\W\d_]{1,3}(?![^\W\d_])|[^\W\d_]+[·/]")
+_UNIT = r"[^\W\d_]{1,3}(?![^\W\d_])|[^\W\d_]+[·/]"
 
 Align: TypeAlias = Literal["left", "centre", "right"]
 
@@ -304,7 +304,7 @@ def _tied(words: Sequence[str]) -> list[str]:
     """Return words with a sign of equality, its sides and the unit of a number as one."""
     found: list[str] = []
     for before, word in zip(("", *words), words, strict=False):
-        is_unit = before[-1:].isdigit() and _UNIT.match(word) is not None
+        is_unit = before[-1:].isdigit() and re.match(_UNIT, word) is not None
         if found and ("=" in (before, word) or is_unit):
             found[-1] += f" {word}"
         else:
@@ -403,7 +403,7 @@ def _fitting(
             return block, False
     while len(broken) > 1 and not _fits(made(broken, size, 0.0), room):
         broken.pop()
-    last = _SIGNS.findall(broken[-1]) if broken else []
+    last = re.findall(_SIGNS, broken[-1]) if broken else []
     while last and typeset("".join(last) + "…", size).width > room[0]:
         last.pop()
     return made([*broken[:-1], "".join(last).rstrip() + "…"], size, 0.0), True
@@ -436,7 +436,7 @@ def _broken(word: str, size: float, width: float) -> list[str]:
     """Break a word wider than the cell; with a hyphen inside a run of letters."""
     if typeset(word, size).width <= width:
         return [word]
-    signs = _SIGNS.findall(word)
+    signs = re.findall(_SIGNS, word)
     pieces: list[str] = []
     while len(signs) > 1 and typeset("".join(signs), size).width > width:
         take = len(signs) - 1

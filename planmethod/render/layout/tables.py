@@ -19,7 +19,6 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from planmethod.errors import LayoutError
-from planmethod.pattern import pattern
 from planmethod.render.ink.drawing import Bounds, Item, Pen, Stroke
 from planmethod.render.ink.lettering import in_use
 from planmethod.render.ink.typeset import Inscription, smaller_heights, typeset
@@ -31,7 +30,7 @@ UnitsAt: TypeAlias = Literal["above", "below", "none"]
 
 _PAD = 1.5  # white on both sides of a cell's text, mm
 _SIGN_GAP = 1.2  # between a value and the sign of its sense, mm
-_NUMBER = pattern(r"[-−+]?\d+(?P<fraction>[.,]\d+)?( ± \d+([.,]\d+)?)?\*?$")
+_NUMBER = r"[-−+]?\d+(?P<fraction>[.,]\d+)?( ± \d+([.,]\d+)?)?\*?$"
 
 
 class Cell(Struct, frozen=True):
@@ -282,7 +281,7 @@ def _set_at(column: TableColumn, size: float) -> _Set:
     tail = sign + _SIGN_GAP if signed else 0.0
     room = max((value.width for value in values), default=0.0)
     lefts = tuple(-(value.width + tail) / 2 for value in values)
-    if all(_NUMBER.match(cell.text) for cell in column.cells):
+    if all(re.match(_NUMBER, cell.text) for cell in column.cells):
         # Digits of one place stand under one another (GOST 2.105).
         wholes = [_integer_width(cell.text, size) for cell in column.cells]
         fractions = (v.width - w for v, w in zip(values, wholes, strict=True))

@@ -45,7 +45,7 @@ _WAYS = np.array([far * np.exp(1j * np.pi / 8 * k) for far in (1.0, 4.0, 8.0) fo
 _MOVED = 1.5  # what it costs to move on for a unit of these
 
 
-class Body(Struct, frozen=True):
+class DrawnBody(Struct, frozen=True):
     """Items in their own axes, and where these are in every frame: places, mm, and degrees."""
 
     items: tuple[Item, ...]
@@ -93,7 +93,7 @@ class Film(Struct):
     height: float = 0.0
     still: list[Item] = field(default_factory=list)
     segments: list[Segment] = field(default_factory=list)
-    bodies: list[Body] = field(default_factory=list)
+    bodies: list[DrawnBody] = field(default_factory=list)
     readings: list[list[Item]] = field(default_factory=list)
 
     @property
@@ -304,7 +304,7 @@ class _Cutting:
                 turn = float(scene.shown.links[part.link].phi_deg[part.index])
                 own = tuple(placed(part.items, -start * cis(-turn), -turn))
                 turns = self.values[scene.row(f"{part.link}.phi_deg")]
-                made.bodies.append(Body(own, at(scene.place(scene.foot(part.link))), turns))
+                made.bodies.append(DrawnBody(own, at(scene.place(scene.foot(part.link))), turns))
         else:
             for one in view.segments:
                 pen = Pen.MAIN if one["style"] == "main" else Pen.THIN
@@ -330,7 +330,9 @@ class _Cutting:
 
     # Inscriptions --------------------------------------------------------------------------------
 
-    def _labels(self, view: View, at: Callable[..., Complexes], corner: complex) -> Iterator[Body]:
+    def _labels(
+        self, view: View, at: Callable[..., Complexes], corner: complex
+    ) -> Iterator[DrawnBody]:
         """Yield the inscriptions, each where it covers the least, and seldom changes its place."""
         at_left, top, width, height = view.box
         low = corner + complex(at_left, -top - height)
@@ -373,7 +375,7 @@ class _Cutting:
             centre = place + offs[_quiet(costs)]
             taken.append((centre, half.real, half.imag))
             start = complex(-half.real, text.descent - half.imag)
-            yield Body(tuple(text.at(start)), centre, np.zeros(len(place)))
+            yield DrawnBody(tuple(text.at(start)), centre, np.zeros(len(place)))
 
 
 def _quiet(costs: Reals) -> npt.NDArray[np.intp]:

@@ -25,7 +25,7 @@ from planmethod.plans.forces.polygons import Edge, Share
 from planmethod.plans.legend import Quantity, QuantityKind
 from planmethod.plans.model import FACTS, RATES, PlanKind
 from planmethod.problem.bodies import rotation
-from planmethod.problem.load_records import Fixed, Interpolation, Over, Table, Turning
+from planmethod.problem.load_records import Fixed, Interpolation, Over, SizeTable, TurningSense
 from planmethod.problem.model import Problem
 from planmethod.render.ink.drawing import Stroke
 from planmethod.render.live.parts import Part, parts_of
@@ -172,7 +172,7 @@ class Scene:
 
     def _scheme(self) -> View:
         kind = PlanKind.POSITION
-        view = View("scheme", self.words.sheets.views[kind.value][0], _unit(kind))
+        view = View("scheme", self.words.sheets["views"][kind.value][0], _unit(kind))
         bodies = self.problem.bodies
         points = dict.fromkeys(p for body in bodies.values() for p in body.points)
         known = [p for p in points if f"{p}.x" in self._row]
@@ -199,7 +199,7 @@ class Scene:
 
     def _plan(self, kind: PlanKind) -> View:
         plan, problem = self.construction.plan(kind), self.problem
-        view = View(kind.value, self.words.sheets.views[kind.value][0], _unit(kind))
+        view = View(kind.value, self.words.sheets["views"][kind.value][0], _unit(kind))
         letters = shown_letters(problem, plan)
         for tail, head in similar_lines(Solution(problem, positions=[]), plan):
             view.segments.append({"a": self._ref(tail), "b": self._ref(head), "style": "similar"})
@@ -445,8 +445,8 @@ class Scene:
         """Return after how many degrees all is as before, the loads too."""
         dynamics, machine = self.problem.dynamics, self.problem.machine
         tables = [load.size for load in dynamics.loads] if dynamics is not None else []
-        turns = [table.turn for table in tables if isinstance(table, Table)]
-        if machine is not None and any(isinstance(table, Table) for table in tables):
+        turns = [table.turn for table in tables if isinstance(table, SizeTable)]
+        if machine is not None and any(isinstance(table, SizeTable) for table in tables):
             turns.append(machine.cycle_deg)
         return max([360.0, *turns])
 
@@ -466,7 +466,7 @@ class Scene:
         phase = load.phase
         told: dict[str, Any] = {"omega": self._row[f"{load.link}.omega"]}
         size = load.size
-        if isinstance(size, Table):
+        if isinstance(size, SizeTable):
             told["over"], told["step"] = size.over.value, size.interpolation is Interpolation.STEP
             told["at"], told["values"] = list(size.at), list(size.values)
             told["turn"] = size.turn
@@ -480,7 +480,7 @@ class Scene:
                 ahead = AHEAD[phase.moving]
                 told["ahead"] = [ahead.real, ahead.imag]
             if phase.turning is not None:
-                told["turning"] = 1 if phase.turning is Turning.CCW else -1
+                told["turning"] = 1 if phase.turning is TurningSense.CCW else -1
         if hasattr(load, "at"):
             told["place"], told["speed"] = self._row[f"{load.at}.x"], self._row[f"{load.at}.vx"]
             if isinstance(load.sense, Fixed):

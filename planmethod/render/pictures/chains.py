@@ -41,7 +41,7 @@ class Pin(Struct, frozen=True):
     count: int = 1
 
 
-class Slide(Struct, frozen=True):
+class DrawnSlide(Struct, frozen=True):
     """Prismatic joint in a picture: the stone is a rectangle, the bar a line through it.
 
     ``node`` is that of the stone's own pin when the stone has nothing else (then ``pinned``).
@@ -79,7 +79,7 @@ class Chain(Struct, frozen=True):
     """Links of a picture with their joints (кинематическая цепь)."""
 
     pins: tuple[Pin, ...]
-    slides: tuple[Slide, ...]
+    slides: tuple[DrawnSlide, ...]
     shapes: tuple[Shape, ...]
     net: Net
 
@@ -165,12 +165,12 @@ def _chain(mechanism: Mechanism, seen: Sequence[_Seen], rank: Mapping[str, float
 
 def _slides(
     mechanism: Mechanism, seen: Sequence[_Seen], pins: Sequence[Pin], count: Mapping[str, int]
-) -> list[Slide]:
+) -> list[DrawnSlide]:
     """Say of every prismatic pair which link is the stone and where its rectangle stands."""
     names = {(p.point, frozenset(p.links)): p.name for p in pairs(mechanism)}
     taken: set[str] = set()
     bars: set[str] = set()
-    found: dict[_Seen, Slide] = {}
+    found: dict[_Seen, DrawnSlide] = {}
     sliding = [one for one in seen if isinstance(one.joint, Prismatic)]
     # Stones on moving links first: a slider of the frame shows well at a place of its own too.
     for one in sorted(sliding, key=lambda one: one.far is not Far.CHAIN):
@@ -197,12 +197,12 @@ def _slides(
         bar = next((link for link in choices if link != stone), "")
         bars.add(bar)
         text = "" if free else pair_letters(name)
-        found[one] = Slide(node, stone, bar, one.far, text, one.to, bool(free))
+        found[one] = DrawnSlide(node, stone, bar, one.far, text, one.to, bool(free))
     return [found[one] for one in sliding]
 
 
 def _shapes(
-    links: Iterable[str], pins: Sequence[Pin], slides: Sequence[Slide]
+    links: Iterable[str], pins: Sequence[Pin], slides: Sequence[DrawnSlide]
 ) -> tuple[list[Shape], dict[str, tuple[str, str, float]]]:
     """Return the links' shapes and the nodes that lie on a bar between two others."""
     between: dict[str, tuple[str, str, float]] = {}
@@ -247,7 +247,7 @@ def _rests_on(
 
 def _net(
     pins: Sequence[Pin],
-    slides: Sequence[Slide],
+    slides: Sequence[DrawnSlide],
     shapes: Sequence[Shape],
     between: Mapping[str, tuple[str, str, float]],
     rank: Mapping[str, float],
@@ -289,7 +289,7 @@ def _net(
         node: 1.6 * sum(rank[link] for link in links) / len(links)
         for node, links in members.items()
     }
-    every: tuple[Pin | Slide, ...] = (*pins, *slides)
+    every: tuple[Pin | DrawnSlide, ...] = (*pins, *slides)
     opened = {joint.node for joint in every if joint.far is Far.OPEN}
     return Net(
         tuple(node for node in members if node not in between),
@@ -330,12 +330,12 @@ def textbook_places(chain: Chain) -> dict[str, complex] | None:
 
 def _dyad(chain: Chain) -> dict[str, complex] | None:
     """Return the places of a dyad's joints, from the left to the right."""
-    joints: tuple[Pin | Slide, ...] = (*chain.pins, *chain.slides)
+    joints: tuple[Pin | DrawnSlide, ...] = (*chain.pins, *chain.slides)
     outer = [joint for joint in joints if joint.far is Far.OPEN]
     inner = next(joint for joint in joints if joint.far is Far.CHAIN)
     if len(outer) != 2 or len({joint.node for joint in outer}) != 2:
         return None
-    outer.sort(key=lambda joint: isinstance(joint, Slide))
+    outer.sort(key=lambda joint: isinstance(joint, DrawnSlide))
     first, last = outer
     if isinstance(inner, Pin) and inner.node not in (first.node, last.node):
         top = 1.1 + 1.25j if isinstance(last, Pin) else 1.2 + 1.0j
@@ -346,7 +346,7 @@ def _dyad(chain: Chain) -> dict[str, complex] | None:
         from_left = {own.node: 1.7 + 0j, other.node: 1.15j}
         mirrored = {own.node: 1.15j, other.node: 1.7 + 0j}
         return _if_whole(chain, from_left if own is last else mirrored)
-    if isinstance(last, Slide):
+    if isinstance(last, DrawnSlide):
         return _if_whole(chain, {last.node: 0j, inner.node: 1.5j})
     if inner.node in (first.node, last.node):
         return _if_whole(chain, {first.node: 0j, last.node: 1.7 + 1.15j})

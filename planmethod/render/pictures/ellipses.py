@@ -185,7 +185,7 @@ def ellipse_inscription(
 def told_ellipses(shown: Sequence[Ellipses], profile: Profile, words: Language) -> list[str]:
     """Return the lines that tell what some ellipses are, drawn by the hand of a profile."""
     said = words.sheets
-    hand = words.note.profiles.get(profile.name, profile.name)
+    hand = words.note["profiles"].get(profile.name, profile.name)
     if not any(view.strokes or view.too_large or view.undefined for view in shown):
         return [said.ellipses_thin.format(sigmas=SIGMAS, profile=hand)]
     enlarged = max(view.enlarged for view in shown)

@@ -26,10 +26,10 @@ from planmethod.render.labels import Label, place_labels, segment_label
 from planmethod.render.layout.block import Picture
 from planmethod.render.pictures.chains import (
     Chain,
+    DrawnSlide,
     Far,
     Pin,
     Shape,
-    Slide,
     driver_chain,
     group_chain,
     mechanism_chain,
@@ -234,7 +234,7 @@ class _Draft(Struct):
 
     # Sliders ---------------------------------------------------------------------------------
 
-    def draw_slide(self, slide: Slide) -> None:
+    def draw_slide(self, slide: DrawnSlide) -> None:
         """Draw a stone and what it slides on."""
         place = self.at[slide.node]
         if slide.bar:
@@ -272,7 +272,7 @@ class _Draft(Struct):
                 away = 1j * turn if (1j * turn).imag >= 0 else -1j * turn
                 self._number(slide.stone, place + end * 3.0, end + 1.6 * away, gap=4.0)
 
-    def _cross_direction(self, place: complex, slide: Slide) -> complex:
+    def _cross_direction(self, place: complex, slide: DrawnSlide) -> complex:
         """Return the direction of a guide: level, or upright if a bar leaves along the level."""
         if slide.far is Far.FRAME:
             return 1 + 0j

@@ -45,7 +45,7 @@ def control_text(name: str, sheets: Sequence[Controlled], lang: str = "ru") -> s
 
 def _lines(finding: Finding, lang: str) -> list[str]:
     words, unit = language(lang).control, unit_text(REMARKS[finding.code].unit, lang)
-    place = words.views[finding.view]
+    place = words["views"][finding.view]
     if finding.position is not None:
         place += words.position.format(number=finding.position)
     if unit:
@@ -53,7 +53,7 @@ def _lines(finding: Finding, lang: str) -> list[str]:
         limit = limit_text(finding.limit, lang)
         place += words.numbers.format(value=value, limit=limit, unit=unit)
     return [
-        f"  {finding.code} {words.severities[finding.severity.value]}: {place}",
+        f"  {finding.code} {words['severities'][finding.severity.value]}: {place}",
         f"    {finding.what(lang)}.",
         f"    {words.action.format(action=finding.action(lang))}",
     ]
@@ -86,7 +86,7 @@ def _finding_record(finding: Finding, lang: str) -> dict[str, Any]:
     return {
         "code": finding.code,
         "severity": finding.severity.value,
-        "title": language(lang).control.remarks[finding.code].title,
+        "title": language(lang).control["remarks"][finding.code].title,
         "what": finding.what(lang),
         "where": {
             "view": finding.view or "sheet",

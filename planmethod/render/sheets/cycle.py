@@ -147,7 +147,7 @@ def balance_diagram(solution: Solution, indices: Sequence[int], manner: Manner) 
         letter_height=manner.letter,
         name="balance",
     )
-    what = words.sheets.balance[balancing.quantity]
+    what = words.sheets["balance"][balancing.quantity]
     lines: list[str | Block] = [frame.scales(scale, say), *said, *_chords(forces, manner)]
     block = named(picture, manner.entry.title or what.format(symbol=symbol), lines, manner)
     return Viewed(block, "balance", scale)

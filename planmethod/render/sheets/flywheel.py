@@ -12,7 +12,7 @@ from planmethod.errors import LayoutError
 from planmethod.note.document import Caption, Formula, Paragraph
 from planmethod.note.narrate.given import point_name
 from planmethod.note.narrate.machine import MachineTeller
-from planmethod.problem.load_records import Load, Shape, Table
+from planmethod.problem.load_records import Load, SizeTable, WheelShape
 from planmethod.render.ink.drawing import Arc, Disc, Item, Pen, Span, Stroke
 from planmethod.render.ink.extent import ink_bounds
 from planmethod.render.ink.typeset import typeset
@@ -151,7 +151,7 @@ def load_diagrams(solution: Solution, indices: Sequence[int], manner: Manner) ->
     turned = _fine(flywheel)
     moved = flywheel.turn.at(turned)
     for load in dynamics.loads:
-        if not isinstance(load, Load) or not isinstance(load.size, Table):
+        if not isinstance(load, Load) or not isinstance(load.size, SizeTable):
             continue
         (force,) = (one.force for one in external(moved, dynamics, load.link)
                     if one.name == load.name)  # fmt: skip
@@ -239,7 +239,7 @@ def wheel_view(solution: Solution, indices: Sequence[int], manner: Manner) -> Bl
         ring = (complex(-half, sign * bore), complex(half, sign * bore),
                 complex(half, sign * radius), complex(-half, sign * radius))  # fmt: skip
         items += [Stroke(ring, Pen.MAIN, closed=True), *hatch(ring)]
-    if sizes.shape is Shape.DISC:
+    if sizes.shape is WheelShape.DISC:
         items += [Stroke((complex(x, -bore), complex(x, bore)), Pen.MAIN) for x in (-half, half)]
     reach = radius + 4.0
     items += [
@@ -258,7 +258,7 @@ def wheel_view(solution: Solution, indices: Sequence[int], manner: Manner) -> Bl
     picture = Picture(tuple(items), ink_bounds(items))
     told = ["; ".join(tell.size_lines(sizes))]
     lines = paragraph(told[0], height, manner.width(manner.sizes.column))
-    title = manner.entry.title or tell.said.sizes[sizes.shape.value]
+    title = manner.entry.title or tell.said["sizes"][sizes.shape.value]
     return named(picture, title, [tell.scale("l", scale, "m"), lines], manner)
 
 

@@ -11,7 +11,7 @@ from msgspec.structs import replace
 from planmethod.construct.scale import Scale, choose_scale
 from planmethod.note.narrate.given import point_name
 from planmethod.note.narrate.scales import scale_inscription
-from planmethod.problem.load_records import Couple, Interpolation, Load, Over, Table
+from planmethod.problem.load_records import Couple, Interpolation, Load, Over, SizeTable
 from planmethod.problem.model import Convention
 from planmethod.render.ink.drawing import Item, Pen, Stroke
 from planmethod.render.ink.typeset import typeset
@@ -38,7 +38,7 @@ def load_curves(solution: Solution, indices: Sequence[int], manner: Manner) -> B
     assert dynamics is not None
     blocks: list[Block] = []
     for number, load in enumerate(dynamics.loads):
-        if not isinstance(load.size, Table) or load.size.over is Over.POSITION:
+        if not isinstance(load.size, SizeTable) or load.size.over is Over.POSITION:
             continue
         acting = [one for one in external(solution, dynamics, load.link) if one.name == load.name]
         acts = any(one.force[index] if one.point else one.couple[index] for one in acting)
@@ -50,7 +50,7 @@ def load_curves(solution: Solution, indices: Sequence[int], manner: Manner) -> B
 
 
 def _diagram(
-    solution: Solution, load: Load | Couple, table: Table, now: float | None, manner: Manner
+    solution: Solution, load: Load | Couple, table: SizeTable, now: float | None, manner: Manner
 ) -> Block:
     say, (letter, unit) = manner.words.say, _over(solution, load, table)
     column, start, span = manner.width(manner.sizes.column), table.at[0], table.at[-1] - table.at[0]
@@ -89,7 +89,7 @@ def _diagram(
     return named(picture, title, [told], manner)
 
 
-def _from_zero(table: Table) -> Table:
+def _from_zero(table: SizeTable) -> SizeTable:
     """Return a table over a turn from zero on, wherever its rows begin; others as they are."""
     if table.over is not Over.PHI:
         return table
@@ -110,7 +110,7 @@ def _from_zero(table: Table) -> Table:
     return replace(table, at=tuple(at for at, _ in rows), values=tuple(value for _, value in rows))
 
 
-def _over(solution: Solution, load: Load | Couple, table: Table) -> tuple[str, str]:
+def _over(solution: Solution, load: Load | Couple, table: SizeTable) -> tuple[str, str]:
     """Return the letter of what a table is over, and its unit; none of a share of the stroke."""
     if table.over in (Over.PHI, Over.S):
         coordinate = solution.problem.drive.coordinate
@@ -122,7 +122,7 @@ def _over(solution: Solution, load: Load | Couple, table: Table) -> tuple[str, s
     return f"s_{{{point}}}/H", ""
 
 
-def _parts(table: Table, across: float, up: float) -> tuple[tuple[complex, ...], ...]:
+def _parts(table: SizeTable, across: float, up: float) -> tuple[tuple[complex, ...], ...]:
     """Return the unbroken parts of a curve, mm: it ends where the table jumps."""
     rows = list(zip(table.at, table.values, strict=True))
     if table.interpolation is Interpolation.STEP:

@@ -159,7 +159,7 @@ def with_note(
 ) -> Column:
     """Return tables and what the errors in their columns are, those that have the mark too."""
     note = words.note
-    told = words.sheets.sigma_note.format(profile=note.profiles.get(profile, profile))
+    told = words.sheets.sigma_note.format(profile=note["profiles"].get(profile, profile))
     if any(cell.text.endswith(DRAWN) for column in columns for cell in column.cells):
         told = f"{told} {note.drawn_note}"
     return Column([tables, paragraph(told, min(height, 3.5), tables.width)], gap=3.0)

@@ -45,7 +45,7 @@ def equations_block(solution: Solution, indices: Sequence[int], manner: Manner) 
     plan = solution.construction.plan(kind)
     size = manner.text(manner.sizes.text)
     height, width = max(3.5, min(5.0, size)), manner.width(manner.sizes.column)
-    title = heading(manner.entry.title or manner.words.sheets.equations[kind.value], size)
+    title = heading(manner.entry.title or manner.words.sheets["equations"][kind.value], size)
     equations = Equations(tuple(equation_of(one, direction_text) for one in plan.equations))
     return Column([title, *blocks_of([equations], height, width=width)], gap=4.0)
 
@@ -57,7 +57,7 @@ def calculation_block(solution: Solution, indices: Sequence[int], manner: Manner
     index = shown_position(solution, indices, manner)
     height = manner.text(min(3.5, manner.sizes.text))
     said = manner.words.sheets
-    title = manner.entry.title or said.calculation[kind.value]
+    title = manner.entry.title or said["calculation"][kind.value]
     if len(solution.positions) > 1:
         title = said.of_position.format(title=title, number=index)
     lines = map(Formula, calculation(solution, kind, index, manner.words))

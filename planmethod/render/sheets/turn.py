@@ -49,7 +49,8 @@ def turn_statement(solution: Solution, indices: Sequence[int], manner: Manner) -
 
 def _whose(turn: Turn, manner: Manner) -> str:
     output = turn.output
-    return manner.words.cycle.of[output.unit].format(name=output_name(output))
+    said: str = manner.words.cycle["of"][output.unit]
+    return said.format(name=output_name(output))
 
 
 def diagrams_view(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
@@ -60,7 +61,7 @@ def diagrams_view(solution: Solution, indices: Sequence[int], manner: Manner) ->
     scales = diagram_scales(diagrams, words)
     k = [
         f"K_{{{number}}} = {words.say.given(pole)} {words.say.units['mm']}"
-        for number, pole in enumerate((diagrams.task.pole_v, diagrams.task.pole_a), 1)
+        for number, pole in enumerate((diagrams.task.pole.v, diagrams.task.pole.a), 1)
     ]
     lines = ["; ".join([*scales, *k]), drawn_note(diagrams.task.differentiation, words)]
     block = named(picture, manner.entry.title or title, lines, manner)
@@ -82,7 +83,7 @@ def chosen_plans(solution: Solution, indices: Sequence[int], manner: Manner) -> 
         scales = {**solution.scales, kind: own}
         solution = Solution(problem, positions=at, scales=scales, profile=solution.profile)
     picture, *_ = plan_grid(solution, kind, chosen, manner.words.say)
-    title = manner.entry.title or manner.words.sheets.views[kind.value][1]
+    title = manner.entry.title or manner.words.sheets["views"][kind.value][1]
     said = [scale_inscription(solution.scales[kind], solution.problem.scales.convention,
                               manner.words.say)]  # fmt: skip
     block = named(picture, title, said, manner)
@@ -148,7 +149,7 @@ def hodograph_view(solution: Solution, indices: Sequence[int], manner: Manner) -
     parts = [part[np.isfinite(part)] / scale.per_mm for part in np.split(curve, gaps)]
     drawn: Complexes = np.nan_to_num(ends) / scale.per_mm
     picture = polar_picture(parts, drawn, manner.letter, f"{kind.value} {point}", facts.pole)
-    title = words.cycle.hodograph[kind.value].format(of=point_name(point))
+    title = words.cycle["hodograph"][kind.value].format(of=point_name(point))
     said = [scale_inscription(scale, solution.problem.scales.convention, words.say)]
     block = named(picture, manner.entry.title or title, said, manner)
     return Viewed(block, "hodograph", scale)

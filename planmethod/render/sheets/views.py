@@ -224,7 +224,7 @@ def with_scale(
     ``more`` is said under the scale.
     """
     words = manner.words
-    one, many = words.sheets.views[kind.value]
+    one, many = words.sheets["views"][kind.value]
     chosen = manner.entry.position is not None and kind is not PlanKind.POSITION
     title = manner.entry.title or (one if len(solution.positions) == 1 or chosen else many)
     said = []

@@ -23,11 +23,11 @@ from planmethod.problem.load_records import (
     Interpolation,
     Load,
     Mass,
-    Moving,
+    MovingSense,
     Over,
     Phase,
-    Table,
-    Turning,
+    SizeTable,
+    TurningSense,
 )
 from planmethod.problem.model import Problem
 from planmethod.solved.course.motion import Moved, TurnMotion
@@ -42,7 +42,12 @@ SLACK = 1e-9
 
 TURN = 360.0
 
-AHEAD = {Moving.UP: 1j, Moving.DOWN: -1j, Moving.LEFT: -1 + 0j, Moving.RIGHT: 1 + 0j}
+AHEAD = {
+    MovingSense.UP: 1j,
+    MovingSense.DOWN: -1j,
+    MovingSense.LEFT: -1 + 0j,
+    MovingSense.RIGHT: 1 + 0j,
+}
 """Which way a point moves."""
 
 Mask = npt.NDArray[np.bool_]
@@ -122,7 +127,7 @@ def needs_motion(load: Load | Couple) -> bool:
     if phase is not None and (phase.moving is not None or phase.turning is not None):
         return True
     of_point = (Over.X, Over.Y, Over.PATH, Over.STROKES)
-    return isinstance(load.size, Table) and load.size.over in of_point
+    return isinstance(load.size, SizeTable) and load.size.over in of_point
 
 
 def _force(
@@ -243,7 +248,7 @@ def _acts(solution: MotionValues, load: Load | Couple, phase: Phase) -> Mask:
         ahead = (solution.points[load.at].velocity * AHEAD[phase.moving].conjugate()).real
         acts &= ahead > STILL * _largest_speed(solution)
     if phase.turning is not None:
-        sign = 1.0 if phase.turning is Turning.CCW else -1.0
+        sign = 1.0 if phase.turning is TurningSense.CCW else -1.0
         acts &= _turning(solution, load.link) == sign
     return acts
 
@@ -266,7 +271,7 @@ def _from(phi: Reals, start: float, turn: float = TURN) -> Reals:
 def _size(solution: MotionValues, load: Load | Couple, index: int) -> Reals | float:
     """Return the size of a load in every position, N or N·m."""
     size = load.size
-    if not isinstance(size, Table):
+    if not isinstance(size, SizeTable):
         return size
     if size.over is Over.POSITION:
         what = "force" if isinstance(load, Load) else "couple"
@@ -283,7 +288,7 @@ def abscissae(solution: MotionValues, load: Load | Couple, index: int) -> Reals:
         The number of the load in the file.
     """
     size = load.size
-    assert isinstance(size, Table)
+    assert isinstance(size, SizeTable)
     match size.over:
         case Over.POSITION | Over.S:
             return solution.positions
@@ -330,7 +335,7 @@ def _turn_of(solution: MotionValues) -> TurnMotion:
     return TurnMotion(solution.problem)
 
 
-def closed(table: Table) -> Table:
+def closed(table: SizeTable) -> SizeTable:
     """Return a table with the row at which it repeats, if it does."""
     end = table.at[0] + table.turn
     if table.over is not Over.PHI or table.at[-1] >= end:
@@ -338,7 +343,7 @@ def closed(table: Table) -> Table:
     return replace(table, at=(*table.at, end), values=(*table.values, table.values[0]))
 
 
-def read(table: Table, at: Reals) -> Reals:
+def read(table: SizeTable, at: Reals) -> Reals:
     """Read a table; beyond its ends it keeps their values."""
     nodes, values = np.asarray(table.at), np.asarray(table.values)
     if table.interpolation is Interpolation.LINEAR:

@@ -19,7 +19,7 @@ from planmethod.plans.forces.polygons import (
     Share,
 )
 from planmethod.plans.segments import Ends
-from planmethod.problem.model import Balancing, Problem
+from planmethod.problem.model import BalancingQuantity, Problem
 from planmethod.solved.forces.statics import statics_of
 from planmethod.solved.reading import Reading, Remembering, remembered
 from planmethod.solved.solution import Solution
@@ -161,7 +161,7 @@ class ForceReading(Remembering):
         return (lever.conjugate() * self.by_hand(*edge.ends)).imag > 0
 
     @property
-    def balancing(self) -> Balancing:
+    def balancing(self) -> BalancingQuantity:
         """What balances the driving link."""
         return self.solution.problem.drive.balancing
 

@@ -15,7 +15,7 @@ from planmethod.construct.hand import Hand
 from planmethod.construct.scale import choose_scale, series_near
 from planmethod.plans.diagrams.calculus import Integration
 from planmethod.plans.diagrams.energymass import EnergyMass, Given, Places, build
-from planmethod.problem.load_records import Method, Ordinates
+from planmethod.problem.load_records import FlywheelMethod, Quadrature
 from planmethod.solved.errors.drawing import Drafted, DrawnKind, DrawnQuantity, number
 from planmethod.solved.errors.spread import Errors
 from planmethod.solved.machine.flywheel import Flywheel, Points
@@ -75,7 +75,7 @@ class FlywheelDrawing:
         machine, points, step = self.flywheel.machine, self.points, self.flywheel.cycle / self.count
         touched = (round(at / step) for at in (points.tangents.at_max, points.tangents.at_min))
         top, bottom = touched
-        middle = machine.ordinates is Ordinates.MIDDLE
+        middle = machine.ordinates is Quadrature.MIDDLE
         given = Given(
             (self.flywheel.sign * points.ordinates).tolist(),
             (self.flywheel.sign * points.middles).tolist(),
@@ -200,7 +200,7 @@ def split(drawing: FlywheelDrawing) -> Split:
     exact = wheel.exact.inertia
     usual = wheel.tangents(1.0 + delta, 1.0 - delta, speed).inertia
     whole = wheel.tangents(*wheel.usual_slopes, speed).inertia
-    mertsalov = wheel.machine.method is Method.MERTSALOV
+    mertsalov = wheel.machine.method is FlywheelMethod.MERTSALOV
     return Split(
         usual - exact,
         whole - usual if mertsalov else 0.0,

@@ -23,14 +23,14 @@ from planmethod.errors import Fault, ProblemError
 from planmethod.languages import say
 from planmethod.plans.forces.board import SCALE
 from planmethod.problem.load_records import (
+    ConstantMoment,
     Dynamics,
     Fixed,
+    FlywheelMethod,
     Load,
-    Mean,
-    Method,
-    Ordinates,
-    Side,
-    Signs,
+    MeanSpeed,
+    Quadrature,
+    WeightSigns,
 )
 from planmethod.problem.model import Problem
 from planmethod.solved.course.curve import Curve, joined
@@ -138,7 +138,7 @@ class Flywheel(Remembering):
         self.moment, self.inertia, self.slope = (
             Curve(found.edges, found.terms[:, :, k : k + 1]) for k in range(3)
         )
-        self.sign = 1.0 if self.machine.constant is Side.DRIVING else -1.0
+        self.sign = 1.0 if self.machine.constant is ConstantMoment.DRIVING else -1.0
         self.work = self.moment.mixed([self.sign]).integral
         self.work_per_cycle = float(self.work.value([self.cycle])[0])
         self._check_work()
@@ -151,7 +151,7 @@ class Flywheel(Remembering):
         least = BALANCE * float(np.max(np.abs(moments))) * self.cycle
         if self.work_per_cycle > least:
             return
-        driving = self.machine.constant is Side.DRIVING
+        driving = self.machine.constant is ConstantMoment.DRIVING
         told = (
             "a constant driving moment cannot balance the work of the loads over the cycle: they "
             "do {:.6g} J and must resist"
@@ -192,7 +192,7 @@ class Flywheel(Remembering):
     @property
     def usual_slopes(self) -> tuple[float, float]:
         """Slopes that the method of the file draws, over omega²/2."""
-        if self.machine.method is Method.MERTSALOV:
+        if self.machine.method is FlywheelMethod.MERTSALOV:
             return 1.0, 1.0
         return 1.0 + self.machine.delta, 1.0 - self.machine.delta
 
@@ -200,7 +200,7 @@ class Flywheel(Remembering):
     def middle_speed(self) -> float:
         """Half-sum of the greatest and the least speed of the steady motion, 1/s."""
         asked = abs(self.problem.drive.rate)
-        if self.machine.mean is Mean.HALF_SUM:
+        if self.machine.mean is MeanSpeed.HALF_SUM:
             return asked
         found = asked
         for _ in range(40):
@@ -329,7 +329,7 @@ class Flywheel(Remembering):
         """
         problem, dynamics = self.turn.problem, self.problem.dynamics
         assert dynamics is not None
-        down = Fixed(-90.0 if self.machine.signs is Signs.TRUE else 90.0)
+        down = Fixed(-90.0 if self.machine.signs is WeightSigns.TRUE else 90.0)
         weights = [
             Load(f"G_{{{link}}}", link, mass.centre, mass.mass * dynamics.gravity, down)
             for link, mass in dynamics.masses.items()
@@ -369,7 +369,7 @@ class Flywheel(Remembering):
     def by_points(
         self,
         count: int,
-        ordinates: Ordinates,
+        ordinates: Quadrature,
         slopes: tuple[float, float],
     ) -> Points:
         """Return what a construction finds that knows so many positions only.
@@ -383,7 +383,7 @@ class Flywheel(Remembering):
         moments = np.append(both.moment[::2], both.moment[0])
         middles = both.moment[1::2]
         step = self.cycle / count
-        taken = middles if ordinates is Ordinates.MIDDLE else (moments[:-1] + moments[1:]) / 2.0
+        taken = middles if ordinates is Quadrature.MIDDLE else (moments[:-1] + moments[1:]) / 2.0
         work = self.sign * np.append(0.0, np.cumsum(taken)) * step
         turned = np.asarray(step * np.arange(count + 1), dtype=float)
         gain = self.sign * (work[-1] / self.cycle * turned - work)

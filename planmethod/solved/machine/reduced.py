@@ -21,8 +21,8 @@ from planmethod.problem.load_records import (
     Load,
     Machine,
     Over,
-    Signs,
-    Table,
+    SizeTable,
+    WeightSigns,
 )
 from planmethod.solved.course.curve import Curve, resolved
 from planmethod.solved.course.motion import Moved, TurnMotion
@@ -99,7 +99,7 @@ def reduce(motion: MotionValues, machine: Machine) -> Reduced:
         weights = weights + mass.mass * dynamics.gravity * centre.velocity.imag / speed
         links[link] = links[link] + mass.mass * np.abs(centre.velocity) ** 2 / speed**2
         growth = growth + mass.mass * (centre.velocity.conjugate() * centre.acceleration).real
-    if machine.signs is Signs.SOURCE:
+    if machine.signs is WeightSigns.SOURCE:
         weights = -weights
     inertia = np.asarray(sum(links.values(), nothing), dtype=float) + machine.crank_inertia
     return Reduced(loads, weights, links, inertia, 2.0 * growth / speed**3)
@@ -117,7 +117,7 @@ def reduced_curves(turn: TurnMotion, machine: Machine) -> Curve:
     dynamics = problem.dynamics
     assert dynamics is not None
     for index, load in enumerate(dynamics.loads):
-        if isinstance(load.size, Table) and load.size.over is Over.POSITION:
+        if isinstance(load.size, SizeTable) and load.size.over is Over.POSITION:
             raise _load_fault(turn, index, "{} is given for the positions of the file only", _OVER)
     cuts = [turn.curve.edges, *(_breaks(turn, load) for load in dynamics.loads)]
     edges = np.unique(np.concatenate(cuts))
@@ -179,7 +179,7 @@ def _found_breaks(turn: TurnMotion, load: Load | Couple) -> Iterator[Reals]:
             yield turn.column(load.at, way, velocity=True).roots()
         if phase is not None and phase.turning is not None:
             yield turn.omega(load.link).roots()
-    if not isinstance(size, Table):
+    if not isinstance(size, SizeTable):
         return
     nodes = np.unique(size.at)
     if size.over is Over.PHI:

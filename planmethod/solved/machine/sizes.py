@@ -12,7 +12,7 @@ from math import pi
 
 from msgspec import Struct
 
-from planmethod.problem.load_records import Shape, Wheel
+from planmethod.problem.load_records import FlywheelTask, WheelShape
 
 STEEL_FACTOR, STEEL = 0.38, 7800.0
 """D = 0.38·J^(1/5) of a steel disc, m and kg·m², and the density of a steel rim, kg/m³."""
@@ -26,7 +26,7 @@ class Sizes(Struct, frozen=True):
 
     Attributes
     ----------
-    shape : Shape
+    shape : WheelShape
     inertia : float, kg·m²
         On its own shaft.
     diameter, bore, width : float, m
@@ -38,7 +38,7 @@ class Sizes(Struct, frozen=True):
         The greatest speed of the rim has set the diameter.
     """
 
-    shape: Shape
+    shape: WheelShape
     inertia: float
     diameter: float
     bore: float
@@ -48,7 +48,7 @@ class Sizes(Struct, frozen=True):
     held: bool
 
 
-def size_of(wheel: Wheel, inertia: float, omega: float) -> Sizes | None:
+def size_of(wheel: FlywheelTask, inertia: float, omega: float) -> Sizes | None:
     """Return the sizes of a flywheel; None where none is needed.
 
     Parameters
@@ -61,7 +61,7 @@ def size_of(wheel: Wheel, inertia: float, omega: float) -> Sizes | None:
     if inertia <= 0.0:
         return None
     own, turning = inertia / wheel.ratio**2, omega * wheel.ratio
-    disc = wheel.shape is Shape.DISC
+    disc = wheel.shape is WheelShape.DISC
     width, bore = (DISC_WIDTH, 0.0) if disc else (RIM_WIDTH, RIM_BORE)
     density = STEEL if wheel.density is None else wheel.density
     if disc and wheel.density is None:

@@ -172,8 +172,8 @@ class Diagrams(Remembering):
     def exact(self, shares: Reals) -> tuple[Reals, Reals, Reals]:
         """Return the exact ordinates of s, v and a after shares of the way, mm."""
         one, two = self.rates(shares)
-        by = self.mu_phi * self.task.pole_v / self.mu_s
-        return self.path(shares) / self.mu_s, one * by, two * by * self.mu_phi * self.task.pole_a
+        by = self.mu_phi * self.task.pole.v / self.mu_s
+        return self.path(shares) / self.mu_s, one * by, two * by * self.mu_phi * self.task.pole.a
 
     @cached_property
     def shares(self) -> Reals:
@@ -209,8 +209,8 @@ class Diagrams(Remembering):
         """Of the path, m or radians per mm: the file's ``mu_l`` where the diagram is then fit."""
         problem, output = self.turn.solution.problem, self.turn.output
         one, two = self.rates(self.fine)
-        by = self.mu_phi * self.task.pole_v
-        drawn = self.path(self.fine), one * by, two * by * self.mu_phi * self.task.pole_a
+        by = self.mu_phi * self.task.pole.v
+        drawn = self.path(self.fine), one * by, two * by * self.mu_phi * self.task.pole.a
         s, v, a = (float(np.ptp(np.append(y[np.isfinite(y)], 0.0))) for y in drawn)
         given = problem.scales.mu_l
         if given is not None and output.slide is not None and LOW <= s / given <= HIGH:
@@ -227,14 +227,14 @@ class Diagrams(Remembering):
     @property
     def mu_v(self) -> float | None:
         """Of the velocity, m/s or 1/s per mm: mu_s / (mu_t K)."""
-        return None if self.mu_t is None else self.mu_s / (self.mu_t * self.task.pole_v)
+        return None if self.mu_t is None else self.mu_s / (self.mu_t * self.task.pole.v)
 
     @property
     def mu_a(self) -> float | None:
         """Of the acceleration, m/s² or 1/s² per mm: mu_v / (mu_t K)."""
         if self.mu_v is None or self.mu_t is None:
             return None
-        return self.mu_v / (self.mu_t * self.task.pole_a)
+        return self.mu_v / (self.mu_t * self.task.pole.a)
 
     @property
     def scales(self) -> list[Scale]:
@@ -283,7 +283,7 @@ class Diagrams(Remembering):
             board.plot(f"v {k}", over, x, board.known(f"v{k}", float(y)))
             for k, (x, y) in enumerate(zip(self.x(self.middles), v, strict=True))
         ]
-        pole = board.pole(over, self.task.pole_v)
+        pole = board.pole(over, self.task.pole.v)
         made = integrate(board, points, over, axes, at, pole=pole)
         trace = evaluate(board.b.program(), dict(board.data), Float64())
         return np.array([float(trace.value[point].imag) + 200.0 for point in made])
@@ -327,7 +327,7 @@ def _graph(diagrams: Diagrams, way: Differentiation) -> Graph:
     s, v, a = (board.axes(name, 1j * y) for name, y in zip("sva", down, strict=True))
     ends, middles = diagrams.x(diagrams.shares), diagrams.x(diagrams.middles)
     path = _taken_off(board, s, ends, diagrams.exact(diagrams.shares)[0])
-    poles = board.pole(v, task.pole_v), board.pole(a, task.pole_a)
+    poles = board.pole(v, task.pole.v), board.pole(a, task.pole.a)
     end = board.abscissa(v, float(ends[-1]))
     if way is Differentiation.TANGENTS:
         back = repeated(board, "s -1", path[-2], path[-1], path[0])

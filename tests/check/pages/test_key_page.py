@@ -12,12 +12,11 @@ import ex3_work
 import openpyxl
 import pytest
 from msgspec.structs import replace
-from texts import key_text
 from worked import problem_of
 
 from planmethod.check.key import Key
-from planmethod.check.pages.keypage import key_pdf, key_xlsx
-from planmethod.note.wording import LANGUAGES, language
+from planmethod.check.pages.keypage import key_pdf, key_text, key_xlsx
+from planmethod.note.wording import LANGUAGES, Words, language
 from planmethod.note.writers.plain import WIDTH
 
 RU = language("ru")
@@ -36,7 +35,7 @@ def group(count: int) -> list[Key]:
 
 @pytest.mark.parametrize("lang", LANGUAGES)
 def test_the_key_of_one_variant_has_a_row_for_each_answer(lang: str) -> None:
-    say = language(lang).check.key
+    say: Words = language(lang).check["key"]
     text = key_text([key()], language(lang))
     for entry in ex3_work.entries():
         assert any(entry.symbol[0] in line for line in text.splitlines())

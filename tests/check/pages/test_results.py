@@ -79,17 +79,17 @@ def test_the_workbook_tells_the_same_as_the_works() -> None:
     words = language("ru")
     data = results_xlsx(works, words, marks=["4", "5"], settings={"k": 2.5})
     book = openpyxl.load_workbook(io.BytesIO(data))
-    assert tuple(book.sheetnames) == words.check.results.sheets
+    assert tuple(book.sheetnames) == words.check["results"]["sheets"]
     summary, answers, mistakes, settings = book.worksheets
     told = [[cell.value for cell in row] for row in summary.iter_rows()]
-    head = told[0].index(words.check.verdicts["inherited"])
+    head = told[0].index(words.check["verdicts"]["inherited"])
     assert (told[1][2], told[1][5], told[1][head]) == (8, "4", 3)
-    assert told[1][-2].startswith("A1 ") and words.check.results.perhaps in told[2][-2]
-    assert words.check.results.suspicious in told[2][-1]
+    assert told[1][-2].startswith("A1 ") and words.check["results"].perhaps in told[2][-2]
+    assert words.check["results"].suspicious in told[2][-1]
     assert answers.max_row == 1 + 2 * len(ex3_work.entries())
     assert summary.freeze_panes == "B2" and answers.freeze_panes == "D2"
     counted = [[cell.value for cell in row] for row in mistakes.iter_rows()]
-    assert counted[1][:4] == ["A1", words.check.mistakes["A1"].name, 1, 1]
+    assert counted[1][:4] == ["A1", words.check["mistakes"]["A1"].name, 1, 1]
     assert counted[1][4] == "s01, s02?"
     shares = {row[0]: row[3] for row in counted[5:]}
     assert shares["v_B3"] == 1 and shares["a_B3"] == 0

@@ -12,17 +12,15 @@ from pathlib import Path
 
 import ex3_work
 import pytest
-from msgspec import Struct
 from msgspec.structs import replace
 
 from planmethod.check.model import Checked, Diagnosis, Judged, Sense, Unread, Verdict, Written
-from planmethod.check.pages.htmlpage import html_page
 from planmethod.check.pages.overlay import overlays
-from planmethod.check.pages.pdfpage import pdf_page
 from planmethod.check.pages.remarks import Remarks
-from planmethod.check.pages.speech import Speech, tagged
-from planmethod.check.pages.student import Page, student_page
+from planmethod.check.pages.speech import Speech
+from planmethod.check.pages.student import Page, student_html, student_page, student_pdf
 from planmethod.note.wording import LANGUAGES, language
+from planmethod.note.writers.html import markup
 
 RU = language("ru")
 CODES = [
@@ -55,10 +53,10 @@ def one(verdict: Verdict, number: int = 0, **told: object) -> Checked:
 
 def test_a_mistake_is_named_with_both_numbers_its_place_and_the_next_step() -> None:
     first, inherited, unseen = remarks(ex3_work.work())
-    words = RU.check.mistakes["A1"]
+    words = RU.check["mistakes"]["A1"]
     assert words.so in first and words.advice in first and "B3/2" in first
     assert "119,6" in first and "55,6\N{NO-BREAK SPACE}±" in first and "(119,3" in first
-    assert RU.check.student.kept in inherited and "ε_{3}, a_{D}, a_{E}" in inherited
+    assert RU.check["student"].kept in inherited and "ε_{3}, a_{D}, a_{E}" in inherited
     assert "ε_{4}" in unseen
 
 
@@ -67,7 +65,7 @@ def test_a_mistake_is_named_with_both_numbers_its_place_and_the_next_step() -> N
 def test_every_mistake_has_its_sentence_in_every_language(code: str, lang: str) -> None:
     work = ex3_work.work()
     found = replace(work.diagnosis[0], codes=(code,))
-    words = language(lang).check.mistakes[code]
+    words = language(lang).check["mistakes"][code]
     first = remarks(replace(work, diagnosis=(found,)), lang)[0]
     assert words.so in first and words.advice in first
     assert words.advice.endswith(".") and not words.name.endswith(".")
@@ -77,8 +75,8 @@ def test_what_is_not_sure_is_said_to_be_a_guess() -> None:
     work = ex3_work.work()
     several = replace(work.diagnosis[0], codes=("A1", "A3"), sure=False)
     first = remarks(replace(work, diagnosis=(several,)))[0]
-    assert all(RU.check.mistakes[code].name in first for code in ("A1", "A3"))
-    assert RU.check.mistakes["A1"].advice not in first
+    assert all(RU.check["mistakes"][code].name in first for code in ("A1", "A3"))
+    assert RU.check["mistakes"]["A1"].advice not in first
     unknown = remarks(replace(work, diagnosis=(Diagnosis((), False, ("a_B3",)),)))[0]
     assert "πb_{3}" in unknown and "не удалось" in unknown
 
@@ -95,7 +93,7 @@ def test_what_the_same_mistake_gives_is_told_as_its_consequence() -> None:
         replace(j, verdict=Verdict.WRONG, follows="") if j.id == "a_D" else j for j in work.answers
     )
     told = remarks(replace(work, answers=answers))
-    assert RU.check.student.follow.format(answers="a_{D}") in told
+    assert RU.check["student"].follow.format(answers="a_{D}") in told
 
 
 def test_each_verdict_has_its_remark() -> None:
@@ -109,7 +107,7 @@ def test_each_verdict_has_its_remark() -> None:
     slipped = remarks(one(Verdict.WRONG, value=4.49, slip=True))
     assert "44,87 мм · 0,05 = 2,243" in " ".join(slipped).replace("\N{NO-BREAK SPACE}", " ")
     blank = remarks(one(Verdict.BLANK, written=None))
-    assert blank == [RU.check.student.blank.format(answers="v_{B3}")]
+    assert blank == [RU.check["student"].blank.format(answers="v_{B3}")]
     raw = Written(
         id="v_B3", raw="семь", where="Ответы!D12", unreadable="x", why=Unread.NUMBER, fault="семь"
     )
@@ -120,8 +118,8 @@ def test_each_verdict_has_its_remark() -> None:
         "←" in remarks(one(Verdict.WRONG, value=key.exact, written=wrong_way, sense_right=False))[0]
     )
     silent = remarks(one(Verdict.OK, value=key.exact, points=0.7))
-    assert silent == [RU.check.student.no_sense.format(answers="v_{B3}")]
-    assert remarks(one(Verdict.OK, value=key.exact, points=1.0)) == [RU.check.student.all_right]
+    assert silent == [RU.check["student"].no_sense.format(answers="v_{B3}")]
+    assert remarks(one(Verdict.OK, value=key.exact, points=1.0)) == [RU.check["student"].all_right]
 
 
 def test_points_that_inheriting_costs_are_told() -> None:
@@ -192,7 +190,9 @@ def test_absurd_numbers_break_no_page(value: float) -> None:
         replace(j, value=value, local=value, tolerance=abs(value), slip=True) for j in work.answers
     )
     page = page_of(replace(work, answers=answers, points=value, of=value))
-    assert pdf_page(page, RU) and html_page(page, ex3_work.solution(), RU)
+    assert student_pdf(page, ex3_work.solution(), RU) and student_html(
+        page, ex3_work.solution(), RU
+    )
 
 
 def _odd() -> Iterator[float | None]:
@@ -241,7 +241,7 @@ class _Strict(HTMLParser):
 def test_the_html_is_whole_loads_nothing_and_runs_nothing(lang: str) -> None:
     name = "<script>alert(1)</script><img src=x onerror=y>\x00"
     work = ex3_work.work(name)
-    text = html_page(page_of(work, lang), ex3_work.solution(), language(lang))
+    text = student_html(page_of(work, lang), ex3_work.solution(), language(lang))
     reader = _Strict()
     reader.feed(text)
     assert not reader.open and not reader.bad
@@ -250,7 +250,7 @@ def test_the_html_is_whole_loads_nothing_and_runs_nothing(lang: str) -> None:
 
 def test_nothing_is_told_by_colour_alone() -> None:
     work = ex3_work.work()
-    text = html_page(page_of(work), ex3_work.solution(), RU)
+    text = student_html(page_of(work), ex3_work.solution(), RU)
     for judged in work.answers:
         row = re.search(rf'<tr class="{judged.verdict.value}">.*?</tr>', text)
         assert row and re.search("верно|следует|чертёж|нет|не прочитано", row[0])
@@ -258,22 +258,24 @@ def test_nothing_is_told_by_colour_alone() -> None:
 
 
 def test_indices_become_tags_and_nothing_else_does() -> None:
-    assert tagged("v_{B3} <b> a^{τ}") == "v<sub>B3</sub> &lt;b&gt; a<sup>τ</sup>"
-    assert "<script>" not in tagged("x_{<script>}")
+    assert markup("v_{B3} <b> a^{τ}") == "v<sub>B3</sub> &lt;b&gt; a<sup>τ</sup>"
+    assert "<script>" not in markup("x_{<script>}")
 
 
 @pytest.mark.parametrize("lang", LANGUAGES)
 def test_the_pdf_is_the_same_each_time_and_embeds_its_letters(lang: str) -> None:
     page = page_of(ex3_work.work(), lang)
-    data = pdf_page(page, language(lang))
-    assert data == pdf_page(page, language(lang)) and data.startswith(b"%PDF")
+    data = student_pdf(page, ex3_work.solution(), language(lang))
+    assert data == student_pdf(page, ex3_work.solution(), language(lang)) and data.startswith(
+        b"%PDF"
+    )
     assert b"Helvetica" not in data and b"PlanmethodGOST" in data
 
 
 @pytest.mark.skipif(not shutil.which("pdftotext"), reason="poppler is absent")
 def test_the_text_of_the_pdf_can_be_searched(tmp_path: Path) -> None:
     work = ex3_work.work("Щукина Ёлка " + "длинное" * 30)
-    (tmp_path / "s.pdf").write_bytes(pdf_page(page_of(work), RU))
+    (tmp_path / "s.pdf").write_bytes(student_pdf(page_of(work), ex3_work.solution(), RU))
     done = subprocess.run(
         ["pdftotext", "-layout", str(tmp_path / "s.pdf"), "-"], capture_output=True, timeout=60
     )
@@ -284,16 +286,13 @@ def test_the_text_of_the_pdf_can_be_searched(tmp_path: Path) -> None:
 def test_a_long_work_goes_on_over_pages() -> None:
     work = ex3_work.work()
     many = replace(work, answers=work.answers * 20)
-    data = pdf_page(page_of(many), RU)
+    data = student_pdf(page_of(many), ex3_work.solution(), RU)
     assert data.count(b"/Type /Page\n") + data.count(b"/Type /Page ") >= 4
 
 
 def _texts(words: object) -> Iterator[str]:
     if isinstance(words, str):
         yield words
-    elif isinstance(words, Struct):
-        for name in words.__struct_fields__:
-            yield from _texts(getattr(words, name))
     elif isinstance(words, tuple):
         for word in words:
             yield from _texts(word)

@@ -70,7 +70,7 @@ class ForcePlanNarrator:
         drive = self.context.solution.problem.drive.link
         if self.plan.links == (drive,):
             symbol = self.context.symbol(self.reading.balancing_symbol)
-            template = said.and_balance[self.reading.balancing.quantity]
+            template = said["and_balance"][self.reading.balancing.quantity]
             balancing = template.format(symbol=symbol)
             return [
                 said.freed_driver.format(reactions=reactions, balancing=balancing),

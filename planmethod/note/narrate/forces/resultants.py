@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from planmethod.note.plaintext import given
-from planmethod.note.wording import Wording
+from planmethod.note.wording import Words
 from planmethod.solved.forces.resultants import Hindrance, UnshiftedInertia, farthest
 from planmethod.solved.forces.statics import Statics
 
@@ -18,7 +18,7 @@ def force_symbol(link: str) -> str:
     return f"Φ_{{{link}}}"
 
 
-def shift_lines(statics: Statics, words: Wording, index: int | None = None) -> list[str]:
+def shift_lines(statics: Statics, words: Words, index: int | None = None) -> list[str]:
     """Return where the shifted forces act, as rich text; in one position with its exact h."""
     lines = []
     for shift in statics.board.shifts.values():
@@ -27,18 +27,18 @@ def shift_lines(statics: Statics, words: Wording, index: int | None = None) -> l
         )
         if index is not None:
             length = abs(float(statics.si.number(shift.length)[index]))
-            unit = words.units["m"]
+            unit = words["units"]["m"]
             said += f": {shift_symbol(shift.link)} = {given(length, words, 4)} {unit}"
         lines.append(f"{said}.")
     return lines
 
 
-def kept_lines(statics: Statics, words: Wording) -> list[str]:
+def kept_lines(statics: Statics, words: Words) -> list[str]:
     """Return which links keep the couple, and why, as rich text; the same for all positions."""
     return [_kept(statics, one, words) for one in statics.unshifted]
 
 
-def _kept(statics: Statics, one: UnshiftedInertia, words: Wording) -> str:
+def _kept(statics: Statics, one: UnshiftedInertia, words: Words) -> str:
     text = {
         Hindrance.NO_FORCE: words.resultant_no_force,
         Hindrance.FAINT: words.resultant_faint,

@@ -7,7 +7,7 @@ from planmethod.note.numbers import Notation
 from planmethod.note.wording import Language
 from planmethod.plans.forces.loads import Applied, LoadKind
 from planmethod.plans.forces.polygons import ForcePlan, reaction_symbol
-from planmethod.problem.load_records import Couple, Dynamics, Load, Over, Table
+from planmethod.problem.load_records import Couple, Dynamics, Load, Over, SizeTable
 from planmethod.problem.model import Problem
 from planmethod.solved.forces.reading import FAINT_SHARE, ForceReading
 from planmethod.solved.forces.statics import statics_of
@@ -68,7 +68,7 @@ def _paths(dynamics: Dynamics) -> dict[str, str]:
     return {
         load.name: f"loads[{k}].{'force' if isinstance(load, Load) else 'couple'}"
         for k, load in enumerate(dynamics.loads)
-        if not isinstance(load.size, Table)
+        if not isinstance(load.size, SizeTable)
     }
 
 
@@ -102,7 +102,7 @@ def _load(solution: Solution, load: Load | Couple, words: Language) -> str:
     """Return a load: its size, or what it is a table of and how large it gets."""
     say = words.say
     unit = say.units["N" if isinstance(load, Load) else "N·m"]
-    if not isinstance(load.size, Table):
+    if not isinstance(load.size, SizeTable):
         return f"{load.name} = {say.short(load.size)} {unit}"
     largest = max(load.size.values, key=abs)
     match load.size.over:

@@ -7,6 +7,7 @@ output formats a `Drawing` brings it along.
 from __future__ import annotations
 
 import json
+import re
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from contextvars import ContextVar
@@ -19,12 +20,11 @@ from typing import Any, NamedTuple
 from msgspec import Struct
 
 from planmethod.errors import LayoutError
-from planmethod.pattern import pattern
 from planmethod.render.ink.lettering.proportions import SLANT, TYPES, Proportions
 
 FONTS = Path(__file__).parent.parent / "fonts"
 
-_NUMBER = pattern(r"-?\d+")
+_NUMBER = r"-?\d+"
 
 
 class Style(Struct, frozen=True):
@@ -213,7 +213,7 @@ class OutlineLettering(Struct, eq=False, dict=True):
         """Return what the middle of the pen does for a letter, in parts of h."""
         lines = []
         for line in self.glyph(char).strokes.split("M")[1:]:
-            numbers = [int(number) / self.cap_height for number in _NUMBER.findall(line)]
+            numbers = [int(number) / self.cap_height for number in re.findall(_NUMBER, line)]
             lines.append(tuple(accumulate(map(complex, numbers[::2], numbers[1::2]))))
         return tuple(lines)
 

@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 from msgspec import Struct
 
-from planmethod.note.wording.specimen_model import SpecimenWording
+from planmethod.note.wording import Words
 from planmethod.render.ink.drawing import Bounds, Item, Pen, Stroke
 from planmethod.render.ink.typeset import line_step, typeset
 from planmethod.render.labels import Label
@@ -32,7 +32,7 @@ class Clause(NamedTuple):
     item: str = ""
     paragraph: str = ""
 
-    def told(self, words: SpecimenWording) -> str:
+    def told(self, words: Words) -> str:
         """Return the standard and its clause in a language."""
         if not self.item:
             return words.standard.format(number=self.number)
@@ -48,7 +48,7 @@ class Cell(Struct, frozen=True):
     Attributes
     ----------
     name : str
-        Of what it shows in `SpecimenWording.cells`.
+        Of what it shows in ``cells`` of a language's ``specimens``.
     clause : Clause or None
         The clause of the standard that it stands for; None of what is the practice of the course.
     items : tuple of Item
@@ -76,13 +76,13 @@ def scheme(*parts: list[Item]) -> tuple[Item, ...]:
     return tuple(before_links([item for part in parts for item in part]))
 
 
-def drawn_cell(cell: Cell, number: int, box: Bounds, words: SpecimenWording) -> list[Item]:
+def drawn_cell(cell: Cell, number: int, box: Bounds, words: Words) -> list[Item]:
     """Return a cell in its box: number, picture in the middle, name and clause below it."""
     left, low, right, high = box
     middle, inner = (left + right) / 2, right - left - 2 * EDGE
     # Base lines are those of the grid, whatever the letters hang below them.
     base = low + EDGE + 0.3 * CLAUSE
-    name = words.cells[cell.name].format(size=cell.size)
+    name = words["cells"][cell.name].format(size=cell.size)
     clause = words.course if cell.clause is None else cell.clause.told(words)
     items = list(typeset(clause, CLAUSE).at(complex(middle, base), anchor="centre"))
     base += CLAUSE + 2.5
@@ -100,7 +100,7 @@ def drawn_cell(cell: Cell, number: int, box: Bounds, words: SpecimenWording) -> 
 def drawn_grid(
     cells: Sequence[Cell],
     corner: complex,
-    words: SpecimenWording,
+    words: Words,
     *,
     across: int,
     width: float,

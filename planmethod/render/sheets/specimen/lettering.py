@@ -76,7 +76,7 @@ def lettering_sheet(fields: Mapping[str, str], words: Language) -> Drawing:
     used, fmt = in_use(), paper_format(PAPER)
     said = words.specimens
     slope = said.slanted if used.style.slanted else said.upright
-    title = said.lettering.format(kind=said.kinds[used.style.kind], slope=slope)
+    title = said.lettering.format(kind=said["kinds"][used.style.kind], slope=slope)
     texts = {"title": title, "material": said.standard.format(number="2.304-81"), **fields}
     drawing = Drawing(fmt.width, fmt.height, title)
     items, inner, *_ = sheet_frame(fmt, texts, Furniture(graph_26=False, lang=words.lang))
@@ -89,7 +89,7 @@ def lettering_sheet(fields: Mapping[str, str], words: Language) -> Drawing:
         drawing.extend(_on_grid(row, complex(left, low), inner[2] - EDGE))
         low -= step
     heights = [height for height in HEIGHTS if 2.5 <= height <= 10.0]
-    samples = Column([_sample(said.samples, height) for height in heights], gap=10.0)
+    samples = Column([_sample(said["samples"], height) for height in heights], gap=10.0)
     drawing.extend(samples.place(complex(left, low + HEIGHT)))
     table = _proportions(used, words)
     drawing.extend(table.place(complex(inner[2] - EDGE - table.width, low + HEIGHT - 10.0)))
@@ -139,10 +139,10 @@ def _proportions(lettering: OutlineLettering, words: Language) -> Column:
     cap = lettering.style.proportions.cap
     heights = list(islice((h for h in HEIGHTS if h >= 2.5), 5))
     said, number = words.specimens, words.say.number
-    size, by_standard, found = said.columns_measured
+    size, by_standard, found = said["columns_measured"]
     columns = [
         TableColumn("", tuple(m.symbol for m in measures), least=8.0),
-        TableColumn(size, tuple(said.measures[m.symbol] for m in measures)),
+        TableColumn(size, tuple(said["measures"][m.symbol] for m in measures)),
         TableColumn(by_standard, tuple(f"{round(m.asked * cap)}/{cap} h" for m in measures)),
         TableColumn(found, tuple(number(f"{m.found * cap:.2f}") + f"/{cap} h" for m in measures)),
     ]

@@ -47,7 +47,7 @@ ACROSS = 6
 
 
 class LineType(Struct, frozen=True):
-    """One type of line, by its name in `SpecimenWording.line_names` (тип линии)."""
+    """One type of line, by its name in ``line_names`` of ``specimens`` (тип линии)."""
 
     name: str
     pen: Pen
@@ -142,15 +142,15 @@ def _table(corner: complex, words: Language) -> list[Item]:
         box = (edges[column], levels[row + 1], edges[column + 1], levels[row])
         items.extend(fit(text, box, (TEXT, 2.5), align=align, pad=2.5, tag="table"))
 
-    for column, text in enumerate(words.specimens.columns_lines):
+    for column, text in enumerate(words.specimens["columns_lines"]):
         put(text, column, 0, "centre")
     for row, kind in enumerate(TYPES, 1):
         drawn = sample(kind, complex(edges[1] + (COLUMNS[1] - SAMPLE) / 2, levels[row] - ROW / 2))
         items += drawn
-        put(words.specimens.line_names[kind.name], 0, row)
+        put(words.specimens["line_names"][kind.name], 0, row)
         put(_width(kind.pen, words.say), 2, row, "centre")
         put(measured(drawn, words.say), 3, row, "centre")
-        put(words.specimens.line_uses[kind.name], 4, row)
+        put(words.specimens["line_uses"][kind.name], 4, row)
     return items
 
 

@@ -59,7 +59,7 @@ def _sizes(corner: complex, inner: Bounds, words: Language) -> list[Item]:
         "teeth": said(s.teeth),
         "mesh": said(s.mesh),
     }
-    lines = [line.format(**sizes) for line in words.specimens.sizes]
+    lines = [line.format(**sizes) for line in words.specimens["sizes"]]
     room = Column(
         [
             heading(words.specimens.sizes_title, 5.0),

@@ -1,0 +1,62 @@
+"""Two wheels in mesh (эвольвентное зацепление), as a kind of problem."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from planmethod.kind import Kind
+from planmethod.note.document import Document
+
+if TYPE_CHECKING:
+    from planmethod.construct.drafting import Profile
+    from planmethod.gears.involute.sizes import MeshingProblem
+    from planmethod.note.wording import Language
+    from planmethod.render.ink.drawing import Drawing
+
+
+class Meshings(Kind["MeshingProblem"]):
+    """Two wheels in mesh (эвольвентное зацепление), as a kind of problem."""
+
+    table = "meshing"
+
+    def load(self, path: Path, variant: str | None) -> MeshingProblem:
+        """Read a problem file."""
+        from planmethod.gears.involute.reader import load
+
+        return load(path, variant=variant)
+
+    def record(self, problem: MeshingProblem, lang: str) -> dict[str, Any]:
+        """Return what ``solve --json`` prints."""
+        from planmethod.gears.involute.record import record
+
+        return record(problem, lang)
+
+    def solved_document(self, problem: MeshingProblem, words: Language) -> Document:
+        """Return what ``solve`` prints."""
+        from planmethod.gears.involute.text import solved_document
+
+        return Document.of(solved_document(problem, words))
+
+    def protocol_document(
+        self, problem: MeshingProblem, words: Language, profile: Profile
+    ) -> Document:
+        """Return what ``protocol`` prints."""
+        from planmethod.gears.involute.protocol import protocol_document
+
+        return Document.of(protocol_document(problem, words, profile))
+
+    def drawings(
+        self,
+        problem: MeshingProblem,
+        *,
+        fields: Mapping[str, str],
+        profile: Profile,
+        before: int = 0,
+        total: int | None = None,
+    ) -> list[Drawing]:
+        """Return the sheets."""
+        from planmethod.gears.involute.sheet import drawings
+
+        return drawings(problem, fields=fields, profile=profile, before=before, total=total)

@@ -1,0 +1,89 @@
+"""Gear trains (зубчатые механизмы), as a kind of problem."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from planmethod.kind import Kind
+from planmethod.note.document import Document
+
+if TYPE_CHECKING:
+    from planmethod.construct.drafting import Profile
+    from planmethod.gears.model import GearProblem
+    from planmethod.note.audit.audit import Audited
+    from planmethod.note.wording import Language
+    from planmethod.problem.figures import Figures
+    from planmethod.render.ink.drawing import Drawing
+
+
+class GearTrains(Kind["GearProblem"]):
+    """Gear trains (зубчатые механизмы), as a kind of problem."""
+
+    table = "gears"
+    scales = "gears.picture.mu_l"
+
+    def load(self, path: Path, variant: str | None) -> GearProblem:
+        """Read a problem file."""
+        from planmethod.gears.reader import load
+
+        return load(path, variant=variant)
+
+    def record(self, problem: GearProblem, lang: str) -> dict[str, Any]:
+        """Return what ``solve --json`` prints."""
+        from planmethod.gears.record import record
+
+        return record(problem, lang)
+
+    def solved_document(self, problem: GearProblem, words: Language) -> Document:
+        """Return what ``solve`` prints."""
+        from planmethod.gears.text import solved_document
+
+        return Document.of(solved_document(problem, words))
+
+    def structure_record(self, problem: GearProblem) -> dict[str, Any]:
+        """Return what ``structure --json`` prints."""
+        from planmethod.gears.record import structure_record
+
+        return structure_record(problem)
+
+    def structure_document(self, problem: GearProblem, words: Language) -> Document:
+        """Return what ``structure`` prints."""
+        from planmethod.gears.text import structure_document
+
+        return Document.of(structure_document(problem, words))
+
+    def protocol_document(
+        self, problem: GearProblem, words: Language, profile: Profile
+    ) -> Document:
+        """Return what ``protocol`` prints."""
+        from planmethod.gears.protocol import protocol_document
+
+        return Document.of(protocol_document(problem, words, profile))
+
+    def drawings(
+        self,
+        problem: GearProblem,
+        *,
+        fields: Mapping[str, str],
+        profile: Profile,
+        before: int = 0,
+        total: int | None = None,
+    ) -> list[Drawing]:
+        """Return the sheets."""
+        from planmethod.gears.sheet import drawings
+
+        return drawings(problem, fields=fields, profile=profile, before=before, total=total)
+
+    def audited(self, problem: GearProblem, ruler: float) -> list[Audited]:
+        """Return printed values beside the exact ones and those read with a ruler."""
+        from planmethod.gears.audit import audited
+
+        return audited(problem, ruler)
+
+    def figures(self, problem: GearProblem) -> Figures:
+        """Return what students can be asked for."""
+        from planmethod.gears.figures import asked_of
+
+        return asked_of(problem)

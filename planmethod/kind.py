@@ -1,0 +1,97 @@
+"""What a kind of problem beside linkages does for the commands (вид задачи)."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, ClassVar, Generic, TypeVar
+
+from planmethod.errors import Fault, ProblemError
+from planmethod.languages import say
+from planmethod.problem.head import KindProblem
+
+if TYPE_CHECKING:
+    from planmethod.construct.drafting import Profile
+    from planmethod.note.audit.audit import Audited
+    from planmethod.note.document import Document
+    from planmethod.note.wording import Language
+    from planmethod.problem.figures import Figures
+    from planmethod.render.ink.drawing import Drawing
+
+P = TypeVar("P", bound=KindProblem)
+
+
+class Kind(ABC, Generic[P]):
+    """A kind of problem; its methods import what they need when they are called.
+
+    Attributes
+    ----------
+    table : str
+        The table of the problem file by which it is recognised.
+    scales : str
+        Where its file has the scales.
+    """
+
+    table: ClassVar[str]
+    scales: ClassVar[str] = "[scales]"
+
+    @abstractmethod
+    def load(self, path: Path, variant: str | None) -> P:
+        """Read a problem file."""
+
+    @abstractmethod
+    def record(self, problem: P, lang: str) -> dict[str, Any]:
+        """Return what ``solve --json`` prints."""
+
+    @abstractmethod
+    def solved_document(self, problem: P, words: Language) -> Document:
+        """Return what ``solve`` prints."""
+
+    def structure_record(self, problem: P) -> dict[str, Any] | None:
+        """Return what ``structure --json`` prints; None for what has no structure."""
+        return None
+
+    def structure_document(self, problem: P, words: Language) -> Document | None:
+        """Return what ``structure`` prints; None for what has no structure."""
+        return None
+
+    @abstractmethod
+    def protocol_document(self, problem: P, words: Language, profile: Profile) -> Document:
+        """Return what ``protocol`` prints."""
+
+    @abstractmethod
+    def drawings(
+        self,
+        problem: P,
+        *,
+        fields: Mapping[str, str],
+        profile: Profile,
+        before: int = 0,
+        total: int | None = None,
+    ) -> list[Drawing]:
+        """Return the sheets; ``before`` of the set of ``total`` go before them."""
+
+    def audited(self, problem: P, ruler: float) -> list[Audited]:
+        """Return printed values beside the exact ones and those read with a ruler.
+
+        Raises
+        ------
+        ProblemError
+            Such problems have no audit.
+        """
+        raise self._without(problem, "audit")
+
+    def figures(self, problem: P) -> Figures:
+        """Return what students can be asked for.
+
+        Raises
+        ------
+        ProblemError
+            Answers to such problems are not checked.
+        """
+        raise self._without(problem, "checking of answers")
+
+    def _without(self, problem: P, what: str) -> ProblemError:
+        message = say("such a problem has no {}; its numbers: planmethod solve", what)
+        return ProblemError(problem.name, [Fault(self.table, message)])

@@ -1,0 +1,76 @@
+"""Points that move by formulas (движение точки), as a kind of problem."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from planmethod.kind import Kind
+from planmethod.note.document import Document
+
+if TYPE_CHECKING:
+    from planmethod.construct.drafting import Profile
+    from planmethod.moving.model import PointProblem
+    from planmethod.note.audit.audit import Audited
+    from planmethod.note.wording import Language
+    from planmethod.problem.figures import Figures
+    from planmethod.render.ink.drawing import Drawing
+
+
+class MovingPoints(Kind["PointProblem"]):
+    """Points that move by formulas (движение точки), as a kind of problem."""
+
+    table = "point"
+
+    def load(self, path: Path, variant: str | None) -> PointProblem:
+        """Read a problem file."""
+        from planmethod.moving.reader import load
+
+        return load(path, variant=variant)
+
+    def record(self, problem: PointProblem, lang: str) -> dict[str, Any]:
+        """Return what ``solve --json`` prints."""
+        from planmethod.moving.record import record
+
+        return record(problem, lang)
+
+    def solved_document(self, problem: PointProblem, words: Language) -> Document:
+        """Return what ``solve`` prints."""
+        from planmethod.moving.text import solved_document
+
+        return Document.of(solved_document(problem, words))
+
+    def protocol_document(
+        self, problem: PointProblem, words: Language, profile: Profile
+    ) -> Document:
+        """Return what ``protocol`` prints."""
+        from planmethod.moving.protocol import protocol_document
+
+        return Document.of(protocol_document(problem, words, profile))
+
+    def drawings(
+        self,
+        problem: PointProblem,
+        *,
+        fields: Mapping[str, str],
+        profile: Profile,
+        before: int = 0,
+        total: int | None = None,
+    ) -> list[Drawing]:
+        """Return the sheets."""
+        from planmethod.moving.sheet import drawings
+
+        return drawings(problem, fields=fields, profile=profile, before=before, total=total)
+
+    def audited(self, problem: PointProblem, ruler: float) -> list[Audited]:
+        """Return printed values beside the exact ones and those read with a ruler."""
+        from planmethod.moving.audit import audited
+
+        return audited(problem, ruler)
+
+    def figures(self, problem: PointProblem) -> Figures:
+        """Return what students can be asked for."""
+        from planmethod.moving.figures import asked_of
+
+        return asked_of(problem)

@@ -1,0 +1,136 @@
+"""Read flat tables by what is declared of their keys (`planmethod.problem.declared`)."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection, Mapping
+from typing import Any, TypeAlias, assert_never
+
+from planmethod.languages import say
+from planmethod.problem import fields
+from planmethod.problem.declared import (
+    AngleKey,
+    ChoiceKey,
+    FlagKey,
+    FlatField,
+    NumberKey,
+    OwnKey,
+    TextKey,
+    WholeKey,
+    WordKey,
+    declared,
+)
+from planmethod.problem.fields import Faults, Table
+from planmethod.problem.names import fold, near_hint
+
+OwnReader: TypeAlias = Callable[[Faults, str, Any], object]
+"""Reads the value of a key: faults, path, value; None after noting a fault."""
+
+_CHOICE_LIMIT = 40
+
+
+def read_flat(
+    faults: Faults,
+    path: str,
+    table: Table,
+    record: type[object],
+    own: Mapping[str, OwnReader] | None = None,
+    *,
+    without: Collection[str] = (),
+    example: str = "",
+) -> dict[str, Any]:
+    """Read a flat table.
+
+    Parameters
+    ----------
+    record : type
+        Its fields say what keys the table has, and what they are (`declared`).
+    own : mapping of str to callable, optional
+        Readers of keys that the table reads in its own way; the values of others of these are
+        returned as they are.
+    without : collection of str
+        Keys of the record that this table has not.
+    example : str
+        Shown where a required key is missing that has no hint of its own.
+
+    Returns
+    -------
+    dict of str to object
+        Values by the fields of the record: of the keys that are given and have no fault.
+    """
+    known = [one for one in declared(record) if one.name not in without]
+    before = len(faults)
+    given = fields.read_keys(faults, path, table, (one.name for one in known))
+    # a misspelt key is reported once: the key it should have been is not called missing as well
+    whole = len(faults) == before
+    found: dict[str, Any] = {}
+    for one in known:
+        where = f"{path}.{one.name}"
+        if one.name not in given:
+            if one.key.required and whole:
+                hint = say("For example: {}", example) if example else one.key.missing
+                faults.add(where, "missing", hint)
+            continue
+        reader = (own or {}).get(one.name)
+        read = reader(faults, where, given[one.name]) if reader else None
+        value = read if reader else _read_key(faults, where, given[one.name], one)
+        if value is not None:
+            found[one.field] = value
+    return found
+
+
+def _read_key(faults: Faults, path: str, value: object, one: FlatField) -> object:
+    match one.key:
+        case NumberKey() as key:
+            return _read_number(faults, path, value, key)
+        case WholeKey() as key:
+            return fields.read_whole(faults, path, value, key.low, key.high)
+        case AngleKey():
+            return fields.read_angle(faults, path, value)
+        case FlagKey():
+            return fields.read_flag(faults, path, value)
+        case TextKey() as key:
+            return fields.read_text(faults, path, value, limit=key.limit)
+        case WordKey():
+            return fields.read_member(faults, path, value, one.kind)
+        case ChoiceKey() as key:
+            return read_choice(faults, path, value, key.words)
+        case OwnKey():
+            return value
+        case _:
+            assert_never(one.key)
+
+
+def _read_number(faults: Faults, path: str, value: object, key: NumberKey) -> float | None:
+    what = say(key.expected)
+    if key.low == 0.0 and key.unbounded and fields.is_number(value) and value < 0:
+        faults.add(path, say("expected {}, 0 or greater, got {:g}", what, value))
+        return None
+    return fields.read_number(
+        faults, path, value, what,
+        low=key.low, high=key.high, positive=key.positive, hint=key.hint,
+    )  # fmt: skip
+
+
+def read_choice(faults: Faults, path: str, value: object, known: Collection[str]) -> str | None:
+    """Read one of a few words, in either alphabet and case."""
+    text = fields.read_text(faults, path, value, limit=_CHOICE_LIMIT)
+    if text is None:
+        return None
+    word = chosen(text, known)
+    if word is None:
+        faults.expected(path, say("one of {}", ", ".join(known)), value, near_hint(text, known))
+    return word
+
+
+def chosen(text: str, known: Collection[str]) -> str | None:
+    """Return which of a few words a text is, in either alphabet and case, or None.
+
+    Type Б of the lettering is called B in Latin letters.
+
+    Examples
+    --------
+    >>> chosen("2А", ("1", "2a"))
+    '2a'
+    """
+    word = fold(text.replace("Б", "B")).replace(" ", "").casefold()
+    return next((name for name in known if name.casefold() == word), None)

@@ -1,0 +1,266 @@
+"""Write what follows from the declared keys of flat tables: the schema and the references of keys.
+
+``make schema`` writes ``planmethod/problem/schema.json`` and the tables of ``docs/problem-file.md``
+and ``docs/ru/keys.md`` anew. What the schema says of other tables, and of values that a table reads
+in its own way, is written there by hand and kept. The Russian sentences of keys stand in
+``docs/ru/keys.toml``.
+"""
+
+from __future__ import annotations
+
+import json
+import re
+import tomllib
+from collections.abc import Callable, Iterator, Mapping
+from enum import Enum
+from pathlib import Path
+from typing import Any, cast
+
+from msgspec import NODEFAULT
+from msgspec.structs import fields
+
+from planmethod.problem import keys
+from planmethod.problem.declared import (
+    AngleKey,
+    ChoiceKey,
+    FlagKey,
+    FlatField,
+    NumberKey,
+    OwnKey,
+    TextKey,
+    WholeKey,
+    WordKey,
+    declared,
+)
+from planmethod.problem.head import STAMP_LIMIT, TITLE_BLOCK
+
+ROOT = Path(__file__).resolve().parents[1]
+SCHEMA = ROOT / "planmethod" / "problem" / "schema.json"
+ENGLISH = ROOT / "docs" / "problem-file.md"
+RUSSIAN = ROOT / "docs" / "ru" / "keys.md"
+SENTENCES = ROOT / "docs" / "ru" / "keys.toml"
+
+WIDTH = 160
+"""Characters of a line of the schema."""
+
+_MOTOR = ("$defs", "machine", "properties", "motor")
+PLACES: Mapping[str, tuple[str, ...]] = {
+    "cycle": ("$defs", "cycle"),
+    "pole": ("$defs", "cycle", "properties", "pole"),
+    "scales": ("$defs", "scales"),
+    "stamp": ("$defs", "stamp"),
+    "sheet": ("$defs", "sheet"),
+    "published": ("$defs", "published", "additionalProperties"),
+    "answer": ("$defs", "answer"),
+    "dynamics": ("$defs", "dynamics"),
+    "mass": ("$defs", "mass"),
+    "load": ("$defs", "load"),
+    "phases": ("$defs", "phases"),
+    "machine": ("$defs", "machine"),
+    "flywheel": ("$defs", "machine", "properties", "flywheel"),
+    "motor": _MOTOR,
+    "kloss": (*_MOTOR, "properties", "kloss"),
+    "line": (*_MOTOR, "properties", "line"),
+    "balancing": ("$defs", "balancing"),
+    "wheel": ("$defs", "gearWheel"),
+    "picture": ("$defs", "gears", "properties", "picture"),
+    "meshing": ("$defs", "meshing"),
+}
+"""Where the schema has a kind of table."""
+
+
+def table_at(schema: dict[str, Any], kind: str) -> dict[str, Any]:
+    """Return the schema of a kind of table."""
+    for step in PLACES[kind]:
+        schema = schema[step]
+    return schema
+
+
+def defaults_of(kind: str) -> dict[str, object]:
+    """Return the defaults of the fields that have one."""
+    record: Any = keys.FLAT[kind]
+    every = {one.name: one.default for one in fields(record)}
+    return {name: default for name, default in every.items() if default is not NODEFAULT}
+
+
+# The schema --------------------------------------------------------------------------------------
+
+
+def schema_text() -> str:
+    """Return the schema with what is declared put in."""
+    schema = json.loads(SCHEMA.read_text("utf-8"))
+    for kind, record in keys.FLAT.items():
+        table, every = table_at(schema, kind), declared(record)
+        properties = table["properties"]
+        table["properties"] = {
+            one.name: _property(one, properties.get(one.name, {})) for one in every
+        }
+        required = [one.name for one in every if one.key.required]
+        if required:
+            table["required"] = required
+    texts = {name: {"$ref": "#/$defs/field", "description": _plain(what)}
+             for name, what in TITLE_BLOCK.items()}  # fmt: skip
+    table_at(schema, "stamp")["properties"] = texts
+    schema["$defs"]["field"] = {"type": "string", "maxLength": STAMP_LIMIT}
+    return _printed(schema, 0) + "\n"
+
+
+def _property(one: FlatField, by_hand: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the schema of a key; of one that is read in its own way it stands in the file."""
+    said = {"description": _plain(_sentence(one) + one.key.more)}
+    match one.key:
+        case NumberKey() as key:
+            zero = {"exclusiveMinimum": 0} if key.positive else {}
+            bounds = {"minimum": _short(key.low), "maximum": _short(key.high)}
+            return {"$ref": "#/$defs/number", **zero, **bounds, **said}
+        case WholeKey() as key:
+            return {"type": "integer", "minimum": key.low, "maximum": key.high, **said}
+        case AngleKey():
+            return {"$ref": "#/$defs/angle", **said}
+        case FlagKey():
+            return {"type": "boolean", **said}
+        case TextKey() as key:
+            return {"type": "string", "maxLength": key.limit, **said}
+        case WordKey():
+            return {"enum": [word.value for word in one.kind], **said}
+        case ChoiceKey() as key:
+            return {"enum": list(key.words), **said}
+        case OwnKey():
+            assert by_hand, f"{one.name}: write its type into the schema by hand"
+            return {**by_hand, **said}
+
+
+def _sentence(one: FlatField) -> str:
+    unit = one.key.unit if isinstance(one.key, NumberKey) else ""
+    return f"{one.key.sentence}, {unit}" if unit else one.key.sentence
+
+
+def _plain(sentence: str) -> str:
+    """Return a sentence without the signs of Markdown, as an editor shows it."""
+    text = re.sub(r"\[([^]]*)\]\([^)]*\)", r"\1", sentence).replace("`", "")
+    return f"{text[:1].upper()}{text[1:]}."
+
+
+def _short(number: float) -> float:
+    return int(number) if number == int(number) and abs(number) < 1e6 else number
+
+
+def _printed(value: object, depth: int) -> str:
+    """Return JSON with every table on one line that has room for it."""
+    if isinstance(value, dict) and value:
+        parts = [f"{_one(key)}: {_printed(item, depth + 1)}" for key, item in value.items()]
+        brackets = "{ ", " }"
+    elif isinstance(value, list) and value:
+        parts = [_printed(item, depth + 1) for item in value]
+        brackets = "[", "]"
+    else:
+        return _one(value)
+    line = ", ".join(parts).join(brackets)
+    if "\n" not in line and len(line) + 2 * depth <= WIDTH:
+        return line
+    indent = "\n" + "  " * (depth + 1)
+    first, last = (sign.strip() for sign in brackets)
+    return f"{first}{indent}{f',{indent}'.join(parts)}{indent[:-2]}{last}"
+
+
+def _one(value: object) -> str:
+    return json.dumps(value, ensure_ascii=False)
+
+
+# The references ----------------------------------------------------------------------------------
+
+MARK = r"(?m)^(<!-- keys of (\w+) -->\n).*?(?=^$|\Z)"
+"""What stands before a table that is written here; it ends at an empty line."""
+
+
+def english_text() -> str:
+    """Return ``docs/problem-file.md`` with the tables of keys written anew."""
+    return _with_tables(ENGLISH.read_text("utf-8"), _english)
+
+
+def russian_text() -> str:
+    """Return ``docs/ru/keys.md`` with the tables of keys written anew."""
+    return _with_tables(RUSSIAN.read_text("utf-8"), _russian)
+
+
+def _with_tables(text: str, rows: Callable[[str], Iterator[tuple[str, str]]]) -> str:
+    def table(match: re.Match[str]) -> str:
+        head = match[0].splitlines()[:3]  # the mark, the heads of the columns, the line below them
+        lines = [f"| `{name}` | {what} |" for name, what in rows(match[2])]
+        return "\n".join([*head, *lines]) + "\n"
+
+    return re.sub(MARK, table, text, flags=re.DOTALL | re.MULTILINE)
+
+
+def _english(kind: str) -> Iterator[tuple[str, str]]:
+    if kind == "stamp":
+        yield from TITLE_BLOCK.items()
+        return
+    defaults = defaults_of(kind)
+    for one in declared(keys.FLAT[kind]):
+        facts = [_sentence(one) + _bounds(one, _ENGLISH)]
+        if one.key.required:
+            facts.append("required")
+        elif usual := one.key.absent or _written(one, defaults.get(one.field)):
+            facts.append(f"{usual} when absent")
+        yield one.name, "; ".join(facts) + one.key.more
+
+
+def _russian(kind: str) -> Iterator[tuple[str, str]]:
+    sentences = tomllib.loads(SENTENCES.read_text("utf-8"))[kind]
+    if kind == "stamp":
+        yield from ((name, sentences[name]) for name in TITLE_BLOCK)
+        return
+    defaults = defaults_of(kind)
+    for one in declared(keys.FLAT[kind]):
+        facts = [sentences[one.name] + _bounds(one, _RUSSIAN)]
+        usual = "" if one.key.absent else _written(one, defaults.get(one.field))
+        if one.key.required:
+            facts.append("нужен")
+        elif usual:
+            facts.append(f"по умолчанию {usual}")
+        yield one.name, "; ".join(facts)
+
+
+_ENGLISH = ("{} to {}", "at most {} characters", "`true` or `false`")
+_RUSSIAN = ("от {} до {}", "не больше {} знаков", "`true` или `false`")
+
+
+def _bounds(one: FlatField, words: tuple[str, str, str]) -> str:
+    """Return the bounds that a reader may come upon."""
+    span, most, flag = words
+    match one.key:
+        case TextKey() as key if key.limit < STAMP_LIMIT:
+            return ", " + most.format(key.limit)
+        case NumberKey(low=low, high=high) if 1e-3 <= abs(high) <= 1e5 and low > -1e5:
+            return ", " + span.format(f"{low:g}", f"{high:g}")
+        case WholeKey() as key:
+            return ", " + span.format(key.low, key.high)
+        case FlagKey():
+            return f": {flag}"
+        case _:
+            return ""
+
+
+def _written(one: FlatField, default: object) -> str:
+    """Return a default as a file has it; empty where it is none."""
+    if isinstance(one.key, OwnKey | TextKey) or default is None:
+        return ""
+    if isinstance(one.key, NumberKey) and not one.key.low <= cast("float", default) <= one.key.high:
+        return ""  # it stands for none
+    if isinstance(default, bool):
+        return f"`{str(default).lower()}`"
+    if isinstance(default, Enum):
+        return f'`"{default.value}"`'
+    return f"{default:g}" if isinstance(default, float) else str(default)
+
+
+def main() -> None:
+    """Write the schema and both references."""
+    SCHEMA.write_text(schema_text(), "utf-8")
+    ENGLISH.write_text(english_text(), "utf-8")
+    RUSSIAN.write_text(russian_text(), "utf-8")
+
+
+if __name__ == "__main__":
+    main()

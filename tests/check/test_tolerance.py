@@ -1,0 +1,139 @@
+"""How far an answer may be off where it is short or cannot be seen, and the verdicts of it."""
+
+from __future__ import annotations
+
+from statistics import NormalDist
+from types import SimpleNamespace
+from typing import Any
+
+import numpy as np
+import pytest
+from cases import each
+
+from planmethod.check.judge import Examined, decide
+from planmethod.check.marks import Settings
+from planmethod.check.model import Verdict, Written
+from planmethod.check.questions import Sign
+from planmethod.check.tolerance import FOLDED, Limit, limit_of
+
+
+def test_folded_is_how_much_wider_lengths_about_nothing_err_than_their_middle_tells() -> None:
+    """|x| of a normal x: one sigma of x over half of what holds the middle 68 % of |x|."""
+    normal = NormalDist()
+
+    def size(share: float) -> float:
+        return normal.inv_cdf((1 + share) / 2)
+
+    one = normal.cdf(1) - normal.cdf(-1)
+    half = (size((1 + one) / 2) - size((1 - one) / 2)) / 2
+    assert pytest.approx(1 / half, rel=0.05) == FOLDED
+    drawn = np.abs(np.random.default_rng(1).normal(size=100_000))
+    low, high = np.quantile(drawn, [(1 - one) / 2, (1 + one) / 2])
+    assert pytest.approx(2 / (high - low), rel=0.05) == FOLDED
+
+
+def limit(exact: float, sigma: float, *, sign: Sign = Sign.SIZE, **settings: Any) -> Limit:
+    """Return the limit of an answer that is laid off at 0.01 a millimetre."""
+    question: Any = SimpleNamespace(
+        id="v_B", is_mm=False, scale="mu_v", sign=sign, selector=SimpleNamespace(kind="v")
+    )
+    sheet: Any = SimpleNamespace(
+        exact={"v_B": exact}, scales={"mu_v": 0.01}, sigma=lambda _: sigma, length=lambda _: 1.0
+    )
+    return limit_of(sheet, question, Settings(**settings), None)
+
+
+def test_a_size_that_is_nothing_may_come_out_as_long_as_folded_errors_make_it() -> None:
+    k = Settings().k
+    found = limit(0.0, 0.1)
+    assert found.zero
+    assert found.spread == pytest.approx(1.7 * k * 0.1)
+    assert found.allows(1.6 * k * 0.1, 1.6 * k * 0.1)
+    assert not found.allows(1.8 * k * 0.1, 1.8 * k * 0.1)
+    # Where it is something the exact size is part of what is drawn, and less is added.
+    assert limit(0.1, 0.1).spread == pytest.approx(max(k * 0.1, 1.7 * k * 0.1 - 0.1))
+    strict = limit(0.0, 0.1, sign=Sign.STRICT)
+    assert strict.spread == pytest.approx(k * 0.1)  # a number with a sign is not folded
+
+
+@each("exact, zero", [(0.0, True), (0.37, True), (0.375, False), (0.38, False)])
+def test_what_is_shorter_than_three_sigmas_is_too_short_to_be_measured(
+    exact: float, zero: bool
+) -> None:
+    assert limit(exact, 0.125).zero == zero
+
+
+def test_the_drawing_shows_what_its_errors_are_below_the_cap_of() -> None:
+    settings = Settings()
+    at_cap = settings.cap / settings.k
+    assert limit(1.0, 0.99 * at_cap).seen
+    assert not limit(1.0, 1.01 * at_cap).seen
+
+
+def test_a_policy_takes_the_wider_or_the_stricter_tolerance() -> None:
+    own = limit(1.0, 0.01)
+    for department in (0.5 * own.tolerance(), 3.0 * own.tolerance()):
+        wider, stricter, flat = (
+            limit(1.0, 0.01, department=department, policy=policy).tolerance()
+            for policy in ("wider", "stricter", "department")
+        )
+        assert wider == pytest.approx(max(own.tolerance(), department))
+        assert stricter == pytest.approx(min(own.tolerance(), department))
+        assert flat == pytest.approx(department)
+
+
+# Verdicts of what the drawing cannot show ---------------------------------------------------------
+
+UNSEEN = Limit(1.0, 0.2, 0.4, 0.02, 0.1, seen=False, zero=False, per_mm=0.01)
+"""One that is drawn to 0.4 at best, where 0.1 is the most that a tolerance may be."""
+
+
+def verdict(value: float, limit: Limit = UNSEEN, near: float = 1.5, **more: Any) -> Verdict:
+    item: Any = SimpleNamespace(id="v_B", question=SimpleNamespace(sign=Sign.SIZE))
+    one = Examined(item, Written(id="v_B"), limit, value, signed=False, step=0.0, **more)
+    one.right = limit.allows(one.off, abs(value))
+    sheet: Any = SimpleNamespace(order={})
+    decide(sheet, [one], near)
+    return one.verdict
+
+
+@each("off, due", [
+    (0.05, Verdict.UNSEEN),
+    (0.3, Verdict.UNSEEN),  # further off than the cap, no further than the drawing
+    (0.39, Verdict.UNSEEN),
+    (0.55, Verdict.UNSEEN),  # near enough not to be sure
+    (0.65, Verdict.WRONG),
+    (5.0, Verdict.WRONG),
+])  # fmt: skip
+def test_what_a_drawing_may_be_off_by_is_not_held_against_an_answer(
+    off: float, due: Verdict
+) -> None:
+    assert verdict(1.0 + off) is due
+    if off < 1:
+        assert verdict(1.0 - off) is due
+
+
+def test_what_is_within_the_errors_of_a_drawing_is_not_told_to_be_inherited() -> None:
+    """It follows from a wrong number, but nobody can see that it is wrong itself."""
+    item: Any = SimpleNamespace(id="omega_2", question=SimpleNamespace(sign=Sign.SIZE))
+    shown = Limit(1.0, 0.02, 0.04, 0.02, 0.1, seen=True, zero=False, per_mm=0.01)
+    for off, due in ((0.3, Verdict.UNSEEN), (0.45, Verdict.INHERITED)):
+        parent = Examined(item, Written(id="omega_2"), shown, 1.3, signed=False, step=0.0)
+        own: Any = SimpleNamespace(id="v_B", question=SimpleNamespace(sign=Sign.SIZE))
+        child = Examined(own, Written(id="v_B"), UNSEEN, 1.0 + off, signed=False, step=0.0)
+        child.parents, child.follows = {"omega_2": 1.0}, True
+        sheet: Any = SimpleNamespace(order={})
+        decide(sheet, [parent, child], 1.5)
+        assert (parent.verdict, child.verdict) == (Verdict.WRONG, due)
+
+
+def test_who_contradicts_his_own_numbers_is_wrong_within_the_errors_too() -> None:
+    assert verdict(1.3, contradicts=True) is Verdict.WRONG
+    assert verdict(1.3, sense_right=False) is Verdict.WRONG
+    assert verdict(1.9, follows=True) is Verdict.UNSEEN  # as his own plan has it
+
+
+def test_what_the_drawing_shows_is_judged_by_its_tolerance() -> None:
+    seen = Limit(1.0, 0.02, 0.04, 0.02, 0.1, seen=True, zero=False, per_mm=0.01)
+    assert verdict(1.03, seen) is Verdict.OK
+    assert verdict(1.05, seen) is Verdict.WRONG

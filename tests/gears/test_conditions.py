@@ -1,0 +1,194 @@
+"""Conditions of trains as they are told: every sum, quotient and inequality against the teeth."""
+
+from __future__ import annotations
+
+import math
+import random
+import re
+from fractions import Fraction
+from math import gcd
+from pathlib import Path
+
+import pytest
+from cases import each, some
+from trains import closed, mesh, planetary, solved, told
+from worked import PROBLEMS
+
+from planmethod.gears.conditions import Condition, conditions, sentence
+from planmethod.gears.motion import Motion, solve_motion
+from planmethod.gears.reader import load
+from planmethod.note.wording import LANGUAGES, language
+
+FILES = sorted((PROBLEMS / "gears").glob("*.toml"))
+TERM = re.compile(r"([−+]?) ?[zr]_([\w']+)")
+
+
+def found(motion: Motion, name: str) -> list[Condition]:
+    return [one for one in conditions(motion) if one.name == name]
+
+
+def sums(condition: Condition) -> list[list[tuple[int, str]]]:
+    """Return the sums of a coaxiality as its sentence has them: signs and wheels."""
+    (_, told) = sentence(condition, language("en")).split(": ", 1)
+    return [
+        [(-1 if sign == "−" else 1, wheel) for sign, wheel in TERM.findall(side)]
+        for side in told.split(" = ")[:-1]
+    ]
+
+
+def assert_sums_are_ways(motion: Motion, condition: Condition) -> None:
+    """Each sum goes from axis to axis by meshes, and all are as high as the axis lies.
+
+    Axes of an external mesh are the sum of the sizes apart, of an internal one their difference.
+    """
+    sizes, value = motion.axes.sizes, Fraction(condition.facts["value"])
+    kinds = {frozenset((m.first, m.second)): m.kind.value for m in motion.train.meshes}
+    ways = sums(condition)
+    assert len(ways) == 2
+    assert ways[0] != ways[1]
+    for way in ways:
+        assert sum(sign * sizes[wheel] for sign, wheel in way) == value > 0, (way, value)
+        for (one, first), (other, second) in zip(way[::2], way[1::2], strict=True):
+            kind = kinds[frozenset((first, second))]
+            assert one * other == (1 if kind == "external" else -1), (way, kind)
+            if kind == "internal":
+                assert one * (sizes[first] - sizes[second]) > 0 or len(way) > 2
+
+
+@each("path", FILES)
+def test_coaxiality_of_the_worked_examples_adds_up(path: Path) -> None:
+    motion = solve_motion(load(path))
+    for condition in found(motion, "coaxiality"):
+        assert_sums_are_ways(motion, condition)
+
+
+@each("seed", range(some(60, 12)))
+def test_coaxiality_of_random_sets_adds_up(seed: int, tmp_path: Path) -> None:
+    for maker in (planetary, closed):
+        motion = solved(tmp_path, maker(random.Random(seed)).text)
+        assert found(motion, "coaxiality")
+        for condition in found(motion, "coaxiality"):
+            assert_sums_are_ways(motion, condition)
+
+
+def test_coaxiality_names_the_wheels_of_both_ways_and_their_axis(tmp_path: Path) -> None:
+    for name, axis, ways in (
+        ("gears-ex1", "2", [{"1", "2"}, {"2'", "3"}]),
+        ("gears-ex1", "4", [{"3'", "4"}, {"4", "5"}]),
+        ("gears-ex2", "4", [{"5", "4"}, {"3", "4"}]),
+        ("gears-ex4", "3", [{"1", "2", "3"}, {"3'", "4"}]),
+    ):
+        motion = solve_motion(load(PROBLEMS / f"gears/{name}.toml"))
+        (one,) = (c for c in found(motion, "coaxiality") if c.facts["axis"] == axis)
+        told = sorted(sorted({wheel for _, wheel in way}) for way in sums(one))
+        assert told == sorted(map(sorted, ways))
+
+
+def test_coaxiality_of_an_axis_below_the_main_one_is_told_as_a_distance(tmp_path: Path) -> None:
+    """Wheels 1, 1' drive 2 = H and 5' from beside: 30 + 20 = 22 + 28, no sum is negative."""
+    wheels = {"1": 30, "2": 20, "5": 20, "4": 30, "3": 80, "1'": 22, "5'": 28}
+    meshes = [mesh("1", "2"), mesh("5", "4", carrier="H"), mesh("4", "3", "internal", "H")]
+    text = told(wheels, [*meshes, mesh("1'", "5'")], 'bodies = [["H", "2"]]\nn = { 1 = 50 }')
+    motion = solved(tmp_path, text)
+    assert motion.axes.heights["1"] < 0
+    (beside,) = (c for c in found(motion, "coaxiality") if c.facts["axis"] == "1")
+    assert beside.facts["value"] == "50"
+    assert_sums_are_ways(motion, beside)
+    assert {frozenset(way) for way in sums(beside)} == {
+        frozenset({(1, "1"), (1, "2")}), frozenset({(1, "1'"), (1, "5'")})
+    }  # fmt: skip
+
+
+# Sets of satellites -------------------------------------------------------------------------------
+
+SETS = (
+    ({"1": 20, "2": 40, "3": 100}, "internal"),
+    ({"1": 18, "2": 36, "3": 90}, "internal"),
+    ({"1": 40, "2": 20, "3": 80}, "internal"),
+    ({"1": 30, "2": 24, "2'": 18, "3": 72}, "internal"),
+    ({"1": 24, "2": 30, "2'": 42, "3": 96}, "internal"),
+    ({"1": 30, "2": 40, "2'": 28, "3": 42}, "external"),
+)
+
+
+def set_of(folder: Path, wheels: dict[str, int], kind: str, count: int) -> Motion:
+    rim = "2'" if "2'" in wheels else "2"
+    meshes = [mesh("1", "2", carrier="H"), mesh(rim, "3", kind, "H")]
+    rest = f'satellites = {count}\nfixed = ["3"]\nn = {{ 1 = 1 }}'
+    return solved(folder, told(wheels, meshes, rest))
+
+
+def whole_of(wheels: dict[str, int], kind: str) -> int:
+    """What k divides, by the textbook: z_1 + z_3, of a double satellite over its common factor."""
+    one, two, three = (wheels[label] for label in "123")
+    rim = wheels.get("2'", two)
+    sign = 1 if kind == "internal" else -1
+    return abs(one * rim + sign * two * three) // gcd(two, rim)
+
+
+def is_apart(wheels: dict[str, int], count: int) -> bool:
+    """Whether circles over the tips of two neighbouring satellites do not meet, m = 1."""
+    centres = [complex(wheels["1"] + wheels["2"]) / 2 * 1j ** (4 * k / count) for k in (0, 1)]
+    tip = (max(wheels["2"], wheels.get("2'", 0)) + 2) / 2
+    return count == 1 or abs(centres[0] - centres[1]) > 2 * tip
+
+
+@each("wheels, kind", SETS)
+def test_assembly_and_neighbourhood_are_told_with_true_numbers(
+    wheels: dict[str, int], kind: str, tmp_path: Path
+) -> None:
+    whole = whole_of(wheels, kind)
+    held = [k for k in range(1, 25) if whole % k == 0 and is_apart(wheels, k)]
+    for count in range(1, 9):
+        motion = set_of(tmp_path, wheels, kind, count)
+        (assembly,) = found(motion, "assembly")
+        (apart,) = found(motion, "neighbourhood")
+        (most,) = found(motion, "satellites")
+        assert assembly.holds == (whole % count == 0)
+        assert apart.holds == is_apart(wheels, count)
+        for lang in LANGUAGES:
+            words = language(lang)
+            said = sentence(assembly, words).replace(",", ".").replace(". k", ", k")
+            numbers = re.search(r"(\d+)/(\d+) = ([\d.]+)", said)
+            assert numbers is not None, said
+            assert (int(numbers[1]), int(numbers[2])) == (whole, count)
+            assert float(numbers[3]) == pytest.approx(whole / count, rel=1e-5)
+            said = sentence(apart, words).replace(",", ".")
+            left, right = map(float, re.findall(r"\d\.\d{4}", said))
+            rim = max(wheels["2"], wheels.get("2'", 0))
+            assert left == pytest.approx(math.sin(math.pi / count), abs=6e-5)
+            assert right == pytest.approx((rim + 2) / (wheels["1"] + wheels["2"]), abs=6e-5)
+            assert re.search(rf"k = {count}\b", said)
+            if count > 1:  # the inequality that is told is the one that is judged
+                assert (left > right) == apart.holds
+            assert f" {held[-1]} " in sentence(most, words)
+
+
+def test_the_inequality_says_that_the_first_number_must_be_more(tmp_path: Path) -> None:
+    (apart,) = found(set_of(tmp_path, *SETS[0], 3), "neighbourhood")
+    english, russian = (sentence(apart, language(lang)) for lang in ("en", "ru"))
+    assert re.search(r"sin\(π/k\) = 0\.8660 must be more than 0\.7000$", english)
+    assert re.search(r"sin\(π/k\) = 0,8660 .*больше 0,7000$", russian)
+
+
+@each("z, least", [(12, 17), (16, 17)])
+def test_undercutting_names_the_teeth_there_are_and_those_that_are_needed(
+    z: int, least: int, tmp_path: Path
+) -> None:
+    motion = solved(tmp_path, told({"1": z, "2": 40}, [mesh("1", "2")], "n = { 1 = 1 }"))
+    (one,) = found(motion, "undercutting")
+    assert sentence(one, language("en")) == f"Undercutting: z_1 = {z}, without it at least {least}"
+    motion = solved(tmp_path, told({"1": 17, "2": 40}, [mesh("1", "2")], "n = { 1 = 1 }"))
+    assert not found(motion, "undercutting")
+
+
+def test_interference_is_judged_by_what_is_told(tmp_path: Path) -> None:
+    """z_3 - z_2, the ring first: from 8 on where the wheel has many teeth."""
+    for ring, holds in ((47, False), (48, True), (60, True)):
+        text = told({"1": 40, "3": ring}, [mesh("1", "3", "internal")], "n = { 1 = 1 }")
+        (one,) = found(solved(tmp_path, text), "interference")
+        said = sentence(one, language("en"))
+        numbers = re.search(r"z_3 − z_1 = (\d+), at least (\d+) needed", said)
+        assert numbers is not None, said
+        assert int(numbers[1]) == ring - 40
+        assert one.holds == holds == (int(numbers[1]) >= int(numbers[2]))

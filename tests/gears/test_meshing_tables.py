@@ -1,0 +1,108 @@
+"""Tables and the calculation of a pair of wheels: numbers in formulas, limits, units."""
+
+from __future__ import annotations
+
+import re
+from math import acos, degrees, pi
+from pathlib import Path
+
+import pytest
+from cases import each
+from worked import PROBLEMS
+
+from planmethod.gears.involute.quantities import Solved, Unit
+from planmethod.gears.involute.reader import load
+from planmethod.gears.involute.text import solved_document
+from planmethod.note.document import Document
+from planmethod.note.plaintext import plain_text
+from planmethod.note.wording import LANGUAGES, language
+from planmethod.note.writers.plain import plain_document
+
+BODIES = {
+    "shifted": "z = [12, 30]\nm = 5\nx = [0.59, 0.53]",
+    "cut": "z = [9, 14]\nm = 2\nx = [0, 0]",
+    "negative": "z = [40, 60]\nm = 3\nx = [-0.2, 0.35]",
+}
+
+
+def solved_of(name: str, folder: Path) -> Solved:
+    if name == "ring":
+        return Solved(load(PROBLEMS / "meshing" / "z20-60-internal.toml"))
+    path = folder / "pair.toml"
+    path.write_text(f"[meshing]\n{BODIES[name]}\n", encoding="utf-8")
+    return Solved(load(path))
+
+
+def value_of(text: str) -> float:
+    """Return what a formula with numbers gives, angles in degrees."""
+    text = re.sub(r"\^\{(\d)\}", r"**\1", text)
+    text = text.replace("·", "*").replace("−", "-").replace("π", str(pi))
+    return float(eval(text, {"arccos": lambda x: degrees(acos(x))}))
+
+
+@each("name", [*BODIES, "ring"])
+def test_formulas_with_their_numbers_give_what_stands_after_them(name: str, tmp_path: Path) -> None:
+    solved = solved_of(name, tmp_path)
+    count = 0
+    for key, line in solved.formulas(language("en")):
+        _, _, numbers, shown = line.split(" = ")
+        if shown.startswith("—") or "nan" in shown:
+            continue
+        value = float(re.sub(r"( mm|°)$", "", shown).replace("−", "-"))
+        assert value_of(numbers) == pytest.approx(value, rel=1e-3, abs=6e-3), line
+        assert shown.endswith(" mm") == (key in LENGTHS), line
+        assert shown.endswith("°") == key.startswith("alpha"), line
+        count += 1
+    assert count > 25
+
+
+LENGTHS = {
+    "a", "a_w", "p", "p_b", "d", "d_b", "d_w", "d_a", "d_f", "s", "s_a", "W", "rho_a", "rho_p",
+    "rho_l", "g_alpha",
+}  # fmt: skip
+
+
+@each("name", [*BODIES, "ring"])
+def test_limits_are_told_by_inequalities_that_are_true(name: str, tmp_path: Path) -> None:
+    for lang in LANGUAGES:
+        seen = set()
+        for limit, holds, text in solved_of(name, tmp_path).sentences(language(lang)):
+            said = plain_text(text).replace(",", ".").replace("−", "-")
+            found = re.search(r"(-?\d+\.\d{3})[^-\d]*([≥≤<>])(?:.* )?(-?\d+\.\d{3})", said)
+            assert found is not None, said
+            left, sign, right = float(found[1]), found[2], float(found[3])
+            true = {"≥": left >= right, "≤": left <= right, "<": left < right, ">": left > right}
+            assert true[sign] or abs(left - right) < 2e-3, said
+            assert holds == (sign in "≥≤"), said
+            seen.add((limit.kind, holds))
+        assert any(holds for _, holds in seen)
+
+
+def test_wheel_1_stands_before_wheel_2(tmp_path: Path) -> None:
+    solved = solved_of("cut", tmp_path)
+    assert any(not holds for _, holds, _ in solved.sentences(language("en")))
+    words = language("en")
+    text = plain_document(Document.of(solved_document(solved.problem, words)), words)
+    rows = dict(re.findall(r"\n([a-z ,]+?)  +z? *(?:d_a )? *(\S+ +\S+)(?=\n)", text))
+    assert rows["number of teeth"].split() == ["9", "14"]
+    one, two = map(float, rows["tip diameter, mm"].split())
+    assert one == pytest.approx(2 * (9 + 2))
+    assert two == pytest.approx(2 * (14 + 2))
+
+
+@each("key", ["m", "p", "p_b", "a", "a_w"])
+def test_sizes_that_grow_with_the_module_are_told_in_mm(key: str, tmp_path: Path) -> None:
+    small = solved_of("shifted", tmp_path)
+    path = tmp_path / "large.toml"
+    path.write_text(f"[meshing]\n{BODIES['shifted'].replace('m = 5', 'm = 10')}\n", "utf-8")
+    large = Solved(load(path))
+    pairs = [
+        (one.quantity, one.values, other.values)
+        for group, others in zip(small.told(), large.told(), strict=True)
+        for one, other in zip(group, others, strict=True)
+    ]
+    assert key in {quantity.key for quantity, _, _ in pairs}
+    for quantity, values, doubled in pairs:
+        grows = doubled == pytest.approx([2 * v for v in values], rel=1e-9, nan_ok=True)
+        if any(values) and not all(v != v for v in values):
+            assert grows == (quantity.unit is Unit.MM), quantity.key

@@ -1,0 +1,229 @@
+"""Directions under the terms of vector equations: each vector lies as is written under it."""
+
+from __future__ import annotations
+
+import cmath
+import math
+import re
+from collections.abc import Iterator
+from functools import partial
+
+import pytest
+from cases import each, some, thinned
+from worked import SIX, every_task, problem_of
+
+from benchmarks.generator import random_problem
+from planmethod.mechanism.model import FRAME
+from planmethod.note.narrate.equations import direction_note, equation_of
+from planmethod.note.narrate.letters import direction_text
+from planmethod.note.narrate.naming import Names
+from planmethod.note.wording import wording
+from planmethod.note.writers.plain import equation_lines
+from planmethod.plans.model import RATES, Direction, Relation, Vector, VectorKind
+from planmethod.problem import load, loads
+from planmethod.problem.model import Problem
+from planmethod.solved.solution import Solution
+
+SLOT = """
+[frame]
+A = [0, 0]
+C = [0, -0.1]
+[links.1]
+points = ["A", "B"]
+AB = 0.04
+[links.2]
+points = ["B"]
+slides = {{ on = "3", through = "{through}", angle = {angle}, offset = {offset} }}
+[links.3]
+points = ["C", "D"]
+CD = 0.3
+[driver]
+link = "1"
+phi = [20, 75, 140, 230, 310]
+omega = 10
+epsilon = 20
+[assembly]
+D = "{where}"
+"""
+"""The stone 2 slides on link 3 along a line turned by an angle from its axis CD, beside it."""
+
+TAGS = {VectorKind.SLIDING, VectorKind.CORIOLIS}
+
+
+def slot(angle: float, offset: float = 0.02, through: str = "C") -> Problem:
+    error: Exception | None = None
+    for where in ("above C", "below C", "left of C", "right of C", "left of AC", "right of AC"):
+        text = SLOT.format(angle=angle, offset=offset, where=where, through=through)
+        try:
+            problem = loads(text, name="slot")
+            Solution(problem)
+        except Exception as caught:  # another way of assembly
+            error = caught
+            continue
+        return problem
+    assert error is not None
+    raise error
+
+
+def way(solution: Solution, p: str, q: str, i: int) -> complex:
+    places = solution.points
+    return complex(places[q].place[i] - places[p].place[i])
+
+
+def line_of(solution: Solution, term: Vector, direction: Direction, i: int) -> complex:
+    """Return the direction of the line that a direction is told by, of the scheme."""
+    if direction.points:
+        tail, head = direction.points
+        return way(solution, tail, head, i)
+    slides = [s for s in solution.problem.slides.values() if s.label == direction.guide]
+    (angle,) = {slide.angle for slide in slides if slide.host == FRAME}
+    return cmath.rect(1.0, math.radians(angle))
+
+
+def terms(solution: Solution) -> Iterator[Vector]:
+    for kind in RATES:
+        for equation in solution.construction.plan(kind).equations:
+            yield from (equation.left, *equation.right)
+
+
+def is_nameless(problem: Problem, direction: Direction) -> bool:
+    """Whether a slot beside its pin is on a link that has no axis to call its line by.
+
+    A known fault: it is told by the points that it lies beside (``∥ AB``), which it does not join.
+    """
+    return any(
+        {slide.through, slide.pin} == {*direction.points}
+        and slide.towards is None
+        and slide.offset
+        and problem.bodies[slide.host].axis is None
+        for slide in problem.slides.values()
+    )
+
+
+def assert_directions(solution: Solution) -> set[Relation]:
+    """Compare the terms that are something with their directions; return which there are."""
+    seen: set[Relation] = set()
+    for kind in RATES:
+        equations = solution.construction.plan(kind).equations
+        seen |= _compared(solution, [t for e in equations for t in (e.left, *e.right)])
+    return seen
+
+
+def _compared(solution: Solution, terms: list[Vector]) -> set[Relation]:
+    seen: set[Relation] = set()
+    sizes = [abs(solution.si.vector(term.tail, term.head)).max() for term in terms]
+    peak = max(sizes, default=0.0)
+    for term in terms:
+        direction = term.direction
+        if direction is None or direction.relation is Relation.STILL:
+            continue
+        if is_nameless(solution.problem, direction):
+            continue
+        vectors = solution.si.vector(term.tail, term.head)
+        for i, vector in enumerate(map(complex, vectors)):
+            if not abs(vector) > 1e-6 * peak > 0:
+                continue
+            if direction.guide and direction.guide not in {
+                s.label for s in solution.problem.slides.values() if s.host == FRAME
+            }:
+                continue  # a line without a second point: slots of that kind are looked at below
+            line = line_of(solution, term, direction, i)
+            turn = vector / line / abs(vector / line)
+            told = (term.symbol, direction, i)
+            match direction.relation:
+                case Relation.ALONG:
+                    assert abs(turn.imag) < 1e-6, told
+                case Relation.ACROSS:
+                    assert abs(turn.real) < 1e-6, told
+                case Relation.TOWARDS:
+                    assert abs(turn - 1) < 1e-6, told
+                case Relation.ANGLED:
+                    turned = turn / cmath.rect(1.0, math.radians(direction.angle))
+                    assert abs(turned.imag) < 1e-6, told
+            seen.add(direction.relation)
+    return seen
+
+
+@each("name", SIX)
+def test_vectors_of_the_worked_mechanisms_lie_as_their_equations_say(name: str) -> None:
+    assert Relation.ACROSS in assert_directions(Solution(problem_of(name)))
+
+
+def test_vectors_of_the_tasks_lie_as_their_equations_say() -> None:
+    seen = set()
+    for path in thinned(every_task(), 3):
+        seen |= assert_directions(Solution(load(path)))
+    assert seen >= {Relation.ALONG, Relation.ACROSS, Relation.TOWARDS}
+
+
+@each("seed", range(some(60, 12)))
+def test_vectors_of_random_mechanisms_lie_as_their_equations_say(seed: int) -> None:
+    assert_directions(Solution(loads(random_problem(seed)[0], name="random")))
+
+
+@each(
+    "angle, along, across",
+    [
+        (0, "∥ CD", "⊥ CD"),
+        (180, "∥ CD", "⊥ CD"),
+        (90, "⊥ CD", "∥ CD"),
+        (-90, "⊥ CD", "∥ CD"),
+        (30, "∠ 30° CD", "∠ -60° CD"),
+        (120, "∠ -60° CD", "∠ 30° CD"),
+        (-60, "∠ -60° CD", "∠ 30° CD"),
+    ],
+)
+def test_a_slot_beside_the_axis_is_told_by_the_axis_of_its_link(
+    angle: float, along: str, across: str
+) -> None:
+    """The relative vectors run along the slot, the Coriolis acceleration across it."""
+    solution = Solution(slot(angle))
+    assert Relation.TOWARDS in assert_directions(solution)
+    count = 0
+    for term in terms(solution):
+        if term.kind in TAGS:
+            assert term.direction is not None
+            due = along if term.kind is VectorKind.SLIDING else across
+            assert direction_text(term.direction) == due, term.symbol
+            note = direction_note(Names(solution, wording("en")), term.direction)
+            assert note.replace("−", "-") == due, term.symbol
+            count += 1
+    assert count == 3  # v, a^r, a^k
+
+
+@each("angle", [0, 90, 30, -120])
+def test_a_slot_through_the_pin_is_told_by_the_points_on_it(angle: float) -> None:
+    solution = Solution(slot(angle, offset=0.0))
+    assert_directions(solution)
+    for term in terms(solution):
+        if term.kind in TAGS:
+            assert term.direction is not None
+            assert set(term.direction.points) == {"C", "B"}
+            is_along = term.kind is VectorKind.SLIDING
+            assert term.direction.relation is (Relation.ALONG if is_along else Relation.ACROSS)
+
+
+def test_a_direction_stands_under_its_own_term() -> None:
+    """In the text the note begins where the term begins, below its underline."""
+    solution = Solution(slot(90))
+    names = Names(solution, wording("en"))
+    for kind in RATES:
+        for equation in solution.construction.plan(kind).equations:
+            symbols, _, *notes = equation_lines(
+                equation_of(equation, partial(direction_note, names))
+            )
+            for term in (equation.left, *equation.right):
+                note = direction_note(names, term.direction)
+                if not note:
+                    continue
+                at = [found.start() for found in re.finditer(re.escape(note), notes[0])]
+                heads = [found.start() for found in re.finditer(r"[va]\S*", symbols)]
+                assert any(start in heads for start in at), (symbols, notes)
+
+
+@pytest.mark.parametrize(
+    ("relation", "text"),
+    [(Relation.ALONG, "∥ BC"), (Relation.ACROSS, "⊥ BC"), (Relation.TOWARDS, "B → C")],
+)
+def test_the_signs_of_the_relations(relation: Relation, text: str) -> None:
+    assert direction_text(Direction(relation, ("B", "C"))) == text
