@@ -54,7 +54,8 @@ def solved_document(problem: GearProblem, words: Language) -> Iterator[Node]:
     if judged:
         yield Caption(say.checked)
     for one in judged:
-        yield Item(escape(f"{sentence(one, words)}: {say.holds[one.holds]}"))
+        verdict = say["holds"]["yes" if one.holds else "no"]
+        yield Item(escape(f"{sentence(one, words)}: {verdict}"))
     yield Caption(say.picture)
     yield from _picture(motion, words)
     if problem.published:
@@ -149,7 +150,7 @@ def _wheels(motion: Motion, words: Language) -> Table:
         if train.toothed and not train.counted(label):
             shown[0] = f"r = {shown[0]} {say['units']['mm']}"
         rows.append([label + mark, *shown])
-    return table_of([head.format(**said) for head in say.columns_wheels], rows)
+    return table_of([head.format(**said) for head in say["columns_wheels"]], rows)
 
 
 def _size(value: Fraction, words: Language) -> Rich:
@@ -180,7 +181,7 @@ def _speeds(motion: Motion, words: Language) -> Iterator[Node]:
         other = words.say.found(float(speed) * train.factor)
         value = words.say.found(float(speed))
         rows.append([label, value, fraction_text(speed), other, escape("; ".join(relative))])
-    yield table_of([head.format(**said) for head in say.columns_speeds], rows)
+    yield table_of([head.format(**said) for head in say["columns_speeds"]], rows)
     for label in train.numbers:
         if train.body_of[label] in motion.roles.across:
             yield Item(say.across.format(label=label))
@@ -198,7 +199,7 @@ def _tabular(motion: Motion, turns: Turns, words: Language) -> Iterator[Node]:
                 *(fraction_text(part[body]) for body in total),
             )
             for name, part in zip(
-                say.tabular_rows, (turns.together, turns.held, total), strict=True
+                say["tabular_rows"], (turns.together, turns.held, total), strict=True
             )
         ),
         names=0,
@@ -219,7 +220,7 @@ def _asked(motion: Motion, words: Language) -> Iterator[Node]:
         whole = one.exact is not None and one.exact.denominator == 1
         rows.append([escape(name), exact if whole else words.say.found(one.value), exact, unit])
     if rows:
-        yield table_of(say.columns_asked, rows)
+        yield table_of(say["columns_asked"], rows)
     yield from notes
 
 
@@ -240,9 +241,9 @@ def _picture(motion: Motion, words: Language) -> Iterator[Node]:
     for one in picture.contacts:
         shown = (number(float(mm)) for mm in (one.height_mm, one.speed_mm))
         points.append([say["points"][one.at.kind.value].format(name=one.at.of), *shown])
-    yield table_of(say.columns_contacts, points)
+    yield table_of(say["columns_contacts"], points)
     rays = ((label, number(float(segment))) for label, segment in picture.rays)
-    yield table_of(say.columns_rays, rays)
+    yield table_of(say["columns_rays"], rays)
 
 
 def _published(problem: GearProblem, motion: Motion, words: Language) -> Iterator[Node]:
@@ -254,7 +255,7 @@ def _published(problem: GearProblem, motion: Motion, words: Language) -> Iterato
         rows.append([name, printed, "—" if exact is None else say.found(exact), off])
         if one.note:
             notes.append(Item(f"{name}: {escape(one.note)}"))
-    yield table_of(words.gears.columns_published, rows)
+    yield table_of(words.gears["columns_published"], rows)
     yield from notes
 
 

@@ -69,7 +69,7 @@ def protocol_document(problem: PointProblem, words: Language, profile: Profile) 
             for step in built.program.steps:
                 yield from steps_of(narrator.tell(step))
             yield Caption(said.read_title.format(profile=words.note["profiles"][profile.name]))
-            yield table_of(said.read, read_rows(built, course.marks, k, words, profile))
+            yield table_of(said["read"], read_rows(built, course.marks, k, words, profile))
     yield from _hodograph(course, scales["v"], words, profile)
 
 
@@ -90,7 +90,7 @@ def _hodograph(course: Course, scale: Scale, words: Language, profile: Profile) 
         cells += [say.number(sigma_text(float(sigma)))]
         cells += [say.number(significant(float(read - exact), 2))]
         rows.append(cells)
-    yield table_of(said.chords, rows, names=0)
+    yield table_of(said["chords"], rows, names=0)
 
 
 class PointNarrator(StepNarrator):

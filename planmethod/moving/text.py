@@ -51,7 +51,7 @@ def solved_document(problem: PointProblem, words: Language) -> Iterator[Node]:
         yield _table(motion, ("t", *(name for name in ROLLED if name in motion.columns)), say)
     printed = list(_printed(problem, motion, say))
     if printed:
-        yield table_of(said.printed, printed, names=2)
+        yield table_of(said["printed"], printed, names=2)
 
 
 def title(problem: PointProblem) -> Title:

@@ -42,7 +42,7 @@ def synthesis_document(
     yield Chapter(said.construction)
     yield from steps_of(SynthesisNarrator(drawn, words).sentences())
     yield Chapter(said.lengths)
-    yield table_of(said.columns, size_rows(drawn, words))
+    yield table_of(said["columns"], size_rows(drawn, words))
     yield Chapter(said.measured)
     yield from (Item(f"{name}: {value}") for name, value in check_rows(checks, words))
 

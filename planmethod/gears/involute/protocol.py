@@ -19,10 +19,10 @@ def protocol_document(problem: MeshingProblem, words: Language, profile: Profile
     fields = solved.fields(words.say)
     yield from head(solved, words)
     for key, formulas in groupby(solved.formulas(words), lambda one: one[0]):
-        if key in say.steps:
-            yield Chapter(say.steps[key])
-        if key in say.beside:
-            yield Paragraph(say.beside[key].format(**fields))
+        if key in say["steps"]:
+            yield Chapter(say["steps"][key])
+        if key in say["beside"]:
+            yield Paragraph(say["beside"][key].format(**fields))
         yield from (Formula(formula) for _, formula in formulas)
     yield Caption(say.checked)
     yield from map(Item, quality(solved, words))

@@ -164,7 +164,10 @@ def _tables(solved: Solved, words: Language, manner: Manner) -> Iterator[Block]:
     """Yield the tables of the pair and of the wheels."""
     pair, wheels, contact = solved.told()
     say = words.meshing
-    for told, head in (([*pair, *contact], (*say.columns[:2], say.pair)), (wheels, say.columns)):
+    for told, head in (
+        ([*pair, *contact], (*say["columns"][:2], say.pair)),
+        (wheels, say["columns"]),
+    ):
         shown = table([one for one in told if one.quantity.in_table], words, head)
         columns = [TableColumn(*column) for column in shown.columns()]
         yield table_block(

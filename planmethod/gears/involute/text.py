@@ -17,9 +17,9 @@ def solved_document(problem: MeshingProblem, words: Language) -> Iterator[Node]:
     pair, wheels, contact = solved.told()
     yield from head(solved, words)
     yield Caption(say.pair)
-    yield table([*pair, *contact], words, (*say.columns[:2], ""))
+    yield table([*pair, *contact], words, (*say["columns"][:2], ""))
     yield Caption(say.wheels)
-    yield table(wheels, words, say.columns)
+    yield table(wheels, words, say["columns"])
     yield Caption(say.checked)
     yield from map(Item, quality(solved, words))
 
@@ -44,7 +44,9 @@ def _given(solved: Solved, words: Language) -> Rich:
 
 def shifts(solved: Solved, words: Language) -> Rich:
     """Return which shifts there are, and whether they were chosen."""
-    return words.meshing.shifts[solved.problem.chosen].format(**_bare(solved, words))
+    key = "chosen" if solved.problem.chosen else "given"
+    sentence: str = words.meshing["shifts"][key]
+    return sentence.format(**_bare(solved, words))
 
 
 def _bare(solved: Solved, words: Language) -> dict[str, str]:
@@ -56,7 +58,7 @@ def quality(solved: Solved, words: Language) -> Iterator[Rich]:
     """Yield what the limits say, and what undercut takes away."""
     say = words.meshing
     for _, holds, text in solved.sentences(words):
-        yield f"{text}: {say.holds[holds]}"
+        yield f"{text}: {say['holds']['yes' if holds else 'no']}"
     for k, tooth in enumerate(solved.teeth):
         if tooth.is_cut:
             rho, d = tooth.rho_low, 2 * abs(complex(tooth.flank(tooth.rho_low)))

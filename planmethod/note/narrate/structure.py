@@ -57,7 +57,7 @@ def pair_table(mechanism: Mechanism, words: Language, *, lettered: bool = False)
         (pair_letters(pair.name), " – ".join(pair.links), kinds[pair.kind], "V", "1")
         for pair in pairs(mechanism)
     )
-    return table_of(words.structure.columns_pairs, rows, names=4)
+    return table_of(words.structure["columns_pairs"], rows, names=4)
 
 
 def link_table(mechanism: Mechanism, words: Language) -> Table:
@@ -72,7 +72,7 @@ def link_table(mechanism: Mechanism, words: Language) -> Table:
         )
         for row in kind_of_motion(mechanism)
     )
-    return table_of(said.columns_links, rows, names=4)
+    return table_of(said["columns_links"], rows, names=4)
 
 
 # Formulas ------------------------------------------------------------------------------------
@@ -145,7 +145,7 @@ def driver_caption(mechanism: Mechanism, words: Language) -> list[Rich]:
 def group_caption(group: AssurGroup, words: Language) -> list[Rich]:
     """Return class, order, kind, mobility and redundant constraints of a group."""
     count = len(group.leads) + sum(len(_inside(joint, group)) - 1 for joint in group.inner)
-    said, kind = words.structure, words.structure["group_leads"].get(len(group.leads), "")
+    said, kind = words.structure, words.structure["group_leads"].get(str(len(group.leads)), "")
     if group.kind is not None:
         signature = local_letters(group.signature, words.note)
         kind = said.group_kind.format(kind=group.kind, letters=signature)

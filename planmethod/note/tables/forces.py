@@ -252,7 +252,7 @@ def forces_tables(solution: Solution, words: Words, index: int, sigmas: Sigmas) 
             ]
         )
     yield Caption(words.table_forces)
-    yield sigmas.table(words.columns_forces, (3, 4, 5), rows, names=2)
+    yield sigmas.table(words["columns_forces"], (3, 4, 5), rows, names=2)
     yield from map(Note, _edge_notes(solution, words, index))
     yield from map(Note, resultant_notes(solution, words, index))
     balancing = solution.problem.drive.balancing

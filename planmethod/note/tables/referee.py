@@ -42,7 +42,7 @@ def _referee(solution: Solution, digits: int, words: Words) -> Iterator[Node]:
     for index, position in enumerate(judged(solution, digits)):
         yield Chapter(position_line(solution, words, index), numbered=False)
         rows = (_row(verdict, words) for verdict in position.verdicts)
-        yield table_of(words.columns_referee, rows)
+        yield table_of(words["columns_referee"], rows)
 
 
 def _row(verdict: Verdict, words: Words) -> list[str]:

@@ -129,13 +129,13 @@ def position_tables(
     sigmas = sigmas or Sigmas(solution, note, asked=False)
     yield Caption(note.table_points)
     points = _points(solution, note, index, sigmas)
-    yield sigmas.table(note.columns_points, (4, 6), points)
+    yield sigmas.table(note["columns_points"], (4, 6), points)
     yield Caption(note.table_links)
     yield from _link_tables(solution, note, index, sigmas)
     sliding = _sliding(solution, note, index, sigmas)
     if sliding:
         yield Caption(note.table_sliding)
-        yield sigmas.table(note.columns_sliding, (2, 4, 6), sliding)
+        yield sigmas.table(note["columns_sliding"], (2, 4, 6), sliding)
     names = Names(solution, note)
     for kind, scale in zip(MOTION, scale_texts(solution, words, index), strict=True):
         rows = _segments(solution, names, kind, index, sigmas)
@@ -144,10 +144,10 @@ def position_tables(
         plan = note["plans"][kind.value]
         yield Caption(note.table_segments.format(plan=plan[:1].lower() + plan[1:], scale=scale))
         if kind is PlanKind.POSITION:
-            yield sigmas.table(note.columns_lengths, (2,), rows)
+            yield sigmas.table(note["columns_lengths"], (2,), rows)
         else:
             unit = note["units"][FACTS[kind].unit]
-            head = [text.format(unit=unit) for text in note.columns_vectors]
+            head = [text.format(unit=unit) for text in note["columns_vectors"]]
             yield sigmas.table(head, (3,), rows, names=2)
     if solution.problem.dynamics is not None:
         from planmethod.note.tables.forces import forces_tables
@@ -190,7 +190,7 @@ def _place(solution: Solution, metres: float, words: Words) -> str:
 
 def _link_tables(solution: Solution, words: Words, i: int, sigmas: Sigmas) -> Iterator[Table]:
     """Yield the table of the links; with errors it is one of ω and one of ε: both are wide."""
-    rows, head = _links(solution, words, i, sigmas), words.columns_links
+    rows, head = _links(solution, words, i, sigmas), words["columns_links"]
     if not sigmas.asked:
         yield sigmas.table(head, (), rows)
         return
