@@ -14,6 +14,8 @@ from planmethod.problem.head import KindProblem
 if TYPE_CHECKING:
     from planmethod.construct.drafting import Profile
     from planmethod.note.audit.audit import Audited
+    from planmethod.note.document import Document
+    from planmethod.note.wording import Language
     from planmethod.problem.figures import Figures
     from planmethod.render.ink.drawing import Drawing
 
@@ -43,19 +45,19 @@ class Kind(ABC, Generic[P]):
         """Return what ``solve --json`` prints."""
 
     @abstractmethod
-    def solved_text(self, problem: P, lang: str) -> str:
+    def solved_document(self, problem: P, words: Language) -> Document:
         """Return what ``solve`` prints."""
 
     def structure_record(self, problem: P) -> dict[str, Any] | None:
         """Return what ``structure --json`` prints; None for what has no structure."""
         return None
 
-    def structure_text(self, problem: P, lang: str) -> str | None:
+    def structure_document(self, problem: P, words: Language) -> Document | None:
         """Return what ``structure`` prints; None for what has no structure."""
         return None
 
     @abstractmethod
-    def protocol_text(self, problem: P, lang: str, profile: Profile) -> str:
+    def protocol_document(self, problem: P, words: Language, profile: Profile) -> Document:
         """Return what ``protocol`` prints."""
 
     @abstractmethod

@@ -236,8 +236,9 @@ def _write_keys(
     lang: str,
     jobs: int,
 ) -> None:
-    from planmethod.check.pages.keypage import key_text
+    from planmethod.check.pages.keypage import key_document
     from planmethod.note.wording import language
+    from planmethod.note.writers.plain import plain_document
     from planmethod.problem import variant_names
     from planmethod.render.backends.output import write
 
@@ -253,7 +254,7 @@ def _write_keys(
         code = each((path,), variant, every, act, jobs=jobs, take=keys.append) or code
         if not keys:
             continue
-        click.echo(key_text(keys, words), nl=False)
+        click.echo(plain_document(key_document(keys, words), words))
         name = stem(keys[0].problem) if len(keys) == 1 else path.stem
         for ending, data in key_files(keys, words):
             target = out / f"{name}-key.{ending}"

@@ -7,10 +7,11 @@ from pathlib import Path
 import click
 
 from planmethod.check.group import Variants, check_works
-from planmethod.check.pages.compared import compared_text, unread_lines
+from planmethod.check.pages.compared import compared_document, unread_lines
 from planmethod.check.works import read_works
 from planmethod.errors import Fault, ProblemError
 from planmethod.note.wording import language
+from planmethod.note.writers.plain import plain_document
 from planmethod.problem.source import parse, read_source
 
 
@@ -27,6 +28,7 @@ def compare(problem: Path, work: Path, variant: str | None, lang: str) -> None:
         fault = Fault("compare", "own numbers are not compared before they are handed in", hint)
         raise ProblemError(str(problem), [fault])
     checked = list(check_works(Variants(problem, default=variant), read_works(work)))
-    click.echo(compared_text(checked, language(lang)), nl=False)
-    for line, _ in unread_lines(checked, language(lang)):
+    words = language(lang)
+    click.echo(plain_document(compared_document(checked, words), words))
+    for line, _ in unread_lines(checked, words):
         click.echo(line, err=True)

@@ -51,21 +51,24 @@ def protocol(
     lang: str,
 ) -> None:
     """Tell the construction step by step, as the explanatory note does."""
-    from planmethod.note.protocol import protocol as narrate
+    from planmethod.note.protocol import protocol_document
+    from planmethod.note.wording import language
+    from planmethod.note.writers.plain import plain_document
 
-    hand = drawn_by(profile, ruler)
+    hand, words = drawn_by(profile, ruler), language(lang)
 
     def tell(todo: Todo) -> None:
         kind, problem = todo.kind, todo.problem
         if kind is not None:
             refuse_plans(kind, phi=phi is not None, position=position > 1)
-            text = kind.protocol_text(problem, lang, hand)
+            told = kind.protocol_document(problem, words, hand)
         else:
             solution = solution_of(todo.linkage, phi, hand)
             count = len(solution.positions)
             if position > count:
                 raise UsageError("--position {}: {} has {}", position, problem.name, count)
-            text = narrate(solution, lang=lang, position=position - 1)
+            told = protocol_document(solution, words, position - 1)
+        text = plain_document(told, words) + "\n"
         put(text, None if out is None else str(out / f"{stem(problem)}-protocol.txt"))
 
     finish(each(problems, variant, all_variants, tell))

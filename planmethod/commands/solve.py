@@ -250,14 +250,18 @@ def compute(
             raise UsageError("{} is for linkages, {} is none", option, problem.name)
     if options.as_json:
         return kind.record(problem, options.lang)
-    click.echo(kind.solved_text(problem, options.lang))
+    from planmethod.note.wording import language
+    from planmethod.note.writers.plain import plain_document
+
+    words = language(options.lang)
+    click.echo(plain_document(kind.solved_document(problem, words), words))
     return None
 
 
 def _computed(
     problem: Problem, options: SolveOptions
 ) -> dict[str, Any] | Table | GappedSweep | Solution | None:
-    phi, lang, referee = options.phi, options.lang, options.referee
+    phi, referee = options.phi, options.referee
     hand = drawn_by(options.profile, options.ruler)  # a train needs no arrays
     if options.npz or options.ask is not None:
         tell_changes(problem, phi)
@@ -267,12 +271,16 @@ def _computed(
         if options.npz:
             _refuse_huge(made)
             return made
-        from planmethod.note.records.spreadsheet import asked_text, swept_table
+        from planmethod.note.records.spreadsheet import swept_table
+        from planmethod.note.tables.asked import asked_document
+        from planmethod.note.wording import language
+        from planmethod.note.writers.plain import plain_document
 
         if options.csv:
             table = swept_table(made, partial=options.partial)
             return table.held() if options.apart else table
-        click.echo(asked_text(made, lang))
+        words = language(options.lang)
+        click.echo(plain_document(asked_document(made, words), words))
     elif options.csv:
         table = _table(problem, phi, hand.ruler, options.partial)
         return table.held() if options.apart else table
@@ -288,14 +296,18 @@ def _computed(
     elif options.covariance:
         return solution_of(problem, phi, hand, hint=HINT)
     else:
-        from planmethod.note.tables.results import result_tables
+        from planmethod.note.tables.results import results_document
+        from planmethod.note.wording import language
+        from planmethod.note.writers.plain import plain_document
 
+        words = language(options.lang)
         solution = solution_of(problem, phi, hand, hint=HINT, forces=True)
-        click.echo(result_tables(solution, lang, sigma=options.sigma))
+        click.echo(plain_document(results_document(solution, words, sigma=options.sigma), words))
         if referee is not None:
-            from planmethod.note.tables.referee import referee_tables
+            from planmethod.note.tables.referee import referee_document
 
-            click.echo("\n" + referee_tables(solution, referee, lang))
+            judged = referee_document(solution, referee, words)
+            click.echo("\n" + plain_document(judged, words))
     return None
 
 

@@ -47,6 +47,8 @@ def structure(
     """Analyse the structure: mobility, redundant constraints, Assur groups; text and drawing."""
     from planmethod.languages import LANGUAGES
     from planmethod.mechanism.structure import analyse
+    from planmethod.note.wording import language
+    from planmethod.note.writers.plain import plain_document
 
     drawn = not as_json and not no_drawing
     settled = asked.settle() if drawn else None
@@ -64,12 +66,12 @@ def structure(
             whole = {**head, "structure": structure_record(found)}
             click.echo(json_text(whole))
             return
-        from planmethod.note.narrate.structure import structure_text
+        from planmethod.note.narrate.structure import structure_document
 
         if settled is not None:
             problem = settled.over(problem)
-        lang = asked.sheet["lang"] or problem.sheet.lang or LANGUAGES[0]
-        click.echo(structure_text(problem.mechanism, found, str(lang)))
+        words = language(str(asked.sheet["lang"] or problem.sheet.lang or LANGUAGES[0]))
+        click.echo(plain_document(structure_document(problem.mechanism, found, words), words))
         if settled is not None:
             from planmethod.render.sheets.structure import structure_sheet
 
@@ -84,10 +86,10 @@ def structure(
             )
 
     def show_other(kind: Kind[Any], problem: KindProblem) -> None:
-        lang = str(asked.sheet["lang"] or LANGUAGES[0])
-        told = kind.structure_record(problem) if as_json else kind.structure_text(problem, lang)
-        if told is None:
+        words = language(str(asked.sheet["lang"] or LANGUAGES[0]))
+        record, written = kind.structure_record(problem), kind.structure_document(problem, words)
+        if record is None or written is None:
             raise UsageError("{} is no mechanism, it has no structure", problem.name)
-        click.echo(told if isinstance(told, str) else json_text(told))
+        click.echo(json_text(record) if as_json else plain_document(written, words))
 
     finish(each(problems, variant, all_variants, show))

@@ -204,9 +204,12 @@ def synthesize(
         record = synthesis_record(drawing, wanted, found)
         click.echo(json_text(record))
     elif out is None and not drawn:
-        from planmethod.synthesis.text import synthesis_text
+        from planmethod.note.document import Document
+        from planmethod.note.writers.plain import plain_document
+        from planmethod.synthesis.text import synthesis_document
 
-        click.echo(synthesis_text(drawing, wanted, found, words), nl=False)
+        whole = Document.of(synthesis_document(drawing, wanted, found, words))
+        click.echo(plain_document(whole, words))
     if found.get("missed", 0.0) is None or not all(
         made.facts.get(k, True) for k in ("branch", "order")
     ):

@@ -136,7 +136,10 @@ def teeth(
     U_1_2 of pair, U_1_3 of two-stage. Exit code 1 when nothing fits. More: docs/gears.md.
     """
     from planmethod.gears.choice import SCHEMES, Wanted, choose
-    from planmethod.gears.chosen import chosen_record, chosen_text, problem_text
+    from planmethod.gears.chosen import chosen_document, chosen_record, problem_text
+    from planmethod.note.document import Document
+    from planmethod.note.wording import language
+    from planmethod.note.writers.plain import plain_document
 
     refuse_unknown("no scheme {!r}", scheme, [one.name for one in SCHEMES])
     if ratio == 0 or not 0 <= within < 1:
@@ -154,7 +157,8 @@ def teeth(
     if as_json:
         click.echo(json.dumps(chosen_record(chosen), ensure_ascii=False, indent=1))
     else:
-        click.echo(chosen_text(chosen, lang))
+        words = language(lang)
+        click.echo(plain_document(Document.of(chosen_document(chosen, words)), words))
     if write is not None:
         write_new(write[0], problem_text(chosen, number, lang), force=force)
     finish(ExitCode.DONE if chosen.found else ExitCode.FINDINGS)

@@ -1,65 +1,64 @@
-"""What is said of a choice of teeth: text, record, problem file of a set (результат подбора)."""
+"""A choice of teeth: document, record, problem file of a set (результат подбора)."""
 
 from __future__ import annotations
 
-from fractions import Fraction
+from collections.abc import Iterator
 from typing import Any
 
 from planmethod.gears.choice import Chosen, TeethSet
 from planmethod.gears.conditions import RING_LESS
+from planmethod.note.document import Node, Paragraph, table_of
+from planmethod.note.formula import escape
 from planmethod.note.numbers import MINUS
-from planmethod.note.plaintext import fixed, found, given, table, wrap
-from planmethod.note.wording import language
+from planmethod.note.wording import Language, language
 
 
-def chosen_text(chosen: Chosen, lang: str) -> str:
-    """Tell what was asked, the bounds, how many combinations were tried, and the sets."""
-    words = language(lang)
-    say, wanted = words.teeth, chosen.wanted
+def chosen_document(chosen: Chosen, words: Language) -> Iterator[Node]:
+    """Yield what was asked, the bounds, how many combinations were tried, and the sets."""
+    say, wanted, number = words.teeth, chosen.wanted, words.say.given
     scheme = wanted.scheme
     carried = say.satellites.format(k=wanted.satellites) if scheme.carried else ""
-    rows = "" if wanted.modules is None else _modules(chosen, lang)
     rings = say.rings.format(ring_most=wanted.ring_most) if scheme.rings else ""
-    texts = [
-        say.title.format(scheme=say["schemes"][scheme.name]),
+    modules = ""
+    if wanted.modules is not None:
+        first, second = (number(float(module)) for module in wanted.modules)
+        modules = say.modules.format(first=first, second=second)
+    yield Paragraph(say.title.format(scheme=escape(say["schemes"][scheme.name])))
+    yield Paragraph(
         say.wanted.format(
-            ratio=given(float(wanted.ratio), words.note),
-            within=given(100 * float(wanted.within), words.note),
+            ratio=number(float(wanted.ratio)),
+            within=number(100 * float(wanted.within)),
             satellites=carried,
-            modules=rows,
-        ),
+            modules=modules,
+        )
+    )
+    yield Paragraph(
         say.bounds.format(
             least=wanted.least, most=wanted.most, rings=rings, looked=chosen.looked_at
-        ),
-        say.conditions.format(difference=RING_LESS, carried=say.carried if carried else ""),
-    ]
+        )
+    )
+    told = say.conditions.format(difference=RING_LESS, carried=say.carried if carried else "")
+    yield Paragraph(escape(told))
     if not chosen.sets:
-        texts.append(say.none)
-    else:
-        texts.append(say.found.format(found=chosen.found, shown=len(chosen.sets)))
-    lines = [line for text in texts for line in wrap(text)]
-    if not chosen.sets:
-        return "\n".join(lines)
-    number, *others = say["columns"]
-    head = [number, *(f"z_{label}" for label in scheme.wheels), *others]
-    cells = [
+        yield Paragraph(say.none)
+        return
+    yield Paragraph(say.found.format(found=chosen.found, shown=len(chosen.sets)))
+    first, *others = say["columns"]
+    yield table_of(
+        [first, *(escape(f"z_{label}") for label in scheme.wheels), *others],
         [
-            str(at),
-            *map(str, one.teeth),
-            found(float(one.ratio), words.note),
-            str(one.ratio).replace("-", MINUS),
-            fixed(100 * float(one.error), words.note).replace("-", MINUS),
-            given(float(one.size), words.note),
-        ]
-        for at, one in enumerate(chosen.sets, 1)
-    ]
-    return "\n".join([*lines, *table(head, cells, left=0)])
-
-
-def _modules(chosen: Chosen, lang: str) -> str:
-    words, (one, other) = language(lang), chosen.wanted.modules or (Fraction(1), Fraction(1))
-    first, second = (given(float(module), words.note) for module in (one, other))
-    return words.teeth.modules.format(first=first, second=second)
+            [
+                str(at),
+                *map(str, one.teeth),
+                words.say.found(float(one.ratio)),
+                str(one.ratio).replace("-", MINUS),
+                words.say.number(f"{100 * float(one.error) + 0.0:.2f}"),
+                number(float(one.size)),
+            ]
+            for at, one in enumerate(chosen.sets, 1)
+        ],
+        names=0,
+    )
 
 
 def chosen_record(chosen: Chosen) -> dict[str, Any]:
@@ -100,7 +99,7 @@ def problem_text(chosen: Chosen, number: int, lang: str) -> str:
     wanted, one = chosen.wanted, chosen.sets[number - 1]
     scheme, say = wanted.scheme, language(lang).teeth
     lines = [f'title = "{say.file.format(number=number)}"', ""]
-    lines += [f"# {line}" for line in wrap(say["schemes"][scheme.name])]
+    lines.append(f"# {say['schemes'][scheme.name]}")
     teeth = ", ".join(f"z_{x} = {z}" for x, z in zip(scheme.wheels, one.teeth, strict=True))
     lines += [f"# {teeth}", "[gears]", f"wheels = {{ {_wheels(chosen, one)} }}", "meshes = ["]
     carried = ', carrier = "H"' if scheme.carried else ""

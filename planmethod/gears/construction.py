@@ -8,7 +8,7 @@ at the pole distance, cut off segments as long as the bodies are quick.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from fractions import Fraction
 from itertools import combinations
 
@@ -23,7 +23,7 @@ from planmethod.construct.steps import LineName, NumberName, PointName
 from planmethod.errors import PlanMethodError
 from planmethod.gears.asked import parse
 from planmethod.gears.motion import Motion
-from planmethod.gears.picture import Picture, carrier_of
+from planmethod.gears.picture import ContactKind, ContactPoint, Picture, carrier_of
 from planmethod.languages import say
 
 LETTERS = "abcdefghklmnqrstuvwxz"
@@ -45,8 +45,7 @@ class Spot(Struct, frozen=True):
 
     Attributes
     ----------
-    contact : str
-        As `Picture` names it: ``pitch 1-2``, ``axis 2``.
+    contact : ContactPoint
     letter : str
         Rich text.
     foot, end : PointName
@@ -54,17 +53,18 @@ class Spot(Struct, frozen=True):
     bodies : tuple of str
         Those that have this velocity there.
     height, speed : Fraction, mm
-    read : NumberName or None
-        Its segment as it is read; None where it is laid off, or nothing.
+    laid, read : NumberName or None
+        Its segment as it is laid off, or as it is read; None of both where it is nothing.
     """
 
-    contact: str
+    contact: ContactPoint
     letter: str
     foot: PointName
     end: PointName
     bodies: tuple[str, ...]
     height: Fraction
     speed: Fraction
+    laid: NumberName | None = None
     read: NumberName | None = None
 
 
@@ -102,6 +102,8 @@ class Construction(Struct, frozen=True):
         By body: its line, the end of its ray.
     segments : mapping
         By body: its segment on the line of the rays, as it is read.
+    mu : NumberName
+        Scale of the rays: given, or computed from the ray of an input.
     """
 
     motion: Motion
@@ -114,6 +116,7 @@ class Construction(Struct, frozen=True):
     lines: Mapping[str, LineName]
     rays: Mapping[str, PointName]
     segments: Mapping[str, NumberName]
+    mu: NumberName
     found: tuple[Found, ...]
 
     def label(self, body: str) -> str:
@@ -188,15 +191,18 @@ class _Drawing:
         used = {body for mesh in train.meshes for body in train.ends(mesh)} | set(train.carriers)
         self.heights = {b: self.motion.axes.heights[b] * scale for b in train.bodies if b in used}
         self.over = {body: carrier_of(self.motion, body) for body in self.heights}
-        meshes = {f"pitch {mesh.name}": train.ends(mesh) for mesh in train.meshes}
-        self.points: dict[str, tuple[Fraction, tuple[str, ...]]] = {}
-        for one in self.picture.contacts:
-            body = one.name.removeprefix("axis ")
-            over = self.over.get(body)
-            bodies = meshes.get(one.name) or ((body,) if over is None else (body, over))
-            self.points[one.name] = one.height_mm, bodies
-        self.speeds = {one.name: one.speed_mm for one in self.picture.contacts}
-        self.ends: dict[str, PointName] = {}
+        self.points = {one.at: (one.height_mm, self._bodies(one.at)) for one in picture.contacts}
+        self.speeds = {one.at: one.speed_mm for one in picture.contacts}
+        self.laid: dict[ContactPoint, NumberName] = {}
+        self.ends: dict[ContactPoint, PointName] = {}
+
+    def _bodies(self, point: ContactPoint) -> tuple[str, ...]:
+        """Return the bodies that have one velocity at a point."""
+        if point.kind is ContactKind.PITCH:
+            train = self.motion.train
+            return train.ends(next(mesh for mesh in train.meshes if mesh.name == point.of))
+        over = self.over[point.of]
+        return (point.of,) if over is None else (point.of, over)
 
     def construction(self) -> Construction:
         builder, train = self.builder, self.motion.train
@@ -225,7 +231,7 @@ class _Drawing:
         return Construction(
             self.motion, self.picture, builder.program(), self.data, starts,
             tuple(body for body in starts if body in calculated), spots, self.lines, rays,
-            segments, found,
+            segments, mu, found,
         )  # fmt: skip
 
     def _known(self, name: str, value: Fraction) -> NumberName:
@@ -235,22 +241,23 @@ class _Drawing:
     def _mobility(self) -> int:
         return self.motion.structure.mobility
 
-    def _letter(self, contact: str) -> str:
-        kind, _, name = contact.partition(" ")
-        if kind == "axis":
-            return f"o_{{{name}}}"
-        number = [mesh.name for mesh in self.motion.train.meshes].index(name)
+    def _letter(self, point: ContactPoint) -> str:
+        if point.kind is ContactKind.AXIS:
+            return f"o_{{{point.of}}}"
+        number = [mesh.name for mesh in self.motion.train.meshes].index(point.of)
         turn, place = divmod(number, len(LETTERS))
         return LETTERS[place] + (f"_{{{turn}}}" if turn else "")
 
     # Lines ---------------------------------------------------------------------------------------
 
-    def _known_at(self, body: str, ends: Mapping[str, object]) -> dict[Fraction, str | None]:
+    def _known_at(
+        self, body: str, ends: Collection[ContactPoint]
+    ) -> dict[Fraction, ContactPoint | None]:
         """Return at what heights the velocity of a body is known, and by which contact.
 
         None stands for its own axis, where that is fixed.
         """
-        known: dict[Fraction, str | None] = {}
+        known: dict[Fraction, ContactPoint | None] = {}
         if self.over[body] is None:
             known[self.heights[body]] = None
         for name, (height, bodies) in self.points.items():
@@ -258,25 +265,25 @@ class _Drawing:
                 known.setdefault(height, name)
         return known
 
-    def _is_at_rest(self, name: str, lines: Mapping[str, object]) -> bool:
+    def _is_at_rest(self, point: ContactPoint, lines: Collection[str]) -> bool:
         """Whether a point belongs to a fixed body, or to a fixed axis."""
-        _, bodies = self.points[name]
+        _, bodies = self.points[point]
         fixed = self.motion.train.fixed
         return any(body in fixed and body in lines for body in bodies) or (
-            name.startswith("axis ") and len(bodies) == 1
+            point.kind is ContactKind.AXIS and len(bodies) == 1
         )
 
     def _closes(self, starts: Sequence[str]) -> int:
         """Return how many bodies have lines when some are laid off."""
-        lines: dict[str, object] = dict.fromkeys([*self.motion.train.fixed, *starts])
-        ends: dict[str, object] = {}
+        lines = {*self.motion.train.fixed, *starts}
+        ends: set[ContactPoint] = set()
         count = -1
         while count != len(lines):
             count = len(lines)
             for name, (_, bodies) in self.points.items():
                 if any(body in lines for body in bodies) or self._is_at_rest(name, lines):
-                    ends[name] = None
-            lines |= dict.fromkeys(b for b in self.heights if len(self._known_at(b, ends)) > 1)
+                    ends.add(name)
+            lines |= {b for b in self.heights if len(self._known_at(b, ends)) > 1}
         return sum(body in lines for body in self.heights)
 
     def _starts(self) -> tuple[str, ...]:
@@ -296,7 +303,7 @@ class _Drawing:
             chosen = (*chosen, max(more, key=lambda b: self._closes((*chosen, b))))
         return chosen
 
-    def _arm(self, body: str) -> str | None:
+    def _arm(self, body: str) -> ContactPoint | None:
         """Return the contact of a body that is farthest from its axis."""
         own = [
             (abs(height - self.heights[body]), name)
@@ -318,7 +325,7 @@ class _Drawing:
         assert name is not None
         height, letter = self.points[name][0], self._letter(name)
         if name not in self.ends:
-            length = self._known(f"laid {letter}", self.speeds[name])
+            length = self.laid[name] = self._known(f"laid {letter}", self.speeds[name])
             level = self.builder.parallel(self.feet[height], self.base)
             self.ends[name] = self.builder.lay_off(letter, self.feet[height], level, length)
 
@@ -340,7 +347,7 @@ class _Drawing:
                         letter = self._letter(name)
                         self.ends[name] = self.builder.meet_lines(letter, level, self.lines[body])
 
-    def _end(self, name: str | None, height: Fraction) -> PointName:
+    def _end(self, name: ContactPoint | None, height: Fraction) -> PointName:
         if name is not None:
             return self.ends[name]
         if height not in self.feet:  # a fixed axis without a contact of its own
@@ -349,13 +356,14 @@ class _Drawing:
             self.feet[height] = self.builder.lay_off(letter, FEET, self.axis, length)
         return self.feet[height]
 
-    def _spot(self, name: str) -> Spot:
+    def _spot(self, name: ContactPoint) -> Spot:
         """Read a segment of the picture of linear velocities."""
         (height, bodies), end = self.points[name], self.ends[name]
         foot, letter, read = self.feet[height], self._letter(name), None
-        if end != foot and f"laid {letter}" not in self.data:
+        laid = self.laid.get(name)
+        if end != foot and laid is None:
             read = self.builder.measure_along(f"read {letter}", foot, end, self.base)
-        return Spot(name, letter, foot, end, bodies, height, self.speeds[name], read)
+        return Spot(name, letter, foot, end, bodies, height, self.speeds[name], laid, read)
 
     # Rays ----------------------------------------------------------------------------------------
 

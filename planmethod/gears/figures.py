@@ -149,7 +149,7 @@ class TrainFigures:
 
     def _inverted(self, name: str, position: int) -> float | None:
         found = self.figure(name, position)
-        if found is None or not (name.startswith("U") and found.value):
+        if found is None or not (parse(name, self._known).kind == "U" and found.value):
             return None
         return 1 / found.value
 

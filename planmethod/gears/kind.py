@@ -7,11 +7,13 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from planmethod.kind import Kind
+from planmethod.note.document import Document
 
 if TYPE_CHECKING:
     from planmethod.construct.drafting import Profile
     from planmethod.gears.model import GearProblem
     from planmethod.note.audit.audit import Audited
+    from planmethod.note.wording import Language
     from planmethod.problem.figures import Figures
     from planmethod.render.ink.drawing import Drawing
 
@@ -34,11 +36,11 @@ class GearTrains(Kind["GearProblem"]):
 
         return record(problem, lang)
 
-    def solved_text(self, problem: GearProblem, lang: str) -> str:
+    def solved_document(self, problem: GearProblem, words: Language) -> Document:
         """Return what ``solve`` prints."""
-        from planmethod.gears.text import solved_text
+        from planmethod.gears.text import solved_document
 
-        return solved_text(problem, lang)
+        return Document.of(solved_document(problem, words))
 
     def structure_record(self, problem: GearProblem) -> dict[str, Any]:
         """Return what ``structure --json`` prints."""
@@ -46,17 +48,19 @@ class GearTrains(Kind["GearProblem"]):
 
         return structure_record(problem)
 
-    def structure_text(self, problem: GearProblem, lang: str) -> str:
+    def structure_document(self, problem: GearProblem, words: Language) -> Document:
         """Return what ``structure`` prints."""
-        from planmethod.gears.text import structure_text
+        from planmethod.gears.text import structure_document
 
-        return structure_text(problem, lang)
+        return Document.of(structure_document(problem, words))
 
-    def protocol_text(self, problem: GearProblem, lang: str, profile: Profile) -> str:
+    def protocol_document(
+        self, problem: GearProblem, words: Language, profile: Profile
+    ) -> Document:
         """Return what ``protocol`` prints."""
-        from planmethod.gears.protocol import protocol_text
+        from planmethod.gears.protocol import protocol_document
 
-        return protocol_text(problem, lang, profile)
+        return Document.of(protocol_document(problem, words, profile))
 
     def drawings(
         self,

@@ -6,6 +6,7 @@ of a body is parallel to its line, at the pole distance from which segments of s
 
 from __future__ import annotations
 
+from enum import Enum
 from fractions import Fraction
 
 from msgspec import Struct
@@ -14,10 +15,32 @@ from planmethod.gears.model import PARALLEL, MeshKind, PictureSettings
 from planmethod.gears.motion import Motion
 
 
+class ContactKind(Enum):
+    """Kind of a point of the picture of linear velocities."""
+
+    PITCH = "pitch"
+    AXIS = "axis"
+
+
+class ContactPoint(Struct, frozen=True):
+    """The pitch point of a mesh, or a point of the axis of a body (полюс зацепления, ось).
+
+    ``of`` is the name of the mesh, or the body.
+    """
+
+    kind: ContactKind
+    of: str
+
+    @property
+    def name(self) -> str:
+        """Its name in JSON: ``pitch 1-2``."""
+        return f"{self.kind.value} {self.of}"
+
+
 class Contact(Struct, frozen=True):
     """A point of the picture of linear velocities (точка картины): its height and segment, mm."""
 
-    name: str
+    at: ContactPoint
     height_mm: Fraction
     speed_mm: Fraction
 
@@ -69,24 +92,25 @@ def draw(motion: Motion, settings: PictureSettings | None = None) -> Picture | N
     if any(mesh.kind not in PARALLEL for mesh in train.meshes) or not bodies <= set(axes.heights):
         return None
     settings = settings or train.picture
-    points: list[tuple[str, Fraction, Fraction]] = []
+    points: list[tuple[ContactPoint, Fraction, Fraction]] = []
     for mesh in train.meshes:
         one, other = train.ends(mesh)
         up = 1 if axes.heights[other] > axes.heights[one] else -1
         if mesh.kind is MeshKind.INTERNAL and axes.sizes[mesh.first] < axes.sizes[mesh.second]:
             up = -up
         height = axes.heights[one] + up * axes.sizes[mesh.first]
-        points.append((f"pitch {mesh.name}", height, _at(motion, one, height)))
+        pitch = ContactPoint(ContactKind.PITCH, mesh.name)
+        points.append((pitch, height, _at(motion, one, height)))
     for body, height in axes.heights.items():
         if height and body in bodies:
             speed = _of_axis(motion, body)
-            points.append((f"axis {body}", height, speed))
+            points.append((ContactPoint(ContactKind.AXIS, body), height, speed))
     most = max(abs(speed) for _, _, speed in points)
     if not most:
         return None
     mm = train.unit_m / settings.mu_l
     scale = settings.longest_mm / most
-    contacts = tuple(Contact(name, height * mm, speed * scale) for name, height, speed in points)
+    contacts = tuple(Contact(at, height * mm, speed * scale) for at, height, speed in points)
     per = settings.pole_mm * scale / mm
     rays = tuple((label, motion.speed(label) * per) for label in train.numbers)
     per_mm = train.unit_m / scale

@@ -3,22 +3,27 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator, Mapping
 
+from planmethod.construct import steps
 from planmethod.construct.drafting import Profile
-from planmethod.construct.steps import Join, LayOff, MeetLines, PointName, Step
-from planmethod.gears.construction import POLE, Construction, Reading, Spot, construct, read
+from planmethod.gears.answers import answer
+from planmethod.gears.asked import parse
+from planmethod.gears.construction import POLE, Construction, Found, Reading, Spot, construct, read
 from planmethod.gears.model import GearProblem
-from planmethod.gears.motion import Motion, solve_motion
-from planmethod.gears.picture import draw
-from planmethod.gears.told import calculation, given, symbol
-from planmethod.note.numbers import raised
-from planmethod.note.plaintext import Steps, heading, plain_text, wrap
+from planmethod.gears.motion import solve_motion
+from planmethod.gears.picture import ContactKind, draw
+from planmethod.gears.told import calculation, given, symbol, unit_of
+from planmethod.note.document import Chapter, Item, Node, Paragraph, Step, Title
+from planmethod.note.formula import Rich, escape
+from planmethod.note.narrate.narrator import Line, StepNarrator
+from planmethod.note.numbers import Notation, raised
 from planmethod.note.rounding import rounded_to, sigma_text
-from planmethod.note.wording import Language, Words, language
+from planmethod.note.wording import Language, Words
 
 
-def protocol_text(problem: GearProblem, lang: str, profile: Profile) -> str:
-    """Tell what is given, the calculation, the construction of the pictures, and what is read.
+def protocol_document(problem: GearProblem, words: Language, profile: Profile) -> Iterator[Node]:
+    """Yield what is given, the calculation, the construction of the pictures, and what is read.
 
     Raises
     ------
@@ -26,170 +31,169 @@ def protocol_text(problem: GearProblem, lang: str, profile: Profile) -> str:
         The train cannot be, or its inputs do not fit.
     """
     motion = solve_motion(problem)
-    words = language(lang)
     say: Words = words.gears["sheet"]
-    out = Steps(words.note)
-    out.lines += heading(say.protocol.format(title=problem.title), "═")
+    yield Title(say.protocol.format(title=escape(problem.title)))
     if problem.source:
-        out.lines += wrap(say.source.format(source=problem.source))
-    out.chapter(say.given)
-    out.lines += wrap("; ".join(plain_text(fact) for fact in given(motion, words)) + ".")
-    out.chapter(say.calculation)
-    for line in calculation(motion, words):
-        out.lines += wrap(_plain(line), rest="  ")
+        yield Paragraph(say.source.format(source=escape(problem.source)))
+    yield Chapter(say.given)
+    yield Paragraph("; ".join(given(motion, words)) + ".")
+    yield Chapter(say.calculation)
+    yield from (Item(_carried(line)) for line in calculation(motion, words))
     picture = draw(motion)
     if picture is None:
-        out.chapter(words.gears.picture)
-        out.lines += wrap(words.gears.no_picture)
+        yield Chapter(words.gears.picture)
+        yield Paragraph(words.gears.no_picture)
     else:
         drawn = construct(motion, picture)
-        _Teller(out, drawn, read(drawn, profile), profile, words).tell()
-    return "\n".join(out.lines) + "\n"
+        yield from _pictures(drawn, words)
+        yield from _readings(drawn, read(drawn, profile), profile, words)
 
 
-def _plain(rich: str) -> str:
-    """Return rich text as plain; carriers above stay behind a sign: ``U^H_1-2``."""
-    return plain_text(re.sub(r"\^\{([^}−]+)\}", r"^\1", rich))
+def _carried(rich: Rich) -> Rich:
+    """Return rich text with carriers behind a sign, which plain letters need: ``U^H_1-2``."""
+    return re.sub(r"\^\{([^}−]+)\}", r"\\^\1", rich)
 
 
-class _Teller:
-    """Tells a construction, step after step."""
+def _pictures(drawn: Construction, words: Language) -> Iterator[Node]:
+    """Yield the steps that draw both pictures."""
+    narrator = PictureNarrator(drawn, words)
+    say: Words = words.gears["sheet"]
+    yield Chapter(say.pictures)
+    yield Step((say["steps"]["axis"],))
+    for step in drawn.program.steps:
+        if step.out == POLE:
+            break
+        lines = narrator.tell(step)
+        if lines:
+            yield Step(tuple(lines))
+    yield Chapter(say["steps"]["rays"])
+    pole = words.say.given(float(drawn.picture.pole_mm))
+    yield Step((say["steps"]["pole"].format(pole=pole),))
+    for body in drawn.rays:
+        yield Step((say["steps"]["ray"].format(body=drawn.label(body)),))
 
-    def __init__(
-        self, out: Steps, drawn: Construction, seen: Reading, profile: Profile, words: Language
-    ) -> None:
-        self.out, self.drawn, self.seen, self.profile = out, drawn, seen, profile
-        self.words, self.notation = words, words.say
-        self.say: Words = words.gears["sheet"]
-        self.ends = {spot.end: spot for spot in drawn.spots}
-        self.bodies = {line: body for body, line in drawn.lines.items()}
 
-    @property
-    def motion(self) -> Motion:
-        return self.drawn.motion
+class PictureNarrator(StepNarrator):
+    """Tells the picture of linear velocities; level lines are told where they are used."""
 
-    def tell(self) -> None:
-        """Write the chapters."""
-        out, say, steps = self.out, self.say, self.drawn.program.steps
-        out.chapter(say.pictures)
-        self._item("axis")
-        rays = next(k for k, step in enumerate(steps) if step.out == POLE)
-        for step in steps[:rays]:
-            self._step(step)
-        out.chapter(say["steps"]["rays"])
-        self._item("pole", pole=self.notation.given(float(self.drawn.picture.pole_mm)))
-        for body in self.drawn.rays:
-            self._item("ray", body=self.drawn.label(body))
-        out.chapter(say["steps"]["readings"])
-        name = self.words.note["profiles"].get(self.profile.name, self.profile.name)
-        out.item([say.ruler.format(ruler=self.notation.given(self.profile.ruler), profile=name)])
-        self._readings()
-        self._found()
+    def __init__(self, drawn: Construction, words: Language) -> None:
+        self.drawn, self.notation = drawn, words.say
+        self.say: Mapping[str, str] = words.gears["sheet"]["steps"]
+        self._bodies = {line: drawn.label(body) for body, line in drawn.lines.items()}
+        self._ends = {spot.end: spot for spot in drawn.spots}
 
-    def _item(self, key: str, **facts: str) -> None:
-        self.out.item([self.say["steps"][key].format(**facts)])
+    def lay_off(self, step: steps.LayOff) -> list[Rich]:
+        """Tell a velocity, or the place of a point on the axis of contact points."""
+        spot = self._ends.get(step.out)
+        if spot is not None and spot.laid == step.length:
+            return self._start(spot)
+        what = ", ".join(self._what(spot) for spot in self.drawn.spots if spot.foot == step.out)
+        height = float(self.drawn.data[step.length])
+        what = what or self._axis_at(height)
+        shown = _mm(height, self.notation)
+        return [self.say["foot"].format(point=step.out, what=what, height=shown)]
 
-    def _step(self, step: Step) -> None:
-        """Tell a step; numbers and level lines are told where they are used."""
-        match step:
-            case LayOff(out, origin, _, length) if out in self.ends and str(length)[:4] == "laid":
-                spot = self.ends[out]
-                self._start(spot, origin)
-            case LayOff(out, _, _, length):
-                height = float(self.drawn.data[length])
-                what = ", ".join(self._what(s) for s in self.drawn.spots if s.foot == out)
-                what = what or self._axis_at(height)
-                self._item("foot", point=out, what=what, height=self._mm(height))
-            case Join(out, one, other):
-                body = self.drawn.label(self.bodies[out])
-                self._item("line", one=one, other=other, body=body)
-            case MeetLines(out, _, line):
-                spot = self.ends[out]
-                facts = {"foot": spot.foot, "point": out, "what": self._what(spot, "of ")}
-                self._item("meet", body=self.drawn.label(self.bodies[line]), **facts)
-            case _:
-                pass
+    def line(self, step: Line) -> list[Rich]:
+        """Tell the line of a body."""
+        if not isinstance(step, steps.Join):
+            return []
+        body = self._bodies[step.out]
+        return [self.say["line"].format(one=step.tail, other=step.head, body=body)]
 
-    def _what(self, spot: Spot, case: str = "") -> str:
+    def meet(self, step: steps.MeetLines) -> list[Rich]:
+        """Tell a velocity that the line of a body gives."""
+        spot = self._ends[step.out]
+        facts = {"foot": spot.foot, "point": step.out, "what": self._what(spot, "of ")}
+        return [self.say["meet"].format(body=self._bodies[step.second], **facts)]
+
+    def _what(self, spot: Spot, case: str = "") -> Rich:
         """Return what a point of the picture is; ``of `` is what something is of."""
-        kind, _, name = spot.contact.partition(" ")
-        said: str = self.say["steps"][case + ("pitch" if kind == "pitch" else "own")]
-        return said.format(name=name)
+        key = "pitch" if spot.contact.kind is ContactKind.PITCH else "own"
+        return self.say[case + key].format(name=spot.contact.of)
 
-    def _axis_at(self, height: float) -> str:
+    def _axis_at(self, height: float) -> Rich:
         """Return whose fixed axis is at a height that no contact has."""
-        axes = self.motion.axes.heights
-        scale = float(self.motion.train.unit_m / self.drawn.picture.mu_l)
-        own = [b for b in self.drawn.lines if abs(float(axes[b]) * scale - height) < 1e-6]
-        said: str = self.say["steps"]["own"]
-        return said.format(name=", ".join(own))
+        motion = self.drawn.motion
+        scale = float(motion.train.unit_m / self.drawn.picture.mu_l)
+        heights = {body: float(motion.axes.heights[body]) * scale for body in self.drawn.lines}
+        own = [body for body, at in heights.items() if abs(at - height) < 1e-6]
+        return self.say["own"].format(name=", ".join(own))
 
-    def _start(self, spot: Spot, origin: PointName) -> None:
+    def _start(self, spot: Spot) -> list[Rich]:
         body = next((b for b in self.drawn.starts if b in spot.bodies), spot.bodies[0])
-        facts = {"foot": origin, "point": spot.letter, "what": self._what(spot, "of ")}
+        facts = {"foot": spot.foot, "point": spot.letter, "what": self._what(spot, "of ")}
         mu_v = self.notation.short(self.drawn.picture.mu_v, 4)
-        length = self._mm(abs(float(spot.speed)))
-        lines = [self.say["steps"]["laid"].format(**facts, length=length, mu_v=mu_v)]
+        length = _mm(abs(float(spot.speed)), self.notation)
+        lines = [self.say["laid"].format(**facts, length=length, mu_v=mu_v)]
+        inputs, label = self.drawn.motion.train.inputs, self.drawn.label(body)
         if body in self.drawn.calculated:
-            lines.append(self.say["steps"]["calculated"].format(body=self.drawn.label(body)))
-        elif body not in self.motion.train.inputs:
-            inputs = ", ".join(self.motion.train.inputs)
-            told = {"body": self.drawn.label(body), "input": inputs}
-            lines.append(self.say["steps"]["any"].format(**told))
-        self.out.item(lines)
+            lines.append(self.say["calculated"].format(body=label))
+        elif body not in inputs:
+            lines.append(self.say["any"].format(body=label, input=", ".join(inputs)))
+        return lines
 
-    def _mm(self, value: float) -> str:
-        return self.notation.number(f"{value + 0.0:.2f}")
 
-    def _readings(self) -> None:
-        lines = []
-        named = [(s.read, f"{s.foot}{s.letter}") for s in self.drawn.spots if s.read is not None]
-        named += [(n, f"o{self.drawn.label(body)}") for body, n in self.drawn.segments.items()]
-        for number, name in named:
-            lines.append(
-                self.say["steps"]["read"].format(
-                    name=name,
-                    read=self.notation.ruled(float(self.seen.read.value[number])),
-                    exact=self._mm(float(self.seen.exact.value[number])),
-                    sigma=self.notation.number(sigma_text(self.seen.sigma[number])),
-                )
+def _readings(
+    drawn: Construction, seen: Reading, profile: Profile, words: Language
+) -> Iterator[Node]:
+    """Yield the segments as they are read, and what is computed from them."""
+    notation, train = words.say, drawn.motion.train
+    say: Words = words.gears["sheet"]
+    yield Chapter(say["steps"]["readings"])
+    name = words.note["profiles"].get(profile.name, profile.name)
+    yield Step((say.ruler.format(ruler=notation.given(profile.ruler), profile=name),))
+    named = [(s.read, f"{s.foot}{s.letter}") for s in drawn.spots if s.read is not None]
+    named += [(n, f"o{drawn.label(body)}") for body, n in drawn.segments.items()]
+    yield Step(
+        tuple(
+            say["steps"]["read"].format(
+                name=name,
+                read=notation.ruled(float(seen.read.value[number])),
+                exact=_mm(float(seen.exact.value[number]), notation),
+                sigma=notation.number(sigma_text(seen.sigma[number])),
             )
-        self.out.item(lines)
+            for number, name in named
+        )
+    )
+    unit = raised(words.gears["units"][train.units[0]])
+    chosen = drawn.mu in drawn.data
+    scale = say["steps"]["scale"].format(
+        symbol=_scale(drawn),
+        value=notation.short(float(seen.read.value[drawn.mu]), 4),
+        unit=unit,
+        from_what=say["steps"]["chosen" if chosen else "input"],
+    )
+    yield Step((scale,))
+    yield Step(tuple(_found(one, drawn, seen, words) for one in drawn.found))
 
-    def _found(self) -> None:
-        train = self.motion.train
-        known, unit = tuple(train.body_of), raised(self.words.gears["units"][train.units[0]])
-        inputs = set(train.inputs) & set(self.drawn.starts)
-        mu = float(self.seen.read.value["mu"])  # type: ignore[index]
-        scale, per_mm = f"μ_{{{train.letter}}}", self.notation.short(mu, 4)
-        said = {"symbol": scale, "value": per_mm, "unit": unit}
-        by_input = "input" in self.drawn.data and not inputs
-        said["from_what"] = self.say["steps"]["input" if by_input else "chosen"]
-        self.out.item([self.say["steps"]["scale"].format(**said)])
-        lines = []
-        for one in self.drawn.found:
-            rays = [self.drawn.label(body) for body in one.rays]
-            ratio = one.name.startswith("U")
-            parts = [f"(o{ray})" for ray in rays[: 2 if ratio else 1]]
-            if "^" in one.name:
-                parts = [f"[{part} − (o{rays[-1]})]" for part in parts]
-            formula = "/".join(parts) if ratio else f"{scale}·{parts[0]}"
-            if one.name.startswith("omega") and train.unit == "n":
-                formula = f"π/30·{formula}"
-            if one.name.startswith("n") and train.unit != "n":
-                formula = f"30/π·{formula}"
-            value, sigma = float(self.seen.read.value[one.read]), self.seen.sigma[one.read]
-            other = "1/s" if one.name.startswith("omega") else "1/min"
-            shown = "" if ratio else raised(self.words.gears["units"][other])
-            lines.append(
-                self.say["steps"]["found"]
-                .format(
-                    formula=_plain(f"{symbol(one.name, known)} = {formula}"),
-                    read=self.notation.number(rounded_to(value, sigma)),
-                    unit=shown,
-                    exact=self.notation.found(float(one.exact)),
-                    sigma=self.notation.number(sigma_text(sigma)),
-                )
-                .replace("  ", " ")
-            )
-        self.out.item(lines)
+
+def _mm(value: float, notation: Notation) -> Rich:
+    return notation.number(f"{value + 0.0:.2f}")
+
+
+def _scale(drawn: Construction) -> Rich:
+    return f"μ_{{{drawn.motion.train.letter}}}"
+
+
+def _found(one: Found, drawn: Construction, seen: Reading, words: Language) -> Rich:
+    """Return a quantity with its formula, as it is read and exactly."""
+    train, notation = drawn.motion.train, words.say
+    asked = parse(one.name, tuple(train.body_of))
+    rays = [f"(o{drawn.label(body)})" for body in one.rays]
+    parts = rays[: len(asked.labels)]
+    if asked.carrier is not None:
+        parts = [f"[{part} − {rays[-1]}]" for part in parts]
+    formula = "/".join(parts) if asked.kind == "U" else f"{_scale(drawn)}·{parts[0]}"
+    if asked.kind == "omega" and train.unit == "n":
+        formula = f"π/30·{formula}"
+    if asked.kind == "n" and train.unit != "n":
+        formula = f"30/π·{formula}"
+    value, sigma = float(seen.read.value[one.read]), seen.sigma[one.read]
+    unit = unit_of(answer(drawn.motion, one.name), words)
+    found: str = words.gears["sheet"]["steps"]["found"]
+    return found.format(
+        formula=_carried(f"{symbol(one.name, tuple(train.body_of))} = {formula}"),
+        read=f"{notation.number(rounded_to(value, sigma))} {unit}".rstrip(),
+        exact=notation.found(float(one.exact)),
+        sigma=notation.number(sigma_text(sigma)),
+    )

@@ -155,7 +155,7 @@ def _picture(motion: Motion) -> dict[str, Any] | None:
         "pole_mm": float(picture.pole_mm),
         "contacts": [
             {
-                "name": one.name,
+                "name": one.at.name,
                 "height_mm": float(one.height_mm),
                 "speed_mm": float(one.speed_mm),
             }

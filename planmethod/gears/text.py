@@ -1,8 +1,8 @@
-"""What the terminal shows of a train: tables of structure, speeds, pictures (таблицы)."""
+"""What is found of a train: structure, equations, speeds, pictures (документы)."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from fractions import Fraction
 
 from msgspec import Struct
@@ -14,89 +14,102 @@ from planmethod.gears.model import GearProblem, Mesh, MeshKind
 from planmethod.gears.motion import Motion, Structure, TrainKind, analyse, mesh_row, solve_motion
 from planmethod.gears.picture import draw
 from planmethod.gears.roles import Roles
+from planmethod.note.document import (
+    Caption,
+    Item,
+    Node,
+    Paragraph,
+    Table,
+    Title,
+    table_of,
+)
+from planmethod.note.formula import Rich, escape
 from planmethod.note.numbers import MINUS
-from planmethod.note.plaintext import columns_text, found, heading, spoken, table, wrap
-from planmethod.note.wording import Language, language
+from planmethod.note.wording import Language
 
 
-def solved_text(problem: GearProblem, lang: str) -> str:
-    """Tell structure, equations, speeds, what is asked, conditions, pictures, printed values.
+def solved_document(problem: GearProblem, words: Language) -> Iterator[Node]:
+    """Yield structure, equations, speeds, what is asked, conditions, pictures, printed values.
 
     Raises
     ------
     ProblemError
     """
-    motion = solve_motion(problem)
-    words = language(lang)
-    say = words.gears
-    lines = heading(say.title.format(title=problem.title or problem.name), "═")
-    lines += _structure(problem, motion.roles, motion.structure, words)
-    lines += ["", say.equations]
+    motion, say = solve_motion(problem), words.gears
+    yield from _structure(problem, motion.roles, motion.structure, words)
+    yield Caption(say.equations)
     for mesh in motion.train.meshes:
-        lines += wrap(_equation(motion, mesh, words), rest="  ")
-    lines += ["", say.wheels, *_wheels(motion, words)]
-    lines += ["", say.speeds, *_speeds(motion, words)]
+        equation, stage = (escape(plainly(text)) for text in equation_of(motion, mesh))
+        yield Item(say.equation.format(name=mesh.name, equation=equation, stage=stage))
+    yield Caption(say.wheels)
+    yield _wheels(motion, words)
+    yield Caption(say.speeds)
+    yield from _speeds(motion, words)
     for turns in tabular(motion):
-        lines += ["", *_tabular(motion, turns, words)]
+        yield from _tabular(motion, turns, words)
     if motion.train.ask:
-        lines += ["", say.asked, *_asked(motion, words)]
+        yield Caption(say.asked)
+        yield from _asked(motion, words)
     judged = conditions(motion)
     if judged:
-        lines += ["", say.checked]
+        yield Caption(say.checked)
     for one in judged:
-        lines += wrap(
-            f"{sentence(one, words)}: {say['holds']['yes' if one.holds else 'no']}", rest="  "
-        )
-    lines += ["", say.picture, *_picture(motion, words)]
+        verdict = say["holds"]["yes" if one.holds else "no"]
+        yield Item(escape(f"{sentence(one, words)}: {verdict}"))
+    yield Caption(say.picture)
+    yield from _picture(motion, words)
     if problem.published:
-        lines += ["", say.published, *_published(problem, motion, words)]
-    return "\n".join(lines)
+        yield Caption(say.published)
+        yield from _published(problem, motion, words)
 
 
-def structure_text(problem: GearProblem, lang: str) -> str:
-    """Tell the structure of a train.
+def structure_document(problem: GearProblem, words: Language) -> Iterator[Node]:
+    """Yield the structure of a train.
 
     Raises
     ------
     ProblemError
     """
     roles, _, structure = analyse(problem)
-    words = language(lang)
-    lines = heading(words.gears.title.format(title=problem.title or problem.name), "═")
-    return "\n".join([*lines, *_structure(problem, roles, structure, words)])
+    yield from _structure(problem, roles, structure, words)
 
 
-def _structure(problem: GearProblem, roles: Roles, found: Structure, words: Language) -> list[str]:
+def _structure(
+    problem: GearProblem, roles: Roles, found: Structure, words: Language
+) -> Iterator[Node]:
     say, train = words.gears, problem.train
-    lines = ["", say.structure, say.kind.format(kind=say["kinds"][found.kind.value])]
-    formula = str(found.formula).replace("-", MINUS)
-    texts = [
-        say.chebyshev.format(n=found.moving, low=found.lower, high=found.higher, w=formula),
-        say.by_meshes.format(rank=found.moving - found.mobility, w=found.mobility),
-        say.redundant.format(plane=found.redundant, space=found.spatial),
-    ]
+    yield Title(say.title.format(title=escape(problem.title or problem.name)))
+    yield Caption(say.structure)
+    yield Paragraph(kind_of(found, words))
+    yield Item(mobility(found, words) + say.of_equal)
+    yield Item(say.by_meshes.format(rank=found.moving - found.mobility, w=found.mobility))
+    yield Item(say.redundant.format(plane=found.redundant, space=found.spatial))
     for carrier in train.carriers:
         central, around = roles.central[carrier], roles.satellites[carrier]
         said = {"central": ", ".join(central) or "—", "satellites": ", ".join(around)}
-        texts.append(say.carrier.format(carrier=carrier, **said))
+        yield Item(say.carrier.format(carrier=carrier, **said))
     if found.kind is TrainKind.CLOSED:
         names = [mesh.name for mesh in train.meshes if train.carrier(mesh) is None]
         if names:
-            texts.append(say.closing.format(meshes=", ".join(names)))
-    for text in texts:
-        lines += wrap(text, rest="  ")
-    return lines
+            yield Item(say.closing.format(meshes=", ".join(names)))
+
+
+def kind_of(found: Structure, words: Language) -> Rich:
+    """Return which kind of train it is."""
+    return words.gears.kind.format(kind=words.gears["kinds"][found.kind.value])
+
+
+def mobility(found: Structure, words: Language) -> Rich:
+    """Return the mobility by Chebyshev's formula."""
+    formula = str(found.formula).replace("-", MINUS)
+    return words.gears.chebyshev.format(
+        n=found.moving, low=found.lower, high=found.higher, w=formula
+    )
 
 
 def fraction_text(value: Fraction | None) -> str:
     """Return a fraction, whole numbers without a denominator; a dash of none."""
     return "—" if value is None else str(value).replace("-", MINUS)
-
-
-def _equation(motion: Motion, mesh: Mesh, words: Language) -> str:
-    """Return the equation of a mesh with its ratio: ``(n_1 − n_H)·20 = −(n_2 − n_H)·40``."""
-    equation, stage = (plainly(text) for text in equation_of(motion, mesh))
-    return words.gears.equation.format(name=mesh.name, equation=equation, stage=stage)
 
 
 def plainly(rich: str) -> str:
@@ -125,7 +138,7 @@ def equation_of(motion: Motion, mesh: Mesh) -> tuple[str, str]:
     return f"{left} = {sign}{speed(mesh.second, other)}{size}", ratio
 
 
-def _wheels(motion: Motion, words: Language) -> list[str]:
+def _wheels(motion: Motion, words: Language) -> Table:
     train, say = motion.train, words.gears
     said = {"letter": "z" if train.toothed else "r, " + say["units"]["m"]}
     said["unit"] = say["units"]["m/2" if train.toothed else "m"]
@@ -137,25 +150,25 @@ def _wheels(motion: Motion, words: Language) -> list[str]:
         if train.toothed and not train.counted(label):
             shown[0] = f"r = {shown[0]} {say['units']['mm']}"
         rows.append([label + mark, *shown])
-    return table([head.format(**said) for head in say["columns_wheels"]], rows)
+    return table_of([head.format(**said) for head in say["columns_wheels"]], rows)
 
 
-def _size(value: Fraction, words: Language) -> str:
+def _size(value: Fraction, words: Language) -> Rich:
     if value.denominator == 1:
         return fraction_text(value)
-    return found(float(value), words.note)
+    return words.say.found(float(value))
 
 
-def _speeds(motion: Motion, words: Language) -> list[str]:
+def _speeds(motion: Motion, words: Language) -> Iterator[Node]:
     train, say = motion.train, words.gears
     said = {"letter": train.letter, "other": "ω" if train.letter == "n" else "n"}
     said["unit"], said["other_unit"] = (say["units"][unit] for unit in train.units)
-    rows, notes = [], []
+    rows = []
     for label in train.numbers:
         body, speed = train.body_of[label], motion.speed(label)
         if body in train.racks:
             metres = rack_speed(motion, label)
-            shown = "—" if metres is None else f"{found(metres, words.note)} {say['units']['m/s']}"
+            shown = "—" if metres is None else f"{words.say.found(metres)} {say['units']['m/s']}"
             rows.append([f"{label} ({say.rack})", shown, "—", "—", ""])
             continue
         relative = [
@@ -165,81 +178,85 @@ def _speeds(motion: Motion, words: Language) -> list[str]:
             for c in train.carriers
             if body in (*motion.roles.central[c], *motion.roles.satellites[c])
         ]
-        other = found(float(speed) * train.factor, words.note)
-        value = found(float(speed), words.note)
-        rows.append([label, value, fraction_text(speed), other, "; ".join(relative)])
-        if body in motion.roles.across:
-            notes += wrap(say.across.format(label=label), rest="  ")
-    return table([head.format(**said) for head in say["columns_speeds"]], rows) + notes
+        other = words.say.found(float(speed) * train.factor)
+        value = words.say.found(float(speed))
+        rows.append([label, value, fraction_text(speed), other, escape("; ".join(relative))])
+    yield table_of([head.format(**said) for head in say["columns_speeds"]], rows)
+    for label in train.numbers:
+        if train.body_of[label] in motion.roles.across:
+            yield Item(say.across.format(label=label))
 
 
-def _tabular(motion: Motion, turns: Turns, words: Language) -> list[str]:
-    say = words.gears
-    letter = motion.train.letter
-    said = {"carrier": turns.carrier, "wheel": ", ".join(turns.started)}
-    head = wrap(say.tabular.format(**said), rest="  ")
+def _tabular(motion: Motion, turns: Turns, words: Language) -> Iterator[Node]:
+    say, letter = words.gears, motion.train.letter
+    yield Caption(say.tabular.format(carrier=turns.carrier, wheel=", ".join(turns.started)))
     total = {body: speed + turns.held[body] for body, speed in turns.together.items()}
-    rows = [
-        [
-            name.format(letter=letter, carrier=turns.carrier),
-            *(fraction_text(part[body]) for body in total),
-        ]
-        for name, part in zip(say["tabular_rows"], (turns.together, turns.held, total), strict=True)
-    ]
-    return [*head, *columns_text(list(zip(("", *total), *rows, strict=True)), 1)]
+    yield Table(
+        ("", *total),
+        tuple(
+            (
+                name.format(letter=letter, carrier=turns.carrier),
+                *(fraction_text(part[body]) for body in total),
+            )
+            for name, part in zip(
+                say["tabular_rows"], (turns.together, turns.held, total), strict=True
+            )
+        ),
+        names=0,
+        repeated=1,
+    )
 
 
-def _asked(motion: Motion, words: Language) -> list[str]:
+def _asked(motion: Motion, words: Language) -> Iterator[Node]:
     say, rows, notes = words.gears, [], []
     for name in motion.train.ask:
         one = answer(motion, name)
         if one.value is None:
             reason = say["reasons"][one.reason].format(label=one.label)
-            notes += wrap(f"{name}: {reason}", rest="  ")
+            notes.append(Item(f"{escape(name)}: {reason}"))
             continue
         exact = "" if one.exact is None else fraction_text(one.exact)
         unit = say["units"][one.unit] if one.unit else ""
         whole = one.exact is not None and one.exact.denominator == 1
-        value = exact if whole else found(one.value, words.note)
-        rows.append([name, value, exact, unit])
-    return [*(table(list(say["columns_asked"]), rows) if rows else []), *notes]
+        rows.append([escape(name), exact if whole else words.say.found(one.value), exact, unit])
+    if rows:
+        yield table_of(say["columns_asked"], rows)
+    yield from notes
 
 
-def _picture(motion: Motion, words: Language) -> list[str]:
-    say, picture = words.gears, draw(motion)
+def _picture(motion: Motion, words: Language) -> Iterator[Node]:
+    say, number, picture = words.gears, words.say.found, draw(motion)
     if picture is None:
-        return wrap(say.no_picture, rest="  ")
-    scales = say.scales.format(
-        mu_l=found(float(picture.mu_l), words.note),
-        mu_v=found(picture.mu_v, words.note),
-        pole=found(float(picture.pole_mm), words.note),
-        mu_omega=found(picture.mu_omega, words.note),
+        yield Item(say.no_picture)
+        return
+    yield Item(
+        say.scales.format(
+            mu_l=number(float(picture.mu_l)),
+            mu_v=number(picture.mu_v),
+            pole=number(float(picture.pole_mm)),
+            mu_omega=number(picture.mu_omega),
+        )
     )
     points = []
     for one in picture.contacts:
-        kind, _, name = one.name.partition(" ")
-        both = (one.height_mm, one.speed_mm)
-        shown = (found(float(mm), words.note) for mm in both)
-        points.append([say["points"][kind].format(name=name), *shown])
-    rays = [[label, found(float(segment), words.note)] for label, segment in picture.rays]
-    return [
-        *wrap(scales, rest="  "),
-        *table(list(say["columns_contacts"]), points),
-        "",
-        *table(list(say["columns_rays"]), rays),
-    ]
+        shown = (number(float(mm)) for mm in (one.height_mm, one.speed_mm))
+        points.append([say["points"][one.at.kind.value].format(name=one.at.of), *shown])
+    yield table_of(say["columns_contacts"], points)
+    rays = ((label, number(float(segment))) for label, segment in picture.rays)
+    yield table_of(say["columns_rays"], rays)
 
 
-def _published(problem: GearProblem, motion: Motion, words: Language) -> list[str]:
-    say, rows, notes = words.gears, [], []
+def _published(problem: GearProblem, motion: Motion, words: Language) -> Iterator[Node]:
+    say, rows, notes = words.say, [], []
     for one in problem.published:
-        exact = answer(motion, one.what).value
-        off = "" if not exact else found(100 * (one.value / exact - 1), words.note)
-        printed = spoken(f"{one.value:g}", words.note)
-        rows.append([one.name, printed, "—" if exact is None else found(exact, words.note), off])
+        exact, name = answer(motion, one.what).value, escape(one.name)
+        off = "" if not exact else say.found(100 * (one.value / exact - 1))
+        printed = say.number(f"{one.value:g}")
+        rows.append([name, printed, "—" if exact is None else say.found(exact), off])
         if one.note:
-            notes += wrap(f"{one.name}: {one.note}", rest="  ")
-    return table(list(say["columns_published"]), rows) + notes
+            notes.append(Item(f"{name}: {escape(one.note)}"))
+    yield table_of(words.gears["columns_published"], rows)
+    yield from notes
 
 
 class Turns(Struct, frozen=True):

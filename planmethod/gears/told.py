@@ -10,8 +10,8 @@ from planmethod.gears.asked import parse
 from planmethod.gears.conditions import conditions, sentence
 from planmethod.gears.construction import Construction, Reading
 from planmethod.gears.motion import Motion
-from planmethod.gears.text import equation_of, fraction_text
-from planmethod.note.numbers import MINUS, raised
+from planmethod.gears.text import equation_of, fraction_text, kind_of, mobility
+from planmethod.note.numbers import raised
 from planmethod.note.rounding import sigma_text
 from planmethod.note.wording import Language
 
@@ -40,9 +40,8 @@ def unit_of(one: Answer, words: Language) -> str:
 
 
 def indexed(text: str) -> str:
-    """Return plain text with indices as rich text: ``z_2'`` gives ``z_{2'}``, ``p₁`` ``p_{1}``."""
-    braced = re.sub(r"_([\w']+)", r"_{\1}", text)
-    return re.sub("[₁₂]", lambda sign: f"_{{{'₁₂'.index(sign[0]) + 1}}}", braced)
+    """Return plain text with indices as rich text: ``z_2'`` gives ``z_{2'}``."""
+    return re.sub(r"_([\w']+)", r"_{\1}", text)
 
 
 def given(motion: Motion, words: Language) -> list[str]:
@@ -70,13 +69,7 @@ def given(motion: Motion, words: Language) -> list[str]:
 def calculation(motion: Motion, words: Language) -> list[str]:
     """Return kind, mobility, equations of the meshes with their ratios, ratios asked for."""
     train, say, found = motion.train, words.gears, motion.structure
-    formula = str(found.formula).replace("-", MINUS)
-    lines = [
-        say.kind.format(kind=say["kinds"][found.kind.value]),
-        indexed(
-            say.chebyshev.format(n=found.moving, low=found.lower, high=found.higher, w=formula)
-        ).partition(" (")[0],
-    ]
+    lines = [kind_of(found, words), mobility(found, words)]
     for mesh in train.meshes:
         lines.append(";  ".join(equation_of(motion, mesh)))
     letter, known = train.letter, tuple(train.body_of)

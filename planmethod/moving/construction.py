@@ -115,6 +115,7 @@ class _Draft(Struct):
         length = self.b.compute(f"{symbol}, mm", (size, 1), factor=1 / self.scales[plan].per_mm)
         self.letters[length] = symbol
         head = self.b.lay_off(f"{symbol}:", origin, line, length)
+        self.letters[head] = symbol
         self.vectors.append(Vector(symbol, origin, head, plan))
         return head
 

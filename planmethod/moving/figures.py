@@ -15,7 +15,7 @@ from planmethod.moving.model import PointProblem
 from planmethod.moving.motion import Motion, move
 from planmethod.moving.reader import WHAT, column_of
 from planmethod.moving.sheet import sheet_scales
-from planmethod.moving.text import SYMBOLS, unit_of
+from planmethod.moving.text import LEGEND
 from planmethod.problem.figures import Figure, Mistaken, Taken
 
 if TYPE_CHECKING:
@@ -46,7 +46,8 @@ class PointFigures:
         value = None if column is None else _value(self.motion, name, position)
         if column is None or value is None:
             return None
-        return Figure(SYMBOLS[column], unit_of(column), value, signed=column not in SIZES)
+        quantity = LEGEND[column]
+        return Figure(quantity.symbol, quantity.unit, value, signed=column not in SIZES)
 
     def read_off(self, name: str, position: int, profile: Profile) -> tuple[float, float] | None:
         """Return its segment on the drawing, mm, and one sigma of what is read."""

@@ -7,11 +7,13 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from planmethod.kind import Kind
+from planmethod.note.document import Document
 
 if TYPE_CHECKING:
     from planmethod.construct.drafting import Profile
     from planmethod.moving.model import PointProblem
     from planmethod.note.audit.audit import Audited
+    from planmethod.note.wording import Language
     from planmethod.problem.figures import Figures
     from planmethod.render.ink.drawing import Drawing
 
@@ -33,17 +35,19 @@ class MovingPoints(Kind["PointProblem"]):
 
         return record(problem, lang)
 
-    def solved_text(self, problem: PointProblem, lang: str) -> str:
+    def solved_document(self, problem: PointProblem, words: Language) -> Document:
         """Return what ``solve`` prints."""
-        from planmethod.moving.text import solved_text
+        from planmethod.moving.text import solved_document
 
-        return solved_text(problem, lang)
+        return Document.of(solved_document(problem, words))
 
-    def protocol_text(self, problem: PointProblem, lang: str, profile: Profile) -> str:
+    def protocol_document(
+        self, problem: PointProblem, words: Language, profile: Profile
+    ) -> Document:
         """Return what ``protocol`` prints."""
-        from planmethod.moving.protocol import protocol_text
+        from planmethod.moving.protocol import protocol_document
 
-        return protocol_text(problem, lang, profile)
+        return Document.of(protocol_document(problem, words, profile))
 
     def drawings(
         self,

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
-from typing import assert_never
+from collections.abc import Iterator
 
 import numpy as np
 
@@ -12,23 +11,29 @@ from planmethod.construct.drafting import Profile
 from planmethod.construct.evaluate import Trace
 from planmethod.construct.hand import Hand
 from planmethod.construct.scale import Scale
-from planmethod.construct.steps import LineName, Name, PointName, Step
-from planmethod.moving.construction import POLES, Construction, construct, read_hodograph
+from planmethod.construct.steps import Name, NumberName, PointName
+from planmethod.moving.construction import (
+    POLES,
+    Construction,
+    Vector,
+    construct,
+    read_hodograph,
+)
 from planmethod.moving.course import Course, course_of
 from planmethod.moving.model import PointProblem
 from planmethod.moving.sheet import read_rows, sheet_scales
-from planmethod.moving.text import law_lines, moment_lines, unit_of
+from planmethod.moving.text import LEGEND, law, moment, title
+from planmethod.note.document import Caption, Chapter, Node, Paragraph, steps_of, table_of
+from planmethod.note.formula import Rich, escape
+from planmethod.note.narrate.narrator import Line, Reading, StepNarrator
 from planmethod.note.narrate.scales import scale_inscription
 from planmethod.note.numbers import significant, with_unit
-from planmethod.note.plaintext import heading, plain_text, table, wrap
 from planmethod.note.rounding import rounded_to, sigma_text
-from planmethod.note.wording import Language, language
+from planmethod.note.wording import Language
 
 
-def protocol_text(problem: PointProblem, lang: str, profile: Profile) -> str:
-    """Return the construction of a moving point as text of at most 100 columns.
-
-    The scales are those of the sheet.
+def protocol_document(problem: PointProblem, words: Language, profile: Profile) -> Iterator[Node]:
+    """Yield the construction of a moving point; the scales are those of the sheet.
 
     Raises
     ------
@@ -37,175 +42,166 @@ def protocol_text(problem: PointProblem, lang: str, profile: Profile) -> str:
     LayoutError
         The sheet cannot be drawn.
     """
-    words, course = language(lang), course_of(problem)
-    said, say = words.point, words.say
+    course, said, say = course_of(problem), words.point, words.say
     scales = sheet_scales(problem, course, profile)
-    variant = f" ({problem.variant})" if problem.variant else ""
-    lines = heading(f"{problem.title or problem.name}{variant}")
+    yield title(problem)
     if problem.source:
-        lines += wrap(words.note.source.format(source=problem.source))
+        yield Paragraph(words.note.source.format(source=escape(problem.source)))
     moments = "; ".join(map(say.given, sorted(set(problem.times))[:3]))
-    facts = "; ".join([*law_lines(problem, words), said.moments.format(times=moments)])
-    lines += ["", *_wrapped([words.note.given.format(given=facts)]), *_wrapped([said.wanted])]
+    facts = [node.text for node in law(problem, words)]
+    facts.append(said.moments.format(times=moments))
+    yield Paragraph(words.note.given.format(given="; ".join(facts)))
+    yield Paragraph(said.wanted)
     convention = problem.scales.convention
     told = ", ".join(scale_inscription(scales[name], convention, say) for name in "lva")
-    lines += ["", *_wrapped([words.note.scales_text.format(scales=told)])]
-    lines += _wrapped([words.note.ruler.format(ruler=say.given(profile.ruler))])
+    yield Paragraph(words.note.scales_text.format(scales=told))
+    yield Paragraph(words.note.ruler.format(ruler=say.given(profile.ruler)))
     start, end = (say.given(t) for t in course.interval)
     count = len(course.marks.columns["t"])
-    lines += _wrapped([said.curve.format(start=start, end=end, last=count - 1)])
+    yield Paragraph(said.curve.format(start=start, end=end, last=count - 1))
     for k in course.shown:
         time = say.given(float(course.marks.columns["t"][k]))
-        lines += ["", *heading(said.at.format(time=time))]
-        lines += _wrapped(moment_lines(problem, course.marks, k, words))
+        yield Chapter(said.at.format(time=time), numbered=False)
+        yield from moment(problem, course.marks, k, words)
         built = construct(problem, course.marks, k, scales)
         if built is not None:
-            sentences = list(_Teller(built, words, profile).sentences())
-            lines += ["", *_wrapped(f"{n}. {text}" for n, text in enumerate(sentences, 1))]
-            lines += ["", *_readings(built, course, k, words, profile)]
-    return "\n".join([*lines, *_hodograph(course, scales["v"], words, profile)])
+            narrator = PointNarrator(built, words, profile)
+            for step in built.program.steps:
+                yield from steps_of(narrator.tell(step))
+            yield Caption(said.read_title.format(profile=words.note["profiles"][profile.name]))
+            yield table_of(said["read"], read_rows(built, course.marks, k, words, profile))
+    yield from _hodograph(course, scales["v"], words, profile)
 
 
-def _wrapped(texts: Iterator[str] | Sequence[str]) -> list[str]:
-    return [line for text in texts for line in wrap(plain_text(text), rest="  ")]
-
-
-def _readings(
-    built: Construction, course: Course, k: int, words: Language, profile: Profile
-) -> list[str]:
-    """Return what the drawing gives beside the exact values, with its error."""
-    whole = read_rows(built, course.marks, k, words, profile)
-    rows = [[plain_text(cell) for cell in row] for row in whole]
-    title = words.point.read_title.format(profile=words.note["profiles"][profile.name])
-    return [title, *table(words.point["read"], rows)]
-
-
-def _hodograph(course: Course, scale: Scale, words: Language, profile: Profile) -> list[str]:
-    """Return the accelerations that the hodograph of the velocity gives."""
-    chords, say = read_hodograph(course, scale, profile), words.say
+def _hodograph(course: Course, scale: Scale, words: Language, profile: Profile) -> Iterator[Node]:
+    """Yield the accelerations that the hodograph of the velocity gives."""
+    chords, say, said = read_hodograph(course, scale, profile), words.say, words.point
     if len(chords.at) < 2:
-        return []
+        return
+    yield Chapter(said.by_hodograph, numbered=False)
+    yield Paragraph(said.chord_told)
     rows = []
     for k, read, sigma, exact in zip(
         chords.at, chords.read, chords.sigma, chords.exact, strict=True
     ):
-        time = say.given(float(course.marks.columns["t"][k]))
-        cells = [str(k), time, say.number(significant(float(exact)))]
+        cells = [str(k), say.given(float(course.marks.columns["t"][k]))]
+        cells += [say.number(significant(float(exact)))]
         cells += [say.number(rounded_to(float(read), float(sigma)))]
         cells += [say.number(sigma_text(float(sigma)))]
         cells += [say.number(significant(float(read - exact), 2))]
-        rows.append([plain_text(cell) for cell in cells])
-    said = words.point
-    return ["", *heading(said.by_hodograph), *wrap(plain_text(said.chord_told)), "",
-            *table(said["chords"], rows, left=0)]  # fmt: skip
+        rows.append(cells)
+    yield table_of(said["chords"], rows, names=0)
 
 
-class _Teller:
-    """Tells the steps of one construction in order (рассказчик)."""
+class PointNarrator(StepNarrator):
+    """Tells the steps of one moment (рассказчик)."""
 
     def __init__(self, built: Construction, words: Language, profile: Profile) -> None:
-        self.built, self.words = built, words
-        self.step: Mapping[Name, Step] = {step.out: step for step in built.program.steps}
+        self.built, self.words, self.said = built, words, words.point
+        self.step = {step.out: step for step in built.program.steps}
         self.exact: Trace = built.read()
         self.read: Trace = built.read(Hand(ruler=profile.ruler))
-        self.plan = {vector.head: vector.plan for vector in built.vectors if not vector.is_whole}
-
-    def sentences(self) -> Iterator[str]:
-        """Yield the sentences."""
-        for step in self.built.program.steps:
-            yield from self._tell(step)
+        self.parts: dict[PointName, Vector] = {}
+        for vector in built.vectors:
+            if not vector.is_whole:
+                self.parts.setdefault(vector.head, vector)
+        self.columns = {number: column for column, number in built.results.items()}
 
     def _number(self, name: Name, *, exact: bool = False) -> float:
         trace = self.exact if exact else self.read
         return float(np.ravel(trace.value[name])[0])
 
-    def _put(self, value: float, digits: int = 4) -> str:
+    def _put(self, value: float, digits: int = 4) -> Rich:
         return self.words.say.short(value, digits)
 
-    def _letter(self, name: Name) -> str:
-        return self.built.letters.get(name, str(name).rstrip(":"))
-
-    def _of(self, name: PointName) -> str:
+    def _of(self, name: PointName) -> Rich:
         """Return a point in the genitive: "точки P", "полюса p", "конца a_x"."""
         words = self.words.note
         while isinstance(step := self.step[name], steps.LayOff) and not self._number(step.length):
             name = step.origin  # nothing was laid off
-        if name.endswith(":"):
-            return self.words.point.end.format(symbol=name.rstrip(":"))
+        if name in self.parts:
+            return self.said.end.format(symbol=self.parts[name].symbol)
         text = words.of_pole if name in POLES.values() else words.of_point
-        return text.format(point=self._letter(name))
+        return text.format(point=self.built.letters[name])
 
-    def _tell(self, step: Step) -> Iterator[str]:
-        said = self.words.point
+    def line(self, step: Line) -> list[Rich]:
+        """Tell a ray, a line across the wheel, or the direction of the tangent."""
         match step:
             case steps.AtAngle(_, through, _, angle):
+                text = self.said.ray if self._number(angle) else self.said.level
                 turn = self._put(self._number(angle))
-                text = said.ray if self._number(angle) else said.level
-                yield text.format(of=self._of(through), angle=turn)
-            case steps.LayOff(out, origin, along, length):
-                yield self._laid(out, origin, along, length)
-            case steps.Join(_, tail, head) if head == "M":
-                yield said.join.format(tail=self._letter(tail), head=self._letter(head))
+                return [text.format(of=self._of(through), angle=turn)]
+            case steps.Join(_, tail, head) if tail not in POLES.values():
+                letters = self.built.letters
+                return [self.said.join.format(tail=letters[tail], head=letters[head])]
             case steps.Parallel(_, through, to) if isinstance(self.step[to], steps.Join):
-                yield said.tangent.format(of=self._of(through))
-            case steps.MeetLines(out):
-                yield said.foot.format(point=self._letter(out))
-            case steps.Compute(out, _, powers, _):
-                if isinstance(self.step[powers[0][0]], steps.Measure | steps.MeasureAlong):
-                    yield self._value(out, powers[0][0])
-                elif out == "rho" and np.isfinite(self._number(out)):
-                    v, a = (self._put(self._number(name)) for name, _ in powers)
-                    found = with_unit(self._put(self._number(out)), self.words.say.units["m"])
-                    yield f"ρ = v^{{2}}/a_{{n}} = {v}^{{2}}/{a} = {found}."
-            case steps.Measure(out) if out == "PM":
-                yield said.measured.format(segment="PM", length=self._put(self._number(out)))
-            case steps.Given() | steps.Known() | steps.Join() | steps.Parallel():
-                return
-            case steps.Perpendicular() | steps.Measure() | steps.MeasureAlong():
-                return
-            case steps.MeasureArm() | steps.Carry() | steps.Similar() | steps.Touch():
-                return
-            case steps.Total() | steps.MeetCircles() | steps.MeetLineCircle():
-                return
+                return [self.said.tangent.format(of=self._of(through))]
             case _:
-                assert_never(step)
+                return []
 
-    def _laid(self, out: Name, origin: PointName, along: LineName, length: Name) -> str:
-        """Tell a vector, or a side of the wheel, that is laid off: how long, from where, along."""
-        said, step = self.words.point, self.step[length]
-        assert isinstance(step, steps.Compute)
-        mm, plan = self._number(length), self.plan.get(PointName(out), "l")
-        if step.powers[-1][0] == "PM":
-            return said.across_pm.format(length=self._put(abs(mm)))
-        symbol = self._letter(length)
+    def meet(self, step: steps.MeetLines) -> list[Rich]:
+        """Tell the foot of the perpendicular on the tangent."""
+        return [self.said.foot.format(point=self.built.letters[step.out])]
+
+    def measure(self, step: Reading) -> list[Rich]:
+        """Tell a side of the wheel; other segments are told with what is read."""
+        if any(self._is_value(one, step.out) for one in self.columns):
+            return []
+        length = self._put(self._number(step.out))
+        return [self.said.measured.format(segment=self.built.letters[step.out], length=length)]
+
+    def _is_value(self, result: NumberName, length: NumberName) -> bool:
+        made = self.step[result]
+        return isinstance(made, steps.Compute) and made.powers[0][0] == length
+
+    def lay_off(self, step: steps.LayOff) -> list[Rich]:
+        """Tell a vector, or a side of the wheel: how long, from where, along what."""
+        said, made, letters = self.said, self.step[step.length], self.built.letters
+        assert isinstance(made, steps.Compute)
+        mm, symbol = self._number(step.length), letters[step.length]
+        if isinstance(self.step[made.powers[-1][0]], steps.Measure):
+            return [said.across_pm.format(length=self._put(abs(mm)))]
         if not mm:
-            return said.nothing.format(symbol=symbol)
-        numbers = f"{self._put(abs(self._number(step.powers[0][0])))}/"
+            return [said.nothing.format(symbol=symbol)]
+        part = self.parts.get(step.out)
+        plan = "l" if part is None else part.plan
+        numbers = f"{self._put(abs(self._number(made.powers[0][0])))}/"
         numbers += self._put(self.built.scales[plan].per_mm)
-        line = self.step[along]
-        turned = isinstance(line, steps.Perpendicular)
+        turned = isinstance(self.step[step.along], steps.Perpendicular)
         way = said["ways"][("across" if turned else "along") + ("" if mm >= 0 else " back")]
-        told = said.lay_off if plan != "l" else said.lay_off_side
-        return told.format(
-            symbol=symbol,
-            size=f"|{symbol}|/μ_{{{plan}}} = {numbers} = {self._put(abs(mm))}",
-            of=self._of(origin),
-            way=way,
-            point=self._letter(out),
-        )
+        told = said.lay_off_side if part is None else said.lay_off
+        return [
+            told.format(
+                symbol=symbol,
+                size=f"|{symbol}|/μ_{{{plan}}} = {numbers} = {self._put(abs(mm))}",
+                of=self._of(step.origin),
+                way=way,
+                point=letters[step.out],
+            )
+        ]
 
-    def _value(self, out: Name, length: Name) -> str:
-        plan = "v" if out == "v" else "a"
-        mm, found = self._number(length), self._number(out)
-        unit = self.words.say.units[unit_of(str(out))]
+    def compute(self, step: steps.Compute) -> list[Rich]:
+        """Tell what is read off the drawing."""
+        column = self.columns.get(step.out)
+        if column is None:
+            return []
+        found = self._number(step.out)
+        value = with_unit(self._put(found), self.words.say.units[LEGEND[column].unit])
+        symbol, (length, _) = self.built.letters[step.out], step.powers[0]
+        if not isinstance(self.step[length], steps.Measure | steps.MeasureAlong):
+            if not np.isfinite(found):
+                return []
+            v, a = (self._put(self._number(name)) for name, _ in step.powers)
+            return [f"{symbol} = v^{{2}}/a_{{n}} = {v}^{{2}}/{a} = {value}."]
+        plan = "v" if column == "v" else "a"
+        mm, segment = self._number(length), self.built.letters[length]
         scale = self._put(self.built.scales[plan].per_mm)
         size = f"({self._put(mm)})" if mm < 0 else self._put(mm)
-        symbol = self._letter(out) if out != plan else plan
-        segment = self._letter(length)
-        return self.words.point.value.format(
-            segment=segment,
-            length=self._put(mm),
-            exact=self._put(self._number(length, exact=True), 5),
-            formula=f"{symbol} = μ_{{{plan}}}·{segment} = {scale}·{size} = "
-            + with_unit(self._put(found), unit),
-        )
+        return [
+            self.said.value.format(
+                segment=segment,
+                length=self._put(mm),
+                exact=self._put(self._number(length, exact=True), 5),
+                formula=f"{symbol} = μ_{{{plan}}}·{segment} = {scale}·{size} = {value}",
+            )
+        ]

@@ -24,7 +24,9 @@ from planmethod.moving.pictures import (
     trajectory_picture,
     vector_scales,
 )
-from planmethod.moving.text import SYMBOLS, law_lines, moment_lines, textbook, unit_of
+from planmethod.moving.text import LEGEND, head_of, law, moment, textbook
+from planmethod.note.document import Formula, Note
+from planmethod.note.narrate.given import unbroken
 from planmethod.note.narrate.scales import scale_inscription
 from planmethod.note.numbers import alike, significant
 from planmethod.note.plaintext import plain_text
@@ -36,7 +38,7 @@ from planmethod.render.ink.drawing import Disc, Drawing, Item, Span
 from planmethod.render.ink.typeset import typeset
 from planmethod.render.layout.block import Block, Column, Line, heading, paragraph
 from planmethod.render.layout.cuttings import Group, Part
-from planmethod.render.layout.equations import formula_block
+from planmethod.render.layout.nodes import blocks_of
 from planmethod.render.layout.pack import EDGE
 from planmethod.render.layout.tables import TableColumn, table_block
 from planmethod.render.pictures.planview import POLE
@@ -51,7 +53,6 @@ from planmethod.render.sheets.composer import (
     composed,
     enlarged,
 )
-from planmethod.render.sheets.texts import unbroken
 
 SIZES = Sizes(5.0, 5.0, 3.5, 120.0)
 """Sizes of letters and texts."""
@@ -190,14 +191,18 @@ class _Point(Struct, frozen=True):
         """Return "Дано" and what is asked."""
         said, say = self.words.point, self.words.say
         decimal, times = say.decimal, self.problem.times
-        facts = law_lines(self.problem, self.words, lambda text: textbook(text, decimal))
+        facts = law(self.problem, self.words, lambda text: textbook(text, decimal))
         moments = said.moments.format(times="; ".join(map(say.given, times)))
         if len(times) > 3:
             ends = {"start": say.given(min(times)), "end": say.given(max(times))}
             moments = said.row.format(**ends, count=len(times))
+        else:
+            moments = unbroken([moments])
         # A formula is not broken within.
-        whole = [unbroken([fact]) if "=" in fact[:5] else fact for fact in (*facts, moments)]
-        texts = [self.words.note.given.format(given="; ".join(whole)), said.wanted]
+        whole = [
+            unbroken([fact.text]) if isinstance(fact, Formula) else fact.text for fact in facts
+        ]
+        texts = [self.words.note.given.format(given="; ".join([*whole, moments])), said.wanted]
         return Column([paragraph(text, SIZES.text, width=width) for text in texts], gap=3.0)
 
     def _calculation(self, k: int, width: float) -> Block:
@@ -206,17 +211,13 @@ class _Point(Struct, frozen=True):
         blocks: list[Block] = [
             heading(self.words.point.at.format(time=time), SIZES.text, width=width)
         ]
-        lines: list[str] = []
-        for line in moment_lines(self.problem, self.course.marks, k, self.words):
-            same = line.count("=") == 1 and line not in self.words.point["reasons"].values()
-            if lines and same and lines[-1].count("=") == 1:
-                lines[-1] += f";  {line}"  # two components
+        nodes: list[Formula | Note] = []
+        for node in moment(self.problem, self.course.marks, k, self.words):
+            if nodes and _is_short(node) and _is_short(nodes[-1]):
+                nodes[-1] = Formula(f"{nodes[-1].text};  {node.text}")  # two components
             else:
-                lines.append(line)
-        for line in lines:
-            is_said = line in self.words.point["reasons"].values()
-            blocks.append((paragraph if is_said else formula_block)(line, SIZES.text, width=width))
-        return Column(blocks, gap=2.6)
+                nodes.append(node)
+        return Column([*blocks, *blocks_of(nodes, SIZES.text, width=width)], gap=2.6)
 
     def _read(self, built: Construction, k: int) -> Block:
         """Return what the drawing gives beside the exact values, and its error."""
@@ -242,8 +243,8 @@ class _Point(Struct, frozen=True):
             cells = tuple("0" if not text.strip("-0.") else say.number(text) for text in told)
             if name == "t":
                 cells = tuple(say.given(value) for value in values)
-            unit = say.units[unit_of(name)]
-            columns.append(TableColumn(SYMBOLS[name], cells, unit, least=8.0))
+            unit = say.units[LEGEND[name].unit]
+            columns.append(TableColumn(LEGEND[name].symbol, cells, unit, least=8.0))
         chords = read_hodograph(self.course, scale, self.profile)
         if len(chords.at) > 1:
             shown = ["—"] * count
@@ -265,6 +266,11 @@ class _Point(Struct, frozen=True):
         return Column([Line(typeset(said.table, SIZES.text)), table, *notes], gap=2.5)
 
 
+def _is_short(node: Formula | Note) -> bool:
+    """Tell whether a node is a formula without a calculation, of which two fit a line."""
+    return isinstance(node, Formula) and node.text.count("=") == 1
+
+
 def read_rows(
     built: Construction, marks: Motion, k: int, words: Language, profile: Profile
 ) -> Iterator[tuple[str, str, str, str]]:
@@ -274,7 +280,7 @@ def read_rows(
         exact = significant(float(marks.columns[name][k]) + 0.0)
         read = say.number(rounded_to(ruled[name], sigma[name])) if np.isfinite(ruled[name]) else "—"
         error = say.number(sigma_text(sigma[name])) if np.isfinite(sigma[name]) else "—"
-        yield f"{SYMBOLS[name]}, {say.units[unit_of(name)]}", say.number(exact), read, error
+        yield head_of(name, say), say.number(exact), read, error
 
 
 class _Sheets(Struct, frozen=True):

@@ -1,119 +1,133 @@
-"""A moving point in formulas and numbers: rich text for sheet and note, the terminal's text."""
+"""A moving point in formulas and numbers (документы движения точки)."""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Iterator, Sequence
+
+from msgspec import Struct
 
 from planmethod.moving.model import Law, PointProblem
 from planmethod.moving.motion import COLUMNS, POLAR, ROLLED, Motion, Undefined, move
+from planmethod.note.document import (
+    Caption,
+    Chapter,
+    Formula,
+    Item,
+    Node,
+    Note,
+    Table,
+    Title,
+    table_of,
+    table_of_columns,
+)
+from planmethod.note.formula import Rich, escape
 from planmethod.note.numbers import MINUS, Notation, alike, significant, with_unit
-from planmethod.note.plaintext import columns_text, heading, plain_text, spoken, table, wrap
-from planmethod.note.plaintext import given as written
-from planmethod.note.wording import Language, Words, language
+from planmethod.note.wording import Language
 
 FEW = 3
 """Most moments that are told with formulas; more are rows of a table."""
 
 
-def solved_text(problem: PointProblem, lang: str = "ru") -> str:
-    """Return the motion of a point as text of at most 100 columns.
-
-    Raises
-    ------
-    UnknownLanguageError
-    """
-    said = language(lang)
-    words, motion = said.note, move(problem)
-    variant = f" ({problem.variant})" if problem.variant else ""
-    lines = wrap((problem.title or problem.name) + variant)
-    for told in law_lines(problem, said):
-        lines += wrap(plain_text(told), first="  ", rest="    ")
+def solved_document(problem: PointProblem, words: Language) -> Iterator[Node]:
+    """Yield the motion of a point: its law, moments or their table, printed values."""
+    said, say, motion = words.point, words.say, move(problem)
+    yield title(problem)
+    yield from law(problem, words)
     count = len(problem.times)
     for k in range(count if count <= FEW else 0):
-        time = written(problem.times[k], words)
-        lines += ["", *heading(said.point.at.format(time=time))]
-        for told in moment_lines(problem, motion, k, said):
-            lines += wrap(plain_text(told), first="  ", rest="  ")
+        yield Chapter(said.at.format(time=say.given(problem.times[k])), numbered=False)
+        yield from moment(problem, motion, k, words)
     if count > FEW:
-        lines += ["", *_rows(motion, COLUMNS, words)]
+        yield _table(motion, COLUMNS, say)
         for k, why in enumerate(motion.reasons):
             if why is not None:
-                time = written(problem.times[k], words)
-                lines += wrap(f"t = {time}: {said.point['reasons'][why.value]}", rest="  ")
+                yield Item(f"t = {say.given(problem.times[k])}: {said['reasons'][why.value]}")
     if problem.law is Law.POLAR:
-        lines += ["", said.point.polar, *_rows(motion, ("t", *POLAR), words)]
+        yield Caption(said.polar)
+        yield _table(motion, ("t", *POLAR), say)
     if problem.law is Law.ROLLING:
-        lines += [
-            "",
-            said.point.rolled,
-            *_rows(motion, tuple(n for n in ("t", *ROLLED) if n in motion.columns), words),
-        ]
-    printed = _printed(problem, motion, words, lang)
-    return "\n".join([*lines, *(["", *printed] if printed else [])])
+        yield Caption(said.rolled)
+        yield _table(motion, ("t", *(name for name in ROLLED if name in motion.columns)), say)
+    printed = list(_printed(problem, motion, say))
+    if printed:
+        yield table_of(said["printed"], printed, names=2)
 
 
-def _rows(motion: Motion, names: tuple[str, ...], words: Words) -> list[str]:
+def title(problem: PointProblem) -> Title:
+    """Return the title of a problem, its variant with it."""
+    variant = f" ({problem.variant})" if problem.variant else ""
+    return Title(escape((problem.title or problem.name) + variant))
+
+
+def _table(motion: Motion, names: Sequence[str], say: Notation) -> Table:
     columns = []
     for name in names:
-        unit = words["units"][unit_of(name)] if name != "t" else ""
-        symbol = plain_text(SYMBOLS[name])
         values = [float(value) for value in motion.columns[name]]
-        told = alike(values) if all(v == v for v in values) else [significant(v) for v in values]
-        cells = [spoken(cell, words) for cell in told]
         if name == "t":
-            cells = [written(value, words) for value in values]
-        columns.append([f"{symbol}, {unit}" if unit else symbol, *cells])
-    return columns_text(columns, 1)
+            columns.append(["t", *map(say.given, values)])
+            continue
+        told = alike(values) if all(v == v for v in values) else map(significant, values)
+        columns.append([head_of(name, say), *map(say.number, told)])
+    return table_of_columns(columns, repeated=1)
 
 
-def _printed(problem: PointProblem, motion: Motion, words: Words, lang: str) -> list[str]:
-    """Return printed values beside the exact ones."""
-    rows = []
+def head_of(name: str, say: Notation) -> Rich:
+    """Return the head of a column: symbol and unit."""
+    return f"{LEGEND[name].symbol}, {say.units[LEGEND[name].unit]}"
+
+
+def _printed(problem: PointProblem, motion: Motion, say: Notation) -> Iterator[tuple[Rich, ...]]:
+    """Yield printed values beside the exact ones."""
     for item in problem.published:
         exact = float(motion.columns[item.what][item.position or 0]) if item.what else float("nan")
-        cells = (
-            written(item.value, words),
-            spoken(significant(exact), words),
-            spoken(significant(item.value - exact, 2), words),
+        yield (
+            escape(item.name),
+            LEGEND[item.what].symbol if item.what else "—",
+            say.given(item.value),
+            say.number(significant(exact)),
+            say.number(significant(item.value - exact, 2)),
         )
-        rows.append((item.name, plain_text(SYMBOLS.get(item.what, "—")), *cells))
-    return table(language(lang).point["printed"], rows, left=2) if rows else []
 
 
-SYMBOLS = {
-    **dict(zip(("t", "x", "y", "v", "a", "rho"), ("t", "x", "y", "v", "a", "ρ"), strict=True)),
-    "vx": "v_{x}",
-    "vy": "v_{y}",
-    "ax": "a_{x}",
-    "ay": "a_{y}",
-    "a_tangential": "a_{τ}",
-    "a_normal": "a_{n}",
-    "s": "s",
-    "r": "r",
-    "phi": "φ",
-    "v_r": "v_{r}",
-    "v_phi": "v_{φ}",
-    "a_r": "a_{r}",
-    "a_phi": "a_{φ}",
-    "omega": "ω",
-    "epsilon": "ε",
-    "xC": "x_{C}",
-    "yC": "y_{C}",
-    "xP": "x_{P}",
-    "yP": "y_{P}",
-    "omega_H": "ω_{H}",
-    "epsilon_H": "ε_{H}",
-    "theta": "θ",
+class PointQuantity(Struct, frozen=True):
+    """Quantity of a moving point (величина): its symbol, and its unit of SI."""
+
+    symbol: Rich
+    unit: str
+
+
+LEGEND = {
+    "t": PointQuantity("t", "s"),
+    "x": PointQuantity("x", "m"),
+    "y": PointQuantity("y", "m"),
+    "vx": PointQuantity("v_{x}", "m/s"),
+    "vy": PointQuantity("v_{y}", "m/s"),
+    "v": PointQuantity("v", "m/s"),
+    "ax": PointQuantity("a_{x}", "m/s²"),
+    "ay": PointQuantity("a_{y}", "m/s²"),
+    "a": PointQuantity("a", "m/s²"),
+    "a_tangential": PointQuantity("a_{τ}", "m/s²"),
+    "a_normal": PointQuantity("a_{n}", "m/s²"),
+    "rho": PointQuantity("ρ", "m"),
+    "s": PointQuantity("s", "m"),
+    "r": PointQuantity("r", "m"),
+    "phi": PointQuantity("φ", "rad"),
+    "v_r": PointQuantity("v_{r}", "m/s"),
+    "v_phi": PointQuantity("v_{φ}", "m/s"),
+    "a_r": PointQuantity("a_{r}", "m/s²"),
+    "a_phi": PointQuantity("a_{φ}", "m/s²"),
+    "omega": PointQuantity("ω", "1/s"),
+    "epsilon": PointQuantity("ε", "1/s²"),
+    "xC": PointQuantity("x_{C}", "m"),
+    "yC": PointQuantity("y_{C}", "m"),
+    "xP": PointQuantity("x_{P}", "m"),
+    "yP": PointQuantity("y_{P}", "m"),
+    "omega_H": PointQuantity("ω_{H}", "1/s"),
+    "epsilon_H": PointQuantity("ε_{H}", "1/s²"),
+    "theta": PointQuantity("θ", "rad"),
 }
-"""How columns of the record and formulas of the file are written, rich text."""
-
-
-def unit_of(name: str) -> str:
-    """Return the SI unit of a column."""
-    units = {"t": "s", "phi": "rad", "v": "m/s", "a": "m/s²", "omega": "1/s", "epsilon": "1/s²"}
-    name = name.removesuffix("_H")
-    return units.get(name, units.get(name[0], "m"))
+"""Columns of the record and formulas of the file."""
 
 
 def textbook(text: str, decimal: str) -> str:
@@ -154,25 +168,22 @@ def _end_of_power(tail: str) -> int:
 _POWER = r" *[-+− ]*(?:[0-9.,]+(?:[eE][-+−]?[0-9]+)?|[A-Za-z_π√]+[0-9]*)?"
 
 
-def law_lines(
-    problem: PointProblem, words: Language, written: Callable[[str], str] = str
-) -> list[str]:
-    """Return the law of motion, rich text: its formulas, and along what the point moves.
+def law(
+    problem: PointProblem, words: Language, written: Callable[[str], Rich] = escape
+) -> Iterator[Formula | Item]:
+    """Yield the law of motion: its formulas, and along what the point moves.
 
     ``written`` tells how the text of a formula is written.
     """
     said, say = words.point, words.say
-    lines = []
     for key, formula in problem.formulas.items():
         shown = written(formula.text.replace("**", "^").replace("*", "·"))
-        lines.append(
-            f"{SYMBOLS[key]} = {shown} ({say.units['rad' if key in ('phi', 'theta') else 'm']})"
-        )
+        yield Formula(f"{LEGEND[key].symbol} = {shown} ({say.units[LEGEND[key].unit]})")
     if problem.law is Law.NATURAL:
         path = said.line
         if problem.radius is not None:
             path = said.circle.format(radius=say.given(problem.radius))
-        lines.append(path)
+        yield Item(path)
     if problem.wheel is not None:
         wheel = problem.wheel
         kind = "line" if not wheel.track else "on" if wheel.track > 0 else "within"
@@ -183,12 +194,13 @@ def law_lines(
             "r": say.given(wheel.r),
             "angle": say.given(wheel.angle),
         }
-        lines.append(said.wheel.format(track=track, **numbers))
-    return lines
+        yield Item(said.wheel.format(track=track, **numbers))
 
 
-def moment_lines(problem: PointProblem, motion: Motion, k: int, words: Language) -> list[str]:
-    """Return one moment, rich text: every formula with its numbers, and what does not exist."""
+def moment(
+    problem: PointProblem, motion: Motion, k: int, words: Language
+) -> Iterator[Formula | Note]:
+    """Yield one moment: every formula with its numbers, and what does not exist."""
     value = {name: float(column[k]) + 0.0 for name, column in motion.columns.items()}
     why, say = motion.reasons[k], words.say
 
@@ -196,38 +208,36 @@ def moment_lines(problem: PointProblem, motion: Motion, k: int, words: Language)
         shown = say.short(value[name])
         return f"({shown})" if value[name] < 0 or "^" in shown else shown
 
-    def line(name: str, formula: str = "", numbers: str = "") -> str:
+    def line(name: str, formula: str = "", numbers: str = "") -> Formula:
         between = f"{formula} = {numbers} = " if formula else ""
-        found = with_unit(say.short(value[name]), say.units[unit_of(name)])
-        return f"{SYMBOLS[name]} = {between}{found}"
+        found = with_unit(say.short(value[name]), say.units[LEGEND[name].unit])
+        return Formula(f"{LEGEND[name].symbol} = {between}{found}")
 
     def root(x: str, y: str) -> tuple[str, str]:
-        letters = f"√({SYMBOLS[x]}^{{2}} + {SYMBOLS[y]}^{{2}})"
+        letters = f"√({LEGEND[x].symbol}^{{2}} + {LEGEND[y].symbol}^{{2}})"
         return letters, f"√({put(x)}^{{2}} + {put(y)}^{{2}})"
 
-    lines: list[str] = []
     if why is not Undefined.POSITION:
-        lines += [line("x"), line("y")]
+        yield from (line("x"), line("y"))
     if why not in (Undefined.POSITION, Undefined.VELOCITY):
-        lines += [line("vx"), line("vy"), line("v", *root("vx", "vy"))]
-        lines += _other_velocities(problem, value, line, say)
+        yield from (line("vx"), line("vy"), line("v", *root("vx", "vy")))
+        yield from _other_velocities(problem, value, line, say)
     if why in (None, Undefined.REST, Undefined.STRAIGHT):
-        lines += [line("ax"), line("ay"), line("a", *root("ax", "ay"))]
+        yield from (line("ax"), line("ay"), line("a", *root("ax", "ay")))
     if why in (None, Undefined.STRAIGHT):
         dot = f"({put('vx')}·{put('ax')} + {put('vy')}·{put('ay')})/{put('v')}"
         cross = f"|{put('vx')}·{put('ay')} − {put('vy')}·{put('ax')}|/{put('v')}"
-        lines.append(line("a_tangential", "(v_{x}·a_{x} + v_{y}·a_{y})/v", dot))
-        lines.append(line("a_normal", "|v_{x}·a_{y} − v_{y}·a_{x}|/v", cross))
+        yield line("a_tangential", "(v_{x}·a_{x} + v_{y}·a_{y})/v", dot)
+        yield line("a_normal", "|v_{x}·a_{y} − v_{y}·a_{x}|/v", cross)
     if why is None:
-        lines.append(line("rho", "v^{2}/a_{n}", f"{put('v')}^{{2}}/{put('a_normal')}"))
+        yield line("rho", "v^{2}/a_{n}", f"{put('v')}^{{2}}/{put('a_normal')}")
     else:
-        lines.append(words.point["reasons"][why.value])
-    return lines
+        yield Note(words.point["reasons"][why.value])
 
 
 def _other_velocities(
-    problem: PointProblem, value: dict[str, float], line: Callable[..., str], say: Notation
-) -> list[str]:
+    problem: PointProblem, value: dict[str, float], line: Callable[..., Formula], say: Notation
+) -> list[Formula]:
     """Return what a polar motion, or a rolling wheel, has besides."""
     if problem.law is Law.POLAR:
         return [line("v_r"), line("v_phi")]
@@ -236,7 +246,7 @@ def _other_velocities(
         omega, arm = say.short(abs(value["omega"])), say.short(reach)
         return [
             line("omega"),
-            f"PM = {with_unit(arm, say.units['m'])}",
+            Formula(f"PM = {with_unit(arm, say.units['m'])}"),
             line("v", "|ω|·PM", f"{omega}·{arm}"),
         ]
     return []

@@ -50,9 +50,13 @@ class Paragraph(Struct, frozen=True):
 
 
 class Item(Struct, frozen=True):
-    """One of several short statements that follow one another, a line each (пункт)."""
+    """One of several short statements that follow one another, a line each (пункт).
+
+    ``label``: what stands before it in a column of its own, as its share of the whole.
+    """
 
     text: Rich
+    label: Rich = ""
 
 
 class Step(Struct, frozen=True):
@@ -92,11 +96,13 @@ class Term(Struct, frozen=True):
 class Equation(Struct, frozen=True):
     """A vector equation (векторное уравнение): sums of terms on both sides of the sign ``=``.
 
-    ``right`` is empty where the sum of the left side is nothing.
+    ``right`` is empty where the sum of the left side is nothing; ``name`` is what such a sum is
+    called, for writers that put it before the sum.
     """
 
     left: tuple[Term, ...]
     right: tuple[Term, ...] = ()
+    name: Rich = ""
 
 
 class Equations(Struct, frozen=True):
@@ -136,6 +142,10 @@ class Table(Struct, frozen=True):
     def numbers(self) -> frozenset[int]:
         """Columns that are set to the right."""
         return frozenset((*range(self.names, len(self.head)), *self.right))
+
+    def columns(self) -> Iterator[tuple[Rich, tuple[Rich, ...]]]:
+        """Yield the head and the cells of each column."""
+        yield from zip(self.head, zip(*self.rows, strict=True), strict=True)
 
 
 class View(Protocol):
@@ -205,6 +215,20 @@ def table_of_columns(columns: Iterable[Sequence[Rich]], *, repeated: int) -> Tab
     """Return a table of columns, the head of each first; it may be cut between them."""
     head, *rows = zip(*columns, strict=True)
     return Table(head, tuple(rows), 0, repeated)
+
+
+def table_of_quantities(
+    columns: Iterable[tuple[Rich, Rich, Sequence[Rich]]], *, repeated: int
+) -> Table:
+    """Return a table of columns of head, unit and cells: the unit stands in the head."""
+    headed = ((f"{head}, {unit}" if unit else head, *cells) for head, unit, cells in columns)
+    return table_of_columns(headed, repeated=repeated)
+
+
+def step_of(lines: Sequence[Rich], *, continues: bool = False) -> Iterator[Step]:
+    """Yield a step of lines; none where there is no line."""
+    if lines:
+        yield Step(tuple(lines), continues)
 
 
 def steps_of(sentences: Iterable[Rich]) -> Iterator[Step]:

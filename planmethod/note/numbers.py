@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import SupportsFloat
 
 from msgspec import Struct
@@ -129,6 +129,14 @@ class Notation(Struct, frozen=True, eq=False):
         coarse = f"{value:.1f}"
         is_coarse = abs(float(coarse) - value) <= 1e-6 * abs(value)
         return self.number(coarse) if is_coarse else self.short(value)
+
+
+def in_heads(
+    columns: Iterable[tuple[str, str, Sequence[str]]], say: Notation
+) -> Iterator[tuple[str, str, Sequence[str]]]:
+    """Yield columns of head, unit of SI or none, and cells, their units as heads of tables have."""
+    for head, unit, cells in columns:
+        yield head, say.in_head(unit) if unit else "", cells
 
 
 def with_unit(number: str, unit: str) -> str:

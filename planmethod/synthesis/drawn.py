@@ -60,7 +60,7 @@ class Drawn(Struct, frozen=True, dict=True):
         others = [
             str(step.out)
             for step in made.board.steps
-            if makes(step) is PointName and not str(step.out).startswith("mark ")
+            if makes(step) is PointName and step.out not in made.board.marks
         ]
         near = [p for p in others if p in own or abs(place(exact, p) - middle) <= FAR * size]
         return tuple(near)

@@ -34,12 +34,18 @@ class Board(Builder):
         Given points (m) and numbers (m, degrees) by their names; without the scale.
     said : dict
         What is told instead of a step's own sentence; None of what another sentence tells.
+    marks : set of PointName
+        Auxiliary points, which have no letter.
+    sizes : dict
+        Names of the lengths of the mechanism that are computed.
     circles : list of tuple of PointName
         Centres of circles that are shown, and points on each: of several the arc over them.
     """
 
     data: dict[str, complex | float] = field(default_factory=dict)
     said: dict[Name, Said | None] = field(default_factory=dict)
+    marks: set[PointName] = field(default_factory=set)
+    sizes: dict[NumberName, str] = field(default_factory=dict)
     circles: list[tuple[PointName, ...]] = field(default_factory=list)
 
     def fixed(self, name: str, place: complex) -> PointName:
@@ -74,7 +80,10 @@ class Board(Builder):
     ) -> NumberName:
         """Compute a length of the mechanism from what was read: the sum of it times a factor, m."""
         whole = read[0] if len(read) == 1 else self.total(f"sum {name}", *read)
-        return self.compute(f"l {name}", (whole, 1), (self._scale(), 1), factor=factor, size=size)
+        powers = ((whole, 1), (self._scale(), 1))
+        length = self.compute(f"l {name}", *powers, factor=factor, size=size)
+        self.sizes[length] = name
+        return length
 
     def half_sum(self, one: NumberName, other: NumberName, names: tuple[str, str]) -> NumberName:
         """Compute half the sum and half the difference of two readings; return the latter, mm.
@@ -95,6 +104,7 @@ class Board(Builder):
             self.meet_circles(f"mark {tail} {head} {side.value}", tail, span, head, span, side)
             for side in (Side.RIGHT, Side.LEFT)
         ]
+        self.marks |= {*marks}
         line = self.join(*marks)
         self.said |= dict.fromkeys((span, *marks))
         self.said[line] = ("bisector", {"tail": tail, "head": head})
@@ -132,6 +142,7 @@ class Board(Builder):
     ) -> PointName:
         """Find where a line through a point of a circle meets it again: nothing is read for it."""
         foot = self.meet_lines(f"mark {out}", line, self.perpendicular(centre, line))
+        self.marks.add(foot)
         self.said[foot] = None
         return self.carry(out, foot, point, foot)
 

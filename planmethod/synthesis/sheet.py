@@ -14,6 +14,7 @@ from planmethod.construct.scale import Scale
 from planmethod.construct.steps import LineName, MeetCircles, MeetLineCircle, PointName
 from planmethod.errors import LayoutError
 from planmethod.languages import LANGUAGES, say
+from planmethod.note.narrate.given import NBSP
 from planmethod.note.narrate.scales import scale_inscription
 from planmethod.note.wording import Language, language
 from planmethod.problem.model import Convention, Problem
@@ -46,10 +47,15 @@ from planmethod.render.sheets.composer import (
     compose,
     packed,
 )
-from planmethod.render.sheets.texts import NBSP
 from planmethod.synthesis.drawn import Drawn, arc_over
 from planmethod.synthesis.model import place
-from planmethod.synthesis.text import Teller, check_rows, given_facts, point_name, size_rows
+from planmethod.synthesis.text import (
+    SynthesisNarrator,
+    check_rows,
+    given_facts,
+    point_name,
+    size_rows,
+)
 
 SIZES = Sizes(5.0, 5.0, 3.5, 175.0, row=6.5)
 """Sizes of letters, and of the texts over the title block."""
@@ -167,7 +173,7 @@ def _texts(
     if told:
         steps = [
             paragraph(f"{k}) {_kept(sentence)}", told, SIZES.column)
-            for k, sentence in enumerate(Teller(drawn, words).sentences(), 1)
+            for k, sentence in enumerate(SynthesisNarrator(drawn, words).sentences(), 1)
         ]
         first.append(Column([heading(said.steps_title, SIZES.text), *steps], gap=0.6 * told))
     blocks: list[Block] = [Column(first, gap=6.0)]

@@ -11,6 +11,7 @@ import pytest
 from cases import some
 from msgspec.structs import replace
 from planted import checked, exact, explanations, task_of, verdicts, work_of
+from texts import compared_text, key_text
 from worked import SIX, problem_of
 
 from planmethod.check.checking import check
@@ -20,8 +21,6 @@ from planmethod.check.marks import Settings
 from planmethod.check.mistakes.model import Scene
 from planmethod.check.mistakes.scales import scale_by
 from planmethod.check.model import Sense, Verdict, Work, Written
-from planmethod.check.pages.compared import compared_text
-from planmethod.check.pages.keypage import key_text
 from planmethod.check.task import Task
 from planmethod.errors import ProblemError
 from planmethod.note.plaintext import NO_BREAK

@@ -15,6 +15,7 @@ from typing import Any
 import numpy as np
 import pytest
 from click.testing import CliRunner, Result
+from texts import result_tables
 from worked import ROOT, path_of, problem_of
 
 from planmethod.bench import forces, report, speed
@@ -22,7 +23,6 @@ from planmethod.bench.speed import Timing
 from planmethod.cli import cli
 from planmethod.construct.drafting import PROFILES
 from planmethod.construct.steps import PointName
-from planmethod.note.tables.results import result_tables
 from planmethod.problem import load, loads
 from planmethod.solved.errors.forces import drawn_forces
 from planmethod.solved.errors.motion import drafting_of

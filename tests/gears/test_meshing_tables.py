@@ -12,9 +12,11 @@ from worked import PROBLEMS
 
 from planmethod.gears.involute.quantities import Solved, Unit
 from planmethod.gears.involute.reader import load
-from planmethod.gears.involute.text import solved_text
+from planmethod.gears.involute.text import solved_document
+from planmethod.note.document import Document
 from planmethod.note.plaintext import plain_text
 from planmethod.note.wording import LANGUAGES, language
+from planmethod.note.writers.plain import plain_document
 
 BODIES = {
     "shifted": "z = [12, 30]\nm = 5\nx = [0.59, 0.53]",
@@ -79,7 +81,8 @@ def test_limits_are_told_by_inequalities_that_are_true(name: str, tmp_path: Path
 def test_wheel_1_stands_before_wheel_2(tmp_path: Path) -> None:
     solved = solved_of("cut", tmp_path)
     assert any(not holds for _, holds, _ in solved.sentences(language("en")))
-    text = solved_text(solved.problem, "en")
+    words = language("en")
+    text = plain_document(Document.of(solved_document(solved.problem, words)), words)
     rows = dict(re.findall(r"\n([a-z ,]+?)  +z? *(?:d_a )? *(\S+ +\S+)(?=\n)", text))
     assert rows["number of teeth"].split() == ["9", "14"]
     one, two = map(float, rows["tip diameter, mm"].split())

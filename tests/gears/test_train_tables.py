@@ -23,7 +23,7 @@ from planmethod.gears.answers import answer
 from planmethod.gears.construction import construct, read
 from planmethod.gears.drawn.pictures import ARROW_INSIDE, front
 from planmethod.gears.motion import Motion, solve_motion
-from planmethod.gears.picture import draw
+from planmethod.gears.picture import ContactKind, draw
 from planmethod.gears.reader import load
 from planmethod.gears.scheme import Scheme
 from planmethod.gears.sheet import drawings
@@ -154,9 +154,9 @@ def test_the_table_of_segments_has_heights_before_segments(name: str) -> None:
         height, exact = map(number, row.cells[:2])
         if ratio is None:
             assert exact == 0.0
-        elif spot.contact.startswith("pitch"):
+        elif spot.contact.kind is ContactKind.PITCH:
             # From the wheels alone: a pitch point is a radius away from the axis of its first one.
-            first = spot.contact.split()[1].split("-")[0]
+            first = spot.contact.of.split("-")[0]
             sizes, heights = motion.axes.sizes, motion.axes.heights
             mm = float(motion.train.unit_m * 1000) * 0.001 / float(problem_mu(drawing))
             centre = float(heights[motion.train.body_of[first]])

@@ -16,11 +16,12 @@ from planmethod.cli import cli
 from planmethod.construct.drafting import PROFILES
 from planmethod.moving.construction import construct
 from planmethod.moving.course import course_of
-from planmethod.moving.motion import COLUMNS, POLAR, ROLLED, move
+from planmethod.moving.model import PointProblem
+from planmethod.moving.motion import COLUMNS, POLAR, ROLLED, Motion, move
 from planmethod.moving.pictures import hodograph_picture, trajectory_picture
 from planmethod.moving.reader import loads
 from planmethod.moving.sheet import drawings, sheet_scales
-from planmethod.moving.text import moment_lines, unit_of
+from planmethod.moving.text import LEGEND, moment
 from planmethod.note.wording import LANGUAGES, language
 from planmethod.render.ink.drawing import Arc, Disc, Drawing, Fill, Pen, Stroke, Text, View
 from planmethod.render.pictures.planview import POLE
@@ -57,6 +58,10 @@ def value_of(formula: str, names: dict[str, float] | None = None) -> float:
     return float(eval(text))
 
 
+def moment_texts(problem: PointProblem, motion: Motion) -> list[str]:
+    return [node.text for node in moment(problem, motion, 0, language("en"))]
+
+
 @each("name", LAWS)
 def test_formulas_of_a_moment_give_their_results_in_letters_and_in_numbers(name: str) -> None:
     problem = of(LAWS[name])
@@ -66,7 +71,7 @@ def test_formulas_of_a_moment_give_their_results_in_letters_and_in_numbers(name:
     letters |= {"a": value["a"], "a_{x}": value["ax"], "a_{y}": value["ay"]}
     letters |= {"a_{n}": value["a_normal"]}
     seen = set()
-    for line in moment_lines(problem, motion, 0, language("en")):
+    for line in moment_texts(problem, motion):
         symbol, *middle, last = line.split(" = ")
         shown = value_of(last.split(" ")[0])
         if len(middle) == 2:
@@ -85,7 +90,7 @@ def test_the_components_are_those_that_differences_give() -> None:
     vx, vy = (x[2] - x[0]) / (2 * h), (y[2] - y[0]) / (2 * h)
     ax, ay = (x[2] - 2 * x[1] + x[0]) / h**2, (y[2] - 2 * y[1] + y[0]) / h**2
     told = {}
-    for line in moment_lines(problem, move(problem), 0, language("en")):
+    for line in moment_texts(problem, move(problem)):
         told[line.split(" = ")[0]] = value_of(line.split(" = ")[-1].split(" ")[0])
     due = {"v_{x}": vx, "v_{y}": vy, "a_{x}": ax, "a_{y}": ay}
     due |= {"v": np.hypot(vx, vy), "a_{τ}": (vx * ax + vy * ay) / np.hypot(vx, vy)}
@@ -114,7 +119,7 @@ def test_every_column_has_the_unit_that_it_scales_by(name: str, long: str, quick
     names = [column for column in (*COLUMNS, *POLAR, *ROLLED) if column in base]
     assert {"v", "a_normal", "rho"} <= set(names)
     for column in names:
-        metre, second = POWERS[unit_of(column)]
+        metre, second = POWERS[LEGEND[column].unit]
         value = float(base[column][0])
         assert float(wide[column][0]) == pytest.approx(value * 2.0**metre, rel=1e-9), column
         assert float(fast[column][0]) == pytest.approx(value * 0.5**second, rel=1e-9), column
@@ -146,7 +151,7 @@ def test_a_table_of_moments_has_each_number_under_its_head(tmp_path: Path) -> No
                 key = own.get(symbol, symbol).partition(",")[0]
                 exact = float(motion.columns[key][k])
                 assert number(cell) == pytest.approx(exact, rel=5e-3, abs=2e-3), (head, row)
-                assert not unit or unit.replace("s⁻¹", "1/s") == unit_of(key), head
+                assert not unit or unit.replace("s⁻¹", "1/s") == LEGEND[key].unit, head
                 seen.add(symbol)
     assert {"v_x", "a_τ", "ρ", "v_φ", "a_r"} <= seen
 

@@ -8,6 +8,7 @@ import pytest
 from cases import each, some
 from lettered import computed, force_lines
 from loaded import loaded_problem
+from texts import protocol
 from told import LANGUAGES, drawn, worked
 from worked import PROBLEMS, SIX, every_file
 
@@ -15,7 +16,6 @@ from planmethod.construct.steps import Compute
 from planmethod.note.narrate.naming import Names
 from planmethod.note.narrate.steps import calculation
 from planmethod.note.plaintext import plain_text
-from planmethod.note.protocol import protocol
 from planmethod.note.wording import language
 from planmethod.plans.model import PlanKind
 from planmethod.solved.forces.reading import ForceReading

@@ -6,10 +6,10 @@ from pathlib import Path
 
 import pytest
 from click.testing import CliRunner
+from texts import protocol
 
 from planmethod.cli import cli
 from planmethod.note.audit.audit import audit
-from planmethod.note.protocol import protocol
 from planmethod.problem import loads, template
 from planmethod.problem.model import Problem
 from planmethod.render.ink.drawing import Drawing, Text

@@ -10,13 +10,13 @@ from cases import each, some
 from lettered import closing_lines, lever_lines, moment_lines
 from loaded import loaded_problem
 from msgspec.structs import replace
+from texts import protocol
 from told import LANGUAGES, assert_readable, flat, told, worked
 from worked import path_of
 
 from benchmarks.hard_problems import rocker
 from planmethod.errors import AssemblyError
 from planmethod.note.plaintext import plain_text
-from planmethod.note.protocol import protocol
 from planmethod.note.wording import language
 from planmethod.plans.forces.polygons import reaction_symbol
 from planmethod.problem import loads

@@ -5,12 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 import pytest
+from texts import referee_tables, result_tables
 from worked import path_of
 
 from planmethod.note.records.solution import record
 from planmethod.note.records.spreadsheet import csv_columns
-from planmethod.note.tables.referee import referee_tables
-from planmethod.note.tables.results import result_tables
 from planmethod.note.wording import language
 from planmethod.plans import build
 from planmethod.plans.draft import Draft

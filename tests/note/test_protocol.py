@@ -5,13 +5,13 @@ from typing import get_args
 
 import pytest
 from cases import each, some
+from texts import protocol
 from told import LANGUAGES, assert_readable, drawn, flat, told, worked
 from worked import SIX, path_of
 
 from planmethod.construct.steps import Carry, MeasureArm, PointName, Step, Total, makes
 from planmethod.note.narrate.naming import Names
-from planmethod.note.protocol import protocol
-from planmethod.note.wording import UnknownLanguageError, wording
+from planmethod.note.wording import wording
 from planmethod.plans.model import PlanKind
 from planmethod.problem import loads
 from planmethod.solved.solution import Solution
@@ -196,8 +196,3 @@ def test_a_point_at_a_joint_coincides_with_it() -> None:
     text = text.replace('S2 = { on = "AB", at = 0.5 }', 'S2 = { on = "AB", at = 1 }')
     problem = loads(text, name="at-b")
     assert protocol(Solution(problem)).count("точка s₂ совпадает с точкой b.") == 2
-
-
-def test_an_unknown_language_is_refused() -> None:
-    with pytest.raises(UnknownLanguageError):
-        protocol(worked("linkages/ex1"), lang="la")

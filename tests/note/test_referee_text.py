@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import pytest
+from texts import referee_tables
 from worked import problem_of
 
-from planmethod.note.tables.referee import judged, referee_record, referee_tables
+from planmethod.note.tables.referee import judged, referee_record
 from planmethod.solved.solution import Solution
 from planmethod.solved.trust.accuracy import examine
 

@@ -7,14 +7,14 @@ import math
 import numpy as np
 import pytest
 from cases import each, some
+from texts import result_tables
 from told import LANGUAGES, assert_readable, drawn, worked
 from worked import SIX, problem_of
 
 from planmethod.note.numbers import trimmed
-from planmethod.note.plaintext import WIDTH, columns_text, pad, plain_text, table, width
+from planmethod.note.plaintext import plain_text
 from planmethod.note.records.spreadsheet import csv_rows
-from planmethod.note.tables.results import result_tables
-from planmethod.note.wording import UnknownLanguageError
+from planmethod.note.writers.plain import WIDTH, columns_text, pad, table, width
 from planmethod.solved.solution import Solution
 
 
@@ -64,11 +64,6 @@ def test_many_positions_are_rows(lang: str) -> None:
 def test_few_positions_have_tables_of_their_own() -> None:
     text = result_tables(many(3), "ru")
     assert [f"Положение {k} (всего 3)" in text for k in (0, 1, 2)] == [True] * 3
-
-
-def test_unknown_language() -> None:
-    with pytest.raises(UnknownLanguageError):
-        result_tables(worked("linkages/ex1"), "xx")
 
 
 def test_csv_round_trips_to_the_last_bit() -> None:

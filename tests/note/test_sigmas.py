@@ -8,15 +8,16 @@ from functools import cache
 import numpy as np
 import pytest
 from cases import each, some
+from texts import result_tables
 from told import LANGUAGES, assert_readable, drawn, flat, worked
 from worked import SIX, problem_of
 
 from planmethod.construct.drafting import PROFILES
 from planmethod.note.narrate.given import asked_links, asked_points
 from planmethod.note.narrate.naming import Names
+from planmethod.note.plaintext import plain_text
 from planmethod.note.rounding import rounded_to, sigma_text
 from planmethod.note.tables.causes import Causes
-from planmethod.note.tables.results import result_tables
 from planmethod.note.wording import wording
 from planmethod.plans.model import MOTION, PlanKind
 from planmethod.solved.errors.motion import Drafting, drafting_of
@@ -295,26 +296,29 @@ def test_every_stroke_can_be_told(name: str | int, lang: str) -> None:
     }
     assert strokes
     for stroke in strokes:
-        said = causes.tell(stroke)
+        said = plain_text(causes.tell(stroke))
         assert_readable(said)
         assert said.endswith(")"), said  # which plan it is on
 
 
-def test_causes_are_told_in_plain_words() -> None:
+def test_causes_are_named_by_what_is_drawn() -> None:
     solution = worked("linkages/ex3")
     causes, velocity = (
         Causes(Names(solution, wording("ru"))),
         solution.construction.kinematics.velocity,
     )
-    assert causes.tell("A") == "нанесение точки A (план положений)"
-    assert causes.tell("line1") == "откладывание угла φ₁ (план положений)"
-    assert causes.tell("B") == "откладывание отрезка от точки A до точки B (план положений)"
-    assert causes.tell("v:B3") == "отметка точки b₃ в пересечении прямых (план скоростей)"
     read = velocity.segments.drawn((velocity.pole, velocity.point["3", "B"]))
-    assert causes.tell(read) == "снятие отрезка pb₃ (план скоростей)"
-    assert causes.tell("a:D") == "построение точки d по подобию (план ускорений)"
+    for stroke, named in {
+        "A": "нанесение точки A (план положений)",
+        "line1": "откладывание угла φ₁ (план положений)",
+        "B": "откладывание отрезка от точки A до точки B (план положений)",
+        "v:B3": "отметка точки b₃ в пересечении прямых (план скоростей)",
+        read: "снятие отрезка pb₃ (план скоростей)",
+        "a:D": "построение точки d по подобию (план ускорений)",
+    }.items():
+        assert plain_text(causes.tell(stroke)) == named
     english = Causes(Names(worked("linkages/ex2"), wording("en")))
-    assert english.tell("B") == "fixing point B with an arc (position plan)"
+    assert plain_text(english.tell("B")) == "fixing point B with an arc (position plan)"
 
 
 def test_without_a_believed_result_there_are_no_causes() -> None:
@@ -324,5 +328,5 @@ def test_without_a_believed_result_there_are_no_causes() -> None:
         label: type(spread)(spread.sigma, np.ones_like(spread.drawn))
         for label, spread in drafting_of(solution).spreads.items()
     }
-    assert Causes(Names(solution, wording("ru"))).lines(0) == []
+    assert tuple(Causes(Names(solution, wording("ru"))).nodes(0)) == ()
     assert wording("ru").table_causes not in result_tables(solution, sigma=True)

@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 from cases import each
 from msgspec.structs import replace
+from texts import result_tables
 from worked import problem_of
 
-from planmethod.note.tables.results import result_tables
 from planmethod.note.tables.turn import cycle_columns
 from planmethod.note.wording import language
 from planmethod.problem.model import CycleTask

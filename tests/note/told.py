@@ -5,11 +5,11 @@ from __future__ import annotations
 import re
 from functools import cache
 
+from texts import protocol
 from worked import problem_of
 
 from benchmarks.generator import random_problem
-from planmethod.note.plaintext import WIDTH, width
-from planmethod.note.protocol import protocol
+from planmethod.note.writers.plain import WIDTH, width
 from planmethod.problem import loads
 from planmethod.solved.solution import Solution
 

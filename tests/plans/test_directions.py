@@ -6,6 +6,7 @@ import cmath
 import math
 import re
 from collections.abc import Iterator
+from functools import partial
 
 import pytest
 from cases import each, some, thinned
@@ -13,10 +14,11 @@ from worked import SIX, every_task, problem_of
 
 from benchmarks.generator import random_problem
 from planmethod.mechanism.model import FRAME
-from planmethod.note.narrate.equations import direction_note, equation_lines
+from planmethod.note.narrate.equations import direction_note, equation_of
 from planmethod.note.narrate.letters import direction_text
 from planmethod.note.narrate.naming import Names
 from planmethod.note.wording import wording
+from planmethod.note.writers.plain import equation_lines
 from planmethod.plans.model import RATES, Direction, Relation, Vector, VectorKind
 from planmethod.problem import load, loads
 from planmethod.problem.model import Problem
@@ -207,7 +209,9 @@ def test_a_direction_stands_under_its_own_term() -> None:
     names = Names(solution, wording("en"))
     for kind in RATES:
         for equation in solution.construction.plan(kind).equations:
-            symbols, _, *notes = equation_lines(equation, names)
+            symbols, _, *notes = equation_lines(
+                equation_of(equation, partial(direction_note, names))
+            )
             for term in (equation.left, *equation.right):
                 note = direction_note(names, term.direction)
                 if not note:

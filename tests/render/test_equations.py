@@ -8,6 +8,8 @@ from hypothesis import strategies as st
 from reading import texts
 
 from planmethod.construct.steps import PointName
+from planmethod.note.narrate.equations import equation_of
+from planmethod.note.narrate.letters import direction_text
 from planmethod.plans.model import (
     Direction,
     Known,
@@ -23,7 +25,14 @@ from planmethod.render.ink.drawing import Item, Stroke, Text
 from planmethod.render.ink.lettering import in_use
 from planmethod.render.ink.typeset import PART_OF, typeset
 from planmethod.render.layout.block import Lines
-from planmethod.render.layout.equations import EquationBlock, equation_block, formula_block
+from planmethod.render.layout.equations import EquationBlock, formula_block
+from planmethod.render.layout.equations import equation_block as made
+
+
+def equation_block(
+    equation: VectorEquation, height: float = 5.0, *, width: float | None = None
+) -> EquationBlock:
+    return made(equation_of(equation, direction_text), height, width=width)
 
 
 def vector(symbol: str, known: Known = Known.ONE, direction: Direction | None = None) -> Vector:

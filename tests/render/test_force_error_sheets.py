@@ -14,12 +14,12 @@ from loaded import loaded_problem
 from test_ellipses import middle, spread
 from test_error_sheets import number, rounded
 from test_forces_sheet import loaded_template, shown, views
+from texts import result_tables
 from worked import drawn_sheets, path_of, problem_of
 
 from planmethod import loads
 from planmethod.construct.drafting import PROFILES
 from planmethod.note.records.solution import record
-from planmethod.note.tables.results import result_tables
 from planmethod.note.wording import language, wording
 from planmethod.render.control.remarks import Severity
 from planmethod.render.control.sheet import inspect

@@ -19,12 +19,12 @@ from worked import drawn_sheets, path_of, problem_of
 from planmethod import loads
 from planmethod.cli import cli
 from planmethod.errors import ExitCode, ProblemError
+from planmethod.note.document import Equation, Term
 from planmethod.note.narrate.forces.lever import both_balances, difference
 from planmethod.note.narrate.forces.statement import statement, wanted
 from planmethod.note.numbers import alike, significant
 from planmethod.note.wording import language
 from planmethod.plans.forces.polygons import reaction_symbol
-from planmethod.plans.model import Known
 from planmethod.problem.model import FORCE, MOMENT, Problem
 from planmethod.render.control.remarks import Severity
 from planmethod.render.control.sheet import inspect
@@ -32,7 +32,7 @@ from planmethod.render.forces.arms import ARM, Arm, arm_items
 from planmethod.render.forces.arrows import Acting, distance, lay_forces
 from planmethod.render.forces.polygon import drawn_edges
 from planmethod.render.ink.drawing import Bounds, Drawing, Fill, Item, Stroke, Text, View
-from planmethod.render.layout.equations import balance_block
+from planmethod.render.layout.equations import equation_block
 from planmethod.render.sheets.composition.reader import composition
 from planmethod.render.sheets.kinematics import kinematics_sheets
 from planmethod.solved.forces.lever import LeverReading
@@ -274,21 +274,18 @@ def test_arrows_at_one_point_do_not_lie_on_one_another() -> None:
 
 
 def test_underlines_tell_what_is_known() -> None:
-    terms = [
-        ("F_{21}", Known.BOTH, ""),
-        ("F^{n}_{30}", Known.ONE, "∥ DC"),
-        ("F_{23}", Known.NOTHING, ""),
-    ]
-    items = balance_block("Σ_{2}\\bar{F}", terms).place(0j)
+    terms = (Term("F_{21}", 2), Term("F^{n}_{30}", 1, "∥ DC"), Term("F_{23}"))
+    balance = Equation(terms, name="Σ_{2}\\bar{F}")
+    items = equation_block(balance).place(0j)
     lines = [i for i in items if isinstance(i, Stroke) and not i.tag.startswith("part-of:")]
     assert len(lines) == 3
     texts = [i.text for i in items if isinstance(i, Text)]
     assert texts.count("=") == 2
     assert texts.count("+") == 2
     assert "0" in texts
-    narrow = balance_block("Σ_{2}\\bar{F}", terms, width=40.0)
+    narrow = equation_block(balance, width=40.0)
     assert narrow.width <= 40.0
-    assert narrow.height > balance_block("Σ_{2}\\bar{F}", terms).height
+    assert narrow.height > equation_block(balance).height
 
 
 def test_the_moments_of_the_textbook() -> None:

@@ -13,6 +13,8 @@ from cases import thinned
 from planmethod.errors import LayoutError
 from planmethod.mechanism.model import Mechanism, Prismatic, Revolute
 from planmethod.mechanism.structure import Structure, analyse
+from planmethod.note.narrate.letters import pair_letters
+from planmethod.note.narrate.structure import group_caption, mobility_formulas
 from planmethod.note.wording import language
 from planmethod.problem import load
 from planmethod.problem.model import Drive, Problem
@@ -23,14 +25,12 @@ from planmethod.render.pictures.chains import (
     Far,
     driver_chain,
     group_chain,
-    letters,
     mechanism_chain,
     textbook_places,
 )
 from planmethod.render.pictures.embedding import Bar, Net, embed
 from planmethod.render.pictures.structural import driver_picture, group_picture, mechanism_picture
 from planmethod.render.sheets.structure import structure_sheet
-from planmethod.render.sheets.structure_texts import formulas, group_caption
 
 RU = language("ru")
 
@@ -268,7 +268,7 @@ def test_texts_of_ex3() -> None:
 
 def test_formulas_of_ex3() -> None:
     problem, structure = _case("ex3")
-    lines = formulas(problem.mechanism, structure, RU)
+    lines = list(mobility_formulas(problem.mechanism, structure, RU))
     assert lines[1] == "По Чебышеву: W = 3n − 2p_{н} − p_{в} = 3·5 − 2·7 − 0 = 1"
     assert lines[2] == "Пространственная схема: W_{пр} = 6n − 5p_{1} = 6·5 − 5·7 = −5"
     assert lines[3] == "Избыточные связи: q = W_{0} + W_{м} − W_{пр} = 1 + 0 − (−5) = 6"
@@ -288,7 +288,7 @@ def test_scheme_names_every_joint_and_link(name: str) -> None:
     picture = mechanism_picture(problem.mechanism, structure, width=200, height=120)
     told = _writings([item for item in picture.items if isinstance(item, Text)])
     for joint in problem.mechanism.revolutes:
-        assert letters(joint.point).replace("_{", "").replace("}", "") in told
+        assert pair_letters(joint.point).replace("_{", "").replace("}", "") in told
     for link in problem.mechanism.links:
         assert told.count(link) == 1
     frame_joints = [j for j in problem.mechanism.revolutes if "0" in j.links]
@@ -375,9 +375,9 @@ def test_sense_of_the_driver() -> None:
 
 
 def test_letters_of_points_with_numbers() -> None:
-    assert letters("O1") == "O_{1}"
-    assert letters("B") == "B"
-    assert letters("O1(0,3)") == "O_{1}(0,3)"
+    assert pair_letters("O1") == "O_{1}"
+    assert pair_letters("B") == "B"
+    assert pair_letters("O1(0,3)") == "O_{1}(0,3)"
 
 
 def test_embedding_of_one_node() -> None:

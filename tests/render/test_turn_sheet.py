@@ -8,12 +8,12 @@ import numpy as np
 import pytest
 from cases import some
 from msgspec.structs import replace
+from texts import cycle_protocol
 from worked import SIX, problem_of
 
 from planmethod.construct.drafting import PROFILES, Sampled
 from planmethod.construct.evaluate import evaluate
 from planmethod.note.records.solution import cycle_record
-from planmethod.note.tables.turn import cycle_protocol
 from planmethod.note.wording import language
 from planmethod.paper import FORMATS
 from planmethod.problem.model import CycleTask, Differentiation, PoleDistances
@@ -91,7 +91,7 @@ def test_the_protocol_tells_poles_and_scales_in_both_languages() -> None:
         ("ru", ("Из полюса P_v (K₁ = 36 мм)", "хорды")),
         ("en", ("From the pole", "from O₃ tangents to the circle of the radius l_O1A")),
     ):
-        text = "\n".join(cycle_protocol(solution, language(lang)))
+        text = cycle_protocol(solution, lang)
         assert all(word in text for word in words), text
         assert "0.631" in text or "0,631" in text  # the greatest deviation of v by chords
 

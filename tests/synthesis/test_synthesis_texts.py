@@ -14,15 +14,23 @@ from test_synthesis import ASKED, made
 
 from planmethod.construct import steps
 from planmethod.construct.drafting import PROFILES
+from planmethod.note.document import Document
 from planmethod.note.plaintext import plain_text
 from planmethod.note.wording import LANGUAGES, language
+from planmethod.note.writers.plain import plain_document
 from planmethod.render.ink.drawing import Drawing, Stroke
 from planmethod.render.symbols.hatching import GROUND
 from planmethod.synthesis.drawn import Drawn
 from planmethod.synthesis.measured import checks
 from planmethod.synthesis.model import Synthesis, place
 from planmethod.synthesis.sheet import synthesis_sheet
-from planmethod.synthesis.text import Teller, check_rows, point_name, size_rows, synthesis_text
+from planmethod.synthesis.text import (
+    SynthesisNarrator,
+    check_rows,
+    point_name,
+    size_rows,
+    synthesis_document,
+)
 
 BOARD = PROFILES["board"]
 
@@ -42,9 +50,9 @@ def sentences(name: str) -> Iterator[tuple[str, dict[str, complex]]]:
     at = {
         plain_text(point_name(step.out)): place(drawn.paper, step.out)
         for step in drawn.synthesis.board.steps
-        if steps.makes(step) is steps.PointName and not step.out.startswith("mark ")
+        if steps.makes(step) is steps.PointName and step.out not in drawn.synthesis.board.marks
     }
-    for sentence in Teller(drawn, language("en")).sentences():
+    for sentence in SynthesisNarrator(drawn, language("en")).sentences():
         yield plain_text(sentence), at
 
 
@@ -217,7 +225,9 @@ def test_pressure_and_transmission_angle_are_complements_and_swings_are_degrees(
 def test_the_text_prints_the_table_under_its_heads() -> None:
     found, problem = made(*ASKED["shaper"])
     asked = {**checks(found, problem), **found.facts}
-    text = synthesis_text(drawn_of("shaper"), ASKED["shaper"][1], asked, language("en"))
+    words = language("en")
+    nodes = synthesis_document(drawn_of("shaper"), ASKED["shaper"][1], asked, words)
+    text = plain_document(Document.of(nodes), words)
     assert re.search(r"\nsize +exact, m +read, m +σ, m\n", text)
     row = re.search(r"\nl_O1A +(\S+) +(\S+) +(\S+)\n", text)
     assert row is not None

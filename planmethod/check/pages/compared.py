@@ -10,14 +10,13 @@ from planmethod.languages import say
 from planmethod.note.document import Caption, Document, Node, Paragraph, table_of
 from planmethod.note.numbers import trimmed
 from planmethod.note.wording import Language, Words
-from planmethod.note.writers.plain import plain_document
 
 _NONE = "—"
 
 
-def compared_text(checked: Sequence[Checked], words: Language) -> str:
-    """Return tables for a terminal, one for each work: his value, the exact one, how far apart."""
-    return plain_document(Document.of(_nodes(checked, words)), words) + "\n"
+def compared_document(checked: Sequence[Checked], words: Language) -> Document:
+    """Return tables, one for each work: his value, the exact one, how far apart."""
+    return Document.of(_nodes(checked, words))
 
 
 def _nodes(checked: Sequence[Checked], words: Language) -> Iterator[Node]:

@@ -27,7 +27,6 @@ from planmethod.note.document import (
 from planmethod.note.plaintext import plain_text
 from planmethod.note.wording import Language, Words
 from planmethod.note.writers.pdf import pdf_document
-from planmethod.note.writers.plain import plain_document
 from planmethod.plans.model import FACTS
 from planmethod.render.backends.pdf import registered
 
@@ -196,11 +195,6 @@ class KeyPage(Struct, frozen=True):
 def key_document(keys: Sequence[Key], words: Language) -> Document:
     """Return the key as a document: one table, of several variants a row for each."""
     return Document.of(_nodes(KeyPage(tuple(keys), words)))
-
-
-def key_text(keys: Sequence[Key], words: Language) -> str:
-    """Return the key for a terminal."""
-    return plain_document(key_document(keys, words), words) + "\n"
 
 
 def key_pdf(keys: Sequence[Key], words: Language) -> bytes:

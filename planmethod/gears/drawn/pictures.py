@@ -12,6 +12,7 @@ from math import asin, cos, radians, sin
 
 from planmethod.gears.construction import FEET, POLE, Construction, Reading
 from planmethod.gears.model import MeshKind
+from planmethod.gears.picture import ContactKind, ContactPoint
 from planmethod.gears.scheme import Rim, Scheme
 from planmethod.note.plaintext import plain_text
 from planmethod.plans.model import VectorKind
@@ -167,7 +168,7 @@ def lines(drawn: Construction, seen: Reading) -> dict[str, tuple[complex, comple
         if body in drawn.motion.train.fixed:
             continue
         points = [seen.point(spot.end) for spot in drawn.spots if body in spot.bodies]
-        if not any(spot.contact == f"axis {body}" for spot in drawn.spots):
+        if not any(spot.contact == ContactPoint(ContactKind.AXIS, body) for spot in drawn.spots):
             points.append(complex(0.0, float(drawn.motion.axes.heights[body]) * scale))
         points.sort(key=lambda point: point.imag)
         found[body] = points[0], points[-1]

@@ -10,6 +10,7 @@ from msgspec import Struct
 
 from planmethod.gears.arrangement import Arrangement, Part, Stub
 from planmethod.gears.model import PARALLEL, MeshKind
+from planmethod.gears.picture import ContactKind, ContactPoint
 from planmethod.gears.scheme import Across, Rim, Worm
 from planmethod.render.ink.drawing import Arc, Disc, Ink, Item, Pen, Stroke
 from planmethod.render.ink.typeset import typeset
@@ -42,11 +43,11 @@ class Side(Struct, frozen=True, dict=True):
     Attributes
     ----------
     letters : mapping
-        Letters of points of contact and axes, by the names of `planmethod.gears.picture.Picture`.
+        Letters of points of contact and axes.
     """
 
     arrangement: Arrangement
-    letters: Mapping[str, str]
+    letters: Mapping[ContactPoint, str]
 
     @cached_property
     def _gaps(self) -> Mapping[int, list[tuple[float, list[Stub]]]]:
@@ -345,9 +346,9 @@ class Side(Struct, frozen=True, dict=True):
     # Points and letters --------------------------------------------------------------------------
 
     @cached_property
-    def points(self) -> Mapping[str, complex]:
-        """Points of contact, and axes above and below the main one, by their names."""
-        found: dict[str, complex] = {}
+    def points(self) -> Mapping[ContactPoint, complex]:
+        """Points of contact, and axes above and below the main one."""
+        found: dict[ContactPoint, complex] = {}
         for mesh in self.arrangement.scheme.motion.train.meshes:
             if mesh.kind not in PARALLEL:
                 continue
@@ -358,16 +359,16 @@ class Side(Struct, frozen=True, dict=True):
                     other = rims[mesh.second]
                     levels = [{r.centre + w * r.radius for w in r.ways} for r in (own, other)]
                     both = [a for a in levels[0] if any(abs(a - b) < 1e-6 for b in levels[1])]
-                    found[f"pitch {mesh.name}"] = complex(x, both[0])
+                    found[ContactPoint(ContactKind.PITCH, mesh.name)] = complex(x, both[0])
         for body in self.arrangement.reach:
-            height = self._height(body)
-            if f"axis {body}" in self.letters:
-                found[f"axis {body}"] = complex(self._ends(body)[1], height)
+            axis = ContactPoint(ContactKind.AXIS, body)
+            if axis in self.letters:
+                found[axis] = complex(self._ends(body)[1], self._height(body))
         return found
 
     def _dots(self) -> Iterator[Item]:
-        for name, at in self.points.items():
-            if name.startswith("pitch "):
+        for point, at in self.points.items():
+            if point.kind is ContactKind.PITCH:
                 yield Disc(at, PITCH_POINT, Ink.BLACK)
 
     def labels(self, height: float) -> Iterator[Label]:
@@ -404,10 +405,10 @@ class Side(Struct, frozen=True, dict=True):
                 yield self._label(mesh.second, at + SIZES.teeth / 2, 1, height)
         for worm in self.arrangement.scheme.worms:
             yield self._label(worm.label, self._worm(worm) + worm.radius, 1, height)
-        for name, at in self.points.items():
-            if name in self.letters and name.startswith("pitch "):
-                letter = typeset(self.letters[name].rstrip("'").upper(), height)
-                yield Label(letter, at, prefer=1 + 0.2j, gap=1.4, name=f"at {name}", manner=BUSY)
+        for point, at in self.points.items():
+            if point in self.letters and point.kind is ContactKind.PITCH:
+                letter, name = typeset(self.letters[point].upper(), height), f"at {point.name}"
+                yield Label(letter, at, prefer=1 + 0.2j, gap=1.4, name=name, manner=BUSY)
 
     def _across_labels(self, across: Across, x: float, height: float) -> Iterator[Label]:
         for label in dict.fromkeys(cone.label for cone in across.cones):

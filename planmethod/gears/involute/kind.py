@@ -7,10 +7,12 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from planmethod.kind import Kind
+from planmethod.note.document import Document
 
 if TYPE_CHECKING:
     from planmethod.construct.drafting import Profile
     from planmethod.gears.involute.sizes import MeshingProblem
+    from planmethod.note.wording import Language
     from planmethod.render.ink.drawing import Drawing
 
 
@@ -31,17 +33,19 @@ class Meshings(Kind["MeshingProblem"]):
 
         return record(problem, lang)
 
-    def solved_text(self, problem: MeshingProblem, lang: str) -> str:
+    def solved_document(self, problem: MeshingProblem, words: Language) -> Document:
         """Return what ``solve`` prints."""
-        from planmethod.gears.involute.text import solved_text
+        from planmethod.gears.involute.text import solved_document
 
-        return solved_text(problem, lang)
+        return Document.of(solved_document(problem, words))
 
-    def protocol_text(self, problem: MeshingProblem, lang: str, profile: Profile) -> str:
+    def protocol_document(
+        self, problem: MeshingProblem, words: Language, profile: Profile
+    ) -> Document:
         """Return what ``protocol`` prints."""
-        from planmethod.gears.involute.protocol import protocol_text
+        from planmethod.gears.involute.protocol import protocol_document
 
-        return protocol_text(problem, lang, profile)
+        return Document.of(protocol_document(problem, words, profile))
 
     def drawings(
         self,

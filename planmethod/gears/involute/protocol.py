@@ -2,24 +2,27 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from itertools import groupby
+
 from planmethod.construct.drafting import Profile
 from planmethod.gears.involute.quantities import Solved
 from planmethod.gears.involute.sizes import MeshingProblem
-from planmethod.gears.involute.text import head, limits_text, plainly
-from planmethod.note.wording import language
+from planmethod.gears.involute.text import head, quality
+from planmethod.note.document import Caption, Chapter, Formula, Item, Node, Paragraph
+from planmethod.note.wording import Language
 
 
-def protocol_text(problem: MeshingProblem, lang: str, profile: Profile) -> str:
-    """Tell the calculation formula by formula, as the note has it; no hand draws in it."""
-    solved, words = Solved(problem), language(lang)
-    say, fields = words.meshing, solved.fields(words.say)
-    lines, number, before = head(solved, words), 0, ""
-    for key, formula in solved.formulas(words):
-        if key != before and key in say["steps"]:
-            number += 1
-            lines += ["", f"{number}. {say['steps'][key]}"]
-        if key != before and key in say["beside"]:
-            lines += plainly(say["beside"][key].format(**fields))
-        lines += plainly(formula)
-        before = key
-    return "\n".join([*lines, *limits_text(solved, words)])
+def protocol_document(problem: MeshingProblem, words: Language, profile: Profile) -> Iterator[Node]:
+    """Yield the calculation formula by formula, as the note has it; no hand draws in it."""
+    solved, say = Solved(problem), words.meshing
+    fields = solved.fields(words.say)
+    yield from head(solved, words)
+    for key, formulas in groupby(solved.formulas(words), lambda one: one[0]):
+        if key in say["steps"]:
+            yield Chapter(say["steps"][key])
+        if key in say["beside"]:
+            yield Paragraph(say["beside"][key].format(**fields))
+        yield from (Formula(formula) for _, formula in formulas)
+    yield Caption(say.checked)
+    yield from map(Item, quality(solved, words))

@@ -227,7 +227,10 @@ class Told(Struct, frozen=True):
     def shown(self, say: Notation) -> list[str]:
         """Return the values as they are written, a dash for what does not exist."""
         places = self.quantity.unit.places
-        return [say.number(f"{value + 0.0:.{places}f}") for value in self.values]
+        return [
+            say.number(f"{value + 0.0:.{places}f}") if np.isfinite(value) else "—"
+            for value in self.values
+        ]
 
 
 class Solved:

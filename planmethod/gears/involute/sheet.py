@@ -16,11 +16,14 @@ from planmethod.gears.involute.diagrams import (
     sliding_scale,
 )
 from planmethod.gears.involute.meshpicture import meshing_picture, view_for
-from planmethod.gears.involute.quantities import Solved, Told
+from planmethod.gears.involute.quantities import Solved
 from planmethod.gears.involute.sizes import MeshingProblem
-from planmethod.gears.involute.text import given_text, remarks, symbol_of, unit_of
+from planmethod.gears.involute.text import (
+    quality,
+    shifts,
+    table,
+)
 from planmethod.languages import LANGUAGES, say
-from planmethod.note.formula import escape
 from planmethod.note.numbers import Notation
 from planmethod.note.wording import Language, language
 from planmethod.paper import STAMP_WIDTH
@@ -146,27 +149,18 @@ def _checks(solved: Solved, words: Language, title: float, text: float) -> Itera
     """Yield what is given and what the limits say, in letters of a height, mm."""
     say = words.meshing
     yield heading(say.checked, title, width=TEXT_WIDTH)
-    for _, holds, limit in solved.sentences(words):
-        yield paragraph(f"{limit}: {say['holds']['yes' if holds else 'no']}", text, TEXT_WIDTH)
-    for told in [*remarks(solved, words), given_text(solved, words)[1]]:
-        yield paragraph(told, text, TEXT_WIDTH)
+    for line in (*quality(solved, words), shifts(solved, words)):
+        yield paragraph(line, text, TEXT_WIDTH)
 
 
 def _tables(solved: Solved, words: Language, sizes: Sizes) -> Iterator[Block]:
     """Yield the tables of the pair and of the wheels."""
     pair, wheels, contact = solved.told()
-    for told in ([*pair, *contact], wheels):
-        yield _table([one for one in told if one.quantity.in_table], words, sizes)
-
-
-def _table(told: list[Told], words: Language, sizes: Sizes) -> Block:
-    say, say_names = words.meshing, words.meshing["names"]
-    names = [escape(say_names[one.quantity.key] + unit_of(one, words)) for one in told]
-    rows = [["—" if "nan" in text else text for text in one.shown(words.say)] for one in told]
-    columns = [
-        TableColumn(say["columns"][0], tuple(names)),
-        TableColumn(say["columns"][1], tuple(symbol_of(one) for one in told)),
-    ]
-    heads = say["columns"][2:] if len(rows[0]) == 2 else (say.pair,)
-    columns += [TableColumn(h, tuple(r[k] for r in rows)) for k, h in enumerate(heads)]
-    return table_block(columns, sizes.text, width=sizes.column, units="none", row_height=sizes.row)
+    say = words.meshing
+    heads: tuple[str, ...] = say["columns"]
+    for told, head in (([*pair, *contact], (*heads[:2], say.pair)), (wheels, heads)):
+        shown = table([one for one in told if one.quantity.in_table], words, head)
+        columns = [TableColumn(*column) for column in shown.columns()]
+        yield table_block(
+            columns, sizes.text, width=sizes.column, units="none", row_height=sizes.row
+        )

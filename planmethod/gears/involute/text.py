@@ -1,97 +1,87 @@
-"""A pair of wheels for the terminal and the note: tables, the calculation (текст расчёта)."""
+"""A pair of wheels for the reader: what is given, sizes, limits (данные, размеры, проверки)."""
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Sequence
+
 from planmethod.gears.involute.quantities import Solved, Told, Unit
 from planmethod.gears.involute.sizes import MeshingProblem
-from planmethod.note.plaintext import heading, plain_text, table, wrap
-from planmethod.note.wording import Language, language
+from planmethod.note.document import Caption, Item, Node, Paragraph, Table, Title, table_of
+from planmethod.note.formula import Rich, escape
+from planmethod.note.wording import Language
 
 
-def solved_text(problem: MeshingProblem, lang: str) -> str:
-    """Tell what is given, the sizes of the pair and of the wheels, and the limits."""
-    solved, words = Solved(problem), language(lang)
-    say = words.meshing
+def solved_document(problem: MeshingProblem, words: Language) -> Iterator[Node]:
+    """Yield what is given, the sizes of the pair and of the wheels, and the limits."""
+    solved, say = Solved(problem), words.meshing
     pair, wheels, contact = solved.told()
-    lines = head(solved, words)
-    lines += ["", say.pair, *_table([*pair, *contact], words, say["columns"][:2])]
-    lines += ["", say.wheels, *_table(wheels, words, say["columns"])]
-    return "\n".join([*lines, *limits_text(solved, words)])
+    yield from head(solved, words)
+    yield Caption(say.pair)
+    yield table([*pair, *contact], words, (*say["columns"][:2], ""))
+    yield Caption(say.wheels)
+    yield table(wheels, words, say["columns"])
+    yield Caption(say.checked)
+    yield from map(Item, quality(solved, words))
 
 
-def given_text(solved: Solved, words: Language) -> list[str]:
-    """Return what is given and which shifts there are, rich text."""
+def head(solved: Solved, words: Language) -> Iterator[Node]:
+    """Yield the title and what is given."""
+    title = escape(solved.problem.title or solved.problem.name)
+    yield Title(words.meshing.title.format(title=title))
+    yield Paragraph(_given(solved, words))
+    yield Paragraph(shifts(solved, words))
+
+
+def _given(solved: Solved, words: Language) -> Rich:
     problem, say = solved.problem, words.meshing
-    fields = {name: shown.strip("()") for name, shown in solved.fields(words.say).items()}
     further = ""
     if problem.a_w is not None:
         further = f", a_{{w}} = {words.say.given(problem.a_w)} {say['units']['mm']}"
     if problem.cutter:
         further += say.ring.format(cutter=problem.cutter)
-    return [
-        say.given.format(further=further, **fields),
-        say["shifts"]["chosen" if problem.chosen else "given"].format(**fields),
-    ]
+    return say.given.format(further=further, **_bare(solved, words))
 
 
-def remarks(solved: Solved, words: Language) -> list[str]:
-    """Return what undercut takes away, rich text; nothing where there is none."""
-    say, found = words.meshing, []
+def shifts(solved: Solved, words: Language) -> Rich:
+    """Return which shifts there are, and whether they were chosen."""
+    key = "chosen" if solved.problem.chosen else "given"
+    sentence: str = words.meshing["shifts"][key]
+    return sentence.format(**_bare(solved, words))
+
+
+def _bare(solved: Solved, words: Language) -> dict[str, str]:
+    """Return the numbers without the brackets that they have within a formula."""
+    return {name: shown.strip("()") for name, shown in solved.fields(words.say).items()}
+
+
+def quality(solved: Solved, words: Language) -> Iterator[Rich]:
+    """Yield what the limits say, and what undercut takes away."""
+    say = words.meshing
+    for _, holds, text in solved.sentences(words):
+        yield f"{text}: {say['holds']['yes' if holds else 'no']}"
     for k, tooth in enumerate(solved.teeth):
         if tooth.is_cut:
             rho, d = tooth.rho_low, 2 * abs(complex(tooth.flank(tooth.rho_low)))
             numbers = {"rho": rho, "d": d, "x_min": tooth.size("x_min")}
-            shown = {name: words.say.number(f"{v:.3f}") for name, v in numbers.items()}
-            found.append(say.undercut.format(wheel=k + 1, **shown))
+            yield say.undercut.format(wheel=k + 1, **_shown(numbers, words))
     standard, active = float(solved.pair.epsilon), solved.contact.overlap(solved.pair)
     if active < standard - 1e-9:
-        told = {"epsilon": active, "standard": standard}
-        shown = {name: words.say.number(f"{v:.3f}") for name, v in told.items()}
-        found.append(say.cut_line.format(**shown))
-    return found
+        yield say.cut_line.format(**_shown({"epsilon": active, "standard": standard}, words))
 
 
-def head(solved: Solved, words: Language) -> list[str]:
-    """Return the title and what is given."""
-    title = solved.problem.title or solved.problem.name
-    lines = heading(words.meshing.title.format(title=title), "═")
-    for text in given_text(solved, words):
-        lines += plainly(text, "")
-    return lines
+def _shown(numbers: dict[str, float], words: Language) -> dict[str, str]:
+    return {name: words.say.number(f"{value:.3f}") for name, value in numbers.items()}
 
 
-def plainly(rich: str, first: str = "  ") -> list[str]:
-    """Return rich text as lines of plain text."""
-    return wrap(plain_text(rich), first=first, rest="    " if first else "")
+def table(told: Sequence[Told], words: Language, head: Sequence[str]) -> Table:
+    """Return a table of quantities: name with unit, symbol, values."""
+    return table_of(head, [_row(one, words) for one in told], names=2)
 
 
-def unit_of(one: Told, words: Language) -> str:
-    """Return what stands after the name of a quantity: its unit, if it has one."""
-    unit = one.quantity.unit
-    return f", {words.meshing['units'][unit.value[0]]}" if unit in (Unit.MM, Unit.DEGREE) else ""
-
-
-def symbol_of(one: Told) -> str:
-    """Return the symbol of a quantity; of both wheels without a number."""
-    return one.quantity.symbol.replace("#", "").replace("_{}", "")
-
-
-def _table(told: list[Told], words: Language, columns: tuple[str, ...]) -> list[str]:
-    rows = []
-    for one in told:
-        name = words.meshing["names"][one.quantity.key] + unit_of(one, words)
-        shown = ["—" if "nan" in text else text for text in one.shown(words.say)]
-        rows.append([name, plain_text(symbol_of(one)), *map(plain_text, shown)])
-    head = list(columns) + ([""] if len(columns) == 2 else [])
-    return table(head, rows, left=2)
-
-
-def limits_text(solved: Solved, words: Language) -> list[str]:
-    """Return what the limits say, and what undercut takes away."""
-    say = words.meshing
-    lines = ["", say.checked]
-    for _, holds, text in solved.sentences(words):
-        lines += plainly(f"{text}: {say['holds']['yes' if holds else 'no']}")
-    for text in remarks(solved, words):
-        lines += plainly(text)
-    return lines
+def _row(one: Told, words: Language) -> tuple[Rich, ...]:
+    say, quantity = words.meshing, one.quantity
+    has_unit = quantity.unit in (Unit.MM, Unit.DEGREE)
+    unit = f", {say['units'][quantity.unit.value[0]]}" if has_unit else ""
+    # Of both wheels without a number.
+    symbol = quantity.symbol.replace("#", "").replace("_{}", "")
+    return escape(say["names"][quantity.key] + unit), symbol, *one.shown(words.say)

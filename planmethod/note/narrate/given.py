@@ -15,10 +15,17 @@ from planmethod.problem.model import Body, Geared, Posed, PosedBy, Problem, Slid
 from planmethod.problem.names import UNITS, split_names
 from planmethod.solved.solution import Solution
 
+NBSP = "\u00a0"
+
 
 def point_name(point: str) -> str:
     """Return a point's name as rich text: S2 gives ``S_{2}``."""
     return f"{point[:1]}_{{{point[1:]}}}" if point[1:] else point
+
+
+def unbroken(facts: Sequence[str]) -> str:
+    """Return facts in one line that is broken between them only."""
+    return "; ".join(fact.replace(" ", NBSP) for fact in facts)
 
 
 def given(problem: Problem, words: Language, positions: Sequence[float] | None = None) -> list[str]:

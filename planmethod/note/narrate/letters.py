@@ -31,6 +31,12 @@ def mark(*points: str) -> str:
     return "".join(f"{name[:1]}_{{{name[1:]}}}" if name[1:] else name for name in points)
 
 
+def pair_letters(name: str) -> str:
+    """Return the designation of a pair as rich text: ``O1(0,3)`` gives ``O_{1}(0,3)``."""
+    point, bracket, links = name.partition("(")
+    return f"{mark(point)}{bracket}{links}"
+
+
 def direction_text(direction: Direction | None) -> str:
     """Return a direction as it stands under a term, in rich text: ``⊥ BC``, ``C → B``, ``= 0``."""
     if direction is None:

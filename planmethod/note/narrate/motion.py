@@ -2,7 +2,16 @@
 
 from __future__ import annotations
 
-from planmethod.construct.steps import Compute, LayOff, LineName, NumberName, PointName, Similar
+from planmethod.construct.steps import (
+    Compute,
+    LayOff,
+    LineName,
+    MeasureAlong,
+    NumberName,
+    PointName,
+    Similar,
+    Step,
+)
 from planmethod.mechanism.model import FRAME
 from planmethod.note.narrate.formulas import SHORTEST_MM, Formulas
 from planmethod.note.narrate.letters import SIGN
@@ -115,9 +124,21 @@ class MotionNarrator:
         return self.words.ccw if value > 0 else self.words.cw
 
     def compute(self, step: Compute) -> list[str]:
-        """Tell a number that is a result; one that is laid off is told there."""
+        """Tell a number that is a result; one that is laid off is told there.
+
+        A reading is a formula of a list; another value is a sentence.
+        """
         kind = self._turned(step)
-        return self.value(step) if kind is None else self._turning(step, kind)
+        if kind is not None:
+            return self._turning(step, kind)
+        formulas = self.value(step)
+        return formulas if self.is_reading(step) else [f"{formula}." for formula in formulas]
+
+    def is_reading(self, step: Step) -> bool:
+        """Tell whether a step is the value of a segment that is read for it alone."""
+        if not (isinstance(step, Compute) and self.is_value(step)):
+            return False
+        return not isinstance(self.names.step[step.powers[1][0]], MeasureAlong)
 
     def _turned(self, step: Compute) -> PlanKind | None:
         """Return the plan by which a step is how a link turns; None of other steps."""

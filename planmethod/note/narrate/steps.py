@@ -1,10 +1,9 @@
-"""The sentences of a program's steps: one match over the closed union of steps."""
+"""The sentences of the steps of a linkage: position, velocities, accelerations."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable
 from itertools import pairwise
-from typing import assert_never
 
 from planmethod.construct import steps
 from planmethod.construct.steps import LineName, Name, NumberName, PointName, Step, operands
@@ -12,7 +11,8 @@ from planmethod.note.narrate.equations import direction_note
 from planmethod.note.narrate.formulas import SHORTEST_MM, Formulas
 from planmethod.note.narrate.motion import MotionNarrator
 from planmethod.note.narrate.naming import Names
-from planmethod.note.plaintext import NO_BREAK, fixed, given
+from planmethod.note.narrate.narrator import BoardNarrator, Line, Reading
+from planmethod.note.plaintext import NO_BREAK, given
 from planmethod.note.wording import Language
 from planmethod.plans.dimensions import DimensionKind
 from planmethod.plans.model import PlanKind
@@ -60,7 +60,7 @@ class PositionNarrator:
                     of=names.of(origin),
                     symbol=names.symbol(line.angle),
                     angle=given(self.say.number(line.angle), words),
-                    length=self._length(length, (origin, out)),
+                    length=self.length(length, (origin, out)),
                     point=point,
                 )
             ]
@@ -68,13 +68,13 @@ class PositionNarrator:
         text = words.lay_off.format(
             of=names.of(origin),
             direction=direction,
-            length=self._length(length, (origin, out)),
+            length=self.length(length, (origin, out)),
             sense=sense,
             point=point,
         )
         return [text]
 
-    def _length(self, name: NumberName, ends: tuple[PointName, PointName] | None = None) -> str:
+    def length(self, name: NumberName, ends: tuple[PointName, PointName] | None = None) -> str:
         """Return a length of the drawing: computed when it is first used, afterwards its value.
 
         ``ends`` of a length that is laid off name it; one counted from the beginning of a guide
@@ -118,52 +118,6 @@ class PositionNarrator:
         side = (words.to_left if angle > 0 else words.to_right).format(base=base)
         return words.at_angle.format(angle=given(abs(angle), words), base=base), side
 
-    def _sign(self, step: steps.MeetCircles | steps.MeetLineCircle) -> float:
-        return 1.0 if step.branch is None else self.say.number(step.branch)
-
-    def _side(self, side: float) -> str:
-        return self.words.left if side > 0 else self.words.right
-
-    def two_arcs(self, step: steps.MeetCircles) -> list[str]:
-        """Tell the meeting of two arcs."""
-        text = self.words.two_arcs.format(
-            one=self.names.point(step.centre1),
-            first=self._length(step.radius1),
-            two=self.names.point(step.centre2),
-            second=self._length(step.radius2),
-            side=self._side(step.side.value * self._sign(step)),
-            point=self.names.point(step.out),
-        )
-        return [text]
-
-    def arc_and_line(self, step: steps.MeetLineCircle) -> list[str]:
-        """Tell the meeting of an arc and a line."""
-        course = self.say.course(step.line) * step.way.value * self._sign(step)
-        words = self.words
-        if abs(course.real) >= abs(course.imag):
-            which = words.rightmost if course.real > 0 else words.leftmost
-        else:
-            which = words.upper if course.imag > 0 else words.lower
-        text = words.arc_and_line.format(
-            centre=self.names.point(step.centre),
-            radius=self._length(step.radius),
-            line=self.names.line(step.line),
-            way=which,
-            point=self.names.point(step.out),
-        )
-        return [text]
-
-    def touch(self, step: steps.Touch) -> list[str]:
-        """Tell a tangent."""
-        text = self.words.touch.format(
-            centre=self.names.point(step.centre),
-            radius=self._length(step.radius),
-            source=self.names.point(step.source),
-            side=self._side(step.side.value),
-            point=self.names.point(step.out),
-        )
-        return [text]
-
     def _is_distance(self, name: NumberName, ends: tuple[PointName, PointName]) -> bool:
         """Tell whether a coordinate of a point is its distance from another: no foot is between."""
         dimension, names = self._dimensions.get(name), self.names
@@ -176,7 +130,26 @@ class PositionNarrator:
         return dimension is not None and dimension.kind is not DimensionKind.LENGTH
 
 
-class Narrator:
+class LinkageNaming:
+    """What is drawn of a linkage, as `planmethod.note.narrate.narrator.Naming` has it."""
+
+    def __init__(self, names: Names, say: Formulas, drawing: PositionNarrator) -> None:
+        self._names = names
+        self.point, self.of, self.segment = names.point, names.of, names.segment
+        self.course, self.number, self.exact = say.course, say.number, say.exact
+        self.length = drawing.length
+
+    def line(self, name: LineName) -> str:
+        """Return a drawn line in the genitive, one of a plan with its direction in the equation."""
+        step, ray = self._names.step[name], self._names.ray(name)
+        if ray is None or isinstance(step, steps.Join):
+            return self._names.line(name)
+        assert isinstance(step, steps.Parallel | steps.Perpendicular | steps.AtAngle)
+        note = direction_note(self._names, ray.direction)
+        return self._names.words.line_through.format(of=self.of(step.through), direction=note)
+
+
+class Narrator(BoardNarrator):
     """Tells the steps of one position in order (рассказчик).
 
     A step's lines are formulas and sentences. Numbers that are only laid off are computed where
@@ -185,9 +158,9 @@ class Narrator:
     """
 
     def __init__(self, solution: Solution, names: Names, index: int) -> None:
-        self.names, self.words = names, names.words
-        self.say = Formulas(solution, names, index)
+        self.names, self.say = names, Formulas(solution, names, index)
         self.drawing = PositionNarrator(names, self.say)
+        super().__init__(LinkageNaming(names, self.say, self.drawing), names.words)
         self.motion = MotionNarrator(solution, names, self.say)
         self._drawers: dict[LineName, set[type[Step]]] = {}
         for step in names.construction.program.steps:
@@ -205,40 +178,39 @@ class Narrator:
 
     def is_reading(self, step: Step) -> bool:
         """Tell whether a step is the value of a segment that is read for it alone."""
-        if not (isinstance(step, steps.Compute) and self.motion.is_value(step)):
-            return False
-        return not isinstance(self.names.step[step.powers[1][0]], steps.MeasureAlong)
+        return self.motion.is_reading(step)
 
     def tell(self, step: Step) -> list[str]:
         """Return the lines that tell a step; none when another step tells it."""
         if not self.say.readable(step.out) and not self.is_reading(step):
             return self._unreadable(step)
-        match step:
-            case steps.Given() | steps.Known():
-                return []
-            case steps.Join() | steps.Parallel() | steps.Perpendicular() | steps.AtAngle():
-                return self._line(step)
-            case steps.LayOff():
-                on_plan = step.out in self.names.letters
-                return self.motion.lay_off(step) if on_plan else self.drawing.lay_off(step)
-            case steps.MeetLines(out, first, second):
-                return [self._meet(out, first, second)]
-            case steps.MeetLineCircle():
-                return self.drawing.arc_and_line(step)
-            case steps.MeetCircles():
-                return self.drawing.two_arcs(step)
-            case steps.Touch():
-                return self.drawing.touch(step)
-            case steps.Similar():
-                return self.motion.similar(step)
-            case steps.Measure(out, tail, head) | steps.MeasureAlong(out, tail, head, _):
-                return [] if out in self._told_later else [self._measure(out, tail, head)]
-            case steps.Compute():
-                return self.motion.compute(step)
-            case steps.Carry() | steps.MeasureArm() | steps.Total():
-                return []  # of force plans: ForcePlanNarrator tells them with their forces
-            case _:
-                assert_never(step)
+        return super().tell(step)
+
+    def lay_off(self, step: steps.LayOff) -> list[str]:
+        """Tell a vector of a plan, or a length of the drawing."""
+        on_plan = step.out in self.names.letters
+        return self.motion.lay_off(step) if on_plan else self.drawing.lay_off(step)
+
+    def similar(self, step: steps.Similar) -> list[str]:
+        """Tell a point of a plan found by similarity."""
+        return self.motion.similar(step)
+
+    def compute(self, step: steps.Compute) -> list[str]:
+        """Tell what is computed."""
+        return self.motion.compute(step)
+
+    def coincide(self, point: PointName) -> str:
+        """Return which other points of a plan are in the same place."""
+        return self.motion.coincide(point)
+
+    def measure(self, step: Reading) -> list[str]:
+        """Tell a segment that is measured, unless what follows from it tells it."""
+        return [] if step.out in self._told_later else super().measure(step)
+
+    def measured(self, step: Reading) -> str:
+        """Return the sentence that tells a reading."""
+        on_plan = step.tail in self.names.letters
+        return self.words.measure if on_plan else self.words.measure_drawing
 
     def write(self, step: Step) -> list[str]:
         """Return the formulas of a step of a velocity or acceleration plan, without sentences."""
@@ -282,9 +254,8 @@ class Narrator:
         ]
         return [self.words.unreadable_points.format(points=", ".join(points))] if points else []
 
-    def _line(
-        self, step: steps.Join | steps.Parallel | steps.Perpendicular | steps.AtAngle
-    ) -> list[str]:
+    def line(self, step: Line) -> list[str]:
+        """Tell a guide of the frame, or a line on which two points are found."""
         words, names = self.words, self.names
         guide = names.guide(step.out)
         if guide is not None and isinstance(step, steps.AtAngle):
@@ -305,32 +276,6 @@ class Narrator:
         if ray is not None:
             text += words.carries.format(symbol=ray.symbol)
         return [text + "."]
-
-    def _relation(self, line: LineName) -> str:
-        """Return a drawn line in the genitive, its direction as in the equation."""
-        step, ray = self.names.step[line], self.names.ray(line)
-        if ray is None or isinstance(step, steps.Join):
-            return self.names.line(line)
-        assert isinstance(step, steps.Parallel | steps.Perpendicular | steps.AtAngle)
-        note = direction_note(self.names, ray.direction)
-        return self.words.line_through.format(of=self.names.of(step.through), direction=note)
-
-    def _meet(self, out: PointName, first: LineName, second: LineName) -> str:
-        return self.words.meet.format(
-            first=self._relation(first),
-            second=self._relation(second),
-            point=self.names.point(out),
-            coincide=self.motion.coincide(out),
-        )
-
-    def _measure(self, out: NumberName, tail: PointName, head: PointName) -> str:
-        on_plan = tail in self.names.letters
-        template = self.words.measure if on_plan else self.words.measure_drawing
-        return template.format(
-            segment=self.names.segment(tail, head),
-            length=given(abs(self.say.number(out)), self.words, 5),
-            exact=fixed(abs(self.say.exact(out)), self.words),
-        )
 
 
 def _carriers(step: Step) -> tuple[LineName, ...]:

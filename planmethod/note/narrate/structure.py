@@ -1,63 +1,190 @@
-"""Structural analysis in plain text: pairs, mobility, Assur groups (структурный анализ)."""
+"""Structural analysis: pairs, links, formulas, Assur groups (структурный анализ)."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 
 from planmethod.mechanism.describe import PairKind, kind_of_motion, pairs
 from planmethod.mechanism.groups import AssurGroup, Joint, letter_of, links_of
 from planmethod.mechanism.model import FRAME, Mechanism, Revolute
 from planmethod.mechanism.structure import LOCAL_MOBILITY, WAYS_IN, Structure, roman
-from planmethod.note.plaintext import heading, table, wrap
-from planmethod.note.wording import Words, wording
+from planmethod.note.document import Caption, Document, Item, Node, Step, Table, Title, table_of
+from planmethod.note.formula import Rich
+from planmethod.note.narrate.letters import pair_letters
+from planmethod.note.numbers import MINUS
+from planmethod.note.wording import Language, Words
 
-_MINUS = str.maketrans("-", "−")
+NBSP = "\u00a0"
 
 
-def structure_text(mechanism: Mechanism, structure: Structure, lang: str = "ru") -> str:
-    """Tell the structural analysis of a mechanism with its numbers (структурный анализ).
+def structure_document(mechanism: Mechanism, structure: Structure, words: Language) -> Document:
+    """Return the structural analysis of a mechanism with its numbers (структурный анализ)."""
+    return Document.of(_analysis(mechanism, structure, words))
 
-    Raises
-    ------
-    UnknownLanguageError
-    """
-    words = wording(lang)
-    lines = heading(words.structure_title, "═")
-    lines += ["", words.pairs, *_pair_table(mechanism, words)]
-    lines += ["", words.links, *_link_table(mechanism, words)]
-    lines += ["", words.mobility, *_mobility(structure, words)]
-    lines += ["", words.redundant, *_redundant(structure, words)]
-    lines += ["", words.assur, *_primary(mechanism, words)]
+
+def _analysis(mechanism: Mechanism, structure: Structure, words: Language) -> Iterator[Node]:
+    said = words.structure
+    yield Title(said.title)
+    yield Caption(said.pairs)
+    yield pair_table(mechanism, words, lettered=True)
+    yield Caption(said.links)
+    yield link_table(mechanism, words)
+    yield Caption(said.formulas)
+    yield from map(Item, mobility_formulas(mechanism, structure, words))
+    yield Caption(said.parts)
+    driver, *counts = driver_caption(mechanism, words)
+    yield Step((driver, "; ".join(counts)))
     for group in structure.groups:
-        lines += _group(group, words)
-    order = [f"({','.join(group.links)})" for group in structure.groups]
-    first = f"({FRAME},{mechanism.driver})"
-    lines.append("")
-    for text in (
-        words.structural_formula.format(formula=structure.formula),
-        words.kinematic_order.format(order=" → ".join([first, *order])),
-        words.force_order.format(order=" → ".join([*order[::-1], first])),
-        _static_counts(structure, words),
-        words.mechanism_class.format(roman=roman(structure.class_number)),
-    ):
-        lines += wrap(text, rest="  ")
-    return "\n".join(lines)
+        named, *counts = group_caption(group, words)
+        yield Step((named, _joints(group, words.note), "; ".join(counts)))
+    yield from map(Item, order_formulas(mechanism, structure, words))
+    yield Item(_static_counts(structure, words.note))
 
 
-def _static_counts(structure: Structure, words: Words) -> str:
+# Pairs and links -----------------------------------------------------------------------------
+
+
+def pair_table(mechanism: Mechanism, words: Language, *, lettered: bool = False) -> Table:
+    """Return the table of kinematic pairs (кинематические пары).
+
+    ``lettered``: with the letter of each kind, by which `group_caption` calls it.
+    """
+    kinds = {kind: words.structure["pair_kinds"][kind.value] for kind in PairKind}
+    if lettered:
+        signs = {PairKind.REVOLUTE: "R", PairKind.PRISMATIC: "P"}
+        kinds = {kind: f"{kinds[kind]} ({words.note['letters'][signs[kind]]})" for kind in kinds}
+    rows = (
+        (pair_letters(pair.name), " – ".join(pair.links), kinds[pair.kind], "V", "1")
+        for pair in pairs(mechanism)
+    )
+    return table_of(words.structure["columns_pairs"], rows, names=4)
+
+
+def link_table(mechanism: Mechanism, words: Language) -> Table:
+    """Return the table of links (звенья)."""
+    every, said = pairs(mechanism), words.structure
+    rows = (
+        (
+            row.link,
+            words.note["roles"][row.role.value],
+            said["motions"][row.motion.value],
+            ", ".join(pair_letters(pair.name) for pair in every if row.link in pair.links),
+        )
+        for row in kind_of_motion(mechanism)
+    )
+    return table_of(said["columns_links"], rows, names=4)
+
+
+# Formulas ------------------------------------------------------------------------------------
+
+
+def mobility_formulas(
+    mechanism: Mechanism, structure: Structure, words: Language
+) -> Iterator[Rich]:
+    """Yield mobility and redundant constraints of the whole (подвижность, избыточные связи)."""
+    said, low, spatial = words.structure, structure.lower_pairs, structure.spatial_mobility
+    revolute = sum(pair.kind is PairKind.REVOLUTE for pair in pairs(mechanism))
+    counts = {"n": structure.moving_links, "low": low, "high": structure.higher_pairs}
+    yield said.counts.format(revolute=revolute, prismatic=low - revolute, **counts)
+    yield said.chebyshev.format(w=_signed(structure.mobility), **counts)
+    yield said.spatial.format(w=_signed(spatial), **counts)
+    yield said.redundant.format(
+        ways=WAYS_IN, local=LOCAL_MOBILITY, w=_bracketed(spatial), q=_signed(structure.redundant)
+    )
+
+
+def order_formulas(mechanism: Mechanism, structure: Structure, words: Language) -> Iterator[Rich]:
+    """Yield the structural formula, the class, the orders of both analyses (формула строения)."""
+    said = words.structure
+    first = f"I({FRAME},{mechanism.driver})"
+    steps = [f"{roman(group.class_number)}({','.join(group.links)})" for group in structure.groups]
+    order, backwards = " → ".join([first, *steps]), " → ".join([*steps[::-1], first])
+    yield said.formula.format(order=order)
+    yield said.mechanism_class.format(roman=roman(structure.class_number))
+    yield said.kinematic_order.format(order=order)
+    yield said.force_order.format(order=backwards)
+
+
+def _static_counts(structure: Structure, words: Words) -> Rich:
     """Return equations and unknowns of the force analysis: without friction as many as needed."""
     equations = 3 * structure.moving_links
-    pairs = 2 * structure.lower_pairs + structure.higher_pairs
-    unknowns = pairs + structure.mobility
+    reactions = 2 * structure.lower_pairs + structure.higher_pairs
+    unknowns = reactions + structure.mobility
     verdict = words.statically_determinate if equations == unknowns else words.statically_not
     return words.static_counts.format(
         n=structure.moving_links,
         equations=equations,
-        pairs=pairs,
+        pairs=reactions,
         w=_signed(structure.mobility),
         unknowns=unknowns,
         verdict=verdict,
     )
+
+
+def _signed(number: int) -> str:
+    return f"{MINUS}{-number}" if number < 0 else str(number)
+
+
+def _bracketed(number: int) -> str:
+    return f"({_signed(number)})" if number < 0 else str(number)
+
+
+# Groups --------------------------------------------------------------------------------------
+
+
+def driver_caption(mechanism: Mechanism, words: Language) -> list[Rich]:
+    """Return name, mobility and redundant constraints of the driver (первичный механизм)."""
+    ends = {FRAME, mechanism.driver}
+    kind = next(pair.kind for pair in pairs(mechanism) if set(pair.links) == ends)
+    said = words.structure
+    links = _listed(FRAME, mechanism.driver)
+    named = said.primary.format(kind=said["pair_kinds"][kind.value], links=links)
+    return [named, *_counts(WAYS_IN, 1, 1)]
+
+
+def group_caption(group: AssurGroup, words: Language) -> list[Rich]:
+    """Return class, order, kind, mobility and redundant constraints of a group."""
+    count = len(group.leads) + sum(len(_inside(joint, group)) - 1 for joint in group.inner)
+    said, kind = words.structure, words.structure["group_leads"].get(str(len(group.leads)), "")
+    if group.kind is not None:
+        signature = local_letters(group.signature, words.note)
+        kind = said.group_kind.format(kind=group.kind, letters=signature)
+    named = said.group.format(
+        roman=roman(group.class_number), order=group.order, kind=kind, links=_listed(*group.links)
+    )
+    return [named, *_counts(0, len(group.links), count)]
+
+
+def _counts(drivers: int, n: int, p: int) -> list[Rich]:
+    """Return own mobility W and redundant constraints q of a part, with so many drivers."""
+    w, q = 3 * n - 2 * p, drivers + LOCAL_MOBILITY - (6 * n - 5 * p)
+    lines = (f"W = 3·{n} − 2·{p} = {_signed(w)}", f"q = {drivers} − (6·{n} − 5·{p}) = {_signed(q)}")
+    return [line.replace(" ", NBSP) for line in lines]
+
+
+def _listed(*links: str) -> str:
+    return f",{NBSP}".join(links)
+
+
+def _joints(group: AssurGroup, words: Words) -> Rich:
+    """Return the outer and the inner pairs of a group."""
+    outer = (_joint(lead.joint, (lead.to, lead.link), words) for lead in group.leads)
+    inner = (_joint(joint, _inside(joint, group), words) for joint in group.inner)
+    told = (
+        words.joint_outer.format(joints=", ".join(outer)),
+        words.joint_inner.format(joints=", ".join(inner)),
+    )
+    return "; ".join(told) + "."
+
+
+def _joint(joint: Joint, links: Sequence[str], words: Words) -> Rich:
+    """Return a pair by its point, the letter of its kind and its links: ``B (В, 1–2)``."""
+    point = joint.point if isinstance(joint, Revolute) else joint.pin
+    return f"{pair_letters(point)} ({words['letters'][letter_of(joint)]}, {'–'.join(links)})"
+
+
+def _inside(joint: Joint, group: AssurGroup) -> list[str]:
+    return [link for link in group.links if link in links_of(joint)]
 
 
 def local_letters(signature: str, words: Words) -> str:
@@ -65,99 +192,7 @@ def local_letters(signature: str, words: Words) -> str:
     return "".join(words["letters"].get(letter, letter) for letter in signature)
 
 
-# Pairs and links -----------------------------------------------------------------------------
-
-
-def _pair_table(mechanism: Mechanism, words: Words) -> list[str]:
-    kinds = {PairKind.REVOLUTE: words.revolute, PairKind.PRISMATIC: words.prismatic}
-    rows = [[pair.name, "–".join(pair.links), kinds[pair.kind], "1"] for pair in pairs(mechanism)]
-    return table(words["columns_pairs"], rows, left=3)
-
-
-def _link_table(mechanism: Mechanism, words: Words) -> list[str]:
-    rows = [
-        [row.link, words["roles"][row.role.value], words["motions"][row.motion.value]]
-        for row in kind_of_motion(mechanism)
-    ]
-    return table(words["columns_link"], rows, left=3)
-
-
-def _joint(joint: Joint, links: Sequence[str], words: Words) -> str:
-    """Return a pair by its point, the letter of its kind and its links: ``B (В, 1–2)``."""
-    point = joint.point if isinstance(joint, Revolute) else joint.pin
-    return f"{point} ({words['letters'][letter_of(joint)]}, {'–'.join(links)})"
-
-
-# Mobility ------------------------------------------------------------------------------------
-
-
-def _mobility(structure: Structure, words: Words) -> list[str]:
-    numbers = {
-        "n": structure.moving_links,
-        "p1": structure.lower_pairs,
-        "p2": structure.higher_pairs,
-        "w": _signed(structure.mobility),
-    }
-    return [words.mobility_counts.format(**numbers), words.chebyshev.format(**numbers)]
-
-
-def _redundant(structure: Structure, words: Words) -> list[str]:
-    w = _signed(structure.spatial_mobility)
-    return [
-        words.spatial.format(n=structure.moving_links, p1=structure.lower_pairs, w=w),
-        words.reshetov.format(w=w, q=_signed(structure.redundant)),
-    ]
-
-
-def _signed(number: int) -> str:
-    return str(number).translate(_MINUS)
-
-
-# Groups --------------------------------------------------------------------------------------
-
-
-def _counts(own: int, links: int, pairs: int, words: Words) -> str:
-    """Return own mobility W and redundant constraints q of a part, with ``own`` drivers."""
-    mobility = 3 * links - 2 * pairs
-    redundant = own + LOCAL_MOBILITY - (6 * links - 5 * pairs)
-    w = words.own_mobility.format(n=links, p=pairs, w=_signed(mobility))
-    q = words.own_redundant.format(w0=own, n=links, p=pairs, q=_signed(redundant))
-    return f"   {w};  {q}"
-
-
-def _primary(mechanism: Mechanism, words: Words) -> list[str]:
-    joints: tuple[Joint, ...] = (*mechanism.revolutes, *mechanism.prismatics)
-    pair = next(joint for joint in joints if {FRAME, mechanism.driver} <= set(links_of(joint)))
-    name = _joint(pair, (FRAME, mechanism.driver), words)
-    text = words.primary.format(frame=FRAME, link=mechanism.driver, pair=name)
-    return [*wrap(text), _counts(WAYS_IN, 1, 1, words)]
-
-
-def _group(group: AssurGroup, words: Words) -> list[str]:
-    links, letters = "–".join(group.links), local_letters(group.signature, words)
-    if group.kind is not None:
-        text = words.assur_group.format(links=links, letters=letters, kind=group.kind)
-    else:
-        class_number = roman(group.class_number)
-        text = words.assur_higher.format(
-            links=links, letters=letters, roman=class_number, order=group.order
-        )
-    outer = ", ".join(_joint(lead.joint, (lead.to, lead.link), words) for lead in group.leads)
-    inner = ", ".join(_joint(joint, _inside(joint, group), words) for joint in group.inner)
-    count = len(group.leads) + sum(len(_inside(joint, group)) - 1 for joint in group.inner)
-    joints = [words.joint_outer.format(joints=outer), words.joint_inner.format(joints=inner)]
-    return [
-        *wrap(text),
-        *wrap("; ".join(joints) + ".", first="   ", rest="   "),
-        _counts(0, len(group.links), count, words),
-    ]
-
-
-def _inside(joint: Joint, group: AssurGroup) -> list[str]:
-    return [link for link in group.links if link in links_of(joint)]
-
-
-def group_title(group: AssurGroup, words: Words) -> str:
+def group_title(group: AssurGroup, words: Words) -> Rich:
     """Return a group's heading: links, letters, class, order and kind."""
     links = "–".join(group.links)
     if group.kind is None:
@@ -166,3 +201,8 @@ def group_title(group: AssurGroup, words: Words) -> str:
         )
     letters = local_letters(group.signature, words)
     return words.group.format(links=links, letters=letters, kind=group.kind)
+
+
+def links_of_group(group: AssurGroup, words: Words) -> Rich:
+    """Return a group by its links alone: ``Группа 4–5``."""
+    return words.plain_group.format(links="–".join(group.links))

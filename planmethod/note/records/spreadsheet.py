@@ -13,8 +13,6 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from planmethod.languages import WRITTEN, speaking
-from planmethod.note.plaintext import columns_text, found, given, plain_text, wrap
-from planmethod.note.wording import wording
 from planmethod.plans.legend import TURNING
 from planmethod.plans.model import MOTION
 from planmethod.problem.model import Problem
@@ -261,33 +259,3 @@ def csv_text(
             done(len(rows))
             text.seek(0)
             text.truncate()
-
-
-# What was asked, for a terminal -----------------------------------------------------------------
-
-
-def asked_text(swept: GappedSweep, lang: str = "ru") -> str:
-    """Return what was asked as an aligned table, a row for each position, four digits.
-
-    Raises
-    ------
-    UnknownLanguageError
-    """
-    words, coordinate = wording(lang), swept.problem.drive.coordinate
-    lines = wrap(
-        (swept.problem.title or swept.problem.name)
-        + (f" ({swept.problem.variant})" if swept.problem.variant else "")
-    )
-    symbol = f"{plain_text(coordinate.symbol)}, {words['units'][coordinate.unit]}"
-    count = len(swept.positions)
-    columns = [
-        [words.number, *(str(i) for i in range(count))],
-        [symbol, *(given(float(p), words) for p in swept.positions)],
-    ]
-    values = swept.fill(np.empty((len(swept.names), count)), slice(0, count))
-    for name, row in zip(swept.names, values, strict=True):
-        columns.append([name, *(found(float(value), words) for value in row)])
-    lines += ["", *columns_text(columns, 2)]
-    for sentence in swept.gaps.sentences:
-        lines += ["", *wrap(sentence)]
-    return "\n".join([*lines, "", words.sense_note])

@@ -1,18 +1,20 @@
-"""Static balancing for the terminal and the protocol (таблицы уравновешивания)."""
+"""Static balancing in the results and the protocol (таблицы уравновешивания)."""
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
+from planmethod.note.document import Caption, Chapter, Item, Node, table_of_quantities
 from planmethod.note.narrate.balancing import BalancingTeller
-from planmethod.note.plaintext import columns_text, heading, plain_columns, plain_text, wrap
-from planmethod.note.wording import Words, language
+from planmethod.note.numbers import in_heads
+from planmethod.note.wording import Language
 from planmethod.solved.solution import Solution
 
 
-def balancing_tables(solution: Solution, words: Words) -> list[str]:
-    """Return the counterweights with their numbers, and the main vector by positions."""
-    tell = BalancingTeller(solution, language(words.lang))
-    lines = [*heading(plain_text(tell.said.balancing)), ""]
-    for line in tell.lines():
-        lines += wrap(plain_text(line), rest="  ")
-    columns = list(plain_columns(tell.columns(), tell.say))
-    return [*lines, "", plain_text(tell.said.forces_table), "", *columns_text(columns, lead=2)]
+def balancing_tables(solution: Solution, words: Language) -> Iterator[Node]:
+    """Yield the counterweights with their numbers, and the main vector by positions."""
+    tell = BalancingTeller(solution, words)
+    yield Chapter(tell.said.balancing, numbered=False)
+    yield from map(Item, tell.lines())
+    yield Caption(tell.said.forces_table)
+    yield table_of_quantities(in_heads(tell.columns(), tell.say), repeated=2)

@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import assert_never
 
 from planmethod.construct import steps
 from planmethod.construct.steps import PointName, Step
+from planmethod.note.document import Caption, Item, Node, Paragraph
+from planmethod.note.formula import Rich
 from planmethod.note.narrate.given import MOTION_KINDS, told
 from planmethod.note.narrate.naming import Names
-from planmethod.note.plaintext import fixed, plain_text, spoken, wrap
+from planmethod.note.plaintext import fixed, spoken
 from planmethod.note.rounding import rounded_to, sigma_text
 from planmethod.note.tables.sigmas import marked
 from planmethod.plans.legend import Quantity
@@ -33,26 +36,26 @@ class Causes:
         titles = names.words["plans"].items()
         self._titles = {kind: title[:1].lower() + title[1:] for kind, title in titles}
 
-    def lines(self, index: int) -> list[str]:
-        """Return the worst result of a position and its largest causes; none if none is known."""
+    def nodes(self, index: int) -> Iterator[Node]:
+        """Yield the worst result of a position and its largest causes; none if none is known."""
         worst = self._worst(index)
         if worst is None:
-            return []
+            return
         quantity, value, sigma = worst
         words = self.words
-        result = words.worst_result.format(
-            symbol=plain_text(quantity.symbol),
-            value=spoken(rounded_to(value, sigma), words),
-            sigma=spoken(sigma_text(sigma), words),
-            unit=words["units"][quantity.kind.unit],
-            part=fixed(100 * sigma / abs(value), words, 0 if sigma > 0.02 * abs(value) else 1),
+        yield Caption(words.table_causes)
+        yield Paragraph(
+            words.worst_result.format(
+                symbol=quantity.symbol,
+                value=spoken(rounded_to(value, sigma), words),
+                sigma=spoken(sigma_text(sigma), words),
+                unit=words["units"][quantity.kind.unit],
+                part=fixed(100 * sigma / abs(value), words, 0 if sigma > 0.02 * abs(value) else 1),
+            )
         )
-        lines = [words.table_causes, *wrap(result)]
         causes = drafting_of(self.solution).causes(quantity.label, index)
         for stroke, share in causes[:MOST]:
-            part = f"{100 * share:.0f} %"
-            lines += wrap(self.tell(stroke), first=f"  {part:>5}  ", rest=" " * 9)
-        return lines
+            yield Item(self.tell(stroke), label=f"{100 * share:.0f} %")
 
     def _worst(self, index: int) -> tuple[Quantity, float, float] | None:
         """Return the result with the largest error for its size, its value and sigma.
@@ -67,10 +70,10 @@ class Causes:
                 known.append((quantity, value, sigma))
         return max(known, key=lambda each: each[2] / abs(each[1]), default=None)
 
-    def tell(self, stroke: str) -> str:
+    def tell(self, stroke: str) -> Rich:
         """Return a stroke in words: "проведение прямой из точки b ⊥ BC (план скоростей)"."""
         step = self.names.step[PointName(stroke)]
-        text = plain_text(self._stroke(step))
+        text = self._stroke(step)
         plans = self.names.construction.draft.plans
         plan = plans.get(step.out) or plans.get(getattr(step, "head", step.out))
         return text if plan is None else f"{text} ({self._titles[plan.value]})"

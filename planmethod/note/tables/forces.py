@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
 
 from planmethod.note.columns import listed, named, pairs, sizes
+from planmethod.note.document import Caption, Node, Note
+from planmethod.note.formula import Rich
 from planmethod.note.narrate.forces.resultants import kept_lines, shift_lines
 from planmethod.note.numbers import plain
-from planmethod.note.plaintext import NO_BREAK, fixed, found, given, plain_text, wrap
+from planmethod.note.plaintext import NO_BREAK, fixed, found, given
 from planmethod.note.tables.sigmas import Sigmas
 from planmethod.note.wording import Words
 from planmethod.note.written import Column, Records, rows, together
@@ -191,9 +194,15 @@ def _distance(solution: Solution, number: int, index: int, words: Words) -> str:
     return found(0.0 if abs(contact.joint.moment[index]) <= VANISHING * largest else b, words)
 
 
-def _edge_notes(solution: Solution, words: Words, index: int) -> list[str]:
-    """Return what is told of the guides whose sliders bear at their edges."""
-    lines = []
+def resultant_notes(solution: Solution, words: Words, index: int | None = None) -> Iterator[Rich]:
+    """Yield where forces of inertia act that stand for couples, too, and which do not."""
+    statics = statics_of(solution)
+    yield from shift_lines(statics, words, index)
+    yield from kept_lines(statics, words)
+
+
+def _edge_notes(solution: Solution, words: Words, index: int) -> Iterator[Rich]:
+    """Yield what is to be known of the guides whose sliders bear at their edges."""
     for contact in statics_of(solution).contacts.values():
         edges = contact.edges(index)
         if not edges:
@@ -208,26 +217,17 @@ def _edge_notes(solution: Solution, words: Words, index: int) -> list[str]:
         ]
         note = words.edges_note if np.isfinite(contact.b()[index]) else words.edges_couple
         joint = contact.joint
-        lines += wrap(
-            note.format(
-                joint=joint.joint,
-                links=f"{joint.on}←{joint.by}",
-                length=given(contact.length, words),
-                first=told[0],
-                second=told[1],
-            )
+        yield note.format(
+            joint=joint.joint,
+            links=f"{joint.on}←{joint.by}",
+            length=given(contact.length, words),
+            first=told[0],
+            second=told[1],
         )
-    return lines
 
 
-def forces_tables(
-    solution: Solution, words: Words, index: int, sigmas: Sigmas | None = None
-) -> list[str]:
-    """Return the table of reactions of one position, and how the lever compares.
-
-    ``sigmas`` are the cells of the drafting errors; without them there are none.
-    """
-    sigmas = sigmas or Sigmas(solution, words, asked=False)
+def forces_tables(solution: Solution, words: Words, index: int, sigmas: Sigmas) -> Iterator[Node]:
+    """Yield the table of reactions of one position, and how the lever compares."""
     statics = statics_of(solution)
     drawn, largest = drawn_forces(statics), statics.largest(index)
     rows = []
@@ -251,29 +251,26 @@ def forces_tables(
                 _distance(solution, number, index, words),
             ]
         )
-    header = sigmas.header(words["columns_forces"], 3, 4, 5)
-    lines = [words.table_forces, *sigmas.table(header, rows, left=2)]
-    lines += _edge_notes(solution, words, index)
-    for line in (*shift_lines(statics, words, index), *kept_lines(statics, words)):
-        lines += wrap(plain_text(line))
+    yield Caption(words.table_forces)
+    yield sigmas.table(words["columns_forces"], (3, 4, 5), rows, names=2)
+    yield from map(Note, _edge_notes(solution, words, index))
+    yield from map(Note, resultant_notes(solution, words, index))
     balancing = solution.problem.drive.balancing
     balance, unit = words["balance"][balancing.quantity], words["units"][balancing.unit]
-    lines += wrap(balance.format(value=found(float(statics.balance[index]), words), unit=unit))
+    yield Note(balance.format(value=found(float(statics.balance[index]), words), unit=unit))
     if statics.lever is None:
-        lines.append(words.lever_stands)
-    else:
-        drawn = drawn_forces(statics)
-        assert drawn.discrepancy_sigma is not None and drawn.balances is not None
-        plans, hung = float(drawn.balances.plans[index]), float(drawn.balances.lever[index])
-        share, expected = drawn.balances.share(index), float(drawn.discrepancy_sigma[index])
-        lines += wrap(
-            words.lever_note.format(
-                lever=found(hung, words),
-                plans=found(plans, words),
-                difference=found(hung - plans, words),
-                share="—" if share is None else fixed(share, words),
-                sigma=found(expected, words),
-                unit=unit,
-            )
+        yield Note(words.lever_stands)
+        return
+    assert drawn.discrepancy_sigma is not None and drawn.balances is not None
+    plans, hung = float(drawn.balances.plans[index]), float(drawn.balances.lever[index])
+    share, expected = drawn.balances.share(index), float(drawn.discrepancy_sigma[index])
+    yield Note(
+        words.lever_note.format(
+            lever=found(hung, words),
+            plans=found(plans, words),
+            difference=found(hung - plans, words),
+            share="—" if share is None else fixed(share, words),
+            sigma=found(expected, words),
+            unit=unit,
         )
-    return lines
+    )

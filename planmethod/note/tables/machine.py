@@ -1,7 +1,10 @@
-"""A machine and its flywheel for the terminal and the protocol (таблица маховика)."""
+"""A machine and its flywheel in the results and the protocol (таблица маховика)."""
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
+from planmethod.note.document import Caption, Chapter, Item, Node, steps_of, table_of_quantities
 from planmethod.note.narrate.machine import (
     MachineTeller,
     asks_run_up,
@@ -9,41 +12,37 @@ from planmethod.note.narrate.machine import (
     courses,
     run_up_lines,
 )
-from planmethod.note.plaintext import columns_text, heading, plain_text, wrap
-from planmethod.note.wording import Words, language
+from planmethod.note.wording import Language
 from planmethod.solved.machine.drawing import drawing_of
 from planmethod.solved.machine.flywheel import flywheel_of
 from planmethod.solved.solution import Solution
 
 
-def machine_teller(solution: Solution, words: Words) -> MachineTeller:
+def machine_teller(solution: Solution, words: Language) -> MachineTeller:
     """Return who tells the machine of a solution."""
-    drawing = drawing_of(flywheel_of(solution), solution.profile)
-    return MachineTeller(drawing, language(words.lang))
+    return MachineTeller(drawing_of(flywheel_of(solution), solution.profile), words)
 
 
-def machine_tables(solution: Solution, words: Words) -> list[str]:
-    """Return the table by positions, the formulas, the exact flywheel and its sizes."""
+def machine_steps(solution: Solution, words: Language) -> Iterator[Node]:
+    """Yield the chapter of a protocol on the flywheel: how its diagrams are made."""
     tell = machine_teller(solution, words)
-    columns = [
-        [plain_text(f"{head}, {unit}" if unit else head), *map(plain_text, cells)]
-        for head, unit, cells in tell.columns()
-    ]
-    lines = [*heading(plain_text(tell.said.table)), "", *columns_text(columns, lead=2), ""]
-    for line in (*tell.formulas(), *tell.conclusions()):
-        lines += wrap(plain_text(line), rest="  ")
+    yield Chapter(tell.said.title)
+    yield from steps_of(tell.steps())
+
+
+def machine_tables(solution: Solution, words: Language) -> Iterator[Node]:
+    """Yield the table by positions, the formulas, the exact flywheel and its sizes."""
+    tell = machine_teller(solution, words)
+    yield Chapter(tell.said.table, numbered=False)
+    yield table_of_quantities(tell.columns(), repeated=2)
+    yield from map(Item, (*tell.formulas(), *tell.conclusions()))
     sizes = tell.sizes
     if sizes is not None:
-        told = "; ".join(tell.size_lines(sizes))
-        lines += wrap(plain_text(f"{tell.said['sizes'][sizes.shape.value]}: {told}"), rest="  ")
+        lines = "; ".join(tell.size_lines(sizes))
+        yield Item(f"{tell.said['sizes'][sizes.shape.value]}: {lines}")
     if asks_run_up(tell):
-        lines += ["", *heading(plain_text(tell.said.run_up)), ""]
-        for line in run_up_lines(tell):
-            lines += wrap(plain_text(line), rest="  ")
+        yield Chapter(tell.said.run_up, numbered=False)
+        yield from map(Item, run_up_lines(tell))
         for title, course in courses(tell):
-            rows = [
-                [plain_text(f"{head}, {unit}"), *map(plain_text, cells)]
-                for head, unit, cells in course_columns(course, tell)
-            ]
-            lines += ["", title, "", *columns_text(rows, lead=1)]
-    return lines
+            yield Caption(title)
+            yield table_of_quantities(course_columns(course, tell), repeated=1)

@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import Any
 
 from msgspec.structs import replace
 
 from planmethod.mechanism.model import FRAME
-from planmethod.note.plaintext import heading, plain_text, table, wrap
+from planmethod.note.document import Chapter, Document, Node, Paragraph, table_of
 from planmethod.note.tables.results import position_line
-from planmethod.note.wording import Words, wording
+from planmethod.note.wording import Language, Words
 from planmethod.plans.legend import QuantityKind
 from planmethod.solved.solution import Solution
 from planmethod.solved.trust.accuracy import Refereed, Verdict, examine
@@ -28,18 +29,20 @@ def judged(solution: Solution, digits: int) -> list[Refereed]:
     ]
 
 
-def referee_tables(solution: Solution, digits: int, lang: str = "ru") -> str:
+def referee_document(solution: Solution, digits: int, words: Language) -> Document:
     """Return every result beside the referee's, with its error and condition number.
 
     The value of the referee is written out to 20 digits; the record has all of them.
     """
-    words = wording(lang)
-    lines = wrap(words.referee_note.format(digits=digits))
+    return Document.of(_referee(solution, digits, words.note))
+
+
+def _referee(solution: Solution, digits: int, words: Words) -> Iterator[Node]:
+    yield Paragraph(words.referee_note.format(digits=digits))
     for index, position in enumerate(judged(solution, digits)):
-        lines += ["", *heading(position_line(solution, words, index)), ""]
-        rows = [_row(verdict, words) for verdict in position.verdicts]
-        lines += table(words["columns_referee"], rows)
-    return "\n".join(lines)
+        yield Chapter(position_line(solution, words, index), numbered=False)
+        rows = (_row(verdict, words) for verdict in position.verdicts)
+        yield table_of(words["columns_referee"], rows)
 
 
 def _row(verdict: Verdict, words: Words) -> list[str]:
@@ -51,7 +54,7 @@ def _row(verdict: Verdict, words: Words) -> list[str]:
     kappa = f"{verdict.kappa:.1e}" if verdict.kappa < 1e300 else "—"
     numbers = (f"{verdict.error:.1e}", kappa, f"{verdict.multiple:.2f}")
     return [
-        plain_text(verdict.quantity.symbol),
+        verdict.quantity.symbol,
         value,
         *(text.replace(".", words.decimal) for text in numbers),
     ]

@@ -1,28 +1,32 @@
-"""Result tables for the terminal (таблицы результатов)."""
+"""Results as a document: tables of one position or of many (таблицы результатов)."""
 
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator, Sequence
 
+from planmethod.note.document import (
+    Caption,
+    Chapter,
+    Document,
+    Item,
+    Node,
+    Note,
+    Paragraph,
+    Table,
+    table_of_columns,
+)
+from planmethod.note.formula import Rich, escape
 from planmethod.note.narrate.given import told
 from planmethod.note.narrate.naming import Names
 from planmethod.note.narrate.scales import common_scale, scale_inscription
 from planmethod.note.numbers import with_unit
-from planmethod.note.plaintext import (
-    columns_text,
-    fixed,
-    found,
-    given,
-    heading,
-    plain_text,
-    spoken,
-    table,
-    wrap,
-)
+from planmethod.note.plaintext import fixed, found, given, spoken
 from planmethod.note.tables.sigmas import Sigmas, levelled
-from planmethod.note.wording import Words, language, wording
+from planmethod.note.wording import Language, Words
 from planmethod.plans.legend import TURNING, Quantity, QuantityKind
 from planmethod.plans.model import FACTS, MOTION, PlanKind
+from planmethod.problem.model import Coordinate, Problem
 from planmethod.solved.reading import Reals
 from planmethod.solved.solution import Segment, Solution
 
@@ -30,81 +34,78 @@ FEW = 3
 """Most positions that are shown each with tables of its own."""
 
 
-def result_tables(solution: Solution, lang: str = "ru", *, sigma: bool = False) -> str:
-    """Return the results of a solution as aligned text of at most 100 columns.
+def results_document(solution: Solution, words: Language, *, sigma: bool = False) -> Document:
+    """Return the results of a solution.
 
     Up to three positions have tables of their own; more are rows of common tables.
 
     Parameters
     ----------
     solution : Solution
-    lang : str
-        ``ru`` or ``en``.
+    words : Language
     sigma : bool
         Show how far the drawing may be off beside every value that is read, and what contributes
         most to it in each of a few positions.
-
-    Raises
-    ------
-    UnknownLanguageError
     """
-    words = wording(lang)
-    name = solution.problem.title or solution.problem.name
-    variant = f" ({solution.problem.variant})" if solution.problem.variant else ""
-    lines = wrap(name + variant)
-    lines += wrap(words.formula.format(formula=solution.structure.formula), rest="  ")
-    every = range(len(solution.positions))
-    scales = (common_scale(solution, kind, every, language(words.lang)) for kind in MOTION)
-    lines += wrap(f"{words.scales}: {'; '.join(map(plain_text, scales))}", rest="  ")
-    sigmas = Sigmas(solution, words, asked=sigma)
-    if len(solution.positions) > FEW:
-        lines += ["", *_many(solution, words, sigmas)]
+    return Document.of(_results(solution, words, Sigmas(solution, words.note, asked=sigma)))
+
+
+def _results(solution: Solution, words: Language, sigmas: Sigmas) -> Iterator[Node]:
+    note, every = words.note, range(len(solution.positions))
+    yield Paragraph(heading_of(solution.problem))
+    yield Item(note.formula.format(formula=solution.structure.formula))
+    scales = (common_scale(solution, kind, every, words) for kind in MOTION)
+    yield Item(f"{note.scales}: {'; '.join(scales)}")
+    if len(every) > FEW:
+        yield from _many(solution, words, sigmas)
     else:
-        for index in range(len(solution.positions)):
-            lines += ["", *heading(position_line(solution, words, index)), ""]
-            lines += position_tables(solution, words, index, sigmas)
-            lines += _forces(solution, words, index, sigmas)
-            lines += _causes(solution, words, index) if sigma else []
+        for index in every:
+            yield Chapter(position_line(solution, note, index), numbered=False)
+            yield from position_tables(solution, words, index, sigmas)
+            if sigmas.asked:
+                yield from _causes(solution, note, index)
+    yield from further_tables(solution, words)
+    yield Paragraph(note.hand_note.format(ruler=given(solution.hand.ruler, note)))
+    yield Paragraph(note.sense_note)
+    yield from sigmas.notes()
+
+
+def heading_of(problem: Problem) -> Rich:
+    """Return the name of a problem and of its variant."""
+    variant = f" ({problem.variant})" if problem.variant else ""
+    return escape((problem.title or problem.name) + variant)
+
+
+def further_tables(solution: Solution, words: Language) -> Iterator[Node]:
+    """Yield what the file asks for besides: a turn of the crank, a machine, its balancing."""
     if solution.problem.cycle is not None:
         from planmethod.note.tables.turn import cycle_tables
 
-        lines += ["", *cycle_tables(solution, language(words.lang))]
+        yield from cycle_tables(solution, words)
     if solution.problem.machine is not None:
         from planmethod.note.tables.machine import machine_tables
 
-        lines += ["", *machine_tables(solution, words)]
+        yield from machine_tables(solution, words)
     if solution.problem.balancing is not None:
         from planmethod.note.tables.balancing import balancing_tables
 
-        lines += ["", *balancing_tables(solution, words)]
-    ruler = given(solution.hand.ruler, words)
-    lines += ["", *wrap(words.hand_note.format(ruler=ruler)), words.sense_note, *sigmas.notes()]
-    return "\n".join(lines)
+        yield from balancing_tables(solution, words)
 
 
-def _forces(solution: Solution, words: Words, index: int, sigmas: Sigmas) -> list[str]:
-    if solution.problem.dynamics is None:
-        return []
-    from planmethod.note.tables.forces import forces_tables
-
-    return ["", *forces_tables(solution, words, index, sigmas)]
-
-
-def _causes(solution: Solution, words: Words, index: int) -> list[str]:
+def _causes(solution: Solution, note: Words, index: int) -> Iterator[Node]:
     from planmethod.note.tables.causes import Causes
 
-    lines = Causes(Names(solution, words)).lines(index)
-    return ["", *lines] if lines else []
+    yield from Causes(Names(solution, note)).nodes(index)
 
 
-def scale_texts(solution: Solution, words: Words, index: int) -> list[str]:
-    """Return the scales of a position as ``μ_v = 0,05 (м/с)/мм``, or in mm per unit."""
-    say, convention = language(words.lang).say, solution.problem.scales.convention
+def scale_texts(solution: Solution, words: Language, index: int) -> list[Rich]:
+    """Return the scales of a position as ``μ_{v} = 0,05 (м/с)/мм``, or in mm per unit."""
+    convention = solution.problem.scales.convention
     scales = (solution.own_scale(kind, index) for kind in MOTION)
-    return [plain_text(scale_inscription(scale, convention, say)) for scale in scales]
+    return [scale_inscription(scale, convention, words.say) for scale in scales]
 
 
-def position_line(solution: Solution, words: Words, index: int) -> str:
+def position_line(solution: Solution, words: Words, index: int) -> Rich:
     """Return which position is told: its number and the driver's place."""
     coordinate = solution.problem.drive.coordinate
     value = given(float(solution.positions[index]), words)
@@ -112,7 +113,7 @@ def position_line(solution: Solution, words: Words, index: int) -> str:
     return (words.position if count > 1 else words.one_position).format(
         number=index,
         count=count,
-        symbol=plain_text(coordinate.symbol),
+        symbol=coordinate.symbol,
         value=with_unit(value, words["units"][coordinate.unit]),
     )
 
@@ -121,36 +122,37 @@ def position_line(solution: Solution, words: Words, index: int) -> str:
 
 
 def position_tables(
-    solution: Solution, words: Words, index: int, sigmas: Sigmas | None = None
-) -> list[str]:
-    """Return the tables of one position: points, links, sliding, segments of the plans."""
-    sigmas = sigmas or Sigmas(solution, words, asked=False)
-    points = _points(solution, words, index, sigmas)
-    parts = [
-        (words.table_points, sigmas.table(sigmas.header(words["columns_points"], 4, 6), points)),
-        (words.table_links, _link_tables(solution, words, index, sigmas)),
-    ]
-    sliding = _sliding(solution, words, index, sigmas)
+    solution: Solution, words: Language, index: int, sigmas: Sigmas | None = None
+) -> Iterator[Node]:
+    """Yield the tables of one position: points, links, sliding, segments of the plans, forces."""
+    note = words.note
+    sigmas = sigmas or Sigmas(solution, note, asked=False)
+    yield Caption(note.table_points)
+    points = _points(solution, note, index, sigmas)
+    yield sigmas.table(note["columns_points"], (4, 6), points)
+    yield Caption(note.table_links)
+    yield from _link_tables(solution, note, index, sigmas)
+    sliding = _sliding(solution, note, index, sigmas)
     if sliding:
-        header = sigmas.header(words["columns_sliding"], 2, 4, 6)
-        parts.append((words.table_sliding, sigmas.table(header, sliding)))
-    names = Names(solution, words)
+        yield Caption(note.table_sliding)
+        yield sigmas.table(note["columns_sliding"], (2, 4, 6), sliding)
+    names = Names(solution, note)
     for kind, scale in zip(MOTION, scale_texts(solution, words, index), strict=True):
-        plan = words["plans"][kind.value]
-        title = words.table_segments.format(plan=plan[:1].lower() + plan[1:], scale=scale)
         rows = _segments(solution, names, kind, index, sigmas)
+        if not rows:
+            continue
+        plan = note["plans"][kind.value]
+        yield Caption(note.table_segments.format(plan=plan[:1].lower() + plan[1:], scale=scale))
         if kind is PlanKind.POSITION:
-            lines = sigmas.table(sigmas.header(words["columns_lengths"], 2), rows)
+            yield sigmas.table(note["columns_lengths"], (2,), rows)
         else:
-            unit = words["units"][FACTS[kind].unit]
-            header = sigmas.header([text.format(unit=unit) for text in words["columns_vectors"]], 3)
-            lines = sigmas.table(header, rows, left=2)
-        if rows:
-            parts.append((title, lines))
-    lines = []
-    for title, part in parts:
-        lines += [*([""] if lines else []), title, *part]
-    return lines
+            unit = note["units"][FACTS[kind].unit]
+            head = [text.format(unit=unit) for text in note["columns_vectors"]]
+            yield sigmas.table(head, (3,), rows, names=2)
+    if solution.problem.dynamics is not None:
+        from planmethod.note.tables.forces import forces_tables
+
+        yield from forces_tables(solution, note, index, sigmas)
 
 
 def moving_points(solution: Solution) -> list[str]:
@@ -186,15 +188,14 @@ def _place(solution: Solution, metres: float, words: Words) -> str:
     return spoken(f"{metres:.{max(0, 4 - math.floor(math.log10(size)))}f}", words)
 
 
-def _link_tables(solution: Solution, words: Words, i: int, sigmas: Sigmas) -> list[str]:
-    """Return the table of the links; with errors it is one of ω and one of ε: both are wide."""
-    rows = _links(solution, words, i, sigmas)
+def _link_tables(solution: Solution, words: Words, i: int, sigmas: Sigmas) -> Iterator[Table]:
+    """Yield the table of the links; with errors it is one of ω and one of ε: both are wide."""
+    rows, head = _links(solution, words, i, sigmas), words["columns_links"]
     if not sigmas.asked:
-        return table(words["columns_links"], rows)
-    header = sigmas.header(words["columns_links"], 3, 6)
-    one = sigmas.table(header[:6], [row[:6] for row in rows])
-    two = sigmas.table((header[0], *header[6:]), [[row[0], *row[6:]] for row in rows])
-    return [*one, "", *two]
+        yield sigmas.table(head, (), rows)
+        return
+    yield sigmas.table(head[:5], (3,), [row[:6] for row in rows])
+    yield sigmas.table((head[0], *head[5:]), (2,), [[row[0], *row[6:]] for row in rows])
 
 
 def _links(solution: Solution, words: Words, i: int, sigmas: Sigmas) -> list[list[str]]:
@@ -250,8 +251,8 @@ def _segments(
     for vector, segment in zip(solution.construction.plan(kind).vectors, segments, strict=True):
         number = solution.by_hand.number(values.known((vector.tail, vector.head)))
         value = found(abs(float(number[i])), words)
-        name = plain_text(names.segment(vector.tail, vector.head))
-        rows.append([plain_text(vector.symbol), name, *lengths(segment), value])
+        name = names.segment(vector.tail, vector.head)
+        rows.append([vector.symbol, name, *lengths(segment), value])
     return rows
 
 
@@ -264,66 +265,53 @@ def _lengths(segment: Segment, words: Words, i: int) -> list[str]:
     return [fixed(exact, words), given(read, words, 6)]
 
 
-def _many_forces(solution: Solution, words: Words) -> list[list[str]]:
-    if solution.problem.dynamics is None:
-        return []
-    from planmethod.note.tables.forces import forces_columns
-
-    return forces_columns(solution, words)
-
-
-def _resultants(solution: Solution, words: Words) -> list[str]:
-    from planmethod.note.narrate.forces.resultants import kept_lines, shift_lines
-    from planmethod.solved.forces.statics import statics_of
-
-    said = [*shift_lines(statics_of(solution), words), *kept_lines(statics_of(solution), words)]
-    return [line for text in said for line in wrap(plain_text(text))]
-
-
 # Many positions --------------------------------------------------------------------------------
 
 
-def _many(solution: Solution, words: Words, sigmas: Sigmas) -> list[str]:
-    """Return tables with a row for each position."""
-    coordinate = solution.problem.drive.coordinate
-    symbol = f"{plain_text(coordinate.symbol)}, {words['units'][coordinate.unit]}"
-    lead = [
-        [words.number, *(str(i) for i in range(len(solution.positions)))],
-        [symbol, *(given(float(p), words) for p in solution.positions)],
-    ]
+def _many(solution: Solution, words: Language, sigmas: Sigmas) -> Iterator[Node]:
+    """Yield tables with a row for each position."""
+    note, count = words.note, len(solution.positions)
+    lead = lead_columns(solution.problem.drive.coordinate, solution.positions.tolist(), note)
 
-    def column(quantity: Quantity, values: Reals) -> list[str]:
-        cells = [found(float(value), words) for value in values]
-        return [plain_text(quantity.symbol), *cells]
+    def table(title: Rich, columns: Sequence[Sequence[Rich]]) -> Iterator[Node]:
+        if columns:
+            yield Caption(title)
+            yield table_of_columns([*lead, *columns], repeated=len(lead))
+
+    def column(quantity: Quantity, values: Reals) -> list[Rich]:
+        return [quantity.symbol, *(found(float(value), note) for value in values)]
 
     places = []
     for name in moving_points(solution):
         place = solution.points[name].place
         for axis, values in (("x", place.real), ("y", place.imag)):
-            cells = [_place(solution, float(value), words) for value in values]
-            places.append([plain_text(f"{axis}_{{{name}}}"), *cells])
+            cells = [_place(solution, float(value), note) for value in values]
+            places.append([f"{axis}_{{{name}}}", *cells])
     speeds = told(solution, QuantityKind.VELOCITY, QuantityKind.OMEGA)
     changes = told(solution, QuantityKind.ACCELERATION, QuantityKind.EPSILON)
-    v, a = ([column(q, solution.exact(q)) for q in each] for each in (speeds, changes))
-    read_v, read_a = (
-        [column(q, solution.read_off(q.label)) for q in each] for each in (speeds, changes)
-    )
+    yield from table(note.many_places, places)
+    for title, some in ((note.many_velocities, speeds), (note.many_accelerations, changes)):
+        yield from table(title, [column(q, solution.exact(q)) for q in some])
+        by_hand = note.many_by_hand.format(title=title)
+        yield from table(by_hand, [column(q, solution.read_off(q.label)) for q in some])
+    if solution.problem.dynamics is not None:
+        from planmethod.note.tables.forces import forces_columns, resultant_notes
+
+        yield from table(note.many_forces, forces_columns(solution, note))
+        yield from map(Note, resultant_notes(solution, note))
     errors = []
     for quantity in (*speeds, *changes) if sigmas.asked else ():
-        cells = [sigmas.cell(quantity.label, i)[0] for i in range(len(solution.positions))]
-        errors.append([plain_text(quantity.symbol), *levelled(cells)])
-    lines: list[str] = []
-    for title, columns in (
-        (words.many_places, places),
-        (words.many_velocities, v),
-        (words.many_by_hand.format(title=words.many_velocities), read_v),
-        (words.many_accelerations, a),
-        (words.many_by_hand.format(title=words.many_accelerations), read_a),
-        (words.many_forces, _many_forces(solution, words)),
-        (words.many_sigmas, errors),
-    ):
-        if columns:
-            lines += [*([""] if lines else []), title, *columns_text([*lead, *columns], len(lead))]
-        if columns and title == words.many_forces:
-            lines += _resultants(solution, words)
-    return lines
+        cells = [sigmas.cell(quantity.label, i)[0] for i in range(count)]
+        errors.append([quantity.symbol, *levelled(cells)])
+    yield from table(note.many_sigmas, errors)
+
+
+def lead_columns(
+    coordinate: Coordinate, positions: Sequence[float], words: Words
+) -> list[list[Rich]]:
+    """Return the columns that each part of a table of positions begins with: number and place."""
+    symbol = f"{coordinate.symbol}, {words['units'][coordinate.unit]}"
+    return [
+        [words.number, *map(str, range(len(positions)))],
+        [symbol, *(given(float(p), words) for p in positions)],
+    ]

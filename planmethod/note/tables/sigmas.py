@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
-from planmethod.note.plaintext import spoken, table, wrap
+from planmethod.note.document import Node, Paragraph, Table, table_of
+from planmethod.note.formula import Rich
+from planmethod.note.plaintext import spoken
 from planmethod.note.rounding import sigma_text
 
 if TYPE_CHECKING:
@@ -57,36 +59,36 @@ class Sigmas:
         self.drawn = self.drawn or bool(mark)
         return [spoken(sigma_text(sigma), self.words) + mark]
 
-    def header(self, header: Sequence[str], *after: int) -> tuple[str, ...]:
-        """Return a header with the columns of the errors behind those of the readings."""
-        wide: list[str] = []
-        for k, text in enumerate(header):
-            wide.append(text)
-            wide += [self.words.sigma] if self.asked and k in after else []
-        return tuple(wide)
-
     def table(
-        self, header: Sequence[str], rows: Sequence[Sequence[str]], *, left: int = 1
-    ) -> list[str]:
-        """Return an aligned table; the digits of the errors stand under each other."""
-        if not self.asked:
-            return table(header, rows, left=left)
-        columns = [
-            levelled(column) if head == self.words.sigma else list(column)
-            for head, *column in zip(header, *rows, strict=True)
-        ]
-        return table(header, list(zip(*columns, strict=True)), left=left)
+        self,
+        head: Sequence[Rich],
+        after: Sequence[int],
+        rows: Sequence[Sequence[Rich]],
+        *,
+        names: int = 1,
+    ) -> Table:
+        """Return a table with the errors behind the columns ``after``: their cells are in the rows.
 
-    def notes(self) -> list[str]:
-        """Return what the errors are, and what the mark of some of them means."""
+        The digits of the errors stand under each other.
+        """
         if not self.asked:
-            return []
+            return table_of(head, rows, names=names)
+        columns: list[Sequence[Rich]] = list(zip(*rows, strict=True))
+        wide = list(head)
+        for made, k in enumerate(after, 1):
+            wide.insert(k + made, self.words.sigma)
+            columns[k + made] = levelled(columns[k + made])
+        return table_of(wide, zip(*columns, strict=True), names=names)
+
+    def notes(self) -> Iterator[Node]:
+        """Yield what the errors are, and what the mark of some of them means."""
+        if not self.asked:
+            return
         name = self.solution.profile.name
         profile = self.words["profiles"].get(name, name)
-        lines = wrap(self.words.sigma_note.format(profile=profile))
+        yield Paragraph(self.words.sigma_note.format(profile=profile))
         if self.drawn:
-            lines += wrap(self.words.drawn_note)
-        return lines
+            yield Paragraph(self.words.drawn_note)
 
 
 def levelled(cells: Sequence[str]) -> list[str]:

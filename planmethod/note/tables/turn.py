@@ -2,12 +2,22 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 import numpy as np
 
 from planmethod.construct.hand import Hand
+from planmethod.note.document import (
+    Caption,
+    Chapter,
+    Node,
+    Paragraph,
+    Step,
+    steps_of,
+    table_of_quantities,
+)
 from planmethod.note.narrate.turn import diagram_steps, extreme_steps, output_symbol, turn_facts
-from planmethod.note.numbers import alike, significant
-from planmethod.note.plaintext import columns_text, heading, plain_columns, plain_text, wrap
+from planmethod.note.numbers import alike, in_heads, significant
 from planmethod.note.wording import Language
 from planmethod.problem.model import Differentiation
 from planmethod.solved.reading import Reals
@@ -94,25 +104,21 @@ def deviations_title(solution: Solution, words: Language) -> str:
     return words.cycle.deviations.format(ruler=words.say.given(solution.profile.ruler))
 
 
-def cycle_tables(solution: Solution, words: Language) -> list[str]:
-    """Return the turn as lines of plain text: facts, table by positions, deviations."""
+def cycle_tables(solution: Solution, words: Language) -> Iterator[Node]:
+    """Yield the turn: facts, table by positions, deviations."""
     turn, diagrams, said = turn_of(solution), diagrams_of(solution), words.cycle
-    lines = [*heading(plain_text(said.title)), ""]
-    lines += wrap("; ".join(plain_text(fact) for fact in turn_facts(turn, words)) + ".")
+    yield Chapter(said.title, numbered=False)
+    yield Paragraph("; ".join(turn_facts(turn, words)) + ".")
     for title, columns in (
         (said.table, cycle_columns(diagrams, words)),
         (deviations_title(solution, words), deviation_columns(diagrams, words)),
     ):
-        lines += ["", *wrap(title), "", *columns_text(list(plain_columns(columns, words.say)), 2)]
-    return lines
+        yield Caption(title)
+        yield table_of_quantities(in_heads(columns, words.say), repeated=2)
 
 
-def cycle_protocol(solution: Solution, words: Language) -> list[str]:
-    """Return how extremes and diagrams of a turn are made, and what they give, as plain text."""
+def cycle_steps(solution: Solution, words: Language) -> Iterator[Step]:
+    """Yield how extremes and diagrams of a turn are made, and what they give."""
     diagrams = diagrams_of(solution)
-    lines = cycle_tables(solution, words)
     made = extreme_construction(solution)
-    own = [*extreme_steps(diagrams.turn, made, words), *diagram_steps(diagrams, words)]
-    steps = [plain_text(step) for step in own]
-    told = [line for k, step in enumerate(steps, 1) for line in wrap(f"{k}. {step}", rest="   ")]
-    return [*lines, "", *told]
+    return steps_of([*extreme_steps(diagrams.turn, made, words), *diagram_steps(diagrams, words)])

@@ -3,23 +3,20 @@
 from __future__ import annotations
 
 import re
+import textwrap
+import unicodedata
 from collections.abc import Iterator, Sequence
 from typing import assert_never
 
 from planmethod.note import document
 from planmethod.note.document import Document, Equation, Table, Term
-from planmethod.note.plaintext import (
-    NO_BREAK,
-    WIDTH,
-    columns_text,
-    heading,
-    pad,
-    plain_text,
-    table,
-    width,
-    wrap,
-)
+from planmethod.note.plaintext import NO_BREAK, plain_text
 from planmethod.note.wording import Language
+
+WIDTH = 100
+"""Columns of the terminal that every table and paragraph keeps to."""
+
+GAP = "  "
 
 INDENT = " " * 5
 """What stands before the lines of a step, under its number."""
@@ -27,7 +24,14 @@ INDENT = " " * 5
 HANGING = " " * 2
 """What stands before the further lines of an item."""
 
+LABEL = 5
+"""Columns of the label of an item."""
+
 _LINES = (" ", "─", "═")
+
+_HEADINGS = (document.Chapter, document.Part)
+_UNLIKE_STEPS = (document.Table, document.Item, document.Equations)
+_BODY = (document.Table, document.Step, document.Equations, document.Item, document.Note)
 
 
 def plain_document(written: Document, words: Language) -> str:
@@ -56,17 +60,25 @@ class PlainWriter:
 
     def _stands_apart(self, node: document.Node, before: document.Node | None) -> bool:
         """Tell whether a blank line stands before a node."""
+        after: tuple[type, ...]
         match node:
             case document.Chapter() | document.Part() | document.Caption():
                 return True
             case document.Table():
-                return isinstance(before, document.Table)
-            case document.Equations() | document.Step() | document.Formula():
-                return isinstance(before, document.Chapter | document.Part | document.Equations)
+                after = (*_HEADINGS, document.Table, document.Paragraph, document.Formula)
+            case document.Equations():
+                after = (*_HEADINGS, document.Caption)
+            case document.Item():
+                after = (*_HEADINGS, document.Table, document.Step, document.Equations)
             case document.Paragraph():
-                return isinstance(before, document.Table | document.Step | document.Equations)
+                after = (*_HEADINGS, *_BODY)
+            case document.Step():
+                after = (*_HEADINGS, *_UNLIKE_STEPS, document.Formula)
+            case document.Formula():
+                after = (*_HEADINGS, *_UNLIKE_STEPS)
             case _:
                 return False
+        return isinstance(before, after)
 
     def _node(self, node: document.Node) -> list[str]:
         match node:
@@ -84,8 +96,10 @@ class PlainWriter:
                 return wrap(self._whole(text))
             case document.Paragraph(text) | document.Note(text):
                 return wrap(self._whole(text))
-            case document.Item(text):
-                return wrap(self._whole(text), rest=HANGING)
+            case document.Item(text, label):
+                lead = f"{HANGING}{pad(plain_text(label), LABEL, right=True)}  " if label else ""
+                rest = " " * width(lead) or HANGING
+                return wrap(self._whole(text), first=lead, rest=rest)
             case document.Step(lines, continues):
                 return self._stepped(lines, continues=continues)
             case document.Formula(text):
@@ -130,6 +144,83 @@ def _tabulated(node: Table) -> list[str]:
     if node.repeated:
         return columns_text(list(zip(head, *rows, strict=True)), node.repeated)
     return table(head, rows, left=node.names)
+
+
+# Lines and tables --------------------------------------------------------------------------------
+
+
+def width(text: str) -> int:
+    """Return how many columns a terminal needs for a text."""
+    columns = 0
+    for char in text:
+        if not unicodedata.combining(char):
+            columns += 2 if unicodedata.east_asian_width(char) in "WF" else 1
+    return columns
+
+
+def pad(text: str, columns: int, *, right: bool = False) -> str:
+    """Return a text filled with spaces up to so many columns."""
+    space = " " * max(0, columns - width(text))
+    return space + text if right else text + space
+
+
+def wrap(text: str, *, first: str = "", rest: str = "") -> list[str]:
+    """Return a paragraph cut into lines, never within a word or at a no-break space."""
+    lines = textwrap.wrap(
+        text,
+        WIDTH,
+        initial_indent=first,
+        subsequent_indent=rest,
+        break_long_words=False,
+        break_on_hyphens=False,
+    )
+    return [line.replace(NO_BREAK, " ") for line in lines]
+
+
+def table(header: Sequence[str], rows: Sequence[Sequence[str]], *, left: int = 1) -> list[str]:
+    """Return an aligned table: the first ``left`` columns to the left, the others to the right."""
+    columns = list(zip(header, *rows, strict=True))
+    widths = [max(width(cell) for cell in column) for column in columns]
+
+    def line(cells: Sequence[str]) -> str:
+        padded = (
+            pad(cell, size, right=i >= left)
+            for i, (cell, size) in enumerate(zip(cells, widths, strict=True))
+        )
+        return GAP.join(padded).rstrip()
+
+    rule = "─" * (sum(widths) + len(GAP) * (len(widths) - 1))
+    return [line(header), rule, *(line(row) for row in rows)]
+
+
+def cut(columns: Sequence[Sequence[str]], lead: int) -> Iterator[list[Sequence[str]]]:
+    """Cut columns (header and cells each) into tables that fit, each with the leading columns."""
+    sizes = [max(width(cell) for cell in column) + len(GAP) for column in columns]
+    start = sum(sizes[:lead])
+    part, total = list(columns[:lead]), start
+    for column, size in zip(columns[lead:], sizes[lead:], strict=True):
+        if total + size > WIDTH + len(GAP) and len(part) > lead:
+            yield part
+            part, total = list(columns[:lead]), start
+        part.append(column)
+        total += size
+    if len(part) > lead:
+        yield part
+
+
+def columns_text(columns: Sequence[Sequence[str]], lead: int) -> list[str]:
+    """Return columns as tables one under another, a blank line between."""
+    lines: list[str] = []
+    for part in cut(columns, lead):
+        header = [column[0] for column in part]
+        rows = list(zip(*(column[1:] for column in part), strict=True))
+        lines += [*([""] if lines else []), *table(header, rows, left=0)]
+    return lines
+
+
+def heading(text: str, rule: str = "─") -> list[str]:
+    """Return a heading and the line under it."""
+    return [text, rule * width(text)]
 
 
 # Equations ---------------------------------------------------------------------------------------

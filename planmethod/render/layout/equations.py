@@ -17,8 +17,7 @@ from functools import cached_property, partial
 
 from msgspec import Struct
 
-from planmethod.note.narrate.letters import direction_text
-from planmethod.plans.model import Known, VectorEquation
+from planmethod.note.document import Equation, Term
 from planmethod.render.ink.drawing import Item, Pen, Stroke
 from planmethod.render.ink.typeset import (
     Inscription,
@@ -129,54 +128,36 @@ class EquationBlock(Struct, frozen=True, dict=True):
 
 
 def equation_block(
-    equation: VectorEquation, height: float = 5.0, *, width: float | None = None
+    equation: Equation, height: float = 5.0, *, width: float | None = None
 ) -> EquationBlock:
     """Return a vector equation with underlines and notes (векторное уравнение).
 
+    A sum that is nothing (уравнение равновесия) has its name before it.
+
     Parameters
     ----------
-    equation : VectorEquation
+    equation : Equation
     height : float, mm
         Cap height of the terms; that of the notes is an index's, but 2.5 at least.
     width : float, mm, optional
         Greatest width. A longer equation goes on in a second row at a ``+``, which is repeated
         there; when even single terms are too wide, the letters shrink to the next GOST height.
     """
-    told = [
-        (vector_markup(vector.symbol), vector.known, direction_text(vector.direction))
-        for vector in (equation.left, *equation.right)
-    ]
-    signs = ["", "=", *("+" for _ in equation.right[1:])]
-    return _fitted(told, signs, height, width, hangs=True)
+    vectors = [_vector(term) for term in (*equation.left, *equation.right)]
+    plus = ["+" for _ in vectors]
+    if equation.right:
+        return _fitted(vectors, ["", "=", *plus[2:]], height, width, hangs=True)
+    whole = [Term(equation.name), *vectors, Term("0")]
+    return _fitted(whole, ["", "=", *plus[1:], "="], height, width, hangs=False)
 
 
-def balance_block(
-    head: str,
-    vectors: Sequence[tuple[str, Known, str]],
-    height: float = 5.0,
-    *,
-    width: float | None = None,
-) -> EquationBlock:
-    """Return a sum of vectors that is nothing (уравнение равновесия).
-
-    Parameters
-    ----------
-    head : str
-        What the sum is called, rich text.
-    vectors : sequence of (str, Known, str)
-        Symbol, what of it is known, and the note under it.
-    height, width : float, mm
-        As those of `equation_block`.
-    """
-    told = [(vector_markup(symbol), known, note) for symbol, known, note in vectors]
-    signs = ["", *("+" for _ in vectors), "="]
-    signs[1] = "="
-    ends = [(text, Known.NOTHING, "") for text in (head, "0")]
-    return _fitted([ends[0], *told, ends[1]], signs, height, width, hangs=False)
+def _vector(term: Term) -> Term:
+    """Return a term with the bar of a vector."""
+    return Term(vector_markup(term.symbol), term.underlines, term.direction)
 
 
 def _fitted(
-    told: Sequence[tuple[str, Known, str]],
+    told: Sequence[Term],
     signs: Sequence[str],
     height: float,
     width: float | None,
@@ -187,8 +168,8 @@ def _fitted(
     for size in smaller_heights(height):
         small = max(2.5, index_height(size))
         terms = [
-            _Term(typeset(markup, size), typeset(note, small), known.value)
-            for markup, known, note in told
+            _Term(typeset(term.symbol, size), typeset(term.direction, small), term.underlines)
+            for term in told
         ]
         block = EquationBlock(_rows(terms, signs, size, width, hangs=hangs), size)
         if width is None or block.width <= width:

@@ -18,6 +18,7 @@ from planmethod.mechanism.describe import pairs
 from planmethod.mechanism.groups import AssurGroup, Joint, links_of
 from planmethod.mechanism.model import FRAME, Mechanism, Prismatic, Revolute
 from planmethod.mechanism.structure import Structure
+from planmethod.note.narrate.letters import pair_letters
 from planmethod.render.pictures.embedding import Bar, Net, places
 
 
@@ -87,13 +88,6 @@ class Chain(Struct, frozen=True):
         return next(shape for shape in self.shapes if shape.link == link)
 
 
-def letters(name: str) -> str:
-    """Return the designation of a joint as rich text: ``O1(0,3)`` gives ``O_{1}(0,3)``."""
-    point, bracket, links = name.partition("(")
-    index = f"_{{{point[1:]}}}" if point[1:] else ""
-    return f"{point[:1]}{index}{bracket}{links}"
-
-
 def mechanism_chain(mechanism: Mechanism, structure: Structure) -> Chain:
     """Return the chain of the whole mechanism."""
     seen: list[_Seen] = []
@@ -155,7 +149,7 @@ def _chain(mechanism: Mechanism, seen: Sequence[_Seen], rank: Mapping[str, float
             one.joint.point,
             one.own,
             one.far,
-            letters(one.joint.point),
+            pair_letters(one.joint.point),
             one.to,
             len(one.own) - (one.far is Far.CHAIN),
         )
@@ -202,7 +196,7 @@ def _slides(
         taken.add(node)
         bar = next((link for link in choices if link != stone), "")
         bars.add(bar)
-        text = "" if free else letters(name)
+        text = "" if free else pair_letters(name)
         found[one] = DrawnSlide(node, stone, bar, one.far, text, one.to, bool(free))
     return [found[one] for one in sliding]
 

@@ -9,6 +9,7 @@ import numpy as np
 from planmethod.construct.scale import Scale, choose_scale
 from planmethod.construct.steps import PointName
 from planmethod.errors import LayoutError
+from planmethod.note.document import Caption, Paragraph
 from planmethod.note.narrate.balancing import COUNT, BalancingTeller
 from planmethod.note.narrate.forces.statement import mass_lines
 from planmethod.note.narrate.given import given
@@ -18,7 +19,8 @@ from planmethod.problem.model import Convention
 from planmethod.render.ink.drawing import Disc, Ink, Item, Pen, Stroke
 from planmethod.render.ink.typeset import typeset
 from planmethod.render.labels import Label
-from planmethod.render.layout.block import Block, Column, Row, heading, paragraph
+from planmethod.render.layout.block import Block, Column, Row
+from planmethod.render.layout.nodes import TextNode, blocks_of
 from planmethod.render.layout.tables import TableColumn, table_block
 from planmethod.render.pictures.lettered import lettered
 from planmethod.render.pictures.polar import polar_picture
@@ -51,12 +53,12 @@ def balancing_text(solution: Solution, indices: Sequence[int], manner: Manner) -
     assert solution.problem.dynamics is not None
     facts = given(solution.problem, manner.words)
     facts += mass_lines(solution.problem, manner.words)
-    blocks: list[Block] = [
-        stated(facts, tell.said.balancing_wanted, manner),
-        heading(manner.entry.title or tell.said.balancing, height),
+    nodes: list[TextNode] = [
+        Caption(manner.entry.title or tell.said.balancing),
+        *map(Paragraph, tell.lines()),
     ]
-    blocks += [paragraph(line, height, width) for line in tell.lines()]
-    return Column(blocks, gap=3.0)
+    before = stated(facts, tell.said.balancing_wanted, manner)
+    return Column([before, *blocks_of(nodes, height, width=width)], gap=3.0)
 
 
 def scheme_view(solution: Solution, indices: Sequence[int], manner: Manner) -> Viewed:

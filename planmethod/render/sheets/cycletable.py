@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from planmethod.note.narrate.given import NBSP
 from planmethod.note.narrate.scales import scale_inscription
 from planmethod.note.numbers import Notation, alike, half_up
 from planmethod.note.wording import Language
@@ -13,7 +14,6 @@ from planmethod.render.layout.tables import Cell, TableColumn, table_block
 from planmethod.render.sheets.guides import angle_text
 from planmethod.render.sheets.model import Manner
 from planmethod.render.sheets.results import position_columns, table_width
-from planmethod.render.sheets.texts import NBSP
 from planmethod.solved.cycle import Cycle, cycle
 from planmethod.solved.errors.forces import drawn_forces
 from planmethod.solved.forces.reading import FAINT_SHARE

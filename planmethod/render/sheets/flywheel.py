@@ -9,14 +9,15 @@ import numpy as np
 
 from planmethod.construct.scale import Scale, choose_scale
 from planmethod.errors import LayoutError
+from planmethod.note.document import Caption, Formula, Paragraph
 from planmethod.note.narrate.given import point_name
 from planmethod.note.narrate.machine import MachineTeller
 from planmethod.problem.load_records import Load, SizeTable, WheelShape
 from planmethod.render.ink.drawing import Arc, Disc, Item, Pen, Span, Stroke
 from planmethod.render.ink.extent import ink_bounds
 from planmethod.render.ink.typeset import typeset
-from planmethod.render.layout.block import Block, Column, Picture, Row, heading, paragraph
-from planmethod.render.layout.equations import formula_block
+from planmethod.render.layout.block import Block, Column, Picture, Row, paragraph
+from planmethod.render.layout.nodes import TextNode, blocks_of
 from planmethod.render.layout.tables import TableColumn, table_block
 from planmethod.render.pictures.diagram import Abscissae, Curve, Ordinates, diagram_picture
 from planmethod.render.pictures.flywheel import construction_picture
@@ -62,10 +63,12 @@ def calculation_block(solution: Solution, indices: Sequence[int], manner: Manner
     """Return the formulas of the construction, the exact flywheel, and what lies between them."""
     tell = _teller(solution, manner)
     height, width = manner.text(manner.sizes.text), manner.width(manner.sizes.column)
-    blocks: list[Block] = [heading(manner.entry.title or tell.said.calculation, height)]
-    blocks += [formula_block(line, height, width=width) for line in tell.formulas()]
-    blocks += [paragraph(line, height, width) for line in tell.conclusions()]
-    return Column(blocks, gap=2.5)
+    nodes: list[TextNode] = [
+        Caption(manner.entry.title or tell.said.calculation),
+        *map(Formula, tell.formulas()),
+        *map(Paragraph, tell.conclusions()),
+    ]
+    return Column(list(blocks_of(nodes, height, width=width)), gap=2.5)
 
 
 # Diagrams of the construction --------------------------------------------------------------------

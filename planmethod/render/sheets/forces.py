@@ -2,21 +2,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 
-from planmethod.note.narrate.forces.common import ForceContext, lettered
+from planmethod.note.document import Equations, Formula, Paragraph
+from planmethod.note.narrate.forces.common import ForceContext, balance_equation, lettered
 from planmethod.note.narrate.forces.lever import LeverNarrator
 from planmethod.note.narrate.forces.loads import LoadNarrator
 from planmethod.note.narrate.forces.moments import MomentNarrator
 from planmethod.note.narrate.forces.plan import ForcePlanNarrator
 from planmethod.note.narrate.forces.resultants import kept_lines, shift_lines
 from planmethod.note.narrate.forces.statement import link_names, plan_title, statement, wanted
+from planmethod.note.narrate.given import unbroken
 from planmethod.note.narrate.letters import direction_text
 from planmethod.note.narrate.scales import scale_inscription
 from planmethod.note.numbers import Notation
 from planmethod.note.plaintext import plain_text
 from planmethod.plans.forces.polygons import Share
-from planmethod.plans.model import Known, PlanKind
+from planmethod.plans.model import PlanKind
 from planmethod.render.forces.cut import cut_picture, inner_picture, loads_picture
 from planmethod.render.forces.ellipses import vertex_ellipses
 from planmethod.render.forces.leverpicture import lever_picture
@@ -30,12 +32,12 @@ from planmethod.render.forces.polygon import (
 )
 from planmethod.render.ink.drawing import Disc, Item, Span
 from planmethod.render.ink.typeset import typeset
-from planmethod.render.layout.block import Block, Column, Line, Row, heading, paragraph
-from planmethod.render.layout.equations import balance_block, formula_block
+from planmethod.render.layout.block import Block, Column, Line, Row, heading
+from planmethod.render.layout.nodes import TextNode, blocks_of
 from planmethod.render.pictures.ellipses import told_ellipses
 from planmethod.render.sheets.composer import Viewed
 from planmethod.render.sheets.model import Manner
-from planmethod.render.sheets.texts import stated, unbroken
+from planmethod.render.sheets.texts import stated
 from planmethod.render.sheets.views import named, shown_position
 from planmethod.solved.forces.reading import ForceReading, force_reading
 from planmethod.solved.solution import Solution
@@ -166,28 +168,24 @@ def statement_block(solution: Solution, indices: Sequence[int], manner: Manner) 
 def equations_block(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
     """Return the equations of a force plan: moments with arms, forces, what the plan gives."""
     reading = _reading(solution, indices, manner)
-    number, say, context = manner.entry.number, manner.words.say, lettered(reading, manner.words)
+    number, context = manner.entry.number, lettered(reading, manner.words)
     plan, voice = reading.plans[number], MomentNarrator(context, reading.plans[number])
     height, width = manner.text(manner.sizes.text), manner.width(manner.sizes.column)
-    before = [one for one in plan.moments if one.force is not None]
-    after = [one for one in plan.moments if one.force is None]
-    moments = [
-        [formula_block(line, height, width=width) for one in some for line in voice.lines(one)]
-        for some in (before, after)
+
+    def moments(*, of_forces: bool) -> Iterator[Formula]:
+        for one in plan.moments:
+            if (one.force is not None) is of_forces:
+                yield from map(Formula, voice.lines(one))
+
+    balances = (balance_equation(balance, context, direction_text) for balance in plan.balances)
+    nodes: list[TextNode] = [
+        *moments(of_forces=True),
+        Equations(tuple(balances)),
+        Paragraph(_closing(context, number)),
+        *moments(of_forces=False),
+        *map(Formula, voice.places()),
     ]
-    balances: list[Block] = []
-    for balance in plan.balances:
-        terms = [
-            (say.symbol(edge.symbol), edge.known, direction_text(edge.direction))
-            for edge in balance.edges
-            if edge.known is not Known.BOTH or not reading.is_none(edge)
-        ]
-        head = f"Σ_{{{','.join(balance.links)}}}\\bar{{F}}"
-        balances.append(balance_block(head, terms, height, width=width))
-    found = paragraph(_closing(context, number), height, width=width)
-    blocks = [*moments[0], *balances, found, *moments[1]]
-    blocks += [formula_block(line, height, width=width) for line in voice.places()]
-    return Column(blocks, gap=3.0)
+    return Column(list(blocks_of(nodes, height, width=width)), gap=3.0)
 
 
 def _closing(context: ForceContext, number: int) -> str:
@@ -208,6 +206,6 @@ def lever_block(solution: Solution, indices: Sequence[int], manner: Manner) -> B
     told = [manner.words.sheets.lever_stands]
     if reading.statics.lever_plan is not None:
         told = LeverNarrator(lettered(reading, manner.words)).lines()
-    lines = [formula_block(line, height, width=width) for line in told]
+    lines = blocks_of(map(Formula, told), height, width=width)
     title = [heading(manner.entry.title, height, width=width)] if manner.entry.title else []
     return Column([*title, *lines], gap=3.0)

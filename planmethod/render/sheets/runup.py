@@ -9,11 +9,13 @@ import numpy as np
 
 from planmethod.construct.scale import Scale, choose_scale, series_near
 from planmethod.errors import LayoutError
+from planmethod.note.document import Caption, Paragraph
 from planmethod.note.narrate.machine import MachineTeller, course_columns, courses, run_up_lines
 from planmethod.note.numbers import trimmed
 from planmethod.note.wording import Language
 from planmethod.render.ink.drawing import Pen
-from planmethod.render.layout.block import Block, Column, Row, heading, paragraph, shaped
+from planmethod.render.layout.block import Block, Column, Row, shaped
+from planmethod.render.layout.nodes import TextNode, blocks_of
 from planmethod.render.layout.tables import TableColumn, table_block
 from planmethod.render.pictures.diagram import Abscissae, Curve, Ordinates, diagram_picture
 from planmethod.render.sheets.composer import Viewed
@@ -46,12 +48,10 @@ def run_up_text(solution: Solution, indices: Sequence[int], manner: Manner) -> B
     """Return "Дано" and "Определить", the motor, run-up, steady motion and stop with numbers."""
     tell = _teller(solution, manner.words)
     height, width = manner.text(manner.sizes.text), manner.width(manner.sizes.column)
-    blocks: list[Block] = [
-        stated(tell.given(), tell.said.run_up_wanted, manner),
-        heading(manner.entry.title or tell.said.run_up, height),
-    ]
-    blocks += [paragraph(line, height, width) for line in run_up_lines(tell)]
-    return Column(blocks, gap=3.0)
+    lines = map(Paragraph, run_up_lines(tell))
+    nodes: list[TextNode] = [Caption(manner.entry.title or tell.said.run_up), *lines]
+    before = stated(tell.given(), tell.said.run_up_wanted, manner)
+    return Column([before, *blocks_of(nodes, height, width=width)], gap=3.0)
 
 
 def run_up_tables(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:

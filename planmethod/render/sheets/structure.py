@@ -15,6 +15,15 @@ from msgspec.structs import replace
 from planmethod.errors import LayoutError
 from planmethod.languages import LANGUAGES, say
 from planmethod.mechanism.structure import Structure
+from planmethod.note.document import Formula, Table
+from planmethod.note.narrate.structure import (
+    driver_caption,
+    group_caption,
+    link_table,
+    mobility_formulas,
+    order_formulas,
+    pair_table,
+)
 from planmethod.note.wording import Language, language
 from planmethod.paper import STAMP_WIDTH, TRIED, paper_format
 from planmethod.problem.model import Problem
@@ -22,18 +31,11 @@ from planmethod.render.frame.clearance import is_clear
 from planmethod.render.ink.drawing import Drawing, Item
 from planmethod.render.ink.typeset import typeset
 from planmethod.render.layout.block import Block, Column, Line, Row, Spacer, paragraph
-from planmethod.render.layout.equations import formula_block
+from planmethod.render.layout.nodes import blocks_of
 from planmethod.render.layout.pack import Placed
 from planmethod.render.layout.tables import TableColumn, table_block
 from planmethod.render.pictures.structural import driver_picture, group_picture, mechanism_picture
 from planmethod.render.sheets.composer import Blank, Laid, LaidPage, Misfit, Sizes, Viewed, compose
-from planmethod.render.sheets.structure_texts import (
-    driver_caption,
-    formulas,
-    group_caption,
-    link_columns,
-    pair_columns,
-)
 
 EDGE = 6.0
 """Least white between the blocks and the frame, mm."""
@@ -199,10 +201,13 @@ def _told(
     mechanism, said = problem.mechanism, words.structure
     sizes = pictures.sizes
     for row in pictures.rows:
-        lines = formulas(mechanism, structure, words)
+        lines = [
+            *mobility_formulas(mechanism, structure, words),
+            *order_formulas(mechanism, structure, words),
+        ]
         blocks = [
-            _table(pair_columns(mechanism, words), said.pairs, sizes, row),
-            _table(link_columns(mechanism, words), said.links, sizes, row),
+            _table(pair_table(mechanism, words), said.pairs, sizes, row),
+            _table(link_table(mechanism, words), said.links, sizes, row),
             _formulas(lines, sizes, 0.55 * row, said.formulas),
         ]
         spare = height - sum(block.height for block in blocks)
@@ -211,7 +216,8 @@ def _told(
     return None
 
 
-def _table(columns: Sequence[TableColumn], title: str, sizes: Sizes, row: float) -> Block:
+def _table(made: Table, title: str, sizes: Sizes, row: float) -> Block:
+    columns = [TableColumn(*column) for column in made.columns()]
     table = table_block(columns, sizes.text, width=sizes.column, units="none", row_height=row)
     return Column([_title(title, sizes), table], gap=3.0)
 
@@ -221,9 +227,8 @@ def _title(text: str, sizes: Sizes) -> Block:
 
 
 def _formulas(lines: Iterable[str], sizes: Sizes, gap: float, title: str) -> Block:
-    blocks: list[Block] = [_title(title, sizes)]
-    blocks += [formula_block(line, sizes.text, width=sizes.column) for line in lines]
-    return Column(blocks, gap=gap)
+    made = blocks_of(map(Formula, lines), sizes.text, width=sizes.column)
+    return Column([_title(title, sizes), *made], gap=gap)
 
 
 # The left column: scheme and groups ------------------------------------------------------------

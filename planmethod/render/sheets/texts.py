@@ -4,15 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from planmethod.note.narrate.given import given, wanted
+from planmethod.note.document import Caption, Equations, Formula
+from planmethod.note.narrate.equations import equation_of
+from planmethod.note.narrate.given import given, unbroken, wanted
+from planmethod.note.narrate.letters import direction_text
 from planmethod.note.narrate.steps import calculation
 from planmethod.render.layout.block import Block, Column, Row, Shapes, heading, paragraph
-from planmethod.render.layout.equations import equation_block, formula_block
+from planmethod.render.layout.nodes import blocks_of
 from planmethod.render.sheets.model import Manner
 from planmethod.render.sheets.views import shown_position
 from planmethod.solved.solution import Solution
-
-NBSP = "\u00a0"
 
 NARROW = 0.7
 """Part of the usual width that a text may be set to where that has more room."""
@@ -37,11 +38,6 @@ def stated(facts: Sequence[str], asked: str, manner: Manner, *more: str) -> Bloc
     return Shapes(tuple(ways))
 
 
-def unbroken(facts: Sequence[str]) -> str:
-    """Return facts in one line that is broken between them only."""
-    return "; ".join(fact.replace(" ", NBSP) for fact in facts)
-
-
 def equations_block(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
     """Return the vector equations of a plan, one under another."""
     kind = manner.entry.of
@@ -49,11 +45,9 @@ def equations_block(solution: Solution, indices: Sequence[int], manner: Manner) 
     plan = solution.construction.plan(kind)
     size = manner.text(manner.sizes.text)
     height, width = max(3.5, min(5.0, size)), manner.width(manner.sizes.column)
-    blocks: list[Block] = [
-        heading(manner.entry.title or manner.words.sheets["equations"][kind.value], size)
-    ]
-    blocks += [equation_block(e, height, width=width) for e in plan.equations]
-    return Column(blocks, gap=4.0)
+    title = heading(manner.entry.title or manner.words.sheets["equations"][kind.value], size)
+    equations = Equations(tuple(equation_of(one, direction_text) for one in plan.equations))
+    return Column([title, *blocks_of([equations], height, width=width)], gap=4.0)
 
 
 def calculation_block(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
@@ -66,8 +60,8 @@ def calculation_block(solution: Solution, indices: Sequence[int], manner: Manner
     title = manner.entry.title or said["calculation"][kind.value]
     if len(solution.positions) > 1:
         title = said.of_position.format(title=title, number=index)
-    lines = calculation(solution, kind, index, manner.words)
-    blocks = [heading(title, height), *(formula_block(x, height) for x in lines)]
+    lines = map(Formula, calculation(solution, kind, index, manner.words))
+    blocks = list(blocks_of([Caption(title), *lines], height))
     whole, half = Column(blocks, gap=2.2), -(-len(blocks) // 2)
     columns = [Column(some, gap=2.2) for some in (blocks[:half], blocks[half:])]
     return Shapes((whole, Row(columns, gap=2.0 * height)))

@@ -12,12 +12,13 @@ import ex3_work
 import openpyxl
 import pytest
 from msgspec.structs import replace
+from texts import key_text
 from worked import problem_of
 
 from planmethod.check.key import Key
-from planmethod.check.pages.keypage import key_pdf, key_text, key_xlsx
-from planmethod.note.plaintext import WIDTH
+from planmethod.check.pages.keypage import key_pdf, key_xlsx
 from planmethod.note.wording import LANGUAGES, Words, language
+from planmethod.note.writers.plain import WIDTH
 
 RU = language("ru")
 

@@ -6,14 +6,17 @@ import re
 from collections.abc import Sequence
 
 import numpy as np
+from msgspec.structs import replace
 
 from planmethod.construct.steps import Name, Step
+from planmethod.note.document import Equation
+from planmethod.note.narrate.equations import Directed, term_of
 from planmethod.note.narrate.formulas import Formulas
 from planmethod.note.narrate.naming import Names
 from planmethod.note.numbers import MINUS
 from planmethod.note.wording import Language
-from planmethod.plans.forces.polygons import Edge
-from planmethod.plans.model import PlanKind
+from planmethod.plans.forces.polygons import Balance, Edge
+from planmethod.plans.model import Known, PlanKind
 from planmethod.solved.forces.reading import ForceReading
 
 QUARTERS = {0.0: "way_right", 90.0: "way_up", 180.0: "way_left", 270.0: "way_down"}
@@ -74,6 +77,16 @@ class ForceContext:
         """Return what the direction of a force is told by: ``BC`` of ``∥ BC``."""
         assert edge.direction is not None
         return self.names.base(edge.direction)
+
+
+def balance_equation(balance: Balance, context: ForceContext, directed: Directed) -> Equation:
+    """Return the sum of the forces on a link or a group, without known ones that are nothing."""
+    terms = (
+        term_of(replace(edge, symbol=context.symbol(edge.symbol)), directed)
+        for edge in balance.edges
+        if edge.known is not Known.BOTH or not context.reading.is_none(edge)
+    )
+    return Equation(tuple(terms), name=f"Σ_{{{','.join(balance.links)}}}\\bar{{F}}")
 
 
 def lettered(reading: ForceReading, words: Language) -> ForceContext:
