@@ -279,7 +279,9 @@ def said(group: str, line: str) -> str:
     is_data = words[0] != "sheet" and any(f"--{o}" in words for o in ("json", "csv", "covariance"))
     is_coarse = "--covariance" in words or group in INTEGRATED
     digits = COARSE if is_coarse else DIGITS
-    parts.append(_rounded(result.stdout, digits) if is_data else result.stdout)
+    # click keeps a command's help option as who first called it named it: by the group, or alone.
+    shown = re.sub(r"(?m)^  -h, --help", "  --help    ", result.stdout)
+    parts.append(_rounded(shown, digits) if is_data else shown)
     parts += [f"--- to stderr\n{result.stderr}"] if result.stderr else []
     for path in sorted(Path("out").rglob("*")):
         if path.is_file():

@@ -9,7 +9,7 @@ from msgspec import Struct
 
 from planmethod.check.pages.overlay import Overlay, true_plan
 from planmethod.plans.model import PlanKind
-from planmethod.render.backends import render
+from planmethod.render import backends
 from planmethod.render.backends.canvas import Options, draw_sheet
 from planmethod.render.backends.pdf import PdfCanvas, registered
 from planmethod.render.ink.drawing import Fill, Ink, Pen, Stroke
@@ -71,7 +71,7 @@ class OverlayView(Struct, frozen=True):
 @remembered
 def true_svg(solution: Solution, kind: PlanKind, index: int) -> str:
     """Return what is inside the SVG of a plan alone."""
-    text = render(true_plan(solution, kind, index)[0], "svg").decode("utf-8")
+    text = backends.render(true_plan(solution, kind, index)[0], "svg").decode("utf-8")
     start = text.index(">", text.index("<svg")) + 1
     return text[start : text.rindex("</svg>")]
 
