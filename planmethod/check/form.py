@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import json
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping, Sequence, Set
 from enum import Enum
 from typing import Any
 
@@ -48,6 +48,8 @@ def _parts(record: Any) -> Any:
         return asdict(record)
     if isinstance(record, Mapping):
         return dict(record)
+    if isinstance(record, Set):  # in no order that a process would choose
+        return sorted(map(str, record))
     return record.value if isinstance(record, Enum) else str(record)
 
 

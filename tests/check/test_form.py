@@ -16,6 +16,7 @@ from click.testing import CliRunner
 from msgspec.structs import replace
 from worked import path_of
 
+from planmethod.check import form as form_module
 from planmethod.check.form import fingerprint_of, form_of
 from planmethod.check.model import KeyEntry, Sense, Unread, Work
 from planmethod.check.works import read_works
@@ -286,3 +287,7 @@ def test_the_command_refuses_what_it_cannot_do(args: list[str], said: str, tmp_p
     assert result.exit_code == ExitCode.USAGE
     assert said in result.output
     assert not list(tmp_path.iterdir())
+
+
+def test_a_fingerprint_does_not_depend_on_the_order_of_a_set() -> None:
+    assert form_module._parts(frozenset({"2", "10", "1"})) == ["1", "10", "2"]
