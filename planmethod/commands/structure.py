@@ -87,9 +87,13 @@ def structure(
 
     def show_other(kind: Kind[Any], problem: KindProblem) -> None:
         words = language(str(asked.sheet["lang"] or LANGUAGES[0]))
-        record, written = kind.structure_record(problem), kind.structure_document(problem, words)
-        if record is None or written is None:
+        record = kind.structure_record(problem) if as_json else None
+        written = None if as_json else kind.structure_document(problem, words)
+        if record is not None:
+            click.echo(json_text(record))
+        elif written is not None:
+            click.echo(plain_document(written, words))
+        else:
             raise UsageError("{} is no mechanism, it has no structure", problem.name)
-        click.echo(json_text(record) if as_json else plain_document(written, words))
 
     finish(each(problems, variant, all_variants, show))

@@ -1,4 +1,4 @@
-r"""Rich text read once into a tree: letters, indices, bars, fractions, roots (формула).
+r"""Rich text read once into a tree: letters, indices, bars (формула).
 
 The markup is small and reads like the textbook::
 
@@ -48,20 +48,7 @@ class Bar(Struct, frozen=True):
     body: tuple[Node, ...]
 
 
-class Fraction(Struct, frozen=True):
-    """A fraction (дробь)."""
-
-    above: tuple[Node, ...]
-    below: tuple[Node, ...]
-
-
-class Root(Struct, frozen=True):
-    """A square root (корень)."""
-
-    body: tuple[Node, ...]
-
-
-Node: TypeAlias = Letters | Index | Bar | Fraction | Root
+Node: TypeAlias = Letters | Index | Bar
 
 
 def escape(text: str) -> Rich:
@@ -86,7 +73,7 @@ def parse(markup: Rich) -> tuple[Node, ...]:
 def _parse(markup: str, start: int, *, closing: bool) -> tuple[tuple[Node, ...], int]:
     """Read nodes from ``start`` up to the closing brace or the end."""
     nodes: list[Node] = []
-    letters, i = "", start
+    letters, i, plain = "", start, re.compile(_PLAIN)
 
     def flush() -> None:
         nonlocal letters
@@ -113,9 +100,9 @@ def _parse(markup: str, start: int, *, closing: bool) -> tuple[tuple[Node, ...],
             nodes.append(_merged(nodes, sign, body))
         elif sign in SPECIAL:
             raise _fault(markup, i, say("'{}' does not pair or starts no known command", sign))
-        elif plain := re.match(_PLAIN, markup[i:]):
-            letters += plain[0]
-            i += plain.end()
+        elif found := plain.match(markup, i):
+            letters += found[0]
+            i = found.end()
     if closing:
         raise _fault(markup, start, "the brace opened here is not closed")
     flush()

@@ -200,7 +200,7 @@ def student_page(
 
 
 def lines(answers: Sequence[Judged], speech: Speech) -> list[Line]:
-    """Return the answers as lines of a table, see `StudentWording.columns`."""
+    """Return the answers as lines of the table whose heads are ``check.student.columns``."""
     symbols = {judged.id: speech.symbol(judged) for judged in answers}
     return [
         Line((str(number), *_cells(judged, speech, symbols)), judged.verdict)

@@ -10,7 +10,7 @@ from typing import assert_never
 
 from planmethod.note import document
 from planmethod.note.document import Document, Equation, Node, Table
-from planmethod.note.formula import Bar, Fraction, Index, Letters, Root, parse
+from planmethod.note.formula import Bar, Index, Letters, parse
 from planmethod.note.formula import Node as Sign
 
 STYLE = """
@@ -160,9 +160,5 @@ def _sign(node: Sign, above: str, below: str) -> str:
             return (f"<{above}>{inside(high)}</{above}>" if high else "") + lower
         case Bar(body):
             return f'<span class="bar">{inside(body)}</span>' if above == "sup" else inside(body)
-        case Fraction(top, bottom):
-            return f"{inside(top)}/{inside(bottom)}"
-        case Root(body):
-            return f"√({inside(body)})"
         case _:
             assert_never(node)
