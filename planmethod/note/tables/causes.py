@@ -101,7 +101,7 @@ class Causes:
                 return words.cause_read.format(segment=names.segment(tail, head))
             case steps.MeasureArm(_, about, at):
                 return words.cause_read.format(segment=names.segment(about, at))
-            case steps.Known() | steps.Compute() | steps.Total():
+            case steps.GivenNumber() | steps.Compute() | steps.Total():
                 raise TypeError(f"{step.out} is no stroke")
             case _:
                 assert_never(step)
