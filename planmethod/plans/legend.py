@@ -86,7 +86,7 @@ PLAN_OF = {kind.letter: kind.plan for kind in QuantityKind}
 
 
 TURNING = (QuantityKind.DIRECTION, QuantityKind.OMEGA, QuantityKind.EPSILON)
-"""Kinds of what is told of links."""
+"""Kinds of quantities of links."""
 
 
 class Quantity(Struct, frozen=True):

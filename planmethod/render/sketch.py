@@ -64,7 +64,7 @@ def sketch(part: MechanismPart, title: str, words: Language, said: Sequence[str]
     title : str
         Of the problem.
     said : sequence of str
-        What is told of the file under the scheme, plain text, a paragraph each.
+        Text about the file under the scheme, plain text, a paragraph each.
     """
     picture, facts = _scheme(part, words) if part.solution else _pivots(part, words)
     if part.links:

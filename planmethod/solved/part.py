@@ -52,7 +52,7 @@ class MechanismPart(Struct, frozen=True):
     fixed : mapping of str to complex, m
         Fixed points.
     unsure : tuple of str
-        Points whose closing nobody chose: one of two is shown.
+        Points whose closing is not given: one of two is shown.
     """
 
     solution: Solution | None

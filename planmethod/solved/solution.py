@@ -397,7 +397,7 @@ class Solution(Remembering):
     def exact(self, quantity: Quantity) -> Reals:
         """Return a quantity of the motion, SI and degrees, ndarray of shape (n,).
 
-        A size where the hand finds nothing else. Places are told by `place`.
+        A size where the hand finds nothing else. For places see `place`.
         """
         if quantity.kind is QuantityKind.DIRECTION:
             return self.links[quantity.of].phi_deg

@@ -1,4 +1,4 @@
-"""What is told of a pair: names of the standard, symbols, units, formulas (величины и формулы)."""
+"""Quantities of a pair: names of the standard, symbols, units, formulas (величины и формулы)."""
 
 from __future__ import annotations
 

@@ -19,7 +19,7 @@ from planmethod.solved.errors.motion import drafting_of
 from planmethod.solved.errors.spread import SHORT
 
 MOST = 3
-"""Causes that are told of one result."""
+"""Causes that are listed for one result."""
 
 
 class Causes:

@@ -106,7 +106,7 @@ def scale_texts(solution: Solution, words: Language, index: int) -> list[Rich]:
 
 
 def position_line(solution: Solution, words: Words, index: int) -> Rich:
-    """Return which position is told: its number and the driver's place."""
+    """Return which position is meant: its number and the driver's place."""
     coordinate = solution.problem.drive.coordinate
     value = given(float(solution.positions[index]), words)
     count = len(solution.positions)

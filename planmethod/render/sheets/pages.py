@@ -90,7 +90,7 @@ def _sheet(
 ) -> list[LaidPage] | None:
     """Return a sheet of a composition: a page, perhaps several, or None when it does not fit.
 
-    What is tried is told by `_tries`.
+    For what is tried see `_tries`.
     """
     entries = spread([entry for entry in composition.blocks if entry.sheet == number], solution)
     sizes = composition.sizes_for(paper.name, share)

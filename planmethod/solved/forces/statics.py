@@ -74,7 +74,7 @@ def plan_forces(
     Parameters
     ----------
     draft : Draft
-        Is gone on with.
+        Construction that is continued.
     loads : iterable of Applied
         What acts on the links beside the reactions.
     single : mapping of str to Applied

@@ -1,4 +1,4 @@
-"""Positions by the thousand: each looked at before any is told, solved block by block."""
+"""Positions by the thousand: all examined before any is reported, solved block by block."""
 
 from __future__ import annotations
 

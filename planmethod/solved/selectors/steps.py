@@ -85,7 +85,7 @@ class SelectorSteps:
     ----------
     solution : Solution
     draft : Draft
-        Is gone on with.
+        Construction that is continued.
     """
 
     def __init__(self, solution: Solution, draft: Draft) -> None:

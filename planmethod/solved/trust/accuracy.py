@@ -79,7 +79,7 @@ class Refereed(Struct, frozen=True):
         Why the position is impossible or refused; empty where it is solved. Results of steps that
         do exist are judged all the same.
     warned : float
-        Bound of the relative error that the user is told:
+        Bound of the relative error as reported to the user:
         `planmethod.solved.trust.conditioning.doubt`.
     agreed : bool
         The referee, too, finds the same results to exist.
@@ -144,7 +144,7 @@ def examine(
 
 
 def _told(problem: Problem, position: float) -> tuple[str, float]:
-    """Return why a position is impossible, or what bound of its error the user is told."""
+    """Return why a position is impossible, or what bound of its error is reported."""
     try:
         return "", float(error_bound(Solution(problem, positions=[position]))[0])
     except PlanMethodError as error:
