@@ -193,7 +193,7 @@ class AskedAnswer(Struct, frozen=True):
 
 
 NOTATIONS = ("p5 p4", "p1 p2", "pn pv")
-"""How the numbers of lower and higher pairs are lettered; in the last one in words of a language."""
+"""How the numbers of lower and higher pairs are lettered; of the last one a language has words."""
 
 
 class SheetSettings(Struct, frozen=True):

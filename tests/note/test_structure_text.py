@@ -65,9 +65,7 @@ def test_the_numbers_of_pairs_have_one_notation(
     notation: str | None, lower: str, higher: str
 ) -> None:
     solution, words = worked("levers/six-link"), language("ru")
-    document = structure_document(
-        solution.problem.mechanism, solution.structure, words, notation
-    )
+    document = structure_document(solution.problem.mechanism, solution.structure, words, notation)
     text = plain_document(document, words)
     assert f"W = 3n − 2{lower} − {higher} = 3·5" in text
     assert f"6n − 5{lower} = " in text and f"{lower} = 7" in text.replace("\u00a0", " ")
@@ -95,7 +93,7 @@ def test_the_frame_has_its_number_wherever_it_is_printed() -> None:
     assert record["frame"] == "6"
     groups = structure_record(Solution(plain).structure, plain.mechanism)["groups"]
     assert record["groups"] == groups
-    with pytest.raises(ProblemError, match="frame.number: link 5 has the same number"):
+    with pytest.raises(ProblemError, match=r"frame\.number: link 5 has the same number"):
         loads(text.replace("[frame]", "[frame]\nnumber = 5", 1), name="press")
 
 

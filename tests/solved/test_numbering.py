@@ -222,7 +222,7 @@ def test_a_sense_that_the_output_has_not_is_a_fault() -> None:
 # Accelerations -----------------------------------------------------------------------------------
 
 
-def test_with_an_epsilon_the_table_has_both_parts_of_the_acceleration_and_the_sheet_says_so() -> None:
+def test_with_an_epsilon_the_table_has_both_parts_and_the_sheet_says_so() -> None:
     problem = read(EPSILON)
     told = cycle_record(Solution(problem))
     assert told["acceleration"][2] == pytest.approx(55.60, abs=0.01)

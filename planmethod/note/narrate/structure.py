@@ -61,7 +61,13 @@ def pair_table(mechanism: Mechanism, words: Language, *, lettered: bool = False)
         signs = {PairKind.REVOLUTE: "R", PairKind.PRISMATIC: "P"}
         kinds = {kind: f"{kinds[kind]} ({words.note['letters'][signs[kind]]})" for kind in kinds}
     rows = (
-        (pair_letters(pair.name), " – ".join(map(mechanism.called, pair.links)), kinds[pair.kind], "V", "1")
+        (
+            pair_letters(pair.name),
+            " – ".join(map(mechanism.called, pair.links)),
+            kinds[pair.kind],
+            "V",
+            "1",
+        )
         for pair in pairs(mechanism)
     )
     return table_of(words.structure["columns_pairs"], rows, names=4)
