@@ -21,8 +21,9 @@ LATE_IN = (
     "planmethod.moving.kind",
     "planmethod.options",
     "planmethod.render.backends",
+    "planmethod.render.sheets.blocks",
 )
-"""Where imports stand in functions: of a command, a kind or a format, used when it is."""
+"""Where imports stand in functions: of a command, a kind, a format or a block, used when it is."""
 
 LATE_OF = {
     "planmethod.cli": "with its libraries, in a process that is settled",
