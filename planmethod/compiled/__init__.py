@@ -5,7 +5,7 @@ it does is known to the modules below alone.
 """
 
 from planmethod.compiled.runner import FEW, Array, Runner
-from planmethod.compiled.symbolic import Symbol, Written, write
+from planmethod.compiled.symbolic import Symbol, TapeProgram, write
 from planmethod.compiled.tape import Ref
 
-__all__ = ["FEW", "Array", "Ref", "Runner", "Symbol", "Written", "write"]
+__all__ = ["FEW", "Array", "Ref", "Runner", "Symbol", "TapeProgram", "write"]

@@ -11,7 +11,7 @@ import numpy.typing as npt
 from planmethod.compiled.blocks import Blocks
 from planmethod.compiled.javascript import javascript
 from planmethod.compiled.straight import ImpossibleError, Straight, straight
-from planmethod.compiled.symbolic import Written
+from planmethod.compiled.symbolic import TapeProgram
 from planmethod.compiled.tape import Ref
 from planmethod.construct.steps import Name
 
@@ -35,7 +35,7 @@ class Runner:
 
     Parameters
     ----------
-    written : Written
+    written : TapeProgram
     results : sequence of Ref
         Rows of the output.
     depends : sequence of frozenset of int
@@ -55,7 +55,7 @@ class Runner:
 
     def __init__(
         self,
-        written: Written,
+        written: TapeProgram,
         results: Sequence[Ref],
         depends: Sequence[frozenset[int]],
         *,
