@@ -20,17 +20,14 @@ from planmethod.problem.head import (
     Published,
     SheetSettings,
 )
-from planmethod.problem.load_records import (
+from planmethod.problem.load_records import Dynamics, LoadEntry, Mass, Phase
+from planmethod.problem.machine_records import (
     CounterweightTask,
-    Dynamics,
     FlywheelTask,
     KlossTable,
     LineTable,
-    LoadEntry,
     Machine,
-    Mass,
     MotorTable,
-    Phase,
 )
 from planmethod.problem.model import CycleTask, PoleDistances, Scales
 

@@ -22,7 +22,8 @@ from planmethod.problem.names import told_length
 if TYPE_CHECKING:
     from fractions import Fraction
 
-    from planmethod.problem.load_records import CounterweightTask, Dynamics, Machine
+    from planmethod.problem.load_records import Dynamics
+    from planmethod.problem.machine_records import CounterweightTask, Machine
 
 
 class Body(Struct, frozen=True):
