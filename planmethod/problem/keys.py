@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from planmethod.languages import LANGUAGES
+from planmethod.problem.cycle_records import CycleTask, PoleDistances
 from planmethod.problem.declared import declared
 from planmethod.problem.head import (
     LETTERINGS,
@@ -29,7 +30,7 @@ from planmethod.problem.machine_records import (
     Machine,
     MotorTable,
 )
-from planmethod.problem.model import CycleTask, PoleDistances, Scales
+from planmethod.problem.model import Scales
 
 TOP = (
     "title", "source", "units", "frame", "links", "driver", "assembly", "scales", "stamp",
