@@ -377,6 +377,45 @@ class CycleTask(Struct, frozen=True):
     ] = Differentiation.CHORDS
 
 
+PROJECT_PARTS = ("kinematics", "forces", "flywheel", "gears", "meshing", "note")
+"""Parts of a project in the order of their sheets."""
+
+
+class ProjectTask(Struct, frozen=True):
+    """What is decided of a project (курсовой проект): ``[project]``."""
+
+    calculated: Annotated[
+        int | None,
+        WholeKey(
+            "number of the calculated position, from 0: drawn bold, loaded, told in full",
+            0,
+            719,
+            absent="that of `phi`, if it is one of the positions, else the clearest one",
+        ),
+    ] = None
+    gears: Annotated[
+        str,
+        OwnKey(
+            'file of the gear train, beside this one: `"train.toml"`',
+            absent="`[gears]` of this file",
+        ),
+    ] = ""
+    meshing: Annotated[
+        str,
+        OwnKey(
+            'file of the wheels in mesh, beside this one: `"wheels.toml"`',
+            absent="`[meshing]` of this file",
+        ),
+    ] = ""
+    parts: Annotated[
+        tuple[str, ...],
+        OwnKey(
+            "which parts are made: " + ", ".join(f'`"{part}"`' for part in PROJECT_PARTS),
+            absent="all that the file has",
+        ),
+    ] = ()
+
+
 class Convention(Enum):
     """The two textbook conventions of a scale."""
 
@@ -436,6 +475,11 @@ class Problem(KindProblem, frozen=True, kw_only=True):
         Masses and loads; None when the file has neither ``[dynamics]`` nor ``[[loads]]``.
     cycle : CycleTask or None
         What ``[cycle]`` asks; None when the file has none.
+    project : ProjectTask or None
+        What ``[project]`` decides; None when the file has none.
+    calculated : int or None
+        Number of the calculated position of a settled project (`planmethod.project`), whose
+        positions and scales are those of all sheets; None of a problem as it is read.
     machine : Machine or None
         What the choice of a flywheel needs; None when the file has no ``[machine]``.
     balancing : CounterweightTask or None
@@ -458,6 +502,8 @@ class Problem(KindProblem, frozen=True, kw_only=True):
     scales: Scales = Scales()
     dynamics: Dynamics | None = None
     cycle: CycleTask | None = None
+    project: ProjectTask | None = None
+    calculated: int | None = None
     machine: Machine | None = None
     balancing: CounterweightTask | None = None
     tables: Mapping[str, Any] = field(default_factory=dict)

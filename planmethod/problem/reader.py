@@ -22,6 +22,7 @@ from planmethod.problem.joints import coincident_points, join
 from planmethod.problem.links import LinkText, check_arcs, read_links
 from planmethod.problem.model import Body, Geared, Problem, Slide
 from planmethod.problem.names import UNITS, fold, listed, near
+from planmethod.problem.project import read_project
 from planmethod.problem.selector import check_what, read_published, read_tables
 from planmethod.problem.sheet import read_head
 from planmethod.problem.slides import FrameText, find_host, order_hosts, read_frame, read_slide
@@ -286,6 +287,7 @@ def _read_parts(
     cycle = None
     if "cycle" in given:
         cycle = read_cycle(faults, given["cycle"], bodies, slides, drive)
+    project = read_project(faults, given["project"]) if "project" in given else None
     points = [*frame.points, *moving, *coincident_points(slides.values())]
     named: tuple[Sequence[str], Sequence[str]] = ((), ()) if faults else (points, tuple(links))
 
@@ -329,6 +331,7 @@ def _read_parts(
         answers=answers,
         dynamics=dynamics,
         cycle=cycle,
+        project=project,
         machine=machine,
         balancing=balancing,
         tables=tables,

@@ -175,7 +175,7 @@ class Linkage(Struct, frozen=True):
         free = (None, replace(problem.scales, mu_v=None, mu_a=None))
         views = self.views
         first = [own if views.kept else (views, problem.scales)]
-        given = free[1] != problem.scales
+        given = free[1] != problem.scales and problem.calculated is None  # a project keeps its own
         if given and (self.layout.turn or count > FEW):
             first.append(free)
         moved = tuple(self.solution.positions.tolist()) != tuple(problem.drive.positions)

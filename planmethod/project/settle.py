@@ -1,0 +1,198 @@
+"""Settle a project (решения проекта): all that is decided, decided once.
+
+Positions are those of the cycle, scales those of sheet 1 at these positions; both are written into
+the problem, so that every output has them without knowing of projects.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from msgspec.structs import replace
+
+from planmethod.errors import Fault, ProblemError
+from planmethod.kinds import KINDS
+from planmethod.languages import LANGUAGES, say
+from planmethod.problem.model import CycleTask, Problem, ProjectTask, Scales
+from planmethod.project.decided import (
+    Strokes,
+    clear_position,
+    cycle_positions,
+    drawn_scales,
+    force_scale,
+    loaded_positions,
+    strokes_of,
+)
+from planmethod.project.model import PartName, Project, ProjectPart
+from planmethod.render.sheets.kinematics import kinematics_sheets
+from planmethod.solved.scaling import MOST_DRAWN
+from planmethod.solved.solution import Solution
+from planmethod.solved.turn.turn import TURN, turn_of
+
+_SAME = 1e-6  # degrees within which an angle is a position
+_MOST_COUNT = 72  # positions of the construction of a flywheel
+
+SEVERAL = "project-kinematics"
+"""Composition of sheet 1 where a crank turns through its cycle."""
+
+
+def settle(problem: Problem, path: Path | None = None) -> Project:
+    """Return all that is decided of a project.
+
+    Parameters
+    ----------
+    problem : Problem
+        As it is read, with what the command line asks of its sheets.
+    path : Path, optional
+        Its file, where `[gears]` and what lies beside it are read; without it there are no such
+        parts.
+
+    Raises
+    ------
+    ProblemError
+        ``[project]`` names a position that there is not, or a part is faulty.
+    StructureError, AssemblyError, LayoutError
+        As of a sheet.
+    """
+    asked = problem.drive.positions
+    problem = _in_positions(problem)
+    calculated = _calculated(problem, Solution(problem), asked)
+    problem = replace(problem, calculated=calculated)
+    scales = _scales(problem)
+    problem = replace(problem, scales=scales)
+    return Project(
+        problem=problem,
+        positions=problem.drive.positions,
+        calculated=calculated,
+        strokes=_strokes(problem),
+        scales=scales,
+        frame="0",
+        language=problem.sheet.lang or LANGUAGES[0],
+        paper=problem.sheet.paper,
+        parts=tuple(_parts(problem, path)),
+    )
+
+
+# Positions ---------------------------------------------------------------------------------------
+
+
+def _in_positions(problem: Problem) -> Problem:
+    """Return a problem whose positions, cycle and flywheel are numbered alike."""
+    drive, machine, cycle = problem.drive, problem.machine, problem.cycle
+    if cycle is None and drive.is_crank and (machine is not None or _goes_round(drive.positions)):
+        cycle = _default_cycle(problem)
+    if cycle is None or not drive.is_crank:
+        return problem
+    problem = replace(problem, cycle=cycle)
+    positions = cycle_positions(turn_of(Solution(problem)))
+    if len(positions) > MOST_DRAWN:
+        raise ProblemError(
+            problem.name,
+            [
+                Fault(
+                    "cycle.count",
+                    say("{} positions, a project is drawn of at most {}", len(positions), MOST_DRAWN),
+                    "Ask fewer: count = 12.",
+                )
+            ],
+        )
+    if machine is not None:
+        count = len(positions) if len(positions) <= _MOST_COUNT else machine.count
+        machine = replace(machine, start_deg=positions[0], count=count)
+    drive = replace(drive, positions=positions, posed=None)
+    return replace(problem, drive=drive, machine=machine)
+
+
+def _goes_round(positions: tuple[float, ...]) -> bool:
+    """Tell whether positions go round in even steps."""
+    steps = np.diff([*positions, positions[0] + TURN])
+    down = np.diff([*positions, positions[0] - TURN])
+    return len(positions) > 2 and bool(np.ptp(steps) < _SAME or np.ptp(down) < _SAME)
+
+
+def _default_cycle(problem: Problem) -> CycleTask:
+    """Return the cycle of a file without one: from where its positions, or its machine, begin."""
+    positions, machine = problem.drive.positions, problem.machine
+    if _goes_round(positions):
+        return CycleTask(zero=positions[0], count=len(positions))
+    if machine is not None and machine.start_deg is not None:
+        return CycleTask(zero=machine.start_deg)
+    return CycleTask()
+
+
+def _calculated(problem: Problem, solution: Solution, asked: tuple[float, ...]) -> int:
+    """Return the number of the calculated position: the asked one, that of phi, the clearest."""
+    count, task = len(solution.positions), problem.project or ProjectTask()
+    if task.calculated is not None:
+        if task.calculated >= count:
+            raise ProblemError(
+                problem.name,
+                [
+                    Fault(
+                        "project.calculated",
+                        say("there is no position {}", task.calculated),
+                        say("Of {} positions the last is {}.", count, count - 1),
+                    )
+                ],
+            )
+        return task.calculated
+    if len(asked) == 1:
+        turn = problem.drive.coordinate.turn
+        off = [abs((p - asked[0] + turn / 2) % turn - turn / 2) for p in problem.drive.positions]
+        if count == 1 or min(off) < _SAME:
+            return int(np.argmin(off))
+    return clear_position(solution, loaded_positions(solution))
+
+
+# Scales ------------------------------------------------------------------------------------------
+
+
+def _scales(problem: Problem) -> Scales:
+    """Return one scale for each kind of plan: those of sheet 1, and of the forces there."""
+    scales: dict[str, Any] = {}
+    if None in (problem.scales.mu_l, problem.scales.mu_v, problem.scales.mu_a):
+        scales = dict(drawn_scales(first_sheet(problem), problem.scales))
+    decided = replace(problem.scales, **scales)
+    if problem.dynamics is None:
+        return decided
+    assert problem.calculated is not None
+    at = [problem.drive.positions[problem.calculated]]
+    loaded = Solution(replace(problem, scales=decided), positions=at)
+    return replace(decided, mu_F=force_scale(loaded))
+
+
+def first_sheet(problem: Problem, **more: Any) -> list[Any]:
+    """Return sheet 1 of a project; ``more`` is taken by `kinematics_sheets`."""
+    layout = SEVERAL if problem.cycle is not None else None
+    return kinematics_sheets(problem, positions=problem.drive.positions, layout=layout, **more)
+
+
+def _strokes(problem: Problem) -> Strokes | None:
+    return None if problem.cycle is None else strokes_of(turn_of(Solution(problem)))
+
+
+# Parts -------------------------------------------------------------------------------------------
+
+
+def _parts(problem: Problem, path: Path | None) -> Iterator[ProjectPart]:
+    yield ProjectPart(PartName.KINEMATICS, problem)
+    if problem.dynamics is not None:
+        yield ProjectPart(PartName.FORCES, problem)
+        if problem.machine is not None:
+            yield ProjectPart(PartName.FLYWHEEL, problem)
+    task = problem.project or ProjectTask()
+    for name in (PartName.GEARS, PartName.MESHING):
+        beside = str(getattr(task, name.value))
+        kind = next(kind for kind in KINDS if kind.table == name.value)
+        if path is None or not (beside or name.value in problem.tables):
+            continue
+        file, variant = (path.with_name(beside), None) if beside else (path, problem.variant)
+        found = kind.load(file, variant)
+        sheet = problem.sheet.over(found.sheet)
+        stamp = {**problem.stamp, **found.stamp} if beside else dict(problem.stamp)
+        stamp.pop("title", None)
+        title = "" if not beside else found.title
+        yield ProjectPart(name, replace(found, sheet=sheet, stamp=stamp, title=title), kind)
