@@ -26,6 +26,7 @@ HELP = {
         "solve": "the numbers: tables, JSON, CSV",
         "sheet": "the framed sheets: plans, equations, tables",
         "protocol": "the construction step by step, as a note",
+        "project": "a course project: all sheets, the note, the numbers",
     },
     "More of a mechanism": {
         "structure": "mobility and Assur groups",

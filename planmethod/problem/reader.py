@@ -297,6 +297,8 @@ def _read_parts(
         return what
 
     count = len(drive.positions) if drive else 0
+    if project is not None and cycle is not None:  # its positions are those of the cycle
+        count = cycle.count if machine is None else cycle.count * round(machine.cycle_deg / 360.0)
     published = read_published(faults, given.get("published", {}), checked, positions=count)
     scene = AnswerScope(
         () if faults else points,

@@ -27,6 +27,7 @@ from planmethod.project.decided import (
     strokes_of,
 )
 from planmethod.project.model import PartName, Project, ProjectPart
+from planmethod.render.frame.titleblock import merged
 from planmethod.render.sheets.kinematics import kinematics_sheets
 from planmethod.solved.scaling import MOST_DRAWN
 from planmethod.solved.solution import Solution
@@ -60,7 +61,8 @@ def settle(problem: Problem, path: Path | None = None) -> Project:
     asked = problem.drive.positions
     problem = _in_positions(problem)
     calculated = _calculated(problem, Solution(problem), asked)
-    problem = replace(problem, calculated=calculated)
+    task = replace(problem.project or ProjectTask(), calculated=calculated)
+    problem = replace(problem, calculated=calculated, project=task)
     scales = _scales(problem)
     problem = replace(problem, scales=scales)
     return Project(
@@ -74,6 +76,13 @@ def settle(problem: Problem, path: Path | None = None) -> Project:
         paper=problem.sheet.paper,
         parts=tuple(_parts(problem, path)),
     )
+
+
+def settled(problem: Problem) -> Problem:
+    """Return a problem with the decisions of its project; without ``[project]`` as it is."""
+    if problem.project is None or problem.calculated is not None:
+        return problem
+    return settle(problem).problem
 
 
 # Positions ---------------------------------------------------------------------------------------
@@ -178,21 +187,33 @@ def _strokes(problem: Problem) -> Strokes | None:
 
 
 def _parts(problem: Problem, path: Path | None) -> Iterator[ProjectPart]:
-    yield ProjectPart(PartName.KINEMATICS, problem)
-    if problem.dynamics is not None:
-        yield ProjectPart(PartName.FORCES, problem)
-        if problem.machine is not None:
-            yield ProjectPart(PartName.FLYWHEEL, problem)
+    """Yield the parts that the file has, of those that it asks for."""
     task = problem.project or ProjectTask()
-    for name in (PartName.GEARS, PartName.MESHING):
-        beside = str(getattr(task, name.value))
-        kind = next(kind for kind in KINDS if kind.table == name.value)
-        if path is None or not (beside or name.value in problem.tables):
+    linkage = {
+        PartName.KINEMATICS: True,
+        PartName.FORCES: problem.dynamics is not None,
+        PartName.FLYWHEEL: problem.dynamics is not None and problem.machine is not None,
+    }
+    for name in PartName:
+        if task.parts and name.value not in task.parts:
             continue
-        file, variant = (path.with_name(beside), None) if beside else (path, problem.variant)
-        found = kind.load(file, variant)
-        sheet = problem.sheet.over(found.sheet)
-        stamp = {**problem.stamp, **found.stamp} if beside else dict(problem.stamp)
-        stamp.pop("title", None)
-        title = "" if not beside else found.title
-        yield ProjectPart(name, replace(found, sheet=sheet, stamp=stamp, title=title), kind)
+        if linkage.get(name):
+            yield ProjectPart(name, problem)
+        elif name in (PartName.GEARS, PartName.MESHING) and path is not None:
+            yield from _of_kind(problem, name, path, str(getattr(task, name.value)))
+
+
+def _of_kind(
+    problem: Problem, name: PartName, path: Path, beside: str
+) -> Iterator[ProjectPart]:
+    """Yield the part of another kind of problem, if the file has it or names its file."""
+    if not (beside or name.value in problem.tables):
+        return
+    kind = next(kind for kind in KINDS if kind.table == name.value)
+    file, variant = (path.with_name(beside), None) if beside else (path, problem.variant)
+    found = kind.load(file, variant)
+    stamp = merged(problem.stamp, found.stamp) if beside else dict(problem.stamp)
+    stamp.pop("title", None)
+    title = found.title if beside else ""
+    sheet = problem.sheet.over(found.sheet)
+    yield ProjectPart(name, replace(found, sheet=sheet, stamp=stamp, title=title), kind)

@@ -12,7 +12,7 @@ from planmethod.check.model import KeyEntry
 from planmethod.check.pages.overlayview import LETTERING
 from planmethod.check.pages.remarks import place_letters, scale_letters, segment_letters
 from planmethod.check.pages.speech import Speech, told
-from planmethod.check.pages.workbook import add_sheet, new_workbook, saved
+from planmethod.note.writers.workbook import add_sheet, new_workbook, saved
 from planmethod.note.document import (
     Caption,
     Document,

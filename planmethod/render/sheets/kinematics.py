@@ -89,6 +89,8 @@ def kinematics_sheets(
         solution = _at_the_turn(solution)
     made = made or _usual(len(solution.positions), words)
     _check_positions(made, solution)
+    if problem.calculated is not None and made.per_sheet == (1,):
+        solution = solution.moved([float(solution.positions[problem.calculated])])
     verify(solution)
     strategy = Linkage(made, solution, Extras(words, errors, sigma, made.turn))
     misfit = Misfit(
@@ -122,6 +124,15 @@ def _check_positions(layout: Composition, solution: Solution) -> None:
             solution.problem.name,
             MOST_DRAWN,
             count,
+        )
+    calculated = solution.problem.calculated
+    if calculated is not None and calculated >= count:
+        raise LayoutError(
+            "{}: there is no position {} to be calculated. Of {} positions the last is {}.",
+            solution.problem.name,
+            calculated,
+            count,
+            count - 1,
         )
     for number, entry in enumerate(layout.blocks):
         if entry.position is not None and entry.position >= count:
@@ -175,7 +186,7 @@ class Linkage(Struct, frozen=True):
         free = (None, replace(problem.scales, mu_v=None, mu_a=None))
         views = self.views
         first = [own if views.kept else (views, problem.scales)]
-        given = free[1] != problem.scales and problem.calculated is None  # a project keeps its own
+        given = free[1] != problem.scales and problem.project is None  # a project keeps its own
         if given and (self.layout.turn or count > FEW):
             first.append(free)
         moved = tuple(self.solution.positions.tolist()) != tuple(problem.drive.positions)
