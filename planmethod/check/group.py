@@ -18,9 +18,9 @@ from planmethod.check.model import Checked, Work
 from planmethod.check.task import Item, Task
 from planmethod.kind import Kind
 from planmethod.kinds import kind_of, load
-from planmethod.project.settle import settled
 from planmethod.problem import Problem, variant_names
 from planmethod.problem.head import KindProblem
+from planmethod.project.settle import settled
 from planmethod.solved.selectors.steps import NoValueError
 from planmethod.solved.solution import Solution
 

@@ -17,7 +17,6 @@ from planmethod.commands.helptext import Spoken
 from planmethod.commands.output import bar, json_text
 from planmethod.commands.problems import guarded, load_unsettled, solution_of, stem
 from planmethod.errors import ExitCode, PlanMethodError
-from planmethod.languages import say
 from planmethod.options import (
     BadParameter,
     UsageError,
@@ -242,9 +241,7 @@ def draw(task: str, *, project: Project, fields: Mapping[str, str]) -> tuple[str
     return task, Made({}, tuple(part_drawings(project, part, fields)))
 
 
-def render(
-    task: tuple[str, str, tuple[Drawing, ...]], *, written: Written
-) -> tuple[str, Made]:
+def render(task: tuple[str, str, tuple[Drawing, ...]], *, written: Written) -> tuple[str, Made]:
     """Write the sheets of a part in all formats; all sheets together as one PDF."""
     from planmethod.commands.output import drawing_files
 

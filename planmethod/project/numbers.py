@@ -41,4 +41,3 @@ def numbers_workbook(project: Project) -> bytes:
 
 def _headed(symbol: str, unit: str) -> str:
     return f"{plain_text(symbol)}, {plain_text(unit)}"
-

@@ -31,12 +31,15 @@ def project_record(project: Project, parts: Sequence[PartFiles], stem: str) -> d
     stem : str
         What its files are called.
     """
-    column, scales = project.problem.drive.coordinate.column, project.scales
+    drive, scales = project.problem.drive, project.scales
+    column = drive.coordinate.column
     return {
         "schema": SCHEMA,
         "problem": stem,
         "positions": [
-            {"number": number, column: at} for number, at in enumerate(project.positions)
+            # as sheets write it: an angle within one turn
+            {"number": number, column: round(at % 360.0, 9) % 360.0 if drive.is_crank else at}
+            for number, at in enumerate(project.positions)
         ],
         "calculated": project.calculated,
         "strokes": None if project.strokes is None else asdict(project.strokes),

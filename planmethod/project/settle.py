@@ -26,18 +26,15 @@ from planmethod.project.decided import (
     loaded_positions,
     strokes_of,
 )
+from planmethod.project.first import first_sheet
 from planmethod.project.model import PartName, Project, ProjectPart
 from planmethod.render.frame.titleblock import merged
-from planmethod.render.sheets.kinematics import kinematics_sheets
 from planmethod.solved.scaling import MOST_DRAWN
 from planmethod.solved.solution import Solution
 from planmethod.solved.turn.turn import TURN, turn_of
 
 _SAME = 1e-6  # degrees within which an angle is a position
 _MOST_COUNT = 72  # positions of the construction of a flywheel
-
-SEVERAL = "project-kinematics"
-"""Composition of sheet 1 where a crank turns through its cycle."""
 
 
 def settle(problem: Problem, path: Path | None = None) -> Project:
@@ -103,7 +100,9 @@ def _in_positions(problem: Problem) -> Problem:
             [
                 Fault(
                     "cycle.count",
-                    say("{} positions, a project is drawn of at most {}", len(positions), MOST_DRAWN),
+                    say(
+                        "{} positions, a project is drawn of at most {}", len(positions), MOST_DRAWN
+                    ),
                     "Ask fewer: count = 12.",
                 )
             ],
@@ -173,12 +172,6 @@ def _scales(problem: Problem) -> Scales:
     return replace(decided, mu_F=force_scale(loaded))
 
 
-def first_sheet(problem: Problem, **more: Any) -> list[Any]:
-    """Return sheet 1 of a project; ``more`` is taken by `kinematics_sheets`."""
-    layout = SEVERAL if problem.cycle is not None else None
-    return kinematics_sheets(problem, positions=problem.drive.positions, layout=layout, **more)
-
-
 def _strokes(problem: Problem) -> Strokes | None:
     return None if problem.cycle is None else strokes_of(turn_of(Solution(problem)))
 
@@ -203,9 +196,7 @@ def _parts(problem: Problem, path: Path | None) -> Iterator[ProjectPart]:
             yield from _of_kind(problem, name, path, str(getattr(task, name.value)))
 
 
-def _of_kind(
-    problem: Problem, name: PartName, path: Path, beside: str
-) -> Iterator[ProjectPart]:
+def _of_kind(problem: Problem, name: PartName, path: Path, beside: str) -> Iterator[ProjectPart]:
     """Yield the part of another kind of problem, if the file has it or names its file."""
     if not (beside or name.value in problem.tables):
         return

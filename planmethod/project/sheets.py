@@ -9,8 +9,8 @@ from msgspec.structs import replace
 
 from planmethod.construct.drafting import PROFILES
 from planmethod.note.wording import Language, language
+from planmethod.project.first import PAPER, first_sheet
 from planmethod.project.model import PartName, Project, ProjectPart
-from planmethod.project.settle import first_sheet
 from planmethod.render.frame.furniture import Furniture
 from planmethod.render.frame.numbered import numbered
 from planmethod.render.ink.drawing import Drawing
@@ -18,13 +18,8 @@ from planmethod.render.sheets.composition.reader import composition
 from planmethod.render.sheets.kinematics import kinematics_sheets
 from planmethod.render.sheets.model import Composition
 
-PAPER = "A1"
-"""Format of the sheets of one position where none is asked for: they go on with further ones."""
 
-
-def part_drawings(
-    project: Project, part: ProjectPart, fields: Mapping[str, str]
-) -> list[Drawing]:
+def part_drawings(project: Project, part: ProjectPart, fields: Mapping[str, str]) -> list[Drawing]:
     """Return the sheets of a part, not numbered yet (`numbered_set`).
 
     Parameters
