@@ -113,6 +113,17 @@ def drawings(
     return compose(problem, strategy, misfit, fields=fields, furniture=furniture)
 
 
+def pictures(
+    motion: Motion, profile: Profile, words: Language, sizes: Sizes
+) -> tuple[Block, Block | None]:
+    """Return the side view with the picture of linear velocities, and that of angular ones."""
+    settings = motion.train.picture
+    scheme = Scheme(motion, float(motion.train.unit_m / settings.mu_l))
+    order = None if scheme.undrawn else best_order(scheme)
+    sheet = _Sheet(motion, settings, profile, words, sizes, order)
+    return sheet.pictures()
+
+
 class _Train(Struct, frozen=True):
     """How the sheet of a train is searched for: by the scale of the side view."""
 
@@ -244,6 +255,15 @@ class _Sheet(Struct, frozen=True):
             yield (*views, *texts, rays, last)
             yield (strip, *texts, *views[1:], rays, last)
             yield (strip, rays, *views[1:], *texts, last)
+
+    def pictures(self) -> tuple[Block, Block | None]:
+        """Return the side view with what stands beside it, and the angular velocities."""
+        picture = draw(self.motion, self.settings)
+        drawn = None if picture is None else construct(self.motion, picture)
+        seen = None if drawn is None else read(drawn, self.profile)
+        scheme = Scheme(self.motion, float(self.motion.train.unit_m / self.settings.mu_l))
+        strip = self._strip(scheme, drawn, seen)
+        return strip, None if drawn is None or seen is None else self._angular(drawn, seen)
 
     # Views ---------------------------------------------------------------------------------------
 

@@ -86,19 +86,18 @@ def mobility_formulas(
     revolute = sum(pair.kind is PairKind.REVOLUTE for pair in pairs(mechanism))
     counts = {"n": structure.moving_links, "low": low, "high": structure.higher_pairs}
     yield said.counts.format(revolute=revolute, prismatic=low - revolute, **counts)
-    yield said.chebyshev.format(w=_signed(structure.mobility), **counts)
-    yield said.spatial.format(w=_signed(spatial), **counts)
+    yield said.chebyshev.format(w=signed(structure.mobility), **counts)
+    yield said.spatial.format(w=signed(spatial), **counts)
     yield said.redundant.format(
-        ways=WAYS_IN, local=LOCAL_MOBILITY, w=_bracketed(spatial), q=_signed(structure.redundant)
+        ways=WAYS_IN, local=LOCAL_MOBILITY, w=_bracketed(spatial), q=signed(structure.redundant)
     )
 
 
 def order_formulas(mechanism: Mechanism, structure: Structure, words: Language) -> Iterator[Rich]:
     """Yield the structural formula, the class, the orders of both analyses (формула строения)."""
     said = words.structure
-    first = f"I({FRAME},{mechanism.driver})"
-    steps = [f"{roman(group.class_number)}({','.join(group.links)})" for group in structure.groups]
-    order, backwards = " → ".join([first, *steps]), " → ".join([*steps[::-1], first])
+    order = structure.formula
+    backwards = " → ".join(reversed(order.split(" → ")))
     yield said.formula.format(order=order)
     yield said.mechanism_class.format(roman=roman(structure.class_number))
     yield said.kinematic_order.format(order=order)
@@ -115,18 +114,19 @@ def _static_counts(structure: Structure, words: Words) -> Rich:
         n=structure.moving_links,
         equations=equations,
         pairs=reactions,
-        w=_signed(structure.mobility),
+        w=signed(structure.mobility),
         unknowns=unknowns,
         verdict=verdict,
     )
 
 
-def _signed(number: int) -> str:
+def signed(number: int) -> str:
+    """Return a whole number with the sign of print."""
     return f"{MINUS}{-number}" if number < 0 else str(number)
 
 
 def _bracketed(number: int) -> str:
-    return f"({_signed(number)})" if number < 0 else str(number)
+    return f"({signed(number)})" if number < 0 else str(number)
 
 
 # Groups --------------------------------------------------------------------------------------
@@ -158,7 +158,7 @@ def group_caption(group: AssurGroup, words: Language) -> list[Rich]:
 def _counts(drivers: int, n: int, p: int) -> list[Rich]:
     """Return own mobility W and redundant constraints q of a part, with so many drivers."""
     w, q = 3 * n - 2 * p, drivers + LOCAL_MOBILITY - (6 * n - 5 * p)
-    lines = (f"W = 3·{n} − 2·{p} = {_signed(w)}", f"q = {drivers} − (6·{n} − 5·{p}) = {_signed(q)}")
+    lines = (f"W = 3·{n} − 2·{p} = {signed(w)}", f"q = {drivers} − (6·{n} − 5·{p}) = {signed(q)}")
     return [line.replace(" ", NBSP) for line in lines]
 
 
@@ -168,13 +168,19 @@ def _listed(*links: str) -> str:
 
 def _joints(group: AssurGroup, words: Words) -> Rich:
     """Return the outer and the inner pairs of a group."""
-    outer = (_joint(lead.joint, (lead.to, lead.link), words) for lead in group.leads)
-    inner = (_joint(joint, _inside(joint, group), words) for joint in group.inner)
+    outer, inner = group_joints(group, words)
     told = (
         words.joint_outer.format(joints=", ".join(outer)),
         words.joint_inner.format(joints=", ".join(inner)),
     )
     return "; ".join(told) + "."
+
+
+def group_joints(group: AssurGroup, words: Words) -> tuple[list[Rich], list[Rich]]:
+    """Return the outer and the inner pairs of a group, each by point, kind and links."""
+    outer = [_joint(lead.joint, (lead.to, lead.link), words) for lead in group.leads]
+    inner = [_joint(joint, _inside(joint, group), words) for joint in group.inner]
+    return outer, inner
 
 
 def _joint(joint: Joint, links: Sequence[str], words: Words) -> Rich:

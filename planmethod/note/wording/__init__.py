@@ -63,6 +63,8 @@ class Language:
         The page of a moving mechanism.
     project : Words
         The course project.
+    document, report : Words
+        What a note puts around its figures, tables and names; the explanatory note itself.
     layouts, families, tasks : Words
         Of the shipped layouts by the places of their files, the families of ready problem files,
         the list of shipped tasks.
@@ -87,6 +89,8 @@ class Language:
     teeth: Words
     live: Words
     project: Words
+    document: Words
+    report: Words
     layouts: Words
     families: Words
     tasks: Words

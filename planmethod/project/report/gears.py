@@ -1,0 +1,185 @@
+"""The chapters on gears: a train with its pictures, two wheels in mesh (зубчатые механизмы)."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from itertools import groupby
+
+from planmethod.gears.conditions import conditions, sentence
+from planmethod.gears.construction import construct, read
+from planmethod.gears.involute.meshpicture import meshing_picture, view_for
+from planmethod.gears.involute.quantities import Solved
+from planmethod.gears.involute.sizes import MeshingProblem
+from planmethod.gears.involute.text import quality, table
+from planmethod.gears.model import GearProblem
+from planmethod.gears.motion import Motion, solve_motion
+from planmethod.gears.picture import draw
+from planmethod.gears.sheet import pictures
+from planmethod.gears.text import equation_of
+from planmethod.gears.told import given, indexed, ratios, results
+from planmethod.note.document import Chapter, Formula, Node, Part, Table
+from planmethod.note.numbers import MINUS
+from planmethod.note.wording import Words
+from planmethod.project.report.context import Report, chain, displayed, sentences
+from planmethod.project.report.figures import WIDTH, bare, figure
+from planmethod.render.layout.block import Block
+from planmethod.render.sheets.composer import Sizes
+
+COLUMN = 185.0
+"""Width of the texts of the sheet, mm."""
+
+
+def train_chapter(report: Report, problem: GearProblem) -> Iterator[Node]:
+    """Yield the chapter on a gear train."""
+    said: Words = report.said["gears"]
+    motion, words = solve_motion(problem), report.words
+    yield Chapter(said.title.format())
+    yield sentences(said.about.format(facts="; ".join(given(motion, words))))
+    yield from _figures(report, problem, motion, "train")
+    yield from _structure(report, motion, said)
+    yield Part(said.analysis.format())
+    yield from _ratios(report, motion, said)
+    yield Part(said.pictures.format())
+    yield from _pictures(report, problem, motion, said)
+
+
+def _structure(report: Report, motion: Motion, said: Words) -> Iterator[Node]:
+    found, roles = motion.structure, motion.roles
+    yield sentences(said.kind.format(kind=str(said["kinds"][found.kind.value]).format()))
+    w = str(found.formula).replace("-", MINUS)
+    yield displayed(
+        said.mobility.format(n=found.moving, low=found.lower, high=found.higher, w=w)
+    )
+    carriers = [
+        said.carrier.format(
+            carrier=carrier,
+            satellites=", ".join(roles.satellites[carrier]),
+            central=", ".join(roles.central[carrier]),
+        )
+        for carrier in motion.train.carriers
+        if roles.central[carrier]
+    ]
+    yield sentences(said.where.format(), *carriers)
+
+
+def _ratios(report: Report, motion: Motion, said: Words) -> Iterator[Node]:
+    train = motion.train
+    yield sentences((said.willis if train.carriers else said.plain).format())
+    for mesh in train.meshes:
+        yield from chain([", ".join(equation_of(motion, mesh))])
+    found = list(ratios(motion, report.words))
+    if found:
+        yield sentences(said.solved.format())
+        yield from chain(found)
+    judged = conditions(motion)
+    if judged:
+        told = [
+            str(said["condition"]["yes" if one.holds else "no"]).format(
+                sentence=indexed(sentence(one, report.words))
+            )
+            for one in judged
+        ]
+        yield sentences(said.conditions.format(conditions="; ".join(told)))
+
+
+def _pictures(
+    report: Report, problem: GearProblem, motion: Motion, said: Words
+) -> Iterator[Node]:
+    picture, say = draw(motion), report.say
+    if picture is None:
+        drawn = seen = None
+    else:
+        drawn = construct(motion, picture)
+        seen = read(drawn, report.one.profile)
+        inscriptions: Words = report.words.gears["sheet"]["inscriptions"]
+        yield sentences(
+            said.picture.format(
+                mu_l=inscriptions.mu_l.format(value=say.short(float(picture.mu_l), 4)),
+                mu_v=inscriptions.mu_v.format(value=say.short(picture.mu_v, 4)),
+            ),
+            said.angular.format(
+                pole=f"{say.given(float(picture.pole_mm))} {report.unit('mm')}",
+                scale=inscriptions.mu_omega.format(
+                    value=say.short(picture.mu_omega, 4),
+                    pole=say.given(float(picture.pole_mm)),
+                ).partition(",")[0],
+            ),
+        )
+        yield from _figures(report, problem, motion, "angular")
+    rows = [
+        (symbol, fraction, exact, shown, sigma, off)
+        for symbol, fraction, exact, shown, sigma, off in results(
+            motion, drawn, seen, report.words
+        )
+    ]
+    yield sentences(said.speeds.format())
+    columns = said["columns"] if drawn is not None else said["columns"][:3]
+    yield Table(
+        tuple(columns),
+        tuple(row[: len(columns)] for row in rows),
+        name=said.results.format(),
+        key="train-results",
+    )
+    if drawn is not None and seen is not None:
+        offs = [
+            100.0 * abs(float(seen.read.value[one.read]) / float(one.exact) - 1.0)
+            for one in drawn.found
+            if one.exact
+        ]
+        if offs:
+            yield sentences(said.agree.format(most=say.number(f"{max(offs):.1f}")))
+
+
+def _figures(
+    report: Report, problem: GearProblem, motion: Motion, which: str
+) -> Iterator[Node]:
+    said: Words = report.said["gears"]
+    has_picture = draw(motion) is not None
+
+    def made(letter: float) -> Block:
+        sizes = Sizes(letter, letter, letter, COLUMN)
+        found = pictures(motion, report.one.profile, report.words, sizes)
+        return found[0] if which == "train" else bare(found[1])
+
+    captions = {
+        "train": said.figure if has_picture else said.figure_scheme,
+        "angular": said.angular_figure,
+    }
+    yield figure(made, captions[which].format(), which, room=(WIDTH, 160.0))
+
+
+def meshing_chapter(report: Report, problem: MeshingProblem) -> Iterator[Node]:
+    """Yield the chapter on two wheels in mesh."""
+    said: Words = report.said["meshing"]
+    solved, words = Solved(problem), report.words
+    say: Words = words.meshing
+    fields = solved.fields(words.say)
+    yield Chapter(said.title.format())
+    yield sentences(said.about.format())
+    for key, formulas in groupby(solved.formulas(words), lambda one: one[0]):
+        if key in say["steps"]:
+            yield Part(say["steps"][key])
+        if key in say["beside"]:
+            yield sentences(say["beside"][key].format(**fields))
+        yield from (Formula(formula) for _, formula in formulas)
+    yield Part(said.table.format())
+    yield sentences(said.table_text.format())
+    pair, wheels, contact = solved.told()
+    heads: tuple[str, ...] = say["columns"]
+    whole = table([*pair, *contact], words, (*heads[:2], say.pair))
+    yield Table(whole.head, whole.rows, 2, name=said.table_pair.format(), key="meshing")
+    own = table(wheels, words, heads)
+    yield Table(own.head, own.rows, 2, name=said.table.format(), key="wheels")
+    yield sentences(said.quality.format(facts="; ".join(quality(solved, words))))
+    yield figure(
+        lambda letter: meshing_picture(view_for(solved, 300.0, 240.0), words, letter),
+        said.figure.format(),
+        "meshing-picture",
+    )
+
+
+def ratio_of(problem: GearProblem, report: Report) -> str | None:
+    """Return the first ratio that is asked for, with its symbol; None where none is."""
+    motion = solve_motion(problem)
+    found = list(ratios(motion, report.words))
+    return found[0] if found else None
