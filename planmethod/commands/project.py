@@ -10,17 +10,16 @@ from typing import TYPE_CHECKING, Any, Literal
 import click
 import msgspec
 from msgspec import Struct
-from msgspec.structs import replace
 
 from planmethod.commands.asked import Asked, sheet_options
+from planmethod.commands.decided import decided
 from planmethod.commands.helptext import Spoken
 from planmethod.commands.output import bar, json_text
-from planmethod.commands.problems import guarded, load_unsettled, solution_of, stem
+from planmethod.commands.problems import guarded, stem
 from planmethod.errors import ExitCode, PlanMethodError
 from planmethod.options import (
     BadParameter,
     UsageError,
-    drawn_by,
     dxf_text_option,
     format_option,
     jobs_option,
@@ -30,7 +29,6 @@ from planmethod.options import (
 from planmethod.problem.model import PROJECT_PARTS
 
 if TYPE_CHECKING:
-    from planmethod.problem.model import Problem
     from planmethod.project.model import Project, ProjectPart
     from planmethod.project.record import PartFiles
     from planmethod.render.ink.drawing import Drawing
@@ -111,10 +109,9 @@ def project(
     from planmethod.render.backends.output import write_all
 
     settled = asked.settle()
-    read = settled.over(_linkage(problem, variant))
-    chosen = _decided(read, problem, position)
+    chosen = decided(problem, variant, position, settled)
     wanted = _wanted(chosen, parts)
-    written = Written(formats, settled.author(read), dxf_text)
+    written = Written(formats, settled.author(chosen.problem), dxf_text)
     made, files = _made(chosen, wanted, settled.fields, written, jobs)
     name = stem(chosen.problem)
     record = project_record(chosen, made, name)
@@ -129,33 +126,6 @@ def project(
 
 
 # What is asked -----------------------------------------------------------------------------------
-
-
-def _linkage(path: Path, variant: str | None) -> Problem:
-    """Read the linkage of a project."""
-    from planmethod.kinds import kind_of
-
-    kind = kind_of(path)
-    if kind is not None:
-        raise UsageError(
-            "{}: a project is of a linkage; the sheet of [{}] alone: planmethod sheet",
-            path.name,
-            kind.table,
-        )
-    return load_unsettled(path, variant)
-
-
-def _decided(problem: Problem, path: Path, position: int | None) -> Project:
-    """Return what is decided of a project, its solution looked over."""
-    from planmethod.problem.model import ProjectTask
-    from planmethod.project.settle import settle
-
-    if position is not None:
-        task = replace(problem.project or ProjectTask(), calculated=position)
-        problem = replace(problem, project=task)
-    chosen = settle(problem, path)
-    solution_of(chosen.problem, None, drawn_by(None, None), forces=True)
-    return chosen
 
 
 def _wanted(chosen: Project, parts: Sequence[str] | None) -> tuple[str, ...]:
@@ -234,9 +204,9 @@ def draw(task: str, *, project: Project, fields: Mapping[str, str]) -> tuple[str
 
         return task, Made({NUMBERS: numbers_workbook(project)})
     if task == "note":
-        from planmethod.commands.note import note_files
+        from planmethod.project.notes import note_files
 
-        return task, Made(note_files(project, fields))
+        return task, Made(note_files(project, "note"))
     part: ProjectPart = next(part for part in project.parts if part.name.value == task)
     return task, Made({}, tuple(part_drawings(project, part, fields)))
 
