@@ -15,7 +15,7 @@ from planmethod.mechanism.model import FRAME, Mechanism
 from planmethod.problem import keys
 from planmethod.problem.answers import AnswerScope, read_answers
 from planmethod.problem.bodies import place_points
-from planmethod.problem.cycle import read_cycle
+from planmethod.problem.cycle import cycle_count, followed, read_cycle
 from planmethod.problem.drive import read_assembly, read_drive, read_scales
 from planmethod.problem.fields import Faults, read_keys, read_word
 from planmethod.problem.joints import coincident_points, join
@@ -256,7 +256,8 @@ def _read_parts(
     drive = None
     if "driver" in given and links:
         geared = _read_geared(faults, given, train)
-        drive = read_drive(faults, given["driver"], links, frame.points, hosts, geared)
+        numbered = cycle_count(given)
+        drive = read_drive(faults, given["driver"], links, frame.points, hosts, geared, numbered)
     driver = drive.link if drive else str(_driver_name(given))
     complete = (
         bool(links)
@@ -286,7 +287,9 @@ def _read_parts(
         balancing = read_balancing(faults, given, tuple(links), drive, dynamics)
     cycle = None
     if "cycle" in given:
-        cycle = read_cycle(faults, given["cycle"], bodies, slides, drive)
+        cycle = read_cycle(faults, given["cycle"], bodies, slides, drive, machine)
+        if cycle is not None and machine is not None:
+            machine = followed(faults, machine, cycle)
     project = read_project(faults, given["project"]) if "project" in given else None
     points = [*frame.points, *moving, *coincident_points(slides.values())]
     named: tuple[Sequence[str], Sequence[str]] = ((), ()) if faults else (points, tuple(links))

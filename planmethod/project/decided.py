@@ -1,11 +1,10 @@
-"""What a mechanism decides of a project (выбор по механизму): strokes, scales, the position."""
+"""What a mechanism decides of a project (выбор по механизму): the position, the scales."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 
 import numpy as np
-from msgspec import Struct
 
 from planmethod.construct.scale import choose_scale
 from planmethod.mechanism.model import FRAME
@@ -18,39 +17,9 @@ from planmethod.solved.forces.statics import statics_of
 from planmethod.solved.reading import Flags
 from planmethod.solved.room import Box
 from planmethod.solved.solution import Solution
-from planmethod.solved.turn.turn import TURN, Turn
 
 FORCES_BOX: Box = (170.0, 130.0)
 """What the largest force plan of a project fills at the scale of all of them, mm."""
-
-
-class Strokes(Struct, frozen=True):
-    """Phases of the strokes (рабочий и холостой ход): degrees of the crank.
-
-    ``K_v`` is the ratio of the longer to the shorter one, ``by`` what tells which one works: ``load
-    P``, ``longer``, ``working``.
-    """
-
-    working_deg: float
-    idle_deg: float
-    K_v: float
-    by: str
-
-
-def strokes_of(turn: Turn) -> Strokes | None:
-    """Return the strokes of the output; None where it has none."""
-    if turn.phases is None:
-        return None
-    short, long = sorted(turn.phases)
-    return Strokes(long, short, long / short, "longer")
-
-
-def cycle_positions(turn: Turn) -> tuple[float, ...]:
-    """Return the positions of a cycle, of one of two turns those of both."""
-    machine = turn.solution.problem.machine
-    turns = 1 if machine is None or turn.range is not None else round(machine.cycle_deg / TURN)
-    once = turn.positions
-    return tuple(float(p + turn.sense * TURN * k) for k in range(turns) for p in once)
 
 
 def loaded_positions(solution: Solution) -> tuple[int, ...]:

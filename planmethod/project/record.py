@@ -6,11 +6,13 @@ from collections.abc import Sequence
 from typing import Any
 
 from msgspec import Struct
-from msgspec.structs import asdict
 
+from planmethod.problem.model import Problem
 from planmethod.project.model import PartName, Project
 
 SCHEMA = 1
+
+STROKES = ("working_deg", "idle_deg", "K_v", "by")
 
 
 class PartFiles(Struct, frozen=True):
@@ -31,18 +33,17 @@ def project_record(project: Project, parts: Sequence[PartFiles], stem: str) -> d
     stem : str
         What its files are called.
     """
-    drive, scales = project.problem.drive, project.scales
-    column = drive.coordinate.column
+    column, scales = project.problem.drive.coordinate.column, project.scales
+    strokes = project.strokes
     return {
         "schema": SCHEMA,
         "problem": stem,
         "positions": [
-            # as sheets write it: an angle within one turn
-            {"number": number, column: round(at % 360.0, 9) % 360.0 if drive.is_crank else at}
+            {"number": number, column: _shown(project.problem, at)}
             for number, at in enumerate(project.positions)
         ],
         "calculated": project.calculated,
-        "strokes": None if project.strokes is None else asdict(project.strokes),
+        "strokes": None if strokes is None else {key: getattr(strokes, key) for key in STROKES},
         "scales": {
             "mu_l": scales.mu_l,
             "mu_v": scales.mu_v,
@@ -57,3 +58,9 @@ def project_record(project: Project, parts: Sequence[PartFiles], stem: str) -> d
             for part in parts
         ],
     }
+
+
+def _shown(problem: Problem, at: float) -> float:
+    """Return a position as sheets write it, an angle of a full crank within its cycle."""
+    whole = 360.0 * problem.turns
+    return at if problem.shown(at) == at else round(at % whole, 9) % whole

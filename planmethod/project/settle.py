@@ -16,25 +16,25 @@ from msgspec.structs import replace
 from planmethod.errors import Fault, ProblemError
 from planmethod.kinds import KINDS
 from planmethod.languages import LANGUAGES, say
-from planmethod.problem.model import CycleTask, Problem, ProjectTask, Scales
+from planmethod.problem.load_records import TurningSense
+from planmethod.problem.model import SAME_DEG, CycleTask, Problem, ProjectTask, Scales
 from planmethod.project.decided import (
-    Strokes,
     clear_position,
-    cycle_positions,
     drawn_scales,
     force_scale,
     loaded_positions,
-    strokes_of,
 )
 from planmethod.project.first import first_sheet
 from planmethod.project.model import PartName, Project, ProjectPart
 from planmethod.render.frame.titleblock import merged
+from planmethod.solved.forces.loads import only_in_positions
 from planmethod.solved.scaling import MOST_DRAWN
 from planmethod.solved.solution import Solution
-from planmethod.solved.turn.turn import TURN, turn_of
+from planmethod.solved.turn.numbering import number, strokes_of
+from planmethod.solved.turn.turn import TURN
 
-_SAME = 1e-6  # degrees within which an angle is a position
-_MOST_COUNT = 72  # positions of the construction of a flywheel
+MOST_COUNT = 72
+"""Most positions of the construction of a flywheel."""
 
 
 def settle(problem: Problem, path: Path | None = None) -> Project:
@@ -66,7 +66,7 @@ def settle(problem: Problem, path: Path | None = None) -> Project:
         problem=problem,
         positions=problem.drive.positions,
         calculated=calculated,
-        strokes=_strokes(problem),
+        strokes=None if problem.cycle is None else strokes_of(Solution(problem)),
         scales=scales,
         frame="0",
         language=problem.sheet.lang or LANGUAGES[0],
@@ -87,48 +87,44 @@ def settled(problem: Problem) -> Problem:
 
 def _in_positions(problem: Problem) -> Problem:
     """Return a problem whose positions, cycle and flywheel are numbered alike."""
-    drive, machine, cycle = problem.drive, problem.machine, problem.cycle
-    if cycle is None and drive.is_crank and (machine is not None or _goes_round(drive.positions)):
+    if problem.drive.is_crank and problem.cycle is None:
         cycle = _default_cycle(problem)
-    if cycle is None or not drive.is_crank:
+        problem = problem if cycle is None else number(replace(problem, cycle=cycle))
+    positions, drive, machine = problem.numbered, problem.drive, problem.machine
+    if not positions:
         return problem
-    problem = replace(problem, cycle=cycle)
-    positions = cycle_positions(turn_of(Solution(problem)))
     if len(positions) > MOST_DRAWN:
-        raise ProblemError(
-            problem.name,
-            [
-                Fault(
-                    "cycle.count",
-                    say(
-                        "{} positions, a project is drawn of at most {}", len(positions), MOST_DRAWN
-                    ),
-                    "Ask fewer: count = 12.",
-                )
-            ],
-        )
-    if machine is not None:
-        count = len(positions) if len(positions) <= _MOST_COUNT else machine.count
-        machine = replace(machine, start_deg=positions[0], count=count)
-    drive = replace(drive, positions=positions, posed=None)
+        told = say("{} positions, a project is drawn of at most {}", len(positions), MOST_DRAWN)
+        raise ProblemError(problem.name, [Fault("cycle.count", told, "Ask fewer: count = 12.")])
+    if machine is not None and len(positions) <= MOST_COUNT:
+        machine = replace(machine, start_deg=positions[0], count=len(positions))
+    judged = drive.judged or drive.positions  # the way in which it is assembled stays
+    drive = replace(drive, positions=positions, judged=judged, posed=None)
     return replace(problem, drive=drive, machine=machine)
 
 
-def _goes_round(positions: tuple[float, ...]) -> bool:
-    """Tell whether positions go round in even steps."""
-    steps = np.diff([*positions, positions[0] + TURN])
-    down = np.diff([*positions, positions[0] - TURN])
-    return len(positions) > 2 and bool(np.ptp(steps) < _SAME or np.ptp(down) < _SAME)
+def _default_cycle(problem: Problem) -> CycleTask | None:
+    """Return the cycle of a file without one; None where its positions are all there are.
 
-
-def _default_cycle(problem: Problem) -> CycleTask:
-    """Return the cycle of a file without one: from where its positions, or its machine, begin."""
+    It has the positions of the file where these go round; else a machine has a cycle, from where
+    it begins.
+    """
     positions, machine = problem.drive.positions, problem.machine
-    if _goes_round(positions):
-        return CycleTask(zero=positions[0], count=len(positions))
-    if machine is not None and machine.start_deg is not None:
-        return CycleTask(zero=machine.start_deg)
-    return CycleTask()
+    if problem.dynamics is not None and only_in_positions(problem.dynamics):
+        return None
+    if len(positions) > 2:
+        for way, sense in ((TURN, TurningSense.CCW), (-TURN, TurningSense.CW)):
+            if np.ptp(np.diff([*positions, positions[0] + way])) < SAME_DEG:
+                return CycleTask(zero=positions[0], count=len(positions), direction=sense)
+        return None
+    if machine is None:
+        return None
+    count = round(machine.count * TURN / machine.cycle_deg)
+    return (
+        CycleTask(count=count)
+        if machine.start_deg is None
+        else CycleTask(zero=machine.start_deg, count=count)
+    )
 
 
 def _calculated(problem: Problem, solution: Solution, asked: tuple[float, ...]) -> int:
@@ -150,7 +146,7 @@ def _calculated(problem: Problem, solution: Solution, asked: tuple[float, ...]) 
     if len(asked) == 1:
         turn = problem.drive.coordinate.turn
         off = [abs((p - asked[0] + turn / 2) % turn - turn / 2) for p in problem.drive.positions]
-        if count == 1 or min(off) < _SAME:
+        if count == 1 or min(off) < SAME_DEG:
             return int(np.argmin(off))
     return clear_position(solution, loaded_positions(solution))
 
@@ -170,10 +166,6 @@ def _scales(problem: Problem) -> Scales:
     at = [problem.drive.positions[problem.calculated]]
     loaded = Solution(replace(problem, scales=decided), positions=at)
     return replace(decided, mu_F=force_scale(loaded))
-
-
-def _strokes(problem: Problem) -> Strokes | None:
-    return None if problem.cycle is None else strokes_of(turn_of(Solution(problem)))
 
 
 # Parts -------------------------------------------------------------------------------------------

@@ -85,8 +85,8 @@ def kinematics_sheets(
     words = language(problem.sheet.lang or LANGUAGES[0])
     made = composition(layout, words.lang) if isinstance(layout, str | Path) else layout
     solution = Solution(problem, positions=positions, ruler=ruler, profile=profile)
-    if positions is None and made is not None and made.turn:
-        solution = _at_the_turn(solution)
+    if positions is None and made is not None and made.cycle:
+        solution = _over_the_cycle(solution)
     made = made or _usual(len(solution.positions), words)
     _check_positions(made, solution)
     if problem.calculated is not None and made.per_sheet == (1,):
@@ -103,11 +103,19 @@ def kinematics_sheets(
     return compose(problem, strategy, misfit, fields=fields, furniture=furniture)
 
 
-def _at_the_turn(solution: Solution) -> Solution:
-    """Return the mechanism in the positions of ``[cycle]``."""
-    from planmethod.solved.turn.turn import turn_of
+def _over_the_cycle(solution: Solution) -> Solution:
+    """Return the mechanism in the numbered positions of its cycle; a slider has those of its file.
 
-    return solution.moved(turn_of(solution).positions.tolist())
+    Raises
+    ------
+    ProblemError
+        Nothing can be the output.
+    """
+    from planmethod.solved.turn.numbering import numbered_positions
+
+    if not solution.problem.drive.is_crank:
+        return solution
+    return solution.moved(numbered_positions(solution).tolist())
 
 
 def _usual(count: int, words: Language) -> Composition:
