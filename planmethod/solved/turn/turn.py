@@ -330,7 +330,7 @@ class Turn(Remembering):
     @property
     def ends_from_zero(self) -> tuple[Extreme, Extreme]:
         """Both ends of the stroke, that which ``zero`` names first; there must be a stroke."""
-        assert self.ends is not None, "an output without a stroke has no ends"
+        assert self.ends is not None
         one, two = self.ends
         is_other = self.task.zero is Zero.OTHER
         if self.task.zero is Zero.WORKING and self.strokes is not None:
