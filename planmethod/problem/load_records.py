@@ -444,9 +444,10 @@ class Machine(Struct, frozen=True):
     count: Annotated[
         int,
         WholeKey(
-            "positions of the construction in a cycle", 4, 72, absent="one for every 30 degrees"
+            "positions of the construction in a cycle", 4, 72,
+            absent="those of `[cycle]`, else one for every 30 degrees",
         ),
-    ] = 12
+    ] = 12  # fmt: skip
     pole_mm: Annotated[
         float,
         NumberKey("pole distance of the graphical integration", "a distance", "mm", 5.0, 500.0),
@@ -485,7 +486,7 @@ class Machine(Struct, frozen=True):
         AngleKey(
             "angle of the crank in position 0, degrees",
             name="phi_0",
-            absent="the first of `[driver]`",
+            absent="that of `[cycle]`, else the first of `[driver]`",
             more=". Positions follow in the sense of its rotation",
         ),
     ] = None  # fmt: skip
@@ -507,6 +508,8 @@ class Machine(Struct, frozen=True):
             more="; 0: it coasts. `planmethod sheet FILE --layout run-up` draws run-up and stop",
         ),
     ] = None  # fmt: skip
+    told_count: int | None = None
+    """``count`` where the file has it."""
 
 
 class Weighing(Enum):

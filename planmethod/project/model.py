@@ -11,8 +11,8 @@ from msgspec import Struct
 from planmethod.kind import Kind
 from planmethod.problem.head import KindProblem
 from planmethod.problem.model import Problem, Scales
-from planmethod.project.decided import Strokes
 from planmethod.solved.solution import Solution
+from planmethod.solved.turn.strokes import Strokes
 
 
 class PartName(Enum):

@@ -26,7 +26,7 @@ from planmethod.note.tables.sigmas import Sigmas, levelled
 from planmethod.note.wording import Language, Words
 from planmethod.plans.legend import TURNING, Quantity, QuantityKind
 from planmethod.plans.model import FACTS, MOTION, PlanKind
-from planmethod.problem.model import Coordinate, Problem
+from planmethod.problem.model import Problem
 from planmethod.solved.reading import Reals
 from planmethod.solved.solution import Segment, Solution
 
@@ -108,7 +108,7 @@ def scale_texts(solution: Solution, words: Language, index: int) -> list[Rich]:
 def position_line(solution: Solution, words: Words, index: int) -> Rich:
     """Return which position is told: its number and the driver's place."""
     coordinate = solution.problem.drive.coordinate
-    value = given(float(solution.positions[index]), words)
+    value = given(solution.problem.shown(float(solution.positions[index])), words)
     count = len(solution.positions)
     return (words.position if count > 1 else words.one_position).format(
         number=index,
@@ -271,7 +271,7 @@ def _lengths(segment: Segment, words: Words, i: int) -> list[str]:
 def _many(solution: Solution, words: Language, sigmas: Sigmas) -> Iterator[Node]:
     """Yield tables with a row for each position."""
     note, count = words.note, len(solution.positions)
-    lead = lead_columns(solution.problem.drive.coordinate, solution.positions.tolist(), note)
+    lead = lead_columns(solution.problem, solution.positions.tolist(), note)
 
     def table(title: Rich, columns: Sequence[Sequence[Rich]]) -> Iterator[Node]:
         if columns:
@@ -307,11 +307,12 @@ def _many(solution: Solution, words: Language, sigmas: Sigmas) -> Iterator[Node]
 
 
 def lead_columns(
-    coordinate: Coordinate, positions: Sequence[float], words: Words
+    problem: Problem, positions: Sequence[float], words: Words
 ) -> list[list[Rich]]:
     """Return the columns that each part of a table of positions begins with: number and place."""
+    coordinate = problem.drive.coordinate
     symbol = f"{coordinate.symbol}, {words['units'][coordinate.unit]}"
     return [
         [words.number, *map(str, range(len(positions)))],
-        [symbol, *(given(float(p), words) for p in positions)],
+        [symbol, *(given(problem.shown(float(p)), words) for p in positions)],
     ]

@@ -61,6 +61,8 @@ class Language:
         Gear trains, the choice of their teeth, two wheels in mesh.
     live : Words
         The page of a moving mechanism.
+    project : Words
+        The course project.
     document, report : Words
         What a note puts around its figures, tables and names; the explanatory note itself.
     layouts, families, tasks : Words
@@ -86,6 +88,7 @@ class Language:
     synthesis: Words
     teeth: Words
     live: Words
+    project: Words
     document: Words
     report: Words
     layouts: Words

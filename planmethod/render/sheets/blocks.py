@@ -91,6 +91,7 @@ BLOCKS: Mapping[str, Kind] = MappingProxyType(
         "kinematic-diagrams": Kind(_late("turn", "diagrams_view"), _DIAGRAM),
         "chosen-plans": Kind(_late("turn", "chosen_plans"), ("of", *_VIEW[:-1])),
         "hodograph": Kind(_late("turn", "hodograph_view"), ("of", *_DIAGRAM)),
+        "measured-results": Kind(_late("measured", "measured_table"), _TEXT),
         "turn-table": Kind(_late("turn", "turn_table"), _TEXT),
         "deviations": Kind(_late("turn", "deviations_table"), _TEXT),
         "machine-statement": Kind(_late("flywheel", "statement_block"), _TEXT),

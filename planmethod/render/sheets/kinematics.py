@@ -85,10 +85,12 @@ def kinematics_sheets(
     words = language(problem.sheet.lang or LANGUAGES[0])
     made = composition(layout, words.lang) if isinstance(layout, str | Path) else layout
     solution = Solution(problem, positions=positions, ruler=ruler, profile=profile)
-    if positions is None and made is not None and made.turn:
-        solution = _at_the_turn(solution)
+    if positions is None and made is not None and made.cycle:
+        solution = _over_the_cycle(solution)
     made = made or _usual(len(solution.positions), words)
     _check_positions(made, solution)
+    if problem.calculated is not None and made.per_sheet == (1,):
+        solution = solution.moved([float(solution.positions[problem.calculated])])
     verify(solution)
     strategy = Linkage(made, solution, Extras(words, errors, sigma, made.turn))
     misfit = Misfit(
@@ -101,11 +103,19 @@ def kinematics_sheets(
     return compose(problem, strategy, misfit, fields=fields, furniture=furniture)
 
 
-def _at_the_turn(solution: Solution) -> Solution:
-    """Return the mechanism in the positions of ``[cycle]``."""
-    from planmethod.solved.turn.turn import turn_of
+def _over_the_cycle(solution: Solution) -> Solution:
+    """Return the mechanism in the numbered positions of its cycle; a slider has those of its file.
 
-    return solution.moved(turn_of(solution).positions.tolist())
+    Raises
+    ------
+    ProblemError
+        Nothing can be the output.
+    """
+    from planmethod.solved.turn.numbering import numbered_positions
+
+    if not solution.problem.drive.is_crank:
+        return solution
+    return solution.moved(numbered_positions(solution).tolist())
 
 
 def _usual(count: int, words: Language) -> Composition:
@@ -122,6 +132,15 @@ def _check_positions(layout: Composition, solution: Solution) -> None:
             solution.problem.name,
             MOST_DRAWN,
             count,
+        )
+    calculated = solution.problem.calculated
+    if calculated is not None and calculated >= count:
+        raise LayoutError(
+            "{}: there is no position {} to be calculated. Of {} positions the last is {}.",
+            solution.problem.name,
+            calculated,
+            count,
+            count - 1,
         )
     for number, entry in enumerate(layout.blocks):
         if entry.position is not None and entry.position >= count:
@@ -175,7 +194,7 @@ class Linkage(Struct, frozen=True):
         free = (None, replace(problem.scales, mu_v=None, mu_a=None))
         views = self.views
         first = [own if views.kept else (views, problem.scales)]
-        given = free[1] != problem.scales
+        given = free[1] != problem.scales and problem.project is None  # a project keeps its own
         if given and (self.layout.turn or count > FEW):
             first.append(free)
         moved = tuple(self.solution.positions.tolist()) != tuple(problem.drive.positions)

@@ -13,7 +13,7 @@ from planmethod.note.narrate.given import given, point_name
 from planmethod.note.narrate.scales import scale_inscription
 from planmethod.note.narrate.turn import (
     diagram_scales,
-    drawn_note,
+    drawn_notes,
     output_name,
     turn_facts,
 )
@@ -65,7 +65,7 @@ def diagrams_view(solution: Solution, indices: Sequence[int], manner: Manner) ->
         f"K_{{{number}}} = {words.say.given(pole)} {words.say.units['mm']}"
         for number, pole in enumerate((diagrams.task.pole.v, diagrams.task.pole.a), 1)
     ]
-    lines = ["; ".join([*scales, *k]), drawn_note(diagrams.task.differentiation, words)]
+    lines = ["; ".join([*scales, *k]), *drawn_notes(diagrams, words)]
     block = named(picture, manner.entry.title or title, lines, manner)
     return Viewed(block, "diagram", diagrams.scales[0])
 

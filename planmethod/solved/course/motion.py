@@ -116,7 +116,8 @@ class TurnMotion:
         self.sense = 1.0 if drive.rate > 0.0 else -1.0
         machine = problem.machine
         start = machine.start_deg if machine is not None else None
-        self.start_deg = drive.positions[0] if start is None else start
+        first = (*problem.numbered, *drive.positions)[0]
+        self.start_deg = first if start is None else start
         self.cycle = float(np.radians(360.0 if machine is None else machine.cycle_deg))
         self._solution = Solution(self.problem, positions=[self.start_deg])
         self.construction = self._solution.construction

@@ -119,6 +119,12 @@ def changing(solution: MotionValues) -> dict[str, Applied]:
     return {one.name: one for one in found if one.steady is None}
 
 
+def only_in_positions(dynamics: Dynamics) -> bool:
+    """Tell whether a load is known in the positions of the file only."""
+    tables = (load.size for load in dynamics.loads if isinstance(load.size, SizeTable))
+    return any(table.over is Over.POSITION for table in tables)
+
+
 def needs_motion(load: Load | Couple) -> bool:
     """Whether a load is known only where the motion is, not by the driver's position alone."""
     phase = load.phase
