@@ -186,24 +186,7 @@ def extreme_steps(turn: Turn, made: Construction | None, words: Language) -> lis
     said, say = words.cycle, words.say
     if made is None:
         return [said.no_construction] if turn.ends is not None else []
-
-    def primed(name: str) -> list[str]:
-        return [point_name(name) + p for p in PRIMES]
-
-    def mm(name: str) -> str:
-        return say.number(f"{made.length(name):.1f}")
-
-    crank, total, less = radius_names(made)
-    arcs = made.locus is not Locus.TANGENTS
-    facts = {
-        "pivot": point_name(made.pivot), "end": point_name(made.end),
-        "centre": point_name(made.centre) if made.centre else "",
-        "crank": crank, "crank_mm": mm("r"), "pins": ", ".join(primed(made.pin)),
-        "ends": ", ".join(primed(made.end)),
-        "rays": ", ".join(point_name(made.pivot) + end for end in primed(made.end)),
-        "far": total, "near": less,
-        "far_mm": mm("l+r") if arcs else "", "near_mm": mm("l-r") if arcs else "",
-    }  # fmt: skip
+    facts = construction_facts(made, words)
     angles = [
         said["constructed"]["phi"].format(
             name=f"φ{p}",
@@ -228,3 +211,25 @@ def extreme_steps(turn: Turn, made: Construction | None, words: Language) -> lis
         sigma=size(made.sigma[2], 2),
     )
     return [said["construction"][made.locus.value].format(**facts), told]
+
+
+def construction_facts(made: Construction, words: Language) -> dict[str, str]:
+    """Return what the sentences of the construction of extreme positions name."""
+
+    def primed(name: str) -> list[str]:
+        return [point_name(name) + p for p in PRIMES]
+
+    def mm(name: str) -> str:
+        return words.say.number(f"{made.length(name):.1f}")
+
+    crank, total, less = radius_names(made)
+    arcs = made.locus is not Locus.TANGENTS
+    return {
+        "pivot": point_name(made.pivot), "end": point_name(made.end),
+        "centre": point_name(made.centre) if made.centre else "",
+        "crank": crank, "crank_mm": mm("r"), "pins": ", ".join(primed(made.pin)),
+        "ends": ", ".join(primed(made.end)),
+        "rays": ", ".join(point_name(made.pivot) + end for end in primed(made.end)),
+        "far": total, "near": less,
+        "far_mm": mm("l+r") if arcs else "", "near_mm": mm("l-r") if arcs else "",
+    }  # fmt: skip

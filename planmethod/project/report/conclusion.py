@@ -65,7 +65,7 @@ def _motion(report: Report, said: Words) -> Rich:
         facts[f"{name}_sigmas"] = say.number(f"{most.sigmas:.1f}")
     later = float(facts["acceleration_percent"].replace(say.decimal, "."))
     earlier = float(facts["velocity_percent"].replace(say.decimal, "."))
-    text = said.motion.format(position=report.position, **facts)
+    text = said.motion.format(position=report.in_position, **facts)
     return f"{text} {said.why.format()}" if later > earlier else text
 
 
@@ -96,9 +96,10 @@ def _forces(report: Report, said: Words) -> Iterator[Rich]:
     plans, lever = both_balances(reading)
     balancing = reading.balancing
     yield said.forces.format(
-        position=report.position,
+        position=report.in_position,
         symbol=reaction_symbol(most.on, most.by),
         value=report.quantity(abs(complex(most.force[0])), "N"),
+        name=said["balancing"][balancing.quantity],
         balancing=say.symbol(reading.balancing_symbol),
         balance=report.quantity(abs(plans), balancing.unit),
     )
@@ -123,7 +124,7 @@ def _flywheel(report: Report, said: Words) -> Iterator[Rich]:
         delta=say.given(flywheel.machine.delta),
         symbol=tell.letter("flywheel"),
         value=report.quantity(read, "kg·m²"),
-        whole=say.number(f"{100.0 * (read / exact - 1.0):+.1f}"),
+        whole=say.number(f"{100.0 * abs(read / exact - 1.0):.1f}"),
     )
     size = said.flywheel_sizes.format(
         diameter=report.quantity(sizes.diameter, "m"),

@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Sequence
 
-from planmethod.construct.steps import Compute
+from planmethod.construct.steps import Compute, NumberName
 from planmethod.mechanism.describe import LinkKind, kind_of_motion
 from planmethod.note.document import Formula, Paragraph
 from planmethod.note.formula import Rich
@@ -34,6 +34,15 @@ def lettered(text: Rich) -> Rich:
 class NoteFormulas(Formulas):
     """Formulas as a note displays them: each on a line of its own, without exact values."""
 
+    shown_angle: float | None = None
+    """Angle of the driver as the positions are numbered, degrees."""
+
+    def number(self, name: NumberName) -> float:
+        """Return a number as the hand has it; the driver's angle as it is told."""
+        if name == "phi" and self.shown_angle is not None:
+            return self.shown_angle
+        return super().number(name)
+
     def laid(self, step: Compute, segment: str, kind: PlanKind, vector: Vector | None) -> list[str]:
         """Return the formulas of a length to be laid off: of the quantity, and of the length."""
         (value, _), (scale, _) = step.powers
@@ -56,8 +65,8 @@ class Report:
     ----------
     project : Project
     words : Language
-    said : Words
-        The sentences of notes.
+    said, note : Words
+        The sentences of notes; those of the narrators, as a note has them.
     every, one : Solution
         All positions, and the calculated one alone.
     names : Names
@@ -65,14 +74,20 @@ class Report:
     formulas : NoteFormulas
         Of the calculated position.
     narrator : Narrator
+    described : set of str
+        Letters that were explained.
     """
 
     def __init__(self, project: Project, words: Language) -> None:
         self.project, self.words, self.said = project, words, words.report
         self.every: Solution = project.solution
         self.one: Solution = project.loaded
-        self.names = Names(self.one, words.note, on_sheet=True)
+        self.note = Words({**words.note, **self.said["voice"]})
+        self.described: set[str] = set()
+        self.names = Names(self.one, self.note, on_sheet=True)
         self.formulas = NoteFormulas(self.one, self.names, 0)
+        if self.one.problem.drive.is_crank:
+            self.formulas.shown_angle = self.shown_places[project.calculated]
         self.narrator = Narrator(self.one, self.names, 0, self.formulas)
 
     @property
@@ -140,12 +155,22 @@ class Report:
         ]
 
     @property
-    def position(self) -> Rich:
-        """The calculated position in the genitive: ``положения 3``."""
-        plan = self.said["plan"]
-        if not self.is_series:
-            return plan.of_one.format()
-        return plan.of_position.format(number=self.project.calculated)
+    def of_position(self) -> Rich:
+        """Of the calculated position, after a blank; nothing where it is the only one."""
+        return self._told(self.said.of_position)
+
+    @property
+    def in_position(self) -> Rich:
+        """In the calculated position, after a blank; nothing where it is the only one."""
+        return self._told(self.said.in_position)
+
+    @property
+    def for_position(self) -> Rich:
+        """For the calculated position, after a blank; nothing where it is the only one."""
+        return self._told(self.said.for_position)
+
+    def _told(self, template: str) -> Rich:
+        return template.format(number=self.project.calculated) if self.is_series else ""
 
     @property
     def coordinate(self) -> Rich:
@@ -159,6 +184,10 @@ class Report:
     def kinds(self) -> list[LinkKind]:
         """Roles of the links, the frame first."""
         return kind_of_motion(self.one.problem.mechanism)
+
+    def link(self, link: str, case: str = "who") -> Rich:
+        """Return what a link is called with its number, in a case of the language."""
+        return self.said.of_link.format(role=self.role(link, case), link=link)
 
     def role(self, link: str, case: str = "who") -> Rich:
         """Return what a link is called, in a case of the language."""

@@ -20,6 +20,9 @@ from planmethod.solved.machine.flywheel import flywheel_of
 COLUMN = 240.0
 """Width of the texts of the sheet, which its diagrams are measured by, mm."""
 
+SMALL = 5e-4
+"""Share of the moment of inertia below which a cause of a difference is not named."""
+
 
 def machine_of(report: Report) -> MachineTeller:
     """Return who tells the machine of a project."""
@@ -63,6 +66,7 @@ def _reduced(report: Report, tell: MachineTeller, said: Words) -> Iterator[Node]
     )
     if changing:
         made = of_sheet("load-diagram", report.every, report.words, column=COLUMN)
+        yield sentences(said.load_text.format())
         yield figure(made, said.load_figure.format(), "load", room=(WIDTH, 90.0))
 
 
@@ -82,7 +86,7 @@ def _diagrams(report: Report, tell: MachineTeller, said: Words) -> Iterator[Node
             M=letters["M"],
             A=letters["A"],
             mu_M=tell.scale("M", scales.moment, "N·m"),
-            way=tell.said.by_middle if middle else tell.said.by_trapezoid,
+            way=str(said["ways"]["middle" if middle else "trapezoid"]).format(),
             pole=with_unit(say.given(machine.pole_mm), report.unit("mm")),
         )
     )
@@ -153,21 +157,21 @@ def _checked(report: Report, tell: MachineTeller, said: Words) -> Iterator[Rich]
     parts = split(tell.drawing)
 
     def percent(value: float) -> str:
-        return say.number(f"{100.0 * value / exact:+.2f}")
+        return say.number(f"{100.0 * value / exact:+.1f}")
 
-    named: Words = said["parts"]
-    told = [named.slopes.format(value=percent(parts.slopes))]
-    if parts.method:
-        told.append(named.method.format(value=percent(parts.method)))
-    count = tell.drawing.count
-    told.append(named.positions.format(count=count, value=percent(parts.positions)))
-    told.append(named.pencil.format(value=percent(parts.pencil)))
+    causes = {name: getattr(parts, name) for name in ("slopes", "method", "positions", "pencil")}
+    told = [
+        str(said["parts"][name]).format(value=percent(value), count=tell.drawing.count)
+        for name, value in causes.items()
+        if abs(value) > SMALL * exact
+    ]
     yield said.exact.format(
         symbol=tell.letter("flywheel"),
         value=f"{say.found(exact)} {unit}",
         whole=percent(tell.drawing.read_inertia - exact),
-        parts=", ".join(told),
     )
+    if told:
+        yield said.why.format(parts=", ".join(told))
     high, low = flywheel.integrated
     turn = flywheel.machine.cycle_deg
 
@@ -200,6 +204,11 @@ def _sizes(report: Report, tell: MachineTeller, said: Words) -> Iterator[Node]:
     if sizes.held:
         limit = say.given(tell.flywheel.machine.wheel.speed)
         held = said.held.format(speed=f"{limit}{NBSP}{report.unit('m/s')}")
-    yield sentences((said.disc if disc else said.rim).format(), f"{', '.join(facts)}.", held)
+    yield sentences(
+        (said.disc if disc else said.rim).format(),
+        f"{', '.join(facts)}.",
+        held,
+        said.wheel_text.format(),
+    )
     made = of_sheet("flywheel", report.every, report.words, column=130.0)
     yield figure(made, said.wheel_figure.format(), "wheel", room=(WIDTH, 90.0))

@@ -51,6 +51,7 @@ class ForceChapter:
         self.report, self.said = report, report.said["forces"]
         self.reading = force_reading(report.one, 0)
         self.context = ForceContext(self.reading, report.formulas)
+        self.context.said = Words({**self.context.said, **report.said["force_voice"]})
         self.drive = report.one.problem.drive.link
         self.find = report.say.found
 
@@ -78,7 +79,7 @@ class ForceChapter:
             reading.scale, report.one.problem.scales.convention, report.say
         )
         template = said.about_own if own else said.about
-        yield sentences(template.format(position=report.position, scale=scale))
+        yield sentences(template.format(position=report.for_position, scale=scale))
         yield figure(
             lambda letter: loads_picture(reading, letter, report.say),
             said.loads_figure.format(),
@@ -97,14 +98,7 @@ class ForceChapter:
         if couples:
             yield sentences(said.couples.format())
             yield from chain(map(voice.formula, couples))
-            senses = [
-                said.couple_sense.format(
-                    symbol=one.applied.name,
-                    sense=self.context.sense(float(one.applied.couple[0])),
-                )
-                for one in couples
-            ]
-            yield sentences(said.couple_senses.format(senses=", ".join(senses)))
+            yield sentences(self._senses(couples))
         for one in reading.statics.board.given:
             if one.applied.kind is LoadKind.EXTERNAL:
                 yield sentences(self._external(one))
@@ -112,7 +106,20 @@ class ForceChapter:
         links = report.one.problem.mechanism.links
         massless = [link for link in links if dynamics and link not in dynamics.masses]
         if massless and dynamics and dynamics.masses:
-            yield sentences(said.massless.format(links=", ".join(massless)))
+            form = said["massless"]["one" if len(massless) == 1 else "many"]
+            yield sentences(form.format(links=report.listed(massless)))
+
+    def _senses(self, couples: list[Given]) -> Rich:
+        """Return which way the couples of inertia turn."""
+        said: Words = self.said
+        senses = {
+            one.applied.name: self.context.sense(float(one.applied.couple[0])) for one in couples
+        }
+        if len({*senses.values()}) == 1:
+            form = said["couple_alike"]["one" if len(couples) == 1 else "many"]
+            return str(form).format(sense=next(iter(senses.values())))
+        told = [said.couple_sense.format(symbol=a, sense=b) for a, b in senses.items()]
+        return f"{', '.join(told)}."
 
     def _inertia(self, voice: LoadNarrator, forces: list[Given]) -> Iterator[Node]:
         said: Words = self.said
@@ -141,13 +148,13 @@ class ForceChapter:
                 return said.absent_couple.format(symbol=applied.name)
             size = f"{self.find(abs(couple))} {units['N·m']}"
             return said.couple.format(
-                link=applied.link, symbol=applied.name, size=size, sense=self.context.sense(couple)
+                link=self.report.link(applied.link, "on"), symbol=applied.name, size=size, sense=self.context.sense(couple)
             )
         force = complex(applied.force[0])
         if not force:
             return said.absent.format(symbol=applied.name)
         return said.force.format(
-            link=applied.link,
+            link=self.report.link(applied.link, "on"),
             point=applied.point,
             symbol=applied.name,
             size=f"{self.find(abs(force))} {units['N']}",
@@ -193,13 +200,15 @@ class ForceChapter:
             equation = balance_equation(balance, self.context, direction_text)
             yield Equations((equation,), numbered=True)
         *steps, _ = voice.steps()
-        yield sentences(said.plan.format(), *(line for step in steps for line in step))
-        yield sentences(said.found.format())
+        form = said["plan"]["one" if len(plan.balances) == 1 else "many"]
+        yield sentences(form.format(), *(line for step in steps for line in step))
+        inverse = self.report.names.is_inverse_scale()
+        yield sentences((said.found_inverse if inverse else said.found).format())
         yield from chain(voice.closing(edge) for edge in plan.reactions)
-        if drawn:
-            yield self._polygon(number, links, keys["plan"], driver=driver)
         for lines in moments.guides():
             yield sentences(*self._of_guide(lines))
+        if drawn:
+            yield self._polygon(number, links, keys["plan"], driver=driver)
 
     def _readable(self, *names: Name) -> bool:
         hand = self.reading.statics.by_hand
@@ -219,7 +228,8 @@ class ForceChapter:
         yield sentences(
             template.format(point=equation.about, links=", ".join(equation.links))
         )
-        yield displayed(_summed(told.equation) + ("." if told.result else "."))
+        whose = f"Σ_{{{','.join(equation.links)}}}M"  # the sentence before says it
+        yield displayed(f"{told.equation.replace(whose, 'ΣM', 1)}.")
         lead = said.hence.format()
         if told.arms:
             arms = said.arms if len(told.arms) > 1 else said.arms_one
@@ -282,7 +292,7 @@ class ForceChapter:
             tuple(text.format() for text in said["columns_reactions"]),
             tuple(rows),
             2,
-            name=said.reactions_table.format(position=report.position),
+            name=said.reactions_table.format(position=report.in_position),
             key="reactions",
         )
         balancing, unit = self.reading.balancing, report.unit(self.reading.balancing.unit)
@@ -311,7 +321,7 @@ class ForceChapter:
         yield sentences(template.format(pole=report.names.pole(PlanKind.VELOCITY)))
         yield figure(
             lambda letter: lever_picture(reading, letter, report.say),
-            said.lever_figure.format(position=report.position),
+            said.lever_figure.format(position=report.in_position),
             "lever",
         )
         if not voice.lever.forces and not voice.lever.couples:
@@ -323,7 +333,7 @@ class ForceChapter:
             said.lever_pairs.format(segments="; ".join(segments)) if segments else "",
             said.lever_equation.format(),
         )
-        yield displayed(_summed(voice.equation()) + ".")
+        yield displayed(f"{voice.equation()}.")
         for shift in voice.lever.shifts:
             yield from chain([voice.shift(shift)])
         arms = voice.arms()
@@ -380,16 +390,12 @@ class ForceChapter:
         balance = [report.say.number(text) for text in alike(statics.balance.tolist())]
         columns.append([f"{symbol}, {report.unit(drive.balancing.unit)}", *balance])
         yield Part(said.all.format())
-        yield sentences(said.all_text.format())
+        quantity = drive.balancing.quantity
+        yield sentences(str(said["all_text"][quantity]).format())
         table = table_of_columns([*lead, *columns], repeated=len(lead))
-        name = said.all_table.format()
+        name = str(said["all_table"][quantity]).format()
         yield Table(table.head, table.rows, 0, len(lead), name=name, key="all-reactions")
         peak = max(sizes, key=lambda one: float(sizes[one].max()))
         k = int(sizes[peak].argmax())
         value = f"{self.find(float(sizes[peak][k]))} {report.unit('N')}"
         yield sentences(said.all_peaks.format(symbol=peak, value=value, number=k))
-
-
-def _summed(equation: Rich) -> Rich:
-    """Return an equation of moments without the full stop that may end it."""
-    return equation.rstrip(".")

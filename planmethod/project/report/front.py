@@ -14,10 +14,12 @@ from planmethod.note.document import (
     TitlePage,
 )
 from planmethod.note.formula import Rich, escape
-from planmethod.note.narrate.forces.statement import cycle_statement, mass_lines
+from planmethod.note.narrate.forces.statement import mass_lines
 from planmethod.note.narrate.given import given
 from planmethod.note.narrate.machine import MachineTeller
+from planmethod.note.numbers import with_unit
 from planmethod.note.wording import Words
+from planmethod.problem.load_records import Against, Couple, Load, SizeTable
 from planmethod.mechanism.structure import roman
 from planmethod.project.model import PartName
 from planmethod.project.report.context import NBSP, Report, lettered, sentences
@@ -28,6 +30,9 @@ from planmethod.solved.machine.flywheel import flywheel_of
 
 _FACT = re.compile(r"^([^\s=(]+) = (.+)$")
 _CONST = " = const"
+
+LINKS = ("n", "ω", "ε", "φ", "m", "J", "length")
+"""Letters of quantities of links."""
 
 
 def title_page(report: Report) -> TitlePage:
@@ -81,9 +86,8 @@ def _assignment(report: Report) -> Iterator[Node]:
         yield sentences(said.further.format(facts="; ".join(further)))
     if report.has(PartName.FORCES):
         loads = _loads(report)
-        if loads:
-            yield sentences(said.loads.format(facts="; ".join(loads)))
-    caption = (said.scheme_series if report.is_series else said.scheme).format(number=number)
+        yield sentences(*loads)
+    caption = said.scheme.format(position=report.in_position)
     yield figure(
         lambda letter: scheme_picture(report.one, 0, letter_height=letter), caption, "scheme"
     )
@@ -91,12 +95,15 @@ def _assignment(report: Report) -> Iterator[Node]:
 
 def _tasks(report: Report) -> Iterator[Rich]:
     tasks: Words = report.said["front"]["tasks"]
+    yield tasks.structure.format()
     yield tasks.kinematics.format()
+    yield tasks.motion.format()
     if report.every.problem.cycle is not None:
         yield tasks.cycle.format()
     for name in (PartName.FORCES, PartName.FLYWHEEL, PartName.GEARS, PartName.MESHING):
         if report.has(name):
-            yield str(tasks[name.value]).format()
+            balancing = report.said["balancing"][report.one.problem.drive.balancing.quantity]
+            yield str(tasks[name.value]).format(balancing=balancing)
 
 
 def _data(report: Report) -> tuple[list[tuple[Rich, Rich, Rich]], list[Rich]]:
@@ -147,14 +154,39 @@ def _name(symbol: Rich, report: Report) -> Rich | None:
     if letter in ("φ", "s", "v", "a") and not index:
         index = problem.drive.link
     template = quantities.get(letter)
-    return None if template is None else str(template).format(of=index)
+    if template is None:
+        return None
+    of = report.link(index, "of") if letter in LINKS and index in problem.bodies else index
+    return str(template).format(of=of)
 
 
 def _loads(report: Report) -> list[Rich]:
-    """Return the external loads as the file gives them."""
-    problem, words = report.every.problem, report.words
-    before = len(given(problem, words, [float(p) for p in report.every.positions]))
-    return cycle_statement(report.every, words)[before + len(mass_lines(problem, words)) :]
+    """Return the external loads as the file gives them, a sentence each."""
+    dynamics = report.every.problem.dynamics
+    return [] if dynamics is None else [_load(load, report) for load in dynamics.loads]
+
+
+def _load(load: Load | Couple, report: Report) -> Rich:
+    said: Words = report.said["front"]["loads"]
+    force = isinstance(load, Load)
+    unit = "N" if force else "N·m"
+    if isinstance(load.size, SizeTable):
+        largest = report.quantity(max(load.size.values, key=abs), unit)
+        size = (said.table if force else said.table_couple).format(value=largest)
+    else:
+        size = said.constant.format(value=with_unit(report.say.short(load.size), report.unit(unit)))
+    against = said.against if force else said.against_couple
+    moving = None if load.phase is None else load.phase.moving
+    facts = {
+        "link": report.link(load.link, "on"),
+        "symbol": load.name,
+        "size": size,
+        "sense": against.format() if isinstance(load.sense, Against) else "",
+        "phase": str(said["moving"][moving.value]).format() if moving else "",
+    }
+    if isinstance(load, Load):
+        return said.force.format(point=load.at, **facts)
+    return said.couple.format(**facts)
 
 
 # Introduction ------------------------------------------------------------------------------------

@@ -5,25 +5,33 @@ from __future__ import annotations
 from collections.abc import Iterator
 from itertools import groupby
 
+from msgspec.structs import replace
+
 from planmethod.gears.conditions import conditions, sentence
 from planmethod.gears.construction import construct, read
 from planmethod.gears.involute.meshpicture import meshing_picture, view_for
 from planmethod.gears.involute.quantities import Solved
 from planmethod.gears.involute.sizes import MeshingProblem
 from planmethod.gears.involute.text import quality, table
-from planmethod.gears.model import GearProblem
-from planmethod.gears.motion import Motion, solve_motion
+from planmethod.gears.model import GearProblem, Mesh, MeshKind
+from planmethod.gears.motion import Motion, mesh_row, solve_motion
 from planmethod.gears.picture import draw
 from planmethod.gears.sheet import pictures
-from planmethod.gears.text import equation_of
+from planmethod.gears.text import equation_of, fraction_text
 from planmethod.gears.told import given, indexed, ratios, results
-from planmethod.note.document import Chapter, Formula, Node, Part, Table
-from planmethod.note.numbers import MINUS
+from planmethod.note.document import Chapter, Formula, Item, Node, Part, Table
+from planmethod.note.formula import Rich
+from planmethod.note.numbers import MINUS, raised
 from planmethod.note.wording import Words
 from planmethod.project.report.context import Report, chain, displayed, sentences
 from planmethod.project.report.figures import WIDTH, bare, figure
 from planmethod.render.layout.block import Block
 from planmethod.render.sheets.composer import Sizes
+
+def fraction(above: Rich, below: Rich) -> Rich:
+    """Return a quotient."""
+    return f"({above})/({below})" if " " in above + below else f"{above}/{below}"
+
 
 COLUMN = 185.0
 """Width of the texts of the sheet, mm."""
@@ -34,7 +42,13 @@ def train_chapter(report: Report, problem: GearProblem) -> Iterator[Node]:
     said: Words = report.said["gears"]
     motion, words = solve_motion(problem), report.words
     yield Chapter(said.title.format())
-    yield sentences(said.about.format(facts="; ".join(given(motion, words))))
+    labels = sorted(motion.train.fixed)
+    form = said["fixed"]["one" if len(labels) == 1 else "many"]
+    facts = given(motion, words)[: -1 if labels else None]
+    yield sentences(
+        said.about.format(facts="; ".join(facts)),
+        str(form).format(labels=", ".join(labels)) if labels else "",
+    )
     yield from _figures(report, problem, motion, "train")
     yield from _structure(report, motion, said)
     yield Part(said.analysis.format())
@@ -65,21 +79,69 @@ def _structure(report: Report, motion: Motion, said: Words) -> Iterator[Node]:
 def _ratios(report: Report, motion: Motion, said: Words) -> Iterator[Node]:
     train = motion.train
     yield sentences((said.willis if train.carriers else said.plain).format())
-    for mesh in train.meshes:
-        yield from chain([", ".join(equation_of(motion, mesh))])
-    found = list(ratios(motion, report.words))
-    if found:
-        yield sentences(said.solved.format())
-        yield from chain(found)
+    for text in (willis(motion, mesh, report) for mesh in train.meshes):
+        yield displayed(f"{text}.")
+    yield sentences((said.solved if train.fixed else said.solved_plain).format())
+    yield from chain([*_speeds(motion, report), *asked_ratios(motion, report)])
     judged = conditions(motion)
     if judged:
-        told = [
-            str(said["condition"]["yes" if one.holds else "no"]).format(
-                sentence=indexed(sentence(one, report.words))
-            )
-            for one in judged
-        ]
-        yield sentences(said.conditions.format(conditions="; ".join(told)))
+        yield sentences(said.conditions.format())
+    for number, one in enumerate(judged, 1):
+        told = str(said["condition"]["yes" if one.holds else "no"]).format(
+            sentence=indexed(sentence(one, report.words))
+        )
+        yield Item(f"{told}{'.' if number == len(judged) else ';'}", f"{number})")
+
+
+def willis(motion: Motion, mesh: Mesh, report: Report) -> Rich:
+    """Return the ratio of a mesh seen from its carrier, by speeds and by teeth."""
+    train = motion.train
+    row = mesh_row(train, motion.roles, motion.axes, mesh)
+    one, other = train.ends(mesh)
+    if mesh.kind is MeshKind.RACK:
+        return ", ".join(equation_of(motion, mesh))
+
+    def speed(label: str, body: str) -> Rich:
+        if mesh.carrier is None or body in motion.roles.across:
+            return f"{train.letter}_{{{label}}}"
+        return f"{train.letter}_{{{label}}} − {train.letter}_{{{mesh.carrier}}}"
+
+    letters = [f"{'z' if train.counted(x) else 'r'}_{{{x}}}" for x in (mesh.second, mesh.first)]
+    sizes = [fraction_text(abs(row[x])) for x in (other, one)]
+    sign = MINUS if row[other] / row[one] > 0 else ""
+    hat = "" if mesh.carrier is None else f"^{{({mesh.carrier})}}"
+    ratio = fraction_text(-row[other] / row[one])
+    speeds = fraction(speed(mesh.first, one), speed(mesh.second, other))
+    found = f"{sign}{fraction(*letters)} = {sign}{fraction(*sizes)}"
+    return f"U{hat}_{{{mesh.first}{mesh.second}}} = {speeds} = {found} = {ratio}"
+
+
+def asked_ratios(motion: Motion, report: Report) -> list[Rich]:
+    """Return the ratios that the file asks for; else that of the input to the output."""
+    found = list(ratios(motion, report.words))
+    if found or len(motion.train.inputs) != 1:
+        return found
+    (source,) = motion.train.inputs
+    moving = [b for b in motion.train.bodies if motion.speeds.get(b) and b != source]
+    ends = [*motion.train.carriers, *reversed(moving)]
+    end = next((body for body in ends if body in moving), None)
+    if end is None:
+        return []
+    asked = replace(motion, train=replace(motion.train, ask=(f"U_{source}_{end}",)))
+    return list(ratios(asked, report.words))
+
+
+def _speeds(motion: Motion, report: Report) -> Iterator[Rich]:
+    """Yield the speeds of the bodies that are not given."""
+    train, unit = motion.train, raised(report.words.gears["units"][motion.train.units[0]])
+    for label in train.numbers:
+        body = train.body_of[label]
+        if body in train.inputs or body in train.fixed or body in train.racks:
+            continue
+        if label != body and label in train.body_of and train.body_of[label] != label:
+            continue
+        value = fraction_text(motion.speeds[body])
+        yield f"{train.letter}_{{{label}}} = {value} {unit}"
 
 
 def _pictures(
@@ -102,7 +164,7 @@ def _pictures(
                 scale=inscriptions.mu_omega.format(
                     value=say.short(picture.mu_omega, 4),
                     pole=say.given(float(picture.pole_mm)),
-                ).partition(",")[0],
+                ).partition(", ")[0],
             ),
         )
         yield from _figures(report, problem, motion, "angular")
@@ -180,6 +242,5 @@ def meshing_chapter(report: Report, problem: MeshingProblem) -> Iterator[Node]:
 
 def ratio_of(problem: GearProblem, report: Report) -> str | None:
     """Return the first ratio that is asked for, with its symbol; None where none is."""
-    motion = solve_motion(problem)
-    found = list(ratios(motion, report.words))
+    found = asked_ratios(solve_motion(problem), report)
     return found[0] if found else None

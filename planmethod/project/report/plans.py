@@ -9,7 +9,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from planmethod.construct import steps
-from planmethod.construct.steps import Compute, LineName, NumberName, PointName, Step
+from planmethod.construct.steps import Compute, LineName, PointName, Step
+from planmethod.mechanism.model import FRAME
 from planmethod.note.document import Equations, Formula, Node, Paragraph, Part
 from planmethod.note.formula import Rich
 from planmethod.note.narrate.equations import equation_of
@@ -20,6 +21,7 @@ from planmethod.note.wording import Words
 from planmethod.plans.build import Section
 from planmethod.plans.dimensions import DimensionKind
 from planmethod.plans.model import RATES, PlanKind, Relation
+from planmethod.plans.motion.leads import Relative
 from planmethod.project.report.context import Report, chain, displayed, lettered, sentences
 from planmethod.project.report.figures import WIDTH, figure
 from planmethod.render.layout.block import Block
@@ -38,17 +40,16 @@ class PlanChapter:
         self._measured: list[Rich] = []
         self._formulas: list[Rich] = []
         self._senses: list[Rich] = []
-        self._described: set[NumberName] = set()
 
     def nodes(self) -> Iterator[Node]:
         """Yield the part."""
-        said, kind, position = self.said, self.kind.value, self.report.position
+        said, kind, position = self.said, self.kind.value, self.report.of_position
         scale = self.report.scale(self.kind)
         yield Part(str(said["part"][kind]).format())
         assert self.plan.pole is not None
         fixed = self.names.others(self.plan.pole)
         pole = self.names.pole(self.kind)
-        told = str(said["pole"][kind]).format(pole=pole, points=", ".join(fixed))
+        told = str(said["pole"][kind]).format(pole=pole, points=self.report.listed(fixed or [""]))
         yield sentences(
             str(said["scale"][kind]).format(position=position, scale=scale),
             told if fixed else said.bare_pole.format(pole=pole),
@@ -107,13 +108,32 @@ class PlanChapter:
             return
         for relative in self.names.kin.relatives.values():
             inside = {relative.of, relative.to} & {*section.group.links}
-            if not inside or relative.to not in self.names.kin.omega:
+            if not inside:
+                continue
+            if relative.to == FRAME:
+                yield from self._on_frame(relative)
                 continue
             head, tail = (self._capital(point) for point in (relative.head, relative.start))
             if head and tail and head != tail:
                 yield self.said.coincident.format(
                     head=head, of=relative.of, tail=tail, to=relative.to
                 )
+
+    def _on_frame(self, relative: Relative) -> Iterator[Rich]:
+        """Yield that a point goes along a fixed guide, and what the point under it is called."""
+        for equation in self.plan.equations:
+            for term in equation.right:
+                ends = (term.tail, term.head)
+                if ends == (relative.start, relative.head) and term.direction is not None:
+                    index = term.symbol.partition("_{")[2].removesuffix("}")
+                    tail = index.removeprefix(relative.point)
+                    yield self.said.on_frame.format(
+                        head=relative.point,
+                        of=relative.of,
+                        guide=self.names.base(term.direction),
+                        tail=lettered(tail),
+                    )
+                    return
 
     def _capital(self, point: PointName) -> Rich:
         """Return a point of the mechanism by its letter on the plan: ``a_{3}`` stands for A3."""
@@ -151,7 +171,7 @@ class PlanChapter:
     # Steps ---------------------------------------------------------------------------------------
 
     def _step(self, step: Step) -> Iterator[Node]:
-        names, motion = self.names, self.narrator.motion
+        names = self.names
         if not self.say.readable(step.out) and not self.narrator.is_reading(step):
             lines = self.narrator.tell(step)
             if lines:
@@ -179,7 +199,6 @@ class PlanChapter:
                 yield from self._computed(step)
             case _:
                 pass
-        del motion
 
     def _computed(self, step: Compute) -> Iterator[Node]:
         """Keep what is computed of what was measured."""
@@ -230,13 +249,14 @@ class PlanChapter:
         *formulas, sentence = self.narrator.motion.lay_off(step)
         vector = self.names.vector(step.origin, step.out)
         if formulas and vector is not None:
-            kinds: Words = self.said["kinds"][vector.kind.value]
-            towards = vector.direction is not None and vector.direction.relation in (
-                Relation.TOWARDS,
-            )
-            tail, head = vector.direction.points if towards and vector.direction else ("", "")
+            kinds: Words = self.said["kinds"][self.kind.value]
+            template = kinds.get(vector.kind.value, kinds.usual)
+            towards = vector.direction
+            ends = ("", "")
+            if towards is not None and towards.relation is Relation.TOWARDS:
+                ends = (towards.points[0], towards.points[1])
             yield sentences(
-                str(kinds[self.kind.value]).format(symbol=vector.symbol, tail=tail, head=head)
+                template.format(symbol=vector.symbol, tail=ends[0], head=ends[1])
             )
         elif formulas:
             yield sentences(self.said.computed.format())
@@ -257,14 +277,13 @@ class PlanChapter:
         if not isinstance(made, Compute):
             return []
         found, kin = [], self.names.kin
-        drive = self.report.one.problem.drive
         dimensions = self.names.construction.draft.dimensions
         describe: Words = self.said["describe"]
         for name, _ in made.powers:
-            if name in self._described:
-                continue
-            self._described.add(name)
             symbol = self.names.symbol(name)
+            if symbol in self.report.described:
+                continue
+            self.report.described.add(symbol)
             told = dimensions.get(name)
             if name in kin.omega.values():
                 found.append(describe.omega.format(symbol=symbol, of=self.names.owner(name)))
@@ -275,7 +294,6 @@ class PlanChapter:
                 found.append(describe.length.format(symbol=symbol, of=lettered(of)))
             elif any(name == relative.speed for relative in kin.relatives.values()):
                 found.append(describe.sliding.format(symbol=symbol))
-        del drive
         return found
 
     def _meet(self, step: steps.MeetLines) -> Rich:
@@ -331,7 +349,7 @@ class PlanChapter:
                 solution, kind, 0, letter_height=letter, by_hand=by_hand, knots=letters
             )
 
-        scale, position = self.report.scale(kind), self.report.position
+        scale, position = self.report.scale(kind), self.report.of_position
         caption = str(self.said["figure"][kind.value]).format(position=position, scale=scale)
         yield figure(plan, caption, kind.value)
         if not knots:

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from planmethod.construct.steps import AtAngle, Step
 from planmethod.mechanism.model import FRAME
 from planmethod.note.document import Chapter, Node, Part, Table
 from planmethod.note.formula import Rich
-from planmethod.note.narrate.turn import extreme_steps, output_name
+from planmethod.note.narrate.turn import construction_facts
 from planmethod.note.plaintext import given
 from planmethod.note.wording import Words
 from planmethod.plans.model import PlanKind
@@ -15,7 +16,7 @@ from planmethod.problem.model import Zero
 from planmethod.project.report.context import Report, displayed, lettered, sentences
 from planmethod.project.report.figures import figure
 from planmethod.render.pictures.seriesview import series_picture
-from planmethod.solved.turn.construction import extreme_construction
+from planmethod.solved.turn.construction import PRIMES, extreme_construction
 from planmethod.solved.turn.turn import TURN, Turn, turn_of
 
 
@@ -36,6 +37,12 @@ def _scale(report: Report, said: Words) -> Iterator[Node]:
     """Yield the scale and the lengths in it."""
     problem, say = report.one.problem, report.say
     told = {name: metres for _, name, metres in problem.lengths}
+    for body in problem.bodies.values():
+        for point, form in body.forms.items():
+            start = form.point or form.line[0]
+            straight = form.kind not in ("side", "vertex") and not form.across
+            if straight and not {start + point, point + start} & told.keys():
+                told[start + point] = abs(form.at)
     per_mm = report.one.own_scale(PlanKind.POSITION, 0).per_mm
     inverse = report.names.is_inverse_scale()
     template = said.scale_inverse if inverse else said.scale
@@ -94,23 +101,40 @@ def _building(report: Report, said: Words) -> Iterator[Node]:
     for section in sections:
         for step in section.steps:
             narrator.tell(step)  # lengths are computed once: here the table has them
-    number, place = report.project.calculated, report.place
-    named = report.said.position_named.format(
-        number=number, symbol=report.coordinate, value=place
-    )
-    yield sentences(
-        said.building.format(position=named) if report.is_series else "", said.whole.format()
-    )
+    if report.is_series:
+        number, symbol = report.project.calculated, report.coordinate
+        yield sentences(said.building.format(number=number, symbol=symbol, value=report.place))
     for section in sections:
         if section.frame:
             lines = [_fixed(report)] if problem.bodies[FRAME].points else []
             lead = ""
         else:
-            lines = [line for step in section.steps for line in narrator.tell(step)]
+            lines = [line for step in section.steps for line in _told(step, report, said)]
             links = () if section.group is None else section.group.links
-            lead = said.group.format(links="–".join(links)) if links else said.driver.format()
+            lead = (
+                said.group.format(links="–".join(links))
+                if links
+                else said.driver.format(link=problem.drive.link)
+            )
         if any(lines):
             yield sentences(lead, *lines)
+
+
+def _told(step: Step, report: Report, said: Words) -> list[Rich]:
+    """Return the sentences of a step; a guide that is level or upright is told to be so."""
+    names = report.names
+    guide = names.guide(step.out) if isinstance(step, AtAngle) else None  # type: ignore[arg-type]
+    if guide is None:
+        return report.narrator.tell(step)
+    assert isinstance(step, AtAngle)
+    angle = names.value_of(step.angle)
+    way = "slanted" if angle % 90.0 else "upright" if angle % 180.0 else "level"
+    told = str(said["ways"][way]).format(angle=given(angle, report.words.note))
+    if step.through not in names.guides:
+        return [said.guide.format(point=names.point(step.through), guide=guide, way=told)]
+    place = report.formulas.place(step.through)
+    x, y = (given(value, report.words.note, 5) for value in (place.real, place.imag))
+    return [said.guide_at.format(x=x, y=y, guide=guide, way=told)]
 
 
 def _fixed(report: Report) -> Rich:
@@ -120,7 +144,7 @@ def _fixed(report: Report) -> Rich:
         place = report.formulas.place(name)  # type: ignore[arg-type]
         x, y = (given(value, report.words.note, 5) for value in (place.real, place.imag))
         points.append(f"{lettered(name)} ({x}; {y})")
-    return report.words.note.fixed_points.format(points=", ".join(points))
+    return report.note.fixed_points.format(points=", ".join(points))
 
 
 def _extremes(report: Report, said: Words) -> Iterator[Node]:
@@ -139,22 +163,32 @@ def _extremes(report: Report, said: Words) -> Iterator[Node]:
         found = said.extreme_at.format(angles=report.listed(told))
     yield sentences(lead, found)
     if turn.ends is not None:
-        made = extreme_construction(report.every)
-        yield sentences(*extreme_steps(turn, made, report.words))
+        yield sentences(*_constructed(report, said))
     if turn.stroke:
         yield from _stroke(report, said, turn)
     yield from _ratio(report, said)
 
 
+def _constructed(report: Report, said: Words) -> Iterator[Rich]:
+    """Yield how the extreme positions are constructed, and the angles that are measured."""
+    made = extreme_construction(report.every)
+    if made is None:
+        yield said.no_construction.format()
+        return
+    facts = construction_facts(made, report.words)
+    yield str(said["construction"][made.locus.value]).format(**facts)
+    read = [
+        f"φ{prime} = {report.degrees((phi + made.off(k)) % TURN)}"
+        for k, (prime, phi) in enumerate(zip(PRIMES, made.phi, strict=True))
+    ]
+    exact = [report.degrees(round(phi % TURN, 2) % TURN) for phi in made.phi]
+    yield said.measured.format(angles=report.listed(read), exact=report.listed(exact))
+
+
 def _stroke(report: Report, said: Words, turn: Turn) -> Iterator[Node]:
     output = turn.output
-    of = (
-        lettered(report.said["turn"]["of"][output.unit].format(name=output_name(output)))
-        if output.slide is not None
-        else report.said["turn"]["of"]["deg"].format(name=output.link)
-    )
     assert turn.stroke is not None
-    yield sentences(str(said["stroke"][output.unit]).format(of=of))
+    yield sentences(str(said["stroke"][output.unit]).format())
     size = report.quantity(turn.stroke, "m") if output.slide else report.degrees(turn.stroke)
     yield displayed(f"{'H' if output.slide else 'ψ'} = {size}.")
 

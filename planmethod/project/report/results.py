@@ -10,8 +10,8 @@ from msgspec import Struct
 from planmethod.note.document import Node, Part, Table, table_of_columns
 from planmethod.note.formula import Rich
 from planmethod.note.narrate.given import told
-from planmethod.note.numbers import alike
-from planmethod.note.rounding import rounded_to, sigma_text
+from planmethod.note.numbers import alike, significant
+from planmethod.note.rounding import sigma_text
 from planmethod.note.tables.results import lead_columns
 from planmethod.note.tables.sigmas import marked
 from planmethod.note.wording import Words
@@ -96,37 +96,40 @@ def _by_positions(
     lead = lead_columns(drive.coordinate, report.shown_places, report.words.note)
     columns = []
     for quantity in told(every, *kinds):
-        values = [float(v) for v in every.read_off(quantity.label)]
-        columns.append([quantity.symbol, *(report.say.found(v) for v in values)])
+        values = [float(v) + 0.0 for v in every.read_off(quantity.label)]
+        columns.append([quantity.symbol, *map(report.say.number, alike(values))])
     table = table_of_columns([*lead, *columns], repeated=len(lead))
     return Table(table.head, table.rows, 0, len(lead), name=name, key=key)
 
 
 def _compared(report: Report, said: Words) -> Iterator[Node]:
-    say, position = report.say, report.position
+    say = report.say
     found = compared(report.one, 0, *VELOCITIES, *ACCELERATIONS)
-    yield sentences(said.intro_compared.format(position=position))
+    yield sentences(said.intro_compared.format(position=report.of_position))
     rows = [
         (
             f"{one.quantity.symbol}, {report.unit(one.quantity.kind.unit)}",
             say.found(one.read),
             say.found(one.exact),
-            say.number(rounded_to(one.off, one.sigma)) if one.off else "0",
+            say.number(significant(one.off, 2)),
             say.number(f"{one.percent:.2f}"),
             say.number(sigma_text(one.sigma)),
         )
         for one in found
+        if one.sigma  # what is given has no error
     ]
     yield Table(
         tuple(text.format() for text in said["columns_compared"]),
         tuple(rows),
-        name=said.compared_table.format(position=position),
+        name=said.compared_table.format(position=report.in_position),
         key="compared",
     )
     beyond = [one.quantity.symbol for one in found if one.sigmas > MANY_SIGMAS]
     most = worst(found)
     yield sentences(
-        said.beyond.format(symbols=", ".join(beyond)) if beyond else said.within.format(),
+        said.beyond.format(symbols=", ".join(beyond))
+        if beyond
+        else said.within.format(most=say.number(f"{max(one.sigmas for one in found) + 0.05:.1f}")),
         ""
         if most is None
         else said.largest.format(
@@ -147,6 +150,8 @@ def _largest(report: Report, said: Words) -> Iterator[Node]:
             continue
         k = int(np.nanargmax(off))
         sigma, _ = marked(errors, quantity.label, k)
+        if not sigma:
+            continue  # given, not read
         rows.append(
             (
                 f"{quantity.symbol}, {report.unit(quantity.kind.unit)}",

@@ -29,9 +29,7 @@ def structure_chapter(report: Report) -> Iterator[Node]:
     mechanism = report.one.problem.mechanism
     yield Chapter(said.title.format())
     yield Part(said.mobility.format())
-    named = [
-        said.one_link.format(role=report.role(link), link=link) for link in mechanism.links
-    ]
+    named = [report.link(link, "of") for link in mechanism.links]
     counts = report.said["counts"]
     many = len(mechanism.links)
     count = (
@@ -77,6 +75,8 @@ def _groups(report: Report, said: Words) -> Iterator[Node]:
     groups = list(reversed(structure.groups))
     for k, group in enumerate(groups, 1):
         yield Item(f"{_group(group, report, said)}{'.' if k == len(groups) else ';'}", f"{k})")
+    letters = report.words.note["letters"]
+    yield sentences(said.letters.format(revolute=letters["R"], prismatic=letters["P"]))
     ends = {FRAME, mechanism.driver}
     kind = next(pair.kind for pair in pairs(mechanism) if set(pair.links) == ends)
     yield sentences(
@@ -96,13 +96,14 @@ def _group(group: AssurGroup, report: Report, said: Words) -> Rich:
     if group.kind is not None:
         letters = local_letters(group.signature, report.words.note)
         kind = said.group_kind.format(kind=group.kind, letters=letters)
-    outer, inner = (", ".join(joints) for joints in group_joints(group, report.words.note))
+    outer, inner = group_joints(group, report.words.note)
+    joints = said.joints if len(inner) == 1 else said.joints_many
     return lettered(
         said.group.format(
             links="–".join(group.links),
             roman=roman(group.class_number),
             order=group.order,
             kind=kind,
-            joints=said.joints.format(outer=outer, inner=inner),
+            joints=joints.format(outer=", ".join(outer), inner=", ".join(inner)),
         ).replace(f"{NBSP} ", NBSP)
     )

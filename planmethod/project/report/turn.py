@@ -43,7 +43,7 @@ def diagrams_part(report: Report) -> Iterator[Node]:
         said.axes.format(length=_mm(report, task.length), count=diagrams.count),
     )
     yield displayed(_axis(report))
-    scales = diagram_scales(diagrams, words)
+    scales = diagram_scales(diagrams, words)[:3]
     yield sentences(
         said.ordinates.format(scale=scales[0]),
         str(said["ways"][task.differentiation.value]).format(pole=_mm(report, task.pole.v)),
@@ -62,7 +62,9 @@ def diagrams_part(report: Report) -> Iterator[Node]:
     ruler = report.say.given(report.every.profile.ruler)
     yield sentences(said.deviations.format(ruler=f"{ruler} {report.unit('mm')}"))
     name = said.deviations_table.format()
-    yield _table(deviation_columns(diagrams, words), report, name, "deviations", names=2)
+    (way, _, ways), (_, _, letters), *others = deviation_columns(diagrams, words)
+    columns = [(way, "", ways), (said.diagram.format(), "", letters), *others]
+    yield _table(columns, report, name, "deviations", names=2)
     yield from _hodographs(report, said)
 
 
@@ -91,7 +93,7 @@ def _derived(report: Report) -> Iterator[Rich]:
     if not rate:
         return
     convention = report.every.problem.scales.convention
-    first, *others = diagrams.scales
+    first, *others = diagrams.scales[:3]
     before, poles = first, (diagrams.task.pole.v, diagrams.task.pole.a)
     inverse = report.names.is_inverse_scale()
     for number, (scale, pole) in enumerate(zip(others, poles, strict=True), 1):
