@@ -16,7 +16,7 @@ from planmethod.mechanism.model import FRAME
 from planmethod.plans.build import Construction
 from planmethod.problem.model import Problem
 from planmethod.problem.names import told_length
-from planmethod.solved.course.curve import Curve, resolved
+from planmethod.solved.course.curve import Piecewise, resolved
 from planmethod.solved.reading import Complexes, Reals
 from planmethod.solved.solution import LinkMotion, PointMotion, Solution
 
@@ -50,7 +50,7 @@ class Moved(Struct, frozen=True):
     links: Mapping[str, LinkMotion]
 
 
-class Stroke(Struct, frozen=True):
+class PointStroke(Struct, frozen=True):
     """Course of a point between its dead positions (ход точки): along a line or an arc.
 
     Attributes
@@ -185,7 +185,7 @@ class TurnMotion:
         return np.stack(columns, axis=1)
 
     @cached_property
-    def curve(self) -> Curve:
+    def curve(self) -> Piecewise:
         """All of it as polynomials: six columns for each point, then two for each link."""
         turns = round(self.cycle / (2.0 * pi))
         edges = np.linspace(0.0, self.cycle, turns * PANELS + 1)
@@ -227,14 +227,14 @@ class TurnMotion:
         """The motion at angles that come near to everything that happens."""
         return self.at(self.curve.samples)
 
-    def column(self, point: str, direction: complex, *, velocity: bool = False) -> Curve:
+    def column(self, point: str, direction: complex, *, velocity: bool = False) -> Piecewise:
         """Return the place or the velocity of a point along a direction, m or m/s."""
         weights = np.zeros(self.curve.terms.shape[2])
         first = _COLUMNS * self._names[0].index(point) + (2 if velocity else 0)
         weights[first : first + 2] = direction.real, direction.imag
         return self.curve.mixed(weights)
 
-    def omega(self, link: str) -> Curve:
+    def omega(self, link: str) -> Piecewise:
         """Return the angular velocity of a link, 1/s."""
         weights = np.zeros(self.curve.terms.shape[2])
         points, links = self._names
@@ -250,10 +250,10 @@ class TurnMotion:
     # Strokes ---------------------------------------------------------------------------------
 
     @cached_property
-    def _strokes(self) -> dict[str, Stroke]:
+    def _strokes(self) -> dict[str, PointStroke]:
         return {}
 
-    def stroke(self, point: str) -> Stroke:
+    def stroke(self, point: str) -> PointStroke:
         """Return the stroke of a point that moves to and fro on a straight line or an arc.
 
         Raises
@@ -265,7 +265,7 @@ class TurnMotion:
             self._strokes[point] = self._stroke(point)
         return self._strokes[point]
 
-    def _stroke(self, point: str) -> Stroke:
+    def _stroke(self, point: str) -> PointStroke:
         way, rocker = self.course(point), self._rocker(point)
         if rocker is None:
             dead = self.column(point, way, velocity=True).roots()
@@ -298,9 +298,9 @@ class TurnMotion:
         towards = end - start
         off = float(np.max(np.abs(((everywhere - start) * towards.conjugate()).imag)))
         if off <= STRAIGHT * abs(towards) ** 2:
-            return Stroke(start, towards, dead)
+            return PointStroke(start, towards, dead)
         if rocker is not None:
-            return Stroke(start, towards, dead, rocker[1])
+            return PointStroke(start, towards, dead, rocker[1])
         raise _fault(
             self.problem,
             "loads",
