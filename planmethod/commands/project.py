@@ -11,7 +11,7 @@ import click
 import msgspec
 from msgspec import Struct
 
-from planmethod.commands.asked import Asked, sheet_options
+from planmethod.commands.asked import PaperRequest, sheet_options
 from planmethod.commands.decided import decided
 from planmethod.commands.helptext import Spoken
 from planmethod.commands.output import bar, json_text
@@ -95,7 +95,7 @@ def project(
     formats: tuple[str, ...],
     out: Path,
     as_json: bool,
-    asked: Asked,
+    asked: PaperRequest,
     dxf_text: Literal["text", "strokes"],
     jobs: int,
 ) -> None:
@@ -211,7 +211,9 @@ def draw(task: str, *, project: Project, fields: Mapping[str, str]) -> tuple[str
     return task, MadePart({}, tuple(part_drawings(project, part, fields)))
 
 
-def render(task: tuple[str, str, tuple[Drawing, ...]], *, written: SheetFormats) -> tuple[str, MadePart]:
+def render(
+    task: tuple[str, str, tuple[Drawing, ...]], *, written: SheetFormats
+) -> tuple[str, MadePart]:
     """Write the sheets of a part in all formats; all sheets together as one PDF."""
     from planmethod.commands.output import drawing_files
 

@@ -113,11 +113,11 @@ def drawings(
 
 
 def pictures(
-    motion: Motion, profile: Profile, words: Language, sizes: Sizes
+    motion: TrainMotion, profile: Profile, words: Language, sizes: Sizes
 ) -> tuple[Block, Block | None]:
     """Return the side view with the picture of linear velocities, and that of angular ones."""
     settings = motion.train.picture
-    scheme = Scheme(motion, float(motion.train.unit_m / settings.mu_l))
+    scheme = SchemeData(motion, float(motion.train.unit_m / settings.mu_l))
     order = None if scheme.undrawn else best_order(scheme)
     sheet = _Sheet(motion, settings, profile, words, sizes, order)
     return sheet.pictures()
@@ -260,7 +260,7 @@ class _Sheet(Struct, frozen=True):
         picture = draw(self.motion, self.settings)
         drawn = None if picture is None else construct(self.motion, picture)
         seen = None if drawn is None else read(drawn, self.profile)
-        scheme = Scheme(self.motion, float(self.motion.train.unit_m / self.settings.mu_l))
+        scheme = SchemeData(self.motion, float(self.motion.train.unit_m / self.settings.mu_l))
         strip = self._strip(scheme, drawn, seen)
         return strip, None if drawn is None or seen is None else self._angular(drawn, seen)
 

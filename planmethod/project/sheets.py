@@ -67,7 +67,7 @@ def part_drawings(project: Project, part: ProjectPart, fields: Mapping[str, str]
         case PartName.GEARS | PartName.MESHING:
             assert part.kind is not None
             titled = replace(part.problem, title=words.project["titles"][part.name.value])
-            return part.kind.drawings(
+            drawn: list[Drawing] = part.kind.drawings(
                 part.problem if part.problem.title else titled,
                 fields=fields,
                 profile=PROFILES["board"],

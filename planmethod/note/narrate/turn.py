@@ -213,7 +213,7 @@ def extreme_steps(turn: Turn, made: ExtremesConstruction | None, words: Language
     return [said["construction"][made.locus.value].format(**facts), told]
 
 
-def construction_facts(made: Construction, words: Language) -> dict[str, str]:
+def construction_facts(made: ExtremesConstruction, words: Language) -> dict[str, str]:
     """Return what the sentences of the construction of extreme positions name."""
 
     def primed(name: str) -> list[str]:

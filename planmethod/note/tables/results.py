@@ -306,9 +306,7 @@ def _many(solution: Solution, words: Language, sigmas: Sigmas) -> Iterator[Node]
     yield from table(note.many_sigmas, errors)
 
 
-def lead_columns(
-    problem: Problem, positions: Sequence[float], words: Words
-) -> list[list[Rich]]:
+def lead_columns(problem: Problem, positions: Sequence[float], words: Words) -> list[list[Rich]]:
     """Return the columns that each part of a table of positions begins with: number and place."""
     coordinate = problem.drive.coordinate
     symbol = f"{coordinate.symbol}, {words['units'][coordinate.unit]}"

@@ -133,9 +133,7 @@ def _inertia(report: Report, tell: MachineTeller, said: Words) -> Iterator[Node]
         f"/({speed}^{{2}}·{say.given(flywheel.machine.delta)})"
     )
     value = report.quantity(drawing.read_inertia, "kg·m²")
-    yield displayed(
-        f"{symbol} = μ_{{T}}·KL/({omega}^{{2}}·δ) = {numbers} = {value}.", "flywheel"
-    )
+    yield displayed(f"{symbol} = μ_{{T}}·KL/({omega}^{{2}}·δ) = {numbers} = {value}.", "flywheel")
     sigma = f"{say.short(drawing.sigma, 2)} {report.unit('kg·m²')}"
     yield sentences(said.sigma.format(sigma=sigma), *_checked(report, tell, said))
     sizes = tell.sizes

@@ -25,7 +25,7 @@ from planmethod.note.numbers import alike
 from planmethod.note.rounding import sigma_text
 from planmethod.note.tables.results import lead_columns
 from planmethod.note.wording import Words
-from planmethod.plans.forces.board import Given
+from planmethod.plans.forces.board import GivenLoad
 from planmethod.plans.forces.loads import LoadKind
 from planmethod.plans.forces.polygons import ForcePlan, Moments, reaction_symbol
 from planmethod.plans.model import PlanKind
@@ -75,9 +75,7 @@ class ForceChapter:
         said: Words = self.said
         reading, report = self.reading, self.report
         own = report.one.problem.scales.mu_F is None
-        scale = scale_inscription(
-            reading.scale, report.one.problem.scales.convention, report.say
-        )
+        scale = scale_inscription(reading.scale, report.one.problem.scales.convention, report.say)
         template = said.about_own if own else said.about
         yield sentences(template.format(position=report.for_position, scale=scale))
         yield figure(
@@ -87,9 +85,7 @@ class ForceChapter:
         )
         voice = LoadNarrator(self.context)
         given = [one for one in reading.statics.board.given if self._acts(one)]
-        by_kind = {
-            kind: [one for one in given if one.applied.kind is kind] for kind in LoadKind
-        }
+        by_kind = {kind: [one for one in given if one.applied.kind is kind] for kind in LoadKind}
         if by_kind[LoadKind.WEIGHT]:
             yield sentences(said.weights.format())
             yield from chain(map(voice.formula, by_kind[LoadKind.WEIGHT]))
@@ -109,7 +105,7 @@ class ForceChapter:
             form = said["massless"]["one" if len(massless) == 1 else "many"]
             yield sentences(form.format(links=report.listed(massless)))
 
-    def _senses(self, couples: list[Given]) -> Rich:
+    def _senses(self, couples: list[GivenLoad]) -> Rich:
         """Return which way the couples of inertia turn."""
         said: Words = self.said
         senses = {
@@ -121,7 +117,7 @@ class ForceChapter:
         told = [said.couple_sense.format(symbol=a, sense=b) for a, b in senses.items()]
         return f"{', '.join(told)}."
 
-    def _inertia(self, voice: LoadNarrator, forces: list[Given]) -> Iterator[Node]:
+    def _inertia(self, voice: LoadNarrator, forces: list[GivenLoad]) -> Iterator[Node]:
         said: Words = self.said
         shifts = self.reading.statics.board.shifts
         if not forces:
@@ -136,10 +132,10 @@ class ForceChapter:
                 lines += voice.shifted(one, shift)
         yield from chain(lines)
 
-    def _acts(self, one: Given) -> bool:
+    def _acts(self, one: GivenLoad) -> bool:
         return bool(one.applied.force[0] or one.applied.couple[0])
 
-    def _external(self, one: Given) -> Rich:
+    def _external(self, one: GivenLoad) -> Rich:
         said: Words = self.said
         applied, units = one.applied, self.context.units
         if applied.point is None:
@@ -148,7 +144,10 @@ class ForceChapter:
                 return said.absent_couple.format(symbol=applied.name)
             size = f"{self.find(abs(couple))} {units['N·m']}"
             return said.couple.format(
-                link=self.report.link(applied.link, "on"), symbol=applied.name, size=size, sense=self.context.sense(couple)
+                link=self.report.link(applied.link, "on"),
+                symbol=applied.name,
+                size=size,
+                sense=self.context.sense(couple),
             )
         force = complex(applied.force[0])
         if not force:
@@ -225,9 +224,7 @@ class ForceChapter:
         if told is None:
             return
         template = said.moments if len(equation.links) == 1 else said.moments_links
-        yield sentences(
-            template.format(point=equation.about, links=", ".join(equation.links))
-        )
+        yield sentences(template.format(point=equation.about, links=", ".join(equation.links)))
         whose = f"Σ_{{{','.join(equation.links)}}}M"  # the sentence before says it
         yield displayed(f"{told.equation.replace(whose, 'ΣM', 1)}.")
         lead = said.hence.format()

@@ -199,9 +199,7 @@ def _ratio(report: Report, said: Words) -> Iterator[Node]:
         return
     by = strokes.by.partition(" ")[0]
     working, idle = report.degrees(strokes.working_deg), report.degrees(strokes.idle_deg)
-    yield sentences(
-        said.phases.format(working=working, idle=idle), str(said["by"][by]).format()
-    )
+    yield sentences(said.phases.format(working=working, idle=idle), str(said["by"][by]).format())
     yield sentences(said.ratio.format())
     sides = [("φ_{р}", working), ("φ_{х}", idle)]
     if strokes.working_deg < strokes.idle_deg:

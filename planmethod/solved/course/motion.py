@@ -97,9 +97,7 @@ class PointStroke(Struct, frozen=True):
         """Return the place after a share of the path, m."""
         if self.centre is None:
             return self.start + self.towards * share
-        return complex(
-            self.centre + (self.start - self.centre) * np.exp(1j * self.swing * share)
-        )
+        return complex(self.centre + (self.start - self.centre) * np.exp(1j * self.swing * share))
 
     def progress(self, turned: Reals, place: Complexes, cycle: float) -> Reals:
         """Return how many strokes of the cycle are done, from 0 at the start, shape (n,)."""
