@@ -12,10 +12,11 @@ from math import inf
 from typing import TYPE_CHECKING, Annotated, Any
 
 from msgspec import Struct, field
+from msgspec.structs import replace
 
 from planmethod.languages import say
 from planmethod.mechanism.model import FRAME, Mechanism
-from planmethod.problem.declared import NumberKey, OwnKey, WholeKey, WordKey
+from planmethod.problem.declared import FlagKey, NumberKey, OwnKey, WholeKey, WordKey
 from planmethod.problem.head import KindProblem
 from planmethod.problem.load_records import TurningSense
 from planmethod.problem.names import told_length
@@ -472,7 +473,8 @@ class Scales(Struct, frozen=True):
     """Scales asked for in the file; None where the program chooses.
 
     ``mu_l, mu_v, mu_a, mu_F`` are always stored as unit per millimetre, whichever convention the
-    file and the sheet use.
+    file and the sheet use. Where they are ``decided``, for all that is handed in, no sheet leaves
+    them: it takes larger paper, or more sheets.
     """
 
     convention: Annotated[
@@ -499,6 +501,20 @@ class Scales(Struct, frozen=True):
             "a scale", low=1e-12, high=1e12, positive=True,
         ),
     ] = None  # fmt: skip
+
+    own: Annotated[
+        bool,
+        FlagKey(
+            "plans of several positions have scales of their own, each to fill its room; else one "
+            "scale holds for all plans of a kind"
+        ),
+    ] = False
+    decided: bool = False
+
+    @property
+    def freed(self) -> Scales:
+        """Those without the scales of the plans, which may be too fine for other positions."""
+        return self if self.decided else replace(self, mu_v=None, mu_a=None)
 
     @property
     def in_mm_per_unit(self) -> bool:

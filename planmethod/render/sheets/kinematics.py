@@ -186,19 +186,19 @@ class Linkage(Struct, frozen=True):
         """Yield scales and numbers of positions on a sheet, paper by paper.
 
         One decision: the estimated scales stay on a larger paper, if the smaller one had no room
-        after all. Then each paper has its own, then those of the file are given up: for one
-        position they may be too fine for a dozen plans on one sheet, or for another one.
+        after all. Where a composition has views of its own, each paper has its own scales then, and
+        at last those of the file are given up: for one position they may be too fine for a turn.
         """
         problem, count = self.solution.problem, len(self.solution.positions)
         own: tuple[Views | None, Scales] = (None, problem.scales)
-        free = (None, replace(problem.scales, mu_v=None, mu_a=None))
+        free = (None, problem.scales.freed)
         views = self.views
-        first = [own if views.kept else (views, problem.scales)]
-        given = free[1] != problem.scales and problem.project is None  # a project keeps its own
-        if given and (self.layout.turn or count > FEW):
-            first.append(free)
-        moved = tuple(self.solution.positions.tolist()) != tuple(problem.drive.positions)
-        turns = (first, [own], [free] if given and moved else [])
+        turns = [[own if views.kept else (views, self.solution.given_scales)]]
+        given = free != own and problem.project is None  # a project keeps its own
+        if given and self.layout.turn:
+            turns[0].append(free)
+        if not self.layout.is_estimated:
+            turns += [[own], [free] if given and not self._is_own else []]
         spread = self.layout.shares, self.layout.at_most(count)
         for paper, share, per_sheet, (boxes, scales) in chain(
             *(product(papers, *spread, some) for some in turns)
@@ -206,12 +206,15 @@ class Linkage(Struct, frozen=True):
             boxes = boxes or self.layout.views_for(paper.name, count, share)
             yield OnPaper(self, paper, share, per_sheet, boxes, scales)
 
+    @property
+    def _is_own(self) -> bool:
+        """Whether the positions are those of the file."""
+        return tuple(self.solution.positions.tolist()) == self.solution.problem.drive.positions
+
     def solved(self, views: Views, scales: Scales) -> Solution:
         """Return the solution whose plans fill certain views, at the scales that are given."""
         one = self.solution
-        # Without views told the estimate keeps to scales of the file in all of several positions.
-        keeps = len(one.positions) > 1 and scales != Scales(scales.convention)
-        if not keeps and (one.views, one.problem.scales) == (views, scales):
+        if (one.views, one.given_scales) == (views, scales):
             return one
         return one.once(Solution.filling, views, scales)
 

@@ -84,7 +84,7 @@ def chosen_plans(solution: Solution, indices: Sequence[int], manner: Manner) -> 
     own = some.scales[kind]
     if own.per_mm < solution.scales[kind].per_mm:
         solution = solution.drawn_at({**solution.scales, kind: own})
-    picture, *_ = plan_grid(solution, kind, chosen, manner.words.say)
+    picture, *_ = plan_grid(solution, kind, chosen, manner.words)
     title = manner.entry.title or manner.words.sheets["views"][kind.value][1]
     said = [scale_inscription(solution.scales[kind], solution.problem.scales.convention,
                               manner.words.say)]  # fmt: skip
