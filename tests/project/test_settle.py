@@ -131,6 +131,13 @@ def test_every_sheet_has_the_scales_of_the_project() -> None:
     assert found == {key: {getattr(project.scales, key)} for key in found}
 
 
+def test_the_calculated_position_is_read_alike_alone_and_among_all() -> None:
+    project = project_of("shaper")
+    for label in project.solution.legend:
+        among, alone = project.solution.read_off(label), project.loaded.read_off(label)
+        assert among[project.calculated] == pytest.approx(alone[0], nan_ok=True)
+
+
 def test_scales_of_the_file_are_kept() -> None:
     problem = problem_of("homework")
     asked = replace(problem, scales=replace(problem.scales, mu_l=0.0025, mu_v=0.02, mu_a=0.4))
