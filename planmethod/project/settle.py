@@ -24,7 +24,7 @@ from planmethod.project.decided import (
     force_scale,
     loaded_positions,
 )
-from planmethod.project.first import first_sheet
+from planmethod.project.first import plans_alone
 from planmethod.project.model import PartName, Project, ProjectPart
 from planmethod.render.frame.titleblock import merged
 from planmethod.solved.forces.loads import only_in_positions
@@ -62,7 +62,7 @@ def settle(problem: Problem, path: Path | None = None) -> Project:
     problem = replace(problem, calculated=calculated, project=task)
     scales = problem.scales
     if None in (scales.mu_l, scales.mu_v, scales.mu_a):
-        found: dict[str, Any] = dict(drawn_scales(first_sheet(problem), scales))
+        found: dict[str, Any] = dict(drawn_scales(plans_alone(problem), scales))
         scales = replace(scales, **found)
     problem = replace(problem, scales=scales)
     if problem.dynamics is not None:
