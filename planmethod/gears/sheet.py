@@ -140,7 +140,8 @@ class _Train(Struct, frozen=True):
         plain = SchemeData(self.motion, float(train.unit_m / train.picture.mu_l))
         order = None if plain.undrawn else best_order(plain)
         for paper, settings, sizes in self._scales(papers):
-            sheet = _Sheet(self.motion, settings, self.profile, words, sizes, order)
+            notation = self.problem.sheet.notation
+            sheet = _Sheet(self.motion, settings, self.profile, words, sizes, order, notation)
             if (settings, sizes) not in made:
                 made[settings, sizes] = list(sheet.orders())
             for parts in made[settings, sizes]:
@@ -231,6 +232,7 @@ class _Sheet(Struct, frozen=True):
     words: Language
     sizes: Sizes
     order: ColumnOrder | None
+    notation: str | None
 
     def orders(self) -> Iterator[tuple[Packed, ...]]:
         """Yield the blocks in orders of reading; the last stands on the title block."""
@@ -380,7 +382,7 @@ class _Sheet(Struct, frozen=True):
         text = self.words.note.given.format(given="; ".join(facts))
         blocks: list[Block] = [paragraph(text, self.sizes.text, width)]
         blocks.append(heading(self.words.gears["sheet"].calculation, self.sizes.text))
-        lines = calculation(self.motion, self.words)
+        lines = calculation(self.motion, self.words, self.notation)
         blocks += [formula_block(line, self.sizes.text, width=width) for line in lines]
         return Column(blocks, gap=2.4)
 

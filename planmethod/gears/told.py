@@ -66,10 +66,10 @@ def given(motion: TrainMotion, words: Language) -> list[str]:
     return facts
 
 
-def calculation(motion: TrainMotion, words: Language) -> list[str]:
+def calculation(motion: TrainMotion, words: Language, notation: str | None = None) -> list[str]:
     """Return kind, mobility, equations of the meshes with their ratios, ratios asked for."""
     train, say, found = motion.train, words.gears, motion.structure
-    lines = [kind_of(found, words), mobility(found, words)]
+    lines = [kind_of(found, words), mobility(found, words, notation)]
     for mesh in train.meshes:
         lines.append(";  ".join(equation_of(motion, mesh)))
     lines += ratios(motion, words)

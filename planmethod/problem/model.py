@@ -377,8 +377,8 @@ class CycleTask(Struct, frozen=True):
     zero: Annotated[
         Zero | float,
         OwnKey(
-            'position zero: `"extreme"` (the default), `"other extreme"`, `"working"`, or the angle '
-            "of the crank, degrees; `phi_0` of `[machine]` where that stands alone"
+            'position zero: `"extreme"` (the default), `"other extreme"`, `"working"`, or the '
+            "angle of the crank, degrees; `phi_0` of `[machine]` where that stands alone"
         ),
     ] = Zero.EXTREME
     direction: Annotated[

@@ -97,7 +97,8 @@ class Cycle(Remembering):
         s = self.solution
         order = np.unique(s.positions, return_index=True)[1]
         if self.course.closed:
-            order = np.append(order[-1:], order) if self.course.falling else [*order, order[0]]
+            ends = (order[-1:], order) if self.course.falling else (order, order[:1])
+            order = np.concatenate(ends)
         rows = [*(joint.force for joint in statics_of(s).reactions), statics_of(s).balance]
         return np.array([np.asarray(row, dtype=complex)[order] for row in rows])
 

@@ -212,9 +212,11 @@ class MachineTeller:
         """Return the table by positions: heads, units and cells of its columns, rich text."""
         flywheel, say = self.flywheel, self.say
         rows, turn = flywheel.rows, flywheel.machine.cycle_deg
-        angles = [f"{round(phi % turn, 1) % turn:.1f}" for phi in rows.phi_deg.tolist()]
+        order = np.argsort(flywheel.turn.numbers(flywheel.machine.count)[:-1])
+        angles = [f"{round(phi % turn, 1) % turn:.1f}" for phi in rows.phi_deg[order].tolist()]
 
         def column(head: str, values: Reals, unit: str, digits: int = 4) -> _Column:
+            values = values[order]
             peak = float(np.max(np.abs(values)))
             clean = np.where(np.abs(values) < 1e-9 * peak, 0.0, values)
             told = [say.number(text) for text in alike(clean.tolist(), digits)]

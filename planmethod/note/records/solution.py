@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 
+from planmethod.mechanism.model import Mechanism
 from planmethod.mechanism.structure import Structure
 from planmethod.note.columns import listed, named, pairs, sizes
 from planmethod.note.numbers import plain
@@ -152,7 +153,7 @@ LONG = {QuantityKind.CORIOLIS: "a_coriolis", QuantityKind.RELATIVE: "a_rel"}
 """Names in the record of what is asked for by a shorter one."""
 
 
-def structure_record(structure: Structure) -> dict[str, Any]:
+def structure_record(structure: Structure, mechanism: Mechanism) -> dict[str, Any]:
     """Return the structural analysis as plain data."""
     return {
         "mobility": structure.mobility,
@@ -172,6 +173,7 @@ def structure_record(structure: Structure) -> dict[str, Any]:
             for group in structure.groups
         ],
         "formula": structure.formula,
+        "frame": mechanism.frame,
     }
 
 
@@ -336,7 +338,7 @@ def record_in_columns(solution: Solution, **more: Column) -> dict[str, Any]:
         "schema": SCHEMA,
         "problem": solution.problem.name,
         **({"variant": v} if (v := solution.problem.variant) is not None else {}),
-        "structure": structure_record(solution.structure),
+        "structure": structure_record(solution.structure, solution.problem.mechanism),
         **({"cycle": cycle_record(solution)} if solution.problem.cycle is not None else {}),
         "positions": rows({**columns, **more}),
         **machine,

@@ -229,8 +229,10 @@ def _sliding(solution: Solution, words: Words, i: int, sigmas: Sigmas) -> list[l
     quantities = solution.quantities(
         QuantityKind.SLIDING, QuantityKind.CORIOLIS, QuantityKind.RELATIVE
     )
+    called = solution.problem.mechanism.called
     for relative in solution.construction.kinematics.relatives.values():
-        row = [words.sliding_row.format(point=relative.point, of=relative.of, to=relative.to)]
+        told = {"point": relative.point, "of": relative.of, "to": called(relative.to)}
+        row = [words.sliding_row.format(**told)]
         for quantity in quantities[relative.name]:
             row += _found(solution, quantity, i, sigmas)
         rows.append(row)

@@ -94,7 +94,7 @@ def _group(group: AssurGroup, report: Report, said: Words) -> Rich:
     if group.kind is not None:
         letters = local_letters(group.signature, report.words.note)
         kind = said.group_kind.format(kind=group.kind, letters=letters)
-    outer, inner = group_joints(group, report.words.note)
+    outer, inner = group_joints(report.every.problem.mechanism, group, report.words.note)
     joints = said.joints if len(inner) == 1 else said.joints_many
     return lettered(
         said.group.format(

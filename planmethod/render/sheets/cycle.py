@@ -258,7 +258,7 @@ def hodographs(solution: Solution, indices: Sequence[int], manner: Manner) -> Bl
 
 def _symbol(forces: Cycle, number: int) -> str:
     joint = forces.joints[number]
-    return reaction_symbol(joint.on, joint.by)
+    return reaction_symbol(joint.on, forces.solution.problem.mechanism.called(joint.by))
 
 
 def _whose(forces: Cycle, group: Sequence[int], words: Language) -> str:

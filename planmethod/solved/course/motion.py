@@ -14,6 +14,7 @@ from planmethod.errors import Fault, ProblemError
 from planmethod.languages import say
 from planmethod.mechanism.model import FRAME
 from planmethod.plans.build import Construction
+from planmethod.problem.load_records import TurningSense
 from planmethod.problem.model import Problem
 from planmethod.problem.names import told_length
 from planmethod.solved.course.curve import Piecewise, resolved
@@ -150,6 +151,17 @@ class TurnMotion:
         self.cycle = float(np.radians(360.0 if machine is None else machine.cycle_deg))
         self._solution = Solution(self.problem, positions=[self.start_deg])
         self.construction = self._solution.construction
+
+    def numbers(self, count: int) -> list[int]:
+        """Return the numbers of so many positions as the crank comes through them, and of the end.
+
+        ``[cycle] direction`` may be against the crank's rotation.
+        """
+        task = self.problem.cycle
+        direction = None if task is None else task.direction
+        if direction is None or (direction is TurningSense.CCW) == (self.sense > 0.0):
+            return list(range(count + 1))
+        return [0, *range(count - 1, -1, -1)]
 
     def phi(self, turned: Reals) -> Reals:
         """Return driver positions of the file, degrees, of angles turned."""

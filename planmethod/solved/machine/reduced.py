@@ -197,8 +197,8 @@ def _found_breaks(turn: TurnMotion, load: Load | Couple) -> Iterator[Reals]:
         shares = np.unique(np.append(np.mod(nodes, 1.0), np.mod(-nodes, 1.0)))
         for share in shares:
             if 1e-9 < share < 1.0 - 1e-9:
-                way, place = stroke.direction(share), stroke.place(share)
-                yield turn.column(load.at, way).roots((place * way.conjugate()).real)
+                along, there = stroke.direction(share), stroke.place(share)
+                yield turn.column(load.at, along).roots((there * along.conjugate()).real)
 
 
 def _all_turns(turn: TurnMotion, phi: Reals, period: float) -> Reals:

@@ -399,8 +399,8 @@ class Turn(Remembering):
         way, size = two.value - one.value, abs(two.value - one.value)
         if sense in SENSES:
             place = self.read([one.phi, two.phi]).point(PointName(self.output.point))
-            way = complex(place[1] - place[0])
-            size, way = abs(way), (way * SENSES[sense].conjugate()).real
+            moved = complex(place[1] - place[0])
+            size, way = abs(moved), (moved * SENSES[sense].conjugate()).real
         elif self.output.slide is None:
             way = -way if sense.value == "cw" else way
         else:
