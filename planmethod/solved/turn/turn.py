@@ -457,7 +457,11 @@ class Turn(Remembering):
         return PressureAnglePeak(*found)
 
 
-@remembered
 def turn_of(solution: Solution) -> Turn:
-    """Return the cycle of a solution's mechanism; kept, since several views show it."""
+    """Return the cycle of a solution's mechanism; kept, whatever the scales of its plans."""
+    return _turn(solution.origin)
+
+
+@remembered
+def _turn(solution: Solution) -> Turn:
     return Turn(solution)
