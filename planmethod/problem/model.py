@@ -346,22 +346,24 @@ class Differentiation(Enum):
 
 
 class PoleDistances(Struct, frozen=True):
-    """Pole distances of both differentiations (полюсные расстояния)."""
+    """Pole distances of both differentiations (полюсные расстояния); None where scales set them."""
 
     v: Annotated[
-        float,
+        float | None,
         NumberKey(
-            "of the first differentiation", "a length", "mm", 1.0, 500.0, positive=True,
-            hint=DIAGRAM_HINT,
+            "of the first differentiation; the scale of the velocity follows from it then",
+            "a length", "mm", 1.0, 500.0, positive=True, hint=DIAGRAM_HINT,
+            absent="from round scales",
         ),
-    ] = 36.0  # fmt: skip
+    ] = None  # fmt: skip
     a: Annotated[
-        float,
+        float | None,
         NumberKey(
-            "of the second differentiation", "a length", "mm", 1.0, 500.0, positive=True,
-            hint=DIAGRAM_HINT,
+            "of the second differentiation; the scale of the acceleration follows from it then",
+            "a length", "mm", 1.0, 500.0, positive=True, hint=DIAGRAM_HINT,
+            absent="from round scales",
         ),
-    ] = 36.0  # fmt: skip
+    ] = None  # fmt: skip
 
 
 class CycleTask(Struct, frozen=True):
@@ -404,15 +406,18 @@ class CycleTask(Struct, frozen=True):
         ),
     ] = None
     length: Annotated[
-        float,
+        float | None,
         NumberKey(
-            "of the axis of φ for the cycle", "a length", "mm", 20.0, 2000.0, positive=True,
-            hint=DIAGRAM_HINT,
+            "of the axis of φ for the cycle; the scale of φ follows from it then", "a length", "mm",
+            20.0, 2000.0, positive=True, hint=DIAGRAM_HINT, absent="from a round scale",
         ),
-    ] = 288.0  # fmt: skip
+    ] = None  # fmt: skip
     pole: Annotated[
         PoleDistances,
-        OwnKey("pole distances of both differentiations: `{ v = 36, a = 36 }`, mm"),
+        OwnKey(
+            "pole distances of both differentiations: `{ v = 36, a = 36 }`, mm; from round scales "
+            "when absent"
+        ),
     ] = PoleDistances()
     differentiation: Annotated[
         Differentiation,

@@ -106,6 +106,11 @@ class Solution(Remembering):
     construction : Construction, optional
         That of the problem, where it is made already; scales and paper do not change it.
 
+    Attributes
+    ----------
+    origin : Solution
+        That which this one is drawn anew of, at other scales; itself mostly.
+
     Raises
     ------
     StructureError, ProblemError, AssemblyError
@@ -131,6 +136,7 @@ class Solution(Remembering):
         self.construction: Construction = construction or construct(problem)
         self._views = views
         self._scales = scales
+        self.origin = self
 
     def moved(self, positions: Sequence[float]) -> Solution:
         """Return the same mechanism, assembled in the same way, in other positions."""
@@ -159,6 +165,7 @@ class Solution(Remembering):
 
     def _redrawn(self, **changed: Any) -> Solution:
         other = self._alike(**changed)
+        other.origin = self.origin
         if "si" in vars(self):
             other.si = self.si  # no scale changes what is exact
         return other

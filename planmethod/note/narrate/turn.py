@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from planmethod.note.narrate.given import point_name
 from planmethod.note.narrate.scales import scale_inscription
-from planmethod.note.numbers import significant, with_unit
+from planmethod.note.numbers import half_up, significant, with_unit
 from planmethod.note.wording import Language
 from planmethod.solved.turn.construction import PRIMES, ExtremesConstruction, Locus
 from planmethod.solved.turn.diagrams import Diagrams
@@ -143,10 +143,16 @@ def diagram_steps(diagrams: Diagrams, words: Language) -> list[str]:
     said, task, say = words.cycle, diagrams.task, words.say
     way = task.differentiation
     return [
-        said.scheme_steps.format(length=say.given(task.length), count=diagrams.count),
-        said["ray_steps"][way.value].format(pole=say.given(task.pole.v)),
-        said.again.format(pole=say.given(task.pole.a)),
-        said.scales.format(scales="; ".join(diagram_scales(diagrams, words))),
+        said.scheme_steps.format(
+            length=say.given(half_up(diagrams.length, 2)), count=diagrams.count
+        ),
+        said["ray_steps"][way.value].format(pole=say.given(half_up(diagrams.poles[0], 2))),
+        said.again.format(pole=say.given(half_up(diagrams.poles[1], 2))),
+        said.scales.format(
+            scales="; ".join(diagram_scales(diagrams, words)),
+            radians=say.given(significant(diagrams.mu_phi, 4)),
+            omega=f"ω_{{{diagrams.turn.solution.problem.drive.link}}}",
+        ),
     ]
 
 
