@@ -78,7 +78,7 @@ def _turn(report: Report, said: Words) -> Iterator[Rich]:
         slides = turn.output.slide is not None
         size = report.quantity(turn.stroke, "m") if slides else report.degrees(turn.stroke)
         told.append(str(said["stroke"][turn.output.unit]).format(stroke=size))
-    if strokes is not None:
+    if strokes is not None and strokes.K_v is not None:
         told.append(
             said.ratio.format(
                 working=report.degrees(strokes.working_deg),

@@ -148,11 +148,8 @@ class Report:
 
     @property
     def shown_places(self) -> list[float]:
-        """Where the driver stands in each position, as tables have it: of a turn within 360°."""
-        turn = self.one.problem.cycle is not None
-        return [
-            round(value % 360.0, 2) % 360.0 if turn else value for value in self.project.positions
-        ]
+        """Where the driver stands in each position, as tables have it."""
+        return [round(self.one.problem.shown(value), 4) for value in self.project.positions]
 
     @property
     def of_position(self) -> Rich:

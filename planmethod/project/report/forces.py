@@ -375,9 +375,7 @@ class ForceChapter:
         statics = statics_of(every)
         if not statics.closes.all():
             return
-        lead = lead_columns(
-            every.problem.drive.coordinate, list(report.shown_places), report.words.note
-        )
+        lead = lead_columns(every.problem, report.project.positions, report.words.note)
         columns: list[list[Rich]] = []
         sizes = {}
         for joint in statics.reactions:

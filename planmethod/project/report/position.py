@@ -17,6 +17,7 @@ from planmethod.project.report.context import Report, displayed, lettered, sente
 from planmethod.project.report.figures import figure
 from planmethod.render.pictures.seriesview import series_picture
 from planmethod.solved.turn.construction import PRIMES, extreme_construction
+from planmethod.solved.turn.strokes import LONGER, TOLD
 from planmethod.solved.turn.turn import TURN, Turn, turn_of
 
 
@@ -197,11 +198,16 @@ def _ratio(report: Report, said: Words) -> Iterator[Node]:
     strokes = report.project.strokes
     if strokes is None:
         return
-    by = strokes.by.partition(" ")[0]
+    why = {LONGER: said["by"]["longer"], TOLD: said["by"]["told"]}.get(
+        strokes.by, said["by"]["load"]
+    )
     working, idle = report.degrees(strokes.working_deg), report.degrees(strokes.idle_deg)
     yield sentences(
-        said.phases.format(working=working, idle=idle), str(said["by"][by]).format()
+        said.phases.format(working=working, idle=idle),
+        why.format(names=strokes.by.partition(" ")[2]),
     )
+    if strokes.K_v is None:
+        return
     yield sentences(said.ratio.format())
     sides = [("φ_{р}", working), ("φ_{х}", idle)]
     if strokes.working_deg < strokes.idle_deg:

@@ -92,8 +92,8 @@ def results_parts(report: Report) -> Iterator[Node]:
 def _by_positions(
     report: Report, kinds: Sequence[QuantityKind], name: Rich, key: str
 ) -> Table:
-    every, drive = report.every, report.every.problem.drive
-    lead = lead_columns(drive.coordinate, report.shown_places, report.words.note)
+    every = report.every
+    lead = lead_columns(every.problem, report.project.positions, report.words.note)
     columns = []
     for quantity in told(every, *kinds):
         values = [float(v) + 0.0 for v in every.read_off(quantity.label)]
