@@ -8,6 +8,7 @@ from typing import TypeAlias
 import numpy as np
 
 from planmethod.construct.scale import Scale
+from planmethod.note import formula
 from planmethod.note.narrate.forces.statement import mass_lines
 from planmethod.note.narrate.given import given
 from planmethod.note.narrate.scales import scale_inscription
@@ -79,7 +80,11 @@ class MachineTeller:
             lines.append(f"{self.letter('crank inertia')} = {inertia} {self.unit('kg·m²')}")
         inverse = 1.0 / machine.delta
         fraction = abs(inverse - round(inverse)) < 1e-9 * inverse
-        delta = f"1/{round(inverse)}" if fraction else self.say.given(machine.delta)
+        delta = (
+            formula.fraction("1", str(round(inverse)))
+            if fraction
+            else self.say.given(machine.delta)
+        )
         lines.append(f"δ = {delta}")
         speed = self.say.found(abs(problem.drive.rate))
         mean = self.said["means"][machine.mean.value]
@@ -137,7 +142,7 @@ class MachineTeller:
         scales, mm, omega = drawing.scales, self.unit("mm"), self.letter("mean speed")
         turn = say.found(self.flywheel.cycle)
         lines = [
-            f"μ_{{φ}} = {turn}/{say.given(machine.turn_mm)} = "
+            f"μ_{{φ}} = {formula.fraction(turn, say.given(machine.turn_mm))} = "
             + self.scale("φ", scales.phi, "rad").partition(" = ")[2],
             f"μ_{{A}} = μ_{{T}} = μ_{{M}}·H·μ_{{φ}} = {say.given(scales.moment)}·"
             f"{say.given(machine.pole_mm)}·{say.found(scales.phi)} = "
@@ -147,9 +152,9 @@ class MachineTeller:
         for name, slope, psi in zip(("max", "min"), slopes, drawing.psi, strict=True):
             factor = {True: "·(1 + δ)", False: "·(1 − δ)"}[slope > 1.0] if slope != 1.0 else ""
             tangent = say.found(float(np.tan(np.radians(psi))))
+            sought = formula.fraction(f"μ_{{J}}·{omega}^{{2}}{factor}", "2μ_{T}")
             lines.append(
-                f"tg ψ_{{{name}}} = μ_{{J}}·{omega}^{{2}}{factor}/(2μ_{{T}}) = {tangent}, "
-                f"ψ_{{{name}}} = {self._angle(psi)}°"
+                f"tg ψ_{{{name}}} = {sought} = {tangent}, ψ_{{{name}}} = {self._angle(psi)}°"
             )
         exact = float(drawing.exact.number(drawing.made.KL)[0])
         told = f"KL = {say.ruled(self.KL)} {mm}"

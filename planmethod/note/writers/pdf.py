@@ -274,8 +274,10 @@ class _Row(Flowable):  # type: ignore[misc]
 def pdf_markup(rich: str, size: float) -> str:
     """Return rich text as reportlab's paragraphs take it, in letters of so many points."""
     small = f'size="{SMALL * size:.2f}"'
-    text = markup(rich, above="super", below="sub").replace("\n", "<br/>")
-    text = text.replace("<super>", f'<super {small} rise="{RISE * size:.2f}">')
+    text = markup(rich).replace("\n", "<br/>")
+    text = text.replace("</sup>", "</super>").replace(
+        "<sup>", f'<super {small} rise="{RISE * size:.2f}">'
+    )
     return text.replace("<sub>", f'<sub {small} rise="{DROP * size:.2f}">')
 
 

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from math import degrees
 
 from planmethod.note.document import Chapter, Node, Part, Table
-from planmethod.note.formula import Rich
+from planmethod.note.formula import Rich, fraction
 from planmethod.note.narrate.machine import MachineTeller
 from planmethod.note.numbers import with_unit
 from planmethod.note.wording import Words
@@ -46,11 +46,11 @@ def flywheel_chapter(report: Report) -> Iterator[Node]:
 def _reduced(report: Report, tell: MachineTeller, said: Words) -> Iterator[Node]:
     J = tell.letter("reduced inertia")  # noqa: N806 - the letter of the textbook
     yield sentences(said.about.format())
-    moment = f"{tell.moment} = Σ(F_{{i}}·v_{{i}}·cos α_{{i}} ± M_{{i}}·ω_{{i}})/ω_{{1}}"
-    inertia = f"{J} = Σ(m_{{i}}·v_{{Si}}^{{2}} + J_{{Si}}·ω_{{i}}^{{2}})/ω_{{1}}^{{2}}"
-    link = report.one.problem.drive.link
-    yield displayed(f"{moment},".replace("_{1}", f"_{{{link}}}"))
-    yield displayed(f"{inertia},".replace("_{1}", f"_{{{link}}}"))
+    omega = f"ω_{{{report.one.problem.drive.link}}}"
+    moment = fraction("Σ(F_{i}·v_{i}·cos α_{i} ± M_{i}·ω_{i})", omega)
+    inertia = fraction("Σ(m_{i}·v_{Si}^{2} + J_{Si}·ω_{i}^{2})", f"{omega}^{{2}}")
+    yield displayed(f"{tell.moment} = {moment},")
+    yield displayed(f"{J} = {inertia},")
     yield sentences(said.where.format())
     flywheel = tell.flywheel
     cycle = with_unit(report.say.given(flywheel.machine.cycle_deg), "°")
@@ -128,14 +128,13 @@ def _inertia(report: Report, tell: MachineTeller, said: Words) -> Iterator[Node]
     )
     symbol, omega = tell.letter("flywheel"), tell.letter("mean speed")
     speed = say.found(flywheel.middle_speed)
-    numbers = (
-        f"{say.found(drawing.scales.work)}·{say.ruled(tell.KL)}"
-        f"/({speed}^{{2}}·{say.given(flywheel.machine.delta)})"
+    letters = fraction("μ_{T}·KL", f"{omega}^{{2}}·δ")
+    numbers = fraction(
+        f"{say.found(drawing.scales.work)}·{say.ruled(tell.KL)}",
+        f"{speed}^{{2}}·{say.given(flywheel.machine.delta)}",
     )
     value = report.quantity(drawing.read_inertia, "kg·m²")
-    yield displayed(
-        f"{symbol} = μ_{{T}}·KL/({omega}^{{2}}·δ) = {numbers} = {value}.", "flywheel"
-    )
+    yield displayed(f"{symbol} = {letters} = {numbers} = {value}.", "flywheel")
     sigma = f"{say.short(drawing.sigma, 2)} {report.unit('kg·m²')}"
     yield sentences(said.sigma.format(sigma=sigma), *_checked(report, tell, said))
     sizes = tell.sizes

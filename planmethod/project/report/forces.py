@@ -8,7 +8,7 @@ import numpy as np
 
 from planmethod.construct.steps import Name
 from planmethod.note.document import Chapter, Equations, Node, Part, Table, table_of_columns
-from planmethod.note.formula import Rich
+from planmethod.note.formula import Rich, fraction
 from planmethod.note.narrate.forces.common import ForceContext, balance_equation
 from planmethod.note.narrate.forces.lever import (
     LeverNarrator,
@@ -357,7 +357,8 @@ class ForceChapter:
         )
         if share is not None:
             one, two = self.find(abs(lever)), self.find(abs(plans))
-            sides = f"|{one} − {two}|/{two}·100 % = {say.number(f'{share:.1f}')} %"
+            share_of = fraction(f"|{one} − {two}|", two)
+            sides = f"{share_of}·100 % = {say.number(f'{share:.1f}')} %"
             yield displayed(f"Δ = {sides}.")
         if sigma is not None:
             told = f"{say.number(sigma_text(sigma))} {unit}"

@@ -20,18 +20,13 @@ from planmethod.gears.sheet import pictures
 from planmethod.gears.text import equation_of, fraction_text
 from planmethod.gears.told import given, indexed, ratios, results
 from planmethod.note.document import Chapter, Formula, Item, Node, Part, Table
-from planmethod.note.formula import Rich
+from planmethod.note.formula import Rich, fraction
 from planmethod.note.numbers import MINUS, raised
 from planmethod.note.wording import Words
 from planmethod.project.report.context import Report, chain, displayed, sentences
 from planmethod.project.report.figures import WIDTH, bare, figure
 from planmethod.render.layout.block import Block
 from planmethod.render.sheets.composer import Sizes
-
-def fraction(above: Rich, below: Rich) -> Rich:
-    """Return a quotient."""
-    return f"({above})/({below})" if " " in above + below else f"{above}/{below}"
-
 
 COLUMN = 185.0
 """Width of the texts of the sheet, mm."""

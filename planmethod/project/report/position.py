@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from planmethod.construct.steps import AtAngle, Step
 from planmethod.mechanism.model import FRAME
 from planmethod.note.document import Chapter, Node, Part, Table
-from planmethod.note.formula import Rich
+from planmethod.note.formula import Rich, fraction
 from planmethod.note.narrate.turn import construction_facts
 from planmethod.note.plaintext import given
 from planmethod.note.wording import Words
@@ -212,5 +212,5 @@ def _ratio(report: Report, said: Words) -> Iterator[Node]:
     sides = [("φ_{р}", working), ("φ_{х}", idle)]
     if strokes.working_deg < strokes.idle_deg:
         sides.reverse()
-    letters, numbers = ("/".join(pair) for pair in zip(*sides, strict=True))
+    letters, numbers = (fraction(*pair) for pair in zip(*sides, strict=True))
     yield displayed(f"K_{{v}} = {letters} = {numbers} = {report.say.found(strokes.K_v)}.")

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from planmethod.note.document import Chapter, Node, Part, Table
-from planmethod.note.formula import Rich
+from planmethod.note.formula import Rich, fraction
 from planmethod.note.narrate.given import point_name
 from planmethod.note.narrate.scales import scale_inscription
 from planmethod.note.narrate.turn import NO_ANGLE, diagram_scales, output_name, output_symbol
@@ -77,13 +77,14 @@ def _axis(report: Report) -> Rich:
     diagrams, say = diagrams_of(report.every), report.say
     length, rate = say.given(diagrams.task.length), abs(report.every.problem.drive.rate)
     rad, mm, s = (report.unit(name) for name in ("rad", "mm", "s"))
-    angle = f"μ_{{φ}} = 2π/{length} = {say.found(diagrams.mu_phi)} {rad}/{mm}"
+    angle = f"μ_{{φ}} = {fraction('2π', length)} = {say.found(diagrams.mu_phi)} {rad}/{mm}"
     if not rate:
         return f"{angle}."
     omega = f"ω_{{{report.every.problem.drive.link}}}"
     phi, speed = say.found(diagrams.mu_phi), say.found(rate)
     time = say.found(diagrams.mu_phi / rate)
-    return f"{angle},  μ_{{t}} = μ_{{φ}}/{omega} = {phi}/{speed} = {time} {s}/{mm}."
+    sides = f"{fraction('μ_{φ}', omega)} = {fraction(phi, speed)}"
+    return f"{angle},  μ_{{t}} = {sides} = {time} {s}/{mm}."
 
 
 def _derived(report: Report) -> Iterator[Rich]:
@@ -104,8 +105,9 @@ def _derived(report: Report) -> Iterator[Rich]:
             yield f"{two} = {told}{end}"
         else:
             time = say.found(diagrams.mu_phi / rate)
-            sides = f"{say.given(before.per_mm)}/({time}·{say.given(pole)})"
-            yield f"{two} = {one}/(μ_{{t}}·K_{{{number}}}) = {sides} = {told}{end}"
+            letters = fraction(one, f"μ_{{t}}·K_{{{number}}}")
+            numbers = fraction(say.given(before.per_mm), f"{time}·{say.given(pole)}")
+            yield f"{two} = {letters} = {numbers} = {told}{end}"
         before = scale
 
 
@@ -129,9 +131,9 @@ def transfer_chapter(report: Report) -> Iterator[Node]:
     v, a = ("v", "a") if turn.output.slide is not None else ("ω", "ε")
     yield Chapter(said.transfer.format())
     yield sentences(said.transfer_text.format(symbol=symbol))
-    yield displayed(
-        f"{v}_{{q}} = d{symbol}/dφ_{{{link}}},  {a}_{{q}} = d^{{2}}{symbol}/dφ_{{{link}}}^{{2}}."
-    )
+    first = fraction(f"d{symbol}", f"dφ_{{{link}}}")
+    second = fraction(f"d^{{2}}{symbol}", f"dφ_{{{link}}}^{{2}}")
+    yield displayed(f"{v}_{{q}} = {first},  {a}_{{q}} = {second}.")
     yield sentences(said.transfer_true.format())
     yield displayed(
         f"{v}_{index} = {v}_{{q}}·ω_{{{link}}},  "
