@@ -12,7 +12,7 @@ from planmethod.note.numbers import with_unit
 from planmethod.note.wording import Words
 from planmethod.problem.load_records import Load, Quadrature, SizeTable, WheelShape
 from planmethod.project.report.context import NBSP, Report, displayed, sentences
-from planmethod.project.report.figures import WIDTH, figure, of_sheet
+from planmethod.project.report.figures import figure, of_sheet
 from planmethod.render.pictures.flywheel import construction_picture
 from planmethod.solved.machine.drawing import drawing_of, split
 from planmethod.solved.machine.flywheel import flywheel_of
@@ -67,7 +67,7 @@ def _reduced(report: Report, tell: MachineTeller, said: Words) -> Iterator[Node]
     if changing:
         made = of_sheet("load-diagram", report.every, report.words, column=COLUMN)
         yield sentences(said.load_text.format())
-        yield figure(made, said.load_figure.format(), "load", room=(WIDTH, 90.0))
+        yield figure(made, said.load_figure.format(), "load", height=90.0)
 
 
 def _diagrams(report: Report, tell: MachineTeller, said: Words) -> Iterator[Node]:
@@ -105,6 +105,7 @@ def _diagrams(report: Report, tell: MachineTeller, said: Words) -> Iterator[Node
         lambda letter: construction_picture(drawing, tell, letter),
         said.figure.format(),
         "machine-diagrams",
+        height=190.0,
     )
 
 
@@ -142,7 +143,7 @@ def _inertia(report: Report, tell: MachineTeller, said: Words) -> Iterator[Node]
         yield from _sizes(report, tell, said)
     made = of_sheet("speed-diagram", report.every, report.words, column=COLUMN)
     yield sentences(said.speed.format())
-    yield figure(made, said.speed_figure.format(), "speed", room=(WIDTH, 90.0))
+    yield figure(made, said.speed_figure.format(), "speed", height=90.0)
 
 
 def _checked(report: Report, tell: MachineTeller, said: Words) -> Iterator[Rich]:
@@ -210,4 +211,4 @@ def _sizes(report: Report, tell: MachineTeller, said: Words) -> Iterator[Node]:
         said.wheel_text.format(),
     )
     made = of_sheet("flywheel", report.every, report.words, column=130.0)
-    yield figure(made, said.wheel_figure.format(), "wheel", room=(WIDTH, 90.0))
+    yield figure(made, said.wheel_figure.format(), "wheel", height=90.0)

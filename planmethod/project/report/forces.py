@@ -30,7 +30,7 @@ from planmethod.plans.forces.loads import LoadKind
 from planmethod.plans.forces.polygons import ForcePlan, Moments, reaction_symbol
 from planmethod.plans.model import PlanKind
 from planmethod.project.report.context import Report, chain, displayed, sentences
-from planmethod.project.report.figures import WIDTH, figure
+from planmethod.project.report.figures import figure
 from planmethod.render.forces.cut import cut_picture, inner_picture, loads_picture
 from planmethod.render.forces.leverpicture import lever_picture
 from planmethod.render.forces.polygon import drawn_edges, polygon_picture
@@ -249,7 +249,7 @@ class ForceChapter:
             return whole if inner is None else Row([whole, inner[1]], GAP, "centre")
 
         caption = self.said["figure_cut_driver" if driver else "figure_cut"]
-        return figure(picture, caption.format(links=links, link=links), key, room=(WIDTH, 150.0))
+        return figure(picture, caption.format(links=links, link=links), key, height=120.0)
 
     def _polygon(self, number: int, links: Rich, key: str, *, driver: bool) -> Node:
         reading, say = self.reading, self.report.say
@@ -261,7 +261,7 @@ class ForceChapter:
             lambda letter: polygon_picture(reading, number, letter, say),
             caption.format(links=links, link=links, scale=scale),
             key,
-            room=(WIDTH, 150.0),
+            height=120.0,
         )
 
     # Results -------------------------------------------------------------------------------------

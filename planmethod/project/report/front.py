@@ -129,7 +129,7 @@ def _data(report: Report) -> tuple[list[tuple[Rich, Rich, Rich]], list[Rich]]:
         for fact in own:
             told = _FACT.match(fact)
             if told is not None and told[1] in ("δ", tell.letter("crank inertia")):
-                key = "δ" if told[1] == "δ" else "J_кр"
+                key = "δ" if told[1] == "δ" else "crank inertia"
                 rows.append((str(quantities[key]).format(), told[1], told[2]))
     return rows, further
 
@@ -215,4 +215,8 @@ def _introduction(report: Report) -> Iterator[Node]:
     calculated = said.calculated.format(
         number=report.project.calculated, symbol=report.coordinate, value=report.place
     )
-    yield sentences(said.way.format(ruler=ruler), calculated if report.is_series else "")
+    yield sentences(
+        said.way.format(ruler=ruler),
+        calculated if report.is_series else "",
+        said.drawn.format(),
+    )

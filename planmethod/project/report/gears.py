@@ -24,7 +24,7 @@ from planmethod.note.formula import Rich, fraction
 from planmethod.note.numbers import MINUS, raised
 from planmethod.note.wording import Words
 from planmethod.project.report.context import Report, chain, displayed, sentences
-from planmethod.project.report.figures import WIDTH, bare, figure
+from planmethod.project.report.figures import bare, figure
 from planmethod.render.layout.block import Block
 from planmethod.render.sheets.composer import Sizes
 
@@ -202,7 +202,7 @@ def _figures(
         "train": said.figure if has_picture else said.figure_scheme,
         "angular": said.angular_figure,
     }
-    yield figure(made, captions[which].format(), which, room=(WIDTH, 160.0))
+    yield figure(made, captions[which].format(), which, height=160.0)
 
 
 def meshing_chapter(report: Report, problem: MeshingProblem) -> Iterator[Node]:

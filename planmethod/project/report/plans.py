@@ -23,7 +23,7 @@ from planmethod.plans.dimensions import DimensionKind
 from planmethod.plans.model import RATES, PlanKind, Relation
 from planmethod.plans.motion.leads import Relative
 from planmethod.project.report.context import Report, chain, displayed, lettered, sentences
-from planmethod.project.report.figures import WIDTH, figure
+from planmethod.project.report.figures import figure
 from planmethod.render.layout.block import Block
 from planmethod.render.pictures.planview import knot_pictures, plan_picture
 
@@ -366,5 +366,6 @@ class PlanChapter:
                 enlarged,
                 self.said.enlarged.format(view=view),
                 f"{kind.value} {number}",
-                room=(WIDTH, 80.0),
+                height=80.0,
+                grows=False,
             )

@@ -92,6 +92,7 @@ def _series(report: Report, said: Words) -> Iterator[Node]:
         ),
         said.series.format(scale=report.scale(PlanKind.POSITION)),
         "series",
+        height=140.0,
     )
 
 

@@ -14,7 +14,7 @@ from planmethod.note.tables.turn import Columns, cycle_columns, deviation_column
 from planmethod.note.wording import Words
 from planmethod.plans.model import RATES
 from planmethod.project.report.context import Report, displayed, sentences
-from planmethod.project.report.figures import WIDTH, figure
+from planmethod.project.report.figures import figure
 from planmethod.render.pictures.kinematic import kinematic_picture
 from planmethod.render.sheets.turn import hodograph
 from planmethod.solved.turn.diagrams import diagrams_of
@@ -58,6 +58,7 @@ def diagrams_part(report: Report) -> Iterator[Node]:
         lambda letter: kinematic_picture(diagrams, letter, say),
         said.figure.format(of=shown, scales="; ".join(scales)),
         "diagrams",
+        height=190.0,
     )
     ruler = report.say.given(report.every.profile.ruler)
     yield sentences(said.deviations.format(ruler=f"{ruler} {report.unit('mm')}"))
@@ -118,7 +119,7 @@ def _hodographs(report: Report, said: Words) -> Iterator[Node]:
     yield sentences(said.hodograph_text.format(of=point))
     for kind, one in made.items():
         caption = str(said["hodograph"][kind.value]).format(of=point)
-        yield figure(one.picture, caption, f"hodograph.{kind.value}", room=(WIDTH, 110.0))
+        yield figure(one.picture, caption, f"hodograph.{kind.value}", height=110.0)
 
 
 def transfer_chapter(report: Report) -> Iterator[Node]:
