@@ -108,9 +108,7 @@ def _forces(report: Report, said: Words) -> Iterator[Rich]:
         return
     part = 100.0 * sigma / abs(plans)
     template = said.lever_far if share > MUCH and share < 3.0 * part else said.lever
-    yield template.format(
-        share=say.number(f"{share:.1f}"), sigma=say.number(f"{part:.1f}")
-    )
+    yield template.format(share=say.number(f"{share:.1f}"), sigma=say.number(f"{part:.1f}"))
 
 
 def _flywheel(report: Report, said: Words) -> Iterator[Rich]:

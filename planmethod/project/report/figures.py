@@ -146,6 +146,8 @@ def of_sheet(kind: str, solution: Solution, words: Language, *, column: float) -
     def made(letter: float) -> Block:
         entry, sizes = Entry(kind, letter=letter), Sizes(letter, letter, letter, column)
         indices = tuple(range(len(solution.positions)))
-        return bare(BLOCKS[kind].make(solution, indices, Manner(entry, sizes, column, Extras(words))))
+        return bare(
+            BLOCKS[kind].make(solution, indices, Manner(entry, sizes, column, Extras(words)))
+        )
 
     return made

@@ -104,7 +104,7 @@ def _diagrams(report: Report, tell: MachineTeller, said: Words) -> Iterator[Node
     yield figure(
         lambda letter: construction_picture(drawing, tell, letter),
         said.figure.format(),
-        "machine-diagrams",
+        "machine_diagrams",
         height=190.0,
     )
 

@@ -75,9 +75,7 @@ class ForceChapter:
         said: Words = self.said
         reading, report = self.reading, self.report
         own = report.one.problem.scales.mu_F is None
-        scale = scale_inscription(
-            reading.scale, report.one.problem.scales.convention, report.say
-        )
+        scale = scale_inscription(reading.scale, report.one.problem.scales.convention, report.say)
         template = said.about_own if own else said.about
         yield sentences(template.format(position=report.for_position, scale=scale))
         yield figure(
@@ -87,9 +85,7 @@ class ForceChapter:
         )
         voice = LoadNarrator(self.context)
         given = [one for one in reading.statics.board.given if self._acts(one)]
-        by_kind = {
-            kind: [one for one in given if one.applied.kind is kind] for kind in LoadKind
-        }
+        by_kind = {kind: [one for one in given if one.applied.kind is kind] for kind in LoadKind}
         if by_kind[LoadKind.WEIGHT]:
             yield sentences(said.weights.format())
             yield from chain(map(voice.formula, by_kind[LoadKind.WEIGHT]))
@@ -148,7 +144,10 @@ class ForceChapter:
                 return said.absent_couple.format(symbol=applied.name)
             size = f"{self.find(abs(couple))} {units['N·m']}"
             return said.couple.format(
-                link=self.report.link(applied.link, "on"), symbol=applied.name, size=size, sense=self.context.sense(couple)
+                link=self.report.link(applied.link, "on"),
+                symbol=applied.name,
+                size=size,
+                sense=self.context.sense(couple),
             )
         force = complex(applied.force[0])
         if not force:
@@ -173,7 +172,7 @@ class ForceChapter:
         moments = MomentNarrator(self.context, plan)
         links = "–".join(plan.links)
         driver = plan.links == (self.drive,)
-        yield Part((said.driver.format(link=links) if driver else said.group.format(links=links)))
+        yield Part(said.driver.format(link=links) if driver else said.group.format(links=links))
         if not number:
             yield sentences(said.order.format())
         yield sentences(*voice.freed())
@@ -197,8 +196,8 @@ class ForceChapter:
         for balance in plan.balances:
             template = said["balance"]["one" if len(balance.links) == 1 else "many"]
             yield sentences(template.format(links="–".join(balance.links)))
-            equation = balance_equation(balance, self.context, direction_text)
-            yield Equations((equation,), numbered=True)
+            summed = balance_equation(balance, self.context, direction_text)
+            yield Equations((summed,), numbered=True)
         *steps, _ = voice.steps()
         form = said["plan"]["one" if len(plan.balances) == 1 else "many"]
         yield sentences(form.format(), *(line for step in steps for line in step))
@@ -225,9 +224,7 @@ class ForceChapter:
         if told is None:
             return
         template = said.moments if len(equation.links) == 1 else said.moments_links
-        yield sentences(
-            template.format(point=equation.about, links=", ".join(equation.links))
-        )
+        yield sentences(template.format(point=equation.about, links=", ".join(equation.links)))
         whose = f"Σ_{{{','.join(equation.links)}}}M"  # the sentence before says it
         yield displayed(f"{told.equation.replace(whose, 'ΣM', 1)}.")
         lead = said.hence.format()
@@ -393,7 +390,7 @@ class ForceChapter:
         yield sentences(str(said["all_text"][quantity]).format())
         table = table_of_columns([*lead, *columns], repeated=len(lead))
         name = str(said["all_table"][quantity]).format()
-        yield Table(table.head, table.rows, 0, len(lead), name=name, key="all-reactions")
+        yield Table(table.head, table.rows, 0, len(lead), name=name, key="all_reactions")
         peak = max(sizes, key=lambda one: float(sizes[one].max()))
         k = int(sizes[peak].argmax())
         value = f"{self.find(float(sizes[peak][k]))} {report.unit('N')}"

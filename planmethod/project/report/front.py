@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
+from planmethod.mechanism.structure import roman
 from planmethod.note.document import (
     Contents,
     Item,
@@ -20,7 +21,6 @@ from planmethod.note.narrate.machine import MachineTeller
 from planmethod.note.numbers import with_unit
 from planmethod.note.wording import Words
 from planmethod.problem.load_records import Against, Couple, Load, SizeTable
-from planmethod.mechanism.structure import roman
 from planmethod.project.model import PartName
 from planmethod.project.report.context import NBSP, Report, lettered, sentences
 from planmethod.project.report.figures import figure
@@ -71,9 +71,7 @@ def _assignment(report: Report) -> Iterator[Node]:
     yield StructuralHeading(said.assignment.format())
     number = report.project.calculated
     statement = said.statement_series if report.is_series else said.statement
-    yield sentences(
-        statement.format(symbol=report.coordinate, value=report.place, number=number)
-    )
+    yield sentences(statement.format(symbol=report.coordinate, value=report.place, number=number))
     tasks = list(_tasks(report))
     for k, task in enumerate(tasks, 1):
         yield Item(f"{task}{'.' if k == len(tasks) else ';'}", f"{k})")
@@ -196,11 +194,7 @@ def _introduction(report: Report) -> Iterator[Node]:
     said, structure = report.said["introduction"], report.one.structure
     counts: Words = report.said["counts"]
     many = structure.moving_links
-    links = (
-        counts["links"][many]
-        if many < len(counts["links"])
-        else counts.many.format(count=many)
-    )
+    links = counts["links"][many] if many < len(counts["links"]) else counts.many.format(count=many)
     yield StructuralHeading(said.title.format())
     others = [
         str(said["kinds"][name.value]).format()

@@ -56,9 +56,7 @@ def _structure(report: Report, motion: Motion, said: Words) -> Iterator[Node]:
     found, roles = motion.structure, motion.roles
     yield sentences(said.kind.format(kind=str(said["kinds"][found.kind.value]).format()))
     w = str(found.formula).replace("-", MINUS)
-    yield displayed(
-        said.mobility.format(n=found.moving, low=found.lower, high=found.higher, w=w)
-    )
+    yield displayed(said.mobility.format(n=found.moving, low=found.lower, high=found.higher, w=w))
     carriers = [
         said.carrier.format(
             carrier=carrier,
@@ -139,9 +137,7 @@ def _speeds(motion: Motion, report: Report) -> Iterator[Rich]:
         yield f"{train.letter}_{{{label}}} = {value} {unit}"
 
 
-def _pictures(
-    report: Report, problem: GearProblem, motion: Motion, said: Words
-) -> Iterator[Node]:
+def _pictures(report: Report, problem: GearProblem, motion: Motion, said: Words) -> Iterator[Node]:
     picture, say = draw(motion), report.say
     if picture is None:
         drawn = seen = None
@@ -165,9 +161,7 @@ def _pictures(
         yield from _figures(report, problem, motion, "angular")
     rows = [
         (symbol, fraction, exact, shown, sigma, off)
-        for symbol, fraction, exact, shown, sigma, off in results(
-            motion, drawn, seen, report.words
-        )
+        for symbol, fraction, exact, shown, sigma, off in results(motion, drawn, seen, report.words)
     ]
     yield sentences(said.speeds.format())
     columns = said["columns"] if drawn is not None else said["columns"][:3]
@@ -175,7 +169,7 @@ def _pictures(
         tuple(columns),
         tuple(row[: len(columns)] for row in rows),
         name=said.results.format(),
-        key="train-results",
+        key="train_results",
     )
     if drawn is not None and seen is not None:
         offs = [
@@ -187,16 +181,14 @@ def _pictures(
             yield sentences(said.agree.format(most=say.number(f"{max(offs):.1f}")))
 
 
-def _figures(
-    report: Report, problem: GearProblem, motion: Motion, which: str
-) -> Iterator[Node]:
+def _figures(report: Report, problem: GearProblem, motion: Motion, which: str) -> Iterator[Node]:
     said: Words = report.said["gears"]
     has_picture = draw(motion) is not None
 
     def made(letter: float) -> Block:
         sizes = Sizes(letter, letter, letter, COLUMN)
         found = pictures(motion, report.one.profile, report.words, sizes)
-        return found[0] if which == "train" else bare(found[1])
+        return found[0] if which == "train" or found[1] is None else bare(found[1])
 
     captions = {
         "train": said.figure if has_picture else said.figure_scheme,
@@ -231,7 +223,7 @@ def meshing_chapter(report: Report, problem: MeshingProblem) -> Iterator[Node]:
     yield figure(
         lambda letter: meshing_picture(view_for(solved, 300.0, 240.0), words, letter),
         said.figure.format(),
-        "meshing-picture",
+        "meshing_picture",
     )
 
 

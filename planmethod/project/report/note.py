@@ -42,7 +42,7 @@ def note_document(project: Project, words: Language) -> Document:
     PositionError
         Where the mechanism cannot be assembled or a force plan does not close.
     """
-    units = sorted({unit for unit in words.note["units"].values()}, key=len, reverse=True)
+    units = sorted(set(words.note["units"].values()), key=len, reverse=True)
     tie = re.compile(rf"(?<=\d) (?=(?:{'|'.join(map(re.escape, units))}|%)(?![^\W\d_]))")
     return Document.of(_tied(node, tie) for node in _nodes(Report(project, words)))
 

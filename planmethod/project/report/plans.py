@@ -255,9 +255,7 @@ class PlanChapter:
             ends = ("", "")
             if towards is not None and towards.relation is Relation.TOWARDS:
                 ends = (towards.points[0], towards.points[1])
-            yield sentences(
-                template.format(symbol=vector.symbol, tail=ends[0], head=ends[1])
-            )
+            yield sentences(template.format(symbol=vector.symbol, tail=ends[0], head=ends[1]))
         elif formulas:
             yield sentences(self.said.computed.format())
         where = self._where(step)

@@ -125,7 +125,7 @@ def _building(report: Report, said: Words) -> Iterator[Node]:
 def _told(step: Step, report: Report, said: Words) -> list[Rich]:
     """Return the sentences of a step; a guide that is level or upright is told to be so."""
     names = report.names
-    guide = names.guide(step.out) if isinstance(step, AtAngle) else None  # type: ignore[arg-type]
+    guide = names.guide(step.out) if isinstance(step, AtAngle) else None
     if guide is None:
         return report.narrator.tell(step)
     assert isinstance(step, AtAngle)
@@ -210,7 +210,10 @@ def _ratio(report: Report, said: Words) -> Iterator[Node]:
     if strokes.K_v is None:
         return
     yield sentences(said.ratio.format())
-    sides = [("φ_{р}", working), ("φ_{х}", idle)]
+    sides = [
+        (str(said["phase"]["working"]).format(), working),
+        (str(said["phase"]["idle"]).format(), idle),
+    ]
     if strokes.working_deg < strokes.idle_deg:
         sides.reverse()
     letters, numbers = (fraction(*pair) for pair in zip(*sides, strict=True))

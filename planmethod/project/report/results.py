@@ -89,9 +89,7 @@ def results_parts(report: Report) -> Iterator[Node]:
         yield from _largest(report, said)
 
 
-def _by_positions(
-    report: Report, kinds: Sequence[QuantityKind], name: Rich, key: str
-) -> Table:
+def _by_positions(report: Report, kinds: Sequence[QuantityKind], name: Rich, key: str) -> Table:
     every = report.every
     lead = lead_columns(every.problem, report.project.positions, report.words.note)
     columns = []

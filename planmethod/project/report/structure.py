@@ -32,9 +32,7 @@ def structure_chapter(report: Report) -> Iterator[Node]:
     named = [report.link(link, "of") for link in mechanism.links]
     counts = report.said["counts"]
     many = len(mechanism.links)
-    count = (
-        counts["links"][many] if many < len(counts["links"]) else counts.many.format(count=many)
-    )
+    count = counts["links"][many] if many < len(counts["links"]) else counts.many.format(count=many)
     yield sentences(
         said.links.format(frame=report.project.frame, count=count, links=report.listed(named))
     )

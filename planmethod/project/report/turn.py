@@ -119,7 +119,7 @@ def _hodographs(report: Report, said: Words) -> Iterator[Node]:
     yield sentences(said.hodograph_text.format(of=point))
     for kind, one in made.items():
         caption = str(said["hodograph"][kind.value]).format(of=point)
-        yield figure(one.picture, caption, f"hodograph.{kind.value}", height=110.0)
+        yield figure(one.picture, caption, f"hodograph_{kind.value}", height=110.0)
 
 
 def transfer_chapter(report: Report) -> Iterator[Node]:
