@@ -58,6 +58,15 @@ class NoteFormulas(Formulas):
         return lines
 
 
+def as_told(words: Language) -> Language:
+    """Return a language in which narrators and statements speak as a note does."""
+    own = Language(words.lang)
+    own.note = Words({**words.note, **words.report["voice"]})
+    own.forces = Words({**words.forces, **words.report["force_voice"]})
+    vars(own)["say"] = words.say  # pictures are kept by it
+    return own
+
+
 class Report:
     """What the chapters of a note share (общее для глав записки).
 
@@ -65,8 +74,9 @@ class Report:
     ----------
     project : Project
     words : Language
-    said, note : Words
-        The sentences of notes; those of the narrators, as a note has them.
+        With the sentences of the narrators as a note has them.
+    said : Words
+        The sentences of notes.
     every, one : Solution
         All positions, and the calculated one alone.
     names : Names
@@ -79,15 +89,14 @@ class Report:
     """
 
     def __init__(self, project: Project, words: Language) -> None:
-        self.project, self.words, self.said = project, words, words.report
+        self.project, self.words, self.said = project, as_told(words), words.report
         self.every: Solution = project.solution
         self.one: Solution = project.loaded
-        self.note = Words({**words.note, **self.said["voice"]})
         self.described: set[str] = set()
-        self.names = Names(self.one, self.note, on_sheet=True)
+        self.names = Names(self.one, self.words.note, on_sheet=True)
         self.formulas = NoteFormulas(self.one, self.names, 0)
         if self.one.problem.drive.is_crank:
-            self.formulas.shown_angle = self.shown_places[project.calculated]
+            self.formulas.shown_angle = round(self.shown_places[project.calculated], 2)
         self.narrator = Narrator(self.one, self.names, 0, self.formulas)
 
     @property
@@ -163,8 +172,8 @@ class Report:
 
     @property
     def for_position(self) -> Rich:
-        """For the calculated position, after a blank; nothing where it is the only one."""
-        return self._told(self.said.for_position)
+        """For the calculated position, after a blank."""
+        return self._told(self.said.for_position) or self.said.for_only.format()
 
     def _told(self, template: str) -> Rich:
         return template.format(number=self.project.calculated) if self.is_series else ""

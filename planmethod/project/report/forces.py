@@ -51,7 +51,7 @@ class ForceChapter:
         self.report, self.said = report, report.said["forces"]
         self.reading = force_reading(report.one, 0)
         self.context = ForceContext(self.reading, report.formulas)
-        self.context.said = Words({**self.context.said, **report.said["force_voice"]})
+        self.context.said = report.words.forces
         self.drive = report.one.problem.drive.link
         self.find = report.say.found
 
@@ -226,7 +226,11 @@ class ForceChapter:
         template = said.moments if len(equation.links) == 1 else said.moments_links
         yield sentences(template.format(point=equation.about, links=", ".join(equation.links)))
         whose = f"Σ_{{{','.join(equation.links)}}}M"  # the sentence before says it
-        yield displayed(f"{told.equation.replace(whose, 'ΣM', 1)}.")
+        summed, _, zero = told.equation.replace(whose, "ΣM", 1).partition(": ")
+        yield displayed(f"{summed}.")
+        if zero:  # it is nothing for want of moments
+            yield sentences(said.no_moments.format(point=equation.about))
+            yield from chain([zero])
         lead = said.hence.format()
         if told.arms:
             arms = said.arms if len(told.arms) > 1 else said.arms_one

@@ -15,12 +15,13 @@ from planmethod.note.document import (
     TitlePage,
 )
 from planmethod.note.formula import Rich, escape
+from planmethod.note.narrate.forces.common import QUARTERS
 from planmethod.note.narrate.forces.statement import mass_lines
 from planmethod.note.narrate.given import given
 from planmethod.note.narrate.machine import MachineTeller
 from planmethod.note.numbers import with_unit
 from planmethod.note.wording import Words
-from planmethod.problem.load_records import Against, Couple, Load, SizeTable
+from planmethod.problem.load_records import Against, Couple, Fixed, Load, SizeTable
 from planmethod.project.model import PartName
 from planmethod.project.report.context import NBSP, Report, lettered, sentences
 from planmethod.project.report.figures import figure
@@ -174,17 +175,29 @@ def _load(load: Load | Couple, report: Report) -> Rich:
     else:
         size = said.constant.format(value=with_unit(report.say.short(load.size), report.unit(unit)))
     against = said.against if force else said.against_couple
+    sense = against.format() if isinstance(load.sense, Against) else ""
+    if isinstance(load.sense, Fixed):
+        sense = said.fixed.format(way=_way(load, load.sense, report))
     moving = None if load.phase is None else load.phase.moving
     facts = {
         "link": report.link(load.link, "on"),
         "symbol": load.name,
         "size": size,
-        "sense": against.format() if isinstance(load.sense, Against) else "",
+        "sense": sense,
         "phase": str(said["moving"][moving.value]).format() if moving else "",
     }
     if isinstance(load, Load):
         return said.force.format(point=load.at, **facts)
     return said.couple.format(**facts)
+
+
+def _way(load: Load | Couple, fixed: Fixed, report: Report) -> Rich:
+    """Return the way of a force that stays on the paper."""
+    largest = max(load.size.values, key=abs) if isinstance(load.size, SizeTable) else load.size
+    angle = (fixed.angle + (180.0 if largest < 0 else 0.0)) % 360.0
+    forces = report.words.forces
+    quarter = QUARTERS.get(round(angle, 6) % 360.0)
+    return forces[quarter] if quarter else forces.way_angle.format(angle=report.say.short(angle))
 
 
 # Introduction ------------------------------------------------------------------------------------

@@ -49,7 +49,8 @@ class PlanChapter:
         assert self.plan.pole is not None
         fixed = self.names.others(self.plan.pole)
         pole = self.names.pole(self.kind)
-        told = str(said["pole"][kind]).format(pole=pole, points=self.report.listed(fixed or [""]))
+        form = said["pole_one" if len(fixed) == 1 else "pole"][kind]
+        told = str(form).format(pole=pole, points=self.report.listed(fixed or [""]))
         yield sentences(
             str(said["scale"][kind]).format(position=position, scale=scale),
             told if fixed else said.bare_pole.format(pole=pole),

@@ -146,7 +146,7 @@ def _fixed(report: Report) -> Rich:
         place = report.formulas.place(name)  # type: ignore[arg-type]
         x, y = (given(value, report.words.note, 5) for value in (place.real, place.imag))
         points.append(f"{lettered(name)} ({x}; {y})")
-    return report.note.fixed_points.format(points=", ".join(points))
+    return report.words.note.fixed_points.format(points=", ".join(points))
 
 
 def _extremes(report: Report, said: Words) -> Iterator[Node]:
