@@ -1,0 +1,254 @@
+"""Formulas as equations of Word: Office Math made of the tree (формулы Word).
+
+What a run of letters is follows from its letters: Latin and Greek ones are symbols, italic; digits,
+names of functions, units and Russian are upright. Brackets that have their pair are delimiters,
+which grow with what is in them. A sign that lacks a side, as where a formula is cut, is text: a
+program that sets it as a sign would show a box for the side. An index without a letter before it
+stands at a letter without width, for the same reason.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Iterator, Sequence
+from typing import Any, TypeAlias, assert_never
+
+from lxml.builder import ElementMaker
+from msgspec import Struct
+
+from planmethod.note.document import Equation, Term
+from planmethod.note.formula import Bar, Fraction, Index, Letters, Node, Root, parse
+
+MATH = "http://schemas.openxmlformats.org/officeDocument/2006/math"
+WORD = "http://schemas.openxmlformats.org/wordprocessingml/2006/main"
+FONT, TEXT_FONT = "Cambria Math", "Times New Roman"
+NOTHING = "\N{ZERO WIDTH SPACE}"
+
+Element: TypeAlias = Any
+
+M = ElementMaker(namespace=MATH, nsmap={"m": MATH, "w": WORD})
+W = ElementMaker(namespace=WORD, nsmap={"m": MATH, "w": WORD})
+_SPACE = "{http://www.w3.org/XML/1998/namespace}space"
+
+_GREEK = "\u0370-\u03ff"
+_NAMES = "sin|cos|tg|ctg|arcsin|arccos|arctg|tan|arctan|inv|const|max|min|log|ln|exp"
+_TOKENS = re.compile(
+    r"(?P<brackets>[()\[\]|])"
+    r"|(?P<number>\d+(?:[.,]\d+)*)"
+    r"|(?P<unit>(?<=[\d)][ \u00a0])[A-Za-z]+(?:[/·][A-Za-z]+)*)"
+    rf"|(?P<name>(?:{_NAMES})(?![A-Za-z]))"
+    rf"|(?P<letters>[A-Za-z{_GREEK}]+)"
+    r"|(?P<sign>[ \u00a0]*[=+−±·×/<>≤≥≈≠≡→-][ \u00a0]*)"
+    r"|(?P<blank>[ \u00a0]+)"
+    r"|(?P<text>[\u0400-\u04ff]+(?:[-./·][\u0400-\u04ff]+)*|.)",
+    re.DOTALL,
+)
+_PAIRS = {"(": ")", "[": "]", "|": "|"}
+_UNARY = "+−-±"
+_KEYWORDS = frozenset({"in", "ni", "or", "pi", "mu", "nu", "xi", "Pi", "Xi", "ge", "le", "gt", "lt",
+                       "ll", "gg", "ne", "im", "re", "Im", "Re", "to", "rm", "it", "bf", "sum",
+                       "lim", "int", "and", "neg", "dot", "hat", "bar", "vec", "div", "sub", "sup",
+                       "abs", "rho", "eta", "tau", "phi", "chi", "psi"})  # fmt: skip
+"""Letters in a row that the formula editor of LibreOffice takes for a command of its own."""
+
+
+class _Token(Struct, frozen=True):
+    kind: str
+    text: str = ""
+    node: Node | None = None
+
+
+# Formulas -----------------------------------------------------------------------------------------
+
+
+def equation(nodes: Iterable[Node]) -> Element:
+    """Return a formula as an ``m:oMath``."""
+    return M.oMath(*elements(nodes))
+
+
+def paragraph(*formulas: Element, side: str = "center") -> Element:
+    """Return formulas that stand on a line of their own, an ``m:oMathPara``."""
+    return M.oMathPara(M.oMathParaPr(M.jc({f"{{{MATH}}}val": side})), *formulas)
+
+
+def elements(nodes: Iterable[Node]) -> list[Element]:
+    """Return what stands in an equation, in order."""
+    return _sequence(list(_tokens(nodes)))
+
+
+def _tokens(nodes: Iterable[Node]) -> Iterator[_Token]:
+    for node in nodes:
+        if isinstance(node, Letters):
+            for found in _TOKENS.finditer(node.text):
+                kind = str(found.lastgroup)
+                if kind == "letters" and found[0] in _KEYWORDS:
+                    yield from (_Token(kind, letter) for letter in found[0])
+                else:
+                    yield _Token(kind, found[0])
+        else:
+            yield _Token("node", node=node)
+
+
+def _sequence(tokens: Sequence[_Token]) -> list[Element]:
+    found: list[Element] = []
+    operand, k = False, 0
+    while k < len(tokens):
+        token, kind = tokens[k], tokens[k].kind
+        k += 1
+        if kind == "brackets":
+            end = _closing(tokens, k - 1)
+            if end is None:
+                found.append(_text(token.text))
+            else:
+                found.append(_brackets(token.text, _sequence(tokens[k:end])))
+                k = end + 1
+            operand = True
+        elif kind == "sign":
+            has_next = k < len(tokens) and tokens[k].kind != "sign"
+            sign = token.text.strip(" \u00a0")
+            if has_next and (operand or sign in _UNARY):
+                found.append(_run(sign, "p"))
+            else:
+                found.append(_text(token.text))
+            operand = False
+        elif kind == "node":
+            assert token.node is not None
+            if isinstance(token.node, Index):
+                base, rest = _base(found[-1]) if operand and found else (_text(NOTHING), None)
+                if operand and found:
+                    found.pop()
+                found += [*([rest] if rest is not None else []), _indexed(base, token.node)]
+            else:
+                found.append(_element(token.node))
+            operand = True
+        elif kind == "blank":
+            beside = k < len(tokens) and tokens[k].kind in ("unit", "text", "letters", "name")
+            if operand and (beside or k < len(tokens)):
+                found.append(_text("\u00a0"))
+        else:
+            style = {"letters": "i", "number": "p"}.get(kind)
+            found.append(_run(token.text, style) if style else _text(token.text))
+            operand = True
+    return found
+
+
+def _closing(tokens: Sequence[_Token], start: int) -> int | None:
+    """Return where the bracket at ``start`` is closed."""
+    opened, depth = tokens[start].text, 0
+    closed = _PAIRS.get(opened)
+    if closed is None:
+        return None
+    for k in range(start + 1, len(tokens)):
+        if tokens[k].kind != "brackets":
+            continue
+        if tokens[k].text == closed:
+            if not depth:
+                return k
+            depth -= 1
+        elif tokens[k].text == opened:
+            depth += 1
+    return None
+
+
+def _element(node: Node) -> Element:
+    match node:
+        case Letters():
+            return M.box(M.e(*elements([node])))
+        case Index():
+            return _indexed(_text(NOTHING), node)
+        case Bar(body):
+            return bar(elements(body), "top")
+        case Fraction(above, below):
+            return M.f(M.num(*elements(above)), M.den(*elements(below)))
+        case Root(body):
+            hidden = M.radPr(M.degHide({f"{{{MATH}}}val": "1"}))
+            return M.rad(hidden, M.deg(), M.e(*elements(body)))
+        case _:
+            assert_never(node)
+
+
+def _indexed(base: Element, index: Index) -> Element:
+    e, sub, sup = M.e(base), M.sub(*elements(index.below)), M.sup(*elements(index.above))
+    if not index.above:
+        return M.sSub(e, sub)
+    return M.sSubSup(e, sub, sup) if index.below else M.sSup(e, sup)
+
+
+def _base(last: Element) -> tuple[Element, Element | None]:
+    """Return the letter that an index stands at, and what of its run is before it."""
+    text = last.find(f"{{{MATH}}}t")
+    style = last.find(f"{{{MATH}}}rPr/{{{MATH}}}sty")
+    is_symbol = style is not None and style.get(f"{{{MATH}}}val") == "i"
+    if last.tag != f"{{{MATH}}}r" or not is_symbol or len(text.text) == 1:
+        return last, None
+    return _run(text.text[-1], "i"), _run(text.text[:-1], "i")
+
+
+def bar(body: Sequence[Element], place: str) -> Element:
+    """Return what has a line above or below it (``place`` is ``top`` or ``bot``)."""
+    return M.bar(M.barPr(M.pos({f"{{{MATH}}}val": place})), M.e(*body))
+
+
+def _brackets(opened: str, inside: Sequence[Element]) -> Element:
+    return delimited(opened, _PAIRS[opened], inside or [_text(NOTHING)])
+
+
+def delimited(opened: str, closed: str, inside: Sequence[Element]) -> Element:
+    """Return what stands between two delimiters that grow with it."""
+    value = f"{{{MATH}}}val"
+    return M.d(M.dPr(M.begChr({value: opened}), M.endChr({value: closed})), M.e(*inside))
+
+
+def _run(text: str, style: str) -> Element:
+    fonts = _fonts(FONT)
+    return M.r(M.rPr(M.sty({f"{{{MATH}}}val": style})), fonts, M.t(text))
+
+
+def _text(text: str) -> Element:
+    return M.r(M.rPr(M.nor()), _fonts(TEXT_FONT), M.t({_SPACE: "preserve"}, text))
+
+
+def _fonts(name: str) -> Element:
+    return W.rPr(W.rFonts({f"{{{WORD}}}{key}": name for key in ("ascii", "hAnsi", "cs")}))
+
+
+# Vector equations ---------------------------------------------------------------------------------
+
+
+def vector_equations(equations: Sequence[Equation]) -> Element:
+    """Return vector equations as one formula: a system where there are several."""
+    lines = [list(_vector_equation(one)) for one in equations]
+    if len(lines) == 1:
+        return M.oMath(*lines[0])
+    return M.oMath(delimited("{", "", [M.eqArr(*(M.e(*line) for line in lines))]))
+
+
+def _vector_equation(one: Equation) -> Iterator[Element]:
+    if one.name and not one.right:
+        yield from elements(parse(one.name))
+        yield _run("=", "p")
+    yield from _sum(one.left)
+    yield _run("=", "p")
+    yield from _sum(one.right) if one.right else [_run("0", "p")]
+
+
+def _sum(terms: Sequence[Term]) -> Iterator[Element]:
+    for number, term in enumerate(terms):
+        if number:
+            yield _run("+", "p")
+        body = vector(term.symbol)
+        for _ in range(term.underlines):
+            body = [bar(body, "bot")]
+        if term.direction:
+            below = elements(parse(term.direction))
+            body = [M.limLow(M.e(*body), M.lim(*below))]
+        yield from body
+
+
+def vector(symbol: str) -> list[Element]:
+    """Return the symbol of a vector: its letter has a line above it, its indices have none."""
+    nodes = parse(symbol)
+    first, rest = nodes[:1], nodes[1:]
+    if first and isinstance(first[0], Letters):
+        return elements((Bar(first), *rest))
+    return elements(nodes)
