@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from planmethod.gears.model import GearProblem
 from planmethod.mechanism.structure import roman
 from planmethod.note.document import Item, Node, References, StructuralHeading, Table
-from planmethod.note.formula import Rich, escape
+from planmethod.note.formula import Rich, escape, inlined
 from planmethod.note.narrate.forces.lever import both_balances, difference, expected
 from planmethod.note.wording import Words
 from planmethod.plans.forces.polygons import reaction_symbol
@@ -43,7 +43,7 @@ def conclusion(report: Report) -> Iterator[Node]:
         *_gears(report, said),
     ]
     for number, text in enumerate(filter(None, found), 1):
-        yield Item(text, f"{number})")
+        yield Item(inlined(text), f"{number})")
 
 
 def _structure(report: Report, said: Words) -> Rich:

@@ -8,7 +8,7 @@ from collections.abc import Iterable, Sequence
 from planmethod.construct.steps import Compute, NumberName
 from planmethod.mechanism.describe import LinkKind, kind_of_motion
 from planmethod.note.document import Formula, Paragraph
-from planmethod.note.formula import Rich
+from planmethod.note.formula import Rich, inlined
 from planmethod.note.narrate.formulas import Formulas
 from planmethod.note.narrate.naming import Names
 from planmethod.note.narrate.scales import scale_inscription
@@ -215,4 +215,5 @@ def chain(lines: Iterable[Rich]) -> list[Formula]:
 
 def sentences(*texts: Rich) -> Paragraph:
     """Return a paragraph of some sentences, those that there are."""
-    return Paragraph(lettered(" ".join(text for text in texts if text)))
+    # In a line of text a built-up fraction would push the lines apart.
+    return Paragraph(lettered(" ".join(inlined(text) for text in texts if text)))

@@ -30,7 +30,7 @@ WIDTH = 165.0
 LETTER, ON_SHEETS = 3.2, 3.5
 """Heights of the letters of a figure as it is shown, and as it is drawn at first, mm."""
 
-WISHED, MOST = 120.0, 1.6
+WISHED, MOST = 120.0, 1.35
 """How large a small picture shall be, mm, and how many times at the most it is enlarged."""
 
 MARGIN = 2.0

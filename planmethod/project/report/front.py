@@ -10,6 +10,7 @@ from planmethod.note.document import (
     Contents,
     Item,
     Node,
+    PageBreak,
     StructuralHeading,
     Table,
     TitlePage,
@@ -60,6 +61,7 @@ def front(report: Report) -> Iterator[Node]:
     """Yield all that stands before the first chapter."""
     yield title_page(report)
     yield from _assignment(report)
+    yield PageBreak()
     yield Contents()
     yield from _introduction(report)
 
@@ -79,7 +81,7 @@ def _assignment(report: Report) -> Iterator[Node]:
     rows, further = _data(report)
     yield sentences(said.data.format())
     yield Table(
-        tuple(said["columns_data"]), tuple(rows), 2, name=said.data_table.format(), key="data"
+        tuple(said["columns_data"]), tuple(rows), 3, name=said.data_table.format(), key="data"
     )
     if further:
         yield sentences(said.further.format(facts="; ".join(further)))

@@ -49,6 +49,15 @@ def note_document(project: Project, words: Language) -> Document:
 
 def _nodes(report: Report) -> Iterator[Node]:
     yield from front(report)
+    for node in _chapters(report):
+        if isinstance(node, document.Chapter):
+            yield document.PageBreak()
+        yield node
+    yield from conclusion(report)
+    yield from back(report)
+
+
+def _chapters(report: Report) -> Iterator[Node]:
     yield from structure_chapter(report)
     yield from position_part(report)
     for kind in RATES:
@@ -66,8 +75,6 @@ def _nodes(report: Report) -> Iterator[Node]:
             yield from train_chapter(report, part.problem)
         elif isinstance(part.problem, MeshingProblem):
             yield from meshing_chapter(report, part.problem)
-    yield from conclusion(report)
-    yield from back(report)
 
 
 def _tied(node: Node, tie: re.Pattern[str]) -> Node:

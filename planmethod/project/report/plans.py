@@ -55,10 +55,10 @@ class PlanChapter:
             str(said["scale"][kind]).format(position=position, scale=scale),
             told if fixed else said.bare_pole.format(pole=pole),
         )
+        yield from self._figures()
         sections = [s for s in self.report.one.construction.sections if s.kind is self.kind]
         for section in sections:
             yield from self._section(section)
-        yield from self._figures()
 
     def _section(self, section: Section) -> Iterator[Node]:
         said, drive = self.said, self.report.one.problem.drive
@@ -354,7 +354,12 @@ class PlanChapter:
         if not knots:
             return
         views = [view_name(knot, words) for knot in knots]
-        yield Paragraph(self.said.enlarged_note.format(views=self.report.listed(views)))
+        keys = [f"{kind.value}_{number}" for number in range(len(views))]
+        told = [
+            self.said.enlarged_at.format(view=view, key=key)
+            for view, key in zip(views, keys, strict=True)
+        ]
+        yield Paragraph(self.said.enlarged_note.format(views=self.report.listed(told)))
         for number, view in enumerate(views):
 
             def enlarged(letter: float, number: int = number) -> Block:
@@ -363,8 +368,8 @@ class PlanChapter:
 
             yield figure(
                 enlarged,
-                self.said.enlarged.format(view=view),
-                f"{kind.value} {number}",
+                str(self.said["enlarged"][kind.value]).format(view=view),
+                keys[number],
                 height=80.0,
                 grows=False,
             )

@@ -30,6 +30,8 @@ def position_part(report: Report) -> Iterator[Node]:
     if report.is_series:
         yield from _series(report, said)
     yield from _building(report, said)
+    if report.is_series:
+        yield _shown(report, said)
     if report.every.problem.cycle is not None and report.every.problem.drive.is_crank:
         yield from _extremes(report, said)
 
@@ -85,8 +87,13 @@ def _series(report: Report, said: Words) -> Iterator[Node]:
     else:
         places = ", ".join(report.place_of(k) for k in range(count))
         yield sentences(said.turned.format(count=count, positions=places))
-    indices = tuple(range(count))
-    yield figure(
+
+
+def _shown(report: Report, said: Words) -> Node:
+    """Return the picture of all positions."""
+    every = report.every
+    indices = tuple(range(len(every.positions)))
+    return figure(
         lambda letter: series_picture(
             every, report.project.calculated, indices, letter_height=letter
         ),

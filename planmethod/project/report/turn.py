@@ -38,11 +38,14 @@ def diagrams_part(report: Report) -> Iterator[Node]:
     output, drive = turn.output, report.every.problem.drive
     symbol, of = output_symbol(output), output_name(output)
     yield Part(said.part.format())
+    shown = said["whose"][output.unit].format(name=of)
     yield sentences(
+        said.shown.format(of=shown),
         str(said["path"][output.unit]).format(symbol=symbol, of=of),
         said.axes.format(length=_mm(report, task.length), count=diagrams.count),
     )
-    yield displayed(_axis(report))
+    for text in _axis(report):
+        yield displayed(text)
     scales = diagram_scales(diagrams, words)[:3]
     yield sentences(
         said.ordinates.format(scale=scales[0]),
@@ -53,7 +56,6 @@ def diagrams_part(report: Report) -> Iterator[Node]:
         yield displayed(text)
     if drive.acceleration:
         yield sentences(said.even.format(link=drive.link))
-    shown = report.said["turn"]["whose"][output.unit].format(name=of)
     yield figure(
         lambda letter: kinematic_picture(diagrams, letter, say),
         said.figure.format(of=shown, scales="; ".join(scales)),
@@ -73,19 +75,20 @@ def _mm(report: Report, value: float) -> Rich:
     return with_unit(report.say.given(value), report.unit("mm"))
 
 
-def _axis(report: Report) -> Rich:
-    """Return the scale of the angles and that of time, with numbers."""
+def _axis(report: Report) -> Iterator[Rich]:
+    """Yield the scale of the angles and that of time, with numbers."""
     diagrams, say = diagrams_of(report.every), report.say
     length, rate = say.given(diagrams.task.length), abs(report.every.problem.drive.rate)
     rad, mm, s = (report.unit(name) for name in ("rad", "mm", "s"))
     angle = f"μ_{{φ}} = {fraction('2π', length)} = {say.found(diagrams.mu_phi)} {rad}/{mm}"
+    yield f"{angle}{',' if rate else '.'}"
     if not rate:
-        return f"{angle}."
+        return
     omega = f"ω_{{{report.every.problem.drive.link}}}"
     phi, speed = say.found(diagrams.mu_phi), say.found(rate)
     time = say.found(diagrams.mu_phi / rate)
     sides = f"{fraction('μ_{φ}', omega)} = {fraction(phi, speed)}"
-    return f"{angle},  μ_{{t}} = {sides} = {time} {s}/{mm}."
+    yield f"μ_{{t}} = {sides} = {time} {s}/{mm}."
 
 
 def _derived(report: Report) -> Iterator[Rich]:
@@ -119,7 +122,7 @@ def _hodographs(report: Report, said: Words) -> Iterator[Node]:
     yield sentences(said.hodograph_text.format(of=point))
     for kind, one in made.items():
         caption = str(said["hodograph"][kind.value]).format(of=point)
-        yield figure(one.picture, caption, f"hodograph_{kind.value}", height=110.0)
+        yield figure(one.picture, caption, f"hodograph_{kind.value}", height=75.0)
 
 
 def transfer_chapter(report: Report) -> Iterator[Node]:
