@@ -131,6 +131,12 @@ class Report:
         """Return a length that is measured on paper, with its unit."""
         return with_unit(self.say.ruled(value), self.unit("mm"))
 
+    def parts(self, count: int) -> Rich:
+        """Return so many equal parts, as the language counts them."""
+        last, teens = count % 10, 10 < count % 100 < 20
+        form = "many" if teens or not 0 < last < 5 else "one" if last == 1 else "few"
+        return str(self.said["counts"]["parts"][form]).format(count=count)
+
     def listed(self, parts: Sequence[Rich]) -> Rich:
         """Return a list in a sentence: ``a, b и c``."""
         *first, last = parts

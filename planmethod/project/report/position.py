@@ -75,13 +75,16 @@ def _series(report: Report, said: Words) -> Iterator[Node]:
         zero = str(said["zeros"]["extreme" if named else "given"])
         crank = problem.bodies[problem.drive.link]
         pin = next((p for p in crank.points if p not in problem.bodies[FRAME].points), "")
-        note = report.words.note
+        note, turns = report.words.note, problem.turns
+        against = turn.is_against
         yield sentences(
             said.divided.format(
                 zero=zero.format(symbol=report.coordinate, value=report.place_of(0)),
                 pin=pin,
-                count=count,
+                parts=report.parts(count // turns),
+                way=said["turning"]["against" if against else "along"],
                 sense=note.cw if turn.sense < 0 else note.ccw,
+                turns=said.twice.format(count=count) if turns > 1 else "",
             )
         )
     else:

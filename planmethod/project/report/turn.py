@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from math import pi
 
 from planmethod.note.document import Chapter, Node, Part, Table
 from planmethod.note.formula import Rich, fraction
@@ -18,7 +19,7 @@ from planmethod.project.report.figures import figure
 from planmethod.render.pictures.kinematic import kinematic_picture
 from planmethod.render.sheets.turn import hodograph
 from planmethod.solved.turn.diagrams import diagrams_of
-from planmethod.solved.turn.turn import turn_of
+from planmethod.solved.turn.turn import TURN, turn_of
 
 SIDE = 100.0
 """Side of the square that a hodograph fills, mm."""
@@ -42,7 +43,13 @@ def diagrams_part(report: Report) -> Iterator[Node]:
     yield sentences(
         said.shown.format(of=shown),
         str(said["path"][output.unit]).format(symbol=symbol, of=of),
-        said.axes.format(length=_mm(report, task.length), count=diagrams.count),
+        said.axes.format(
+            whole=str(said["whole"]["turn" if turn.way == TURN else "cycle"]).format(
+                way=report.degrees(turn.way)
+            ),
+            length=_mm(report, task.length),
+            parts=report.parts(diagrams.count),
+        ),
     )
     for text in _axis(report):
         yield displayed(text)
@@ -80,7 +87,9 @@ def _axis(report: Report) -> Iterator[Rich]:
     diagrams, say = diagrams_of(report.every), report.say
     length, rate = say.given(diagrams.task.length), abs(report.every.problem.drive.rate)
     rad, mm, s = (report.unit(name) for name in ("rad", "mm", "s"))
-    angle = f"μ_{{φ}} = {fraction('2π', length)} = {say.found(diagrams.mu_phi)} {rad}/{mm}"
+    turns = diagrams.turn.way / TURN
+    way = f"{round(2 * turns)}π" if turns == round(turns) else say.found(2 * pi * turns)
+    angle = f"μ_{{φ}} = {fraction(way, length)} = {say.found(diagrams.mu_phi)} {rad}/{mm}"
     yield f"{angle}{',' if rate else '.'}"
     if not rate:
         return
