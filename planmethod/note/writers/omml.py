@@ -9,15 +9,14 @@ stands at a letter without width, for the same reason.
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterable, Iterator, Sequence
 from typing import Any, TypeAlias, assert_never
 
 from lxml.builder import ElementMaker
-from msgspec import Struct
 
 from planmethod.note.document import Equation, Term
 from planmethod.note.formula import Bar, Fraction, Index, Letters, Node, Root, parse
+from planmethod.note.writers.tokens import PAIRS, Token, closing, tokens_of
 
 MATH = "http://schemas.openxmlformats.org/officeDocument/2006/math"
 WORD = "http://schemas.openxmlformats.org/wordprocessingml/2006/main"
@@ -30,32 +29,7 @@ M = ElementMaker(namespace=MATH, nsmap={"m": MATH, "w": WORD})
 W = ElementMaker(namespace=WORD, nsmap={"m": MATH, "w": WORD})
 _SPACE = "{http://www.w3.org/XML/1998/namespace}space"
 
-_GREEK = "\u0370-\u03ff"
-_NAMES = "sin|cos|tg|ctg|arcsin|arccos|arctg|tan|arctan|inv|const|max|min|log|ln|exp"
-_TOKENS = re.compile(
-    r"(?P<brackets>[()\[\]|])"
-    r"|(?P<number>\d+(?:[.,]\d+)*)"
-    r"|(?P<unit>(?<=[\d)][ \u00a0])[A-Za-z]+(?:[/·][A-Za-z]+)*)"
-    rf"|(?P<name>(?:{_NAMES})(?![A-Za-z]))"
-    rf"|(?P<letters>[A-Za-z{_GREEK}]+)"
-    r"|(?P<sign>[ \u00a0]*[=+−±·×/<>≤≥≈≠≡→-][ \u00a0]*)"
-    r"|(?P<blank>[ \u00a0]+)"
-    r"|(?P<text>[\u0400-\u04ff]+(?:[-./·][\u0400-\u04ff]+)*|.)",
-    re.DOTALL,
-)
-_PAIRS = {"(": ")", "[": "]", "|": "|"}
 _UNARY = "+−-±"
-_KEYWORDS = frozenset({"in", "ni", "or", "pi", "mu", "nu", "xi", "Pi", "Xi", "ge", "le", "gt", "lt",
-                       "ll", "gg", "ne", "im", "re", "Im", "Re", "to", "rm", "it", "bf", "sum",
-                       "lim", "int", "and", "neg", "dot", "hat", "bar", "vec", "div", "sub", "sup",
-                       "abs", "rho", "eta", "tau", "phi", "chi", "psi"})  # fmt: skip
-"""Letters in a row that the formula editor of LibreOffice takes for a command of its own."""
-
-
-class _Token(Struct, frozen=True):
-    kind: str
-    text: str = ""
-    node: Node | None = None
 
 
 # Formulas -----------------------------------------------------------------------------------------
@@ -73,35 +47,31 @@ def paragraph(*formulas: Element, side: str = "center") -> Element:
 
 def elements(nodes: Iterable[Node]) -> list[Element]:
     """Return what stands in an equation, in order."""
-    return _sequence(list(_tokens(nodes)))
+    return _sequence(list(tokens_of(nodes)))
 
 
-def _tokens(nodes: Iterable[Node]) -> Iterator[_Token]:
-    for node in nodes:
-        if isinstance(node, Letters):
-            for found in _TOKENS.finditer(node.text):
-                kind = str(found.lastgroup)
-                if kind == "letters" and found[0] in _KEYWORDS:
-                    yield from (_Token(kind, letter) for letter in found[0])
-                else:
-                    yield _Token(kind, found[0])
-        else:
-            yield _Token("node", node=node)
-
-
-def _sequence(tokens: Sequence[_Token]) -> list[Element]:
+def _sequence(tokens: Sequence[Token]) -> list[Element]:
     found: list[Element] = []
     operand, k = False, 0
     while k < len(tokens):
         token, kind = tokens[k], tokens[k].kind
         k += 1
         if kind == "brackets":
-            end = _closing(tokens, k - 1)
+            end = closing(tokens, k - 1)
             if end is None:
                 found.append(_text(token.text))
             else:
-                found.append(_brackets(token.text, _sequence(tokens[k:end])))
+                inside = _sequence(tokens[k:end])
                 k = end + 1
+                if (
+                    token.text == "|"
+                    or _is_tall(inside)
+                    or (k < len(tokens) and isinstance(tokens[k].node, Index))
+                ):
+                    inside = inside or [_text(NOTHING)]
+                    found.append(delimited(token.text, PAIRS[token.text], inside))
+                else:
+                    found += [_run(token.text, "p"), *inside, _run(PAIRS[token.text], "p")]
             operand = True
         elif kind == "sign":
             has_next = k < len(tokens) and tokens[k].kind != "sign"
@@ -130,24 +100,6 @@ def _sequence(tokens: Sequence[_Token]) -> list[Element]:
             found.append(_run(token.text, style) if style else _text(token.text))
             operand = True
     return found
-
-
-def _closing(tokens: Sequence[_Token], start: int) -> int | None:
-    """Return where the bracket at ``start`` is closed."""
-    opened, depth = tokens[start].text, 0
-    closed = _PAIRS.get(opened)
-    if closed is None:
-        return None
-    for k in range(start + 1, len(tokens)):
-        if tokens[k].kind != "brackets":
-            continue
-        if tokens[k].text == closed:
-            if not depth:
-                return k
-            depth -= 1
-        elif tokens[k].text == opened:
-            depth += 1
-    return None
 
 
 def _element(node: Node) -> Element:
@@ -189,8 +141,12 @@ def bar(body: Sequence[Element], place: str) -> Element:
     return M.bar(M.barPr(M.pos({f"{{{MATH}}}val": place})), M.e(*body))
 
 
-def _brackets(opened: str, inside: Sequence[Element]) -> Element:
-    return delimited(opened, _PAIRS[opened], inside or [_text(NOTHING)])
+def _is_tall(inside: Sequence[Element]) -> bool:
+    """Tell whether something is higher than brackets of one line; bars are always delimiters."""
+    return not inside or any(
+        element.tag == f"{{{MATH}}}f" or element.find(f".//{{{MATH}}}f") is not None
+        for element in inside
+    )
 
 
 def delimited(opened: str, closed: str, inside: Sequence[Element]) -> Element:
@@ -241,7 +197,8 @@ def _sum(terms: Sequence[Term]) -> Iterator[Element]:
             body = [bar(body, "bot")]
         if term.direction:
             below = elements(parse(term.direction))
-            body = [M.limLow(M.e(*body), M.lim(*below))]
+            # Without delimiters LibreOffice draws the lines below the direction, too.
+            body = [M.limLow(M.e(delimited("", "", body)), M.lim(*below))]
         yield from body
 
 

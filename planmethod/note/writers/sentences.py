@@ -98,6 +98,14 @@ def pieces(nodes: Iterable[Node], units: frozenset[str]) -> list[Piece]:
     ]
 
 
+def formula_alone(found: Sequence[Piece]) -> tuple[Node, ...]:
+    """Return the formula of a line that has nothing else but a stop; none of another line."""
+    ending = found[1].text.strip() if len(found) == 2 else ""
+    if found and found[0].is_formula and (len(found) == 1 or ending in (".", ",", ";")):
+        return (*found[0].nodes, *((Letters(ending),) if ending else ()))
+    return ()
+
+
 def with_levels(nodes: Iterable[Node]) -> Iterator[Node]:
     """Yield the nodes with indices for letters that are raised or lowered themselves: ``м/с²``."""
     for node in nodes:

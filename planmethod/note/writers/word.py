@@ -39,7 +39,7 @@ from planmethod.note.wording import Language
 from planmethod.note.writers import omml
 from planmethod.note.writers.broken import chain_of, ems, lines_of
 from planmethod.note.writers.html import clean
-from planmethod.note.writers.sentences import pieces, units_of, with_levels
+from planmethod.note.writers.sentences import formula_alone, pieces, units_of, with_levels
 from planmethod.note.writers.wordframe import Frame, field_part, put_field, small_paragraph
 
 FONT = "Times New Roman"
@@ -288,13 +288,8 @@ class _Writer:
         self._step += not continues
         for k, line in enumerate(lines):
             found = pieces(parse(clean(line)), self._units)
-            ending = found[1].text.strip() if len(found) == 2 else ""
-            alone = found[0].is_formula and (len(found) == 1 or ending in (".", ",", ";"))
-            if alone and k:
-                *before, last = self._lines(found[0].nodes)
-                rows = [omml.equation(row) for row in before]
-                rows.append(omml.equation((*last, *(found[1].nodes if ending else ()))))
-                self._displayed(rows, "")
+            if k and (formula := formula_alone(found)):
+                self._displayed([omml.equation(row) for row in self._lines(formula)], "")
             elif k or continues:
                 self._text(line, "Normal")
             else:
@@ -589,6 +584,7 @@ class _Styles:
         self._made("Table Name", 1.0, 0.0, left, keep=True, around=3.0)
         self._made("Table Text", 1.0, 0.0, left, size=TABLE_SIZE)
         self._made("Small Table", 1.0, 0.0, left, size=LEAST_SIZE)
+        self._made("Title Block", 1.0, 0.0, middle, size=8.0)
         self._made("Page Number Line", 1.0, 0.0, middle, size=TABLE_SIZE)
         for level in (1, 2, 3):
             style = self._made(f"TOC {level}", 1.25, 0.0, left)

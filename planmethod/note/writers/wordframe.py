@@ -193,10 +193,13 @@ def _table(footer: Any, widths: tuple[float, ...], heights: tuple[float, ...]) -
         margin.set(qn("w:type"), "dxa")
         margins.append(margin)
     properties.append(margins)
+    for column, width in zip(table.columns, widths, strict=True):
+        column.width = Mm(width)
     for row, height in zip(table.rows, heights, strict=True):
         row.height, row.height_rule = Mm(height), WD_ROW_HEIGHT_RULE.EXACTLY
         for cell, width in zip(row.cells, widths, strict=True):
             cell.width = Mm(width)
+            cell.paragraphs[0].style = "Title Block"
             small_paragraph(cell.paragraphs[0])
     small_paragraph(footer.add_paragraph())
     return table
