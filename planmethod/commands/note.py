@@ -6,7 +6,7 @@ from pathlib import Path
 
 import click
 
-from planmethod.commands.asked import Asked, sheet_options
+from planmethod.commands.asked import PaperRequest, sheet_options
 from planmethod.commands.decided import decided
 from planmethod.commands.helptext import Spoken
 from planmethod.commands.problems import guarded, stem
@@ -47,7 +47,7 @@ def note(
     position: int | None,
     formats: tuple[str, ...],
     out: Path,
-    asked: Asked,
+    asked: PaperRequest,
 ) -> None:
     """Write the explanatory note of a project, or of one homework, for Word and as PDF."""
     from planmethod.project.notes import note_files

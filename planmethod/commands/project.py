@@ -11,7 +11,7 @@ import click
 import msgspec
 from msgspec import Struct
 
-from planmethod.commands.asked import Asked, sheet_options
+from planmethod.commands.asked import PaperRequest, sheet_options
 from planmethod.commands.decided import decided
 from planmethod.commands.helptext import Spoken
 from planmethod.commands.output import bar, json_text
@@ -40,14 +40,14 @@ NUMBERS = "numbers.xlsx"
 WHOLE = "project.pdf"
 
 
-class Made(Struct, frozen=True):
+class MadePart(Struct, frozen=True):
     """Files of one task of the work, and its sheets."""
 
     files: Files
     drawings: tuple[Drawing, ...] = ()
 
 
-class Written(Struct, frozen=True):
+class SheetFormats(Struct, frozen=True):
     """How sheets are written: formats, author, resolution."""
 
     formats: tuple[str, ...]
@@ -95,7 +95,7 @@ def project(
     formats: tuple[str, ...],
     out: Path,
     as_json: bool,
-    asked: Asked,
+    asked: PaperRequest,
     dxf_text: Literal["text", "strokes"],
     jobs: int,
 ) -> None:
@@ -111,7 +111,7 @@ def project(
     settled = asked.settle()
     chosen = decided(problem, variant, position, settled)
     wanted = _wanted(chosen, parts)
-    written = Written(formats, settled.author(chosen.problem), dxf_text)
+    written = SheetFormats(formats, settled.author(chosen.problem), dxf_text)
     made, files = _made(chosen, wanted, settled.fields, written, jobs)
     name = stem(chosen.problem)
     record = project_record(chosen, made, name)
@@ -152,7 +152,7 @@ def _made(
     chosen: Project,
     wanted: Sequence[str],
     fields: Mapping[str, str],
-    written: Written,
+    written: SheetFormats,
     jobs: int,
 ) -> tuple[list[PartFiles], Files]:
     """Make the parts, and return their files and all files by name.
@@ -172,7 +172,7 @@ def _made(
     whole = set(sheets) <= set(wanted) and "pdf" in written.formats
     shown = [name for name in sheets if name in wanted]
     with bar(len(sheets) + len(texts) + len(shown) + whole, long=True) as done:
-        drawn: dict[str, Made] = {}
+        drawn: dict[str, MadePart] = {}
         for name, one in _shared(
             partial(draw, project=chosen, fields=fields), [*sheets, *texts], jobs
         ):
@@ -195,36 +195,38 @@ def _made(
     return named, files
 
 
-def draw(task: str, *, project: Project, fields: Mapping[str, str]) -> tuple[str, Made]:
+def draw(task: str, *, project: Project, fields: Mapping[str, str]) -> tuple[str, MadePart]:
     """Draw the sheets of a part, or make the note or the numbers."""
     from planmethod.project.sheets import part_drawings
 
     if task == NUMBERS:
         from planmethod.project.numbers import numbers_workbook
 
-        return task, Made({NUMBERS: numbers_workbook(project)})
+        return task, MadePart({NUMBERS: numbers_workbook(project)})
     if task == "note":
         from planmethod.project.notes import note_files
 
-        return task, Made(note_files(project, "note"))
+        return task, MadePart(note_files(project, "note"))
     part: ProjectPart = next(part for part in project.parts if part.name.value == task)
-    return task, Made({}, tuple(part_drawings(project, part, fields)))
+    return task, MadePart({}, tuple(part_drawings(project, part, fields)))
 
 
-def render(task: tuple[str, str, tuple[Drawing, ...]], *, written: Written) -> tuple[str, Made]:
+def render(
+    task: tuple[str, str, tuple[Drawing, ...]], *, written: SheetFormats
+) -> tuple[str, MadePart]:
     """Write the sheets of a part in all formats; all sheets together as one PDF."""
     from planmethod.commands.output import drawing_files
 
     name, stem, drawings = task
     formats = ("pdf",) if name == WHOLE else written.formats
-    return name, Made(
+    return name, MadePart(
         drawing_files(drawings, stem, formats, author=written.author, dxf_text=written.dxf_text)
     )
 
 
 def _shared(
-    act: Callable[[Any], tuple[str, Made]], tasks: Sequence[Any], jobs: int
-) -> Iterator[tuple[str, Made]]:
+    act: Callable[[Any], tuple[str, MadePart]], tasks: Sequence[Any], jobs: int
+) -> Iterator[tuple[str, MadePart]]:
     """Yield what comes of every task, done in so many processes; a failure names its part."""
     from planmethod.commands.processes import in_processes
 

@@ -6,11 +6,11 @@ from typing import TYPE_CHECKING, assert_never
 
 from planmethod.note.formula import (
     SPECIAL,
-    Bar,
     Fraction,
     Index,
     Letters,
     Node,
+    Overline,
     Root,
     inline,
     parse,
@@ -42,7 +42,7 @@ def _plain(node: Node) -> str:
             lowered = "".join(_SUB[c] for c in low) if set(low) <= set(_SUB) else f"_{low}"
             raised = "".join(_SUPER.get(c, c) for c in "".join(map(_plain, above)))
             return lowered + raised if is_power else raised + lowered
-        case Bar(body):
+        case Overline(body):
             return "".join(map(_plain, body))
         case Fraction() | Root():
             raise AssertionError  # the formula is in one line

@@ -89,9 +89,7 @@ def read_cycle(
     return None if len(faults) > before else CycleTask(**found)
 
 
-def _check_working(
-    faults: Faults, found: Mapping[str, Any], slides: Mapping[str, Slide]
-) -> None:
+def _check_working(faults: Faults, found: Mapping[str, Any], slides: Mapping[str, Slide]) -> None:
     """Refuse a sense of turning of an output that slides."""
     sense, output = found.get("working"), found.get("output")
     slides_on = output in slides or any(slide.pin == output for slide in slides.values())

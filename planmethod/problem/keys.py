@@ -39,7 +39,7 @@ TOP = (
     "sheet", "published", "answers", "compare", "variants", "dynamics", "loads", "machine",
     "balancing", "gears", "point", "cycle", "meshing", "project",
 )  # fmt: skip
-FRAME = ("guides",)
+FRAME = ("guides", "number")
 GUIDE = ("through", "angle")
 LINK = ("points", "slides", "angle")
 SLIDES = ("on", "along", "through", "angle", "offset", "length", "centre", "radius")

@@ -12,10 +12,11 @@ from math import inf
 from typing import TYPE_CHECKING, Annotated, Any
 
 from msgspec import Struct, field
+from msgspec.structs import replace
 
 from planmethod.languages import say
 from planmethod.mechanism.model import FRAME, Mechanism
-from planmethod.problem.declared import NumberKey, OwnKey, WholeKey, WordKey
+from planmethod.problem.declared import FlagKey, NumberKey, OwnKey, WholeKey, WordKey
 from planmethod.problem.head import KindProblem
 from planmethod.problem.load_records import TurningSense
 from planmethod.problem.names import told_length
@@ -345,22 +346,24 @@ class Differentiation(Enum):
 
 
 class PoleDistances(Struct, frozen=True):
-    """Pole distances of both differentiations (полюсные расстояния)."""
+    """Pole distances of both differentiations (полюсные расстояния); None where scales set them."""
 
     v: Annotated[
-        float,
+        float | None,
         NumberKey(
-            "of the first differentiation", "a length", "mm", 1.0, 500.0, positive=True,
-            hint=DIAGRAM_HINT,
+            "of the first differentiation; the scale of the velocity follows from it then",
+            "a length", "mm", 1.0, 500.0, positive=True, hint=DIAGRAM_HINT,
+            absent="from round scales",
         ),
-    ] = 36.0  # fmt: skip
+    ] = None  # fmt: skip
     a: Annotated[
-        float,
+        float | None,
         NumberKey(
-            "of the second differentiation", "a length", "mm", 1.0, 500.0, positive=True,
-            hint=DIAGRAM_HINT,
+            "of the second differentiation; the scale of the acceleration follows from it then",
+            "a length", "mm", 1.0, 500.0, positive=True, hint=DIAGRAM_HINT,
+            absent="from round scales",
         ),
-    ] = 36.0  # fmt: skip
+    ] = None  # fmt: skip
 
 
 class CycleTask(Struct, frozen=True):
@@ -376,8 +379,8 @@ class CycleTask(Struct, frozen=True):
     zero: Annotated[
         Zero | float,
         OwnKey(
-            'position zero: `"extreme"` (the default), `"other extreme"`, `"working"`, or the angle '
-            "of the crank, degrees; `phi_0` of `[machine]` where that stands alone"
+            'position zero: `"extreme"` (the default), `"other extreme"`, `"working"`, or the '
+            "angle of the crank, degrees; `phi_0` of `[machine]` where that stands alone"
         ),
     ] = Zero.EXTREME
     direction: Annotated[
@@ -403,15 +406,18 @@ class CycleTask(Struct, frozen=True):
         ),
     ] = None
     length: Annotated[
-        float,
+        float | None,
         NumberKey(
-            "of the axis of φ for the cycle", "a length", "mm", 20.0, 2000.0, positive=True,
-            hint=DIAGRAM_HINT,
+            "of the axis of φ for the cycle; the scale of φ follows from it then", "a length", "mm",
+            20.0, 2000.0, positive=True, hint=DIAGRAM_HINT, absent="from a round scale",
         ),
-    ] = 288.0  # fmt: skip
+    ] = None  # fmt: skip
     pole: Annotated[
         PoleDistances,
-        OwnKey("pole distances of both differentiations: `{ v = 36, a = 36 }`, mm"),
+        OwnKey(
+            "pole distances of both differentiations: `{ v = 36, a = 36 }`, mm; from round scales "
+            "when absent"
+        ),
     ] = PoleDistances()
     differentiation: Annotated[
         Differentiation,
@@ -472,7 +478,8 @@ class Scales(Struct, frozen=True):
     """Scales asked for in the file; None where the program chooses.
 
     ``mu_l, mu_v, mu_a, mu_F`` are always stored as unit per millimetre, whichever convention the
-    file and the sheet use.
+    file and the sheet use. Where they are ``decided``, for all that is handed in, no sheet leaves
+    them: it takes larger paper, or more sheets.
     """
 
     convention: Annotated[
@@ -499,6 +506,20 @@ class Scales(Struct, frozen=True):
             "a scale", low=1e-12, high=1e12, positive=True,
         ),
     ] = None  # fmt: skip
+
+    own: Annotated[
+        bool,
+        FlagKey(
+            "plans of several positions have scales of their own, each to fill its room; else one "
+            "scale holds for all plans of a kind"
+        ),
+    ] = False
+    decided: bool = False
+
+    @property
+    def freed(self) -> Scales:
+        """Those without the scales of the plans, which may be too fine for other positions."""
+        return self if self.decided else replace(self, mu_v=None, mu_a=None)
 
     @property
     def in_mm_per_unit(self) -> bool:

@@ -266,6 +266,11 @@ def _read_parts(
         and all(link.whole for link in links.values())
     )
     mechanism = join(faults, frame, links, hosts, driver, complete=complete) if links else None
+    if frame.number in links:
+        hint = "The frame has a number of its own: 0, or one that no link has."
+        faults.add("frame.number", say("link {} has the same number", frame.number), hint)
+    elif mechanism is not None:
+        mechanism = replace(mechanism, frame=frame.number)
     if len(drivers) > 1:
         _refuse_drivers(faults, drivers, mechanism if complete else None)
     moving = [p for link in links.values() for p in link.points if p not in frame.points]

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+from functools import partial
 from typing import Any
 
 from msgspec.structs import replace
 
 from planmethod.errors import LayoutError
 from planmethod.languages import LANGUAGES
-from planmethod.note.wording import Language, language
+from planmethod.note.wording import language
 from planmethod.problem.model import Problem
 from planmethod.render.ink.drawing import Drawing
 from planmethod.render.sheets.composition.reader import composition
@@ -31,13 +32,20 @@ FURTHER = (
 """Kinds of blocks that the second of two sheets has."""
 
 
+WIDER = 1.5
+"""How many times larger the views are where plans and diagrams have a sheet each."""
+
+FEW = 6
+"""Most positions whose plans, diagrams and tables are tried on one sheet."""
+
+
 def first_sheet(problem: Problem, **more: Any) -> list[Drawing]:
     """Return sheet 1 of a project, on two sheets where one has no room.
 
     Parameters
     ----------
     problem : Problem
-        In the positions of the project.
+        Settled: the scales are those of `plans_alone`.
     more
         Taken by `kinematics_sheets`.
 
@@ -49,17 +57,38 @@ def first_sheet(problem: Problem, **more: Any) -> list[Drawing]:
     positions = problem.drive.positions
     if problem.cycle is None:
         return kinematics_sheets(problem, positions=positions, **more)
+    made, paper = _composition(problem), problem.sheet.paper or PAPER
+    draw = partial(kinematics_sheets, problem, paper=paper, positions=positions, **more)
+    if len(positions) <= FEW:
+        try:
+            return draw(layout=made)
+        except LayoutError:
+            pass
     words = language(problem.sheet.lang or LANGUAGES[0])
-    made, paper = composition(SEVERAL, words.lang), problem.sheet.paper or PAPER
-    try:
-        return kinematics_sheets(problem, layout=made, paper=paper, positions=positions, **more)
-    except LayoutError:
-        two = _on_two(made, words)
-        return kinematics_sheets(problem, layout=two, paper=paper, positions=positions, **more)
-
-
-def _on_two(made: Composition, words: Language) -> Composition:
-    """Return a composition with diagrams and tables on a sheet of their own."""
     blocks = (replace(e, sheet=2) if e.kind in FURTHER else e for e in made.blocks)
     titles = {**made.titles, 2: words.project["titles"]["diagrams"]}
-    return replace(made, blocks=tuple(blocks), titles=titles)
+    return draw(layout=replace(made, blocks=tuple(blocks), titles=titles))
+
+
+def plans_alone(problem: Problem) -> list[Drawing]:
+    """Return what sheet 1 has of scheme and plans: its scales are those of the project.
+
+    Raises
+    ------
+    LayoutError
+    """
+    positions = problem.drive.positions
+    if problem.cycle is None:
+        return kinematics_sheets(problem, positions=positions)
+    made, paper = _composition(problem), problem.sheet.paper or PAPER
+    some = tuple(entry for entry in made.blocks if entry.kind not in FURTHER)
+    return kinematics_sheets(
+        problem, layout=replace(made, blocks=some), paper=paper, positions=positions
+    )
+
+
+def _composition(problem: Problem) -> Composition:
+    """Return the composition of sheet 1, its views as large as a sheet of plans alone bears."""
+    made = composition(SEVERAL, problem.sheet.lang or LANGUAGES[0])
+    sizes = {paper: own.with_boxes(WIDER) for paper, own in made.sizes.items()}
+    return replace(made, sizes=sizes)

@@ -8,7 +8,7 @@ from typing import Any
 
 from msgspec import Struct
 
-from planmethod.kind import Kind
+from planmethod.kind import ProblemKind
 from planmethod.problem.head import KindProblem
 from planmethod.problem.model import Problem, Scales
 from planmethod.solved.solution import Solution
@@ -34,13 +34,13 @@ class ProjectPart(Struct, frozen=True):
     name : PartName
     problem : KindProblem
         What it is drawn and told of: the settled linkage, the train, the meshing.
-    kind : Kind or None
+    kind : ProblemKind or None
         Kind of the problem; None for the linkage.
     """
 
     name: PartName
     problem: KindProblem
-    kind: Kind[Any] | None = None
+    kind: ProblemKind[Any] | None = None
 
 
 class Project(Struct, frozen=True, dict=True):

@@ -17,14 +17,14 @@ from planmethod.errors import Fault, ProblemError
 from planmethod.kinds import KINDS
 from planmethod.languages import LANGUAGES, say
 from planmethod.problem.load_records import TurningSense
-from planmethod.problem.model import SAME_DEG, CycleTask, Problem, ProjectTask, Scales
+from planmethod.problem.model import SAME_DEG, CycleTask, Problem, ProjectTask
 from planmethod.project.decided import (
     clear_position,
     drawn_scales,
     force_scale,
     loaded_positions,
 )
-from planmethod.project.first import first_sheet
+from planmethod.project.first import plans_alone
 from planmethod.project.model import PartName, Project, ProjectPart
 from planmethod.render.frame.titleblock import merged
 from planmethod.solved.forces.loads import only_in_positions
@@ -60,15 +60,22 @@ def settle(problem: Problem, path: Path | None = None) -> Project:
     calculated = _calculated(problem, Solution(problem), asked)
     task = replace(problem.project or ProjectTask(), calculated=calculated)
     problem = replace(problem, calculated=calculated, project=task)
-    scales = _scales(problem)
+    scales = problem.scales
+    if None in (scales.mu_l, scales.mu_v, scales.mu_a):
+        found: dict[str, Any] = dict(drawn_scales(plans_alone(problem), scales))
+        scales = replace(scales, **found)
     problem = replace(problem, scales=scales)
+    if problem.dynamics is not None:
+        loaded = Solution(problem, positions=[problem.drive.positions[calculated]])
+        scales = replace(scales, mu_F=force_scale(loaded))
+        problem = replace(problem, scales=scales)
     return Project(
         problem=problem,
         positions=problem.drive.positions,
         calculated=calculated,
         strokes=None if problem.cycle is None else strokes_of(Solution(problem)),
         scales=scales,
-        frame="0",
+        frame=problem.mechanism.frame,
         language=problem.sheet.lang or LANGUAGES[0],
         paper=problem.sheet.paper,
         parts=tuple(_parts(problem, path)),
@@ -149,23 +156,6 @@ def _calculated(problem: Problem, solution: Solution, asked: tuple[float, ...]) 
         if count == 1 or min(off) < SAME_DEG:
             return int(np.argmin(off))
     return clear_position(solution, loaded_positions(solution))
-
-
-# Scales ------------------------------------------------------------------------------------------
-
-
-def _scales(problem: Problem) -> Scales:
-    """Return one scale for each kind of plan: those of sheet 1, and of the forces there."""
-    scales: dict[str, Any] = {}
-    if None in (problem.scales.mu_l, problem.scales.mu_v, problem.scales.mu_a):
-        scales = dict(drawn_scales(first_sheet(problem), problem.scales))
-    decided = replace(problem.scales, **scales)
-    if problem.dynamics is None:
-        return decided
-    assert problem.calculated is not None
-    at = [problem.drive.positions[problem.calculated]]
-    loaded = Solution(replace(problem, scales=decided), positions=at)
-    return replace(decided, mu_F=force_scale(loaded))
 
 
 # Parts -------------------------------------------------------------------------------------------

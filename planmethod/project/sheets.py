@@ -40,7 +40,7 @@ def part_drawings(project: Project, part: ProjectPart, fields: Mapping[str, str]
         case PartName.KINEMATICS:
             return first_sheet(problem, fields=fields, furniture=around)
         case PartName.FORCES:
-            drawn = kinematics_sheets(
+            found = kinematics_sheets(
                 problem,
                 layout=_of_position(composition("project-forces", words.lang), project, words),
                 paper=project.paper or PAPER,
@@ -48,10 +48,10 @@ def part_drawings(project: Project, part: ProjectPart, fields: Mapping[str, str]
                 furniture=around,
             )
             if problem.cycle is not None:
-                drawn += kinematics_sheets(
+                found += kinematics_sheets(
                     problem, layout="forces-cycle", fields=fields, furniture=around
                 )
-            return drawn
+            return found
         case PartName.FLYWHEEL:
             machine = problem.machine
             layouts = ["flywheel"]
@@ -67,12 +67,13 @@ def part_drawings(project: Project, part: ProjectPart, fields: Mapping[str, str]
         case PartName.GEARS | PartName.MESHING:
             assert part.kind is not None
             titled = replace(part.problem, title=words.project["titles"][part.name.value])
-            return part.kind.drawings(
+            drawn: list[Drawing] = part.kind.drawings(
                 part.problem if part.problem.title else titled,
                 fields=fields,
                 profile=PROFILES["board"],
                 before=before,
             )
+            return drawn
         case PartName.NOTE:
             return []
         case _:

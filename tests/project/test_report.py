@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from planmethod.kinds import load
 from planmethod.note import document
 from planmethod.note.document import Document, numbers_of
 from planmethod.note.formula import inlined
@@ -19,7 +20,6 @@ from planmethod.note.wording import LANGUAGES, language
 from planmethod.note.writers.plain import plain_document
 from planmethod.plans.legend import QuantityKind
 from planmethod.plans.model import RATES
-from planmethod.problem import load
 from planmethod.project.model import PartName, Project
 from planmethod.project.report import note_document
 from planmethod.project.report.figures import LETTER, WIDTH, FittedView
@@ -27,7 +27,6 @@ from planmethod.project.settle import settle
 from planmethod.render.ink.drawing import Text
 from planmethod.solved.machine.drawing import drawing_of
 from planmethod.solved.machine.flywheel import flywheel_of
-from planmethod.solved.turn.numbering import number
 from tests.worked import ROOT, path_of
 
 FILES = {
@@ -53,7 +52,7 @@ SHAPER = (
 @cache
 def project_of(name: str) -> Project:
     path: Path = FILES[name]
-    return settle(number(load(path)), path)
+    return settle(load(path), path)
 
 
 @cache
@@ -182,8 +181,8 @@ def value_of(side: str) -> float | None:
 def test_the_numbers_of_every_formula_come_to_its_result(name: str) -> None:
     checked = 0
     for node in note_of(name).nodes:
-        if not isinstance(node, document.Formula):
-            continue
+        if not isinstance(node, document.Formula) or " рад/мм" in node.text.replace("\u00a0", " "):
+            continue  # a scale of angles has degrees, and radians after them
         sides = inlined(node.text.rstrip(".,;")).split(" = ")
         values = [value for side in sides if (value := value_of(side)) is not None]
         for one, other in pairwise(values):

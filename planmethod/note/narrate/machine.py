@@ -12,14 +12,14 @@ from planmethod.note import formula
 from planmethod.note.narrate.forces.statement import mass_lines
 from planmethod.note.narrate.given import given
 from planmethod.note.narrate.scales import scale_inscription
-from planmethod.note.numbers import alike
+from planmethod.note.numbers import alike, half_up
 from planmethod.note.wording import Language, Words
 from planmethod.problem.load_records import ConstantMoment, Quadrature, WeightSigns
 from planmethod.problem.model import Convention
 from planmethod.solved.machine.drawing import FlywheelDrawing, split
-from planmethod.solved.machine.flywheel import Extreme, Flywheel
-from planmethod.solved.machine.runup import MOST_CYCLES, NEAR, Course, RunUp, run_up_of
-from planmethod.solved.machine.sizes import Sizes, size_of
+from planmethod.solved.machine.flywheel import Flywheel, SpeedExtreme
+from planmethod.solved.machine.runup import MOST_CYCLES, NEAR, RunUp, TimeCourse, run_up_of
+from planmethod.solved.machine.sizes import FlywheelSizes, size_of
 from planmethod.solved.reading import Reals
 
 _Column: TypeAlias = tuple[str, str, list[str]]
@@ -62,9 +62,13 @@ class MachineTeller:
     def scale(self, letter: str, per_mm: float, unit: str) -> str:
         """Return the inscription of a scale; one that follows from others with four digits."""
         if letter in ("A", "T", "φ"):
-            return f"μ_{{{letter}}} = {self.say.found(per_mm)} {self.unit(unit)}/{self.unit('mm')}"
+            per_mm = float(f"{per_mm:.4g}")
         return scale_inscription(Scale(f"mu_{letter}", per_mm, unit), Convention.UNIT_PER_MM,
                                  self.say)  # fmt: skip
+
+    def _value(self, letter: str, per_mm: float, unit: str) -> str:
+        """Return the value of a scale as it is inscribed."""
+        return self.scale(letter, per_mm, unit).partition(" = ")[2]
 
     # Given and wanted ------------------------------------------------------------------------
 
@@ -117,7 +121,7 @@ class MachineTeller:
             "mu_M": self.scale("M", scales.moment, "N·m"),
             "mu_A": self.scale("A", scales.work, "J"),
             "mu_J": self.scale("J", scales.inertia, "kg·m²"),
-            "pole": f"{self.say.given(machine.pole_mm)} {mm}",
+            "pole": f"{self.say.given(half_up(drawing.pole, 2))} {mm}",
             "way": self.said.by_middle if middle else self.said.by_trapezoid,
             "constant": f"{self.say.found(constant)} {self.unit('N·m')}",
             "psi_max": self._angle(drawing.psi[0]),
@@ -138,16 +142,27 @@ class MachineTeller:
 
     def formulas(self) -> list[str]:
         """Return scales, angles and the flywheel by the construction, with numbers."""
-        drawing, machine, say = self.drawing, self.flywheel.machine, self.say
+        drawing, say = self.drawing, self.say
         scales, mm, omega = drawing.scales, self.unit("mm"), self.letter("mean speed")
-        turn = say.found(self.flywheel.cycle)
-        lines = [
-            f"μ_{{φ}} = {formula.fraction(turn, say.given(machine.turn_mm))} = "
-            + self.scale("φ", scales.phi, "rad").partition(" = ")[2],
-            f"μ_{{A}} = μ_{{T}} = μ_{{M}}·H·μ_{{φ}} = {say.given(scales.moment)}·"
-            f"{say.given(machine.pole_mm)}·{say.found(scales.phi)} = "
-            + self.scale("A", scales.work, "J").partition(" = ")[2],
-        ]
+        turn, pole = degrees(self.flywheel.cycle), say.given(half_up(drawing.pole, 2))
+        angles = [
+            self._value("φ", degrees(scales.phi), "deg"), self._value("φ", scales.phi, "rad"),
+        ]  # fmt: skip
+        axis = formula.fraction(say.given(turn), say.given(half_up(drawing.length, 2)))
+        lines = [" = ".join(["μ_{φ}", axis, *angles])]
+        parts = f"{say.given(scales.moment)}·{{}}{say.found(scales.phi)}"
+        if self.flywheel.machine.pole_mm is None:
+            above, below = say.given(float(f"{scales.work:.4g}")), parts.format("")
+            lines += [
+                f"μ_{{A}} = μ_{{T}} = {self._value('A', scales.work, 'J')}",
+                f"H = {formula.fraction('μ_{A}', 'μ_{M}·μ_{φ}')} = "
+                f"{formula.fraction(above, below)} = {pole} {mm}",
+            ]
+        else:
+            lines.append(
+                f"μ_{{A}} = μ_{{T}} = μ_{{M}}·H·μ_{{φ}} = {parts.format(pole + '·')} = "
+                + self._value("A", scales.work, "J")
+            )
         slopes = self.flywheel.usual_slopes
         for name, slope, psi in zip(("max", "min"), slopes, drawing.psi, strict=True):
             factor = {True: "·(1 + δ)", False: "·(1 − δ)"}[slope > 1.0] if slope != 1.0 else ""
@@ -205,7 +220,7 @@ class MachineTeller:
         )
         return lines
 
-    def _at(self, extreme: Extreme) -> str:
+    def _at(self, extreme: SpeedExtreme) -> str:
         """Return the angle of the crank of an extreme speed."""
         turn = self.flywheel.machine.cycle_deg
         phi = self.flywheel.turn.sense * degrees(extreme.turned) + self.flywheel.turn.start_deg
@@ -217,9 +232,11 @@ class MachineTeller:
         """Return the table by positions: heads, units and cells of its columns, rich text."""
         flywheel, say = self.flywheel, self.say
         rows, turn = flywheel.rows, flywheel.machine.cycle_deg
-        angles = [f"{round(phi % turn, 1) % turn:.1f}" for phi in rows.phi_deg.tolist()]
+        order = np.argsort(flywheel.turn.numbers(flywheel.machine.count)[:-1])
+        angles = [f"{round(phi % turn, 1) % turn:.1f}" for phi in rows.phi_deg[order].tolist()]
 
         def column(head: str, values: Reals, unit: str, digits: int = 4) -> _Column:
+            values = values[order]
             peak = float(np.max(np.abs(values)))
             clean = np.where(np.abs(values) < 1e-9 * peak, 0.0, values)
             told = [say.number(text) for text in alike(clean.tolist(), digits)]
@@ -245,12 +262,12 @@ class MachineTeller:
     # Sizes -----------------------------------------------------------------------------------
 
     @property
-    def sizes(self) -> Sizes | None:
+    def sizes(self) -> FlywheelSizes | None:
         """Sizes of the exact flywheel."""
         flywheel = self.flywheel
         return size_of(flywheel.machine.wheel, flywheel.exact.inertia, flywheel.middle_speed)
 
-    def size_lines(self, sizes: Sizes) -> list[str]:
+    def size_lines(self, sizes: FlywheelSizes) -> list[str]:
         """Return the sizes of a flywheel with numbers."""
         say, metre = self.say, self.unit("m")
         lines = [f"D = {say.found(sizes.diameter)} {metre}"]
@@ -309,7 +326,7 @@ def run_up_lines(tell: MachineTeller) -> list[str]:
     return [*lines, template.format(**places, **_ends(run.stop, tell))]
 
 
-def _ends(course: Course, tell: MachineTeller) -> dict[str, str]:
+def _ends(course: TimeCourse, tell: MachineTeller) -> dict[str, str]:
     turned = float(course.turned[-1])
     return {
         "time": f"{tell.say.found(float(course.time[-1]))} {tell.unit('s')}",
@@ -360,7 +377,7 @@ def _driven(run: RunUp, tell: MachineTeller) -> list[str]:
     return lines
 
 
-def courses(tell: MachineTeller) -> list[tuple[str, Course]]:
+def courses(tell: MachineTeller) -> list[tuple[str, TimeCourse]]:
     """Return what there is of run-up and stop, with its title."""
     run, found = run_up_of(tell.flywheel), []
     if run.machine.motor is not None and run.failure is None:
@@ -370,7 +387,7 @@ def courses(tell: MachineTeller) -> list[tuple[str, Course]]:
     return found
 
 
-def course_columns(course: Course, tell: MachineTeller) -> list[tuple[str, str, list[str]]]:
+def course_columns(course: TimeCourse, tell: MachineTeller) -> list[tuple[str, str, list[str]]]:
     """Return a run-up or a stop by even times: heads, units and cells of its columns."""
     time, turned, omega = course.rows(ROWS)
     columns = (("t", "s", time), ("φ", "deg", turned * 180.0 / pi), ("ω", "1/s", omega))

@@ -4,10 +4,9 @@ from __future__ import annotations
 
 from planmethod.note.narrate.given import point_name
 from planmethod.note.narrate.scales import scale_inscription
-from planmethod.note.numbers import significant, with_unit
+from planmethod.note.numbers import half_up, significant, with_unit
 from planmethod.note.wording import Language
-from planmethod.problem.model import Differentiation
-from planmethod.solved.turn.construction import PRIMES, Construction, Locus
+from planmethod.solved.turn.construction import PRIMES, ExtremesConstruction, Locus
 from planmethod.solved.turn.diagrams import Diagrams
 from planmethod.solved.turn.output import Output
 from planmethod.solved.turn.strokes import LONGER, TOLD
@@ -144,10 +143,16 @@ def diagram_steps(diagrams: Diagrams, words: Language) -> list[str]:
     said, task, say = words.cycle, diagrams.task, words.say
     way = task.differentiation
     return [
-        said.scheme_steps.format(length=say.given(task.length), count=diagrams.count),
-        said["ray_steps"][way.value].format(pole=say.given(task.pole.v)),
-        said.again.format(pole=say.given(task.pole.a)),
-        said.scales.format(scales="; ".join(diagram_scales(diagrams, words))),
+        said.scheme_steps.format(
+            length=say.given(half_up(diagrams.length, 2)), count=diagrams.count
+        ),
+        said["ray_steps"][way.value].format(pole=say.given(half_up(diagrams.poles[0], 2))),
+        said.again.format(pole=say.given(half_up(diagrams.poles[1], 2))),
+        said.scales.format(
+            scales="; ".join(diagram_scales(diagrams, words)),
+            radians=say.given(significant(diagrams.mu_phi, 4)),
+            omega=f"ω_{{{diagrams.turn.solution.problem.drive.link}}}",
+        ),
     ]
 
 
@@ -168,7 +173,7 @@ def acceleration_parts(output: Output) -> tuple[str, str, str]:
     return f"{a}_{{q}}·ω^{{2}}", f"{v}_{{q}}·ε", f"{a}_{index}"
 
 
-def radius_names(made: Construction) -> tuple[str, str, str]:
+def radius_names(made: ExtremesConstruction) -> tuple[str, str, str]:
     """Return what the crank's radius, the sum and the difference of rod and crank are called."""
     crank, rod = f"l_{{{_flat(made.pivot, made.pin)}}}", f"l_{{{_flat(made.pin, made.end)}}}"
     if made.locus is Locus.TANGENTS:
@@ -181,7 +186,7 @@ def _flat(*names: str) -> str:
     return "".join(name.translate(str.maketrans("", "", "{}_")) for name in map(point_name, names))
 
 
-def extreme_steps(turn: Turn, made: Construction | None, words: Language) -> list[str]:
+def extreme_steps(turn: Turn, made: ExtremesConstruction | None, words: Language) -> list[str]:
     """Return how the extreme positions are constructed, and what is read of them."""
     said, say = words.cycle, words.say
     if made is None:
@@ -213,7 +218,7 @@ def extreme_steps(turn: Turn, made: Construction | None, words: Language) -> lis
     return [said["construction"][made.locus.value].format(**facts), told]
 
 
-def construction_facts(made: Construction, words: Language) -> dict[str, str]:
+def construction_facts(made: ExtremesConstruction, words: Language) -> dict[str, str]:
     """Return what the sentences of the construction of extreme positions name."""
 
     def primed(name: str) -> list[str]:

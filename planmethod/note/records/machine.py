@@ -11,8 +11,8 @@ from planmethod.construct.drafting import Profile
 from planmethod.note.numbers import plain
 from planmethod.problem.load_records import Quadrature
 from planmethod.solved.machine.drawing import FlywheelDrawing, drawing_of, split
-from planmethod.solved.machine.flywheel import Extreme, Flywheel
-from planmethod.solved.machine.runup import MOST_CYCLES, Course, RunUp, run_up_of
+from planmethod.solved.machine.flywheel import Flywheel, SpeedExtreme
+from planmethod.solved.machine.runup import MOST_CYCLES, RunUp, TimeCourse, run_up_of
 from planmethod.solved.machine.sizes import size_of
 
 
@@ -53,8 +53,10 @@ def machine_record(flywheel: Flywheel, profile: Profile) -> dict[str, Any]:
         "work_per_turn": plain(flywheel.work_per_cycle / flywheel.turns),
         "work_per_cycle": plain(flywheel.work_per_cycle),
         "positions": [
-            {"number": k, **{name: plain(column[k]) for name, column in columns.items()}}
-            for k in range(machine.count)
+            {"number": number, **{name: plain(column[k]) for name, column in columns.items()}}
+            for number, k in sorted(
+                (number, k) for k, number in enumerate(flywheel.turn.numbers(machine.count)[:-1])
+            )
         ],
         "J_f": _inertias(flywheel, drawing),
         "omega_max": _extreme(flywheel, highest),
@@ -71,7 +73,7 @@ def machine_record(flywheel: Flywheel, profile: Profile) -> dict[str, Any]:
             "mu_A": plain(drawing.scales.work),
             "mu_T": plain(drawing.scales.work),
             "mu_J": plain(drawing.scales.inertia),
-            "pole_mm": machine.pole_mm,
+            "pole_mm": plain(drawing.pole),
         },
         "flywheel": None
         if sizes is None
@@ -130,7 +132,7 @@ def _inertias(flywheel: Flywheel, drawing: FlywheelDrawing) -> dict[str, Any]:
     }
 
 
-def _extreme(flywheel: Flywheel, extreme: Extreme) -> dict[str, float]:
+def _extreme(flywheel: Flywheel, extreme: SpeedExtreme) -> dict[str, float]:
     position = extreme.turned / flywheel.cycle * flywheel.machine.count
     phi = flywheel.turn.phi(np.array([extreme.turned]))[0]
     return {"value": plain(extreme.value), "phi_deg": plain(phi), "position": plain(position)}
@@ -199,7 +201,7 @@ def _why(run: RunUp) -> str:
     )
 
 
-def _told(course: Course | None, flywheel: Flywheel, reason: str) -> dict[str, Any]:
+def _told(course: TimeCourse | None, flywheel: Flywheel, reason: str) -> dict[str, Any]:
     if course is None:
         return {"time": None, "turned_deg": None, "turns": None, "table": [], "reason": reason}
     time, turned, omega = (column.tolist() for column in course.rows(_ROWS))

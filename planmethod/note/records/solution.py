@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 
+from planmethod.mechanism.model import Mechanism
 from planmethod.mechanism.structure import Structure
 from planmethod.note.columns import listed, named, pairs, sizes
 from planmethod.note.numbers import plain
@@ -118,6 +119,8 @@ def _diagrams(diagrams: Diagrams) -> dict[str, Any]:
     s, v_chord, a_chord = diagrams.drawn(Differentiation.CHORDS)
     _, v_exact, a_exact = diagrams.exact(diagrams.shares)
     return {
+        "length_mm": diagrams.length,
+        "poles_mm": list(diagrams.poles),
         "mu_phi": diagrams.mu_phi,
         "mu_t": diagrams.mu_t,
         "mu_s": diagrams.mu_s,
@@ -152,7 +155,7 @@ LONG = {QuantityKind.CORIOLIS: "a_coriolis", QuantityKind.RELATIVE: "a_rel"}
 """Names in the record of what is asked for by a shorter one."""
 
 
-def structure_record(structure: Structure) -> dict[str, Any]:
+def structure_record(structure: Structure, mechanism: Mechanism) -> dict[str, Any]:
     """Return the structural analysis as plain data."""
     return {
         "mobility": structure.mobility,
@@ -172,6 +175,7 @@ def structure_record(structure: Structure) -> dict[str, Any]:
             for group in structure.groups
         ],
         "formula": structure.formula,
+        "frame": mechanism.frame,
     }
 
 
@@ -336,7 +340,7 @@ def record_in_columns(solution: Solution, **more: Column) -> dict[str, Any]:
         "schema": SCHEMA,
         "problem": solution.problem.name,
         **({"variant": v} if (v := solution.problem.variant) is not None else {}),
-        "structure": structure_record(solution.structure),
+        "structure": structure_record(solution.structure, solution.problem.mechanism),
         **({"cycle": cycle_record(solution)} if solution.problem.cycle is not None else {}),
         "positions": rows({**columns, **more}),
         **machine,

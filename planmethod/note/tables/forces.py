@@ -25,7 +25,7 @@ from planmethod.solved.errors.forces import (
     moment_label,
     size_label,
 )
-from planmethod.solved.forces.contact import VANISHING, Contact, JointForce
+from planmethod.solved.forces.contact import VANISHING, JointForce, SlideReaction
 from planmethod.solved.forces.statics import Statics, statics_of
 from planmethod.solved.reading import Flags
 from planmethod.solved.solution import Solution
@@ -37,7 +37,7 @@ def _angle(force: complex, largest: float) -> float | None:
     return plain(np.degrees(np.angle(force)) % 360.0)
 
 
-def _acts(contact: Contact | None) -> dict[str, Column]:
+def _acts(contact: SlideReaction | None) -> dict[str, Column]:
     """Return where the reaction of a guide acts, m."""
     if contact is None:
         return {}
@@ -47,7 +47,7 @@ def _acts(contact: Contact | None) -> dict[str, Column]:
     return {"b": listed(b), "point": point}
 
 
-def _at_edges(contact: Contact | None) -> dict[int, dict[str, Any]]:
+def _at_edges(contact: SlideReaction | None) -> dict[int, dict[str, Any]]:
     """Return what acts at the edges of a slider, N, by the positions where it does."""
     if contact is None:
         return {}
@@ -173,9 +173,9 @@ def forces_records(solution: Solution) -> Records:
 
 def forces_columns(solution: Solution, words: Words) -> list[list[str]]:
     """Return columns of many positions: the size of every reaction, then what balances."""
-    statics = statics_of(solution)
+    statics, called = statics_of(solution), solution.problem.mechanism.called
     columns = [
-        [f"{joint.joint} {joint.on}←{joint.by}", *(found(float(f), words) for f in size)]
+        [f"{joint.joint} {joint.on}←{called(joint.by)}", *(found(float(f), words) for f in size)]
         for joint in statics.reactions
         for size in [np.abs(joint.force)]
     ]
@@ -219,7 +219,7 @@ def _edge_notes(solution: Solution, words: Words, index: int) -> Iterator[Rich]:
         joint = contact.joint
         yield note.format(
             joint=joint.joint,
-            links=f"{joint.on}←{joint.by}",
+            links=f"{joint.on}←{solution.problem.mechanism.called(joint.by)}",
             length=given(contact.length, words),
             first=told[0],
             second=told[1],
@@ -240,7 +240,7 @@ def forces_tables(solution: Solution, words: Words, index: int, sigmas: Sigmas) 
         rows.append(
             [
                 joint.joint,
-                f"{joint.on}←{joint.by}",
+                f"{joint.on}←{solution.problem.mechanism.called(joint.by)}",
                 found(size, words),
                 found(float(drawn.read(size_label(joint))[index]), words),
                 *sigmas.cell(size_label(joint), index, drawn),

@@ -19,7 +19,7 @@ from planmethod.note.document import (
 from planmethod.note.formula import Rich, escape
 from planmethod.note.narrate.given import told
 from planmethod.note.narrate.naming import Names
-from planmethod.note.narrate.scales import common_scale, scale_inscription
+from planmethod.note.narrate.scales import scale_inscription
 from planmethod.note.numbers import with_unit
 from planmethod.note.plaintext import fixed, found, given, spoken
 from planmethod.note.tables.sigmas import Sigmas, levelled
@@ -28,7 +28,7 @@ from planmethod.plans.legend import TURNING, Quantity, QuantityKind
 from planmethod.plans.model import FACTS, MOTION, PlanKind
 from planmethod.problem.model import Problem
 from planmethod.solved.reading import Reals
-from planmethod.solved.solution import Segment, Solution
+from planmethod.solved.solution import SegmentReading, Solution
 
 FEW = 3
 """Most positions that are shown each with tables of its own."""
@@ -52,9 +52,11 @@ def results_document(solution: Solution, words: Language, *, sigma: bool = False
 
 def _results(solution: Solution, words: Language, sigmas: Sigmas) -> Iterator[Node]:
     note, every = words.note, range(len(solution.positions))
+    convention = solution.problem.scales.convention
     yield Paragraph(heading_of(solution.problem))
     yield Item(note.formula.format(formula=solution.structure.formula))
-    scales = (common_scale(solution, kind, every, words) for kind in MOTION)
+    common = (solution.scales[kind] for kind in MOTION if solution.has_common(kind))
+    scales = (scale_inscription(scale, convention, words.say) for scale in common)
     yield Item(f"{note.scales}: {'; '.join(scales)}")
     if len(every) > FEW:
         yield from _many(solution, words, sigmas)
@@ -106,7 +108,7 @@ def scale_texts(solution: Solution, words: Language, index: int) -> list[Rich]:
 
 
 def position_line(solution: Solution, words: Words, index: int) -> Rich:
-    """Return which position is told: its number and the driver's place."""
+    """Return which position is meant: its number and the driver's place."""
     coordinate = solution.problem.drive.coordinate
     value = given(solution.problem.shown(float(solution.positions[index])), words)
     count = len(solution.positions)
@@ -227,8 +229,10 @@ def _sliding(solution: Solution, words: Words, i: int, sigmas: Sigmas) -> list[l
     quantities = solution.quantities(
         QuantityKind.SLIDING, QuantityKind.CORIOLIS, QuantityKind.RELATIVE
     )
+    called = solution.problem.mechanism.called
     for relative in solution.construction.kinematics.relatives.values():
-        row = [words.sliding_row.format(point=relative.point, of=relative.of, to=relative.to)]
+        told = {"point": relative.point, "of": relative.of, "to": called(relative.to)}
+        row = [words.sliding_row.format(**told)]
         for quantity in quantities[relative.name]:
             row += _found(solution, quantity, i, sigmas)
         rows.append(row)
@@ -241,7 +245,7 @@ def _segments(
     words, rows = names.words, []
     segments = solution.segments(kind)
 
-    def lengths(segment: Segment) -> list[str]:
+    def lengths(segment: SegmentReading) -> list[str]:
         return [*_lengths(segment, words, i), *sigmas.cell(f"{kind.value}.{segment.name}", i)]
 
     if kind is PlanKind.POSITION:
@@ -256,11 +260,11 @@ def _segments(
     return rows
 
 
-def _joined(segment: Segment) -> str:
+def _joined(segment: SegmentReading) -> str:
     return segment.name.replace("-", "")
 
 
-def _lengths(segment: Segment, words: Words, i: int) -> list[str]:
+def _lengths(segment: SegmentReading, words: Words, i: int) -> list[str]:
     exact, read = float(segment.exact[i]), float(segment.read[i])
     return [fixed(exact, words), given(read, words, 6)]
 
@@ -306,9 +310,7 @@ def _many(solution: Solution, words: Language, sigmas: Sigmas) -> Iterator[Node]
     yield from table(note.many_sigmas, errors)
 
 
-def lead_columns(
-    problem: Problem, positions: Sequence[float], words: Words
-) -> list[list[Rich]]:
+def lead_columns(problem: Problem, positions: Sequence[float], words: Words) -> list[list[Rich]]:
     """Return the columns that each part of a table of positions begins with: number and place."""
     coordinate = problem.drive.coordinate
     symbol = f"{coordinate.symbol}, {words['units'][coordinate.unit]}"

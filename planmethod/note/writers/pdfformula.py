@@ -10,7 +10,7 @@ from reportlab.pdfbase.pdfmetrics import stringWidth
 from reportlab.platypus import Flowable
 
 from planmethod.note.document import Equation, Term
-from planmethod.note.formula import Bar, Fraction, Index, Letters, Node, Root, parse
+from planmethod.note.formula import Fraction, Index, Letters, Node, Overline, Root, parse
 from planmethod.note.writers.tokens import PAIRS, Token, closing, tokens_of
 
 ASCENT, DESCENT, AXIS = 0.68, 0.22, 0.25
@@ -145,7 +145,7 @@ class FormulaSetter:
                 return together(
                     [(0.0, drop, low), (0.0, rise, high)], max(low.width, high.width), self._rule
                 )
-            case Bar(body):
+            case Overline(body):
                 return self._barred(self.set(body))
             case Fraction(above, below):
                 return self._fraction(self.set(above), self.set(below))
@@ -243,7 +243,7 @@ class FormulaSetter:
 
     def _term(self, term: Term) -> Ink:
         nodes = parse(term.symbol)
-        barred = (Bar(nodes[:1]), *nodes[1:]) if isinstance(nodes[0], Letters) else nodes
+        barred = (Overline(nodes[:1]), *nodes[1:]) if isinstance(nodes[0], Letters) else nodes
         symbol = self.set(barred)
         below = self._smaller().set(parse(term.direction))
         width = max(symbol.width, below.width + 0.2 * self._size * bool(term.direction))

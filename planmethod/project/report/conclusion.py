@@ -10,7 +10,6 @@ from planmethod.note.document import Item, Node, References, StructuralHeading, 
 from planmethod.note.formula import Rich, escape, inlined
 from planmethod.note.narrate.forces.lever import both_balances, difference, expected
 from planmethod.note.wording import Words
-from planmethod.plans.forces.polygons import reaction_symbol
 from planmethod.project.model import PartName
 from planmethod.project.report.context import Report, sentences
 from planmethod.project.report.flywheel import machine_of
@@ -97,7 +96,7 @@ def _forces(report: Report, said: Words) -> Iterator[Rich]:
     balancing = reading.balancing
     yield said.forces.format(
         position=report.in_position,
-        symbol=reaction_symbol(most.on, most.by),
+        symbol=report.reaction(most),
         value=report.quantity(abs(complex(most.force[0])), "N"),
         name=said["balancing"][balancing.quantity],
         balancing=say.symbol(reading.balancing_symbol),

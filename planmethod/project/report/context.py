@@ -16,8 +16,10 @@ from planmethod.note.narrate.steps import Narrator
 from planmethod.note.numbers import Notation, with_unit
 from planmethod.note.plaintext import given
 from planmethod.note.wording import Language, Words
+from planmethod.plans.forces.polygons import reaction_symbol
 from planmethod.plans.model import FACTS, PlanKind, Vector
 from planmethod.project.model import PartName, Project
+from planmethod.solved.forces.contact import JointForce
 from planmethod.solved.solution import Solution
 
 NBSP = "\u00a0"
@@ -189,6 +191,10 @@ class Report:
         """Letter of the driver's coordinate, with its link."""
         drive = self.one.problem.drive
         return f"φ_{{{drive.link}}}" if drive.is_crank else drive.coordinate.symbol
+
+    def reaction(self, joint: JointForce) -> Rich:
+        """Return the letter of a reaction, the frame by its number."""
+        return reaction_symbol(joint.on, self.one.problem.mechanism.called(joint.by))
 
     # Links ---------------------------------------------------------------------------------------
 

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from itertools import takewhile
 from math import degrees
 
 from planmethod.note.document import Chapter, Node, Part, Table
 from planmethod.note.formula import Rich, fraction
 from planmethod.note.narrate.machine import MachineTeller
-from planmethod.note.numbers import with_unit
+from planmethod.note.numbers import half_up, with_unit
 from planmethod.note.wording import Words
 from planmethod.problem.load_records import Load, Quadrature, SizeTable, WheelShape
 from planmethod.project.report.context import NBSP, Report, displayed, sentences
@@ -87,12 +88,12 @@ def _diagrams(report: Report, tell: MachineTeller, said: Words) -> Iterator[Node
             A=letters["A"],
             mu_M=tell.scale("M", scales.moment, "N·m"),
             way=str(said["ways"]["middle" if middle else "trapezoid"]).format(),
-            pole=with_unit(say.given(machine.pole_mm), report.unit("mm")),
+            pole=with_unit(say.given(half_up(drawing.pole, 2)), report.unit("mm")),
         )
     )
-    formulas = tell.formulas()
-    yield displayed(f"{formulas[0]},")
-    yield displayed(f"{formulas[1]}.")
+    scaled = list(takewhile(_is_no_angle, tell.formulas()))
+    for k, text in enumerate(scaled, 1):
+        yield displayed(f"{text}{'.' if k == len(scaled) else ','}")
     constant = float(drawing.points.work[-1]) / tell.flywheel.cycle
     yield sentences(
         said.constant.format(
@@ -109,13 +110,16 @@ def _diagrams(report: Report, tell: MachineTeller, said: Words) -> Iterator[Node
     )
 
 
+def _is_no_angle(formula: Rich) -> bool:
+    return not formula.startswith("tg")
+
+
 def _inertia(report: Report, tell: MachineTeller, said: Words) -> Iterator[Node]:
     drawing, flywheel, say = tell.drawing, tell.flywheel, report.say
     points, step = drawing.points.tangents, flywheel.cycle / drawing.count
     slopes = flywheel.usual_slopes
     yield sentences((said.tangents_one if slopes[0] == slopes[1] else said.tangents).format())
-    formulas = tell.formulas()
-    tangents = dict.fromkeys(formulas[2:4])
+    tangents = dict.fromkeys(text for text in tell.formulas() if not _is_no_angle(text))
     for k, text in enumerate(tangents, 1):
         yield displayed(f"{text}{'.' if k == len(tangents) else ','}")
     exact = float(drawing.exact.number(drawing.made.KL)[0])

@@ -25,9 +25,9 @@ from planmethod.note.numbers import alike
 from planmethod.note.rounding import sigma_text
 from planmethod.note.tables.results import lead_columns
 from planmethod.note.wording import Words
-from planmethod.plans.forces.board import Given
+from planmethod.plans.forces.board import GivenLoad
 from planmethod.plans.forces.loads import LoadKind
-from planmethod.plans.forces.polygons import ForcePlan, Moments, reaction_symbol
+from planmethod.plans.forces.polygons import ForcePlan, Moments
 from planmethod.plans.model import PlanKind
 from planmethod.project.report.context import Report, chain, displayed, sentences
 from planmethod.project.report.figures import figure
@@ -105,7 +105,7 @@ class ForceChapter:
             form = said["massless"]["one" if len(massless) == 1 else "many"]
             yield sentences(form.format(links=report.listed(massless)))
 
-    def _senses(self, couples: list[Given]) -> Rich:
+    def _senses(self, couples: list[GivenLoad]) -> Rich:
         """Return which way the couples of inertia turn."""
         said: Words = self.said
         senses = {
@@ -117,7 +117,7 @@ class ForceChapter:
         told = [said.couple_sense.format(symbol=a, sense=b) for a, b in senses.items()]
         return f"{', '.join(told)}."
 
-    def _inertia(self, voice: LoadNarrator, forces: list[Given]) -> Iterator[Node]:
+    def _inertia(self, voice: LoadNarrator, forces: list[GivenLoad]) -> Iterator[Node]:
         said: Words = self.said
         shifts = self.reading.statics.board.shifts
         if not forces:
@@ -132,10 +132,10 @@ class ForceChapter:
                 lines += voice.shifted(one, shift)
         yield from chain(lines)
 
-    def _acts(self, one: Given) -> bool:
+    def _acts(self, one: GivenLoad) -> bool:
         return bool(one.applied.force[0] or one.applied.couple[0])
 
-    def _external(self, one: Given) -> Rich:
+    def _external(self, one: GivenLoad) -> Rich:
         said: Words = self.said
         applied, units = one.applied, self.context.units
         if applied.point is None:
@@ -280,7 +280,7 @@ class ForceChapter:
             rows.append(
                 (
                     mark(joint.joint),
-                    reaction_symbol(joint.on, joint.by),
+                    report.reaction(joint),
                     self.find(read),
                     self.find(exact),
                     off,
@@ -382,7 +382,7 @@ class ForceChapter:
         sizes = {}
         for joint in statics.reactions:
             size = np.abs(joint.force)
-            symbol = reaction_symbol(joint.on, joint.by)
+            symbol = report.reaction(joint)
             sizes[symbol] = size
             columns.append([symbol, *(report.say.number(t) for t in alike(size.tolist()))])
         drive = every.problem.drive

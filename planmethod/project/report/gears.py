@@ -10,17 +10,18 @@ from msgspec.structs import replace
 from planmethod.gears.conditions import conditions, sentence
 from planmethod.gears.construction import construct, read
 from planmethod.gears.involute.meshpicture import meshing_picture, view_for
-from planmethod.gears.involute.quantities import Solved
+from planmethod.gears.involute.quantities import SolvedMeshing
 from planmethod.gears.involute.sizes import MeshingProblem
 from planmethod.gears.involute.text import quality, table
 from planmethod.gears.model import GearProblem, Mesh, MeshKind
-from planmethod.gears.motion import Motion, mesh_row, solve_motion
+from planmethod.gears.motion import TrainMotion, mesh_row, solve_motion
 from planmethod.gears.picture import draw
 from planmethod.gears.sheet import pictures
 from planmethod.gears.text import equation_of, fraction_text
 from planmethod.gears.told import given, indexed, ratios, results
 from planmethod.note.document import Chapter, Formula, Item, Node, Part, Table
 from planmethod.note.formula import Rich, fraction
+from planmethod.note.narrate.structure import pair_classes
 from planmethod.note.numbers import MINUS, raised
 from planmethod.note.wording import Words
 from planmethod.project.report.context import Report, chain, displayed, sentences
@@ -45,18 +46,22 @@ def train_chapter(report: Report, problem: GearProblem) -> Iterator[Node]:
         str(form).format(labels=", ".join(labels)) if labels else "",
     )
     yield from _figures(report, problem, motion, "train")
-    yield from _structure(report, motion, said)
+    yield from _structure(report, problem, motion, said)
     yield Part(said.analysis.format())
     yield from _ratios(report, motion, said)
     yield Part(said.pictures.format())
     yield from _pictures(report, problem, motion, said)
 
 
-def _structure(report: Report, motion: Motion, said: Words) -> Iterator[Node]:
+def _structure(
+    report: Report, problem: GearProblem, motion: TrainMotion, said: Words
+) -> Iterator[Node]:
     found, roles = motion.structure, motion.roles
     yield sentences(said.kind.format(kind=str(said["kinds"][found.kind.value]).format()))
     w = str(found.formula).replace("-", MINUS)
-    yield displayed(said.mobility.format(n=found.moving, low=found.lower, high=found.higher, w=w))
+    classes = pair_classes(problem.sheet.notation, report.words)
+    counts = {"n": found.moving, "low": found.lower, "high": found.higher}
+    yield displayed(said.mobility.format(w=w, **counts, **classes))
     carriers = [
         said.carrier.format(
             carrier=carrier,
@@ -66,10 +71,10 @@ def _structure(report: Report, motion: Motion, said: Words) -> Iterator[Node]:
         for carrier in motion.train.carriers
         if roles.central[carrier]
     ]
-    yield sentences(said.where.format(), *carriers)
+    yield sentences(said.where.format(**classes), *carriers)
 
 
-def _ratios(report: Report, motion: Motion, said: Words) -> Iterator[Node]:
+def _ratios(report: Report, motion: TrainMotion, said: Words) -> Iterator[Node]:
     train = motion.train
     yield sentences((said.willis if train.carriers else said.plain).format())
     for text in (willis(motion, mesh, report) for mesh in train.meshes):
@@ -86,7 +91,7 @@ def _ratios(report: Report, motion: Motion, said: Words) -> Iterator[Node]:
         yield Item(f"{told}{'.' if number == len(judged) else ';'}", f"{number})")
 
 
-def willis(motion: Motion, mesh: Mesh, report: Report) -> Rich:
+def willis(motion: TrainMotion, mesh: Mesh, report: Report) -> Rich:
     """Return the ratio of a mesh seen from its carrier, by speeds and by teeth."""
     train = motion.train
     row = mesh_row(train, motion.roles, motion.axes, mesh)
@@ -109,7 +114,7 @@ def willis(motion: Motion, mesh: Mesh, report: Report) -> Rich:
     return f"U{hat}_{{{mesh.first}{mesh.second}}} = {speeds} = {found} = {ratio}"
 
 
-def asked_ratios(motion: Motion, report: Report) -> list[Rich]:
+def asked_ratios(motion: TrainMotion, report: Report) -> list[Rich]:
     """Return the ratios that the file asks for; else that of the input to the output."""
     found = list(ratios(motion, report.words))
     if found or len(motion.train.inputs) != 1:
@@ -124,7 +129,7 @@ def asked_ratios(motion: Motion, report: Report) -> list[Rich]:
     return list(ratios(asked, report.words))
 
 
-def _speeds(motion: Motion, report: Report) -> Iterator[Rich]:
+def _speeds(motion: TrainMotion, report: Report) -> Iterator[Rich]:
     """Yield the speeds of the bodies that are not given."""
     train, unit = motion.train, raised(report.words.gears["units"][motion.train.units[0]])
     for label in train.numbers:
@@ -137,7 +142,9 @@ def _speeds(motion: Motion, report: Report) -> Iterator[Rich]:
         yield f"{train.letter}_{{{label}}} = {value} {unit}"
 
 
-def _pictures(report: Report, problem: GearProblem, motion: Motion, said: Words) -> Iterator[Node]:
+def _pictures(
+    report: Report, problem: GearProblem, motion: TrainMotion, said: Words
+) -> Iterator[Node]:
     picture, say = draw(motion), report.say
     if picture is None:
         drawn = seen = None
@@ -181,7 +188,9 @@ def _pictures(report: Report, problem: GearProblem, motion: Motion, said: Words)
             yield sentences(said.agree.format(most=say.number(f"{max(offs):.1f}")))
 
 
-def _figures(report: Report, problem: GearProblem, motion: Motion, which: str) -> Iterator[Node]:
+def _figures(
+    report: Report, problem: GearProblem, motion: TrainMotion, which: str
+) -> Iterator[Node]:
     said: Words = report.said["gears"]
     has_picture = draw(motion) is not None
 
@@ -200,7 +209,7 @@ def _figures(report: Report, problem: GearProblem, motion: Motion, which: str) -
 def meshing_chapter(report: Report, problem: MeshingProblem) -> Iterator[Node]:
     """Yield the chapter on two wheels in mesh."""
     said: Words = report.said["meshing"]
-    solved, words = Solved(problem), report.words
+    solved, words = SolvedMeshing(problem), report.words
     say: Words = words.meshing
     fields = solved.fields(words.say)
     yield Chapter(said.title.format())

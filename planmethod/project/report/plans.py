@@ -339,7 +339,7 @@ class PlanChapter:
 
     def _figures(self) -> Iterator[Node]:
         solution, kind, words = self.report.one, self.kind, self.report.words
-        knots = solution.knots[kind]
+        knots = solution.knots_of(kind, 0)
         letters = tuple(knot_letter(knot, words) for knot in knots)
         by_hand = True
 
@@ -363,7 +363,7 @@ class PlanChapter:
         for number, view in enumerate(views):
 
             def enlarged(letter: float, number: int = number) -> Block:
-                pictures = knot_pictures(solution, kind, letter_height=letter, by_hand=by_hand)
+                pictures = knot_pictures(solution, kind, 0, letter_height=letter, by_hand=by_hand)
                 return pictures[number]
 
             yield figure(

@@ -16,6 +16,7 @@ from planmethod.note.narrate.structure import (
     group_joints,
     link_table,
     local_letters,
+    pair_classes,
     pair_table,
     signed,
 )
@@ -48,7 +49,8 @@ def _mobility(report: Report, said: Words) -> Iterator[Node]:
     structure, mechanism = report.one.structure, report.one.problem.mechanism
     low, spatial = structure.lower_pairs, structure.spatial_mobility
     revolute = sum(pair.kind is PairKind.REVOLUTE for pair in pairs(mechanism))
-    counts = {"n": structure.moving_links, "low": low, "high": structure.higher_pairs}
+    classes = pair_classes(report.one.problem.sheet.notation, report.words)
+    counts = {"n": structure.moving_links, "low": low, "high": structure.higher_pairs, **classes}
     yield sentences(said.chebyshev.format())
     yield displayed(said.chebyshev_formula.format(w=signed(structure.mobility), **counts))
     yield sentences(
@@ -94,7 +96,7 @@ def _group(group: AssurGroup, report: Report, said: Words) -> Rich:
     if group.kind is not None:
         letters = local_letters(group.signature, report.words.note)
         kind = said.group_kind.format(kind=group.kind, letters=letters)
-    outer, inner = group_joints(group, report.words.note)
+    outer, inner = group_joints(report.every.problem.mechanism, group, report.words.note)
     joints = said.joints if len(inner) == 1 else said.joints_many
     return lettered(
         said.group.format(

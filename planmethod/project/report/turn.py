@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from math import pi
+from itertools import pairwise
+from math import degrees
 
 from planmethod.note.document import Chapter, Node, Part, Table
 from planmethod.note.formula import Rich, fraction
 from planmethod.note.narrate.given import point_name
-from planmethod.note.narrate.scales import scale_inscription
 from planmethod.note.narrate.turn import NO_ANGLE, diagram_scales, output_name, output_symbol
-from planmethod.note.numbers import in_heads, with_unit
+from planmethod.note.numbers import half_up, in_heads, with_unit
 from planmethod.note.tables.turn import Columns, cycle_columns, deviation_columns
 from planmethod.note.wording import Words
 from planmethod.plans.model import RATES
@@ -47,19 +47,19 @@ def diagrams_part(report: Report) -> Iterator[Node]:
             whole=str(said["whole"]["turn" if turn.way == TURN else "cycle"]).format(
                 way=report.degrees(turn.way)
             ),
-            length=_mm(report, task.length),
+            length=_mm(report, half_up(diagrams.length, 2)),
             parts=report.parts(diagrams.count),
         ),
     )
-    for text in _axis(report):
-        yield displayed(text)
+    yield displayed(_axis(report))
     scales = diagram_scales(diagrams, words)[:3]
+    v, a = (_mm(report, half_up(pole, 2)) for pole in diagrams.poles)
     yield sentences(
         said.ordinates.format(scale=scales[0]),
-        str(said["ways"][task.differentiation.value]).format(pole=_mm(report, task.pole.v)),
+        str(said["ways"][task.differentiation.value]).format(pole=v),
     )
-    yield sentences(said.again.format(pole=_mm(report, task.pole.a)))
-    for text in _derived(report):
+    yield sentences(said.again.format(pole=a), said.poles.format() if diagrams.rate else "")
+    for text in _poles(report):
         yield displayed(text)
     if drive.acceleration:
         yield sentences(said.even.format(link=drive.link))
@@ -82,46 +82,35 @@ def _mm(report: Report, value: float) -> Rich:
     return with_unit(report.say.given(value), report.unit("mm"))
 
 
-def _axis(report: Report) -> Iterator[Rich]:
-    """Yield the scale of the angles and that of time, with numbers."""
+def _axis(report: Report) -> Rich:
+    """Return the scale of the angles with numbers, by degrees and by radians."""
     diagrams, say = diagrams_of(report.every), report.say
-    length, rate = say.given(diagrams.task.length), abs(report.every.problem.drive.rate)
-    rad, mm, s = (report.unit(name) for name in ("rad", "mm", "s"))
-    turns = diagrams.turn.way / TURN
-    way = f"{round(2 * turns)}π" if turns == round(turns) else say.found(2 * pi * turns)
-    angle = f"μ_{{φ}} = {fraction(way, length)} = {say.found(diagrams.mu_phi)} {rad}/{mm}"
-    yield f"{angle}{',' if rate else '.'}"
-    if not rate:
+    length = say.given(half_up(diagrams.length, 2))
+    way, per_mm = diagrams.turn.way, degrees(diagrams.mu_phi)
+    side = fraction(say.given(round(way, 2)), length)
+    rad, mm = (report.unit(name) for name in ("rad", "mm"))
+    found = f"{say.found(diagrams.mu_phi)} {rad}/{mm}"
+    return f"μ_{{φ}} = {side} = {say.short(per_mm, 4)} {say.in_head('deg')}/{mm} = {found}."
+
+
+def _poles(report: Report) -> Iterator[Rich]:
+    """Yield the pole distances by the scales, with numbers."""
+    diagrams, say = diagrams_of(report.every), report.say
+    if not diagrams.rate:
         return
     omega = f"ω_{{{report.every.problem.drive.link}}}"
-    phi, speed = say.found(diagrams.mu_phi), say.found(rate)
-    time = say.found(diagrams.mu_phi / rate)
-    sides = f"{fraction('μ_{φ}', omega)} = {fraction(phi, speed)}"
-    yield f"μ_{{t}} = {sides} = {time} {s}/{mm}."
-
-
-def _derived(report: Report) -> Iterator[Rich]:
-    """Yield the scales of velocity and acceleration with numbers."""
-    diagrams, say = diagrams_of(report.every), report.say
-    rate = abs(report.every.problem.drive.rate)
-    if not rate:
-        return
-    convention = report.every.problem.scales.convention
-    first, *others = diagrams.scales[:3]
-    before, poles = first, (diagrams.task.pole.v, diagrams.task.pole.a)
-    inverse = report.names.is_inverse_scale()
-    for number, (scale, pole) in enumerate(zip(others, poles, strict=True), 1):
-        one, two = (f"μ_{{{x.symbol.removeprefix('mu_')}}}" for x in (before, scale))
-        told = scale_inscription(scale, convention, say).partition(" = ")[2]
-        end = "." if number == len(others) else ","
-        if inverse:
-            yield f"{two} = {told}{end}"
-        else:
-            time = say.found(diagrams.mu_phi / rate)
-            letters = fraction(one, f"μ_{{t}}·K_{{{number}}}")
-            numbers = fraction(say.given(before.per_mm), f"{time}·{say.given(pole)}")
-            yield f"{two} = {letters} = {numbers} = {told}{end}"
-        before = scale
+    speed, phi = say.found(diagrams.rate), say.found(diagrams.mu_phi)
+    scales = diagrams.scales[:3]
+    for number, ((one, two), pole) in enumerate(
+        zip(pairwise(scales), diagrams.poles, strict=True), 1
+    ):
+        first, second = (f"μ_{{{x.symbol.removeprefix('mu_')}}}" for x in (one, two))
+        letters = fraction(f"{omega}·{first}", f"μ_{{φ}}·{second}")
+        above, below = (say.given(float(f"{x.per_mm:.6g}")) for x in (one, two))
+        numbers = fraction(f"{speed}·{above}", f"{phi}·{below}")
+        sides = "" if report.names.is_inverse_scale() else f"{letters} = {numbers} = "
+        end = "." if number == 2 else ","
+        yield f"K_{{{number}}} = {sides}{_mm(report, half_up(pole, 2))}{end}"
 
 
 def _hodographs(report: Report, said: Words) -> Iterator[Node]:

@@ -9,7 +9,7 @@ from planmethod.note.numbers import Notation, alike
 from planmethod.note.wording import Language
 from planmethod.plans.forces.polygons import reaction_symbol
 from planmethod.render.layout.block import Block
-from planmethod.render.layout.tables import Cell, TableColumn, table_block
+from planmethod.render.layout.tables import TableCell, TableColumn, table_block
 from planmethod.render.symbols import angle_of
 from planmethod.solved.forces.guides import Guided, guides
 from planmethod.solved.forces.reading import ForceReading
@@ -44,7 +44,8 @@ def place_columns(reading: ForceReading, say: Notation) -> list[TableColumn]:
 def guided_at(reading: ForceReading, number: int) -> Guided | None:
     """Return the reaction of a guide; None of a hinge."""
     joint = reading.statics.reactions[number]
-    one = guides(reading).get(reaction_symbol(joint.on, joint.by))
+    called = reading.solution.problem.mechanism.called
+    one = guides(reading).get(reaction_symbol(joint.on, called(joint.by)))
     return one if one is not None and one.number == number else None
 
 
@@ -59,11 +60,11 @@ def is_couple(one: Guided | None) -> bool:
     return one is not None and one.is_none and not one.is_no_couple
 
 
-def _moment(one: Guided | None, say: Notation) -> Cell:
+def _moment(one: Guided | None, say: Notation) -> TableCell:
     if one is None or not is_couple(one):
-        return Cell(_NONE)
+        return TableCell(_NONE)
     moment = float(one.contact.joint.moment[one.reading.index])
-    return Cell(say.found(abs(moment)), 1 if moment > 0 else -1)
+    return TableCell(say.found(abs(moment)), 1 if moment > 0 else -1)
 
 
 def edges_table(
@@ -74,7 +75,10 @@ def edges_table(
     bearing = [one for one in found if one is not None and one.edges]
     if not bearing:
         return None
-    pairs = tuple(f"{point_name(one.contact.joint.joint)} ({one.on}–{one.by})" for one in bearing)
+    called = reading.solution.problem.mechanism.called
+    pairs = tuple(
+        f"{point_name(one.contact.joint.joint)} ({one.on}–{called(one.by)})" for one in bearing
+    )
     said, say = words.sheets, words.say
     lengths = tuple(say.short(one.contact.length or 0.0) for one in bearing)
     columns = [

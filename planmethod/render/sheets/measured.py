@@ -8,7 +8,7 @@ from planmethod.note.narrate.given import MOTION_KINDS, told
 from planmethod.note.numbers import alike, is_noise
 from planmethod.plans.legend import Quantity
 from planmethod.render.layout.block import Block
-from planmethod.render.layout.tables import Cell, TableColumn, table_block
+from planmethod.render.layout.tables import TableCell, TableColumn, table_block
 from planmethod.render.sheets.model import Manner
 from planmethod.render.sheets.results import position_columns, table_width
 from planmethod.solved.reading import Reals
@@ -49,7 +49,7 @@ def _column(
     shown = [0.0 if is_noise(value, peak) else value for value in shown]
     turns = quantity.kind.is_number
     cells = tuple(
-        Cell(say.number(text), ((value > 0) - (value < 0)) if turns else None)
+        TableCell(say.number(text), ((value > 0) - (value < 0)) if turns else None)
         for text, value in zip(alike([abs(value) for value in shown]), shown, strict=True)
     )
     return TableColumn(symbol, cells, unit=say.units[quantity.kind.unit])

@@ -11,7 +11,7 @@ from planmethod.note.wording import Language
 from planmethod.plans.forces.polygons import reaction_symbol
 from planmethod.render.frame.frame import STAMP_WIDTH
 from planmethod.render.layout.block import Block, Column
-from planmethod.render.layout.tables import Cell, TableColumn, table_block
+from planmethod.render.layout.tables import TableCell, TableColumn, table_block
 from planmethod.render.sheets.guides import angle_text, edges_table, place_columns
 from planmethod.render.sheets.model import Manner
 from planmethod.render.sheets.reactionerrors import (
@@ -32,8 +32,8 @@ def reactions_block(solution: Solution, indices: Sequence[int], manner: Manner) 
     reading = force_reading(solution, shown_position(solution, indices, manner))
     height = manner.text(manner.sizes.text)
     width = table_width(manner, STAMP_WIDTH)
-    reactions = reading.statics.reactions
-    index = reading.index
+    reactions, index = reading.statics.reactions, reading.index
+    called = solution.problem.mechanism.called
     sizes = [abs(complex(one.force[index])) for one in reactions]
     none = [size <= FAINT_SHARE * reading.peak for size in sizes]
     shown = alike([0.0 if nil else size for size, nil in zip(sizes, none, strict=True)])
@@ -43,9 +43,10 @@ def reactions_block(solution: Solution, indices: Sequence[int], manner: Manner) 
     angles = [angle_text(complex(one.force[index]), say) for one in reactions]
     columns = [
         TableColumn(
-            said.joint, tuple(f"{point_name(one.joint)} ({one.on}–{one.by})" for one in reactions)
+            said.joint,
+            tuple(f"{point_name(one.joint)} ({one.on}–{called(one.by)})" for one in reactions),
         ),
-        TableColumn("F_{ij}", tuple(reaction_symbol(one.on, one.by) for one in reactions)),
+        TableColumn("F_{ij}", tuple(reaction_symbol(one.on, called(one.by)) for one in reactions)),
         TableColumn(f"F_{{ij}}, {say.units['N']}", tuple(map(say.number, shown))),
         *(size_columns(reading, words) if sigma else []),
         TableColumn(
@@ -82,14 +83,18 @@ def _balances(reading: ForceReading, words: Language) -> list[TableColumn]:
     share = difference(reading)
     sense = reading.balancing.turns
 
-    def cell(value: float | None) -> Cell:
+    def cell(value: float | None) -> TableCell:
         if value is None:
-            return Cell("—")
-        return Cell(say.found(abs(value)), (1 if value > 0 else -1) if sense and value else None)
+            return TableCell("—")
+        return TableCell(
+            say.found(abs(value)), (1 if value > 0 else -1) if sense and value else None
+        )
 
     return [
         TableColumn(f"{symbol}, {unit}", (cell(exact),)),
         TableColumn(said.by_plans, (cell(plans),)),
         TableColumn(said.by_lever, (cell(lever),)),
-        TableColumn(said.difference, (Cell("—" if share is None else say.number(f"{share:.1f}")),)),
+        TableColumn(
+            said.difference, (TableCell("—" if share is None else say.number(f"{share:.1f}")),)
+        ),
     ]

@@ -17,6 +17,7 @@ from planmethod.note.narrate.turn import (
     output_name,
     turn_facts,
 )
+from planmethod.note.numbers import half_up
 from planmethod.note.tables.turn import Columns, cycle_columns, deviation_columns, deviations_title
 from planmethod.plans.model import FACTS, PlanKind
 from planmethod.problem.model import Convention
@@ -62,8 +63,8 @@ def diagrams_view(solution: Solution, indices: Sequence[int], manner: Manner) ->
     title = words.cycle.diagrams.format(of=_whose(diagrams.turn, manner))
     scales = diagram_scales(diagrams, words)
     k = [
-        f"K_{{{number}}} = {words.say.given(pole)} {words.say.units['mm']}"
-        for number, pole in enumerate((diagrams.task.pole.v, diagrams.task.pole.a), 1)
+        f"K_{{{number}}} = {words.say.given(half_up(pole, 2))} {words.say.units['mm']}"
+        for number, pole in enumerate(diagrams.poles, 1)
     ]
     lines = ["; ".join([*scales, *k]), *drawn_notes(diagrams, words)]
     block = named(picture, manner.entry.title or title, lines, manner)
@@ -71,20 +72,12 @@ def diagrams_view(solution: Solution, indices: Sequence[int], manner: Manner) ->
 
 
 def chosen_plans(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
-    """Return the plans of a position of either stroke: after a sixth and two thirds of a turn.
-
-    At a scale of their own, where the largest of all positions would make them small.
-    """
+    """Return the plans of a position of either stroke: after a sixth and two thirds of a turn."""
     kind = manner.entry.of
     assert kind is not None
     count = len(solution.positions)
     chosen = tuple(dict.fromkeys((round(count / 6), round(2 * count / 3) % count)))
-    at = solution.positions.tolist()
-    some = solution.moved([at[k] for k in chosen]).filling(solution.views)
-    own = some.scales[kind]
-    if own.per_mm < solution.scales[kind].per_mm:
-        solution = solution.drawn_at({**solution.scales, kind: own})
-    picture, *_ = plan_grid(solution, kind, chosen, manner.words.say)
+    picture, *_ = plan_grid(solution, kind, chosen, manner.words)
     title = manner.entry.title or manner.words.sheets["views"][kind.value][1]
     said = [scale_inscription(solution.scales[kind], solution.problem.scales.convention,
                               manner.words.say)]  # fmt: skip

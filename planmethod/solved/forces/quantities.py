@@ -9,7 +9,7 @@ from msgspec.structs import replace
 
 from planmethod.construct.arithmetic import Number
 from planmethod.construct.steps import Name
-from planmethod.plans.forces.board import SCALE, Board, Reaction
+from planmethod.plans.forces.board import SCALE, ForceBoard, Reaction
 from planmethod.plans.forces.polygons import reaction_symbol
 from planmethod.plans.legend import Quantity, QuantityKind
 from planmethod.solved.forces.loads import applied
@@ -58,7 +58,7 @@ def _plain(value: Number) -> complex | float:
     return complex(value) if np.iscomplexobj(value) else float(value)
 
 
-def _reactions(board: Board) -> Iterator[Quantity]:
+def _reactions(board: ForceBoard) -> Iterator[Quantity]:
     b = board.draft.b
     for reaction in board.reactions:
         force, on, by = reaction.force, reaction.on, reaction.by
@@ -69,7 +69,7 @@ def _reactions(board: Board) -> Iterator[Quantity]:
         if reaction.couple is not None:
             told.append((QuantityKind.MOMENT, reaction.couple, moment_row(reaction)))
         for kind, name, row in told:
-            shown = reaction_symbol(on, by, letter=kind.letter)
+            shown = reaction_symbol(on, board.called(by), letter=kind.letter)
             back = f"{kind.letter}_{reaction.joint}_{by}/{on}"
             yield Quantity(
                 kind, name, f"{reaction.joint}_{on}/{by}", row=row, shown=shown, opposite=back

@@ -13,7 +13,7 @@ from msgspec.structs import replace
 
 from planmethod.problem.model import Problem, StrokeSense
 from planmethod.solved.forces.loads import external, only_in_positions
-from planmethod.solved.reading import Reals
+from planmethod.solved.reading import Flags, Reals
 from planmethod.solved.solution import Solution
 
 LOOKS = 720
@@ -55,7 +55,7 @@ class Strokes(Struct, frozen=True):
 
     working_deg: float
     idle_deg: float
-    K_v: float | None  # noqa: N815 - the letter of the textbook
+    K_v: float | None
     by: str
     start_deg: float
 
@@ -102,7 +102,7 @@ def looked_at(problem: Problem, start: float, turns: int) -> Reals:
     return start + 360.0 * turns * (np.arange(LOOKS * turns) + 0.5) / (LOOKS * turns)
 
 
-def by_loads(found: dict[str, Reals], first: Reals) -> tuple[bool, str] | None:
+def by_loads(found: dict[str, Reals], first: Flags) -> tuple[bool, str] | None:
     """Return whether the first stroke works, and the loads that decide; None where none does.
 
     Parameters

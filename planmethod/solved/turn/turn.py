@@ -69,7 +69,7 @@ class Extreme(Struct, frozen=True):
     value: float
 
 
-class Peak(Struct, frozen=True):
+class PressureAnglePeak(Struct, frozen=True):
     """Greatest and least pressure angle, degrees, and where the crank then is, degrees."""
 
     most: float
@@ -330,7 +330,7 @@ class Turn(Remembering):
     @property
     def ends_from_zero(self) -> tuple[Extreme, Extreme]:
         """Both ends of the stroke, that which ``zero`` names first; there must be a stroke."""
-        assert self.ends is not None, "an output without a stroke has no ends"
+        assert self.ends is not None
         one, two = self.ends
         is_other = self.task.zero is Zero.OTHER
         if self.task.zero is Zero.WORKING and self.strokes is not None:
@@ -399,8 +399,8 @@ class Turn(Remembering):
         way, size = two.value - one.value, abs(two.value - one.value)
         if sense in SENSES:
             place = self.read([one.phi, two.phi]).point(PointName(self.output.point))
-            way = complex(place[1] - place[0])
-            size, way = abs(way), (way * SENSES[sense].conjugate()).real
+            moved = complex(place[1] - place[0])
+            size, way = abs(moved), (moved * SENSES[sense].conjugate()).real
         elif self.output.slide is None:
             way = -way if sense.value == "cw" else way
         else:
@@ -510,7 +510,7 @@ class Turn(Remembering):
     # Pressure angle ------------------------------------------------------------------------------
 
     @cached_property
-    def pressure(self) -> Peak | None:
+    def pressure(self) -> PressureAnglePeak | None:
         """Greatest and least pressure angle on the output link, and where; None: has no meaning."""
         told = pressure_on(self.unit, self.output)
         if told is None:
@@ -544,7 +544,7 @@ class Turn(Remembering):
             flat = np.round(np.nan_to_num(size(alike - 1.0) + size(alike + 1.0), nan=-TURN), 6)
             ways = [self._ahead(self.zero, float(at)) for at in alike[flat == flat.max()]]
             found += [sign * most, self.zero + self.sense * min(ways)]
-        return Peak(*found)
+        return PressureAnglePeak(*found)
 
 
 def task_of(problem: Problem) -> CycleTask:
@@ -556,7 +556,11 @@ def task_of(problem: Problem) -> CycleTask:
     return CycleTask(zero=start, count=round(machine.count * TURN / machine.cycle_deg))
 
 
-@remembered
 def turn_of(solution: Solution) -> Turn:
-    """Return the cycle of a solution's mechanism; kept, since several views show it."""
+    """Return the cycle of a solution's mechanism; kept, whatever the scales of its plans."""
+    return _turn(solution.origin)
+
+
+@remembered
+def _turn(solution: Solution) -> Turn:
     return Turn(solution)
