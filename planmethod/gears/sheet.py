@@ -119,7 +119,7 @@ def pictures(
     settings = motion.train.picture
     scheme = SchemeData(motion, float(motion.train.unit_m / settings.mu_l))
     order = None if scheme.undrawn else best_order(scheme)
-    sheet = _Sheet(motion, settings, profile, words, sizes, order)
+    sheet = _Sheet(motion, settings, profile, words, sizes, order, None)
     return sheet.pictures()
 
 
