@@ -25,7 +25,7 @@ from planmethod.gears.told import calculation, given, symbol, unit_of
 from planmethod.note.document import Chapter, Item, Node, Paragraph, Step, Title
 from planmethod.note.formula import Rich, escape, fraction
 from planmethod.note.narrate.narrator import Line, StepNarrator
-from planmethod.note.numbers import Notation, raised
+from planmethod.note.numbers import Notation, half_up, raised
 from planmethod.note.rounding import rounded_to, sigma_text
 from planmethod.note.wording import Language, Words
 
@@ -75,7 +75,7 @@ def _pictures(drawn: GearDrawing, words: Language) -> Iterator[Node]:
         if lines:
             yield Step(tuple(lines))
     yield Chapter(say["steps"]["rays"])
-    pole = words.say.given(float(drawn.picture.pole_mm))
+    pole = words.say.given(half_up(float(drawn.picture.pole_mm), 2))
     yield Step((say["steps"]["pole"].format(pole=pole),))
     for body in drawn.rays:
         yield Step((say["steps"]["ray"].format(body=drawn.label(body)),))
