@@ -1,4 +1,4 @@
-"""What is asked of the cycle of a crank, put into plain records."""
+"""What is asked of the cycle of a crank, and decided of a project, put into plain records."""
 
 from __future__ import annotations
 
@@ -41,22 +41,24 @@ class Differentiation(Enum):
 
 
 class PoleDistances(Struct, frozen=True):
-    """Pole distances of both differentiations (полюсные расстояния)."""
+    """Pole distances of both differentiations (полюсные расстояния); None where scales set them."""
 
     v: Annotated[
-        float,
+        float | None,
         NumberKey(
-            "of the first differentiation", "a length", "mm", 1.0, 500.0, positive=True,
-            hint=DIAGRAM_HINT,
+            "of the first differentiation; the scale of the velocity follows from it then",
+            "a length", "mm", 1.0, 500.0, positive=True, hint=DIAGRAM_HINT,
+            absent="from round scales",
         ),
-    ] = 36.0  # fmt: skip
+    ] = None  # fmt: skip
     a: Annotated[
-        float,
+        float | None,
         NumberKey(
-            "of the second differentiation", "a length", "mm", 1.0, 500.0, positive=True,
-            hint=DIAGRAM_HINT,
+            "of the second differentiation; the scale of the acceleration follows from it then",
+            "a length", "mm", 1.0, 500.0, positive=True, hint=DIAGRAM_HINT,
+            absent="from round scales",
         ),
-    ] = 36.0  # fmt: skip
+    ] = None  # fmt: skip
 
 
 class CycleTask(Struct, frozen=True):
@@ -99,15 +101,18 @@ class CycleTask(Struct, frozen=True):
         ),
     ] = None
     length: Annotated[
-        float,
+        float | None,
         NumberKey(
-            "of the axis of φ for the cycle", "a length", "mm", 20.0, 2000.0, positive=True,
-            hint=DIAGRAM_HINT,
+            "of the axis of φ for the cycle; the scale of φ follows from it then", "a length", "mm",
+            20.0, 2000.0, positive=True, hint=DIAGRAM_HINT, absent="from a round scale",
         ),
-    ] = 288.0  # fmt: skip
+    ] = None  # fmt: skip
     pole: Annotated[
         PoleDistances,
-        OwnKey("pole distances of both differentiations: `{ v = 36, a = 36 }`, mm"),
+        OwnKey(
+            "pole distances of both differentiations: `{ v = 36, a = 36 }`, mm; from round scales "
+            "when absent"
+        ),
     ] = PoleDistances()
     differentiation: Annotated[
         Differentiation,
@@ -116,3 +121,42 @@ class CycleTask(Struct, frozen=True):
             "curve)"
         ),
     ] = Differentiation.CHORDS
+
+
+PROJECT_PARTS = ("kinematics", "forces", "flywheel", "gears", "meshing", "note")
+"""Parts of a project in the order of their sheets."""
+
+
+class ProjectTask(Struct, frozen=True):
+    """What is decided of a project (курсовой проект): ``[project]``."""
+
+    calculated: Annotated[
+        int | None,
+        WholeKey(
+            "number of the calculated position, from 0: drawn bold, loaded, told in full",
+            0,
+            719,
+            absent="that of `phi`, if it is one of the positions, else the clearest one",
+        ),
+    ] = None
+    gears: Annotated[
+        str,
+        OwnKey(
+            'file of the gear train, beside this one: `"train.toml"`',
+            absent="`[gears]` of this file",
+        ),
+    ] = ""
+    meshing: Annotated[
+        str,
+        OwnKey(
+            'file of the wheels in mesh, beside this one: `"wheels.toml"`',
+            absent="`[meshing]` of this file",
+        ),
+    ] = ""
+    parts: Annotated[
+        tuple[str, ...],
+        OwnKey(
+            "which parts are made: " + ", ".join(f'`"{part}"`' for part in PROJECT_PARTS),
+            absent="all that the file has",
+        ),
+    ] = ()

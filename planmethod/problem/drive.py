@@ -393,5 +393,5 @@ def read_scales(faults: Faults, table: object) -> Scales:
         return Scales()
     found = read_flat(faults, "scales", entries, Scales)
     if found.get("convention") is Convention.MM_PER_UNIT:
-        found |= {key: 1.0 / scale for key, scale in found.items() if key != "convention"}
+        found |= {key: 1.0 / found[key] for key in found if key.startswith("mu_")}
     return Scales(**found)

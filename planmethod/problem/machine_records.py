@@ -198,12 +198,19 @@ class Machine(Struct, frozen=True):
         ),
     ] = 12  # fmt: skip
     pole_mm: Annotated[
-        float,
-        NumberKey("pole distance of the graphical integration", "a distance", "mm", 5.0, 500.0),
-    ] = 30.0
+        float | None,
+        NumberKey(
+            "pole distance of the graphical integration; the scale of the work follows from it",
+            "a distance", "mm", 5.0, 500.0, absent="from a round scale",
+        ),
+    ] = None  # fmt: skip
     turn_mm: Annotated[
-        float, NumberKey("length of the cycle on the sheet", "a length", "mm", 60.0, 1000.0)
-    ] = 240.0
+        float | None,
+        NumberKey(
+            "length of the cycle on the sheet; the scale of φ follows from it then",
+            "a length", "mm", 60.0, 1000.0, absent="from a round scale",
+        ),
+    ] = None  # fmt: skip
     mu_M: Annotated[  # noqa: N815 - the letters of the textbook
         float | None,
         NumberKey("scale of the moment", "a scale", "N·m/mm", 1e-12, 1e12, absent="chosen"),

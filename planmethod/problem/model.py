@@ -12,11 +12,12 @@ from math import inf
 from typing import TYPE_CHECKING, Annotated, Any
 
 from msgspec import Struct, field
+from msgspec.structs import replace
 
 from planmethod.languages import say
 from planmethod.mechanism.model import FRAME, Mechanism
-from planmethod.problem.cycle_records import CycleTask
-from planmethod.problem.declared import NumberKey, WordKey
+from planmethod.problem.cycle_records import CycleTask, ProjectTask
+from planmethod.problem.declared import FlagKey, NumberKey, WordKey
 from planmethod.problem.head import KindProblem
 from planmethod.problem.names import told_length
 
@@ -326,7 +327,8 @@ class Scales(Struct, frozen=True):
     """Scales asked for in the file; None where the program chooses.
 
     ``mu_l, mu_v, mu_a, mu_F`` are always stored as unit per millimetre, whichever convention the
-    file and the sheet use.
+    file and the sheet use. Where they are ``decided``, for all that is handed in, no sheet leaves
+    them: it takes larger paper, or more sheets.
     """
 
     convention: Annotated[
@@ -354,6 +356,20 @@ class Scales(Struct, frozen=True):
         ),
     ] = None  # fmt: skip
 
+    own: Annotated[
+        bool,
+        FlagKey(
+            "plans of several positions have scales of their own, each to fill its room; else one "
+            "scale holds for all plans of a kind"
+        ),
+    ] = False
+    decided: bool = False
+
+    @property
+    def freed(self) -> Scales:
+        """Those without the scales of the plans, which may be too fine for other positions."""
+        return self if self.decided else replace(self, mu_v=None, mu_a=None)
+
     @property
     def in_mm_per_unit(self) -> bool:
         """Whether round numbers are those in mm per unit."""
@@ -374,6 +390,11 @@ class Problem(KindProblem, frozen=True, kw_only=True):
         Masses and loads; None when the file has neither ``[dynamics]`` nor ``[[loads]]``.
     cycle : CycleTask or None
         What ``[cycle]`` asks; None when the file has none.
+    project : ProjectTask or None
+        What ``[project]`` decides; None when the file has none.
+    calculated : int or None
+        Number of the calculated position of a settled project (`planmethod.project`), whose
+        positions and scales are those of all sheets; None of a problem as it is read.
     numbered : tuple of float
         Positions of the cycle in the order of their numbers, degrees, over both turns of a cycle
         of 720; empty without ``[cycle]`` (`planmethod.solved.turn.numbering`).
@@ -399,6 +420,8 @@ class Problem(KindProblem, frozen=True, kw_only=True):
     scales: Scales = Scales()
     dynamics: Dynamics | None = None
     cycle: CycleTask | None = None
+    project: ProjectTask | None = None
+    calculated: int | None = None
     numbered: tuple[float, ...] = ()
     machine: Machine | None = None
     balancing: CounterweightTask | None = None

@@ -19,6 +19,7 @@ from planmethod.problem.joints import coincident_points, join
 from planmethod.problem.links import LinkText, check_arcs, read_links
 from planmethod.problem.model import Body, Geared, Problem, Slide
 from planmethod.problem.names import UNITS, listed
+from planmethod.problem.project import read_project
 from planmethod.problem.selector import check_what, read_published, read_tables
 from planmethod.problem.sheet import read_head
 from planmethod.problem.slides import FrameText, find_host, order_hosts, read_frame, read_slide
@@ -109,6 +110,7 @@ def read_parts(
         cycle = read_cycle(faults, given["cycle"], bodies, slides, drive, machine)
         if cycle is not None and machine is not None:
             machine = followed(faults, machine, cycle)
+    project = read_project(faults, given["project"]) if "project" in given else None
     points = [*frame.points, *moving, *coincident_points(slides.values())]
     named: tuple[Sequence[str], Sequence[str]] = ((), ()) if faults else (points, tuple(links))
 
@@ -118,6 +120,8 @@ def read_parts(
         return what
 
     count = len(drive.positions) if drive else 0
+    if project is not None and cycle is not None:  # its positions are those of the cycle
+        count = cycle.count if machine is None else cycle.count * round(machine.cycle_deg / 360.0)
     published = read_published(faults, given.get("published", {}), checked, positions=count)
     scene = AnswerScope(
         () if faults else points,
@@ -152,6 +156,7 @@ def read_parts(
         answers=answers,
         dynamics=dynamics,
         cycle=cycle,
+        project=project,
         machine=machine,
         balancing=balancing,
         tables=tables,

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 
 from planmethod.construct.steps import Compute, LineName, Name, NumberName, PointName
+from planmethod.note.formula import fraction
 from planmethod.note.narrate.naming import SCALE_KIND, Names
 from planmethod.note.wording import Language, language
 from planmethod.plans.model import FACTS, PlanKind, Vector
@@ -153,7 +154,7 @@ class Formulas:
 
     def _read_on(self, step: Compute) -> str:
         """Return on which enlarged view a quantity's segment is read; empty of other segments."""
-        read_on = self.solution.read_on
+        read_on = self.solution.read_on(self.index)
         knot = next((read_on[name] for name, _ in step.powers if name in read_on), None)
         if knot is None:
             return ""
@@ -179,7 +180,4 @@ def _shown(value: float) -> float:
 
 def _over(above: list[tuple[str, str]], below: list[tuple[str, str]], which: int) -> str:
     top = "·".join(pair[which] for pair in above) or "1"
-    if not below:
-        return top
-    bottom = "·".join(pair[which] for pair in below)
-    return f"{top}/{bottom}" if len(below) == 1 else f"{top}/({bottom})"
+    return fraction(top, "·".join(pair[which] for pair in below)) if below else top

@@ -8,10 +8,11 @@ from typing import TypeAlias
 import numpy as np
 
 from planmethod.construct.scale import Scale
+from planmethod.note import formula
 from planmethod.note.narrate.forces.statement import mass_lines
 from planmethod.note.narrate.given import given
 from planmethod.note.narrate.scales import scale_inscription
-from planmethod.note.numbers import alike
+from planmethod.note.numbers import alike, half_up
 from planmethod.note.wording import Language, Words
 from planmethod.problem.machine_records import ConstantMoment, Quadrature, WeightSigns
 from planmethod.problem.model import Convention
@@ -61,9 +62,13 @@ class MachineTeller:
     def scale(self, letter: str, per_mm: float, unit: str) -> str:
         """Return the inscription of a scale; one that follows from others with four digits."""
         if letter in ("A", "T", "φ"):
-            return f"μ_{{{letter}}} = {self.say.found(per_mm)} {self.unit(unit)}/{self.unit('mm')}"
+            per_mm = float(f"{per_mm:.4g}")
         return scale_inscription(Scale(f"mu_{letter}", per_mm, unit), Convention.UNIT_PER_MM,
                                  self.say)  # fmt: skip
+
+    def _value(self, letter: str, per_mm: float, unit: str) -> str:
+        """Return the value of a scale as it is inscribed."""
+        return self.scale(letter, per_mm, unit).partition(" = ")[2]
 
     # Given and wanted ------------------------------------------------------------------------
 
@@ -79,7 +84,11 @@ class MachineTeller:
             lines.append(f"{self.letter('crank inertia')} = {inertia} {self.unit('kg·m²')}")
         inverse = 1.0 / machine.delta
         fraction = abs(inverse - round(inverse)) < 1e-9 * inverse
-        delta = f"1/{round(inverse)}" if fraction else self.say.given(machine.delta)
+        delta = (
+            formula.fraction("1", str(round(inverse)))
+            if fraction
+            else self.say.given(machine.delta)
+        )
         lines.append(f"δ = {delta}")
         speed = self.say.found(abs(problem.drive.rate))
         mean = self.said["means"][machine.mean.value]
@@ -112,7 +121,7 @@ class MachineTeller:
             "mu_M": self.scale("M", scales.moment, "N·m"),
             "mu_A": self.scale("A", scales.work, "J"),
             "mu_J": self.scale("J", scales.inertia, "kg·m²"),
-            "pole": f"{self.say.given(machine.pole_mm)} {mm}",
+            "pole": f"{self.say.given(half_up(drawing.pole, 2))} {mm}",
             "way": self.said.by_middle if middle else self.said.by_trapezoid,
             "constant": f"{self.say.found(constant)} {self.unit('N·m')}",
             "psi_max": self._angle(drawing.psi[0]),
@@ -133,23 +142,34 @@ class MachineTeller:
 
     def formulas(self) -> list[str]:
         """Return scales, angles and the flywheel by the construction, with numbers."""
-        drawing, machine, say = self.drawing, self.flywheel.machine, self.say
+        drawing, say = self.drawing, self.say
         scales, mm, omega = drawing.scales, self.unit("mm"), self.letter("mean speed")
-        turn = say.found(self.flywheel.cycle)
-        lines = [
-            f"μ_{{φ}} = {turn}/{say.given(machine.turn_mm)} = "
-            + self.scale("φ", scales.phi, "rad").partition(" = ")[2],
-            f"μ_{{A}} = μ_{{T}} = μ_{{M}}·H·μ_{{φ}} = {say.given(scales.moment)}·"
-            f"{say.given(machine.pole_mm)}·{say.found(scales.phi)} = "
-            + self.scale("A", scales.work, "J").partition(" = ")[2],
-        ]
+        turn, pole = degrees(self.flywheel.cycle), say.given(half_up(drawing.pole, 2))
+        angles = [
+            self._value("φ", degrees(scales.phi), "deg"), self._value("φ", scales.phi, "rad"),
+        ]  # fmt: skip
+        axis = formula.fraction(say.given(turn), say.given(half_up(drawing.length, 2)))
+        lines = [" = ".join(["μ_{φ}", axis, *angles])]
+        parts = f"{say.given(scales.moment)}·{{}}{say.found(scales.phi)}"
+        if self.flywheel.machine.pole_mm is None:
+            above, below = say.given(float(f"{scales.work:.4g}")), parts.format("")
+            lines += [
+                f"μ_{{A}} = μ_{{T}} = {self._value('A', scales.work, 'J')}",
+                f"H = {formula.fraction('μ_{A}', 'μ_{M}·μ_{φ}')} = "
+                f"{formula.fraction(above, below)} = {pole} {mm}",
+            ]
+        else:
+            lines.append(
+                f"μ_{{A}} = μ_{{T}} = μ_{{M}}·H·μ_{{φ}} = {parts.format(pole + '·')} = "
+                + self._value("A", scales.work, "J")
+            )
         slopes = self.flywheel.usual_slopes
         for name, slope, psi in zip(("max", "min"), slopes, drawing.psi, strict=True):
             factor = {True: "·(1 + δ)", False: "·(1 − δ)"}[slope > 1.0] if slope != 1.0 else ""
             tangent = say.found(float(np.tan(np.radians(psi))))
+            sought = formula.fraction(f"μ_{{J}}·{omega}^{{2}}{factor}", "2μ_{T}")
             lines.append(
-                f"tg ψ_{{{name}}} = μ_{{J}}·{omega}^{{2}}{factor}/(2μ_{{T}}) = {tangent}, "
-                f"ψ_{{{name}}} = {self._angle(psi)}°"
+                f"tg ψ_{{{name}}} = {sought} = {tangent}, ψ_{{{name}}} = {self._angle(psi)}°"
             )
         exact = float(drawing.exact.number(drawing.made.KL)[0])
         told = f"KL = {say.ruled(self.KL)} {mm}"

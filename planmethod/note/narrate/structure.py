@@ -107,10 +107,10 @@ def mobility_formulas(
     indices = pair_classes(notation, words)
     counts = {"n": structure.moving_links, "low": low, "high": structure.higher_pairs, **indices}
     yield said.counts.format(revolute=revolute, prismatic=low - revolute, **counts)
-    yield said.chebyshev.format(w=_signed(structure.mobility), **counts)
-    yield said.spatial.format(w=_signed(spatial), **counts)
+    yield said.chebyshev.format(w=signed(structure.mobility), **counts)
+    yield said.spatial.format(w=signed(spatial), **counts)
     yield said.redundant.format(
-        ways=WAYS_IN, local=LOCAL_MOBILITY, w=_bracketed(spatial), q=_signed(structure.redundant)
+        ways=WAYS_IN, local=LOCAL_MOBILITY, w=_bracketed(spatial), q=signed(structure.redundant)
     )
 
 
@@ -136,18 +136,19 @@ def _static_counts(structure: Structure, words: Words) -> Rich:
         n=structure.moving_links,
         equations=equations,
         pairs=reactions,
-        w=_signed(structure.mobility),
+        w=signed(structure.mobility),
         unknowns=unknowns,
         verdict=verdict,
     )
 
 
-def _signed(number: int) -> str:
+def signed(number: int) -> str:
+    """Return a whole number with the sign of print."""
     return f"{MINUS}{-number}" if number < 0 else str(number)
 
 
 def _bracketed(number: int) -> str:
-    return f"({_signed(number)})" if number < 0 else str(number)
+    return f"({signed(number)})" if number < 0 else str(number)
 
 
 # Groups --------------------------------------------------------------------------------------
@@ -179,7 +180,7 @@ def group_caption(group: AssurGroup, words: Language) -> list[Rich]:
 def _counts(drivers: int, n: int, p: int) -> list[Rich]:
     """Return own mobility W and redundant constraints q of a part, with so many drivers."""
     w, q = 3 * n - 2 * p, drivers + LOCAL_MOBILITY - (6 * n - 5 * p)
-    lines = (f"W = 3·{n} − 2·{p} = {_signed(w)}", f"q = {drivers} − (6·{n} − 5·{p}) = {_signed(q)}")
+    lines = (f"W = 3·{n} − 2·{p} = {signed(w)}", f"q = {drivers} − (6·{n} − 5·{p}) = {signed(q)}")
     return [line.replace(" ", NBSP) for line in lines]
 
 
@@ -189,14 +190,22 @@ def _listed(*links: str) -> str:
 
 def _joints(mechanism: Mechanism, group: AssurGroup, words: Words) -> Rich:
     """Return the outer and the inner pairs of a group."""
-    called = mechanism.called
-    outer = (_joint(lead.joint, (called(lead.to), lead.link), words) for lead in group.leads)
-    inner = (_joint(joint, _inside(joint, group), words) for joint in group.inner)
+    outer, inner = group_joints(mechanism, group, words)
     told = (
         words.joint_outer.format(joints=", ".join(outer)),
         words.joint_inner.format(joints=", ".join(inner)),
     )
     return "; ".join(told) + "."
+
+
+def group_joints(
+    mechanism: Mechanism, group: AssurGroup, words: Words
+) -> tuple[list[Rich], list[Rich]]:
+    """Return the outer and the inner pairs of a group, each by point, kind and links."""
+    called = mechanism.called
+    outer = [_joint(lead.joint, (called(lead.to), lead.link), words) for lead in group.leads]
+    inner = [_joint(joint, _inside(joint, group), words) for joint in group.inner]
+    return outer, inner
 
 
 def _joint(joint: Joint, links: Sequence[str], words: Words) -> Rich:

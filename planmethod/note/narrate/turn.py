@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from planmethod.note.narrate.given import point_name
 from planmethod.note.narrate.scales import scale_inscription
-from planmethod.note.numbers import significant, with_unit
+from planmethod.note.numbers import half_up, significant, with_unit
 from planmethod.note.wording import Language
 from planmethod.solved.turn.construction import PRIMES, ExtremesConstruction, Locus
 from planmethod.solved.turn.diagrams import Diagrams
@@ -143,10 +143,16 @@ def diagram_steps(diagrams: Diagrams, words: Language) -> list[str]:
     said, task, say = words.cycle, diagrams.task, words.say
     way = task.differentiation
     return [
-        said.scheme_steps.format(length=say.given(task.length), count=diagrams.count),
-        said["ray_steps"][way.value].format(pole=say.given(task.pole.v)),
-        said.again.format(pole=say.given(task.pole.a)),
-        said.scales.format(scales="; ".join(diagram_scales(diagrams, words))),
+        said.scheme_steps.format(
+            length=say.given(half_up(diagrams.length, 2)), count=diagrams.count
+        ),
+        said["ray_steps"][way.value].format(pole=say.given(half_up(diagrams.poles[0], 2))),
+        said.again.format(pole=say.given(half_up(diagrams.poles[1], 2))),
+        said.scales.format(
+            scales="; ".join(diagram_scales(diagrams, words)),
+            radians=say.found(diagrams.mu_phi),
+            omega=f"ω_{{{diagrams.turn.solution.problem.drive.link}}}",
+        ),
     ]
 
 
@@ -185,24 +191,7 @@ def extreme_steps(turn: Turn, made: ExtremesConstruction | None, words: Language
     said, say = words.cycle, words.say
     if made is None:
         return [said.no_construction] if turn.ends is not None else []
-
-    def primed(name: str) -> list[str]:
-        return [point_name(name) + p for p in PRIMES]
-
-    def mm(name: str) -> str:
-        return say.number(f"{made.length(name):.1f}")
-
-    crank, total, less = radius_names(made)
-    arcs = made.locus is not Locus.TANGENTS
-    facts = {
-        "pivot": point_name(made.pivot), "end": point_name(made.end),
-        "centre": point_name(made.centre) if made.centre else "",
-        "crank": crank, "crank_mm": mm("r"), "pins": ", ".join(primed(made.pin)),
-        "ends": ", ".join(primed(made.end)),
-        "rays": ", ".join(point_name(made.pivot) + end for end in primed(made.end)),
-        "far": total, "near": less,
-        "far_mm": mm("l+r") if arcs else "", "near_mm": mm("l-r") if arcs else "",
-    }  # fmt: skip
+    facts = construction_facts(made, words)
     angles = [
         said["constructed"]["phi"].format(
             name=f"φ{p}",
@@ -227,3 +216,25 @@ def extreme_steps(turn: Turn, made: ExtremesConstruction | None, words: Language
         sigma=size(made.sigma[2], 2),
     )
     return [said["construction"][made.locus.value].format(**facts), told]
+
+
+def construction_facts(made: ExtremesConstruction, words: Language) -> dict[str, str]:
+    """Return what the sentences of the construction of extreme positions name."""
+
+    def primed(name: str) -> list[str]:
+        return [point_name(name) + p for p in PRIMES]
+
+    def mm(name: str) -> str:
+        return words.say.number(f"{made.length(name):.1f}")
+
+    crank, total, less = radius_names(made)
+    arcs = made.locus is not Locus.TANGENTS
+    return {
+        "pivot": point_name(made.pivot), "end": point_name(made.end),
+        "centre": point_name(made.centre) if made.centre else "",
+        "crank": crank, "crank_mm": mm("r"), "pins": ", ".join(primed(made.pin)),
+        "ends": ", ".join(primed(made.end)),
+        "rays": ", ".join(point_name(made.pivot) + end for end in primed(made.end)),
+        "far": total, "near": less,
+        "far_mm": mm("l+r") if arcs else "", "near_mm": mm("l-r") if arcs else "",
+    }  # fmt: skip

@@ -73,7 +73,7 @@ def machine_record(flywheel: Flywheel, profile: Profile) -> dict[str, Any]:
             "mu_A": plain(drawing.scales.work),
             "mu_T": plain(drawing.scales.work),
             "mu_J": plain(drawing.scales.inertia),
-            "pole_mm": machine.pole_mm,
+            "pole_mm": plain(drawing.pole),
         },
         "flywheel": None
         if sizes is None

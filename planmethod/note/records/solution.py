@@ -119,6 +119,8 @@ def _diagrams(diagrams: Diagrams) -> dict[str, Any]:
     s, v_chord, a_chord = diagrams.drawn(Differentiation.CHORDS)
     _, v_exact, a_exact = diagrams.exact(diagrams.shares)
     return {
+        "length_mm": diagrams.length,
+        "poles_mm": list(diagrams.poles),
         "mu_phi": diagrams.mu_phi,
         "mu_t": diagrams.mu_t,
         "mu_s": diagrams.mu_s,

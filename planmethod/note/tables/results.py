@@ -19,7 +19,7 @@ from planmethod.note.document import (
 from planmethod.note.formula import Rich, escape
 from planmethod.note.narrate.given import told
 from planmethod.note.narrate.naming import Names
-from planmethod.note.narrate.scales import common_scale, scale_inscription
+from planmethod.note.narrate.scales import scale_inscription
 from planmethod.note.numbers import with_unit
 from planmethod.note.plaintext import fixed, found, given, spoken
 from planmethod.note.tables.sigmas import Sigmas, levelled
@@ -52,9 +52,11 @@ def results_document(solution: Solution, words: Language, *, sigma: bool = False
 
 def _results(solution: Solution, words: Language, sigmas: Sigmas) -> Iterator[Node]:
     note, every = words.note, range(len(solution.positions))
+    convention = solution.problem.scales.convention
     yield Paragraph(heading_of(solution.problem))
     yield Item(note.formula.format(formula=solution.structure.formula))
-    scales = (common_scale(solution, kind, every, words) for kind in MOTION)
+    common = (solution.scales[kind] for kind in MOTION if solution.has_common(kind))
+    scales = (scale_inscription(scale, convention, words.say) for scale in common)
     yield Item(f"{note.scales}: {'; '.join(scales)}")
     if len(every) > FEW:
         yield from _many(solution, words, sigmas)

@@ -45,7 +45,7 @@ class _Sketch:
 
     def picture(self) -> Picture:
         made, tell = self.made, self.tell
-        length = self.drawing.flywheel.machine.turn_mm
+        length = self.drawing.length
         feet = {key: self.at(axes.origin) for key, axes in made.axes.items()}
         units = {"M": tell.moment + f", {tell.unit('N·m')}", "A": f"A, {tell.unit('J')}",
                  "T": f"{tell.letter('energy gain')}, {tell.unit('J')}",
@@ -95,7 +95,7 @@ class _Sketch:
 
     def _numbers(self, key: str, foot: complex, ordinates: Sequence[float]) -> None:
         count = self.drawing.count
-        step = self.drawing.flywheel.machine.turn_mm / count
+        step = self.drawing.length / count
         every = next(n for n in (1, 2, 3, 4, 6, 12, count) if n * step >= 3.0 * self.size)
         for k, number in enumerate(self.drawing.flywheel.turn.numbers(count)):
             place = foot + k * step
@@ -138,7 +138,7 @@ class _Sketch:
         self._curve(pieces, "M")
         self._dots(self.places(made.moments))
         pole = self.at(made.pole)
-        length = flywheel.machine.turn_mm
+        length = drawing.length
         cuts = []
         for k in range(drawing.count):
             cut = self.at(PointName(f"A cut {k}"))

@@ -104,7 +104,7 @@ def _curves(diagrams: Diagrams, graph: Graph, trace: Trace, number: int) -> list
     if not number:
         return [Curve("", _parts(x, exact))]
     found = _places(graph, trace, number)
-    step = diagrams.task.length / diagrams.count
+    step = diagrams.length / diagrams.count
     drawn = smooth(found.imag, (x - graph.at[number][0]) / step)
     return [Curve("", _parts(x, drawn)), Curve("", _parts(x, exact), Pen.THIN)]
 

@@ -16,6 +16,7 @@ from planmethod.note.wording import Language
 from planmethod.plans.model import PlanKind
 from planmethod.render.layout.cuttings import Arrange
 from planmethod.render.sheets.composer import Sizes
+from planmethod.render.sheets.compositions import SHIPPED
 from planmethod.solved.scaling import AS_HIGH, LESS, Views
 
 
@@ -109,6 +110,14 @@ class Composition(Struct, frozen=True):
     def sheets(self) -> tuple[int, ...]:
         """Numbers of the sheets that have blocks."""
         return tuple(sorted({entry.sheet for entry in self.blocks}))
+
+    @property
+    def is_estimated(self) -> bool:
+        """Whether room and scales are those that the estimate has decided for all outputs.
+
+        So it is of the compositions that are taken when none is asked for.
+        """
+        return self.name in SHIPPED[:3]
 
     @property
     def levels(self) -> int:

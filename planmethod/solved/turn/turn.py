@@ -557,7 +557,11 @@ def task_of(problem: Problem) -> CycleTask:
     return CycleTask(zero=start, count=round(machine.count * TURN / machine.cycle_deg))
 
 
-@remembered
 def turn_of(solution: Solution) -> Turn:
-    """Return the cycle of a solution's mechanism; kept, since several views show it."""
+    """Return the cycle of a solution's mechanism; kept, whatever the scales of its plans."""
+    return _turn(solution.origin)
+
+
+@remembered
+def _turn(solution: Solution) -> Turn:
     return Turn(solution)
