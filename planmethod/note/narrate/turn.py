@@ -6,7 +6,7 @@ from planmethod.note.narrate.given import point_name
 from planmethod.note.narrate.scales import scale_inscription
 from planmethod.note.numbers import half_up, significant, with_unit
 from planmethod.note.wording import Language
-from planmethod.problem.model import Differentiation
+from planmethod.problem.cycle_records import Differentiation
 from planmethod.solved.turn.construction import PRIMES, ExtremesConstruction, Locus
 from planmethod.solved.turn.diagrams import Diagrams
 from planmethod.solved.turn.output import Output
