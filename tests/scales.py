@@ -28,5 +28,5 @@ def uneven_scales(sheet: Drawing) -> Iterator[str]:
             yield f"{view.kind}: {view.scale} = {view.per_mm}"
     for item in sheet.items:
         found = _INSCRIBED.match(item.text) if isinstance(item, Text) else None
-        if found and "рад" not in item.text and not is_round(float(found[1].replace(",", "."))):
+        if found and " рад" not in item.text and not is_round(float(found[1].replace(",", "."))):
             yield item.text
