@@ -106,6 +106,21 @@ def formula_alone(found: Sequence[Piece]) -> tuple[Node, ...]:
     return ()
 
 
+def with_stops(found: Sequence[Piece]) -> Iterator[Piece]:
+    """Yield the parts of a sentence, a stop in the formula before it: no line begins with one."""
+    stop = ""
+    for piece, after in zip(found, [*found[1:], None], strict=True):
+        if not piece.is_formula:
+            text = piece.text.removeprefix(stop)
+            stop = ""
+            if text:
+                yield Piece((Letters(text),), False)
+            continue
+        text = after.text if after is not None else ""
+        stop = text[:1] if text[:1] in (*_STOPS, ")") else ""
+        yield Piece((*piece.nodes, *_some(stop)), True)
+
+
 def with_levels(nodes: Iterable[Node]) -> Iterator[Node]:
     """Yield the nodes with indices for letters that are raised or lowered themselves: ``м/с²``."""
     for node in nodes:

@@ -39,7 +39,13 @@ from planmethod.note.wording import Language
 from planmethod.note.writers import omml
 from planmethod.note.writers.broken import chain_of, ems, lines_of
 from planmethod.note.writers.html import clean
-from planmethod.note.writers.sentences import formula_alone, pieces, units_of, with_levels
+from planmethod.note.writers.sentences import (
+    formula_alone,
+    pieces,
+    units_of,
+    with_levels,
+    with_stops,
+)
 from planmethod.note.writers.wordframe import Frame, field_part, put_field, small_paragraph
 
 FONT = "Times New Roman"
@@ -240,7 +246,7 @@ class _Writer:
 
     def _fill(self, paragraph: Any, rich: Rich) -> None:
         """Put a sentence into a paragraph, its formulas as equations."""
-        for piece in pieces(parse(clean(rich)), self._units):
+        for piece in with_stops(pieces(parse(clean(rich)), self._units)):
             if not piece.is_formula:
                 paragraph.add_run(piece.text)
                 continue
