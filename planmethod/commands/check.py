@@ -15,13 +15,13 @@ from planmethod.commands.output import bar, json_text
 from planmethod.commands.problems import Todo, each, finish, guarded, stem
 from planmethod.errors import ExitCode, PlanMethodError
 from planmethod.languages import say, spoken
-from planmethod.options import UsageError, jobs_option, lang_option, out_option
+from planmethod.options import PathType, UsageError, jobs_option, lang_option, out_option
 
 if TYPE_CHECKING:
     from planmethod.check.group import Variants
     from planmethod.check.key import Key
     from planmethod.check.marks import Settings
-    from planmethod.check.model import Checked, Work
+    from planmethod.check.model import CheckedWork, Work
     from planmethod.note.wording import Language
 
 POLICIES = ("construction", "department", "wider", "stricter")
@@ -32,9 +32,7 @@ FORMATS = ("html", "pdf")
 
 
 @click.command(cls=Spoken)
-@click.argument(
-    "files", nargs=-1, required=True, metavar="PROBLEM [WORK]...", type=click.Path(path_type=Path)
-)
+@click.argument("files", nargs=-1, required=True, metavar="PROBLEM [WORK]...", type=PathType())
 @click.option("--key", "key_only", is_flag=True, help="Print and write the key of every PROBLEM.")
 @click.option("--variant", metavar="NAME", help="Variant of the works that name none.")
 @click.option("--all-variants", is_flag=True, help="With --key: of every variant.")
@@ -43,7 +41,7 @@ FORMATS = ("html", "pdf")
 @click.option(
     "--settings",
     "settings_file",
-    type=click.Path(path_type=Path, dir_okay=False),
+    type=PathType(dir_okay=False),
     metavar="FILE",
     help="TOML of the department: tolerances, points, marks.",
 )
@@ -53,7 +51,7 @@ FORMATS = ("html", "pdf")
 )
 @click.option(
     "--overrides",
-    type=click.Path(path_type=Path, dir_okay=False),
+    type=PathType(dir_okay=False),
     metavar="FILE",
     help="Points and remarks set by hand; overrides.csv of the output folder when absent.",
 )
@@ -127,7 +125,9 @@ def _settings(file: Path | None, policy: str | None, profile: str | None) -> Set
     return replace(settings, policy=policy or settings.policy, profile=profile or settings.profile)
 
 
-def _checked(variants: Variants, paths: list[Path], jobs: int) -> tuple[list[Checked], list[Work]]:
+def _checked(
+    variants: Variants, paths: list[Path], jobs: int
+) -> tuple[list[CheckedWork], list[Work]]:
     from planmethod.check.group import check_works
     from planmethod.check.works import read_works
 
@@ -136,7 +136,7 @@ def _checked(variants: Variants, paths: list[Path], jobs: int) -> tuple[list[Che
         parts = _in_processes(variants, works, jobs)
     else:
         parts = ([one] for one in check_works(variants, works))
-    checked: list[Checked] = []
+    checked: list[CheckedWork] = []
     with bar(len(works), long=len(works) >= MANY_WORKS) as done:
         for part in parts:
             checked += part
@@ -144,7 +144,7 @@ def _checked(variants: Variants, paths: list[Path], jobs: int) -> tuple[list[Che
     return checked, works
 
 
-def _in_processes(variants: Variants, works: list[Work], jobs: int) -> Iterator[list[Checked]]:
+def _in_processes(variants: Variants, works: list[Work], jobs: int) -> Iterator[list[CheckedWork]]:
     """Check works in several processes."""
     from planmethod.commands.processes import in_processes
 
@@ -175,7 +175,7 @@ def check_part(
     variant: str | None,
     settings: Settings,
     among: list[Work],
-) -> list[Checked]:
+) -> list[CheckedWork]:
     """Check some of the works of a group."""
     from planmethod.check.group import Variants, check_works
 
@@ -198,7 +198,7 @@ def _warn_of_others(problem: Path, works: list[Work]) -> None:
             )
 
 
-def _print_json(checked: list[Checked], paths: list[Path]) -> None:
+def _print_json(checked: list[CheckedWork], paths: list[Path]) -> None:
     from planmethod.check.pages.listing import record
 
     records = [record(one) for one in checked]
@@ -210,7 +210,7 @@ def _print_json(checked: list[Checked], paths: list[Path]) -> None:
 def _write_results(
     variants: Variants,
     paths: list[Path],
-    checked: list[Checked],
+    checked: list[CheckedWork],
     out: Path,
     salt: str | None,
     lang: str,

@@ -12,7 +12,7 @@ from typing import Any, Literal
 import click
 from click.core import ParameterSource
 
-from planmethod.commands.asked import Asked, sheet_options
+from planmethod.commands.asked import PaperRequest, sheet_options
 from planmethod.commands.helptext import Spoken
 from planmethod.commands.output import json_text, refuse_unknown, write_drawings, write_new
 from planmethod.commands.problems import finish, guarded
@@ -20,6 +20,7 @@ from planmethod.errors import ExitCode
 from planmethod.languages import say
 from planmethod.options import (
     BadParameter,
+    PathType,
     UsageError,
     drawn_by,
     dxf_text_option,
@@ -120,7 +121,7 @@ def asked_options(command: Callable[..., Any]) -> Callable[..., Any]:
 @click.option(
     "-o",
     "--out",
-    type=click.Path(path_type=Path),
+    type=PathType(),
     help="Problem file to write, *.toml; or a folder for it and the sheet.",
 )
 @click.option("--force", is_flag=True, help="Write over an existing problem file.")
@@ -142,7 +143,7 @@ def synthesize(
     profile: str | None,
     dxf_text: Literal["text", "strokes"],
     dpi: int,
-    asked: Asked,
+    asked: PaperRequest,
     **options: Any,
 ) -> None:
     """Find the sizes of a mechanism by construction, and measure it (синтез механизма).

@@ -222,7 +222,7 @@ class Table(Struct, frozen=True):
         yield from zip(self.head, zip(*self.rows, strict=True), strict=True)
 
 
-class View(Protocol):
+class DrawableView(Protocol):
     """What can be drawn wherever a document is written (вид)."""
 
     @property
@@ -250,7 +250,7 @@ class Figure(Struct, frozen=True):
     which texts refer to it.
     """
 
-    view: View
+    view: DrawableView
     caption: Rich = ""
     numbered: bool = False
     key: str = ""

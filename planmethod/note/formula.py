@@ -50,7 +50,7 @@ class Index(Struct, frozen=True):
     is_power: bool = False
 
 
-class Bar(Struct, frozen=True):
+class Overline(Struct, frozen=True):
     """What has a line above it (черта сверху)."""
 
     body: tuple[Node, ...]
@@ -69,7 +69,7 @@ class Root(Struct, frozen=True):
     body: tuple[Node, ...]
 
 
-Node: TypeAlias = Letters | Index | Bar | Fraction | Root
+Node: TypeAlias = Letters | Index | Overline | Fraction | Root
 
 RELATIONS = "=≈≠≡<>≤≥→"
 """Signs between the sides of a chain of equalities."""
@@ -151,7 +151,7 @@ def _commanded(markup: str, command: re.Match[str]) -> tuple[Node, int]:
     """Read what a command makes; return it and the place after it."""
     body, end = _parse(markup, command.end(), closing=True)
     if command[1] == "bar":
-        return Bar(body), end + 1
+        return Overline(body), end + 1
     if command[1] == "sqrt":
         return Root(body), end + 1
     if markup[end + 1 : end + 2] != "{":
@@ -221,8 +221,8 @@ def inline(nodes: Iterable[Node]) -> tuple[Node, ...]:
                 put(node)
             case Index(below, above, is_power):
                 put(Index(inline(below), inline(above), is_power))
-            case Bar(body):
-                put(Bar(inline(body)))
+            case Overline(body):
+                put(Overline(inline(body)))
             case Root(body):
                 put(Letters("√("), *inline(body), Letters(")"))
             case Fraction(above, below):
@@ -256,7 +256,7 @@ def written(nodes: Iterable[Node]) -> Rich:
                 high = f"^{{{written(above)}}}" if above else ""
                 low = f"_{{{written(below)}}}" if below else ""
                 return low + high if is_power else high + low
-            case Bar(body):
+            case Overline(body):
                 return f"\\bar{{{written(body)}}}"
             case Fraction(above, below):
                 return fraction(written(above), written(below))

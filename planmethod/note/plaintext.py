@@ -7,11 +7,11 @@ from typing import TYPE_CHECKING, assert_never
 
 from planmethod.note.formula import (
     SPECIAL,
-    Bar,
     Fraction,
     Index,
     Letters,
     Node,
+    Overline,
     Root,
     inline,
     parse,
@@ -28,7 +28,7 @@ NO_BREAK = "\N{NO-BREAK SPACE}"
 _SUPER = dict(zip("0123456789-−ntτkr", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻⁻ⁿᵗᵗᵏʳ", strict=True))
 _SUB = dict(zip("0123456789", "₀₁₂₃₄₅₆₇₈₉", strict=True))
 _RATIO = "U"
-"""A letter above it is the carrier that a ratio is seen from, ``U^{H}_{13}``, as one in brackets."""
+"""Above it stands the carrier that a ratio is seen from, ``U^{H}_{13}``: no power of it."""
 
 
 def plain_text(rich: str) -> str:
@@ -57,7 +57,7 @@ def _plain(node: Node, *, is_ratio: bool = False) -> str:
                 else "".join(_SUPER.get(c, c) for c in high)
             )
             return lowered + raised if is_power else raised + lowered
-        case Bar(body):
+        case Overline(body):
             return _plain_of(body)
         case Fraction() | Root():
             raise AssertionError  # the formula is in one line

@@ -8,9 +8,10 @@ from functools import partial
 from planmethod.languages import say
 from planmethod.mechanism.model import FRAME
 from planmethod.problem import fields
+from planmethod.problem.cycle_records import CycleTask, PoleDistances, Zero
 from planmethod.problem.fields import Faults
 from planmethod.problem.flat import OwnReader, read_flat
-from planmethod.problem.model import Body, CycleTask, Drive, PoleDistances, Slide, Zero
+from planmethod.problem.model import Body, Drive, Slide
 
 _EXAMPLE = '[cycle] output = "B", zero = "extreme", count = 12'
 _NAMED = {zero.value: zero for zero in Zero}

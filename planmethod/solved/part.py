@@ -17,7 +17,8 @@ from planmethod.construct.arithmetic import Float64
 from planmethod.errors import Fault, PlanMethodError, ProblemError
 from planmethod.problem.fields import Faults
 from planmethod.problem.model import Problem
-from planmethod.problem.reader import TrainReader, read_parsed
+from planmethod.problem.parts import TrainReader
+from planmethod.problem.reader import read_parsed
 from planmethod.problem.variants import apply_variant, read_variants
 from planmethod.solved.failures import Failure, PositionError
 from planmethod.solved.impossible import explain, failing
@@ -34,7 +35,7 @@ _ASIDE = 1e-4  # of a dead position, degrees
 _FAR = [1.0e3, 1.7e3]  # nearest to it one of two closings is: which one does not matter
 
 
-class Part(Struct, frozen=True):
+class MechanismPart(Struct, frozen=True):
     """What can be drawn of a file, and what is missing (часть механизма).
 
     Attributes
@@ -52,7 +53,7 @@ class Part(Struct, frozen=True):
     fixed : mapping of str to complex, m
         Fixed points.
     unsure : tuple of str
-        Points whose closing nobody chose: one of two is shown.
+        Points whose closing is not given: one of two is shown.
     """
 
     solution: Solution | None
@@ -73,7 +74,7 @@ def largest_part(
     train: TrainReader | None = None,
     views: Views | None = None,
     posed: Callable[[Problem], Problem] = lambda problem: problem,
-) -> Part:
+) -> MechanismPart:
     """Return as much of a problem as makes a mechanism in some asked position.
 
     Parameters
@@ -96,7 +97,7 @@ def largest_part(
         failure = error.failure if isinstance(error, PositionError) else None
         return replace(grown.part(), faults=faults, trouble=error, failure=failure)
     there, failure = _existing(solution)
-    return Part(solution.moved(there.tolist()) if there.size else None, failure=failure)
+    return MechanismPart(solution.moved(there.tolist()) if there.size else None, failure=failure)
 
 
 def _with_variant(table: Mapping[str, Any], variant: str | None) -> Mapping[str, Any]:
@@ -147,7 +148,7 @@ class _Growth:
         listed = self.links[link].get("points", ())
         return tuple(p for p in listed if isinstance(p, str)) if isinstance(listed, list) else ()
 
-    def part(self) -> Part:
+    def part(self) -> MechanismPart:
         """Return the part."""
         found: Solution | None = None
         kept: tuple[str, ...] = ()
@@ -165,7 +166,7 @@ class _Growth:
                     found, kept, grows = bigger, (*kept, *more), True
                     break
         left = {link: self.points(link) for link in self.links if link not in kept}
-        return Part(found, links=left, fixed=self._fixed(), unsure=tuple(self.unsure))
+        return MechanismPart(found, links=left, fixed=self._fixed(), unsure=tuple(self.unsure))
 
     def _drivers(self) -> Iterator[str]:
         """Yield the driver that the file names, and then links that may be one."""

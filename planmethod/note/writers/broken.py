@@ -8,11 +8,11 @@ from itertools import chain
 from typing import assert_never
 
 from planmethod.note.formula import (
-    Bar,
     Fraction,
     Index,
     Letters,
     Node,
+    Overline,
     Root,
     inline,
     sides,
@@ -35,7 +35,7 @@ def _ems(node: Node) -> float:
             return 0.47 * len(text)
         case Index(below, above):
             return _SMALL * max(ems(below), ems(above))
-        case Bar(body):
+        case Overline(body):
             return ems(body)
         case Root(body):
             return ems(body) + 0.9

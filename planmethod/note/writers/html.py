@@ -10,7 +10,7 @@ from typing import assert_never
 
 from planmethod.note import document
 from planmethod.note.document import Document, Equation, Node, Table
-from planmethod.note.formula import Bar, Fraction, Index, Letters, Root, inline, parse
+from planmethod.note.formula import Fraction, Index, Letters, Overline, Root, inline, parse
 from planmethod.note.formula import Node as Sign
 from planmethod.note.wording import Words, language
 
@@ -201,7 +201,7 @@ def _sign(node: Sign) -> str:
         case Index(low, high):
             lower = f"<sub>{inside(low)}</sub>" if low else ""
             return (f"<sup>{inside(high)}</sup>" if high else "") + lower
-        case Bar(body):
+        case Overline(body):
             return f'<span class="bar">{inside(body)}</span>'
         case Fraction(above, below):
             parts = f"<span>{inside(above)}</span><span>{inside(below)}</span>"

@@ -15,7 +15,7 @@ from typing import Any, TypeAlias, assert_never
 from lxml.builder import ElementMaker
 
 from planmethod.note.document import Equation, Term
-from planmethod.note.formula import Bar, Fraction, Index, Letters, Node, Root, parse
+from planmethod.note.formula import Fraction, Index, Letters, Node, Overline, Root, parse
 from planmethod.note.writers.tokens import PAIRS, Token, closing, tokens_of
 
 MATH = "http://schemas.openxmlformats.org/officeDocument/2006/math"
@@ -108,7 +108,7 @@ def _element(node: Node) -> Element:
             return M.box(M.e(*elements([node])))
         case Index():
             return _indexed(_text(NOTHING), node)
-        case Bar(body):
+        case Overline(body):
             return bar(elements(body), "top")
         case Fraction(above, below):
             return M.f(M.num(*elements(above)), M.den(*elements(below)))
@@ -207,5 +207,5 @@ def vector(symbol: str) -> list[Element]:
     nodes = parse(symbol)
     first, rest = nodes[:1], nodes[1:]
     if first and isinstance(first[0], Letters):
-        return elements((Bar(first), *rest))
+        return elements((Overline(first), *rest))
     return elements(nodes)

@@ -25,7 +25,7 @@ from reportlab.platypus import (
 
 from planmethod.note import document
 from planmethod.note.document import Document, Node, Table
-from planmethod.note.formula import Bar, Fraction, Index, Letters, Root, inline, parse
+from planmethod.note.formula import Fraction, Index, Letters, Overline, Root, inline, parse
 from planmethod.note.formula import Node as Sign
 from planmethod.note.plaintext import plain_text
 from planmethod.note.writers.html import clean
@@ -297,7 +297,7 @@ def marked(nodes: Iterable[Sign], size: float, italic: str = "") -> str:
             case Index(low, high, is_power):
                 parts = [_level("super", RISE, high), _level("sub", DROP, low)]
                 return "".join(reversed(parts) if is_power else parts)
-            case Bar(body):
+            case Overline(body):
                 return marked(body, size, italic)
             case Fraction() | Root():
                 raise AssertionError  # the formula is in one line

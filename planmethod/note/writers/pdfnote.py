@@ -153,7 +153,7 @@ class _Heading(Paragraph):  # type: ignore[misc]
 class _Picture(Flowable):  # type: ignore[misc]
     """A picture in the middle, smaller where there is no room."""
 
-    def __init__(self, view: document.View, tallest: float) -> None:
+    def __init__(self, view: document.DrawableView, tallest: float) -> None:
         super().__init__()
         self._view, self._tallest = view, tallest
         self._share, self._width = 1.0, 0.0

@@ -46,7 +46,7 @@ from planmethod.note.writers.sentences import (
     with_levels,
     with_stops,
 )
-from planmethod.note.writers.wordframe import Frame, field_part, put_field, small_paragraph
+from planmethod.note.writers.wordframe import PageFrame, field_part, put_field, small_paragraph
 
 FONT = "Times New Roman"
 SIZE, TABLE_SIZE, LEAST_SIZE = 14.0, 12.0, 10.0
@@ -99,7 +99,7 @@ def word_document(
         A formula is not written properly, or a text refers to what is not there.
     """
     fields = dict(stamp or {})
-    writer = _Writer(words, template, Frame(fields, words.frame) if frame else None)
+    writer = _Writer(words, template, PageFrame(fields, words.frame) if frame else None)
     writer.write(document.referred(written))
     return writer.file(author or fields.get("author", ""))
 
@@ -107,7 +107,7 @@ def word_document(
 class _Writer:
     """Puts nodes into a file one after another."""
 
-    def __init__(self, words: Language, template: Path | None, frame: Frame | None) -> None:
+    def __init__(self, words: Language, template: Path | None, frame: PageFrame | None) -> None:
         self._words, self._say, self._frame = words, words.document, frame
         self._units = units_of(words.note["units"])
         self._file: Any = _opened(template)

@@ -24,16 +24,14 @@ from planmethod.note.wording import Language
 from planmethod.plans.forces.polygons import Edge, Share
 from planmethod.plans.legend import Quantity, QuantityKind
 from planmethod.plans.model import FACTS, RATES, PlanKind
-from planmethod.problem.bodies import rotation
-from planmethod.problem.load_records import Fixed, Interpolation, Over, SizeTable, TurningSense
 from planmethod.problem.model import Problem
 from planmethod.render.ink.drawing import Stroke
-from planmethod.render.live.parts import Part, parts_of
+from planmethod.render.live.loads import cycle_deg, moving_loads
+from planmethod.render.live.parts import MovingPart, parts_of
 from planmethod.render.pictures.planview import COMPONENTS, similar_lines
 from planmethod.render.symbols import SIZES
-from planmethod.solved.course.motion import TurnMotion
 from planmethod.solved.cycle import only_in_positions
-from planmethod.solved.forces.loads import AHEAD, applied
+from planmethod.solved.forces.loads import applied
 from planmethod.solved.forces.statics import Planned, plan_forces, statics_of
 from planmethod.solved.labelled import quantities_for
 from planmethod.solved.many.sweep import Sweep
@@ -60,7 +58,7 @@ _STEPS = {True: 72, False: 60}  # of the positions in which the scheme is drawn
 _LOOKS = 4  # so many times finer is the way looked at
 
 
-class View(Struct):
+class LiveView(Struct):
     """One picture that moves: the scheme, a plan, the lever.
 
     ``segments`` are ``{a, b, style, arrow, name, symbol}``; ``labels`` are ``{text, height}`` with
@@ -78,7 +76,7 @@ class View(Struct):
     pushes: list[dict[str, Any]] = field(default_factory=list)
 
 
-class Scene:
+class LiveScene:
     """A problem as it moves.
 
     Parameters
@@ -90,8 +88,8 @@ class Scene:
     ----------
     sweep : Sweep
         The tape: its rows are the outputs.
-    views : list of View
-    parts : list of Part
+    views : list of LiveView
+    parts : list of MovingPart
         Of the scheme.
     shown : Solution
         Of the positions that the mechanism moves through, at the scale of the scheme's view.
@@ -122,7 +120,7 @@ class Scene:
         if has_loads:
             draft = self.construction.draft.copy()
             self.planned = plan_forces(bare, draft, applied(bare))
-        self.views: list[View] = [
+        self.views: list[LiveView] = [
             self._scheme(),
             *map(self._plan, RATES),
             *(self._forces() if self.planned is not None else []),
@@ -130,7 +128,7 @@ class Scene:
         self.sweep = Sweep(problem, forces=has_loads, drawn=tuple(self._drawn))
         assert [row.name for row in self.sweep.rows][: len(self._row)] == self.columns
         self._look()
-        self.parts: list[Part]
+        self.parts: list[MovingPart]
         self.parts, self.drawing = parts_of(self.shown, LETTER)
         self._fit()
         # What inscriptions keep clear of beside the segments: of the frame, and the sliders.
@@ -170,9 +168,9 @@ class Scene:
 
     # Views -----------------------------------------------------------------------------------
 
-    def _scheme(self) -> View:
+    def _scheme(self) -> LiveView:
         kind = PlanKind.POSITION
-        view = View("scheme", self.words.sheets["views"][kind.value][0], _unit(kind))
+        view = LiveView("scheme", self.words.sheets["views"][kind.value][0], _unit(kind))
         bodies = self.problem.bodies
         points = dict.fromkeys(p for body in bodies.values() for p in body.points)
         known = [p for p in points if f"{p}.x" in self._row]
@@ -197,9 +195,9 @@ class Scene:
             view.labels.append({"text": link, "height": SMALL, "on": where})
         return view
 
-    def _plan(self, kind: PlanKind) -> View:
+    def _plan(self, kind: PlanKind) -> LiveView:
         plan, problem = self.construction.plan(kind), self.problem
-        view = View(kind.value, self.words.sheets["views"][kind.value][0], _unit(kind))
+        view = LiveView(kind.value, self.words.sheets["views"][kind.value][0], _unit(kind))
         letters = shown_letters(problem, plan)
         for tail, head in similar_lines(Solution(problem, positions=[]), plan):
             view.segments.append({"a": self._ref(tail), "b": self._ref(head), "style": "similar"})
@@ -220,13 +218,13 @@ class Scene:
             view.labels.append({"at": self._ref(at), "text": ", ".join(own)})
         return view
 
-    def _forces(self) -> list[View]:
+    def _forces(self) -> list[LiveView]:
         assert self.planned is not None
         said, found = self.words.sheets, []
         for number, plan in enumerate(self.planned.board.plans):
             whose = said.plan_of_group if len(plan.links) > 1 else said.plan_of_link
             title = whose.format(links=link_names(plan.links))
-            view = View(f"forces-{number}", title, _unit(PlanKind.FORCE))
+            view = LiveView(f"forces-{number}", title, _unit(PlanKind.FORCE))
             inner = () if plan.inner is None else (plan.inner,)
             for edge in (*plan.polygon, *plan.wholes, *inner):
                 self._edge(view, edge, beside=edge not in plan.polygon)
@@ -234,7 +232,7 @@ class Scene:
         lever = self._lever()
         return [*found, lever] if lever is not None else found
 
-    def _edge(self, view: View, edge: Edge, *, beside: bool) -> None:
+    def _edge(self, view: LiveView, edge: Edge, *, beside: bool) -> None:
         symbol = self.words.say.symbol(edge.symbol)
         view.labels.append({"text": symbol, "height": SMALL, "of": len(view.segments)})
         view.segments.append(
@@ -248,13 +246,13 @@ class Scene:
             }
         )
 
-    def _lever(self) -> View | None:
+    def _lever(self) -> LiveView | None:
         assert self.planned is not None
         lever, say = self.planned.lever, self.words.say
         if lever is None:
             return None
         velocity = self.construction.plan(PlanKind.VELOCITY)
-        view = View("lever", self.words.sheets.lever, _unit(PlanKind.LEVER))
+        view = LiveView("lever", self.words.sheets.lever, _unit(PlanKind.LEVER))
         bare = Solution(self.problem, positions=[])
         letters = shown_letters(self.problem, velocity)
         lines = [(vector.tail, vector.head) for vector in velocity.vectors]
@@ -334,7 +332,7 @@ class Scene:
         """Look where the mechanism can go; choose the scales."""
         drive = self.problem.drive
         if drive.is_crank:
-            self.way = (0.0, self._cycle())
+            self.way = (0.0, cycle_deg(self.problem))
         else:
             self.way = self._reach()
         count = _STEPS[drive.is_crank] * _LOOKS
@@ -427,68 +425,10 @@ class Scene:
 
     def loads(self) -> dict[str, Any] | None:
         """Return the loads that differ from position to position; None if there are none."""
-        dynamics = self.problem.dynamics
-        if self.sweep.loads is None or dynamics is None:
+        if self.sweep.loads is None:
             return None
-        by_name = {load.name: load for load in dynamics.loads}
         named = self.construction.kinematics.velocity.named
-        bodies = (self.problem.bodies[link] for link in self.problem.mechanism.links)
-        return {
-            "list": [self._load(by_name[name]) for name in self.sweep.loads.loads],
-            "speeds": [self._row[f"{name}.vx"] for name in named],
-            "omegas": [self._row[f"{link}.omega"] for link in self.problem.mechanism.links],
-            "reach": max(abs(z) for body in bodies for z in body.points.values()) or 1.0,
-            "positions": list(self.problem.drive.positions),
-        }
-
-    def _cycle(self) -> float:
-        """Return after how many degrees all is as before, the loads too."""
-        dynamics, machine = self.problem.dynamics, self.problem.machine
-        tables = [load.size for load in dynamics.loads] if dynamics is not None else []
-        turns = [table.turn for table in tables if isinstance(table, SizeTable)]
-        if machine is not None and any(isinstance(table, SizeTable) for table in tables):
-            turns.append(machine.cycle_deg)
-        return max([360.0, *turns])
-
-    def _stroke(self, point: str) -> dict[str, Any]:
-        turn = TurnMotion(self.problem)
-        stroke = turn.stroke(point)
-        return {
-            "start": [stroke.start.real, stroke.start.imag],
-            "towards": [stroke.towards.real, stroke.towards.imag],
-            "dead": stroke.dead.tolist(),
-            "first": turn.start_deg,
-            "sense": turn.sense,
-            "cycle": turn.cycle,
-        }
-
-    def _load(self, load: Any) -> dict[str, Any]:
-        phase = load.phase
-        told: dict[str, Any] = {"omega": self._row[f"{load.link}.omega"]}
-        size = load.size
-        if isinstance(size, SizeTable):
-            told["over"], told["step"] = size.over.value, size.interpolation is Interpolation.STEP
-            told["at"], told["values"] = list(size.at), list(size.values)
-            told["turn"] = size.turn
-            if size.over in (Over.PATH, Over.STROKES):
-                told["stroke"] = self._stroke(load.at)
-        else:
-            told["size"] = size
-        if phase is not None:
-            told["spans"] = [list(span) for span in phase.phi]
-            if phase.moving is not None:
-                ahead = AHEAD[phase.moving]
-                told["ahead"] = [ahead.real, ahead.imag]
-            if phase.turning is not None:
-                told["turning"] = 1 if phase.turning is TurningSense.CCW else -1
-        if hasattr(load, "at"):
-            told["place"], told["speed"] = self._row[f"{load.at}.x"], self._row[f"{load.at}.vx"]
-            if isinstance(load.sense, Fixed):
-                along = rotation(load.sense.angle)
-                told["along"] = [along.real, along.imag]
-        else:
-            told["against"] = load.sense is not None
-        return told
+        return moving_loads(self.problem, self.sweep.loads.loads, named, self._row)
 
     def reasons(self) -> list[str]:
         """Return for every guard of the tape why a position has no results where it fails."""
@@ -508,7 +448,7 @@ def _unit(kind: PlanKind) -> Scale:
     return Scale(FACTS[kind].scale, 1.0, FACTS[kind].unit)
 
 
-def kind_of(view: View) -> PlanKind:
+def kind_of(view: LiveView) -> PlanKind:
     """Return the plan that a view shows."""
     name = {"scheme": "position"}.get(view.id, view.id.partition("-")[0])
     return PlanKind.FORCE if name == "forces" else PlanKind(name)

@@ -12,9 +12,9 @@ from msgspec.structs import replace
 
 from planmethod.render.frame.furniture import Room
 from planmethod.render.layout.block import Block, Column, Row, Shapes
-from planmethod.render.layout.cuttings import GAP, Arrange, Group, Part
+from planmethod.render.layout.cuttings import GAP, Arrange, Group, Packed
 from planmethod.render.layout.pack import EDGE, Placed
-from planmethod.render.sheets.blocks import BLOCKS
+from planmethod.render.sheets.blocks import BLOCKS, maker_of
 from planmethod.render.sheets.composer import Blank, LaidPage, Viewed, free_area, packed
 from planmethod.render.sheets.model import Composition, Entry, Extras, Manner
 from planmethod.solved.room import FEW
@@ -90,7 +90,7 @@ def _sheet(
 ) -> list[LaidPage] | None:
     """Return a sheet of a composition: a page, perhaps several, or None when it does not fit.
 
-    What is tried is told by `_tries`.
+    For what is tried see `_tries`.
     """
     entries = spread([entry for entry in composition.blocks if entry.sheet == number], solution)
     sizes = composition.sizes_for(paper.name, share)
@@ -222,7 +222,7 @@ class _Stock(Struct, frozen=True):
         level = min(manner.level, max(0, len(entry.heights) - 1))
         key = (id(entry), level, manner.inside)
         if key not in self.blocks:
-            make = BLOCKS[entry.kind].make
+            make = maker_of(entry.kind)
             self.blocks[key] = make(self.solution, self.indices, manner)
         return self.blocks[key]
 
@@ -291,10 +291,10 @@ def grouped(
 ) -> Group:
     """Return blocks as the tree of their groups."""
     depth = len(path)
-    members: list[Part | Group] = []
+    members: list[Packed | Group] = []
     for name, run in groupby(made, lambda one: one.entry.group[depth : depth + 1]):
         if name:
             members.append(grouped(list(run), arranged, path + name))
         else:
-            members += [Part(one.block, one.is_text) for one in run]
+            members += [Packed(one.block, one.is_text) for one in run]
     return Group(tuple(members), arranged.get(path, "free"))

@@ -12,7 +12,7 @@ from math import pi
 
 from msgspec import Struct
 
-from planmethod.problem.load_records import FlywheelTask, WheelShape
+from planmethod.problem.machine_records import FlywheelTask, WheelShape
 
 STEEL_FACTOR, STEEL = 0.38, 7800.0
 """D = 0.38·J^(1/5) of a steel disc, m and kg·m², and the density of a steel rim, kg/m³."""
@@ -21,7 +21,7 @@ DISC_WIDTH, RIM_WIDTH, RIM_BORE = 0.165, 0.2, 0.8
 """Width over diameter, and inner diameter of a rim over the outer one."""
 
 
-class Sizes(Struct, frozen=True):
+class FlywheelSizes(Struct, frozen=True):
     """A flywheel as it is made (маховик).
 
     Attributes
@@ -48,7 +48,7 @@ class Sizes(Struct, frozen=True):
     held: bool
 
 
-def size_of(wheel: FlywheelTask, inertia: float, omega: float) -> Sizes | None:
+def size_of(wheel: FlywheelTask, inertia: float, omega: float) -> FlywheelSizes | None:
     """Return the sizes of a flywheel; None where none is needed.
 
     Parameters
@@ -76,4 +76,4 @@ def size_of(wheel: FlywheelTask, inertia: float, omega: float) -> Sizes | None:
     if held:
         breadth = 4.0 * mass / (pi * density * diameter**2 * (1.0 - bore**2))
     speed = turning * diameter / 2.0
-    return Sizes(wheel.shape, own, diameter, bore * diameter, breadth, mass, speed, held)
+    return FlywheelSizes(wheel.shape, own, diameter, bore * diameter, breadth, mass, speed, held)

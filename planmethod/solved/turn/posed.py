@@ -15,8 +15,9 @@ from planmethod.construct.arithmetic import Float64
 from planmethod.construct.steps import PointName
 from planmethod.errors import AssemblyError, Fault, PlanMethodError, ProblemError
 from planmethod.languages import say
+from planmethod.problem.cycle_records import Zero
 from planmethod.problem.keys import EXTREMES, GOING
-from planmethod.problem.model import Posed, PosedBy, Problem, Zero
+from planmethod.problem.model import Posed, PosedBy, Problem
 from planmethod.problem.names import UNITS, split_pair, told_length
 from planmethod.solved.failures import PositionError
 from planmethod.solved.reading import Reading, Reals
