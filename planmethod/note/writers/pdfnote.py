@@ -9,6 +9,7 @@ from io import BytesIO
 from pathlib import Path
 from typing import Any, assert_never
 
+import matplotlib
 from reportlab.lib import colors
 from reportlab.lib.enums import TA_CENTER, TA_JUSTIFY, TA_LEFT, TA_RIGHT
 from reportlab.lib.pagesizes import A4
@@ -61,8 +62,6 @@ CLOSE = [(f"{side}PADDING", (0, 0), (-1, -1), 0) for side in ("LEFT", "RIGHT", "
 @cache
 def note_fonts() -> Fonts:
     """Return letters like Times that have Russian, Greek and signs; matplotlib brings them."""
-    import matplotlib
-
     folder = Path(matplotlib.get_data_path()) / "fonts" / "ttf"
     for name in ("STIXGeneral", "STIXGeneralBol", "STIXGeneralItalic"):
         pdfmetrics.registerFont(TTFont(name, str(folder / f"{name}.ttf")))
