@@ -86,7 +86,8 @@ def calculation(motion: TrainMotion, words: Language) -> list[str]:
         letters = fraction(*(f"{letter}{hat}_{{{label}}}" for label in asked.labels))
         value = fraction_text(one.exact)
         decimal = f" = {words.say.found(one.value)}" if "/" in value else ""
-        lines.append(f"{symbol(name, known)} = {letters} = {value}{decimal}")
+        shown = re.sub(r"(\d+)/(\d+)", r"\\frac{\1}{\2}", value)
+        lines.append(f"{symbol(name, known)} = {letters} = {shown}{decimal}")
     rest = [one for name in dict.fromkeys(train.ask) for one in _plain(name, motion, words)]
     lines += ["; ".join(rest)] if rest else []
     lines += [

@@ -51,11 +51,8 @@ def _plain(node: Node, *, is_ratio: bool = False) -> str:
             low = _plain_of(below)
             lowered = "".join(_SUB[c] for c in low) if set(low) <= set(_SUB) else f"_{low}"
             high = _plain_of(above)
-            raised = (
-                f"^{high}"
-                if is_ratio and high.isalnum()
-                else "".join(_SUPER.get(c, c) for c in high)
-            )
+            is_carrier = high.startswith("(") or (is_ratio and high.isalnum())
+            raised = f"^{high}" if is_carrier else "".join(_SUPER.get(c, c) for c in high)
             return lowered + raised if is_power else raised + lowered
         case Overline(body):
             return _plain_of(body)

@@ -271,7 +271,7 @@ class _Writer:
         return self._width / (SIZE * _MM_PER_POINT)
 
     def _lines(self, nodes: Sequence[Sign]) -> list[tuple[Sign, ...]]:
-        return lines_of(nodes, 0.8 * self._room)
+        return lines_of(nodes, 0.9 * self._room)
 
     def _heading(self, title: Rich, level: int, number: str, *, middle: bool = False) -> None:
         made = self._paragraph(_HEADINGS[level - 1])
