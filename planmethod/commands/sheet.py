@@ -34,6 +34,7 @@ from planmethod.options import (
     jobs_option,
     layout_option,
     out_option,
+    position_option,
     problem_options,
     reading_options,
 )
@@ -51,6 +52,7 @@ class SheetOptions(Struct, frozen=True, kw_only=True):
 
     settled: Settled
     phi: Positions | None
+    position: int | None = None
     ruler: float | None
     profile: str | None
     layout: str | None
@@ -96,6 +98,7 @@ def compacted(problem: Problem, positions: Sequence[float] | None) -> Problem:
 @click.command(cls=Spoken)
 @problem_options
 @reading_options
+@position_option
 @out_option
 @format_option("svg,pdf")
 @sheet_options
@@ -122,6 +125,7 @@ def sheet(
     variant: str | None,
     all_variants: bool,
     phi: Positions | None,
+    position: int | None,
     ruler: float | None,
     profile: str | None,
     out: Path,
@@ -148,6 +152,7 @@ def sheet(
     options = SheetOptions(
         settled=asked.settle(),
         phi=phi,
+        position=position,
         ruler=ruler,
         profile=profile,
         layout=layout,
@@ -194,8 +199,12 @@ def draw(todo: Todo, options: SheetOptions) -> None:
 def _settled(todo: Todo, options: SheetOptions) -> Todo:
     """Return a problem with all that is asked of its sheets."""
     todo = replace(todo, problem=options.settled.over(todo.problem))
-    if todo.kind is None:
-        tell_changes(todo.linkage, options.phi)
+    if todo.kind is not None:
+        return todo
+    if options.phi is not None or options.position is not None:
+        # What a project decided is of its own positions.
+        todo = replace(todo, problem=replace(todo.linkage, calculated=options.position))
+    tell_changes(todo.linkage, options.phi)
     return todo
 
 
@@ -213,7 +222,14 @@ def _drawn(
     hand = hand or drawn_by(options.profile, options.ruler)
     kind = todo.kind
     if kind is not None:
-        refuse_plans(kind, phi=phi is not None, layout=layout, errors=errors, sigma=bool(sigma))
+        refuse_plans(
+            kind,
+            phi=phi is not None,
+            position=options.position is not None,
+            layout=layout,
+            errors=errors,
+            sigma=bool(sigma),
+        )
         return kind.drawings(todo.problem, fields=fields, profile=hand, before=before, total=total)
     from planmethod.render.frame.furniture import Furniture
     from planmethod.render.sheets.kinematics import kinematics_sheets

@@ -24,7 +24,7 @@ from planmethod.gears.told import calculation, given, symbol, unit_of
 from planmethod.note.document import Chapter, Item, Node, Paragraph, Step, Title
 from planmethod.note.formula import Rich, escape, fraction
 from planmethod.note.narrate.narrator import Line, StepNarrator
-from planmethod.note.numbers import Notation, raised
+from planmethod.note.numbers import Notation, half_up, raised
 from planmethod.note.rounding import rounded_to, sigma_text
 from planmethod.note.wording import Language, Words
 
@@ -37,7 +37,7 @@ def protocol_document(problem: GearProblem, words: Language, profile: Profile) -
     ProblemError
         The train cannot be, or its inputs do not fit.
     """
-    motion = solve_motion(problem)
+    motion, notation = solve_motion(problem), problem.sheet.notation
     say: Words = words.gears["sheet"]
     yield Title(say.protocol.format(title=escape(problem.title)))
     if problem.source:
@@ -45,7 +45,7 @@ def protocol_document(problem: GearProblem, words: Language, profile: Profile) -
     yield Chapter(say.given)
     yield Paragraph("; ".join(given(motion, words)) + ".")
     yield Chapter(say.calculation)
-    yield from (Item(line) for line in calculation(motion, words))
+    yield from (Item(line) for line in calculation(motion, words, notation))
     picture = draw(motion)
     if picture is None:
         yield Chapter(words.gears.picture)
@@ -69,7 +69,7 @@ def _pictures(drawn: GearDrawing, words: Language) -> Iterator[Node]:
         if lines:
             yield Step(tuple(lines))
     yield Chapter(say["steps"]["rays"])
-    pole = words.say.given(float(drawn.picture.pole_mm))
+    pole = words.say.given(half_up(float(drawn.picture.pole_mm), 2))
     yield Step((say["steps"]["pole"].format(pole=pole),))
     for body in drawn.rays:
         yield Step((say["steps"]["ray"].format(body=drawn.label(body)),))

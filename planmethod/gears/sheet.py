@@ -22,6 +22,7 @@ from planmethod.gears.picture import draw
 from planmethod.gears.scheme import SchemeData
 from planmethod.gears.told import calculation, given, results
 from planmethod.languages import LANGUAGES, say
+from planmethod.note.numbers import half_up
 from planmethod.note.wording import Language, Words, language
 from planmethod.paper import STAMP_WIDTH, TRIED
 from planmethod.render.frame.furniture import Furniture
@@ -112,6 +113,17 @@ def drawings(
     return compose(problem, strategy, misfit, fields=fields, furniture=furniture)
 
 
+def pictures(
+    motion: TrainMotion, profile: Profile, words: Language, sizes: Sizes
+) -> tuple[Block, Block | None]:
+    """Return the side view with the picture of linear velocities, and that of angular ones."""
+    settings = motion.train.picture
+    scheme = SchemeData(motion, float(motion.train.unit_m / settings.mu_l))
+    order = None if scheme.undrawn else best_order(scheme)
+    sheet = _Sheet(motion, settings, profile, words, sizes, order, None)
+    return sheet.pictures()
+
+
 class _Train(Struct, frozen=True):
     """How the sheet of a train is searched for: by the scale of the side view."""
 
@@ -129,7 +141,8 @@ class _Train(Struct, frozen=True):
         plain = SchemeData(self.motion, float(train.unit_m / train.picture.mu_l))
         order = None if plain.undrawn else best_order(plain)
         for paper, settings, sizes in self._scales(papers):
-            sheet = _Sheet(self.motion, settings, self.profile, words, sizes, order)
+            notation = self.problem.sheet.notation
+            sheet = _Sheet(self.motion, settings, self.profile, words, sizes, order, notation)
             if (settings, sizes) not in made:
                 made[settings, sizes] = list(sheet.orders())
             for parts in made[settings, sizes]:
@@ -151,19 +164,19 @@ class _Train(Struct, frozen=True):
                 if not asked and extent / mu_l < LEAST:  # from 5 to 10 the series makes a wide step
                     mu_l = series_near(extent / target, up=False)
                 tried = replace(settings, mu_l=Fraction(repr(mu_l)))
-                yield paper, replace(tried, pole_mm=_pole(motion, tried)), sizes
+                yield paper, replace(tried, near_mm=_pole(motion, tried)), sizes
 
 
 def _pole(motion: TrainMotion, settings: PictureSettings) -> Fraction:
     """Return a pole distance that keeps the rays within a width."""
     for pole in POLES:
-        tried = replace(settings, pole_mm=Fraction(pole))
+        tried = replace(settings, near_mm=Fraction(pole))
         picture = draw(motion, tried)
         if picture is None:
             break
         ends = [Fraction(0), *(segment for _, segment in picture.rays)]
         if max(ends) - min(ends) <= WIDEST:
-            return tried.pole_mm
+            return tried.near_mm
     return Fraction(POLES[-1])
 
 
@@ -220,6 +233,7 @@ class _Sheet(Struct, frozen=True):
     words: Language
     sizes: Sizes
     order: ColumnOrder | None
+    notation: str | None
 
     def orders(self) -> Iterator[tuple[Packed, ...]]:
         """Yield the blocks in orders of reading; the last stands on the title block."""
@@ -243,6 +257,15 @@ class _Sheet(Struct, frozen=True):
             yield (*views, *texts, rays, last)
             yield (strip, *texts, *views[1:], rays, last)
             yield (strip, rays, *views[1:], *texts, last)
+
+    def pictures(self) -> tuple[Block, Block | None]:
+        """Return the side view with what stands beside it, and the angular velocities."""
+        picture = draw(self.motion, self.settings)
+        drawn = None if picture is None else construct(self.motion, picture)
+        seen = None if drawn is None else read(drawn, self.profile)
+        scheme = SchemeData(self.motion, float(self.motion.train.unit_m / self.settings.mu_l))
+        strip = self._strip(scheme, drawn, seen)
+        return strip, None if drawn is None or seen is None else self._angular(drawn, seen)
 
     # Views ---------------------------------------------------------------------------------------
 
@@ -342,14 +365,13 @@ class _Sheet(Struct, frozen=True):
 
     def _angular(self, drawn: GearDrawing, seen: GearReading) -> Viewed:
         picture = drawn.picture
-        pole = self.words.say.given(float(picture.pole_mm))
-        scales = [self._scale("mu_omega", picture.mu_omega, pole=pole)]
-        if self.motion.train.unit == "n":
-            scales.append(self._scale("mu_n", float(picture.turn_per_mm)))
+        pole = self.words.say.given(half_up(float(picture.pole_mm), 2))
+        name, per_mm = picture.ray_scale(self.motion.train.unit)
+        scales = [self._scale(name, per_mm, pole=pole)]
         spans = list(angular_spans(drawn, seen, 0j))
         title = self.words.gears["sheet"].angular
         view = angular(drawn, seen, self.sizes.letter)
-        scale = Scale("mu_ω", picture.mu_omega, "1/s")
+        scale = Scale({"mu_omega": "mu_ω"}.get(name, name), per_mm, "1/s")
         return self._titled(view, title, "velocity", scale, scales, spans)
 
     # Texts ---------------------------------------------------------------------------------------
@@ -360,7 +382,7 @@ class _Sheet(Struct, frozen=True):
         text = self.words.note.given.format(given="; ".join(facts))
         blocks: list[Block] = [paragraph(text, self.sizes.text, width)]
         blocks.append(heading(self.words.gears["sheet"].calculation, self.sizes.text))
-        lines = calculation(self.motion, self.words)
+        lines = calculation(self.motion, self.words, self.notation)
         blocks += [formula_block(line, self.sizes.text, width=width) for line in lines]
         return Column(blocks, gap=2.4)
 

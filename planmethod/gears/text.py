@@ -31,7 +31,8 @@ from planmethod.note.document import (
     table_of,
 )
 from planmethod.note.formula import Rich, escape
-from planmethod.note.numbers import MINUS
+from planmethod.note.narrate.structure import pair_classes
+from planmethod.note.numbers import MINUS, half_up
 from planmethod.note.wording import Language
 
 
@@ -88,7 +89,7 @@ def _structure(
     yield Title(say.title.format(title=escape(problem.title or problem.name)))
     yield Caption(say.structure)
     yield Paragraph(kind_of(found, words))
-    yield Item(mobility(found, words) + say.of_equal)
+    yield Item(mobility(found, words, problem.sheet.notation) + say.of_equal)
     yield Item(say.by_meshes.format(rank=found.moving - found.mobility, w=found.mobility))
     yield Item(say.redundant.format(plane=found.redundant, space=found.spatial))
     for carrier in train.carriers:
@@ -106,11 +107,15 @@ def kind_of(found: Mobility, words: Language) -> Rich:
     return words.gears.kind.format(kind=words.gears["kinds"][found.kind.value])
 
 
-def mobility(found: Mobility, words: Language) -> Rich:
-    """Return the mobility by Chebyshev's formula."""
+def mobility(found: Mobility, words: Language, notation: str | None = None) -> Rich:
+    """Return the mobility by Chebyshev's formula; ``notation`` is that of ``[sheet]``."""
     formula = str(found.formula).replace("-", MINUS)
     return words.gears.chebyshev.format(
-        n=found.moving, low=found.lower, high=found.higher, w=formula
+        n=found.moving,
+        low=found.lower,
+        high=found.higher,
+        w=formula,
+        **pair_classes(notation, words),
     )
 
 
@@ -236,21 +241,18 @@ def _picture(motion: TrainMotion, words: Language) -> Iterator[Node]:
     if picture is None:
         yield Item(say.no_picture)
         return
-    yield Item(
-        say.scales.format(
-            mu_l=number(float(picture.mu_l)),
-            mu_v=number(picture.mu_v),
-            pole=number(float(picture.pole_mm)),
-            mu_omega=number(picture.mu_omega),
-        )
-    )
+    name, per_mm = picture.ray_scale(motion.train.unit)
+    pole = words.say.given(half_up(float(picture.pole_mm), 2))
+    rays = say["sheet"]["inscriptions"][name].format(value=number(per_mm), pole=pole)
+    mu_l, mu_v = number(float(picture.mu_l)), number(picture.mu_v)
+    yield Item(say.scales.format(mu_l=mu_l, mu_v=mu_v, rays=rays))
     points = []
     for one in picture.contacts:
         shown = (number(float(mm)) for mm in (one.height_mm, one.speed_mm))
         points.append([say["points"][one.at.kind.value].format(name=one.at.of), *shown])
     yield table_of(say["columns_contacts"], points)
-    rays = ((label, number(float(segment))) for label, segment in picture.rays)
-    yield table_of(say["columns_rays"], rays)
+    segments = ((label, number(float(segment))) for label, segment in picture.rays)
+    yield table_of(say["columns_rays"], segments)
 
 
 def _published(problem: GearProblem, motion: TrainMotion, words: Language) -> Iterator[Node]:

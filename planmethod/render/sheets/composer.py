@@ -255,18 +255,19 @@ def enlarged(
     Notes
     -----
     A larger view is accepted when it takes no more pages, no smaller letters and no groups apart.
+    What had no room once has none when others have grown.
     """
     refused = set()
     for key in turns:
+        if key in refused:
+            continue
         finer = next_scale(laid.scales[key], finer=True, mm_per_unit=asked.in_mm_per_unit)
         wish = {**laid.scales, key: finer}
-        if tuple(wish.values()) in refused:
-            continue
         tried = draw(wish)
         if tried is not None and tried.is_as_good_as(laid):
             laid = replace(tried, scales=wish)
         else:
-            refused.add(tuple(wish.values()))
+            refused.add(key)
     return laid
 
 
