@@ -39,8 +39,14 @@ from planmethod.note.wording import Language
 from planmethod.note.writers import omml
 from planmethod.note.writers.broken import chain_of, ems, lines_of
 from planmethod.note.writers.html import clean
-from planmethod.note.writers.sentences import formula_alone, pieces, units_of, with_levels
-from planmethod.note.writers.wordframe import Frame, field_part, put_field, small_paragraph
+from planmethod.note.writers.sentences import (
+    formula_alone,
+    pieces,
+    units_of,
+    with_levels,
+    with_stops,
+)
+from planmethod.note.writers.wordframe import PageFrame, field_part, put_field, small_paragraph
 
 FONT = "Times New Roman"
 SIZE, TABLE_SIZE, LEAST_SIZE = 14.0, 12.0, 10.0
@@ -93,7 +99,7 @@ def word_document(
         A formula is not written properly, or a text refers to what is not there.
     """
     fields = dict(stamp or {})
-    writer = _Writer(words, template, Frame(fields, words.frame) if frame else None)
+    writer = _Writer(words, template, PageFrame(fields, words.frame) if frame else None)
     writer.write(document.referred(written))
     return writer.file(author or fields.get("author", ""))
 
@@ -101,7 +107,7 @@ def word_document(
 class _Writer:
     """Puts nodes into a file one after another."""
 
-    def __init__(self, words: Language, template: Path | None, frame: Frame | None) -> None:
+    def __init__(self, words: Language, template: Path | None, frame: PageFrame | None) -> None:
         self._words, self._say, self._frame = words, words.document, frame
         self._units = units_of(words.note["units"])
         self._file: Any = _opened(template)
@@ -240,7 +246,7 @@ class _Writer:
 
     def _fill(self, paragraph: Any, rich: Rich) -> None:
         """Put a sentence into a paragraph, its formulas as equations."""
-        for piece in pieces(parse(clean(rich)), self._units):
+        for piece in with_stops(pieces(parse(clean(rich)), self._units)):
             if not piece.is_formula:
                 paragraph.add_run(piece.text)
                 continue
@@ -265,7 +271,7 @@ class _Writer:
         return self._width / (SIZE * _MM_PER_POINT)
 
     def _lines(self, nodes: Sequence[Sign]) -> list[tuple[Sign, ...]]:
-        return lines_of(nodes, 0.8 * self._room)
+        return lines_of(nodes, 0.9 * self._room)
 
     def _heading(self, title: Rich, level: int, number: str, *, middle: bool = False) -> None:
         made = self._paragraph(_HEADINGS[level - 1])

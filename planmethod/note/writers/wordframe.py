@@ -49,7 +49,7 @@ _SHAPE = """<w:r xmlns:w="http://schemas.openxmlformats.org/wordprocessingml/200
 </mc:AlternateContent></w:r>"""
 
 
-class Frame:
+class PageFrame:
     """Puts frames and title blocks on the pages of sections."""
 
     def __init__(self, fields: Mapping[str, str], words: Words) -> None:
