@@ -195,6 +195,7 @@ ROW = "wheels = { 1 = 20, 2 = 36 }\nmeshes = [{ of = [1, 2] }]\nn = { 1 = 1 }\n"
         (ROW + 'unknown = ["2"]', "wheel 2 has a size, and is listed in unknown"),
         (ROW.replace(", 2 = 36", "") + 'unknown = ["2"]', "does not tell the teeth of 2"),
         (ROW + "coaxial = [[1, 2]]", "1 and 2 mesh, and would turn about one axis"),
+        (ROW + 'coaxial = ["1", "2"]', 'list of labels. Write coaxial = [["1", "2"]].'),
         (ROW + 'output = "1"', "gears.output: 1 is an input"),
         (SET + 'output = "3"', "gears.output: 3 is fixed"),
         (ROW.replace("] }", '], kind = "rack", carrier = "H" }'), "a rack is guided in the frame"),
