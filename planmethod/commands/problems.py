@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from planmethod.options import Positions
     from planmethod.problem.head import KindProblem
     from planmethod.problem.model import Problem
+    from planmethod.solved.machine.flywheel import Flywheel
     from planmethod.solved.solution import Solution
 
 F = TypeVar("F", bound=Callable[..., Any])
@@ -252,6 +253,15 @@ def warn(problem: Problem, said: object) -> None:
     click.echo(say("Warning: {}: {}", problem.name, said), err=True)
 
 
+def tell_wheel(wheel: Flywheel) -> None:
+    """Warn of a flywheel that is wide for its diameter."""
+    from planmethod.solved.machine.sizes import too_wide
+
+    said = too_wide(wheel.machine.wheel, wheel.exact.inertia, wheel.middle_speed)
+    if said is not None:
+        warn(wheel.problem, said)
+
+
 def tell_changes(problem: Problem, phi: Positions | None) -> None:
     """Tell of change points between the positions of a problem that is solved elsewhere."""
     from planmethod.solved.selfcheck import changed_branches
@@ -269,6 +279,7 @@ def solution_of(
     *,
     hint: str = "",
     forces: bool = False,
+    machine: bool = False,
 ) -> Solution:
     """Solve a problem, check the solution, and report the doubts about it.
 
@@ -280,6 +291,8 @@ def solution_of(
         What else can be asked where one of several positions is refused.
     forces : bool
         The forces must exist, too, where there are loads.
+    machine : bool
+        The flywheel is looked at as well.
     """
     from planmethod.solved.selfcheck import changed_branches, verify, warnings
     from planmethod.solved.solution import Solution
@@ -299,4 +312,8 @@ def solution_of(
         raise AssemblyError(f"{error}{say(hint)}") from error
     for doubt in warnings(solution):
         warn(problem, doubt)
+    if machine and problem.machine is not None:
+        from planmethod.solved.machine.flywheel import flywheel_of
+
+        tell_wheel(flywheel_of(solution))
     return solution

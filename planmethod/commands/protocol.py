@@ -63,7 +63,7 @@ def protocol(
             refuse_plans(kind, phi=phi is not None, position=position > 1)
             told = kind.protocol_document(problem, words, hand)
         else:
-            solution = solution_of(todo.linkage, phi, hand)
+            solution = solution_of(todo.linkage, phi, hand, machine=True)
             count = len(solution.positions)
             if position > count:
                 raise UsageError("--position {}: {} has {}", position, problem.name, count)

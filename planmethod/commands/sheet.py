@@ -21,6 +21,7 @@ from planmethod.commands.problems import (
     refuse_plans,
     stem,
     tell_changes,
+    tell_wheel,
 )
 from planmethod.commands.watch import watch_option
 from planmethod.errors import LayoutError
@@ -196,7 +197,20 @@ def _settled(todo: Todo, options: SheetOptions) -> Todo:
     todo = replace(todo, problem=options.settled.over(todo.problem))
     if todo.kind is None:
         tell_changes(todo.linkage, options.phi)
+        if todo.linkage.machine is not None and _has_flywheel(options.layout):
+            from planmethod.solved.machine.flywheel import Flywheel
+
+            tell_wheel(Flywheel(todo.linkage))
     return todo
+
+
+def _has_flywheel(layout: str | None) -> bool:
+    """Whether the sheets show the sizes of a flywheel."""
+    from planmethod.render.sheets.composition.reader import composition
+
+    return layout is not None and any(
+        entry.kind == "flywheel" for entry in composition(layout).blocks
+    )
 
 
 def _drawn(
