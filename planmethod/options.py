@@ -259,6 +259,11 @@ def drawing_options(command: F) -> F:
             help="Show the drafting errors in the table of results.",
         ),
         click.option(
+            "--all-positions",
+            is_flag=True,
+            help="However many sheets they take: more than six of a file are refused without it.",
+        ),
+        click.option(
             "--errors", is_flag=True, help="Draw the error ellipses of the drafting, 2 sigma."
         ),
     ):

@@ -154,6 +154,7 @@ def batch(
     sigma: bool | None,
     dpi: int,
     dxf_text: Literal["text", "strokes"],
+    all_positions: bool,
     sheets: bool,
     keys: bool,
     settings: Path | None,
@@ -195,6 +196,7 @@ def batch(
         formats=formats,
         dpi=dpi,
         dxf_text=dxf_text,
+        all_positions=all_positions,
     )
     ordered = partial(
         Order,

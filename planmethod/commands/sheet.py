@@ -62,6 +62,11 @@ class SheetOptions(Struct, frozen=True, kw_only=True):
     formats: tuple[str, ...]
     dpi: int
     dxf_text: Literal["text", "strokes"]
+    all_positions: bool = False
+
+
+MOST_SHEETS = 6
+"""Sheets of one problem that nobody is asked about."""
 
 
 def read_name(ctx: click.Context, param: click.Parameter, value: str | None) -> str | None:
@@ -135,6 +140,7 @@ def sheet(
     sigma: bool | None,
     dpi: int,
     dxf_text: Literal["text", "strokes"],
+    all_positions: bool,
     jobs: int,
 ) -> None:
     """Draw the framed sheet: scheme, velocity and acceleration plans, equations, tables."""
@@ -159,6 +165,7 @@ def sheet(
         formats=formats,
         dpi=dpi,
         dxf_text=dxf_text,
+        all_positions=all_positions,
     )
     if one_file is None:
         act = partial(draw, options=options)
@@ -242,6 +249,7 @@ def _drawn(
         errors=errors,
         sigma=sigma,
         layout=layout,
+        most=None if options.all_positions or options.compact else MOST_SHEETS,
     )
 
 

@@ -48,6 +48,7 @@ def kinematics_sheets(
     errors: bool = False,
     sigma: bool | None = None,
     layout: str | Path | Composition | None = None,
+    most: int | None = None,
 ) -> list[Drawing]:
     """Draw the kinematic analysis in the language of ``problem.sheet``, a dozen positions a sheet.
 
@@ -72,11 +73,13 @@ def kinematics_sheets(
     layout : str, Path or Composition, optional
         What is on the sheets: the name of a shipped composition or a file of one's own. When
         absent, ``one-position`` or ``many-positions``.
+    most : int, optional
+        Sheets that may be made; any number when absent.
 
     Raises
     ------
     LayoutError
-        When the blocks fit no format, or not the asked one.
+        When the blocks fit no format, or not the asked one, or when more sheets than that follow.
     CompositionError
         When the composition is faulty.
     """
@@ -89,6 +92,9 @@ def kinematics_sheets(
         solution = _at_the_turn(solution)
     made = made or _usual(len(solution.positions), words)
     _check_positions(made, solution)
+    count = len(solution.positions)
+    least = len(made.sheets) * -(-count // made.at_most(count)[0])
+    _refuse_many(problem, count, least, most)  # before the work, where it is known
     verify(solution)
     strategy = Linkage(made, solution, Extras(words, errors, sigma, made.turn))
     misfit = Misfit(
@@ -98,7 +104,22 @@ def kinematics_sheets(
         say("Ask fewer positions (--phi), or leave out blocks of the layout."),
         problem.scales,
     )
-    return compose(problem, strategy, misfit, fields=fields, furniture=furniture)
+    drawings = compose(problem, strategy, misfit, fields=fields, furniture=furniture)
+    _refuse_many(problem, count, len(drawings), most)
+    return drawings
+
+
+def _refuse_many(problem: Problem, count: int, sheets: int, most: int | None) -> None:
+    """Refuse more sheets than are probably meant; those of one position are always made."""
+    if most is not None and sheets > most and count > 1:
+        raise LayoutError(
+            "{0}: {1} position{1:||s} take {2} sheet{2:||s}. Name the positions that are to be "
+            "drawn (--phi {3:g}), or give --all-positions for all of them.",
+            problem.name,
+            count,
+            sheets,
+            problem.drive.positions[0],
+        )
 
 
 def _at_the_turn(solution: Solution) -> Solution:
