@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import functools
+import re
 import sys
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from functools import partial
@@ -47,9 +48,22 @@ MANY = 6
 """Number of problems from which a command shows its progress."""
 
 
-def fail(error: PlanMethodError) -> None:
-    """Say what went wrong."""
-    click.echo(say("Error: {}", error), err=True)
+def fail(error: PlanMethodError, names: Sequence[str] = ()) -> None:
+    """Say what went wrong, and with which of several problems: see `named`."""
+    click.echo(say("Error: {}", named(str(error), names)), err=True)
+
+
+def named(told: str, names: Sequence[str]) -> str:
+    """Return a message with the first of some names of its problem before it, if it has none."""
+    whole = (rf"(?<![\w-]){re.escape(name)}(?![\w-])" for name in names)
+    if not names or any(re.search(name, told) for name in whole):
+        return told
+    return f"{names[0]}: {told}"
+
+
+def names_of(path: Path, name: str, variant: str | None) -> Sequence[str]:
+    """Return what a problem may be called in a message; a variant is not called as its file."""
+    return (str(path), name) if variant is None else (f"{name}-{variant}",)
 
 
 def guarded(command: F) -> F:
@@ -172,14 +186,19 @@ def through(
             fail(error)
     done = 0
     try:
-        for step in watched(steps(todo), len(todo)):
+        for one, step in zip(todo, watched(steps(todo), len(todo)), strict=True):
+            problem, is_one = one.problem, len(paths) + len(todo) == 2
+            names = () if is_one else names_of(one.path, problem.name, problem.variant)
             try:
                 value = step()
                 if take is not None and value is not None:
                     take(value)
             except PlanMethodError as error:
                 codes.append(error.exit_code)
-                fail(error)
+                fail(error, names)
+            except click.UsageError as error:
+                error.message = named(error.message, names)
+                raise
             done += 1
     except KeyboardInterrupt:
         if len(todo) > 1:

@@ -8,7 +8,7 @@ import click
 
 from planmethod.commands.helptext import Spoken
 from planmethod.commands.output import write_drawings
-from planmethod.commands.problems import fail, finish, guarded, variants_of
+from planmethod.commands.problems import fail, finish, guarded, names_of, variants_of
 from planmethod.commands.watch import watch_option
 from planmethod.errors import ExitCode, Fault, PlanMethodError, ProblemError
 from planmethod.languages import say
@@ -42,11 +42,13 @@ def sketch(
     codes: list[ExitCode] = []
     for path in problems:
         try:
-            for name in variants_of(path, variant, all_variants):
+            variants = variants_of(path, variant, all_variants)
+            for name in variants:
                 error = _draw(path, name, out, formats, lang)
                 if error is not None:
                     codes.append(error.exit_code)
-                    fail(error)
+                    is_one = len(problems) + len(variants) == 2
+                    fail(error, () if is_one else names_of(path, path.stem, name))
                 if shown:
                     _show(out / f"{_stem(path, name)}.{formats[0]}")
         except PlanMethodError as error:
