@@ -46,6 +46,7 @@ class PlainWriter:
         units = {name for unit in words.note["units"].values() for name in re.findall(_WORD, unit)}
         self._unit = rf"(?<=\d) (?=(?:{'|'.join(sorted(units))})(?![^\W\d_]))"
         self._chapter = self._part = self._step = 0
+        self._below = ""  # what stands before the items of a caption
 
     def lines(self, written: Document) -> list[str]:
         """Return the lines of a document."""
@@ -56,6 +57,8 @@ class PlainWriter:
                 lines.append("")
             lines += self._node(node)
             before = node
+            if not isinstance(node, document.Item):
+                self._below = HANGING if isinstance(node, document.Caption) else ""
         return lines
 
     def _stands_apart(self, node: document.Node, before: document.Node | None) -> bool:
@@ -98,7 +101,8 @@ class PlainWriter:
                 return wrap(self._whole(text))
             case document.Item(text, label):
                 lead = f"{HANGING}{pad(plain_text(label), LABEL, right=True)}  " if label else ""
-                rest = " " * width(lead) or HANGING
+                lead = lead or self._below
+                rest = " " * width(lead) if label else lead + HANGING
                 return wrap(self._whole(text), first=lead, rest=rest)
             case document.Step(lines, continues):
                 return self._stepped(lines, continues=continues)
