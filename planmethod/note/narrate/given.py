@@ -11,6 +11,7 @@ from planmethod.mechanism.model import FRAME
 from planmethod.note.numbers import MINUS, Notation, trimmed, with_unit
 from planmethod.note.wording import Language
 from planmethod.plans.legend import Quantity, QuantityKind
+from planmethod.plans.motion.leads import slot_name
 from planmethod.problem.model import Body, Geared, Posed, PosedBy, Problem, Slide
 from planmethod.problem.names import UNITS, split_names
 from planmethod.solved.solution import Solution
@@ -252,6 +253,9 @@ def _line(start: str, end: str) -> str:
 def _carried(problem: Problem, slide: Slide, text: As) -> list[str]:
     """Return how the line of a moving link lies on it, where two letters do not tell it."""
     axis, note = problem.bodies[slide.host].axis, text.words.note
+    if slide.host != FRAME and slide.through and axis is None and slide.offset:
+        guide = slot_name(slide)
+        return [note.given_slot.format(guide=guide, link=slide.host, slider=slide.slider)]
     if slide.host == FRAME or slide.through is None or slide.towards is not None or axis is None:
         return []
     angle = text.number(slide.angle, "deg", _path(slide.slider, "slides.angle"))
