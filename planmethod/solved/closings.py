@@ -346,9 +346,8 @@ def _ambiguous(rule: Rule, both: list[_Tried], index: int, where: str) -> Fault:
         told_place(complex(reading.point(PointName(rule.point))[index]) + draft.origin, unit)
         for _, _, reading in both
     ]
-    words = _telling(rule.point, both, slice(index, index + 1)) or [
-        f"{{ near = [{place}] }}" for place in places
-    ]
+    told = _telling(rule.point, both, slice(index, index + 1))
+    words = told or [f"{{ near = [{place}] }}" for place in places]
     return Fault(
         f"assembly.{rule.point}",
         say(
@@ -360,6 +359,7 @@ def _ambiguous(rule: Rule, both: list[_Tried], index: int, where: str) -> Fault:
             say(unit),
         ),
         say("Say '{}' for the first or '{}' for the second", words[0], words[1]),
+        tuple(told),
     )
 
 
@@ -495,4 +495,5 @@ def _missing(group: AssurGroup, both: list[_Tried], positions: Reals, untold: Ru
             say(both[0][0].problem.unit),
         ),
         hint,
+        tuple(words),
     )
