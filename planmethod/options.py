@@ -221,6 +221,13 @@ def out_option(command: F) -> F:
     )(command)
 
 
+def open_option(command: F) -> F:
+    """Add the showing of what is written."""
+    return click.option(
+        "--open", "shown", is_flag=True, help="Show what is written in the system's viewer."
+    )(command)
+
+
 def layout_option(command: F) -> F:
     """Add what is on the sheets and how it is arranged."""
     return click.option(

@@ -74,8 +74,8 @@ def write_drawings(
     dpi: int = 100,
     author: str | None = None,
     dxf_text: Literal["text", "strokes"] = "strokes",
-) -> None:
-    """Write the sheets of a problem; files appear only when all are made.
+) -> list[Path]:
+    """Write the sheets of a problem and return the files, which appear only when all are made.
 
     A format with pages has one file for all sheets, ``stem.pdf``; of the others each sheet has its
     own, ``stem.svg``, ``stem-2.svg``...
@@ -99,6 +99,18 @@ def write_drawings(
         write(path, data)
     for path in files:
         click.echo(str(path))
+    return list(files)
+
+
+def show(path: Path) -> None:
+    """Open a written file in the system's program for it, once in a run; say so where none does."""
+    opened = click.get_current_context().meta.setdefault("planmethod.opened", set())
+    if path in opened:
+        return
+    opened.add(path)
+    if click.launch(str(path)):
+        told = "Note: no program of this system opens {}; open the file yourself."
+        click.echo(say(told, path), err=True)
 
 
 def write_set(drawings: Sequence[Drawing], path: Path, *, author: str | None = None) -> None:

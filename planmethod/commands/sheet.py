@@ -12,7 +12,7 @@ from msgspec.structs import replace
 
 from planmethod.commands.asked import Asked, Settled, sheet_options
 from planmethod.commands.helptext import Spoken
-from planmethod.commands.output import write_drawings, write_set
+from planmethod.commands.output import show, write_drawings, write_set
 from planmethod.commands.problems import (
     Todo,
     each,
@@ -34,6 +34,7 @@ from planmethod.options import (
     format_option,
     jobs_option,
     layout_option,
+    open_option,
     out_option,
     problem_options,
     reading_options,
@@ -121,6 +122,7 @@ def compacted(problem: Problem, positions: Sequence[float] | None) -> Problem:
 )
 @drawing_options
 @jobs_option
+@open_option
 @watch_option(draws=True)
 @guarded
 def sheet(
@@ -142,6 +144,7 @@ def sheet(
     dxf_text: Literal["text", "strokes"],
     all_positions: bool,
     jobs: int,
+    shown: bool,
 ) -> None:
     """Draw the framed sheet: scheme, velocity and acceleration plans, equations, tables."""
     from planmethod.render.sheets.composition.reader import composition
@@ -169,7 +172,11 @@ def sheet(
     )
     if one_file is None:
         act = partial(draw, options=options)
-        finish(each(problems, variant, all_variants, act, jobs=jobs))
+        files: list[Path] = []
+        code = each(problems, variant, all_variants, act, jobs=jobs, take=files.append)
+        if shown and files:
+            show(files[0])
+        finish(code)
         return
     whole: list[tuple[Todo, int, list[Drawing]]] = []
 
@@ -190,13 +197,16 @@ def sheet(
             _write(todo, options, apart, drawings, before=before, total=named)
         pages = [drawing for *_, drawings in whole for drawing in drawings]
         write_set(pages, out / one_file, author=options.settled.author(first.problem))
+        if shown:
+            show(out / one_file)
     finish(code)
 
 
-def draw(todo: Todo, options: SheetOptions) -> None:
-    """Draw and write the sheets of a problem."""
+def draw(todo: Todo, options: SheetOptions) -> Path:
+    """Draw and write the sheets of a problem; return the file to look at, a PDF if there is one."""
     todo = _settled(todo, options)
-    _write(todo, options, options.formats, None)
+    files = _write(todo, options, options.formats, None)
+    return next((file for file in files if file.suffix == ".pdf"), files[0])
 
 
 def _settled(todo: Todo, options: SheetOptions) -> Todo:
@@ -261,8 +271,8 @@ def _write(
     *,
     before: int = 0,
     total: int | None = None,
-) -> None:
-    """Write the sheets of a problem, drawn now if they are not drawn yet."""
+) -> list[Path]:
+    """Write the sheets of a problem, drawn now if they are not drawn yet; return the files."""
     formats = list(formats)
     # What a CAD program measures is drawn as such programs draw, if nobody wants another hand.
     cad = None
@@ -277,7 +287,12 @@ def _write(
         author=options.settled.author(todo.problem),
         dxf_text=options.dxf_text,
     )
+    files: list[Path] = []
     if formats:
-        write(drawings or _drawn(todo, options, before=before, total=total), formats=formats)
+        files += write(
+            drawings or _drawn(todo, options, before=before, total=total), formats=formats
+        )
     if cad is not None:
-        write(_drawn(todo, options, before=before, total=total, hand=cad), formats=["dxf"])
+        drawings = _drawn(todo, options, before=before, total=total, hand=cad)
+        files += write(drawings, formats=["dxf"])
+    return files

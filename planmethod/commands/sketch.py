@@ -7,12 +7,12 @@ from pathlib import Path
 import click
 
 from planmethod.commands.helptext import Spoken
-from planmethod.commands.output import write_drawings
+from planmethod.commands.output import show, write_drawings
 from planmethod.commands.problems import fail, finish, guarded, names_of, variants_of
 from planmethod.commands.watch import watch_option
 from planmethod.errors import ExitCode, Fault, PlanMethodError, ProblemError
 from planmethod.languages import say
-from planmethod.options import format_option, lang_option, out_option, problem_options
+from planmethod.options import format_option, lang_option, open_option, out_option, problem_options
 
 PAGE = (
     '<!DOCTYPE html><meta charset="utf-8"><meta http-equiv="refresh" content="1">'
@@ -26,7 +26,7 @@ PAGE = (
 @out_option
 @format_option("svg")
 @lang_option
-@click.option("--open", "shown", is_flag=True, help="Show it in the browser.")
+@open_option
 @watch_option()
 @guarded
 def sketch(
@@ -97,9 +97,5 @@ def _show(picture: Path) -> None:
     from planmethod.render.backends.output import write
 
     page = picture.with_suffix(".html")
-    opened = click.get_current_context().meta.setdefault("planmethod.opened", set())
-    if page in opened:
-        return
-    opened.add(page)
     write(page, PAGE.format(picture=picture.name).encode())
-    click.launch(str(page))
+    show(page)
