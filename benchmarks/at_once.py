@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from planmethod.bench.forces import error_of
-from planmethod.bench.speed import Reading, clock, places
+from planmethod.bench.speed import ReadSpeed, clock, places
 from planmethod.mechanism.model import FRAME
 from planmethod.problem.model import Problem
 from planmethod.solved.forces.statics import Statics, statics_of
@@ -18,7 +18,7 @@ from planmethod.solved.solution import Solution
 Array = npt.NDArray[Any]
 
 
-def readings(problem: Problem, counts: Sequence[int]) -> list[Reading]:
+def readings(problem: Problem, counts: Sequence[int]) -> list[ReadSpeed]:
     """Time the linear system; it begins with a motion that is known."""
     found = []
     for count in counts:
@@ -28,7 +28,7 @@ def readings(problem: Problem, counts: Sequence[int]) -> list[Reading]:
             return all_at_once(s)
 
         name, error = "3n equations at once, NumPy, after the motion", error_of(statics, at_once())
-        found.append(Reading(name, problem.name, count, clock(at_once).median, error))
+        found.append(ReadSpeed(name, problem.name, count, clock(at_once).median, error))
     return found
 
 

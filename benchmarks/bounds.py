@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from benchmarks.processes import LOADED, Command
 from benchmarks.rivals import Rival
 from planmethod.bench.report import Table, number, table
-from planmethod.bench.speed import Reading
+from planmethod.bench.speed import ReadSpeed
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,7 +51,7 @@ def bounds_table(bounds: Sequence[Bound]) -> Table:
     return ["", "What shall hold:", "", *table(("what", "found", "limit", "holds"), rows)]
 
 
-def of_sweeps(readings: Sequence[Reading]) -> list[Bound]:
+def of_sweeps(readings: Sequence[ReadSpeed]) -> list[Bound]:
     """Return the bounds of machine code beside NumPy's sweep and bare stores."""
     found = []
     for problem in dict.fromkeys(one.problem for one in readings):

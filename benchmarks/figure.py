@@ -10,7 +10,7 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
 from benchmarks.rivals import Rival
-from planmethod.bench.speed import Reading
+from planmethod.bench.speed import ReadSpeed
 
 MARKS = (
     ("sweep, float64", "o", "#1f5aa6"),
@@ -25,7 +25,7 @@ MARKS = (
 
 
 def draw(
-    readings: Sequence[Reading],
+    readings: Sequence[ReadSpeed],
     rivals: Sequence[Rival],
     positions: Sequence[tuple[int, float]],
     links: Sequence[tuple[int, int, float, float, float]],
@@ -41,7 +41,7 @@ def draw(
     return target.getvalue()
 
 
-def _errors(axes: Axes, readings: Sequence[Reading], rivals: Sequence[Rival]) -> None:
+def _errors(axes: Axes, readings: Sequence[ReadSpeed], rivals: Sequence[Rival]) -> None:
     for start, mark, colour in MARKS:
         mine = [r for r in readings if r.name.startswith(start) and r.error == r.error]
         if not mine:

@@ -18,7 +18,7 @@ from planmethod.check.drawn import drawn_works
 from planmethod.check.group import Variants
 from planmethod.check.key import key_of_task
 from planmethod.check.mistakes.model import Change
-from planmethod.check.model import Sense, Work, Written
+from planmethod.check.model import Sense, Work, WrittenAnswer
 from planmethod.check.task import Task
 
 PROBLEM = Path("problems/linkages/ex3-variants.toml")
@@ -117,7 +117,7 @@ def _change(task: Task, student: Student) -> Change | None:
     return made[student.place]
 
 
-def _slipped(answer: Written) -> Written:
+def _slipped(answer: WrittenAnswer) -> WrittenAnswer:
     """Return an answer; of one, the value with two digits swapped."""
     if answer.id != "v_E" or answer.value is None:
         return answer
@@ -148,7 +148,7 @@ def _comma(number: str) -> str:
     return number.replace(".", ",")
 
 
-def _sense(number: int, answer: Written) -> str:
+def _sense(number: int, answer: WrittenAnswer) -> str:
     words = ARROWS if number % 2 else WORDS
     return "" if answer.sense is None else words[answer.sense]
 

@@ -23,7 +23,7 @@ from planmethod.problem.model import Problem
 from planmethod.solved.quantities import natural_size
 from planmethod.solved.selfcheck import SelfCheckError, verify, warnings
 from planmethod.solved.solution import Solution
-from planmethod.solved.trust.accuracy import Refereed, Verdict, examine
+from planmethod.solved.trust.accuracy import AccuracyVerdict, Refereed, examine
 
 WRONG = 1e-6
 """Relative error above which a result without a warning is a wrong one."""
@@ -229,7 +229,7 @@ def _add(row: HardRow, found: Refereed) -> HardRow:
     )
 
 
-def sizes(verdicts: Iterable[Verdict]) -> dict[QuantityKind, float]:
+def sizes(verdicts: Iterable[AccuracyVerdict]) -> dict[QuantityKind, float]:
     """Return the size beside which a result of each kind is small in a position, by the referee.
 
     It is the natural size of the kind, a sliding speed being a velocity.

@@ -207,7 +207,7 @@ class Measured:
         self.sizes = (12, 10_000) if quick else rivals.SIZES
 
     @cached_property
-    def readings(self) -> list[speed.Reading]:
+    def readings(self) -> list[speed.ReadSpeed]:
         """Time beside error of two mechanisms."""
         return [
             *speed.sweeps(fourbar(), self.sizes, FOURBAR_ROWS),

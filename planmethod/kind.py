@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 P = TypeVar("P", bound=KindProblem)
 
 
-class Kind(ABC, Generic[P]):
+class ProblemKind(ABC, Generic[P]):
     """A kind of problem; its methods import what they need when they are called.
 
     Attributes

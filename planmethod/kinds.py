@@ -10,23 +10,23 @@ from typing import TYPE_CHECKING, Any
 from planmethod.errors import ProblemError
 from planmethod.gears.involute.kind import Meshings
 from planmethod.gears.kind import GearTrains
-from planmethod.kind import Kind
+from planmethod.kind import ProblemKind
 from planmethod.moving.kind import MovingPoints
 from planmethod.problem.source import parse, read_source
 
 if TYPE_CHECKING:
     from planmethod.problem.fields import Faults
     from planmethod.problem.model import Geared, Problem
-    from planmethod.solved.part import Part
+    from planmethod.solved.part import MechanismPart
     from planmethod.solved.scaling import Views
 
-KINDS: tuple[Kind[Any], ...] = (GearTrains(), MovingPoints(), Meshings())
+KINDS: tuple[ProblemKind[Any], ...] = (GearTrains(), MovingPoints(), Meshings())
 """Kinds beside linkages; a file that has links is a linkage whatever else it has."""
 
 _HEAD = r"(?m)^[ \t]*\[?[ \t]*[\"']?(" + "|".join(k.table for k in KINDS) + r")\b"
 
 
-def kind_of(path: Path) -> Kind[Any] | None:
+def kind_of(path: Path) -> ProblemKind[Any] | None:
     """Return the kind of a problem file; None for a linkage.
 
     Raises
@@ -71,7 +71,7 @@ def loads(text: str, *, name: str, variant: str | None = None) -> Problem:
     return _posed(read(text, name=name, variant=variant, train=_driven))
 
 
-def part_of(path: Path, *, variant: str | None, views: Views) -> tuple[str, Part]:
+def part_of(path: Path, *, variant: str | None, views: Views) -> tuple[str, MechanismPart]:
     """Return the title of the file of a linkage, and as much of it as can be drawn.
 
     Raises
@@ -81,13 +81,13 @@ def part_of(path: Path, *, variant: str | None, views: Views) -> tuple[str, Part
     """
     from planmethod.problem.fields import Faults
     from planmethod.problem.variants import with_table
-    from planmethod.solved.part import Part, largest_part
+    from planmethod.solved.part import MechanismPart, largest_part
 
     text = read_source(path)
     try:
         table = parse(text, name=str(path))
     except ProblemError as error:
-        return "", Part(None, faults=error.faults, trouble=error)
+        return "", MechanismPart(None, faults=error.faults, trouble=error)
     part = largest_part(
         with_table(Faults(), table, path.parent),
         source=str(path),

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+from collections import defaultdict
 from collections.abc import Iterator
 from graphlib import TopologicalSorter
 
@@ -105,3 +106,13 @@ def test_no_module_imports_itself_through_others() -> None:
         module: {name for name, _ in imports(parsed(module)) if name in FILES} for module in FILES
     }
     TopologicalSorter(graph).prepare()  # raises CycleError, with the circle
+
+
+def test_a_public_class_name_stands_in_one_module_only() -> None:
+    homes: defaultdict[str, list[str]] = defaultdict(list)
+    for module in FILES:
+        for node in ast.walk(parsed(module)):
+            if isinstance(node, ast.ClassDef) and not node.name.startswith("_"):
+                homes[node.name].append(module)
+    shared = {name: modules for name, modules in homes.items() if len(modules) > 1}
+    assert not shared, "give each a name that says what it is of, as BlockKind beside ProblemKind"

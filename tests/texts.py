@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from planmethod.check.key import Key
-from planmethod.check.model import Checked
+from planmethod.check.model import CheckedWork
 from planmethod.check.pages.compared import compared_document
 from planmethod.check.pages.keypage import key_document
 from planmethod.mechanism.model import Mechanism
@@ -51,5 +51,5 @@ def key_text(keys: Sequence[Key], words: Language) -> str:
     return plain_document(key_document(keys, words), words) + "\n"
 
 
-def compared_text(checked: Sequence[Checked], words: Language) -> str:
+def compared_text(checked: Sequence[CheckedWork], words: Language) -> str:
     return plain_document(compared_document(checked, words), words) + "\n"

@@ -18,10 +18,10 @@ from planmethod.check.drawn import drawn_works, planted
 from planmethod.check.key import Key, key_of_task
 from planmethod.check.marks import DEFAULT, PROFILES
 from planmethod.check.mistakes.model import Change
-from planmethod.check.model import Checked, Judged, KeyEntry, Verdict
+from planmethod.check.model import CheckedWork, Judged, KeyEntry, Verdict
 from planmethod.check.pages.files import write_all
 from planmethod.check.questions import Sign
-from planmethod.check.task import Item, Task
+from planmethod.check.task import Task, TaskItem
 from planmethod.problem.model import Problem
 from planmethod.solved.solution import Solution
 
@@ -111,7 +111,7 @@ def called(task: Task) -> str:
     return task.solution.problem.name + (f" ({task.variant})" if task.variant else "")
 
 
-def first_items(task: Task) -> list[Item]:
+def first_items(task: Task) -> list[TaskItem]:
     """Return what is asked of the first position that anything is asked of."""
     items = task.usual()
     return [item for item in items if item.position == items[0].position]
@@ -164,7 +164,7 @@ def places_of(task: Task, key: Key) -> Iterator[Change]:
         yield from changes[:: -(-len(changes) // PLACES)]
 
 
-def _given(task: Task, items: Sequence[Item]) -> Iterator[tuple[Change, list[float]]]:
+def _given(task: Task, items: Sequence[TaskItem]) -> Iterator[tuple[Change, list[float]]]:
     """Yield every mistake with what it gives, sizes without a sign."""
     sheet = task.sheet(items[0].position)
     for change in planted(sheet, items):
@@ -215,7 +215,7 @@ def detection(task: Task, count: int) -> list[Detected]:
     return list(found.values())
 
 
-def _count(row: Detected, checked: Checked, right: set[str]) -> None:
+def _count(row: Detected, checked: CheckedWork, right: set[str]) -> None:
     """Count a work in which one of some mistakes, all alike, is right to name."""
     sure = {diagnosis.codes[0] for diagnosis in checked.diagnosis if diagnosis.sure}
     row.works += 1
@@ -294,7 +294,7 @@ def speed(problem: Problem) -> Speed:
     )  # fmt: skip
 
 
-def _common(task: Task, items: Sequence[Item]) -> Change:
+def _common(task: Task, items: Sequence[TaskItem]) -> Change:
     """Return the first mistake that shows: of the Coriolis acceleration, where there is one."""
     made = list(places_of(task, key_of_task(task, items)))
     return next((change for change in made if change.code == "A1"), made[0])

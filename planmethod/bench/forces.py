@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 from msgspec import Struct
 
-from planmethod.bench.speed import RIGHT, Reading, clock, places, spread, turns_round
+from planmethod.bench.speed import RIGHT, ReadSpeed, clock, places, spread, turns_round
 from planmethod.construct.arithmetic import Float64, Number
 from planmethod.construct.condition import plain
 from planmethod.construct.evaluate import evaluate
@@ -63,9 +63,9 @@ def _batch(statics: Statics, trace: Any) -> list[Array]:
     return [np.broadcast_to(row, shape) for row in forces_of(statics, trace.value)]
 
 
-def readings(problem: Problem, counts: Sequence[int]) -> list[Reading]:
+def readings(problem: Problem, counts: Sequence[int]) -> list[ReadSpeed]:
     """Time the force plans, the motion alone, and the hand."""
-    found: list[Reading] = []
+    found: list[ReadSpeed] = []
     for count in counts:
         solution = Solution(problem, positions=places(problem, count).tolist())
         statics = statics_of(solution)
@@ -78,8 +78,8 @@ def readings(problem: Problem, counts: Sequence[int]) -> list[Reading]:
 
         name = problem.name
         found += [
-            Reading("motion alone, step by step", name, count, clock(alone).median, float("nan")),
-            Reading(
+            ReadSpeed("motion alone, step by step", name, count, clock(alone).median, float("nan")),
+            ReadSpeed(
                 "motion and force plans, step by step",
                 name, count, clock(read).median, error_of(statics, _batch(statics, read())),
             ),
@@ -87,7 +87,7 @@ def readings(problem: Problem, counts: Sequence[int]) -> list[Reading]:
     return [*found, *_of_one(problem)]
 
 
-def _of_one(problem: Problem) -> list[Reading]:
+def _of_one(problem: Problem) -> list[ReadSpeed]:
     """Time what is read in one position: planning, referee, hand."""
     position = problem.drive.positions[0]
     solution = Solution(problem, positions=[position])
@@ -97,11 +97,11 @@ def _of_one(problem: Problem) -> list[Reading]:
         return _judged(statics, 50)
 
     found = [
-        Reading(
+        ReadSpeed(
             "force plans planned, from the solution",
             name, 1, clock(lambda: Statics(solution)).median, float("nan"),
         ),
-        Reading(
+        ReadSpeed(
             "referee, 50 digits",
             name, 1, clock(precisely).median, _precise_error(statics, precisely()),
         ),
@@ -110,7 +110,7 @@ def _of_one(problem: Problem) -> list[Reading]:
         drawn = statics_of(Solution(problem, positions=[position], ruler=ruler))
         reading = clock(lambda s=drawn: s.read(s.solution.hand, s.per_mm))  # type: ignore[misc]
         found.append(
-            Reading(f"the hand, ruler {ruler:g} mm", name, 1, reading.median, _hand_error(drawn))
+            ReadSpeed(f"the hand, ruler {ruler:g} mm", name, 1, reading.median, _hand_error(drawn))
         )
     return found
 

@@ -51,7 +51,7 @@ def load() -> str:
     return f"{os.getloadavg()[0]:.1f} processes were busy on {os.cpu_count()} cores"
 
 
-def timed(found: Sequence[speed.Reading]) -> Table:
+def timed(found: Sequence[speed.ReadSpeed]) -> Table:
     """Return the table of time beside error."""
     rows = [
         (
@@ -69,7 +69,7 @@ def timed(found: Sequence[speed.Reading]) -> Table:
     )
 
 
-def speed_section(readings: Sequence[speed.Reading]) -> Table:
+def speed_section(readings: Sequence[speed.ReadSpeed]) -> Table:
     """Return time beside error of the motion."""
     return [
         "## Time against error",
@@ -86,7 +86,7 @@ def speed_section(readings: Sequence[speed.Reading]) -> Table:
 
 
 def forces_section(
-    readings: Sequence[speed.Reading], lever: Sequence[forces.Discrepancy], *, more: str = ""
+    readings: Sequence[speed.ReadSpeed], lever: Sequence[forces.Discrepancy], *, more: str = ""
 ) -> Table:
     """Return time beside error of the force plans, and the lever beside them.
 
@@ -307,7 +307,7 @@ def checking_section(problems: Sequence[Problem], works: int = WORKS) -> Table:
 
 
 def _speed(problems: Sequence[Problem]) -> Table:
-    found: list[speed.Reading] = []
+    found: list[speed.ReadSpeed] = []
     for problem in problems:
         found += [*speed.sweeps(problem, COUNTS), *speed.single_readings(problem)]
     return speed_section(found)

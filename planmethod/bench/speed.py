@@ -65,7 +65,7 @@ RIGHT = 60
 """Digits of the referee that the errors are counted from."""
 
 
-class Reading(Struct, frozen=True):
+class ReadSpeed(Struct, frozen=True):
     """One way of reading a program: its time for a position, and its error.
 
     Attributes
@@ -161,7 +161,7 @@ def row_error(right: Array, found: Array) -> float:
 
 def sweeps(
     problem: Problem, counts: Sequence[int], asked: Sequence[str] | None = None
-) -> list[Reading]:
+) -> list[ReadSpeed]:
     """Time sweeps into buffers, taking turns: NumPy's blocks, machine code, float32, no work."""
     asked = everything(problem) if asked is None else asked
     machine = Sweep(problem, asked, native=True)
@@ -190,26 +190,26 @@ def sweeps(
         for (name, act), timing in zip(acts.items(), clock_all(list(acts.values())), strict=True):
             answer = act()
             error = math.nan if answer is None else row_error(right, answer[:, spread(count)])
-            found.append(Reading(name, problem.name, count, timing.median, error))
+            found.append(ReadSpeed(name, problem.name, count, timing.median, error))
         if machine.uncompiled:
             name = f"sweep, machine code: {machine.uncompiled}"
-            found.append(Reading(name, problem.name, count, math.nan, math.nan))
+            found.append(ReadSpeed(name, problem.name, count, math.nan, math.nan))
     return found
 
 
-def single_readings(problem: Problem) -> list[Reading]:
+def single_readings(problem: Problem) -> list[ReadSpeed]:
     """Time the step by step readings of one position: float64, referee, hand at several rulers."""
     position, name = problem.drive.positions[0], problem.name
     solution = Solution(problem, positions=[position])
     found = [
-        Reading(
+        ReadSpeed(
             "step by step, float64",
             name,
             1,
             clock(lambda: solution.read(Float64())).median,
             _trace_error(problem, solution, position, Float64()),
         ),
-        Reading(
+        ReadSpeed(
             "solve() from the problem, float64",
             name,
             1,
@@ -219,7 +219,7 @@ def single_readings(problem: Problem) -> list[Reading]:
     ]
     for digits in (16, 30, 50):
         found.append(
-            Reading(
+            ReadSpeed(
                 f"referee, {digits} digits",
                 name,
                 1,
@@ -230,7 +230,7 @@ def single_readings(problem: Problem) -> list[Reading]:
     for ruler in (0.1, 0.25, 0.5, 1.0):
         drawn = Solution(problem, positions=[position], ruler=ruler)
         found.append(
-            Reading(
+            ReadSpeed(
                 f"the hand, ruler {ruler:g} mm",
                 name,
                 1,

@@ -18,20 +18,20 @@ from planmethod.check.explain import Explanation, Fit
 from planmethod.check.judge import Examined, decide, distance
 from planmethod.check.letters import plain
 from planmethod.check.marks import Settings
-from planmethod.check.model import Diagnosis, Unread, Verdict, Written
+from planmethod.check.model import Diagnosis, Unread, Verdict, WrittenAnswer
 from planmethod.check.questions import Question, Sign
 from planmethod.check.sheet import Sheet
 from planmethod.check.slips import METRES, PLACES, UNITS
-from planmethod.check.task import Item, Task
+from planmethod.check.task import Task, TaskItem
 from planmethod.check.works.cells import refused
 from planmethod.check.works.units import ratio
 from planmethod.construct.drafting import Profile
 from planmethod.construct.evaluate import Trace
 from planmethod.errors import Fault, ProblemError
-from planmethod.kind import Kind
+from planmethod.kind import ProblemKind
 from planmethod.languages import say
 from planmethod.plans.model import Plan
-from planmethod.problem.figures import Figure, Figures
+from planmethod.problem.figures import AnswerValue, Figures
 from planmethod.problem.head import AnswerForm, AskedAnswer, KindProblem
 from planmethod.problem.selector import Selector
 from planmethod.solved.selectors.steps import NoValue, NoValueError
@@ -48,7 +48,7 @@ COARSE = 0.01
 _NOTHING = Trace({}, {})
 
 
-class Numbers(Sheet):
+class CalculationSheet(Sheet):
     """What is asked of one position of a problem that is computed."""
 
     def __init__(
@@ -108,7 +108,7 @@ class Calculation(Task):
 
     def __init__(
         self,
-        kind: Kind[Any],
+        kind: ProblemKind[Any],
         problem: KindProblem,
         settings: Settings,
         others: Callable[[], Iterable[Task]] | None = None,
@@ -117,14 +117,14 @@ class Calculation(Task):
         self.variant, self._others = problem.variant, others
         self.figures = kind.figures(problem)
         self._found: dict[tuple[str, int, bool, bool], Question] = {}
-        self._forms: dict[str, Item] = {}
-        self._numbers: dict[tuple[object, ...], Numbers] = {}
+        self._forms: dict[str, TaskItem] = {}
+        self._numbers: dict[tuple[object, ...], CalculationSheet] = {}
         if not (problem.answers or self.figures.names):
             fault = Fault(kind.table, "no quantity has a value that could be asked for")
             raise ProblemError(problem.name, [fault])
         self.declared = tuple(self._stated(at, one) for at, one in enumerate(problem.answers))
 
-    def _stated(self, at: int, asked: AskedAnswer) -> Item:
+    def _stated(self, at: int, asked: AskedAnswer) -> TaskItem:
         position = asked.position or 0
         drawn = asked.form is not AnswerForm.VALUE
         question = self._question(asked.what, position, drawn=drawn, turns=asked.sense is not None)
@@ -159,13 +159,13 @@ class Calculation(Task):
             self._found[key] = _question_of(name, figure, drawn=drawn, turns=turns)
         return self._found.get(key)
 
-    def _item(self, question: Question, position: int, name: str) -> Item:
+    def _item(self, question: Question, position: int, name: str) -> TaskItem:
         figure = self.figures.figure(name, position)
         whole = figure is not None and figure.whole and figure.value
         fixed = COUNTED / abs(figure.value) if figure is not None and whole else None
-        return Item(name, question, position, fixed=fixed, label=name, name=name)
+        return TaskItem(name, question, position, fixed=fixed, label=name, name=name)
 
-    def usual(self, position: int = 0) -> tuple[Item, ...]:
+    def usual(self, position: int = 0) -> tuple[TaskItem, ...]:
         """Return what is asked: what the file asks, else the usual quantities of a position."""
         if self.declared:
             return self.declared
@@ -177,7 +177,7 @@ class Calculation(Task):
         """Positions, or moments."""
         return self.figures.count
 
-    def find(self, written: Written) -> Item:
+    def find(self, written: WrittenAnswer) -> TaskItem:
         """Return what an answer is of; one told in millimetres is read off the picture.
 
         Raises
@@ -198,7 +198,7 @@ class Calculation(Task):
                     return replace(item, id=written.id or item.id)
         raise NoValueError(NoValue.NO_WHAT)
 
-    def written(self, item: Item, written: Written) -> Written:
+    def written(self, item: TaskItem, written: WrittenAnswer) -> WrittenAnswer:
         """Return an answer in the unit of its key, its sense as the sign of its number."""
         written = super().written(item, written)
         per = ratio(written, item.question.unit)
@@ -214,18 +214,18 @@ class Calculation(Task):
 
     def sheet(
         self, position: int, own: Mapping[str, float] | None = None, ruler: float | None = None
-    ) -> Numbers:
+    ) -> CalculationSheet:
         """Return the numbers of a position, with all that was asked so far."""
         profile = self.profile(ruler)
         asked = {q.id: q for (_, at, *_), q in self._found.items() if at == position}
         key = (position, profile, tuple(asked))
         if key not in self._numbers:
-            self._numbers[key] = Numbers(self.figures, position, asked.values(), profile)
+            self._numbers[key] = CalculationSheet(self.figures, position, asked.values(), profile)
         return self._numbers[key]
 
     def named(self, sheet: Sheet) -> list[Explanation]:
         """Return the usual mistakes, and the numbers of the other variants."""
-        assert isinstance(sheet, Numbers)
+        assert isinstance(sheet, CalculationSheet)
         told = [(code, where, take) for code, where, take in self.figures.mistaken()]
         found = []
         for code, where, take in told:
@@ -236,7 +236,7 @@ class Calculation(Task):
             found.append(Explanation(code, where, values, _NOTHING, sheet))
         return found
 
-    def _copied(self, sheet: Numbers) -> Iterator[Explanation]:
+    def _copied(self, sheet: CalculationSheet) -> Iterator[Explanation]:
         for other in self.others():
             assert isinstance(other, Calculation)
             values = {}
@@ -247,7 +247,7 @@ class Calculation(Task):
 
     # Judging ---------------------------------------------------------------------------------
 
-    def judge(self, sheet: Numbers, found: list[Examined]) -> list[Diagnosis]:
+    def judge(self, sheet: CalculationSheet, found: list[Examined]) -> list[Diagnosis]:
         """Give every answer its verdict, and name what is wrong."""
         self._replay(sheet, found)
         decide(sheet, found, self.settings.near)
@@ -281,7 +281,7 @@ class Calculation(Task):
             left = [one for one in left if one not in taken]
         return diagnoses
 
-    def _replay(self, sheet: Numbers, found: list[Examined]) -> None:
+    def _replay(self, sheet: CalculationSheet, found: list[Examined]) -> None:
         """Find what comes out of his own answers for others."""
         for one in found:
             slack = self.settings.k * one.limit.sigma + one.limit.least + one.step / 2
@@ -301,7 +301,7 @@ class Calculation(Task):
                 one.follows, one.contradicts = apart <= slack, apart > slack * self.settings.near
 
 
-def _question_of(name: str, figure: Figure, *, drawn: bool, turns: bool) -> Question:
+def _question_of(name: str, figure: AnswerValue, *, drawn: bool, turns: bool) -> Question:
     sign = Sign.SIZE if not figure.signed else Sign.TURN if turns and figure.turns else Sign.STRICT
     kind = READ if drawn else "number"
     value, own = figure.value, f"{name} read" if drawn else name

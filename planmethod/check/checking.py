@@ -7,15 +7,15 @@ from collections.abc import Sequence
 
 from msgspec.structs import replace
 
-from planmethod.check.calculation import Calculation, Numbers
+from planmethod.check.calculation import Calculation, CalculationSheet
 from planmethod.check.diagnosis import diagnose
 from planmethod.check.judge import Examined, UnusableError, decide, examine, replay
 from planmethod.check.key import entry_of
 from planmethod.check.marks import Settings
-from planmethod.check.model import Checked, Diagnosis, Judged, Verdict, Work, Written
+from planmethod.check.model import CheckedWork, Diagnosis, Judged, Verdict, Work, WrittenAnswer
 from planmethod.check.questions import Sign
 from planmethod.check.sheet import Sheet
-from planmethod.check.task import Item, Task
+from planmethod.check.task import Task, TaskItem
 from planmethod.check.tolerance import limit_of
 from planmethod.plans.model import FACTS
 from planmethod.solved.selectors.steps import NoValueError
@@ -26,15 +26,15 @@ TOO_NEAR = 1e-4
 """Chance with which a hand comes as near to the exact values as some answers do."""
 
 
-def check(task: Task, work: Work, also: Sequence[Item] = ()) -> Checked:
+def check(task: Task, work: Work, also: Sequence[TaskItem] = ()) -> CheckedWork:
     """Judge a work: a pure function of a task and what was written.
 
     Parameters
     ----------
-    also : sequence of Item
+    also : sequence of TaskItem
         What the others of the group were asked, where the problem file asks nothing.
     """
-    found: dict[int, list[tuple[Written, Item]]] = {}
+    found: dict[int, list[tuple[WrittenAnswer, TaskItem]]] = {}
     numbers: dict[int, int] = {}
     judged: dict[int, Judged] = {}
     for number, written in enumerate(work.answers):
@@ -63,7 +63,7 @@ def check(task: Task, work: Work, also: Sequence[Item] = ()) -> Checked:
                 ready.append(examine(task, sheet, item, written))
             except UnusableError:
                 judged[numbers[id(written)]] = _unjudged(task, item, Verdict.UNREADABLE, written)
-        if isinstance(sheet, Numbers) and isinstance(task, Calculation):
+        if isinstance(sheet, CalculationSheet) and isinstance(task, Calculation):
             diagnosis += task.judge(sheet, ready)
         else:
             replay(task, sheet, ready)
@@ -82,7 +82,7 @@ def check(task: Task, work: Work, also: Sequence[Item] = ()) -> Checked:
             given.add((item.name, item.position))
     points = math.fsum(answer.points for answer in answers)
     whole = math.fsum(answer.of for answer in answers)
-    return Checked(
+    return CheckedWork(
         work,
         task.variant,
         tuple(answers),
@@ -93,17 +93,17 @@ def check(task: Task, work: Work, also: Sequence[Item] = ()) -> Checked:
     )
 
 
-def unknown_variant(work: Work) -> Checked:
+def unknown_variant(work: Work) -> CheckedWork:
     """Return a work of a variant that the problem has not: nothing of it can be judged."""
     answers = tuple(
         Judged(written.id or written.what, Verdict.UNREADABLE, written=written)
         for written in work.answers
     )
-    return Checked(work, work.variant, answers)
+    return CheckedWork(work, work.variant, answers)
 
 
 def _scales(
-    task: Task, work: Work, here: Sequence[tuple[Written, Item]], position: int
+    task: Task, work: Work, here: Sequence[tuple[WrittenAnswer, TaskItem]], position: int
 ) -> dict[str, float]:
     """Return his scales; one that he does not tell is found from a value beside its millimetres."""
     scales = {name: mu for name, mu in work.scales.items() if name in SCALED}
@@ -122,7 +122,9 @@ def _scales(
     return scales
 
 
-def _unjudged(task: Task, item: Item, verdict: Verdict, written: Written | None) -> Judged:
+def _unjudged(
+    task: Task, item: TaskItem, verdict: Verdict, written: WrittenAnswer | None
+) -> Judged:
     sheet = task.sheet(item.position)
     limit = limit_of(sheet, item.question, task.settings, item.fixed)
     of = 0.0 if verdict is Verdict.UNREADABLE else item.points

@@ -5,9 +5,9 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping, Sequence
 
-from planmethod.check.explain import Explanation, Explanations, Fact, Fit, Numbers
+from planmethod.check.explain import Explanation, Explanations, Fact, Fit, OwnNumbers
 from planmethod.check.judge import Examined, distance, facts_of, put_in, usable
-from planmethod.check.mistakes.model import Scene
+from planmethod.check.mistakes.model import MistakeContext
 from planmethod.check.mistakes.scales import scale_by
 from planmethod.check.model import Diagnosis, Verdict
 from planmethod.check.questions import RATES, Sign
@@ -80,7 +80,7 @@ def _explains(sheet: Sheet, wrong: list[Examined], explanation: Explanation) -> 
     return False
 
 
-def _numbers(sheet: Sheet, found: list[Examined], facts: list[Fact]) -> Numbers:
+def _numbers(sheet: Sheet, found: list[Examined], facts: list[Fact]) -> OwnNumbers:
     own = put_in(sheet, found)
     right = {one.item.question.id for one in found if one.right and one.sense_right is not False}
     came, left = sheet.replayed(own)[0], sheet.local(own)
@@ -92,7 +92,7 @@ def _numbers(sheet: Sheet, found: list[Examined], facts: list[Fact]) -> Numbers:
                 off = fact.value - fact.of(came[fact.slot] * fact.per_slot)
                 squares, count = squares + (off / sigma) ** 2, count + 1
     share = min(1.0, max(EXACT, math.sqrt(squares / count)))
-    return Numbers(own, put_in(sheet, found, values=True), share)
+    return OwnNumbers(own, put_in(sheet, found, values=True), share)
 
 
 def _whole(
@@ -101,7 +101,7 @@ def _whole(
     found: list[Examined],
     wrong: list[Examined],
     facts: list[Fact],
-    own: Numbers,
+    own: OwnNumbers,
 ) -> list[Fit] | None:
     """Return the explanations of all that is answered, the best first; None where none is."""
     fits = _fits(task, sheet, found, wrong, facts, own)
@@ -120,7 +120,7 @@ def _fits(
     found: list[Examined],
     wrong: list[Examined],
     facts: list[Fact],
-    own: Numbers,
+    own: OwnNumbers,
 ) -> list[Fit]:
     """Return how explanations fit, the best first."""
     explained = task.explanations(sheet)
@@ -191,7 +191,7 @@ def _scaled(task: Task, sheet: Sheet, found: list[Examined]) -> Iterator[Explana
         factor = math.fsum(ratio / share**2 for ratio, share in ratios) / weights
         slack = task.settings.near
         if all(abs(ratio / factor - 1) < max(0.05, slack * share) for ratio, share in ratios):
-            made = task.explanations(sheet).of_change(scale_by(Scene(sheet), plan, factor))
+            made = task.explanations(sheet).of_change(scale_by(MistakeContext(sheet), plan, factor))
             if made is not None:
                 yield made
 
@@ -201,7 +201,7 @@ def _share(one: Examined) -> float:
     return max(one.limit.tolerance(one.step), one.limit.spread) / abs(one.limit.exact)
 
 
-def _of_others(task: Task, sheet: Sheet, facts: list[Fact], own: Numbers) -> Iterator[Fit]:
+def _of_others(task: Task, sheet: Sheet, facts: list[Fact], own: OwnNumbers) -> Iterator[Fit]:
     """Yield how the numbers of the other variants fit."""
     explained = task.explanations(sheet)
     for other in task.others():
@@ -312,7 +312,7 @@ def _one_by_one(
     found: list[Examined],
     wrong: list[Examined],
     facts: list[Fact],
-    own: Numbers,
+    own: OwnNumbers,
 ) -> list[Diagnosis]:
     """Name what can be named where no one mistake explains the whole sheet."""
     explained = task.explanations(sheet)

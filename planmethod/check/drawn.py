@@ -15,13 +15,13 @@ from msgspec.structs import replace
 
 from planmethod.check.key import SEGMENT_CODES
 from planmethod.check.mistakes import changes
-from planmethod.check.mistakes.model import Change, Scene, times
+from planmethod.check.mistakes.model import Change, MistakeContext, times
 from planmethod.check.mistakes.scales import scale_by
-from planmethod.check.model import Sense, Work, Written
+from planmethod.check.model import Sense, Work, WrittenAnswer
 from planmethod.check.questions import Sign
 from planmethod.check.sheet import WAYS, Sheet
 from planmethod.check.slips import read_in_place
-from planmethod.check.task import Item, Task
+from planmethod.check.task import Task, TaskItem
 from planmethod.construct.arithmetic import Number
 from planmethod.construct.drafting import Sampled
 from planmethod.construct.evaluate import Trace, evaluate
@@ -43,7 +43,7 @@ def drawn_works(
     count: int = 1,
     seed: int = 0,
     *,
-    items: Sequence[Item] | None = None,
+    items: Sequence[TaskItem] | None = None,
     scales: Mapping[str, float] | None = None,
     mm: bool = False,
 ) -> list[Work]:
@@ -55,7 +55,7 @@ def drawn_works(
     change : Change, optional
         Mistake that all of them have; none when absent.
     count, seed : int
-    items : sequence of Item, optional
+    items : sequence of TaskItem, optional
         Of one position; what is asked of the first one when absent.
     scales : mapping of str to float, optional
         The student's own.
@@ -94,7 +94,9 @@ def as_written(values: Number) -> tuple[Row, Row]:
     return np.round(exact / step) * step, step
 
 
-def _column(sheet: Sheet, item: Item, trace: Trace, count: int, *, mm: bool) -> list[Written]:
+def _column(
+    sheet: Sheet, item: TaskItem, trace: Trace, count: int, *, mm: bool
+) -> list[WrittenAnswer]:
     """Return the answers of all works to one question."""
     question = item.question
 
@@ -109,7 +111,7 @@ def _column(sheet: Sheet, item: Item, trace: Trace, count: int, *, mm: bool) -> 
     places = max(1, math.ceil(-math.log10(sheet.profile.ruler)))
     answers = []
     for number, (value, step) in enumerate(zip(taken, steps, strict=True)):
-        told = Written(id=item.id, where=item.id, sense=ways[number])
+        told = WrittenAnswer(id=item.id, where=item.id, sense=ways[number])
         if read is not None:
             told = replace(told, mm=round(read[number], places), mm_step=10.0**-places)
         if not question.is_mm:
@@ -120,7 +122,7 @@ def _column(sheet: Sheet, item: Item, trace: Trace, count: int, *, mm: bool) -> 
     return answers
 
 
-def _ways(item: Item, trace: Trace, count: int) -> list[Sense | None]:
+def _ways(item: TaskItem, trace: Trace, count: int) -> list[Sense | None]:
     """Return the senses that are told; None where none is asked."""
     question = item.question
     if not item.asks_sense:
@@ -138,9 +140,9 @@ def _ways(item: Item, trace: Trace, count: int) -> list[Sense | None]:
 # Mistakes to plant ---------------------------------------------------------------------------
 
 
-def planted(sheet: Sheet, items: Sequence[Item]) -> Iterator[Change]:
+def planted(sheet: Sheet, items: Sequence[TaskItem]) -> Iterator[Change]:
     """Yield every mistake that a work of a sheet can have: of the plans, and in one number."""
-    scene = Scene(sheet)
+    scene = MistakeContext(sheet)
     yield from changes(scene)
     for plan in MOTION[1:]:
         made = scale_by(scene, plan, WRONG_SCALE)
@@ -150,7 +152,7 @@ def planted(sheet: Sheet, items: Sequence[Item]) -> Iterator[Change]:
         yield from _in_one_number(scene, item)
 
 
-def _in_one_number(scene: Scene, item: Item) -> Iterator[Change]:
+def _in_one_number(scene: MistakeContext, item: TaskItem) -> Iterator[Change]:
     """Yield a decimal place lost, millimetres for metres, another segment of the plan read."""
     question, sheet = item.question, scene.sheet
     step = scene.compute(question.name)

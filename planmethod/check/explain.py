@@ -17,7 +17,7 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from planmethod.check.mistakes import changes
-from planmethod.check.mistakes.model import Change, Scene
+from planmethod.check.mistakes.model import Change, MistakeContext
 from planmethod.check.sheet import Local, Own, Sheet
 from planmethod.construct.evaluate import Trace
 from planmethod.construct.program import Program
@@ -85,7 +85,7 @@ class Fact(Struct, frozen=True):
         return value if self.signed else abs(value)
 
 
-class Numbers(Struct, frozen=True):
+class OwnNumbers(Struct, frozen=True):
     """A student's own numbers (собственные числа студента).
 
     Attributes
@@ -183,9 +183,9 @@ class Explanations:
 
     def __init__(self, sheet: Sheet) -> None:
         self.sheet = sheet
-        self.scene = Scene(sheet)
+        self.scene = MistakeContext(sheet)
         self._named: list[Explanation] | None = None
-        self._last: Numbers | None = None
+        self._last: OwnNumbers | None = None
         self._came: dict[Sheet | Explanation, dict[Name, float]] = {}
         self._slips: dict[tuple[object, ...], Explanation | None] = {}
         self._locals: dict[tuple[Explanation, frozenset[Name]], Local] = {}
@@ -271,7 +271,7 @@ class Explanations:
         self,
         explanation: Explanation,
         facts: Sequence[Fact],
-        numbers: Numbers,
+        numbers: OwnNumbers,
         *,
         closely: bool = False,
     ) -> Fit:
@@ -282,7 +282,7 @@ class Explanations:
 
         Parameters
         ----------
-        numbers : Numbers
+        numbers : OwnNumbers
         closely : bool
             With the errors of the plans that have the mistake; else with those of the right ones,
             in proportion.
@@ -331,7 +331,9 @@ class Explanations:
             score += MISREAD_SENSE if right_way is False else 0.0
         return Fit(explanation, score, chi2, count)
 
-    def _replayed(self, explanation: Explanation, own: Own, numbers: Numbers) -> dict[Name, float]:
+    def _replayed(
+        self, explanation: Explanation, own: Own, numbers: OwnNumbers
+    ) -> dict[Name, float]:
         change, sheet = explanation.change, explanation.sheet
         if self._last is not numbers:
             self._last, self._came = numbers, {}

@@ -14,9 +14,9 @@ from planmethod.check.checking import check, unknown_variant
 from planmethod.check.key import Key, key_of, key_of_task
 from planmethod.check.letters import plain
 from planmethod.check.marks import DEFAULT, Settings
-from planmethod.check.model import Checked, Work
-from planmethod.check.task import Item, Task
-from planmethod.kind import Kind
+from planmethod.check.model import CheckedWork, Work
+from planmethod.check.task import Task, TaskItem
+from planmethod.kind import ProblemKind
 from planmethod.kinds import kind_of, load
 from planmethod.problem import Problem, variant_names
 from planmethod.problem.head import KindProblem
@@ -24,7 +24,7 @@ from planmethod.solved.selectors.steps import NoValueError
 from planmethod.solved.solution import Solution
 
 
-def key_of_problem(kind: Kind[Any] | None, problem: KindProblem, settings: Settings) -> Key:
+def key_of_problem(kind: ProblemKind[Any] | None, problem: KindProblem, settings: Settings) -> Key:
     """Return the key of a problem; its kind is None for a linkage."""
     if kind is None:
         return key_of(Solution(cast("Problem", problem)), settings)
@@ -90,16 +90,16 @@ class Variants:
         return self._forms[plain(work.variant)]
 
 
-class Group(Struct, frozen=True):
+class CheckedGroup(Struct, frozen=True):
     """Checked works with the keys that they were checked by."""
 
-    checked: tuple[Checked, ...]
+    checked: tuple[CheckedWork, ...]
     keys: dict[str | None, Key]
 
 
 def check_works(
     variants: Variants, works: Sequence[Work], among: Sequence[Work] | None = None
-) -> Iterator[Checked]:
+) -> Iterator[CheckedWork]:
     """Yield the works, each checked by its own variant.
 
     Where the problem file asks nothing, everybody of one file was asked what any of them answered.
@@ -109,7 +109,7 @@ def check_works(
     among : sequence of Work, optional
         All works of the group, where only some of them are checked here.
     """
-    asked: dict[tuple[str, str | None], dict[tuple[str, int], Item]] = {}
+    asked: dict[tuple[str, str | None], dict[tuple[str, int], TaskItem]] = {}
     for work in among or works:
         try:
             name = variants.name_of(work)
@@ -135,7 +135,7 @@ def check_works(
         yield check(variants.task(name), work, tuple(also.values()))
 
 
-def keys_of(variants: Variants, checked: Sequence[Checked]) -> dict[str | None, Key]:
+def keys_of(variants: Variants, checked: Sequence[CheckedWork]) -> dict[str | None, Key]:
     """Return the keys of the variants that works have, of all that they answer."""
     found: dict[str | None, Key] = {}
     names = dict.fromkeys(work.variant for work in checked)

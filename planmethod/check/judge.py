@@ -13,11 +13,11 @@ from functools import partial
 from msgspec import Struct, field
 
 from planmethod.check.explain import Fact
-from planmethod.check.model import Verdict, Written
+from planmethod.check.model import Verdict, WrittenAnswer
 from planmethod.check.questions import RATES, Sign
 from planmethod.check.sheet import Own, Sheet, is_right, scalar
-from planmethod.check.task import Item, Task
-from planmethod.check.tolerance import Limit, limit_of
+from planmethod.check.task import Task, TaskItem
+from planmethod.check.tolerance import Tolerance, limit_of
 from planmethod.construct.evaluate import Trace
 from planmethod.construct.steps import Name, NumberName
 from planmethod.plans.model import FACTS, PlanKind
@@ -37,9 +37,9 @@ class Examined(Struct):
 
     Attributes
     ----------
-    item : Item
-    written : Written
-    limit : Limit
+    item : TaskItem
+    written : WrittenAnswer
+    limit : Tolerance
     value : float
         SI, with a sign where he tells one.
     signed : bool
@@ -58,9 +58,9 @@ class Examined(Struct):
         What that number counts in the unit of the answer.
     """
 
-    item: Item
-    written: Written
-    limit: Limit
+    item: TaskItem
+    written: WrittenAnswer
+    limit: Tolerance
     value: float
     signed: bool
     step: float
@@ -95,7 +95,7 @@ class Examined(Struct):
         return self.contradicts and abs(abs(self.value) - abs(self.local)) > self.local_tolerance
 
 
-def distance(item: Item, value: float, other: float, *, signed: bool) -> float:
+def distance(item: TaskItem, value: float, other: float, *, signed: bool) -> float:
     """Return how far two values of an answer are apart: of sizes, of numbers, of angles."""
     match item.question.sign:
         case Sign.ANGLE:
@@ -111,7 +111,7 @@ class UnusableError(Exception):
     """An answer cannot be judged; the message is for him who wrote it."""
 
 
-def examine(task: Task, sheet: Sheet, item: Item, written: Written) -> Examined:
+def examine(task: Task, sheet: Sheet, item: TaskItem, written: WrittenAnswer) -> Examined:
     """Take an answer as the sheet has it.
 
     Raises
@@ -151,7 +151,7 @@ def examine(task: Task, sheet: Sheet, item: Item, written: Written) -> Examined:
     return found
 
 
-def _foreign(sheet: Sheet, item: Item, written: Written) -> str:
+def _foreign(sheet: Sheet, item: TaskItem, written: WrittenAnswer) -> str:
     """Return the letters of the segment that he read, if it is not that of the answer."""
     question = item.question
     if not written.segment or question.plan is None or question.length is None:
@@ -163,7 +163,7 @@ def _foreign(sheet: Sheet, item: Item, written: Written) -> str:
     return "" if length == question.length else written.segment
 
 
-def _in_mm(sheet: Sheet, item: Item, written: Written) -> tuple[float, float]:
+def _in_mm(sheet: Sheet, item: TaskItem, written: WrittenAnswer) -> tuple[float, float]:
     """Return a length on a plan and the unit of its last digit, mm: of a true length in m too."""
     if written.mm is not None:
         return written.mm, written.mm_step
@@ -175,7 +175,7 @@ def _in_mm(sheet: Sheet, item: Item, written: Written) -> tuple[float, float]:
     return written.value * factor, written.step * factor
 
 
-def _told(sheet: Sheet, item: Item, mm: float) -> float | None:
+def _told(sheet: Sheet, item: TaskItem, mm: float) -> float | None:
     """Return what a length on his plan makes of the answer; None where only he knows."""
     question = item.question
     plan = question.plan

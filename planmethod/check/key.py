@@ -11,8 +11,8 @@ from planmethod.check.marks import DEFAULT, Settings
 from planmethod.check.model import KeyEntry
 from planmethod.check.questions import Sign
 from planmethod.check.sheet import Sheet, scalar, sense_of
-from planmethod.check.task import Item, Task
-from planmethod.check.tolerance import Limit, limit_of
+from planmethod.check.task import Task, TaskItem
+from planmethod.check.tolerance import Tolerance, limit_of
 from planmethod.plans.model import FACTS, PlanKind
 from planmethod.problem.head import KindProblem
 from planmethod.solved.solution import Solution
@@ -44,7 +44,7 @@ def key_of(solution: Solution, settings: Settings = DEFAULT) -> Key:
     return key_of_task(Task(solution, settings))
 
 
-def key_of_task(task: Task, items: Iterable[Item] | None = None) -> Key:
+def key_of_task(task: Task, items: Iterable[TaskItem] | None = None) -> Key:
     """Return the key of some of what is asked of a variant; of all when absent."""
     chosen = tuple(task.whole() if items is None else items)
     entries: dict[tuple[int, str], KeyEntry] = {}
@@ -95,7 +95,7 @@ SEGMENT_CODES = {PlanKind.VELOCITY: "V6", PlanKind.ACCELERATION: "N5"}
 """Codes of a segment read for another one of its plan."""
 
 
-def _alike(task: Task, sheet: Sheet, item: Item, limit: Limit) -> Iterator[tuple[str, str]]:
+def _alike(task: Task, sheet: Sheet, item: TaskItem, limit: Tolerance) -> Iterator[tuple[str, str]]:
     """Yield the segments of the same plan that are as long, and may be read by mistake: V6, N5."""
     question, length = item.question, sheet.length(item.question)
     code = None if question.plan is None else SEGMENT_CODES.get(question.plan)
@@ -110,14 +110,16 @@ def _alike(task: Task, sheet: Sheet, item: Item, limit: Limit) -> Iterator[tuple
                 yield code, f"{item.label or item.name}: {segment.name}"
 
 
-def _shows(limit: Limit, value: float, *, turned: bool) -> bool:
+def _shows(limit: Tolerance, value: float, *, turned: bool) -> bool:
     """Tell whether an answer with a mistake is surely off."""
     off = abs(abs(value) - abs(limit.exact))
     beyond = off > max(limit.spread, limit.tolerance())
     return not limit.zero and (beyond or (turned and value * limit.exact < 0))
 
 
-def entry_of(task: Task, item: Item, limit: Limit, *, hidden: tuple[str, ...] = ()) -> KeyEntry:
+def entry_of(
+    task: Task, item: TaskItem, limit: Tolerance, *, hidden: tuple[str, ...] = ()
+) -> KeyEntry:
     """Return the line of the key of one item, at the scales of the problem."""
     question, sheet = item.question, task.sheet(item.position)
     length = sheet.length(question)
@@ -152,7 +154,7 @@ def rich(letters: str) -> str:
     return re.sub(r"_([^{}\s]+)", r"_{\1}", letters)
 
 
-def segment_of(task: Task, item: Item) -> str:
+def segment_of(task: Task, item: TaskItem) -> str:
     """Return the letters of the segment of an item: ``p-b3``; empty where it has none."""
     length = item.question.length
     if length is None:

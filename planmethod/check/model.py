@@ -60,7 +60,7 @@ class Unread(Enum):
     ROW = "row"  # a row of the form that is gone
 
 
-class Written(Struct, frozen=True):
+class WrittenAnswer(Struct, frozen=True):
     """One answer as it stands in a work (записанный ответ).
 
     Attributes
@@ -126,7 +126,7 @@ class Work(Struct, frozen=True):
     ----------
     student : str
         Number or name; what tells him from the others.
-    answers : tuple of Written
+    answers : tuple of WrittenAnswer
     variant : str or None
     scales : mapping of str to float
         His own scales, unit per mm: ``mu_l`` (m/mm), ``mu_v``, ``mu_a``, ``mu_F``.
@@ -136,7 +136,7 @@ class Work(Struct, frozen=True):
         Problem file that he names; empty when he names none.
     where : str
         File that it was read from.
-    remarks : tuple of Written
+    remarks : tuple of WrittenAnswer
         What could not be read and is no answer: a scale, a row without a student.
     fingerprint : str
         Of the problem that the form was made for, see `planmethod.check.form.fingerprint_of`; empty
@@ -144,13 +144,13 @@ class Work(Struct, frozen=True):
     """
 
     student: str
-    answers: tuple[Written, ...]
+    answers: tuple[WrittenAnswer, ...]
     variant: str | None = None
     scales: Mapping[str, float] = field(default_factory=dict)
     ruler_mm: float | None = None
     problem: str = ""
     where: str = ""
-    remarks: tuple[Written, ...] = ()
+    remarks: tuple[WrittenAnswer, ...] = ()
     fingerprint: str = ""
 
 
@@ -231,7 +231,7 @@ class Judged(Struct, frozen=True):
     verdict : Verdict
     key : KeyEntry or None
         None for what nobody knows or can compute: it is unreadable.
-    written : Written or None
+    written : WrittenAnswer or None
         None for an answer that is missing.
     value : float or None
         What he wrote, SI; from his millimetres and scale where he wrote no value.
@@ -256,7 +256,7 @@ class Judged(Struct, frozen=True):
     id: str
     verdict: Verdict
     key: KeyEntry | None = None
-    written: Written | None = None
+    written: WrittenAnswer | None = None
     value: float | None = None
     tolerance: float | None = None
     follows: str = ""
@@ -302,7 +302,7 @@ class Diagnosis(Struct, frozen=True):
     places: Mapping[str, complex] = field(default_factory=dict)
 
 
-class Checked(Struct, frozen=True):
+class CheckedWork(Struct, frozen=True):
     """One work, judged (проверенная работа).
 
     Attributes

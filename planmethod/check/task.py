@@ -11,7 +11,7 @@ from msgspec.structs import replace
 from planmethod.check.explain import Explanation, Explanations
 from planmethod.check.letters import plain
 from planmethod.check.marks import DEFAULT, Settings
-from planmethod.check.model import Written
+from planmethod.check.model import WrittenAnswer
 from planmethod.check.questions import Question, Questions, Sign
 from planmethod.check.sheet import Sheet
 from planmethod.check.works.units import ratio_of, read_unit
@@ -118,7 +118,7 @@ def _forms(questions: Questions) -> Iterator[tuple[str, Selector]]:
             yield applied.name, Selector("load", (applied.name,))
 
 
-class Item(Struct, frozen=True):
+class TaskItem(Struct, frozen=True):
     """One thing that is asked, or that somebody answers without being asked (пункт задания).
 
     Attributes
@@ -166,7 +166,7 @@ class Task:
 
     Attributes
     ----------
-    declared : tuple of Item
+    declared : tuple of TaskItem
         What ``[[answers]]`` asks; empty where the file asks nothing.
     """
 
@@ -184,16 +184,16 @@ class Task:
         self._asked: dict[int, dict[str, Question]] = {}
         self._sheets: dict[tuple[object, ...], Sheet] = {}
         self._explained: dict[int, Explanations] = {}
-        self._forms: dict[str, Item] = {}
+        self._forms: dict[str, TaskItem] = {}
         self._written: dict[int, Forms] = {}
         self.declared = tuple(chain.from_iterable(map(self._declare, solution.problem.answers)))
 
-    def _declare(self, asked: AskedAnswer) -> Iterator[Item]:
+    def _declare(self, asked: AskedAnswer) -> Iterator[TaskItem]:
         """Yield an answer, and the direction of its vector where that is an answer of its own."""
         position = asked.position or 0
         questions = self.questions(position)
         question = questions.question(parse_selector(asked.what))
-        item = Item(
+        item = TaskItem(
             asked.id,
             self.ask(question, position),
             position,
@@ -280,23 +280,23 @@ class Task:
         """Have a question on the sheets of a position."""
         return self._asked.setdefault(position, {}).setdefault(question.id, question)
 
-    def usual(self, position: int = 0) -> tuple[Item, ...]:
+    def usual(self, position: int = 0) -> tuple[TaskItem, ...]:
         """Return what is asked: what the file asks, else the usual quantities of a position."""
         if self.declared:
             return self.declared
         questions = self.questions(position)
         found = [self.ask(questions.question(sel), position) for sel in questions.usual()]
         return tuple(
-            Item(q.id, q, position, asks_sense=q.sign is Sign.TURN, label=q.id, name=q.id)
+            TaskItem(q.id, q, position, asks_sense=q.sign is Sign.TURN, label=q.id, name=q.id)
             for q in found
         )
 
-    def whole(self) -> tuple[Item, ...]:
+    def whole(self) -> tuple[TaskItem, ...]:
         """Return all that is asked: what the file asks, else the usual quantities everywhere."""
         asked = map(self.usual, range(self.count))
         return self.declared or tuple(chain.from_iterable(asked))
 
-    def find(self, written: Written) -> Item:
+    def find(self, written: WrittenAnswer) -> TaskItem:
         """Return what an answer is of.
 
         Raises
@@ -316,7 +316,7 @@ class Task:
             except NoValueError as error:
                 why = error.why
                 continue
-            return Item(
+            return TaskItem(
                 written.id or question.id,
                 self.ask(question, position),
                 position,
@@ -325,7 +325,7 @@ class Task:
             )
         raise NoValueError(why)
 
-    def stated(self, written: Written) -> Item | None:
+    def stated(self, written: WrittenAnswer) -> TaskItem | None:
         """Return what an answer is of among what the file asks."""
         for text in filter(None, (written.id, written.what)):
             item = self._forms.get(text) or self._forms.get(plain(text))
@@ -333,7 +333,7 @@ class Task:
                 return replace(item, id=written.id or item.id)
         return None
 
-    def written(self, item: Item, written: Written) -> Written:
+    def written(self, item: TaskItem, written: WrittenAnswer) -> WrittenAnswer:
         """Return an answer as it is judged: a bare number is in the unit that is asked."""
         unit = read_unit(item.unit) if item.unit and not written.unit else None
         if unit is None or written.value is None:

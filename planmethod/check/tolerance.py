@@ -21,7 +21,7 @@ FOLDED = 1.7
 """Lengths about nothing have no sign: the middle 68 % of them lie closer than their errors do."""
 
 
-class Limit(Struct, frozen=True):
+class Tolerance(Struct, frozen=True):
     """How far an answer may be off (допуск).
 
     Attributes
@@ -62,7 +62,9 @@ class Limit(Struct, frozen=True):
         return off <= tolerance * (1 + 1e-9) or (self.zero and size <= tolerance)
 
 
-def limit_of(sheet: Sheet, question: Question, settings: Settings, fixed: float | None) -> Limit:
+def limit_of(
+    sheet: Sheet, question: Question, settings: Settings, fixed: float | None
+) -> Tolerance:
     """Return how far an answer may be off.
 
     Parameters
@@ -85,7 +87,7 @@ def limit_of(sheet: Sheet, question: Question, settings: Settings, fixed: float 
         least = max(settings.floor_mm * per_mm, 1e-9)
         if question.sign is Sign.SIZE:
             spread = max(spread, FOLDED * spread - size)
-    own = Limit(exact, sigma, spread, least, most, zero or spread <= most, zero, per_mm)
+    own = Tolerance(exact, sigma, spread, least, most, zero or spread <= most, zero, per_mm)
     if zero:
         return own
     if fixed is not None:
@@ -101,6 +103,6 @@ def _rate_per_mm(sheet: Sheet, question: Question) -> float:
     return sheet.scales[plan] / (LONG_MM * sheet.scales["mu_l"])
 
 
-def _flat(own: Limit, tolerance: float) -> Limit:
+def _flat(own: Tolerance, tolerance: float) -> Tolerance:
     """Return a limit with the department's own tolerance, whatever the drawing can show."""
     return replace(own, spread=tolerance, least=tolerance, most=math.inf, seen=True)

@@ -21,7 +21,7 @@ F = TypeVar("F", bound=Callable[..., Any])
 P = TypeVar("P", bound="KindProblem")
 
 
-class Asked(Struct, frozen=True):
+class PaperRequest(Struct, frozen=True):
     """What the command line asks of paper and title block (заказанное оформление).
 
     Attributes
@@ -210,13 +210,13 @@ _SHEET_OPTIONS = (
 
 
 def sheet_options(command: F) -> F:
-    """Add paper, title block and config file; the command gets them as one `Asked`."""
+    """Add paper, title block and config file; the command gets them as one `PaperRequest`."""
 
     @functools.wraps(command)
     def with_asked(*args: Any, **kwargs: Any) -> Any:
         from planmethod.problem.keys import known
 
-        asked = Asked(
+        asked = PaperRequest(
             fields=kwargs.pop("stamp"),
             sheet={key: kwargs.pop(key) for key in known("sheet") if key in kwargs},
             config=kwargs.pop("config"),

@@ -37,7 +37,7 @@ def audit(
     file: str | None,
 ) -> None:
     """Compare what the sources print with the exact values and with the ruler's."""
-    from planmethod.note.audit.audit import Document
+    from planmethod.note.audit.audit import AuditDocument
     from planmethod.note.audit.audit import audit as examine
 
     if file is not None and file.lower().endswith(".toml"):
@@ -53,4 +53,4 @@ def audit(
 
     # A faulty problem ends the command here: the document is written whole or not at all.
     finish(each(problems, variant, all_variants, compare))
-    put(Document(lang, ruler).markdown(audits), file)
+    put(AuditDocument(lang, ruler).markdown(audits), file)

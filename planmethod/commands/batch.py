@@ -15,7 +15,7 @@ import click
 from msgspec import Struct
 from msgspec.structs import replace
 
-from planmethod.commands.asked import Asked, sheet_options
+from planmethod.commands.asked import PaperRequest, sheet_options
 from planmethod.commands.helptext import Spoken
 from planmethod.commands.problems import Todo, finish, guarded, stem, through
 from planmethod.commands.sheet import SheetOptions, draw
@@ -55,7 +55,7 @@ _ONE = threading.Lock()
 """Held by the thread of a worker that is at work: what is printed is of the whole process."""
 
 
-class Order(Struct, frozen=True):
+class VariantOrder(Struct, frozen=True):
     """What a machine is asked to make of one variant (заказ); nothing in it names a file here.
 
     Attributes
@@ -79,7 +79,7 @@ class Order(Struct, frozen=True):
     lang: str
 
 
-def made(order: Order) -> Outcome[dict[str, bytes]]:
+def made(order: VariantOrder) -> Outcome[dict[str, bytes]]:
     """Make the files of an order: called on the machines of the cluster."""
     from tempfile import TemporaryDirectory
 
@@ -90,7 +90,7 @@ def made(order: Order) -> Outcome[dict[str, bytes]]:
     return replace(outcome, output="")  # names of files there
 
 
-def _files(order: Order, folder: Path) -> dict[str, bytes]:
+def _files(order: VariantOrder, folder: Path) -> dict[str, bytes]:
     todo, out = order.todo, folder / "out"
     files: dict[str, bytes] = {}
     if order.sheets is not None:
@@ -145,7 +145,7 @@ def batch(
     all_variants: bool,
     phi: Positions | None,
     out: Path,
-    asked: Asked,
+    asked: PaperRequest,
     layout: str | None,
     ruler: float | None,
     profile: str | None,
@@ -199,7 +199,7 @@ def batch(
         all_positions=all_positions,
     )
     ordered = partial(
-        Order,
+        VariantOrder,
         sheets=options if sheets else None,
         layout=None if layout is None or layout in SHIPPED else Path(layout).read_bytes(),
         settings=None if not keys else DEFAULT if settings is None else load_settings(settings),
@@ -232,7 +232,7 @@ def batch(
     finish(code)
 
 
-def _hash(order: Order) -> str:
+def _hash(order: VariantOrder) -> str:
     """Return what tells whether files are made of the same."""
     from planmethod.problem.source import read_source
 
@@ -266,7 +266,7 @@ class Manifest:
                     told = json.loads(line)
                     self._lines[str(told["problem"])] = told
 
-    def has(self, order: Order, key: str) -> bool:
+    def has(self, order: VariantOrder, key: str) -> bool:
         """Tell whether the files of an order are there as they were made."""
         told = self._lines.get(stem(order.todo.problem))
         if told is None or told.get("key") != key:
@@ -278,7 +278,7 @@ class Manifest:
         """Count an order whose files are there."""
         self.kept += 1
 
-    def add(self, order: Order, key: str, files: Mapping[str, bytes]) -> None:
+    def add(self, order: VariantOrder, key: str, files: Mapping[str, bytes]) -> None:
         """Write the files of an order, then its line."""
         from planmethod.render.backends.output import write
 
@@ -366,7 +366,7 @@ def _cluster(scheduler: str | None, jobs: int) -> Iterator[Client]:
 
 
 def _sent(
-    client: Client, orders: list[tuple[Order, str]], manifest: Manifest
+    client: Client, orders: list[tuple[VariantOrder, str]], manifest: Manifest
 ) -> Iterator[Callable[[], None]]:
     """Send orders ahead, and yield what takes in each of them, in order."""
     most = AHEAD * max(1, sum(client.nthreads().values()))
@@ -383,7 +383,7 @@ def _sent(
         yield ahead.popleft()
 
 
-def _taken(future: Future, order: Order, key: str, manifest: Manifest) -> None:
+def _taken(future: Future, order: VariantOrder, key: str, manifest: Manifest) -> None:
     """Wait for an order and put its files down."""
     from concurrent.futures import CancelledError
 

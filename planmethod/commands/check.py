@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from planmethod.check.group import Variants
     from planmethod.check.key import Key
     from planmethod.check.marks import Settings
-    from planmethod.check.model import Checked, Work
+    from planmethod.check.model import CheckedWork, Work
     from planmethod.note.wording import Language
 
 POLICIES = ("construction", "department", "wider", "stricter")
@@ -127,7 +127,9 @@ def _settings(file: Path | None, policy: str | None, profile: str | None) -> Set
     return replace(settings, policy=policy or settings.policy, profile=profile or settings.profile)
 
 
-def _checked(variants: Variants, paths: list[Path], jobs: int) -> tuple[list[Checked], list[Work]]:
+def _checked(
+    variants: Variants, paths: list[Path], jobs: int
+) -> tuple[list[CheckedWork], list[Work]]:
     from planmethod.check.group import check_works
     from planmethod.check.works import read_works
 
@@ -136,7 +138,7 @@ def _checked(variants: Variants, paths: list[Path], jobs: int) -> tuple[list[Che
         parts = _in_processes(variants, works, jobs)
     else:
         parts = ([one] for one in check_works(variants, works))
-    checked: list[Checked] = []
+    checked: list[CheckedWork] = []
     with bar(len(works), long=len(works) >= MANY_WORKS) as done:
         for part in parts:
             checked += part
@@ -144,7 +146,7 @@ def _checked(variants: Variants, paths: list[Path], jobs: int) -> tuple[list[Che
     return checked, works
 
 
-def _in_processes(variants: Variants, works: list[Work], jobs: int) -> Iterator[list[Checked]]:
+def _in_processes(variants: Variants, works: list[Work], jobs: int) -> Iterator[list[CheckedWork]]:
     """Check works in several processes."""
     from planmethod.commands.processes import in_processes
 
@@ -175,7 +177,7 @@ def check_part(
     variant: str | None,
     settings: Settings,
     among: list[Work],
-) -> list[Checked]:
+) -> list[CheckedWork]:
     """Check some of the works of a group."""
     from planmethod.check.group import Variants, check_works
 
@@ -198,7 +200,7 @@ def _warn_of_others(problem: Path, works: list[Work]) -> None:
             )
 
 
-def _print_json(checked: list[Checked], paths: list[Path]) -> None:
+def _print_json(checked: list[CheckedWork], paths: list[Path]) -> None:
     from planmethod.check.pages.listing import record
 
     records = [record(one) for one in checked]
@@ -210,7 +212,7 @@ def _print_json(checked: list[Checked], paths: list[Path]) -> None:
 def _write_results(
     variants: Variants,
     paths: list[Path],
-    checked: list[Checked],
+    checked: list[CheckedWork],
     out: Path,
     salt: str | None,
     lang: str,

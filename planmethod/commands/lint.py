@@ -10,7 +10,7 @@ import click
 from msgspec import Struct
 from msgspec.structs import replace
 
-from planmethod.commands.asked import Asked, Settled, sheet_options
+from planmethod.commands.asked import PaperRequest, Settled, sheet_options
 from planmethod.commands.helptext import Spoken
 from planmethod.commands.output import json_text
 from planmethod.commands.problems import Todo, each, finish, guarded, refuse_plans, stem
@@ -67,7 +67,7 @@ def lint(
     phi: Positions | None,
     ruler: float | None,
     profile: str | None,
-    asked: Asked,
+    asked: PaperRequest,
     layout: str | None,
     errors: bool,
     sigma: bool | None,

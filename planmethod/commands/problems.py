@@ -20,7 +20,7 @@ from planmethod.options import UsageError
 
 if TYPE_CHECKING:
     from planmethod.construct.drafting import Profile
-    from planmethod.kind import Kind
+    from planmethod.kind import ProblemKind
     from planmethod.options import Positions
     from planmethod.problem.head import KindProblem
     from planmethod.problem.model import Problem
@@ -35,7 +35,7 @@ class Todo(Struct, frozen=True):
     """A problem that was read: its file, its kind (None for a linkage), what was read."""
 
     path: Path
-    kind: Kind[Any] | None
+    kind: ProblemKind[Any] | None
     problem: KindProblem
 
     @property
@@ -94,7 +94,7 @@ def load(path: Path, variant: str | None, all_variants: bool) -> list[Problem]:
 
 
 def _load_other(
-    kind: Kind[Any], path: Path, variant: str | None, all_variants: bool
+    kind: ProblemKind[Any], path: Path, variant: str | None, all_variants: bool
 ) -> list[KindProblem]:
     """Read the same of a problem that is no linkage."""
     return [kind.load(path, name) for name in variants_of(path, variant, all_variants)]
@@ -197,8 +197,7 @@ def through(
                 codes.append(error.exit_code)
                 fail(error, names)
             except click.UsageError as error:
-                error.message = named(error.message, names)
-                raise
+                raise click.UsageError(named(error.message, names), error.ctx) from error
             done += 1
     except KeyboardInterrupt:
         if len(todo) > 1:
@@ -235,7 +234,7 @@ def finish(code: ExitCode) -> None:
         sys.exit(code)
 
 
-def refuse_plans(kind: Kind[Any], **options: object) -> None:
+def refuse_plans(kind: ProblemKind[Any], **options: object) -> None:
     """Refuse options that only the plans of linkages have.
 
     Raises

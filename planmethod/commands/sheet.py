@@ -10,7 +10,7 @@ import click
 from msgspec import Struct
 from msgspec.structs import replace
 
-from planmethod.commands.asked import Asked, Settled, sheet_options
+from planmethod.commands.asked import PaperRequest, Settled, sheet_options
 from planmethod.commands.helptext import Spoken
 from planmethod.commands.output import show, write_drawings, write_set
 from planmethod.commands.problems import (
@@ -134,7 +134,7 @@ def sheet(
     profile: str | None,
     out: Path,
     formats: tuple[str, ...],
-    asked: Asked,
+    asked: PaperRequest,
     layout: str | None,
     compact: bool,
     one_file: str | None,

@@ -42,7 +42,7 @@ from planmethod.options import (
 
 if TYPE_CHECKING:
     from planmethod.construct.drafting import Profile
-    from planmethod.note.records.spreadsheet import Table
+    from planmethod.note.records.spreadsheet import SpreadsheetRows
     from planmethod.problem.model import Problem
     from planmethod.solved.many.gaps import GappedSweep
     from planmethod.solved.many.positions import Gaps
@@ -241,7 +241,7 @@ def solve(
 
 def compute(
     todo: Todo, options: SolveOptions
-) -> dict[str, Any] | Table | GappedSweep | Solution | None:
+) -> dict[str, Any] | SpreadsheetRows | GappedSweep | Solution | None:
     """Compute a problem; print its numbers, or return what several problems print together."""
     kind, problem = todo.kind, todo.problem
     if kind is None:
@@ -261,7 +261,7 @@ def compute(
 
 def _computed(
     problem: Problem, options: SolveOptions
-) -> dict[str, Any] | Table | GappedSweep | Solution | None:
+) -> dict[str, Any] | SpreadsheetRows | GappedSweep | Solution | None:
     phi, referee = options.phi, options.referee
     hand = drawn_by(options.profile, options.ruler)  # a train needs no arrays
     if options.npz or options.ask is not None:
@@ -349,7 +349,7 @@ def _asked(problem: Problem, phi: Positions | None) -> Positions:
     return np.array(problem.drive.positions) if phi is None else phi
 
 
-def _table(problem: Problem, phi: Positions | None, ruler: float, partial: bool) -> Table:
+def _table(problem: Problem, phi: Positions | None, ruler: float, partial: bool) -> SpreadsheetRows:
     """Return the rows of all results; a large table is checked here and solved when written."""
     from planmethod.note.records.spreadsheet import large_table, solved_table
     from planmethod.solved.many.positions import BLOCK, examine
@@ -375,7 +375,7 @@ def _tell(problem: Problem, gaps: Gaps, doubts: tuple[object, ...], partial: boo
         warn(problem, said)
 
 
-def _write_text(tables: list[Table], file: str) -> None:
+def _write_text(tables: list[SpreadsheetRows], file: str) -> None:
     from planmethod.note.records.spreadsheet import csv_text
 
     rows = sum(table.count for table in tables)

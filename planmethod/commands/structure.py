@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import click
 
-from planmethod.commands.asked import Asked, sheet_options
+from planmethod.commands.asked import PaperRequest, sheet_options
 from planmethod.commands.helptext import Spoken
 from planmethod.commands.output import json_text, write_drawings
 from planmethod.commands.problems import Todo, each, finish, guarded, stem
@@ -20,7 +20,7 @@ from planmethod.options import (
 )
 
 if TYPE_CHECKING:
-    from planmethod.kind import Kind
+    from planmethod.kind import ProblemKind
     from planmethod.problem.head import KindProblem
 
 
@@ -42,7 +42,7 @@ def structure(
     formats: tuple[str, ...],
     dxf_text: Literal["text", "strokes"],
     no_drawing: bool,
-    asked: Asked,
+    asked: PaperRequest,
 ) -> None:
     """Analyse the structure: mobility, redundant constraints, Assur groups; text and drawing."""
     from planmethod.languages import LANGUAGES
@@ -85,7 +85,7 @@ def structure(
                 dxf_text=dxf_text,
             )
 
-    def show_other(kind: Kind[Any], problem: KindProblem) -> None:
+    def show_other(kind: ProblemKind[Any], problem: KindProblem) -> None:
         words = language(str(asked.sheet["lang"] or LANGUAGES[0]))
         record = kind.structure_record(problem) if as_json else None
         written = None if as_json else kind.structure_document(problem, words)

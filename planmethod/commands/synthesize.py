@@ -12,7 +12,7 @@ from typing import Any, Literal
 import click
 from click.core import ParameterSource
 
-from planmethod.commands.asked import Asked, sheet_options
+from planmethod.commands.asked import PaperRequest, sheet_options
 from planmethod.commands.helptext import Spoken
 from planmethod.commands.output import json_text, refuse_unknown, write_drawings, write_new
 from planmethod.commands.problems import finish, guarded
@@ -142,7 +142,7 @@ def synthesize(
     profile: str | None,
     dxf_text: Literal["text", "strokes"],
     dpi: int,
-    asked: Asked,
+    asked: PaperRequest,
     **options: Any,
 ) -> None:
     """Find the sizes of a mechanism by construction, and measure it (синтез механизма).

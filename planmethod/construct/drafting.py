@@ -29,7 +29,7 @@ import numpy.typing as npt
 from msgspec import Struct
 
 from planmethod.construct.arithmetic import Float64, Number
-from planmethod.construct.dual import Dual, Duals, Rows, as_dual
+from planmethod.construct.dual import CauseRows, Dual, Duals, as_dual
 from planmethod.construct.evaluate import evaluate
 from planmethod.construct.hand import Hand
 from planmethod.construct.program import Program
@@ -185,7 +185,7 @@ class Propagated(Pencil, Duals):
         super().__init__(profile, free, enlarged)
         self.causes = causes
         self.of: list[str] = []
-        self._known: dict[int, Rows] = {}
+        self._known: dict[int, CauseRows] = {}
 
     nonzero = Duals.nonzero
     unless_zero = Duals.unless_zero
@@ -197,7 +197,7 @@ class Propagated(Pencil, Duals):
 
     def caused(self, cause: int, sigma: float) -> Dual:
         """Return the zero that one cause changes."""
-        rows = self._known.get(1 << cause) or Rows(1 << cause, self.causes, self._known)
+        rows = self._known.get(1 << cause) or CauseRows(1 << cause, self.causes, self._known)
         return Dual(np.zeros(1), np.full((1, 1), sigma), rows)
 
     def drawn_at_all(self, length: Number) -> Number:

@@ -17,7 +17,7 @@ from planmethod.construct.arithmetic import Exact, Number, unit_vectors
 Slope = npt.NDArray[Any] | None
 
 
-class Rows:
+class CauseRows:
     """Which of many causes change a number: most strokes of a drawing do not.
 
     One for each set of causes of a drawing, so that two are the same object or not the same set.
@@ -32,18 +32,18 @@ class Rows:
 
     __slots__ = ("_joined", "_known", "_mask", "count", "index")
 
-    def __init__(self, mask: int, count: int, known: dict[int, Rows]) -> None:
+    def __init__(self, mask: int, count: int, known: dict[int, CauseRows]) -> None:
         self._mask, self._known, self.count = mask, known, count
-        self._joined: dict[int, tuple[Rows, Any, Any]] = {}
+        self._joined: dict[int, tuple[CauseRows, Any, Any]] = {}
         bits = np.frombuffer(mask.to_bytes(count // 8 + 1, "little"), dtype=np.uint8)
         self.index = np.flatnonzero(np.unpackbits(bits, bitorder="little"))
         known[mask] = self
 
-    def joined(self, other: Rows) -> tuple[Rows, Any, Any]:
+    def joined(self, other: CauseRows) -> tuple[CauseRows, Any, Any]:
         """Return the causes of either, and where those of one and of the other are among them."""
         if other._mask not in self._joined:
             mask = self._mask | other._mask
-            both = self._known.get(mask) or Rows(mask, self.count, self._known)
+            both = self._known.get(mask) or CauseRows(mask, self.count, self._known)
             one, two = (np.searchsorted(both.index, rows.index) for rows in (self, other))
             self._joined[other._mask] = both, one, two
         return self._joined[other._mask]
@@ -57,13 +57,13 @@ class Dual:
     value : ndarray of shape (n,) or ()
     part : ndarray of shape (m, n) or (m, 1), or None when no cause changes it
         Slopes by the causes of ``rows``, or by all.
-    rows : Rows or None
+    rows : CauseRows or None
     """
 
     __slots__ = ("part", "rows", "value")
     __array_ufunc__ = None
 
-    def __init__(self, value: Number, slope: Slope = None, rows: Rows | None = None) -> None:
+    def __init__(self, value: Number, slope: Slope = None, rows: CauseRows | None = None) -> None:
         self.value, self.part, self.rows = value, slope, rows
 
     @property
@@ -166,7 +166,7 @@ def _times(slope: Slope, factor: Number) -> Slope:
     return slope if slope is None or factor is None else slope * factor
 
 
-def _sum(one: Dual, by: Number, two: Dual, times: Number) -> tuple[Slope, Rows | None]:
+def _sum(one: Dual, by: Number, two: Dual, times: Number) -> tuple[Slope, CauseRows | None]:
     """Return the slopes of two numbers, each by a factor if it has one, added up; and their rows.
 
     No row is added to one that is not there: what is left is what all rows would give.
@@ -186,7 +186,7 @@ def _sum(one: Dual, by: Number, two: Dual, times: Number) -> tuple[Slope, Rows |
     return first, rows
 
 
-def _among(rows: Rows, at: Any, slope: Any, other: Any) -> Any:
+def _among(rows: CauseRows, at: Any, slope: Any, other: Any) -> Any:
     """Return slopes among more rows, of the shape and type that those of another need."""
     shape = (len(rows.index), max(slope.shape[1], other.shape[1]))
     whole = np.zeros(shape, dtype=np.result_type(slope, other))
@@ -194,7 +194,7 @@ def _among(rows: Rows, at: Any, slope: Any, other: Any) -> Any:
     return whole
 
 
-def alike(*numbers: Dual) -> tuple[list[Any], Rows | None]:
+def alike(*numbers: Dual) -> tuple[list[Any], CauseRows | None]:
     """Return the slopes of numbers by the same causes, 0 of one that has none, and these causes."""
     own = [number.rows for number in numbers if number.part is not None and number.rows is not None]
     rows = reduce(lambda one, two: one.joined(two)[0], own) if own else None

@@ -15,8 +15,8 @@ from planmethod.construct.steps import (
     Carry,
     Compute,
     Given,
+    GivenNumber,
     Join,
-    Known,
     LayOff,
     Measure,
     MeasureAlong,
@@ -74,7 +74,7 @@ def apply(
     match step:
         case Given(out):
             return ar.given(out, data[out]), None
-        case Known(out):
+        case GivenNumber(out):
             return data[out], None
         case Join(out, a, b):
             return ar.joined(out, env[a], env[b] - env[a]), None

@@ -11,8 +11,8 @@ from planmethod.construct.steps import (
     Carry,
     Compute,
     Given,
+    GivenNumber,
     Join,
-    Known,
     LayOff,
     LineName,
     Measure,
@@ -113,7 +113,7 @@ class Builder(Struct):
     def known(self, out: str) -> NumberName:
         """Take a number as given."""
         name = NumberName(out)
-        self.steps.append(Known(name))
+        self.steps.append(GivenNumber(name))
         return name
 
     def _line(self, key: tuple[object, ...]) -> tuple[LineName, bool]:

@@ -11,7 +11,7 @@ from collections.abc import Callable, Iterable
 from planmethod.construct.program import Program
 from planmethod.construct.steps import (
     Given,
-    Known,
+    GivenNumber,
     Name,
     NumberName,
     PointName,
@@ -42,7 +42,7 @@ def substituted(program: Program, names: Iterable[Name]) -> Program:
         if makes(step) is PointName:
             return Given(PointName(step.out))
         if makes(step) is NumberName:
-            return Known(NumberName(step.out))
+            return GivenNumber(NumberName(step.out))
         raise ProgramError(f"{step.out} is a line: give a point of it, or a number")
 
     return rewritten(program, change)

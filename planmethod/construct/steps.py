@@ -39,7 +39,7 @@ class Given(Struct, frozen=True):
     out: PointName
 
 
-class Known(Struct, frozen=True):
+class GivenNumber(Struct, frozen=True):
     """Number given before the construction starts (данная величина), in its own unit."""
 
     out: NumberName
@@ -230,7 +230,7 @@ class Total(Struct, frozen=True):
 
 Step: TypeAlias = (
     Given
-    | Known
+    | GivenNumber
     | Join
     | Parallel
     | Perpendicular

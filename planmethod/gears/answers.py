@@ -7,11 +7,11 @@ from fractions import Fraction
 
 from msgspec import Struct
 
-from planmethod.gears.asked import Asked, parse
+from planmethod.gears.asked import SoughtQuantity, parse
 from planmethod.gears.conditions import satellites_held
 from planmethod.gears.linear import solve
 from planmethod.gears.model import PARALLEL, Mesh, MeshKind
-from planmethod.gears.motion import Motion, mesh_row
+from planmethod.gears.motion import TrainMotion, mesh_row
 
 ALPHA = math.radians(20)
 """Pressure angle of the standard rack, rad."""
@@ -38,7 +38,7 @@ class Answer(Struct, frozen=True):
     label: str = ""
 
 
-def answer(motion: Motion, name: str) -> Answer:
+def answer(motion: TrainMotion, name: str) -> Answer:
     """Return the value of what is asked."""
     asked = parse(name, tuple(motion.train.body_of))
     plain = {
@@ -69,7 +69,7 @@ def _none(name: str, reason: str, label: str = "") -> Answer:
     return Answer(name, None, reason=reason, label=label)
 
 
-def _ratio(motion: Motion, name: str, asked: Asked) -> Answer:
+def _ratio(motion: TrainMotion, name: str, asked: SoughtQuantity) -> Answer:
     one, other = asked.labels
     for label in asked.labels:
         if motion.train.body_of[label] in motion.train.racks:
@@ -80,7 +80,7 @@ def _ratio(motion: Motion, name: str, asked: Asked) -> Answer:
     return _exact(name, motion.speed(one, asked.carrier) / below)
 
 
-def _speed(motion: Motion, name: str, asked: Asked) -> Answer:
+def _speed(motion: TrainMotion, name: str, asked: SoughtQuantity) -> Answer:
     (label,) = asked.labels
     speed = motion.speed(label, asked.carrier)
     rack = motion.train.body_of[label] in motion.train.racks
@@ -94,7 +94,7 @@ def _speed(motion: Motion, name: str, asked: Asked) -> Answer:
     return Answer(name, float(speed) * motion.train.factor, None, motion.train.units[1])
 
 
-def rack_speed(motion: Motion, label: str) -> float | None:
+def rack_speed(motion: TrainMotion, label: str) -> float | None:
     """Return the speed of a rack, m/s; None where the module is not given."""
     train = motion.train
     if train.toothed and train.module is None:
@@ -102,7 +102,7 @@ def rack_speed(motion: Motion, label: str) -> float | None:
     return float(motion.speed(label) * train.unit_m) * train.rate
 
 
-def _size(motion: Motion, name: str, asked: Asked) -> Answer:
+def _size(motion: TrainMotion, name: str, asked: SoughtQuantity) -> Answer:
     """Return teeth, a radius or a distance of axes, mm."""
     train, sizes, heights = motion.train, motion.axes.sizes, motion.axes.heights
     label = asked.labels[0]
@@ -126,7 +126,7 @@ def _size(motion: Motion, name: str, asked: Asked) -> Answer:
     return Answer(name, float(apart) * share, None, "mm")
 
 
-def _spread(motion: Motion, one: str, other: str) -> float | None:
+def _spread(motion: TrainMotion, one: str, other: str) -> float | None:
     """Return a_w/a of the two axes that wheels with shifts stand on; None without shifts."""
     train, axis = motion.train, motion.axes.axis_of
     for mesh in train.meshes:
@@ -149,7 +149,7 @@ def _spread(motion: Motion, one: str, other: str) -> float | None:
     return None
 
 
-def efficiency(motion: Motion) -> Fraction | None:
+def efficiency(motion: TrainMotion) -> Fraction | None:
     """Return the efficiency from the input to the output by the powers of the stages.
 
     The tooth forces are in equilibrium on every body; in each mesh the power seen from the carrier
@@ -198,7 +198,7 @@ def efficiency(motion: Motion) -> Fraction | None:
     return None
 
 
-def _goes_forward(motion: Motion, mesh: Mesh, force: Fraction) -> bool:
+def _goes_forward(motion: TrainMotion, mesh: Mesh, force: Fraction) -> bool:
     """Whether power goes from the first wheel of a mesh to the second, seen from the carrier."""
     row = mesh_row(motion.train, motion.roles, motion.axes, mesh)
     one = motion.train.ends(mesh)[0]

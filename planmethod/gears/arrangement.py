@@ -15,7 +15,7 @@ from itertools import combinations, permutations
 from msgspec import Struct, field
 from msgspec.structs import replace
 
-from planmethod.gears.scheme import EPS, Across, Rim, Scheme
+from planmethod.gears.scheme import EPS, Across, Rim, SchemeData
 
 # What an arrangement costs
 _IMPOSSIBLE = 100.0  # two bodies of one axis in each other's way
@@ -26,7 +26,7 @@ _LONG = 0.2  # a shaft, for each station that it passes
 _BACK = 0.3  # a pair of columns in another order than in the file
 
 
-class Part(Enum):
+class AxisPart(Enum):
     """What stands at a station (что на месте)."""
 
     RIMS = "rims"
@@ -41,7 +41,7 @@ class Station(Struct, frozen=True):
     ``offset`` is its place from the apex of its column, mm.
     """
 
-    part: Part
+    part: AxisPart
     column: int
     rims: tuple[Rim, ...] = ()
     body: str = ""
@@ -74,7 +74,7 @@ class Arrangement(Struct, frozen=True, dict=True):
         From left to right.
     """
 
-    scheme: Scheme
+    scheme: SchemeData
     stations: tuple[Station, ...]
 
     @cached_property
@@ -83,13 +83,13 @@ class Arrangement(Struct, frozen=True, dict=True):
         found: dict[str, set[int]] = {}
         over, fixed = self.scheme.over, self.scheme.motion.train.fixed
         for number, station in enumerate(self.stations):
-            if station.part is not Part.RIMS and station.body:
+            if station.part is not AxisPart.RIMS and station.body:
                 found.setdefault(station.body, set()).add(number)
-            for rim in station.rims if station.part is Part.RIMS else ():
+            for rim in station.rims if station.part is AxisPart.RIMS else ():
                 if not rim.ring:
                     found.setdefault(rim.body, set()).add(number)
         for number, station in enumerate(self.stations):
-            if station.part is Part.ARM:
+            if station.part is AxisPart.ARM:
                 for body, carrier in over.items():
                     if carrier == station.body:
                         found.setdefault(body, set()).add(number)
@@ -103,17 +103,17 @@ class Arrangement(Struct, frozen=True, dict=True):
         """Gaps that the frame does not reach: within a set that goes round, or within a ring."""
         spans: list[set[int]] = []
         for number, station in enumerate(self.stations):
-            if station.part is Part.WEB:
+            if station.part is AxisPart.WEB:
                 rims = next(
                     k
                     for k, other in enumerate(self.stations)
-                    if other.part is Part.RIMS and other.column == station.column
+                    if other.part is AxisPart.RIMS and other.column == station.column
                 )
                 spans.append({number, rims})
-            if station.part is Part.APEX:
+            if station.part is AxisPart.APEX:
                 own = [k for k, s in enumerate(self.stations) if s.column == station.column]
                 spans.append(set(own))
-            if station.part is Part.ARM:
+            if station.part is AxisPart.ARM:
                 carried = {b for b, c in self.scheme.over.items() if c == station.body}
                 own = [
                     k
@@ -181,20 +181,20 @@ class Arrangement(Struct, frozen=True, dict=True):
         """Yield what stands across the axes: station, from what height to what, body."""
         for number, station in enumerate(self.stations):
             match station.part:
-                case Part.ARM:
+                case AxisPart.ARM:
                     heights = [self.scheme.heights[station.body], *self.arms(station.body)]
                     yield number, min(heights), max(heights), station.body
-                case Part.WEB:
+                case AxisPart.WEB:
                     (ring,) = station.rims
                     for way in ring.ways:
                         ends = sorted((ring.centre, ring.centre + way * ring.radius))
                         yield number, ends[0], ends[1], ring.body
-                case Part.APEX:
+                case AxisPart.APEX:
                     assert station.across is not None
                     tops = [cone.rim.centre + cone.rim.radius for cone in station.across.cones]
                     feet = [cone.rim.centre for cone in station.across.cones]
                     yield number, min(feet), max(tops), station.body or station.across.body
-                case Part.RIMS:
+                case AxisPart.RIMS:
                     for rim in station.rims:
                         yield from ((number, a, b, rim.body) for a, b in rim.spans() if b > a)
 
@@ -228,7 +228,7 @@ class Arrangement(Struct, frozen=True, dict=True):
             if body in train.inputs or body == train.output:
                 cost += _HIDDEN * (stub.gap not in (-1, last))
         cost += _LONG * sum(b - a for a, b in self.reach.values())
-        order = [s.column for s in self.stations if s.part is Part.RIMS]
+        order = [s.column for s in self.stations if s.part is AxisPart.RIMS]
         return cost + _BACK * sum(one > two for one, two in combinations(order, 2))
 
 
@@ -236,7 +236,7 @@ MOST_ORDERS = 24
 """Orders of the columns that the search begins from."""
 
 
-class Order(Struct, frozen=True):
+class ColumnOrder(Struct, frozen=True):
     """An order that is tried: columns, and on which side of which column webs and arms stand."""
 
     order: tuple[int, ...]
@@ -244,7 +244,7 @@ class Order(Struct, frozen=True):
     arms: tuple[tuple[str, int, int], ...] = field(default=())
     turns: tuple[int, ...] = ()
 
-    def stations(self, scheme: Scheme) -> tuple[Station, ...]:
+    def stations(self, scheme: SchemeData) -> tuple[Station, ...]:
         """Return what stands from left to right."""
         stations: list[Station] = []
         for column in self.order:
@@ -256,17 +256,17 @@ class Order(Struct, frozen=True):
             right: list[Station] = []
             for carrier, at, side in self.arms:
                 if at == column:
-                    (right if side > 0 else left).append(Station(Part.ARM, column, (), carrier))
+                    (right if side > 0 else left).append(Station(AxisPart.ARM, column, (), carrier))
             for at, label, side in self.webs:
                 if at == column:
                     ring = next(rim for rim in scheme.columns[column] if rim.label == label)
-                    station = Station(Part.WEB, column, (ring,), ring.body)
+                    station = Station(AxisPart.WEB, column, (ring,), ring.body)
                     (right if side > 0 else left).append(station)
-            rims = Station(Part.RIMS, column, scheme.columns[column])
+            rims = Station(AxisPart.RIMS, column, scheme.columns[column])
             stations += [*left[::-1], rims, *right]
         return tuple(stations)
 
-    def others(self, scheme: Scheme) -> Iterator[Order]:
+    def others(self, scheme: SchemeData) -> Iterator[ColumnOrder]:
         """Yield the orders that differ in one thing."""
         for i, j in combinations(range(len(self.order)), 2):
             for start, end in ((i, j), (j, i)):
@@ -287,10 +287,10 @@ class Order(Struct, frozen=True):
 def _apex(column: int, across: Across, turn: int) -> list[Station]:
     """Return the stations of a body across: level wheels on both sides of the apex."""
     stations = [
-        Station(Part.RIMS, column, (cone.rim,), offset=cone.side * turn * cone.radius)
+        Station(AxisPart.RIMS, column, (cone.rim,), offset=cone.side * turn * cone.radius)
         for cone in across.cones
     ]
-    stations.append(Station(Part.APEX, column, (), across.carrier or "", across=across))
+    stations.append(Station(AxisPart.APEX, column, (), across.carrier or "", across=across))
     return sorted(stations, key=lambda station: station.offset)
 
 
@@ -298,7 +298,7 @@ def _put(whole: tuple, k: int, one: tuple) -> tuple:  # type: ignore[type-arg]
     return (*whole[:k], one, *whole[k + 1 :])
 
 
-def _columns_of(scheme: Scheme, carrier: str) -> list[int]:
+def _columns_of(scheme: SchemeData, carrier: str) -> list[int]:
     return [
         number
         for number, column in enumerate(scheme.columns)
@@ -306,7 +306,7 @@ def _columns_of(scheme: Scheme, carrier: str) -> list[int]:
     ]
 
 
-def best_order(scheme: Scheme) -> Order:
+def best_order(scheme: SchemeData) -> ColumnOrder:
     """Look for the best order of the stations: from several orders on, one change after another."""
     train, columns = scheme.motion.train, scheme.columns
     webs = tuple(
@@ -320,10 +320,10 @@ def best_order(scheme: Scheme) -> Order:
         for carrier in train.carriers
         if _columns_of(scheme, carrier)
     )
-    best: Order | None = None
-    costs: dict[Order, float] = {}
+    best: ColumnOrder | None = None
+    costs: dict[ColumnOrder, float] = {}
 
-    def cost(order: Order) -> float:
+    def cost(order: ColumnOrder) -> float:
         if order not in costs:
             costs[order] = Arrangement(scheme, order.stations(scheme)).cost
         return costs[order]
@@ -332,7 +332,7 @@ def best_order(scheme: Scheme) -> Order:
     turns = (1,) * len(scheme.across)
     count = MOST_ORDERS // max(1, len(blocks) - 3) ** 2
     for first, _ in zip(permutations(blocks), range(max(count, 1)), strict=False):
-        order = Order(first, webs, arms, turns)
+        order = ColumnOrder(first, webs, arms, turns)
         while True:
             better = min(order.others(scheme), key=cost, default=order)
             if cost(better) >= cost(order) - EPS:
@@ -344,6 +344,6 @@ def best_order(scheme: Scheme) -> Order:
     return best
 
 
-def arrange(scheme: Scheme, order: Order | None = None) -> Arrangement:
+def arrange(scheme: SchemeData, order: ColumnOrder | None = None) -> Arrangement:
     """Return the stations of a scheme in an order, in the best one where none is given."""
     return Arrangement(scheme, (order or best_order(scheme)).stations(scheme))

@@ -19,11 +19,11 @@ RELATIVE = ("U", "n", "omega")
 """Those that can be taken relative to a carrier."""
 
 
-class AskedError(ValueError):
+class SoughtQuantityError(ValueError):
     """What is asked cannot be understood; the message says why."""
 
 
-class Asked(Struct, frozen=True):
+class SoughtQuantity(Struct, frozen=True):
     """One quantity of a train (искомая величина)."""
 
     kind: str
@@ -31,31 +31,31 @@ class Asked(Struct, frozen=True):
     carrier: str | None = None
 
 
-def parse(text: str, known: Collection[str]) -> Asked:
+def parse(text: str, known: Collection[str]) -> SoughtQuantity:
     """Parse a name such as ``U_1_4^H``; also ``U_15``, ``n_H_2`` if read in one way only.
 
     Raises
     ------
-    AskedError
+    SoughtQuantityError
     """
     name = text.strip().replace("′", "'").replace("’", "'")
     name = fold(name) if looks_latin(name) else name
     if name in PLAIN or name == "eta":
-        return Asked(name)
+        return SoughtQuantity(name)
     whole, hat, carrier = name.partition("^")
     carrier = carrier if carrier in known else carrier.replace("_", "")
     kind = next((k for k in COUNTS if whole.startswith(f"{k}_")), None)
     if kind is None:
-        raise AskedError(say("unknown quantity '{}'", short(text)))
+        raise SoughtQuantityError(say("unknown quantity '{}'", short(text)))
     labels = _labels(whole.removeprefix(f"{kind}_"), COUNTS[kind], known)
     if hat and kind not in RELATIVE:
-        raise AskedError(say("'{}' is not taken relative to a carrier", kind))
+        raise SoughtQuantityError(say("'{}' is not taken relative to a carrier", kind))
     for label in (*labels, *([carrier] if hat else [])):
         if label not in known:
             guess = near(label, known)
             hint = say("the nearest is '{}'", guess) if guess else say("known: {}", listed(known))
-            raise AskedError(say("the train has no '{}' ({})", short(label), hint))
-    return Asked(kind, labels, carrier if hat else None)
+            raise SoughtQuantityError(say("the train has no '{}' ({})", short(label), hint))
+    return SoughtQuantity(kind, labels, carrier if hat else None)
 
 
 def _labels(text: str, count: int, known: Collection[str]) -> tuple[str, ...]:
@@ -67,7 +67,7 @@ def _labels(text: str, count: int, known: Collection[str]) -> tuple[str, ...]:
         if len(found) == 1:
             return found[0]
     if len(parts) != count:
-        raise AskedError(
+        raise SoughtQuantityError(
             say("expected {} labels with _ between them, got '{}'", count, short(text))
         )
     return parts

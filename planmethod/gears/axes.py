@@ -9,7 +9,7 @@ from itertools import product
 from msgspec import Struct, field
 
 from planmethod.errors import Fault
-from planmethod.gears.linear import Row, Solved, solve
+from planmethod.gears.linear import LinearSolution, Row, solve
 from planmethod.gears.model import PARALLEL, Mesh, MeshKind, Train
 from planmethod.gears.roles import Roles
 from planmethod.languages import say
@@ -20,7 +20,7 @@ MOST_CHOSEN = 10
 HINT = "Check the teeth, and which wheels share an axis."
 
 
-class Axes(Struct, frozen=True):
+class TrainDimensions(Struct, frozen=True):
     """Sizes of all wheels and heights of all axes that are at known distances (размеры).
 
     Attributes
@@ -54,7 +54,7 @@ class _Lines(Struct):
         self.main = name if self.main in taken else self.main
 
 
-def find_axes(train: Train, roles: Roles) -> tuple[Axes | None, list[Fault]]:
+def find_axes(train: Train, roles: Roles) -> tuple[TrainDimensions | None, list[Fault]]:
     """Find the heights of the axes and the unknown teeth.
 
     Unknown sizes and heights follow from one linear equation for each mesh; central wheels and
@@ -163,7 +163,9 @@ def _beside(train: Train, lines: _Lines, body: str) -> set[str]:
 # Equations ---------------------------------------------------------------------------------------
 
 
-def _solve(train: Train, lines: _Lines, meshes: Sequence[Mesh]) -> tuple[Axes | None, list[Fault]]:
+def _solve(
+    train: Train, lines: _Lines, meshes: Sequence[Mesh]
+) -> tuple[TrainDimensions | None, list[Fault]]:
     beside = [m for m in meshes if lines.main not in {lines.line[b] for b in train.ends(m)}]
     likely = {mesh: _likely_side(train, lines, mesh, meshes) for mesh in beside}
     chosen = [mesh for mesh in _in_loops(train, lines, meshes) if mesh in likely]
@@ -268,7 +270,7 @@ def _ring_label(train: Train, mesh: Mesh, out: str) -> str:
 
 
 def _judge(
-    train: Train, found: Solved[tuple[str, str]], unknown: Sequence[tuple[str, str]]
+    train: Train, found: LinearSolution[tuple[str, str]], unknown: Sequence[tuple[str, str]]
 ) -> Fault | None:
     if not found.consistent:
         return Fault("gears.wheels", "the train is not coaxial", HINT)
@@ -290,7 +292,7 @@ def _judge(
     return None
 
 
-def _axes(train: Train, lines: _Lines, found: Solved[tuple[str, str]]) -> Axes:
+def _axes(train: Train, lines: _Lines, found: LinearSolution[tuple[str, str]]) -> TrainDimensions:
     sizes: dict[str, Fraction] = {}
     for label, wheel in train.wheels.items():
         sizes[label] = found.values["z", label] if wheel.size is None else wheel.size
@@ -300,10 +302,10 @@ def _axes(train: Train, lines: _Lines, found: Solved[tuple[str, str]]) -> Axes:
             heights[body] = Fraction(0)
         elif ("h", line) in found.values:
             heights[body] = found.values["h", line]
-    return Axes(sizes, heights, lines.line)
+    return TrainDimensions(sizes, heights, lines.line)
 
 
-def _positive(train: Train, axes: Axes, meshes: Sequence[Mesh]) -> Fault | None:
+def _positive(train: Train, axes: TrainDimensions, meshes: Sequence[Mesh]) -> Fault | None:
     """Check the distances again with the sizes found: a ring is larger than what runs in it."""
     for mesh in meshes:
         one, other = axes.sizes[mesh.first], axes.sizes[mesh.second]

@@ -24,7 +24,7 @@ BORDER = 1e-11
 """Relative nearness to a bound of the ratio at which it is judged in fractions."""
 
 
-class Scheme(Struct, frozen=True):
+class TrainScheme(Struct, frozen=True):
     """A usual scheme of a train (схема).
 
     Attributes
@@ -62,12 +62,12 @@ class Scheme(Struct, frozen=True):
 
 _OUT, _IN = MeshKind.EXTERNAL, MeshKind.INTERNAL
 SCHEMES = (
-    Scheme("ring", (_OUT, _IN), True, True, "U_1_H"),
-    Scheme("external-internal", (_OUT, _IN), False, True, "U_1_H"),
-    Scheme("two-external", (_OUT, _OUT), False, True, "U_H_1"),
-    Scheme("two-internal", (_IN, _IN), False, True, "U_H_1"),
-    Scheme("pair", (_OUT,), True, False, "U_1_2"),
-    Scheme("two-stage", (_OUT, _OUT), False, False, "U_1_3"),
+    TrainScheme("ring", (_OUT, _IN), True, True, "U_1_H"),
+    TrainScheme("external-internal", (_OUT, _IN), False, True, "U_1_H"),
+    TrainScheme("two-external", (_OUT, _OUT), False, True, "U_H_1"),
+    TrainScheme("two-internal", (_IN, _IN), False, True, "U_H_1"),
+    TrainScheme("pair", (_OUT,), True, False, "U_1_2"),
+    TrainScheme("two-stage", (_OUT, _OUT), False, False, "U_1_3"),
 )
 """One-rim set with a ring, sets with two rims by their meshes, a pair, a coaxial pair of stages."""
 
@@ -89,7 +89,7 @@ class Wanted(Struct, frozen=True):
         Modules of the two rows; None where both have the same, whatever it is.
     """
 
-    scheme: Scheme
+    scheme: TrainScheme
     ratio: Fraction
     within: Fraction = Fraction(2, 100)
     satellites: int = 3
@@ -112,7 +112,7 @@ class TeethSet(Struct, frozen=True):
     Attributes
     ----------
     teeth : tuple of int
-        By `Scheme.wheels`.
+        By `TrainScheme.wheels`.
     ratio, error : Fraction
         U, and by what share it differs from the asked one.
     size : Fraction
@@ -215,7 +215,7 @@ def _fitting(wanted: Wanted, z_1: int, second: Ints, rim: Ints) -> tuple[Ints | 
     return *(column[fits] for column in kept), _doubled_size(wanted, z, distance)[fits], off[fits]
 
 
-def _asked(scheme: Scheme, held: Fraction) -> Fraction | None:
+def _asked(scheme: TrainScheme, held: Fraction) -> Fraction | None:
     """Return U from the size of the ratio with the carrier held; None where it has no value."""
     ratio = _sign(scheme) * held
     if scheme.carried:
@@ -225,7 +225,7 @@ def _asked(scheme: Scheme, held: Fraction) -> Fraction | None:
     return 1 / ratio if ratio else None
 
 
-def _sign(scheme: Scheme) -> int:
+def _sign(scheme: TrainScheme) -> int:
     return -1 if scheme.kinds.count(_OUT) % 2 else 1
 
 

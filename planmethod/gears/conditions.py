@@ -10,7 +10,7 @@ from typing import Any
 from msgspec import Struct, field
 
 from planmethod.gears.model import PARALLEL, Mesh, MeshKind
-from planmethod.gears.motion import Motion
+from planmethod.gears.motion import TrainMotion
 from planmethod.note.wording import Language
 
 LEAST_TEETH = 17
@@ -42,7 +42,7 @@ class Condition(Struct, frozen=True):
     facts: Mapping[str, str] = field(default_factory=dict)
 
 
-def conditions(motion: Motion) -> tuple[Condition, ...]:
+def conditions(motion: TrainMotion) -> tuple[Condition, ...]:
     """Return the conditions that can be judged of a train."""
     return (*_coaxial(motion), *_sets(motion), *_teeth(motion))
 
@@ -61,7 +61,7 @@ Terms = tuple[tuple[int, str], ...]
 """A height as a sum of sizes: signs and labels."""
 
 
-def _coaxial(motion: Motion) -> Iterator[Condition]:
+def _coaxial(motion: TrainMotion) -> Iterator[Condition]:
     """Tell each mesh that comes back to an axis already reached: the sums of both ways."""
     train, axes = motion.train, motion.axes
     left = [
@@ -95,11 +95,11 @@ def _coaxial(motion: Motion) -> Iterator[Condition]:
             yield Condition("coaxiality", True, facts)
 
 
-def _axis(motion: Motion, mesh: Mesh, end: int) -> str:
+def _axis(motion: TrainMotion, mesh: Mesh, end: int) -> str:
     return motion.axes.axis_of[motion.train.ends(mesh)[end]]
 
 
-def _step(motion: Motion, mesh: Mesh, far: int) -> Terms:
+def _step(motion: TrainMotion, mesh: Mesh, far: int) -> Terms:
     """Return how much higher the far axis of a mesh is."""
     ends, heights = motion.train.ends(mesh), motion.axes.heights
     side = 1 if heights[ends[far]] > heights[ends[1 - far]] else -1
@@ -111,7 +111,7 @@ def _step(motion: Motion, mesh: Mesh, far: int) -> Terms:
     return (side, ring), (-side, small)
 
 
-def _sum(motion: Motion, terms: Terms, height: Fraction) -> str:
+def _sum(motion: TrainMotion, terms: Terms, height: Fraction) -> str:
     """Write a sum of sizes as a positive height: ``z_1 + z_2``."""
     letter = "z" if motion.train.toothed else "r"
     turn = -1 if height < 0 else 1
@@ -126,7 +126,7 @@ def _shown(value: Fraction) -> str:
 # Sets of satellites ------------------------------------------------------------------------------
 
 
-def satellites_held(motion: Motion, carrier: str) -> int | None:
+def satellites_held(motion: TrainMotion, carrier: str) -> int | None:
     """Return the largest number of satellites that can be assembled and do not touch.
 
     None where the carrier has more than one kind of satellite, or its wheels have no teeth.
@@ -140,7 +140,7 @@ def satellites_held(motion: Motion, carrier: str) -> int | None:
     return max(fits, default=None)
 
 
-def _sets(motion: Motion) -> Iterator[Condition]:
+def _sets(motion: TrainMotion) -> Iterator[Condition]:
     for carrier in motion.train.carriers:
         found = _set_of(motion, carrier)
         if found is None:
@@ -163,7 +163,7 @@ def _sets(motion: Motion) -> Iterator[Condition]:
         yield Condition("neighbourhood", _apart(size, distance, count), said | room)
 
 
-def _set_of(motion: Motion, carrier: str) -> tuple[Fraction, Fraction, Fraction] | None:
+def _set_of(motion: TrainMotion, carrier: str) -> tuple[Fraction, Fraction, Fraction] | None:
     """Return what k must divide, the largest rim of the satellite, and twice its distance/m."""
     train, sizes = motion.train, motion.axes.sizes
     satellites = motion.roles.satellites[carrier]
@@ -212,7 +212,7 @@ def ring_room(small: Any) -> tuple[Any, Any]:
 # Teeth -------------------------------------------------------------------------------------------
 
 
-def _teeth(motion: Motion) -> Iterator[Condition]:
+def _teeth(motion: TrainMotion) -> Iterator[Condition]:
     train, sizes = motion.train, motion.axes.sizes
     if not train.toothed:
         return

@@ -22,8 +22,8 @@ from planmethod.construct.program import Builder, Program
 from planmethod.construct.steps import LineName, NumberName, PointName
 from planmethod.errors import PlanMethodError
 from planmethod.gears.asked import parse
-from planmethod.gears.motion import Motion
-from planmethod.gears.picture import ContactKind, ContactPoint, Picture, carrier_of
+from planmethod.gears.motion import TrainMotion
+from planmethod.gears.picture import ContactKind, ContactPoint, VelocityPictures, carrier_of
 from planmethod.languages import say
 
 LETTERS = "abcdefghklmnqrstuvwxz"
@@ -40,7 +40,7 @@ class PictureError(PlanMethodError):
     """The pictures contradict the mesh equations: a fault of the program (самопроверка)."""
 
 
-class Spot(Struct, frozen=True):
+class DrawnPoint(Struct, frozen=True):
     """A point of the picture of linear velocities (точка картины).
 
     Attributes
@@ -88,7 +88,7 @@ class Found(Struct, frozen=True):
     rays: tuple[str, ...]
 
 
-class Construction(Struct, frozen=True):
+class GearDrawing(Struct, frozen=True):
     """Both pictures as steps (построение).
 
     Attributes
@@ -106,13 +106,13 @@ class Construction(Struct, frozen=True):
         Scale of the rays: given, or computed from the ray of an input.
     """
 
-    motion: Motion
-    picture: Picture
+    motion: TrainMotion
+    picture: VelocityPictures
     program: Program
     data: Mapping[str, Fraction]
     starts: tuple[str, ...]
     calculated: tuple[str, ...]
-    spots: tuple[Spot, ...]
+    spots: tuple[DrawnPoint, ...]
     lines: Mapping[str, LineName]
     rays: Mapping[str, PointName]
     segments: Mapping[str, NumberName]
@@ -129,7 +129,7 @@ class Construction(Struct, frozen=True):
         return {name: float(value) for name, value in self.data.items()} | {FEET: 0j, POLE: 0j}
 
 
-class Reading(Struct, frozen=True):
+class GearReading(Struct, frozen=True):
     """The construction drawn and read (чтение построения).
 
     Attributes
@@ -151,7 +151,7 @@ class Reading(Struct, frozen=True):
         return complex(self.exact.value[name])
 
 
-def read(drawn: Construction, profile: Profile) -> Reading:
+def read(drawn: GearDrawing, profile: Profile) -> GearReading:
     """Draw the construction, and read it with the ruler of a draughtsman.
 
     Raises
@@ -170,10 +170,10 @@ def read(drawn: Construction, profile: Profile) -> Reading:
                 "the pictures give {} = {:.12g}, the mesh equations {:.12g}", one.name, got, due
             )
             raise PictureError("{}. Please report the problem file.", told)
-    return Reading(exact, evaluate(program, data, Hand(ruler=profile.ruler)), sigma)
+    return GearReading(exact, evaluate(program, data, Hand(ruler=profile.ruler)), sigma)
 
 
-def construct(motion: Motion, picture: Picture) -> Construction:
+def construct(motion: TrainMotion, picture: VelocityPictures) -> GearDrawing:
     """Return the construction of the pictures of a train."""
     return _Drawing(motion, picture).construction()
 
@@ -181,7 +181,7 @@ def construct(motion: Motion, picture: Picture) -> Construction:
 class _Drawing:
     """A construction while it is made."""
 
-    def __init__(self, motion: Motion, picture: Picture) -> None:
+    def __init__(self, motion: TrainMotion, picture: VelocityPictures) -> None:
         self.motion, self.picture = motion, picture
         self.builder = Builder()
         self.data: dict[str, Fraction] = {}
@@ -204,7 +204,7 @@ class _Drawing:
         over = self.over[point.of]
         return (point.of,) if over is None else (point.of, over)
 
-    def construction(self) -> Construction:
+    def construction(self) -> GearDrawing:
         builder, train = self.builder, self.motion.train
         origin = builder.given(FEET)
         self.base = builder.at_angle(origin, None, self._known("level", Fraction(0)))
@@ -228,7 +228,7 @@ class _Drawing:
         calculated = () if len(starts) == self._mobility() == 1 else set(starts) - set(inputs)
         mu = self._scale(starts, inputs, segments)
         found = tuple(self._found(mu, segments))
-        return Construction(
+        return GearDrawing(
             self.motion, self.picture, builder.program(), self.data, starts,
             tuple(body for body in starts if body in calculated), spots, self.lines, rays,
             segments, mu, found,
@@ -356,14 +356,14 @@ class _Drawing:
             self.feet[height] = self.builder.lay_off(letter, FEET, self.axis, length)
         return self.feet[height]
 
-    def _spot(self, name: ContactPoint) -> Spot:
+    def _spot(self, name: ContactPoint) -> DrawnPoint:
         """Read a segment of the picture of linear velocities."""
         (height, bodies), end = self.points[name], self.ends[name]
         foot, letter, read = self.feet[height], self._letter(name), None
         laid = self.laid.get(name)
         if end != foot and laid is None:
             read = self.builder.measure_along(f"read {letter}", foot, end, self.base)
-        return Spot(name, letter, foot, end, bodies, height, self.speeds[name], laid, read)
+        return DrawnPoint(name, letter, foot, end, bodies, height, self.speeds[name], laid, read)
 
     # Rays ----------------------------------------------------------------------------------------
 

@@ -14,13 +14,13 @@ from typing import TYPE_CHECKING
 from msgspec.structs import replace
 
 from planmethod.gears.answers import answer
-from planmethod.gears.asked import AskedError, parse
+from planmethod.gears.asked import SoughtQuantityError, parse
 from planmethod.gears.construction import construct, read
 from planmethod.gears.model import GearProblem
-from planmethod.gears.motion import Motion, rows_of, solve_motion, speeds_by
+from planmethod.gears.motion import TrainMotion, rows_of, solve_motion, speeds_by
 from planmethod.gears.picture import draw
 from planmethod.gears.told import symbol
-from planmethod.problem.figures import Figure, Mistaken
+from planmethod.problem.figures import AnswerValue, Mistaken
 
 if TYPE_CHECKING:
     from planmethod.construct.drafting import Profile
@@ -49,17 +49,17 @@ class TrainFigures:
         self.names = tuple(name for name in names if self.figure(name, 0) is not None)
         self._known = tuple(train.body_of)
 
-    def figure(self, name: str, position: int) -> Figure | None:
+    def figure(self, name: str, position: int) -> AnswerValue | None:
         """Return a quantity by its name of ``ask``; None where it has no value."""
         try:
             kind = parse(name, tuple(self.motion.train.body_of)).kind
             found = answer(self.motion, name)
-        except AskedError:
+        except SoughtQuantityError:
             return None
         if found.value is None:
             return None
         own = symbol(name, tuple(self.motion.train.body_of))
-        return Figure(own, found.unit, found.value, turns=kind in SPEEDS, whole=kind in COUNTS)
+        return AnswerValue(own, found.unit, found.value, turns=kind in SPEEDS, whole=kind in COUNTS)
 
     def read_off(self, name: str, position: int, profile: Profile) -> tuple[float, float] | None:
         """Return the segment of a speed on the picture, mm, and one sigma of what is read."""
@@ -140,7 +140,7 @@ class TrainFigures:
             found.append(row)
         return found
 
-    def _moved(self, rows: Rows) -> Motion | None:
+    def _moved(self, rows: Rows) -> TrainMotion | None:
         """Return the motion that other equations give; None where they give none."""
         found = speeds_by(self.motion.train, rows)
         if found.free or not found.consistent:
@@ -199,7 +199,7 @@ class TrainFigures:
         return [body_of[x] for x in one] == [body_of[x] for x in two]
 
 
-def _value(motion: Motion, name: str, position: int) -> float | None:
+def _value(motion: TrainMotion, name: str, position: int) -> float | None:
     return answer(motion, name).value
 
 

@@ -14,7 +14,7 @@ Row = tuple[Mapping[N, Fraction], Fraction]
 """Coefficients by unknown, and the right side."""
 
 
-class Solved(Struct, Generic[N], frozen=True):
+class LinearSolution(Struct, Generic[N], frozen=True):
     """What equations say of their unknowns.
 
     Attributes
@@ -34,7 +34,7 @@ class Solved(Struct, Generic[N], frozen=True):
     consistent: bool
 
 
-def solve(unknowns: Sequence[N], rows: Sequence[Row[N]]) -> Solved[N]:
+def solve(unknowns: Sequence[N], rows: Sequence[Row[N]]) -> LinearSolution[N]:
     """Solve equations exactly by elimination."""
     left: list[tuple[dict[N, Fraction], Fraction]] = [
         ({name: value for name, value in row.items() if value}, right) for row, right in rows
@@ -51,7 +51,7 @@ def solve(unknowns: Sequence[N], rows: Sequence[Row[N]]) -> Solved[N]:
         done = {name: _without(other, pivot, row, right) for name, other in done.items()}
         done[pivot] = (row, right)
     values = {name: right for name, (row, right) in done.items() if len(row) == 1}
-    return Solved(
+    return LinearSolution(
         values,
         tuple(name for name in unknowns if name not in values),
         len(done),

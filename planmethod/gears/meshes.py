@@ -8,7 +8,7 @@ from typing import Any
 
 from msgspec import Struct, field
 
-from planmethod.gears.model import FLEXIBLE, HALF_MODULES, Mesh, MeshKind, Wheel
+from planmethod.gears.model import FLEXIBLE, HALF_MODULES, GearRim, Mesh, MeshKind
 from planmethod.languages import say
 from planmethod.problem import fields, keys
 from planmethod.problem.fields import Faults
@@ -26,11 +26,11 @@ def fraction(number: float) -> Fraction:
     return Fraction(repr(number))
 
 
-class Draft(Struct):
+class TrainDraft(Struct):
     """What is read so far of a train (черновик)."""
 
     module: Fraction | None
-    wheels: dict[str, Wheel] = field(default_factory=dict)
+    wheels: dict[str, GearRim] = field(default_factory=dict)
     racks: list[str] = field(default_factory=list)
     carriers: list[str] = field(default_factory=list)
     names: list[str] = field(default_factory=list)
@@ -85,7 +85,7 @@ def read_labels(faults: Faults, path: str, value: object, limit: int) -> tuple[s
     return tuple(dict.fromkeys(label for label in found if label is not None))
 
 
-def read_wheels(faults: Faults, value: object, unknown: Sequence[str], draft: Draft) -> None:
+def read_wheels(faults: Faults, value: object, unknown: Sequence[str], draft: TrainDraft) -> None:
     """Read ``wheels``: teeth by label, or a table."""
     table = fields.read_table(faults, "gears.wheels", value, "wheels = { 1 = 20, 2 = 36 }") or {}
     if len(table) > WHEEL_LIMIT:
@@ -109,13 +109,13 @@ def read_wheels(faults: Faults, value: object, unknown: Sequence[str], draft: Dr
             faults.add(path, say("wheel {} has no teeth", label), hint)
         draft.wheels[label] = wheel
     for label in unknown:
-        draft.wheels.setdefault(label, Wheel(label, None))
+        draft.wheels.setdefault(label, GearRim(label, None))
 
 
-def _read_wheel(faults: Faults, path: str, label: str, entry: object, draft: Draft) -> Wheel:
+def _read_wheel(faults: Faults, path: str, label: str, entry: object, draft: TrainDraft) -> GearRim:
     if fields.is_number(entry):
         teeth = fields.read_whole(faults, path, entry, 1, TEETH_LIMIT)
-        return Wheel(label, Fraction(teeth or 1))
+        return GearRim(label, Fraction(teeth or 1))
     table = fields.read_table(faults, path, entry, "{ r = 0.07 }") or {}
     own = {"r": fields.read_length, "axis": _read_axis}
     given = GearWheelTable(**read_flat(faults, path, table, GearWheelTable, own))
@@ -129,7 +129,7 @@ def _read_wheel(faults: Faults, path: str, label: str, entry: object, draft: Dra
         if draft.toothed:
             size *= HALF_MODULES if draft.module is None else 2 / draft.module
     plain = "r" in table and draft.toothed
-    return Wheel(label, size, fraction(given.x), given.axis, plain)
+    return GearRim(label, size, fraction(given.x), given.axis, plain)
 
 
 def _read_axis(faults: Faults, path: str, value: object) -> tuple[float, float, float] | None:
@@ -144,7 +144,7 @@ def _read_axis(faults: Faults, path: str, value: object) -> tuple[float, float, 
     return x, y, z
 
 
-def read_meshes(faults: Faults, value: object, draft: Draft) -> tuple[Mesh, ...]:
+def read_meshes(faults: Faults, value: object, draft: TrainDraft) -> tuple[Mesh, ...]:
     """Read ``meshes``: pairs of wheels with what kind they are and who carries their axes."""
     example = '{ of = [1, 2], kind = "external" }'
     if not isinstance(value, list) or not 1 <= len(value) <= WHEEL_LIMIT:
@@ -168,7 +168,7 @@ def read_meshes(faults: Faults, value: object, draft: Draft) -> tuple[Mesh, ...]
     return tuple(found)
 
 
-def _check_radii(faults: Faults, meshes: Sequence[Mesh], draft: Draft) -> None:
+def _check_radii(faults: Faults, meshes: Sequence[Mesh], draft: TrainDraft) -> None:
     """Check the radii beside teeth: of two wheels, only a belt's need not make whole teeth."""
     for mesh in meshes:
         pair = [w for w in (draft.wheels.get(x) for x in (mesh.first, mesh.second)) if w]
@@ -184,7 +184,7 @@ def _check_radii(faults: Faults, meshes: Sequence[Mesh], draft: Draft) -> None:
                 faults.add(path, say("2r/m = {:g} teeth, not whole", float(wheel.size)))
 
 
-def _read_mesh(faults: Faults, path: str, table: Any, draft: Draft) -> Mesh | None:
+def _read_mesh(faults: Faults, path: str, table: Any, draft: TrainDraft) -> Mesh | None:
     given = fields.read_keys(faults, path, table, keys.MESH)
     of = given.get("of")
     if not isinstance(of, list) or len(of) != 2:

@@ -36,7 +36,7 @@ HALF_MODULES = 1000
 """In a metre, for pictures without a module: it is then 2 mm."""
 
 
-class Wheel(Struct, frozen=True):
+class GearRim(Struct, frozen=True):
     """A rim of teeth on a body (зубчатый венец).
 
     Attributes
@@ -131,7 +131,7 @@ class Train(Struct, frozen=True):
         Number of satellites on a carrier, by carrier.
     """
 
-    wheels: Mapping[str, Wheel]
+    wheels: Mapping[str, GearRim]
     meshes: tuple[Mesh, ...]
     body_of: Mapping[str, str]
     bodies: tuple[str, ...]

@@ -10,8 +10,8 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from planmethod.errors import Fault, ProblemError
-from planmethod.gears.axes import Axes, find_axes
-from planmethod.gears.linear import Row, Solved, solve
+from planmethod.gears.axes import TrainDimensions, find_axes
+from planmethod.gears.linear import LinearSolution, Row, solve
 from planmethod.gears.model import GearProblem, Mesh, MeshKind, Train
 from planmethod.gears.roles import Roles, find_roles
 from planmethod.languages import say
@@ -26,7 +26,7 @@ class TrainKind(Enum):
     CLOSED = "closed differential"
 
 
-class Structure(Struct, frozen=True):
+class Mobility(Struct, frozen=True):
     """Mobility of a train, counted with one satellite of each set (структура).
 
     Attributes
@@ -59,7 +59,7 @@ class Structure(Struct, frozen=True):
         return self.mobility - (6 * self.moving - 5 * self.lower - 2 * self.higher)
 
 
-class Motion(Struct, frozen=True):
+class TrainMotion(Struct, frozen=True):
     """A solved train (решённый механизм).
 
     Attributes
@@ -70,8 +70,8 @@ class Motion(Struct, frozen=True):
 
     train: Train
     roles: Roles
-    axes: Axes
-    structure: Structure
+    axes: TrainDimensions
+    structure: Mobility
     speeds: Mapping[str, Fraction]
 
     def speed(self, label: str, carrier: str | None = None) -> Fraction:
@@ -82,7 +82,7 @@ class Motion(Struct, frozen=True):
         return self.speeds[body] - self.speeds[self.train.body_of[carrier]]
 
 
-def analyse(problem: GearProblem) -> tuple[Roles, Axes, Structure]:
+def analyse(problem: GearProblem) -> tuple[Roles, TrainDimensions, Mobility]:
     """Find roles, axes and mobility of a train; its inputs are not looked at.
 
     Raises
@@ -101,13 +101,13 @@ def analyse(problem: GearProblem) -> tuple[Roles, Axes, Structure]:
     if mobility < 1:
         told = say("nothing can move: {} moving bodies, {} independent meshes", len(moving), rank)
         raise ProblemError(problem.source_file, [Fault("gears.fixed", told, "Free a body.")])
-    structure = Structure(
+    structure = Mobility(
         _kind(train, roles, mobility), len(moving), len(moving), len(train.meshes), mobility
     )
     return roles, axes, structure
 
 
-def solve_motion(problem: GearProblem) -> Motion:
+def solve_motion(problem: GearProblem) -> TrainMotion:
     """Find the speed of every body.
 
     Raises
@@ -131,10 +131,10 @@ def solve_motion(problem: GearProblem) -> Motion:
         told = say(told, count, len(given), found.free[0])
         hint = "For ratios alone, give one wheel the speed 1: n = { 1 = 1 }."
         raise ProblemError(problem.source_file, [Fault(path, told, hint)])
-    return Motion(train, roles, axes, structure, found.values)
+    return TrainMotion(train, roles, axes, structure, found.values)
 
 
-def speeds_by(train: Train, rows: Sequence[Mapping[str, Fraction]]) -> Solved[str]:
+def speeds_by(train: Train, rows: Sequence[Mapping[str, Fraction]]) -> LinearSolution[str]:
     """Solve equations of the meshes for the speeds of all bodies; those of fixed ones are 0."""
     moving = [body for body in train.bodies if body not in train.fixed]
     given = [({b: Fraction(1)}, v) for b, v in train.inputs.items() if b not in train.fixed]
@@ -142,7 +142,7 @@ def speeds_by(train: Train, rows: Sequence[Mapping[str, Fraction]]) -> Solved[st
     return replace(found, values={**found.values, **dict.fromkeys(train.fixed, Fraction(0))})
 
 
-def mesh_row(train: Train, roles: Roles, axes: Axes, mesh: Mesh) -> dict[str, Fraction]:
+def mesh_row(train: Train, roles: Roles, axes: TrainDimensions, mesh: Mesh) -> dict[str, Fraction]:
     """Coefficients of the speeds in the equation of a mesh, seen from its carrier.
 
     ``(w_a - w_c) z_a + (w_b - w_c) z_b = 0`` for an external mesh.
@@ -163,7 +163,7 @@ def mesh_row(train: Train, roles: Roles, axes: Axes, mesh: Mesh) -> dict[str, Fr
     return row
 
 
-def rows_of(train: Train, roles: Roles, axes: Axes) -> list[dict[str, Fraction]]:
+def rows_of(train: Train, roles: Roles, axes: TrainDimensions) -> list[dict[str, Fraction]]:
     """Return the equations of the meshes, in their order."""
     return [mesh_row(train, roles, axes, mesh) for mesh in train.meshes]
 

@@ -12,7 +12,7 @@ from fractions import Fraction
 from msgspec import Struct
 
 from planmethod.gears.model import PARALLEL, MeshKind, PictureSettings
-from planmethod.gears.motion import Motion
+from planmethod.gears.motion import TrainMotion
 
 
 class ContactKind(Enum):
@@ -37,7 +37,7 @@ class ContactPoint(Struct, frozen=True):
         return f"{self.kind.value} {self.of}"
 
 
-class Contact(Struct, frozen=True):
+class PicturePoint(Struct, frozen=True):
     """A point of the picture of linear velocities (точка картины): its height and segment, mm."""
 
     at: ContactPoint
@@ -45,7 +45,7 @@ class Contact(Struct, frozen=True):
     speed_mm: Fraction
 
 
-class Picture(Struct, frozen=True):
+class VelocityPictures(Struct, frozen=True):
     """Both pictures (картины линейных и угловых скоростей).
 
     Attributes
@@ -62,7 +62,7 @@ class Picture(Struct, frozen=True):
     mu_l: Fraction
     pole_mm: Fraction
     speed_per_mm: Fraction
-    contacts: tuple[Contact, ...]
+    contacts: tuple[PicturePoint, ...]
     rays: tuple[tuple[str, Fraction], ...]
     rate: float = 1.0
 
@@ -82,7 +82,7 @@ class Picture(Struct, frozen=True):
         return self.speed_per_mm / (self.mu_l * self.pole_mm)
 
 
-def draw(motion: Motion, settings: PictureSettings | None = None) -> Picture | None:
+def draw(motion: TrainMotion, settings: PictureSettings | None = None) -> VelocityPictures | None:
     """Return the pictures; None where axes are not parallel at known distances, or all stand.
 
     ``settings`` are other scales than the file's.
@@ -110,20 +110,20 @@ def draw(motion: Motion, settings: PictureSettings | None = None) -> Picture | N
         return None
     mm = train.unit_m / settings.mu_l
     scale = settings.longest_mm / most
-    contacts = tuple(Contact(at, height * mm, speed * scale) for at, height, speed in points)
+    contacts = tuple(PicturePoint(at, height * mm, speed * scale) for at, height, speed in points)
     per = settings.pole_mm * scale / mm
     rays = tuple((label, motion.speed(label) * per) for label in train.numbers)
     per_mm = train.unit_m / scale
-    return Picture(settings.mu_l, settings.pole_mm, per_mm, contacts, rays, train.rate)
+    return VelocityPictures(settings.mu_l, settings.pole_mm, per_mm, contacts, rays, train.rate)
 
 
-def _at(motion: Motion, body: str, height: Fraction) -> Fraction:
+def _at(motion: TrainMotion, body: str, height: Fraction) -> Fraction:
     """Speed to the right of a body's point at a height of the line of centres."""
     centre = motion.axes.heights[body]
     return _of_axis(motion, body) - motion.speeds[body] * (height - centre)
 
 
-def carrier_of(motion: Motion, body: str) -> str | None:
+def carrier_of(motion: TrainMotion, body: str) -> str | None:
     """Return the body that carries the axis of a body away from its own axis, or None."""
     train, heights = motion.train, motion.axes.heights
     for mesh in train.meshes:
@@ -133,7 +133,7 @@ def carrier_of(motion: Motion, body: str) -> str | None:
     return None
 
 
-def _of_axis(motion: Motion, body: str) -> Fraction:
+def _of_axis(motion: TrainMotion, body: str) -> Fraction:
     """Speed to the right of a body's axis: that of its carrier there."""
     heights, carrier = motion.axes.heights, carrier_of(motion, body)
     if carrier is None:

@@ -9,7 +9,15 @@ from planmethod.construct import steps
 from planmethod.construct.drafting import Profile
 from planmethod.gears.answers import answer
 from planmethod.gears.asked import parse
-from planmethod.gears.construction import POLE, Construction, Found, Reading, Spot, construct, read
+from planmethod.gears.construction import (
+    POLE,
+    DrawnPoint,
+    Found,
+    GearDrawing,
+    GearReading,
+    construct,
+    read,
+)
 from planmethod.gears.model import GearProblem
 from planmethod.gears.motion import solve_motion
 from planmethod.gears.picture import ContactKind, draw
@@ -54,7 +62,7 @@ def _carried(rich: Rich) -> Rich:
     return re.sub(r"\^\{([^}−]+)\}", r"\\^\1", rich)
 
 
-def _pictures(drawn: Construction, words: Language) -> Iterator[Node]:
+def _pictures(drawn: GearDrawing, words: Language) -> Iterator[Node]:
     """Yield the steps that draw both pictures."""
     narrator = PictureNarrator(drawn, words)
     say: Words = words.gears["sheet"]
@@ -76,7 +84,7 @@ def _pictures(drawn: Construction, words: Language) -> Iterator[Node]:
 class PictureNarrator(StepNarrator):
     """Tells the picture of linear velocities; level lines are told where they are used."""
 
-    def __init__(self, drawn: Construction, words: Language) -> None:
+    def __init__(self, drawn: GearDrawing, words: Language) -> None:
         self.drawn, self.notation = drawn, words.say
         self.say: Mapping[str, str] = words.gears["sheet"]["steps"]
         self._bodies = {line: drawn.label(body) for body, line in drawn.lines.items()}
@@ -106,7 +114,7 @@ class PictureNarrator(StepNarrator):
         facts = {"foot": spot.foot, "point": step.out, "what": self._what(spot, "of ")}
         return [self.say["meet"].format(body=self._bodies[step.second], **facts)]
 
-    def _what(self, spot: Spot, case: str = "") -> Rich:
+    def _what(self, spot: DrawnPoint, case: str = "") -> Rich:
         """Return what a point of the picture is; ``of `` is what something is of."""
         key = "pitch" if spot.contact.kind is ContactKind.PITCH else "own"
         return self.say[case + key].format(name=spot.contact.of)
@@ -119,7 +127,7 @@ class PictureNarrator(StepNarrator):
         own = [body for body, at in heights.items() if abs(at - height) < 1e-6]
         return self.say["own"].format(name=", ".join(own))
 
-    def _start(self, spot: Spot) -> list[Rich]:
+    def _start(self, spot: DrawnPoint) -> list[Rich]:
         body = next((b for b in self.drawn.starts if b in spot.bodies), spot.bodies[0])
         facts = {"foot": spot.foot, "point": spot.letter, "what": self._what(spot, "of ")}
         mu_v = self.notation.short(self.drawn.picture.mu_v, 4)
@@ -134,7 +142,7 @@ class PictureNarrator(StepNarrator):
 
 
 def _readings(
-    drawn: Construction, seen: Reading, profile: Profile, words: Language
+    drawn: GearDrawing, seen: GearReading, profile: Profile, words: Language
 ) -> Iterator[Node]:
     """Yield the segments as they are read, and what is computed from them."""
     notation, train = words.say, drawn.motion.train
@@ -171,11 +179,11 @@ def _mm(value: float, notation: Notation) -> Rich:
     return notation.number(f"{value + 0.0:.2f}")
 
 
-def _scale(drawn: Construction) -> Rich:
+def _scale(drawn: GearDrawing) -> Rich:
     return f"μ_{{{drawn.motion.train.letter}}}"
 
 
-def _found(one: Found, drawn: Construction, seen: Reading, words: Language) -> Rich:
+def _found(one: Found, drawn: GearDrawing, seen: GearReading, words: Language) -> Rich:
     """Return a quantity with its formula, as it is read and exactly."""
     train, notation = drawn.motion.train, words.say
     asked = parse(one.name, tuple(train.body_of))

@@ -8,9 +8,9 @@ from pathlib import Path
 from typing import Any
 
 from planmethod.errors import ProblemError
-from planmethod.gears.asked import AskedError, parse
+from planmethod.gears.asked import SoughtQuantityError, parse
 from planmethod.gears.meshes import (
-    Draft,
+    TrainDraft,
     fraction,
     read_label,
     read_labels,
@@ -71,7 +71,7 @@ def read_train(faults: Faults, table: Mapping[str, Any]) -> Train | None:
             faults, "gears.module", given["module"], "a module in mm", low=0.01, high=1000
         )
         module = None if told is None else fraction(told) / 1000
-    draft = Draft(module)
+    draft = TrainDraft(module)
     for key, example in (("wheels", "{ 1 = 20, 2 = 36 }"), ("meshes", "[{ of = [1, 2] }]")):
         if key not in given:
             faults.add(f"gears.{key}", "missing", say("For example: {} = {}", key, example))
@@ -181,7 +181,7 @@ def _read_inputs(
     return unit, found
 
 
-def _read_satellites(faults: Faults, value: object, draft: Draft) -> dict[str, int]:
+def _read_satellites(faults: Faults, value: object, draft: TrainDraft) -> dict[str, int]:
     """Read the number of satellites: of every carrier alike, or by carrier."""
     carriers = tuple(draft.carriers)
     if not isinstance(value, Mapping):
@@ -225,7 +225,7 @@ def _can_be_asked(faults: Faults, path: str, text: str, known: tuple[str, ...]) 
 def _fault_of(text: str, known: tuple[str, ...]) -> str:
     try:
         parse(text, known)
-    except AskedError as error:
+    except SoughtQuantityError as error:
         return str(error)
     return ""
 

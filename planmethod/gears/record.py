@@ -10,7 +10,7 @@ from typing import Any
 from planmethod.gears.answers import Answer, answer, rack_speed
 from planmethod.gears.conditions import conditions, sentence
 from planmethod.gears.model import GearProblem
-from planmethod.gears.motion import Motion, analyse, solve_motion
+from planmethod.gears.motion import TrainMotion, analyse, solve_motion
 from planmethod.gears.picture import draw
 from planmethod.note.wording import language
 from planmethod.problem.head import KindProblem
@@ -107,7 +107,7 @@ def _number(value: Fraction) -> int | float:
     return value.numerator if value.denominator == 1 else float(value)
 
 
-def _body(motion: Motion, label: str) -> dict[str, Any]:
+def _body(motion: TrainMotion, label: str) -> dict[str, Any]:
     """Speeds of a body, and relative to the carrier of its meshes."""
     speed, train = motion.speed(label), motion.train
     body = train.body_of[label]
@@ -144,7 +144,7 @@ def _answer(found: Answer, reasons: Mapping[str, str]) -> dict[str, Any]:
     return told
 
 
-def _picture(motion: Motion) -> dict[str, Any] | None:
+def _picture(motion: TrainMotion) -> dict[str, Any] | None:
     picture = draw(motion)
     if picture is None:
         return None

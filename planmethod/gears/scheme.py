@@ -10,7 +10,7 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from planmethod.gears.model import PARALLEL, Mesh, MeshKind
-from planmethod.gears.motion import Motion
+from planmethod.gears.motion import TrainMotion
 
 WORM = 0.25
 """Radius of a worm by that of its wheel: it does not follow from its starts."""
@@ -95,10 +95,10 @@ class Worm(Struct, frozen=True):
     is_level: bool
 
 
-class Scheme(Struct, frozen=True, dict=True):
+class SchemeData(Struct, frozen=True, dict=True):
     """Bodies of a train with their sizes on the paper, mm (данные схемы)."""
 
-    motion: Motion
+    motion: TrainMotion
     mm: float
 
     @cached_property

@@ -12,14 +12,14 @@ from msgspec.structs import replace
 from planmethod.construct.drafting import Profile
 from planmethod.construct.scale import Scale, series_near
 from planmethod.errors import LayoutError
-from planmethod.gears.arrangement import Order, arrange, best_order
-from planmethod.gears.construction import Construction, Reading, construct, read
+from planmethod.gears.arrangement import ColumnOrder, arrange, best_order
+from planmethod.gears.construction import GearDrawing, GearReading, construct, read
 from planmethod.gears.drawn.pictures import angular, angular_spans, front, linear, linear_spans
-from planmethod.gears.drawn.side import Side
+from planmethod.gears.drawn.side import SideView
 from planmethod.gears.model import GearProblem, PictureSettings
-from planmethod.gears.motion import Motion, solve_motion
+from planmethod.gears.motion import TrainMotion, solve_motion
 from planmethod.gears.picture import draw
-from planmethod.gears.scheme import Scheme
+from planmethod.gears.scheme import SchemeData
 from planmethod.gears.told import calculation, given, results
 from planmethod.languages import LANGUAGES, say
 from planmethod.note.wording import Language, Words, language
@@ -29,9 +29,8 @@ from planmethod.render.ink.drawing import Drawing, Item, Span, View, shifted
 from planmethod.render.ink.extent import ink_bounds
 from planmethod.render.ink.typeset import typeset
 from planmethod.render.labels import Label
-from planmethod.render.layout.block import Block, Column, Line, heading, paragraph
-from planmethod.render.layout.block import Picture as Drawn
-from planmethod.render.layout.cuttings import Group, Part
+from planmethod.render.layout.block import Block, Column, Line, Picture, heading, paragraph
+from planmethod.render.layout.cuttings import Group, Packed
 from planmethod.render.layout.equations import formula_block
 from planmethod.render.layout.tables import TableColumn, table_block
 from planmethod.render.pictures.lettered import lettered
@@ -117,17 +116,17 @@ class _Train(Struct, frozen=True):
     """How the sheet of a train is searched for: by the scale of the side view."""
 
     problem: GearProblem
-    motion: Motion
+    motion: TrainMotion
     profile: Profile
 
     formats = TRIED
 
     def proposals(self, papers: Sequence[Blank]) -> Iterator[Packing]:
         """Yield the blocks at a scale in several orders of reading, paper by paper."""
-        made: dict[tuple[PictureSettings, Sizes], list[tuple[Part, ...]]] = {}
+        made: dict[tuple[PictureSettings, Sizes], list[tuple[Packed, ...]]] = {}
         words = language(self.problem.sheet.lang or LANGUAGES[0])
         train = self.motion.train
-        plain = Scheme(self.motion, float(train.unit_m / train.picture.mu_l))
+        plain = SchemeData(self.motion, float(train.unit_m / train.picture.mu_l))
         order = None if plain.undrawn else best_order(plain)
         for paper, settings, sizes in self._scales(papers):
             sheet = _Sheet(self.motion, settings, self.profile, words, sizes, order)
@@ -155,7 +154,7 @@ class _Train(Struct, frozen=True):
                 yield paper, replace(tried, pole_mm=_pole(motion, tried)), sizes
 
 
-def _pole(motion: Motion, settings: PictureSettings) -> Fraction:
+def _pole(motion: TrainMotion, settings: PictureSettings) -> Fraction:
     """Return a pole distance that keeps the rays within a width."""
     for pole in POLES:
         tried = replace(settings, pole_mm=Fraction(pole))
@@ -168,9 +167,9 @@ def _pole(motion: Motion, settings: PictureSettings) -> Fraction:
     return Fraction(POLES[-1])
 
 
-def _extent(motion: Motion) -> float:
+def _extent(motion: TrainMotion) -> float:
     """Return how high the scheme is, in sizes."""
-    scheme = Scheme(motion, 1.0)
+    scheme = SchemeData(motion, 1.0)
     rims = [rim for column in scheme.columns for rim in column] if not scheme.undrawn else []
     rims += [] if scheme.undrawn else [cone.rim for one in scheme.across for cone in one.cones]
     ends = [rim.centre + way * rim.radius for rim in rims for way in (1, -1)]
@@ -215,26 +214,26 @@ class _Strip(_Picture, frozen=True):
 class _Sheet(Struct, frozen=True):
     """Blocks of a sheet."""
 
-    motion: Motion
+    motion: TrainMotion
     settings: PictureSettings
     profile: Profile
     words: Language
     sizes: Sizes
-    order: Order | None
+    order: ColumnOrder | None
 
-    def orders(self) -> Iterator[tuple[Part, ...]]:
+    def orders(self) -> Iterator[tuple[Packed, ...]]:
         """Yield the blocks in orders of reading; the last stands on the title block."""
         picture = draw(self.motion, self.settings)
         drawn = None if picture is None else construct(self.motion, picture)
         seen = None if drawn is None else read(drawn, self.profile)
-        scheme = Scheme(self.motion, float(self.motion.train.unit_m / self.settings.mu_l))
-        strip, last = Part(self._strip(scheme, drawn, seen)), Part(self._results(drawn, seen))
+        scheme = SchemeData(self.motion, float(self.motion.train.unit_m / self.settings.mu_l))
+        strip, last = Packed(self._strip(scheme, drawn, seen)), Packed(self._results(drawn, seen))
         shown = [] if drawn is None or seen is None else [
-            Part(self._angular(drawn, seen)), Part(self._segments(drawn, seen), text=True)
+            Packed(self._angular(drawn, seen)), Packed(self._segments(drawn, seen), text=True)
         ]  # fmt: skip
         for view, width in product(self._fronts(), WIDTHS):
-            views = [strip] if view is None else [strip, Part(view)]
-            texts = [Part(self._told(width), text=True)]
+            views = [strip] if view is None else [strip, Packed(view)]
+            texts = [Packed(self._told(width), text=True)]
             if not shown:
                 yield (*views, *texts, last)
                 continue
@@ -256,14 +255,16 @@ class _Sheet(Struct, frozen=True):
         said: str = self.words.gears["sheet"]["inscriptions"][key]
         return said.format(value=self.words.say.short(value, 4), **more)
 
-    def _strip(self, scheme: Scheme, drawn: Construction | None, seen: Reading | None) -> Block:
+    def _strip(
+        self, scheme: SchemeData, drawn: GearDrawing | None, seen: GearReading | None
+    ) -> Block:
         """Return the side view and, at the same heights, the picture of linear velocities."""
         say: Words = self.words.gears["sheet"]
         if scheme.undrawn:
             kinds = ", ".join(say["kinds"][kind] for kind in scheme.undrawn)
             return paragraph(say.no_scheme.format(kinds=kinds), self.sizes.text, STAMP_WIDTH)
         spots = () if drawn is None else drawn.spots
-        side = Side(arrange(scheme, self.order), {spot.contact: spot.letter for spot in spots})
+        side = SideView(arrange(scheme, self.order), {spot.contact: spot.letter for spot in spots})
         items, labels = side.items(), list(side.labels(self.sizes.letter))
         left, _, right, _ = ink_bounds(items)
         mu_l = self._scale("mu_l", float(self.settings.mu_l))
@@ -292,7 +293,7 @@ class _Sheet(Struct, frozen=True):
         placed = [*whole.items, *titles]
         bounds = ink_bounds(placed)
         x, y = -bounds[0], -bounds[3]
-        strip, mu = Drawn(tuple(placed), bounds), Scale("mu_l", float(self.settings.mu_l), "m")
+        strip, mu = Picture(tuple(placed), bounds), Scale("mu_l", float(self.settings.mu_l), "m")
         if drawn is None or seen is None:
             return Viewed(strip, "position", mu)
         spans = linear_spans(drawn, seen, complex(origin + x, y))
@@ -311,19 +312,19 @@ class _Sheet(Struct, frozen=True):
         own = float(self.settings.mu_l)
         coarse = series_near(extent / MOST_FRONT, up=True)
         for mu_l in (own, coarse) if coarse > own else (own,):
-            scheme = Scheme(self.motion, float(self.motion.train.unit_m) / mu_l)
+            scheme = SchemeData(self.motion, float(self.motion.train.unit_m) / mu_l)
             title = self.words.gears["sheet"].front
             scales = [self._scale("mu_l", mu_l)]
             view = front(scheme, self.sizes.letter)
             yield self._titled(view, title, "position", Scale("mu_l", mu_l, "m"), scales)
 
     def _is_turned(self) -> bool:
-        scheme = Scheme(self.motion, 1.0)
+        scheme = SchemeData(self.motion, 1.0)
         return bool(scheme.undrawn) or not scheme.columns
 
     def _titled(
         self,
-        view: Drawn,
+        view: Picture,
         title: str,
         kind: str,
         scale: Scale,
@@ -339,7 +340,7 @@ class _Sheet(Struct, frozen=True):
         moved = tuple(replace(s, start=s.start + shift, end=s.end + shift) for s in spans)
         return _Picture(block, kind, scale, moved)
 
-    def _angular(self, drawn: Construction, seen: Reading) -> Viewed:
+    def _angular(self, drawn: GearDrawing, seen: GearReading) -> Viewed:
         picture = drawn.picture
         pole = self.words.say.given(float(picture.pole_mm))
         scales = [self._scale("mu_omega", picture.mu_omega, pole=pole)]
@@ -363,7 +364,7 @@ class _Sheet(Struct, frozen=True):
         blocks += [formula_block(line, self.sizes.text, width=width) for line in lines]
         return Column(blocks, gap=2.4)
 
-    def _segments(self, drawn: Construction, seen: Reading) -> Block:
+    def _segments(self, drawn: GearDrawing, seen: GearReading) -> Block:
         say, rows = self.words.say, []
         for spot in drawn.spots:
             length = float(spot.speed)
@@ -382,7 +383,7 @@ class _Sheet(Struct, frozen=True):
     def _mm(self, value: float) -> str:
         return self.words.say.number(f"{value + 0.0:.2f}")
 
-    def _results(self, drawn: Construction | None, seen: Reading | None) -> Block:
+    def _results(self, drawn: GearDrawing | None, seen: GearReading | None) -> Block:
         whole = list(results(self.motion, drawn, seen, self.words))
         say: Words = self.words.gears["sheet"]
         columns = say["columns_results"] if drawn is not None else say["columns_results"][:3]

@@ -11,7 +11,14 @@ from planmethod.errors import PlanMethodError
 from planmethod.gears.answers import answer, rack_speed
 from planmethod.gears.conditions import conditions, sentence
 from planmethod.gears.model import GearProblem, Mesh, MeshKind
-from planmethod.gears.motion import Motion, Structure, TrainKind, analyse, mesh_row, solve_motion
+from planmethod.gears.motion import (
+    Mobility,
+    TrainKind,
+    TrainMotion,
+    analyse,
+    mesh_row,
+    solve_motion,
+)
 from planmethod.gears.picture import draw
 from planmethod.gears.roles import Roles
 from planmethod.note.document import (
@@ -75,7 +82,7 @@ def structure_document(problem: GearProblem, words: Language) -> Iterator[Node]:
 
 
 def _structure(
-    problem: GearProblem, roles: Roles, found: Structure, words: Language
+    problem: GearProblem, roles: Roles, found: Mobility, words: Language
 ) -> Iterator[Node]:
     say, train = words.gears, problem.train
     yield Title(say.title.format(title=escape(problem.title or problem.name)))
@@ -94,12 +101,12 @@ def _structure(
             yield Item(say.closing.format(meshes=", ".join(names)))
 
 
-def kind_of(found: Structure, words: Language) -> Rich:
+def kind_of(found: Mobility, words: Language) -> Rich:
     """Return which kind of train it is."""
     return words.gears.kind.format(kind=words.gears["kinds"][found.kind.value])
 
 
-def mobility(found: Structure, words: Language) -> Rich:
+def mobility(found: Mobility, words: Language) -> Rich:
     """Return the mobility by Chebyshev's formula."""
     formula = str(found.formula).replace("-", MINUS)
     return words.gears.chebyshev.format(
@@ -117,7 +124,7 @@ def plainly(rich: str) -> str:
     return rich.replace("{", "").replace("}", "")
 
 
-def equation_of(motion: Motion, mesh: Mesh) -> tuple[str, str]:
+def equation_of(motion: TrainMotion, mesh: Mesh) -> tuple[str, str]:
     """Return the equation of a mesh, and its ratio seen from the carrier, as rich text."""
     train = motion.train
     row = mesh_row(train, motion.roles, motion.axes, mesh)
@@ -138,7 +145,7 @@ def equation_of(motion: Motion, mesh: Mesh) -> tuple[str, str]:
     return f"{left} = {sign}{speed(mesh.second, other)}{size}", ratio
 
 
-def _wheels(motion: Motion, words: Language) -> Table:
+def _wheels(motion: TrainMotion, words: Language) -> Table:
     train, say = motion.train, words.gears
     said = {"letter": "z" if train.toothed else "r, " + say["units"]["m"]}
     said["unit"] = say["units"]["m/2" if train.toothed else "m"]
@@ -159,7 +166,7 @@ def _size(value: Fraction, words: Language) -> Rich:
     return words.say.found(float(value))
 
 
-def _speeds(motion: Motion, words: Language) -> Iterator[Node]:
+def _speeds(motion: TrainMotion, words: Language) -> Iterator[Node]:
     train, say = motion.train, words.gears
     said = {"letter": train.letter, "other": "ω" if train.letter == "n" else "n"}
     said["unit"], said["other_unit"] = (say["units"][unit] for unit in train.units)
@@ -187,7 +194,7 @@ def _speeds(motion: Motion, words: Language) -> Iterator[Node]:
             yield Item(say.across.format(label=label))
 
 
-def _tabular(motion: Motion, turns: Turns, words: Language) -> Iterator[Node]:
+def _tabular(motion: TrainMotion, turns: Turns, words: Language) -> Iterator[Node]:
     say, letter = words.gears, motion.train.letter
     yield Caption(say.tabular.format(carrier=turns.carrier, wheel=", ".join(turns.started)))
     total = {body: speed + turns.held[body] for body, speed in turns.together.items()}
@@ -207,7 +214,7 @@ def _tabular(motion: Motion, turns: Turns, words: Language) -> Iterator[Node]:
     )
 
 
-def _asked(motion: Motion, words: Language) -> Iterator[Node]:
+def _asked(motion: TrainMotion, words: Language) -> Iterator[Node]:
     say, rows, notes = words.gears, [], []
     for name in motion.train.ask:
         one = answer(motion, name)
@@ -224,7 +231,7 @@ def _asked(motion: Motion, words: Language) -> Iterator[Node]:
     yield from notes
 
 
-def _picture(motion: Motion, words: Language) -> Iterator[Node]:
+def _picture(motion: TrainMotion, words: Language) -> Iterator[Node]:
     say, number, picture = words.gears, words.say.found, draw(motion)
     if picture is None:
         yield Item(say.no_picture)
@@ -246,7 +253,7 @@ def _picture(motion: Motion, words: Language) -> Iterator[Node]:
     yield table_of(say["columns_rays"], rays)
 
 
-def _published(problem: GearProblem, motion: Motion, words: Language) -> Iterator[Node]:
+def _published(problem: GearProblem, motion: TrainMotion, words: Language) -> Iterator[Node]:
     say, rows, notes = words.say, [], []
     for one in problem.published:
         exact, name = answer(motion, one.what).value, escape(one.name)
@@ -278,7 +285,7 @@ class Turns(Struct, frozen=True):
     held: Mapping[str, Fraction]
 
 
-def tabular(motion: Motion) -> tuple[Turns, ...]:
+def tabular(motion: TrainMotion) -> tuple[Turns, ...]:
     """Make the tables of all carriers that may turn, and compare their sums with the speeds.
 
     Raises
@@ -293,7 +300,7 @@ def tabular(motion: Motion) -> tuple[Turns, ...]:
     )
 
 
-def _table(motion: Motion, carrier: str) -> Turns:
+def _table(motion: TrainMotion, carrier: str) -> Turns:
     train, roles = motion.train, motion.roles
     central = roles.central[carrier]
     bodies = (*central, *roles.satellites[carrier])
@@ -323,7 +330,7 @@ def _table(motion: Motion, carrier: str) -> Turns:
     )
 
 
-def _follow(motion: Motion, carrier: str, held: dict[str, Fraction]) -> None:
+def _follow(motion: TrainMotion, carrier: str, held: dict[str, Fraction]) -> None:
     """Carry the turning on through each mesh that has one end turned already."""
     train = motion.train
     for mesh in train.meshes:

@@ -8,8 +8,8 @@ from collections.abc import Collection, Iterator
 from planmethod.gears.answers import Answer, answer
 from planmethod.gears.asked import parse
 from planmethod.gears.conditions import conditions, sentence
-from planmethod.gears.construction import Construction, Reading
-from planmethod.gears.motion import Motion
+from planmethod.gears.construction import GearDrawing, GearReading
+from planmethod.gears.motion import TrainMotion
 from planmethod.gears.text import equation_of, fraction_text, kind_of, mobility
 from planmethod.note.numbers import raised
 from planmethod.note.rounding import sigma_text
@@ -23,7 +23,7 @@ def symbol(name: str, known: Collection[str]) -> str:
 
     Raises
     ------
-    AskedError
+    SoughtQuantityError
     """
     asked = parse(name, known)
     letter = _GREEK.get(asked.kind, asked.kind)
@@ -44,7 +44,7 @@ def indexed(text: str) -> str:
     return re.sub(r"_([\w']+)", r"_{\1}", text)
 
 
-def given(motion: Motion, words: Language) -> list[str]:
+def given(motion: TrainMotion, words: Language) -> list[str]:
     """Return what is given of a train, as rich text (дано)."""
     train, say, told = motion.train, words.say, words.gears["sheet"]
     facts = []
@@ -66,7 +66,7 @@ def given(motion: Motion, words: Language) -> list[str]:
     return facts
 
 
-def calculation(motion: Motion, words: Language) -> list[str]:
+def calculation(motion: TrainMotion, words: Language) -> list[str]:
     """Return kind, mobility, equations of the meshes with their ratios, ratios asked for."""
     train, say, found = motion.train, words.gears, motion.structure
     lines = [kind_of(found, words), mobility(found, words)]
@@ -95,7 +95,7 @@ def calculation(motion: Motion, words: Language) -> list[str]:
     return lines
 
 
-def _plain(name: str, motion: Motion, words: Language) -> Iterator[str]:
+def _plain(name: str, motion: TrainMotion, words: Language) -> Iterator[str]:
     """Yield a quantity that is neither a ratio nor a speed, with its value."""
     known = tuple(motion.train.body_of)
     if parse(name, known).kind in ("U", "n", "omega"):
@@ -109,9 +109,9 @@ def _plain(name: str, motion: Motion, words: Language) -> Iterator[str]:
 
 
 def results(
-    motion: Motion,
-    drawn: Construction | None,
-    seen: Reading | None,
+    motion: TrainMotion,
+    drawn: GearDrawing | None,
+    seen: GearReading | None,
     words: Language,
 ) -> Iterator[tuple[str, ...]]:
     """Yield rows: symbol with unit, fraction, decimal, read off, sigma, difference in per cent."""

@@ -37,7 +37,7 @@ class KinematicPair(Struct, frozen=True):
     kind: PairKind
 
 
-class Motion(Enum):
+class MotionKind(Enum):
     """Kind of a link's motion (вид движения)."""
 
     FIXED = "fixed"
@@ -69,7 +69,7 @@ class LinkKind(Struct, frozen=True):
     """Row of the table of links (движение звена)."""
 
     link: str
-    motion: Motion
+    motion: MotionKind
     role: Role
 
 
@@ -120,13 +120,13 @@ def kind_of_motion(mechanism: Mechanism) -> list[LinkKind]:
         for link in (pair.slider, pair.host)
     }
     stones, partners = _stones(mechanism)
-    rows = [LinkKind(FRAME, Motion.FIXED, Role.FRAME)]
+    rows = [LinkKind(FRAME, MotionKind.FIXED, Role.FRAME)]
     for link in mechanism.links:
         if link in sliding:
-            motion = Motion.TRANSLATION
+            motion = MotionKind.TRANSLATION
             role = Role.SLIDER if link in on_frame else Role.STONE
         elif link in turning:
-            motion = Motion.ROTATION
+            motion = MotionKind.ROTATION
             role = Role.ROCKER
             if link == mechanism.driver:
                 role = Role.CRANK
@@ -135,7 +135,7 @@ def kind_of_motion(mechanism: Mechanism) -> list[LinkKind]:
             elif link in partners:
                 role = Role.SLOTTED_LINK
         else:
-            motion = Motion.PLANE
+            motion = MotionKind.PLANE
             role = Role.STONE if link in stones else Role.ROD
         rows.append(LinkKind(link, motion, role))
     return rows

@@ -36,7 +36,7 @@ FREE = frozenset(POLES.values())
 """Points that may stand anywhere."""
 
 
-class Vector(Struct, frozen=True):
+class ConstructionVector(Struct, frozen=True):
     """Vector of a construction: rich symbol, ends, which plan it is of, and whether it is whole.
 
     A part is a component or a projection of the whole one.
@@ -49,7 +49,7 @@ class Vector(Struct, frozen=True):
     is_whole: bool = False
 
 
-class Construction(Struct, frozen=True):
+class MomentConstruction(Struct, frozen=True):
     """Construction of one moment (построение).
 
     Attributes
@@ -58,7 +58,7 @@ class Construction(Struct, frozen=True):
         The steps, and what they take as given: mm, degrees, SI.
     scales : mapping
         By ``l``, ``v``, ``a``.
-    vectors : tuple of Vector
+    vectors : tuple of ConstructionVector
     letters : mapping
         What points and numbers are called, rich text.
     results : mapping
@@ -68,7 +68,7 @@ class Construction(Struct, frozen=True):
     program: Program
     data: Mapping[str, Any]
     scales: Mapping[str, Scale]
-    vectors: tuple[Vector, ...]
+    vectors: tuple[ConstructionVector, ...]
     letters: Mapping[str, str]
     results: Mapping[str, NumberName]
 
@@ -93,7 +93,7 @@ class _Draft(Struct):
     scales: Mapping[str, Scale]
     b: Builder = field(default_factory=Builder)
     data: dict[str, Any] = field(default_factory=dict)
-    vectors: list[Vector] = field(default_factory=list)
+    vectors: list[ConstructionVector] = field(default_factory=list)
     letters: dict[str, str] = field(default_factory=dict)
 
     def given(self, name: str, letter: str = "") -> PointName:
@@ -116,7 +116,7 @@ class _Draft(Struct):
         self.letters[length] = symbol
         head = self.b.lay_off(f"{symbol}:", origin, line, length)
         self.letters[head] = symbol
-        self.vectors.append(Vector(symbol, origin, head, plan))
+        self.vectors.append(ConstructionVector(symbol, origin, head, plan))
         return head
 
     def chain(
@@ -135,7 +135,7 @@ class _Draft(Struct):
     def whole(self, plan: str, head: PointName) -> NumberName:
         """Close a plan: the vector from its pole, measured."""
         pole = POLES[plan]
-        self.vectors.append(Vector(plan, pole, head, plan, is_whole=True))
+        self.vectors.append(ConstructionVector(plan, pole, head, plan, is_whole=True))
         self.letters[head] = plan if plan == "v" else "a"
         length = self.b.measure(f"{pole}{plan}", pole, head)
         self.letters[length] = length
@@ -144,7 +144,7 @@ class _Draft(Struct):
 
 def construct(
     problem: PointProblem, motion: Motion, k: int, scales: Mapping[str, Scale]
-) -> Construction | None:
+) -> MomentConstruction | None:
     """Return the construction of moment ``k``; None where there is no velocity.
 
     Parameters
@@ -182,12 +182,12 @@ def construct(
             results["rho"] = b.compute("rho", *powers)
             draft.letters |= {"rho": "ρ", "n": "n", "πn": "πn", "na": "na"}
             draft.vectors += [
-                Vector(symbol, tail, tip, "a")
+                ConstructionVector(symbol, tail, tip, "a")
                 for symbol, tail, tip in (("a_{τ}", origin, foot), ("a_{n}", foot, at))
                 if problem.law is not Law.NATURAL
             ]
     found = tuple(draft.vectors)
-    return Construction(b.program(), draft.data, scales, found, draft.letters, results)
+    return MomentConstruction(b.program(), draft.data, scales, found, draft.letters, results)
 
 
 _Parts = list[tuple[str, float, bool]]

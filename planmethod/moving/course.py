@@ -57,7 +57,7 @@ class Course(Struct, frozen=True, eq=False):
     marks : Motion
         The numbered instants; those of the file are among them, unless they are very many.
     shown : tuple of int
-        Numbers of the instants that have vectors drawn; the first of them is told in full.
+        Numbers of the instants that have vectors drawn; the first of them is explained in full.
     """
 
     interval: tuple[float, float]

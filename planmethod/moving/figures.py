@@ -16,7 +16,7 @@ from planmethod.moving.motion import Motion, move
 from planmethod.moving.reader import WHAT, column_of
 from planmethod.moving.sheet import sheet_scales
 from planmethod.moving.text import LEGEND
-from planmethod.problem.figures import Figure, Mistaken, Taken
+from planmethod.problem.figures import AnswerValue, Mistaken, Taken
 
 if TYPE_CHECKING:
     from planmethod.construct.drafting import Profile
@@ -40,14 +40,14 @@ class PointFigures:
         """Motion at the moments of the file."""
         return move(self.problem)
 
-    def figure(self, name: str, position: int) -> Figure | None:
+    def figure(self, name: str, position: int) -> AnswerValue | None:
         """Return a quantity by its name of ``[published]``, or as people write it."""
         column = column_of(name)
         value = None if column is None else _value(self.motion, name, position)
         if column is None or value is None:
             return None
         quantity = LEGEND[column]
-        return Figure(quantity.symbol, quantity.unit, value, signed=column not in SIZES)
+        return AnswerValue(quantity.symbol, quantity.unit, value, signed=column not in SIZES)
 
     def read_off(self, name: str, position: int, profile: Profile) -> tuple[float, float] | None:
         """Return its segment on the drawing, mm, and one sigma of what is read."""

@@ -19,7 +19,7 @@ ANGULAR = ("sin", "cos", "tg", "ctg")
 """Those of angles."""
 
 
-class Formula(Struct, frozen=True):
+class TimeFunction(Struct, frozen=True):
     """A function of time (формула).
 
     Attributes
@@ -39,7 +39,7 @@ class Formula(Struct, frozen=True):
         return all(operation.kind is not FormulaKind.TIME for operation in self.operations)
 
     @property
-    def in_degrees(self) -> Formula:
+    def in_degrees(self) -> TimeFunction:
         """The same as it is read off a calculator that takes its arguments for degrees."""
         told = (
             replace(one, name=f"{one.name} deg") if one.name in ANGULAR else one
@@ -50,7 +50,7 @@ class Formula(Struct, frozen=True):
 
 def read_formula(
     faults: Faults, path: str, value: object, *, constant: bool = False
-) -> Formula | None:
+) -> TimeFunction | None:
     """Read a formula, or a number in its place; None after noting a fault.
 
     Parameters
@@ -74,7 +74,7 @@ def read_formula(
     if lookalikes(value):
         faults.add(path, describe_lookalikes(value), "Type formulas in the Latin layout.")
     try:
-        formula = Formula(value, tuple(Parser(fold(value)).parse()))
+        formula = TimeFunction(value, tuple(Parser(fold(value)).parse()))
     except FormulaError as error:
         faults.add(path, str(error), error.hint)
         return None
@@ -134,7 +134,7 @@ class PointProblem(KindProblem, frozen=True, kw_only=True):
     Attributes
     ----------
     law : Law
-    formulas : mapping of str to Formula
+    formulas : mapping of str to TimeFunction
         By the keys of `FORMULAS`; metres, radians, seconds.
     radius : float or None, m
         Of the circle along which a natural motion runs, counter-clockwise from (radius, 0) about
@@ -149,7 +149,7 @@ class PointProblem(KindProblem, frozen=True, kw_only=True):
     """
 
     law: Law
-    formulas: Mapping[str, Formula]
+    formulas: Mapping[str, TimeFunction]
     radius: float | None
     wheel: Wheel | None
     times: tuple[float, ...]

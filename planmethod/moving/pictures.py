@@ -13,7 +13,7 @@ from msgspec.structs import replace
 
 from planmethod.construct.scale import Scale, choose_scale, series_near
 from planmethod.construct.steps import PointName
-from planmethod.moving.construction import POLES, Construction
+from planmethod.moving.construction import POLES, MomentConstruction
 from planmethod.moving.course import Complexes, Course, places_of
 from planmethod.moving.model import Law, PointProblem
 from planmethod.moving.motion import Motion
@@ -290,7 +290,7 @@ def _wheel(
 def hodograph_picture(
     course: Course,
     plan: str,
-    built: Construction | None,
+    built: MomentConstruction | None,
     scales: Mapping[str, Scale],
     *,
     letter_height: float,
@@ -324,7 +324,7 @@ def hodograph_picture(
     return _roughly(items) if draft else lettered(items, labels)
 
 
-def _plan(built: Construction, plan: str, height: float) -> tuple[list[Item], list[Label]]:
+def _plan(built: MomentConstruction, plan: str, height: float) -> tuple[list[Item], list[Label]]:
     """Return the vectors of one plan, from its pole: parts thin, the whole one thick."""
     trace = built.read()
 

@@ -14,8 +14,8 @@ from planmethod.construct.scale import Scale
 from planmethod.construct.steps import Name, NumberName, PointName
 from planmethod.moving.construction import (
     POLES,
-    Construction,
-    Vector,
+    ConstructionVector,
+    MomentConstruction,
     construct,
     read_hodograph,
 )
@@ -96,12 +96,12 @@ def _hodograph(course: Course, scale: Scale, words: Language, profile: Profile) 
 class PointNarrator(StepNarrator):
     """Tells the steps of one moment (рассказчик)."""
 
-    def __init__(self, built: Construction, words: Language, profile: Profile) -> None:
+    def __init__(self, built: MomentConstruction, words: Language, profile: Profile) -> None:
         self.built, self.words, self.said = built, words, words.point
         self.step = {step.out: step for step in built.program.steps}
         self.exact: Trace = built.read()
         self.read: Trace = built.read(Hand(ruler=profile.ruler))
-        self.parts: dict[PointName, Vector] = {}
+        self.parts: dict[PointName, ConstructionVector] = {}
         for vector in built.vectors:
             if not vector.is_whole:
                 self.parts.setdefault(vector.head, vector)

@@ -12,7 +12,7 @@ from msgspec.structs import replace
 
 from planmethod.errors import ProblemError
 from planmethod.languages import say
-from planmethod.moving.model import FORMULAS, Formula, Law, PointProblem, Wheel, read_formula
+from planmethod.moving.model import FORMULAS, Law, PointProblem, TimeFunction, Wheel, read_formula
 from planmethod.moving.series import ROUNDOFF, evaluate
 from planmethod.problem import fields, keys
 from planmethod.problem.answers import Plain, read_answers
@@ -260,7 +260,7 @@ def _read_time(faults: Faults, path: str, value: object) -> float | None:
     return fields.read_number(faults, path, number, what, low=-1e6, high=1e6, hint="Seconds.")
 
 
-def _number_of(formula: Formula) -> float:
+def _number_of(formula: TimeFunction) -> float:
     return float(evaluate(formula, np.zeros(1)).value.value[0])
 
 

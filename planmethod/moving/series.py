@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from planmethod.construct.jet import Jet
-from planmethod.moving.model import Formula
+from planmethod.moving.model import TimeFunction
 from planmethod.problem.formula import FormulaKind
 
 Reals = NDArray[np.float64]
@@ -106,7 +106,7 @@ Derivatives = tuple[Any, Any, Any, Any]
 """A function and its first three derivatives, at given values."""
 
 
-def evaluate(formula: Formula, times: Reals, *, blur: Reals | float = 0.0) -> Jet:
+def evaluate(formula: TimeFunction, times: Reals, *, blur: Reals | float = 0.0) -> Jet:
     """Return the values of a formula, its rates and the rates of those.
 
     Parameters

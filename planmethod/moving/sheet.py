@@ -13,7 +13,7 @@ from planmethod.construct.drafting import Profile
 from planmethod.construct.scale import Scale
 from planmethod.errors import LayoutError
 from planmethod.languages import LANGUAGES, say
-from planmethod.moving.construction import Construction, construct, read_hodograph
+from planmethod.moving.construction import MomentConstruction, construct, read_hodograph
 from planmethod.moving.course import Course, course_of
 from planmethod.moving.model import PointProblem
 from planmethod.moving.motion import COLUMNS, Motion
@@ -37,7 +37,7 @@ from planmethod.render.frame.furniture import Furniture
 from planmethod.render.ink.drawing import Disc, Drawing, Item, Span
 from planmethod.render.ink.typeset import typeset
 from planmethod.render.layout.block import Block, Column, Line, heading, paragraph
-from planmethod.render.layout.cuttings import Group, Part
+from planmethod.render.layout.cuttings import Group, Packed
 from planmethod.render.layout.nodes import blocks_of
 from planmethod.render.layout.pack import EDGE
 from planmethod.render.layout.tables import TableColumn, table_block
@@ -72,7 +72,7 @@ MOST_STEPS = 3
 class _Plan(Viewed, frozen=True):
     """Hodograph of a kind, with the plan of the told moment."""
 
-    built: Construction | None
+    built: MomentConstruction | None
     plan: str
 
     def spans(self, items: Sequence[Item], corner: complex) -> Iterator[Span]:
@@ -126,7 +126,7 @@ class _Point(Struct, frozen=True):
 
     def parts(
         self, scales: Mapping[str, Scale], column: float, room: float, *, draft: bool
-    ) -> list[Part]:
+    ) -> list[Packed]:
         """Return the blocks in reading order."""
         course, said = self.course, self.words.point
         built = {
@@ -135,7 +135,7 @@ class _Point(Struct, frozen=True):
             if (made := construct(self.problem, course.marks, k, scales)) is not None
         }
         first = built.get(course.shown[0]) if course.shown else None
-        parts = [Part(self._statement(column), text=True)]
+        parts = [Packed(self._statement(column), text=True)]
 
         def trajectory() -> Block:
             own = vector_scales(course, scales)
@@ -150,7 +150,7 @@ class _Point(Struct, frozen=True):
             return self._named(picture, said.trajectory, [own[name] for name in "lva"])
 
         parts.append(
-            Part(Viewed(self._kept("lva", scales, trajectory, draft), "trajectory", scales["l"]))
+            Packed(Viewed(self._kept("lva", scales, trajectory, draft), "trajectory", scales["l"]))
         )
         for plan, title, depends in (("v", said.hodograph_v, "lv"), ("a", said.hodograph_a, "va")):
             if plan == "a" and np.isnan(course.marks.columns["ax"]).all():
@@ -163,12 +163,12 @@ class _Point(Struct, frozen=True):
                 return self._named(picture, title, [scales[plan]])
 
             block = self._kept(depends, scales, hodograph, draft)
-            parts.append(Part(_Plan(block, "hodograph", scales[plan], first, plan)))
+            parts.append(Packed(_Plan(block, "hodograph", scales[plan], first, plan)))
         if course.shown:
-            parts.append(Part(self._calculation(course.shown[0], column), text=True))
+            parts.append(Packed(self._calculation(course.shown[0], column), text=True))
         if first is not None:
-            parts.append(Part(self._read(first, course.shown[0]), text=True))
-        return [*parts, Part(self._table(room, scales["v"]), text=False)]
+            parts.append(Packed(self._read(first, course.shown[0]), text=True))
+        return [*parts, Packed(self._table(room, scales["v"]), text=False)]
 
     def _kept(
         self, names: str, scales: Mapping[str, Scale], make: Callable[[], Block], draft: bool
@@ -219,7 +219,7 @@ class _Point(Struct, frozen=True):
                 nodes.append(node)
         return Column([*blocks, *blocks_of(nodes, SIZES.text, width=width)], gap=2.6)
 
-    def _read(self, built: Construction, k: int) -> Block:
+    def _read(self, built: MomentConstruction, k: int) -> Block:
         """Return what the drawing gives beside the exact values, and its error."""
         whole = read_rows(built, self.course.marks, k, self.words, self.profile)
         rows, said = [row for row in whole if row[2] != "—"], self.words.point
@@ -272,7 +272,7 @@ def _is_short(node: Formula | Note) -> bool:
 
 
 def read_rows(
-    built: Construction, marks: Motion, k: int, words: Language, profile: Profile
+    built: MomentConstruction, marks: Motion, k: int, words: Language, profile: Profile
 ) -> Iterator[tuple[str, str, str, str]]:
     """Yield what the drawing gives beside the exact values, rich text: symbol, exact, read, σ."""
     ruled, sigma, say = built.ruled(profile.ruler), built.sigma(profile), words.say

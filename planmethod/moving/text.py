@@ -26,7 +26,7 @@ from planmethod.note.numbers import MINUS, Notation, alike, significant, with_un
 from planmethod.note.wording import Language
 
 FEW = 3
-"""Most moments that are told with formulas; more are rows of a table."""
+"""Most moments that are written with formulas; more are rows of a table."""
 
 
 def solved_document(problem: PointProblem, words: Language) -> Iterator[Node]:

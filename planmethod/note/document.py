@@ -148,7 +148,7 @@ class Table(Struct, frozen=True):
         yield from zip(self.head, zip(*self.rows, strict=True), strict=True)
 
 
-class View(Protocol):
+class DrawableView(Protocol):
     """What can be drawn wherever a document is written (вид)."""
 
     @property
@@ -168,7 +168,7 @@ class View(Protocol):
 class Figure(Struct, frozen=True):
     """A picture (рисунок) and its caption; writers of plain text give the caption alone."""
 
-    view: View
+    view: DrawableView
     caption: Rich = ""
 
 

@@ -42,13 +42,13 @@ class Index(Struct, frozen=True):
     above: tuple[Node, ...]
 
 
-class Bar(Struct, frozen=True):
+class Overline(Struct, frozen=True):
     """What has a line above it (черта сверху)."""
 
     body: tuple[Node, ...]
 
 
-Node: TypeAlias = Letters | Index | Bar
+Node: TypeAlias = Letters | Index | Overline
 
 
 def escape(text: str) -> Rich:
@@ -92,7 +92,7 @@ def _parse(markup: str, start: int, *, closing: bool) -> tuple[tuple[Node, ...],
         elif markup.startswith("\\bar{", i):
             flush()
             body, end = _parse(markup, i + 5, closing=True)
-            nodes.append(Bar(body))
+            nodes.append(Overline(body))
             i = end + 1
         elif sign in "_^":
             flush()

@@ -15,7 +15,7 @@ from planmethod.plans.closing import Choice
 from planmethod.plans.draft import Draft
 from planmethod.plans.legend import PlanSegment, Quantity, motion_quantities, plan_segments
 from planmethod.plans.model import Plan, PlanKind
-from planmethod.plans.motion.board import Motion
+from planmethod.plans.motion.board import MotionBoard
 from planmethod.plans.motion.dyads import drive_motion, group_motion
 from planmethod.plans.motion.leads import Kinematics
 from planmethod.plans.motion.position import place_driver, place_frame, place_group
@@ -114,8 +114,8 @@ def build(problem: Problem, structure: Structure, choice: Choice) -> Constructio
     draft = Draft(problem, choice)
     cutter = _Cutter(draft)
     _positions(draft, structure.groups, cutter)
-    velocity = Motion.start(PlanKind.VELOCITY, draft)
-    acceleration = Motion.start(PlanKind.ACCELERATION, draft)
+    velocity = MotionBoard.start(PlanKind.VELOCITY, draft)
+    acceleration = MotionBoard.start(PlanKind.ACCELERATION, draft)
     kin = Kinematics(draft, velocity, acceleration)
     for motion in (velocity, acceleration):
         drive_motion(kin, motion)
@@ -130,7 +130,7 @@ def build(problem: Problem, structure: Structure, choice: Choice) -> Constructio
     return Construction(structure, draft.b.program(), draft, kin, plans, sections, legend, segments)
 
 
-def _plan(motion: Motion) -> Plan:
+def _plan(motion: MotionBoard) -> Plan:
     letters: dict[PointName, str] = {}
     for at, shown in motion.letters.items():
         letters[at] = ", ".join(shown)

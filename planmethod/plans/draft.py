@@ -76,7 +76,7 @@ class Draft:
     plans : dict of Name to PlanKind
         Plan that a step belongs to.
     letters : dict of PointName to str
-        What points of the velocity and acceleration plans are called, as far as it is told early.
+        What points of the velocity and acceleration plans are called, where it is known beforehand.
     """
 
     def __init__(self, problem: Problem, choice: Choice) -> None:

@@ -14,7 +14,7 @@ from msgspec import Struct
 from planmethod.construct.steps import Compute, LayOff, Name, NumberName, PointName
 from planmethod.plans.draft import Draft
 from planmethod.plans.model import PlanKind
-from planmethod.plans.motion.board import Motion, plain_letter
+from planmethod.plans.motion.board import MotionBoard, plain_letter
 from planmethod.plans.motion.leads import Kinematics
 
 ZERO = "0"
@@ -86,7 +86,7 @@ PLAN_OF = {kind.letter: kind.plan for kind in QuantityKind}
 
 
 TURNING = (QuantityKind.DIRECTION, QuantityKind.OMEGA, QuantityKind.EPSILON)
-"""Kinds of what is told of links."""
+"""Kinds of quantities of links."""
 
 
 class Quantity(Struct, frozen=True):
@@ -201,7 +201,7 @@ def motion_quantities(kin: Kinematics, draft: Draft) -> Iterator[Quantity]:
         yield Quantity(QuantityKind.RELATIVE, along, r.name, along)
 
 
-def plan_segments(draft: Draft, motions: tuple[Motion, Motion]) -> Iterator[PlanSegment]:
+def plan_segments(draft: Draft, motions: tuple[MotionBoard, MotionBoard]) -> Iterator[PlanSegment]:
     """Yield the segments that are measured on the plans; adds the readings of those laid off."""
     b = draft.b
     computed = {step.out for step in b.steps if isinstance(step, Compute)}

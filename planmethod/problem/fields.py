@@ -53,7 +53,7 @@ class Faults:
         self.count = 0
 
     def copy(self) -> Faults:
-        """Return the same, to be gone on with."""
+        """Return an independent copy."""
         other = Faults()
         other.unit, other.stated = self.unit, dict(self.stated)
         other._found, other.count = list(self._found), self.count

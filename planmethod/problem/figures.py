@@ -14,7 +14,7 @@ Taken = Callable[[str, int], float | None]
 """Value of a quantity by its name and position; None where it has none."""
 
 
-class Figure(Struct, frozen=True):
+class AnswerValue(Struct, frozen=True):
     """What an answer should be (величина).
 
     Attributes
@@ -62,7 +62,7 @@ class Figures(Protocol):
     names: tuple[str, ...]
     count: int
 
-    def figure(self, name: str, position: int) -> Figure | None:
+    def figure(self, name: str, position: int) -> AnswerValue | None:
         """Return a quantity; None where there is none, or it has no value."""
 
     def read_off(self, name: str, position: int, profile: Profile) -> tuple[float, float] | None:

@@ -182,8 +182,8 @@ def _parse_one(text: str) -> Selector:
         raise SelectorError(say(told, kind, wanted, 1 if wanted == "1" else 2, len(names)))
     selector = Selector(kind, tuple(names))
     if kind in FORCES:
-        told = (indexed(n) if role is NameRole.LOAD else n for n, role in roles(selector))
-        selector = Selector(kind, tuple(told))
+        indices = (indexed(n) if role is NameRole.LOAD else n for n, role in roles(selector))
+        selector = Selector(kind, tuple(indices))
     for pair in _must_differ(selector):
         if len(set(pair)) != len(pair):
             raise SelectorError(say("'{}' needs two different names", kind))

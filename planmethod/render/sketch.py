@@ -20,7 +20,7 @@ from planmethod.note.wording import Language
 from planmethod.plans.draft import cis
 from planmethod.plans.model import PlanKind
 from planmethod.problem.model import Convention
-from planmethod.render.forces.arrows import Acting, Turning, couple_items, force_items, lay_forces
+from planmethod.render.forces.arrows import Acting, CoupleArc, couple_items, force_items, lay_forces
 from planmethod.render.ink.drawing import Arc, Drawing, Item, Pen, Stroke
 from planmethod.render.ink.typeset import typeset
 from planmethod.render.labels import Label
@@ -31,7 +31,7 @@ from planmethod.render.pictures.seriesview import series_picture
 from planmethod.render.symbols import fixed_pivot, unit
 from planmethod.solved.failures import Cause, Failure
 from planmethod.solved.forces.loads import external
-from planmethod.solved.part import Part
+from planmethod.solved.part import MechanismPart
 from planmethod.solved.scaling import Views
 from planmethod.solved.solution import Solution
 from planmethod.solved.turn.turn import Turn, turn_of
@@ -62,7 +62,7 @@ class _Marks(Struct):
     labels: list[Label] = field(default_factory=list)
 
 
-def sketch(part: Part, title: str, words: Language, said: Sequence[str]) -> Drawing:
+def sketch(part: MechanismPart, title: str, words: Language, said: Sequence[str]) -> Drawing:
     """Return the sketch of a part of a mechanism, as large as what is on it.
 
     Parameters
@@ -70,7 +70,7 @@ def sketch(part: Part, title: str, words: Language, said: Sequence[str]) -> Draw
     title : str
         Of the problem.
     said : sequence of str
-        What is told of the file under the scheme, plain text, a paragraph each.
+        Text about the file under the scheme, plain text, a paragraph each.
     """
     ways = part.assemblies if len(part.assemblies) > 1 else ()
     if ways:
@@ -97,7 +97,7 @@ def _set(title: str, blocks: list[Block]) -> Drawing:
     return drawing
 
 
-def _scheme(part: Part, words: Language) -> tuple[Picture, list[str]]:
+def _scheme(part: MechanismPart, words: Language) -> tuple[Picture, list[str]]:
     solution = part.solution
     assert solution is not None
     marks = _Marks()
@@ -123,7 +123,7 @@ def _scheme(part: Part, words: Language) -> tuple[Picture, list[str]]:
     return lettered([*shown.items, *marks.items], marks.labels), facts
 
 
-def _ways(part: Part, words: Language) -> tuple[Block, list[str]]:
+def _ways(part: MechanismPart, words: Language) -> tuple[Block, list[str]]:
     """Return the assemblies side by side, each under the rules that choose it."""
     shown: list[Block] = []
     facts: list[str] = []
@@ -141,7 +141,7 @@ def _scale(scale: Scale, convention: Convention, words: Language) -> str:
     return scale_inscription(scale, convention, words.say)
 
 
-def _pivots(part: Part, words: Language) -> tuple[Picture, list[str]]:
+def _pivots(part: MechanismPart, words: Language) -> tuple[Picture, list[str]]:
     """Return the fixed points alone."""
     places = part.fixed or {}
     if not places:
@@ -172,7 +172,7 @@ def _at(solution: Solution, name: str) -> complex:
     return complex(solution.paper.point(PointName(name))[0])
 
 
-def _mark_missing(marks: _Marks, part: Part, places: Mapping[str, complex]) -> None:
+def _mark_missing(marks: _Marks, part: MechanismPart, places: Mapping[str, complex]) -> None:
     """Put the numbers of links that are not drawn at those of their points that are."""
     for link, points in (part.links or {}).items():
         for point in points:
@@ -229,7 +229,7 @@ def _mark_loads(marks: _Marks, solution: Solution) -> None:
         elif one.point is None and one.couple[0]:
             points = [_at(solution, name) for name in problem.bodies[one.link].points]
             middle = sum(points) / len(points)
-            couples.append(Turning(one.name, middle, 1 if one.couple[0] > 0 else -1))
+            couples.append(CoupleArc(one.name, middle, 1 if one.couple[0] > 0 else -1))
     bars = [(_at(solution, one), _at(solution, two)) for one, two in _bars(solution)]
     arrows, letters = force_items(lay_forces(forces, bars), SMALL, "sketch")
     turns, more = couple_items(couples, [Stroke(bar) for bar in bars], SMALL, "sketch")

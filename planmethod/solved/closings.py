@@ -457,7 +457,7 @@ def _untold(problem: Problem, group: AssurGroup) -> Rule | None:
 
 
 def _missing(group: AssurGroup, both: list[_Tried], positions: Reals, untold: Rule | None) -> Fault:
-    """Return the fault of a group whose closing nobody chose, with both ways to say it.
+    """Return the fault of a group whose closing is not given, with both ways to say it.
 
     Raises
     ------

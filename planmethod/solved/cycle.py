@@ -49,7 +49,7 @@ class Piece(Struct, frozen=True):
     values: Complexes
 
 
-class Peak(Struct, frozen=True):
+class ReactionPeak(Struct, frozen=True):
     """Largest size of a reaction, N, and the driver position where it is.
 
     ``is_limit``: next to a jump it is only come near to, and may not be there in the position.
@@ -176,12 +176,12 @@ class Cycle(Remembering):
         """The curve of what balances the driver, N·m or N (a real number as a complex one)."""
         return list(self._pieces(self._rows[-1]))
 
-    def peak(self, number: int) -> Peak:
+    def peak(self, number: int) -> ReactionPeak:
         """Return the largest size of a reaction and where it is."""
         sizes = np.nan_to_num(np.abs(self._rows[number]), nan=-1.0)
         k = int(np.argmax(sizes))
         near = self._jumps[max(k - 1, 0) : k + 1]
-        return Peak(float(sizes[k]), float(self.positions[k]), bool(near.any()))
+        return ReactionPeak(float(sizes[k]), float(self.positions[k]), bool(near.any()))
 
     def is_nothing(self, number: int) -> bool:
         """Tell whether a reaction is nothing beside the largest one, all over."""

@@ -20,7 +20,7 @@ from planmethod.solved.reading import Reals
 
 
 class Place(Struct, frozen=True):
-    """Position that is told of (положение ведущего звена).
+    """Position of the driving link (положение ведущего звена).
 
     Attributes
     ----------

@@ -34,7 +34,7 @@ _ASIDE = 1e-4  # of a dead position, degrees
 _FAR = [1.0e3, 1.7e3]  # nearest to it one of two closings is: which one does not matter
 
 
-class Assembly(Struct, frozen=True):
+class PartAssembly(Struct, frozen=True):
     """One way in which a part closes (сборка), and the rules of ``[assembly]`` that choose it."""
 
     rules: Mapping[str, str]
@@ -45,7 +45,7 @@ MOST_WAYS = 4
 """Assemblies of one part that are shown."""
 
 
-class Part(Struct, frozen=True):
+class MechanismPart(Struct, frozen=True):
     """What can be drawn of a file, and what is missing (часть механизма).
 
     Attributes
@@ -63,8 +63,8 @@ class Part(Struct, frozen=True):
     fixed : mapping of str to complex, m
         Fixed points.
     unsure : tuple of str
-        Points whose closing nobody chose: one of two is shown.
-    assemblies : tuple of Assembly
+        Points whose closing is not given: one of two is shown.
+    assemblies : tuple of PartAssembly
         The ways in which such a part closes, where rules can tell them apart.
     """
 
@@ -75,7 +75,7 @@ class Part(Struct, frozen=True):
     links: Mapping[str, tuple[str, ...]] | None = None
     fixed: Mapping[str, complex] | None = None
     unsure: tuple[str, ...] = ()
-    assemblies: tuple[Assembly, ...] = ()
+    assemblies: tuple[PartAssembly, ...] = ()
 
 
 def largest_part(
@@ -87,7 +87,7 @@ def largest_part(
     train: TrainReader | None = None,
     views: Views | None = None,
     posed: Callable[[Problem], Problem] = lambda problem: problem,
-) -> Part:
+) -> MechanismPart:
     """Return as much of a problem as makes a mechanism in some asked position.
 
     Parameters
@@ -110,7 +110,7 @@ def largest_part(
         failure = error.failure if isinstance(error, PositionError) else None
         return replace(grown.part(), faults=faults, trouble=error, failure=failure)
     there, failure = _existing(solution)
-    return Part(solution.moved(there.tolist()) if there.size else None, failure=failure)
+    return MechanismPart(solution.moved(there.tolist()) if there.size else None, failure=failure)
 
 
 def _with_variant(table: Mapping[str, Any], variant: str | None) -> Mapping[str, Any]:
@@ -161,7 +161,7 @@ class _Growth:
         listed = self.links[link].get("points", ())
         return tuple(p for p in listed if isinstance(p, str)) if isinstance(listed, list) else ()
 
-    def part(self) -> Part:
+    def part(self) -> MechanismPart:
         """Return the part."""
         found: Solution | None = None
         kept: tuple[str, ...] = ()
@@ -180,7 +180,7 @@ class _Growth:
                     break
         left = {link: self.points(link) for link in self.links if link not in kept}
         ways = tuple(self._assemblies(kept)) if self.unsure else ()
-        return Part(
+        return MechanismPart(
             found, links=left, fixed=self._fixed(), unsure=tuple(self.unsure), assemblies=ways
         )
 
@@ -234,7 +234,7 @@ class _Growth:
         }
         return table
 
-    def _assemblies(self, links: tuple[str, ...]) -> Iterator[Assembly]:
+    def _assemblies(self, links: tuple[str, ...]) -> Iterator[PartAssembly]:
         """Yield the ways in which some links close, each with the rules that choose it."""
         table, count = self._table(links), 0
         given = table["assembly"]
@@ -256,7 +256,7 @@ class _Growth:
                 continue
             if there.size and rules:
                 count += 1
-                yield Assembly(rules, solution.moved(there.tolist()))
+                yield PartAssembly(rules, solution.moved(there.tolist()))
 
     def _solved(self, links: tuple[str, ...]) -> Solution | None:
         """Return the mechanism of some links in the asked positions that exist, if there is one."""

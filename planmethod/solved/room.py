@@ -45,7 +45,7 @@ class Texts(Struct, frozen=True):
 
     @classmethod
     def of(cls, construction: Construction) -> Texts:
-        """Return what is told of a construction."""
+        """Return the facts of a construction."""
         plans = [construction.plan(k) for k in RATES]
         one, two = ((len(plan.equations), len(plan.vectors)) for plan in plans)
         return cls((one[0], two[0]), (one[1], two[1]))

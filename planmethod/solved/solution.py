@@ -60,7 +60,7 @@ class LinkMotion(Struct, frozen=True):
     epsilon: Reals
 
 
-class Segment(Struct, frozen=True):
+class SegmentReading(Struct, frozen=True):
     """One segment of a plan, mm, ndarrays of shape (n,): exact and read with the ruler."""
 
     name: str
@@ -397,7 +397,7 @@ class Solution(Remembering):
     def exact(self, quantity: Quantity) -> Reals:
         """Return a quantity of the motion, SI and degrees, ndarray of shape (n,).
 
-        A size where the hand finds nothing else. Places are told by `place`.
+        A size where the hand finds nothing else. For places see `place`.
         """
         if quantity.kind is QuantityKind.DIRECTION:
             return self.links[quantity.of].phi_deg
@@ -418,10 +418,10 @@ class Solution(Remembering):
         value = self.by_hand.number(quantity.size)
         return np.abs(value) if quantity.kind.is_size else value
 
-    def segments(self, kind: PlanKind) -> list[Segment]:
+    def segments(self, kind: PlanKind) -> list[SegmentReading]:
         """Return the segments of a plan in mm: exact, and read along the hand's own chain."""
         return [
-            Segment(
+            SegmentReading(
                 segment.name,
                 np.abs(self.paper.number(segment.length)),
                 np.abs(self.by_hand.number(segment.length)),

@@ -60,7 +60,7 @@ def synthesize(kind: str, asked: Mapping[str, Any]) -> Synthesis:
 
     Raises
     ------
-    AskedError
+    InputError
         Too little or too much is asked, or it contradicts itself.
     AssemblyError
         There is no such mechanism; the message tells the limit.

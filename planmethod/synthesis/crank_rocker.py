@@ -20,11 +20,11 @@ from planmethod.errors import AssemblyError
 from planmethod.languages import say
 from planmethod.solved.turn.roots import top
 from planmethod.synthesis.model import (
-    AskedError,
     Board,
+    FileTable,
+    InputError,
     Pose,
     Synthesis,
-    Table,
     angle_of_ratio,
     chosen,
     lengths_of,
@@ -49,7 +49,7 @@ def synthesize(asked: Mapping[str, Any]) -> Synthesis:
 
     Raises
     ------
-    AskedError, AssemblyError
+    InputError, AssemblyError
     """
     free = ("", " beta", " line", " centres")
     chosen({**asked, "rocker": None}, "crank-rocker", *("K_v swing" + one for one in free))
@@ -71,7 +71,7 @@ def synthesize(asked: Mapping[str, Any]) -> Synthesis:
             most,
         )
     if theta == 0.0 and asked["line"] is None and asked["centres"] is None:
-        raise AskedError(
+        raise InputError(
             "K_v = 1: O is anywhere on the line B'B''. Give --centres, more than the "
             "rocker's {:.10g} m, or --line.",
             asked["rocker"],
@@ -228,10 +228,10 @@ def _built(
         return None
     left = (np.conj(-place(trace, "A'") + 0j) * (one - place(trace, "A'"))).imag > 0.0
     tables = (
-        Table("links.1", "crank", ('points = ["O", "A"]', "OA = {OA!r}")),
-        Table("links.2", "coupler", ('points = ["A", "B"]', "AB = {AB!r}")),
-        Table("links.3", "rocker", ('points = ["C", "B"]', "CB = {CB!r}")),
-        Table("assembly", "assembly", (f'B = "{"left" if left else "right"} of AC"',)),
+        FileTable("links.1", "crank", ('points = ["O", "A"]', "OA = {OA!r}")),
+        FileTable("links.2", "coupler", ('points = ["A", "B"]', "AB = {AB!r}")),
+        FileTable("links.3", "rocker", ('points = ["C", "B"]', "CB = {CB!r}")),
+        FileTable("assembly", "assembly", (f'B = "{"left" if left else "right"} of AC"',)),
     )
     poses = tuple(
         Pose((("O", pin, end), ("C", end)), (pin, end)) for pin, end in ((out, far), (back, near))

@@ -163,7 +163,7 @@ class Board(Builder):
         return self.meet_line_circle(out, self.join(pivot, pin), pivot, arm, way)
 
 
-class AskedError(PlanMethodError):
+class InputError(PlanMethodError):
     """What is asked of a synthesis contradicts itself, or is not enough (неверный запрос)."""
 
     exit_code = ExitCode.USAGE
@@ -188,7 +188,7 @@ class Pose(Struct, frozen=True):
     stones: tuple[tuple[str, str], ...] = ()
 
 
-class Table(Struct, frozen=True):
+class FileTable(Struct, frozen=True):
     """A table of the problem file: its head, the word for it in the comment, its lines."""
 
     head: str
@@ -218,7 +218,7 @@ class Synthesis(Struct, frozen=True):
         a guide along x. All empty: the stone on the slotted link, at whose pin it is 0.
     grashof : tuple of str
         Lengths of the input, the coupler, the output and the frame.
-    tables : tuple of Table
+    tables : tuple of FileTable
         Of the problem file, but for the frame and the driver.
     guide : tuple of PointName
         A point that the guide of the frame passes through, if there is one.
@@ -235,7 +235,7 @@ class Synthesis(Struct, frozen=True):
     output: str
     pressure: tuple[str, str, str]
     grashof: tuple[str, ...]
-    tables: tuple[Table, ...]
+    tables: tuple[FileTable, ...]
     guide: tuple[str, ...] = ()
     moved: bool = True
     driver: tuple[str, str] = ("O", "A")
@@ -306,12 +306,12 @@ def angle_of_ratio(ratio: float) -> float:
 
     Raises
     ------
-    AskedError
+    InputError
         The ratio is less than 1.
     """
     if ratio < 1.0:
         other = f"--K_v {1.0 / ratio:.10g}" if ratio > 0.0 else "1 or more"
-        raise AskedError(
+        raise InputError(
             "K_v = {:.10g} is less than 1, but it is the slow stroke's time over the "
             "quick one's. Give {}.",
             ratio,
@@ -325,7 +325,7 @@ def chosen(asked: Mapping[str, Any], kind: str, *ways: str) -> str:
 
     Raises
     ------
-    AskedError
+    InputError
         None of them, or a mixture.
     """
     given = {name for name, value in asked.items() if value is not None}
@@ -334,7 +334,7 @@ def chosen(asked: Mapping[str, Any], kind: str, *ways: str) -> str:
             return way
     told = "; ".join(" ".join(f"--{name}" for name in way.split()) for way in ways)
     have = " ".join(f"--{name}" for name in sorted(given)) or "none of them"
-    raise AskedError("{} is synthesized from: {}. Given: {}.", kind, told, have)
+    raise InputError("{} is synthesized from: {}. Given: {}.", kind, told, have)
 
 
 def ray_angle(origin: complex, towards: complex) -> float:

@@ -33,7 +33,7 @@ from planmethod.render.layout.block import (
     heading,
     paragraph,
 )
-from planmethod.render.layout.cuttings import Group, Part
+from planmethod.render.layout.cuttings import Group, Packed
 from planmethod.render.layout.pack import Placed
 from planmethod.render.layout.tables import TableColumn, table_block
 from planmethod.render.pictures.lettered import lettered
@@ -142,7 +142,7 @@ class _Orders(Struct, frozen=True):
         told, measured, sizes = self.texts
         made: list[tuple[float, int, list[Placed]]] = []
         for blocks in ((view, told, measured, sizes), (view, measured, told, sizes)):
-            whole = Group(tuple(Part(block, block is not view) for block in blocks))
+            whole = Group(tuple(Packed(block, block is not view) for block in blocks))
             placed = packed(whole, room)
             if placed is not None:
                 items: list[Item] = [rectangle(room.stamp, Pen.FRAME, "")]

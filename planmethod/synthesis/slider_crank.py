@@ -17,11 +17,11 @@ from planmethod.construct.steps import Side, Way
 from planmethod.errors import AssemblyError
 from planmethod.solved.turn.roots import root, top
 from planmethod.synthesis.model import (
-    AskedError,
     Board,
+    FileTable,
+    InputError,
     Pose,
     Synthesis,
-    Table,
     angle_of_ratio,
     chosen,
     place,
@@ -43,7 +43,7 @@ def synthesize(asked: Mapping[str, Any]) -> Synthesis:
 
     Raises
     ------
-    AskedError, AssemblyError
+    InputError, AssemblyError
     """
     way = chosen(
         asked,
@@ -186,10 +186,10 @@ def _built(
         ("A", "B", ""),
         ("OA", "AB", "e"),
         (
-            Table("links.1", "crank", ('points = ["O", "A"]', "OA = {OA!r}")),
-            Table("links.2", "rod", ('points = ["A", "B"]', "AB = {AB!r}")),
-            Table("links.3", "slider", ('points = ["B"]', 'slides = {{ on = "x-x" }}')),
-            Table("assembly", "assembly", ('B = "right of A"',)),
+            FileTable("links.1", "crank", ('points = ["O", "A"]', "OA = {OA!r}")),
+            FileTable("links.2", "rod", ('points = ["A", "B"]', "AB = {AB!r}")),
+            FileTable("links.3", "slider", ('points = ["B"]', 'slides = {{ on = "x-x" }}')),
+            FileTable("assembly", "assembly", ('B = "right of A"',)),
         ),
         guide=(near,),
         driver=("O", out),
@@ -210,7 +210,7 @@ def _pressure(stroke: float, theta: float, offset: float) -> float:
 def _ratio_of_pressure(stroke: float, offset: float, angle: float) -> float:
     """Return λ with which the largest pressure angle is given: sin α = (r + e)/l."""
     if not 0.0 < angle < 90.0:
-        raise AskedError("--pressure {:.10g}: between 0 and 90 degrees is expected.", angle)
+        raise InputError("--pressure {:.10g}: between 0 and 90 degrees is expected.", angle)
     sine = sin(radians(angle))
     if offset == 0.0:
         return sine

@@ -12,7 +12,7 @@ from typing import Any
 
 from planmethod.construct.steps import Way
 from planmethod.errors import AssemblyError
-from planmethod.synthesis.model import Board, Pose, Synthesis, Table, angle_of_ratio, chosen
+from planmethod.synthesis.model import Board, FileTable, Pose, Synthesis, angle_of_ratio, chosen
 
 TAKES = ("K_v", "swing", "centres", "stroke", "rod")
 
@@ -28,7 +28,7 @@ def synthesize(asked: Mapping[str, Any]) -> Synthesis:
 
     Raises
     ------
-    AskedError, AssemblyError
+    InputError, AssemblyError
     """
     ways = ("K_v centres", "swing centres")
     more = ("", " stroke", " stroke rod")
@@ -60,10 +60,10 @@ def synthesize(asked: Mapping[str, Any]) -> Synthesis:
     lengths: tuple[str, ...] = ("O1O3", "O1A", "O3D")
     poses = [Pose((("O1", pin), ("O3", pin)), (), stones=((pin, "O3"),)) for pin in pins]
     tables = [
-        Table("links.1", "crank", ('points = ["O1", "A"]', "O1A = {O1A!r}")),
-        Table("links.2", "stone", ('points = ["A"]', 'slides = {{ on = "3", along = "O3D" }}')),
-        Table("links.3", "slotted", ('points = ["O3", "D"]', "O3D = {O3D!r}")),
-        Table("assembly", "assembly", (f'D = "{"right of" if lies else "above"} O3"',)),
+        FileTable("links.1", "crank", ('points = ["O1", "A"]', "O1A = {O1A!r}")),
+        FileTable("links.2", "stone", ('points = ["A"]', 'slides = {{ on = "3", along = "O3D" }}')),
+        FileTable("links.3", "slotted", ('points = ["O3", "D"]', "O3D = {O3D!r}")),
+        FileTable("assembly", "assembly", (f'D = "{"right of" if lies else "above"} O3"',)),
     ]
     found: dict[str, Any] = {
         "asked": {"swing": swing} | ({} if asked["K_v"] is None else {"K_v": asked["K_v"]}),
@@ -102,15 +102,15 @@ def synthesize(asked: Mapping[str, Any]) -> Synthesis:
             links = (("O1", pins[k]), ("O3", end), (end, slider))
             poses[k] = Pose(links, (end,), (slider,), poses[k].stones)
         lengths += ("O3B", "BC", "O3M")
-        tables[2] = Table(
+        tables[2] = FileTable(
             "links.3",
             "slotted",
             ('points = ["O3", "D", "B"]', "O3D = {O3D!r}", 'B = {{ on = "O3D", at = {O3B!r} }}'),
         )
         tables[3:] = [
-            Table("links.4", "rod", ('points = ["B", "C"]', "BC = {BC!r}")),
-            Table("links.5", "slider", ('points = ["C"]', 'slides = {{ on = "x-x" }}')),
-            Table("assembly", "assembly", ('D = "above O3"', 'C = "right of B"')),
+            FileTable("links.4", "rod", ('points = ["B", "C"]', "BC = {BC!r}")),
+            FileTable("links.5", "slider", ('points = ["C"]', 'slides = {{ on = "x-x" }}')),
+            FileTable("assembly", "assembly", ('D = "above O3"', 'C = "right of B"')),
         ]
         found["asked"]["stroke"] = asked["stroke"]
         found |= {"output": "C", "pressure": ("B", "C", ""), "guide": ("M",)}

@@ -14,7 +14,7 @@ import numpy as np
 from msgspec.structs import replace
 
 from planmethod.errors import AssemblyError
-from planmethod.synthesis.model import AskedError, Board, Synthesis, chosen, lengths_of, place, read
+from planmethod.synthesis.model import Board, InputError, Synthesis, chosen, lengths_of, place, read
 from planmethod.synthesis.three_positions import passage, synthesis_of
 
 TAKES = ("angles", "centres")
@@ -32,12 +32,12 @@ def synthesize(asked: Mapping[str, Any]) -> Synthesis:
 
     Raises
     ------
-    AskedError, AssemblyError
+    InputError, AssemblyError
     """
     chosen(asked, "three-angles", "angles", "angles centres")
     rows, frame = asked["angles"], asked["centres"] or 1.0
     if len(rows) != 3 or any(len(row) != 2 for row in rows):
-        raise AskedError('--angles takes three pairs a,b, for instance "40,60; 65,75; 90,95".')
+        raise InputError('--angles takes three pairs a,b, for instance "40,60; 65,75; 90,95".')
     phi, psi = np.radians(np.array(rows, dtype=float)).T
     system = np.column_stack((np.cos(psi), -np.cos(phi), np.ones(3)))
     size = float(np.linalg.cond(system))

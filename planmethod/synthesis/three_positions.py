@@ -17,11 +17,11 @@ from planmethod.construct.steps import PointName
 from planmethod.errors import AssemblyError
 from planmethod.note.numbers import finite_or_none
 from planmethod.synthesis.model import (
-    AskedError,
     Board,
+    FileTable,
+    InputError,
     Pose,
     Synthesis,
-    Table,
     chosen,
     lengths_of,
     place,
@@ -48,24 +48,24 @@ def synthesize(asked: Mapping[str, Any]) -> Synthesis:
 
     Raises
     ------
-    AskedError, AssemblyError
+    InputError, AssemblyError
     """
     chosen(asked, "three-positions", "positions", "positions coupler")
     rows = asked["positions"]
     if len(rows) != 3 or len({len(row) for row in rows}) != 1 or len(rows[0]) not in (3, 4):
-        raise AskedError(
+        raise InputError(
             "--positions takes three of x,y,angle or of xB,yB,xC,yC, for instance "
             '"0,0,0; 0.1,0.05,20; 0.25,0.05,50".'
         )
     b_points = [complex(row[0], row[1]) for row in rows]
     if len(rows[0]) == 4:
         if asked["coupler"] is not None:
-            raise AskedError("--coupler follows from B and C: leave it out, or give x,y,angle.")
+            raise InputError("--coupler follows from B and C: leave it out, or give x,y,angle.")
         c_points = [complex(row[2], row[3]) for row in rows]
         spans = [abs(c - b) for b, c in zip(b_points, c_points, strict=True)]
         if max(spans) - min(spans) > 1e-9 * max(spans) or min(spans) == 0.0:
             told = ", ".join(f"{span:.10g}" for span in spans)
-            raise AskedError("The coupler is rigid, but B1C1, B2C2, B3C3 are {} m.", told)
+            raise InputError("The coupler is rigid, but B1C1, B2C2, B3C3 are {} m.", told)
         return _built(b_points, c_points)[0]
     turns = [np.exp(1j * np.radians(row[2])) for row in rows]
     if asked["coupler"] is not None:
@@ -168,13 +168,13 @@ def synthesis_of(
     coupler = names[1]
     side = "left" if way.side > 0 else "right"
     tables = (
-        Table("links.1", "input", (f'points = ["{first[0]}", "{first[1]}"]',
+        FileTable("links.1", "input", (f'points = ["{first[0]}", "{first[1]}"]',
                                    f"{input_} = {{{input_}!r}}")),
-        Table("links.2", "coupler", (f'points = ["{coupler[0]}", "{coupler[1]}"]',
+        FileTable("links.2", "coupler", (f'points = ["{coupler[0]}", "{coupler[1]}"]',
                                      f"{coupler} = {{{coupler}!r}}")),
-        Table("links.3", "output", (f'points = ["{second[0]}", "{second[1]}"]',
+        FileTable("links.3", "output", (f'points = ["{second[0]}", "{second[1]}"]',
                                     f"{output} = {{{output}!r}}")),
-        Table("assembly", "assembly", (f'{second[1]} = "{side} of {first[1]}{second[0]}"',)),
+        FileTable("assembly", "assembly", (f'{second[1]} = "{side} of {first[1]}{second[0]}"',)),
     )  # fmt: skip
     poses = tuple(
         Pose(((a, f"{end}{k}", f"{other}{k}", d),), (f"{end}{k}", f"{other}{k}")) for k in (1, 2, 3)

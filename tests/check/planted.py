@@ -11,7 +11,7 @@ from worked import problem_of
 
 from planmethod.check.checking import check
 from planmethod.check.explain import Explanation
-from planmethod.check.model import Checked, Sense, Verdict, Work, Written
+from planmethod.check.model import CheckedWork, Sense, Verdict, Work, WrittenAnswer
 from planmethod.check.questions import Sign
 from planmethod.check.task import Task
 from planmethod.solved.solution import Solution
@@ -31,7 +31,7 @@ def work_of(task: Task, values: Mapping[str, float], *, digits: int = 4) -> Work
     return Work("s", tuple(_written(task, values, digits)))
 
 
-def _written(task: Task, values: Mapping[str, float], digits: int) -> Iterator[Written]:
+def _written(task: Task, values: Mapping[str, float], digits: int) -> Iterator[WrittenAnswer]:
     for item in task.usual():
         value = float(f"{values[item.question.id]:.{digits}g}")
         sense = None
@@ -39,7 +39,7 @@ def _written(task: Task, values: Mapping[str, float], digits: int) -> Iterator[W
             sense = Sense.CCW if value > 0 else Sense.CW
         value = value if item.question.sign is Sign.STRICT else abs(value)
         step = 10.0 ** (math.floor(math.log10(value)) + 1 - digits) if value else 0.01
-        yield Written(id=item.id, value=value, step=step, sense=sense, where=item.id)
+        yield WrittenAnswer(id=item.id, value=value, step=step, sense=sense, where=item.id)
 
 
 def explanations(task: Task) -> list[Explanation]:
@@ -54,15 +54,15 @@ def exact(task: Task) -> Mapping[str, float]:
     return task.sheet(0).exact
 
 
-def verdicts(checked: Checked) -> dict[str, Verdict]:
+def verdicts(checked: CheckedWork) -> dict[str, Verdict]:
     return {answer.id: answer.verdict for answer in checked.answers}
 
 
-def checked(name: str, **values: float) -> Checked:
+def checked(name: str, **values: float) -> CheckedWork:
     """Return the check of a work that answers some quantities of a file."""
     task = task_of(name)
     answers = tuple(
-        Written(id=key, value=value, step=abs(value) * 1e-3, where=key)
+        WrittenAnswer(id=key, value=value, step=abs(value) * 1e-3, where=key)
         for key, value in values.items()
     )
     return check(task, Work("s", answers))

@@ -18,9 +18,9 @@ from planmethod.check.checking import check
 from planmethod.check.form import form_of
 from planmethod.check.key import key_of, key_of_task
 from planmethod.check.marks import Settings
-from planmethod.check.mistakes.model import Scene
+from planmethod.check.mistakes.model import MistakeContext
 from planmethod.check.mistakes.scales import scale_by
-from planmethod.check.model import Sense, Verdict, Work, Written
+from planmethod.check.model import Sense, Verdict, Work, WrittenAnswer
 from planmethod.check.task import Task
 from planmethod.errors import ProblemError
 from planmethod.note.plaintext import NO_BREAK
@@ -113,7 +113,7 @@ def test_the_sense_is_an_answer_of_its_own() -> None:
     task = task_of("linkages/ex3")
 
     def judged(sense: Sense | None, value: float = 15.5) -> tuple[Verdict, float, tuple[str, ...]]:
-        written = Written(id="omega_3", value=value, step=0.1, sense=sense)
+        written = WrittenAnswer(id="omega_3", value=value, step=0.1, sense=sense)
         found = check(task, Work("s", (written,)))
         codes = tuple(code for diagnosis in found.diagnosis for code in diagnosis.codes)
         return found.answers[0].verdict, found.answers[0].points, codes
@@ -129,7 +129,7 @@ def test_millimetres_times_scale_that_are_not_the_value_are_a_slip() -> None:
     scales = {"mu_l": 0.002, "mu_v": 0.05, "mu_a": 1.0}
 
     def codes(value: float, mm: float) -> list[tuple[str, ...]]:
-        written = Written(id="v_E", value=value, step=0.01, mm=mm, mm_step=0.5)
+        written = WrittenAnswer(id="v_E", value=value, step=0.01, mm=mm, mm_step=0.5)
         found = check(task, Work("s", (written,), scales=scales)).diagnosis
         return [d.codes if d.sure else () for d in found]
 
@@ -144,7 +144,7 @@ def test_millimetres_times_scale_that_are_not_the_value_are_a_slip() -> None:
 def test_his_own_scale_counts_and_millimetres_alone_are_an_answer() -> None:
     task = task_of("linkages/ex3")
     exact_mm = 3.9156681586643276 / 0.04
-    written = Written(what="v E", mm=round(exact_mm * 2) / 2, mm_step=0.5)
+    written = WrittenAnswer(what="v E", mm=round(exact_mm * 2) / 2, mm_step=0.5)
     answer = check(task, Work("s", (written,), scales={"mu_v": 0.04})).answers[0]
     assert answer.verdict is Verdict.OK
     assert answer.value == pytest.approx(3.92, rel=0.01)
@@ -155,10 +155,10 @@ def test_a_segment_of_other_letters_is_recognised() -> None:
     """He reads pd in place of pe, and says so."""
     task = task_of("linkages/ex3")
     scales = {"mu_v": 0.05}
-    written = Written(what="v E", value=3.4, mm=68.0, segment="p d", step=0.01, mm_step=0.5)
+    written = WrittenAnswer(what="v E", value=3.4, mm=68.0, segment="p d", step=0.01, mm_step=0.5)
     (diagnosis,) = check(task, Work("s", (written,), scales=scales)).diagnosis
     assert diagnosis.codes == ("V6",)
-    right = Written(what="v E", value=3.92, mm=78.5, segment="p e", step=0.01, mm_step=0.5)
+    right = WrittenAnswer(what="v E", value=3.92, mm=78.5, segment="p e", step=0.01, mm_step=0.5)
     assert check(task, Work("s", (right,), scales=scales)).answers[0].verdict is Verdict.OK
 
 
@@ -167,10 +167,10 @@ def test_blank_is_not_zero_and_unknown_is_not_wrong() -> None:
     work = Work(
         "s",
         (
-            Written(id="v_E"),
-            Written(id="v_D", value=0.0),
-            Written(id="v_Q", value=1.0),
-            Written(id="v_B", unreadable="what is '3,,2'?", where="A1"),
+            WrittenAnswer(id="v_E"),
+            WrittenAnswer(id="v_D", value=0.0),
+            WrittenAnswer(id="v_Q", value=1.0),
+            WrittenAnswer(id="v_B", unreadable="what is '3,,2'?", where="A1"),
         ),
     )
     told = verdicts(check(task, work))
@@ -183,7 +183,7 @@ def test_letters_of_the_department_find_the_quantity() -> None:
     """In task 12 nothing is declared: what is meant is found by how it is written."""
     task = task_of("levers/task12")
     for text in ("v_B3", "VB₃", "v B3", "В3"):
-        written = Written(id=text, value=0.4536)
+        written = WrittenAnswer(id=text, value=0.4536)
         verdict = check(task, Work("s", (written,))).answers[0].verdict
         assert (verdict is Verdict.UNREADABLE) == (text == "В3"), text
     for text, value in (
@@ -193,14 +193,17 @@ def test_letters_of_the_department_find_the_quantity() -> None:
         ("Mур", 95.3),
         ("ε_3", 40.7),
     ):
-        written = Written(id=text, value=value, step=abs(value) * 1e-3)
+        written = WrittenAnswer(id=text, value=value, step=abs(value) * 1e-3)
         verdict = check(task, Work("s", (written,))).answers[0].verdict
         assert verdict in (Verdict.OK, Verdict.UNSEEN), text
 
 
 def test_a_work_is_judged_the_same_whoever_else_is() -> None:
     task = Task(Solution(task_of("levers/task12").solution.problem))
-    written = (Written(id="v_D", value=0.59, step=0.01), Written(id="a_D", value=17.0, step=0.1))
+    written = (
+        WrittenAnswer(id="v_D", value=0.59, step=0.01),
+        WrittenAnswer(id="a_D", value=17.0, step=0.1),
+    )
     alone = check(task, Work("s", written))
     task.usual()
     again = check(task, Work("s", written))
@@ -224,7 +227,7 @@ def test_the_policy_of_the_department(policy: str, verdict: Verdict) -> None:
     """a_E of the third example 9 % off: 2.5 σ are 12 %, the cap 10 %, the flat tolerance 5 %."""
     settings = Settings(policy=policy)
     task = Task(task_of("linkages/ex3").solution, settings)
-    found = check(task, Work("s", (Written(id="a_E", value=94.9, step=0.1),)))
+    found = check(task, Work("s", (WrittenAnswer(id="a_E", value=94.9, step=0.1),)))
     assert found.answers[0].verdict is verdict
 
 
@@ -237,7 +240,7 @@ def test_positions_of_a_cycle_are_judged_each_by_itself() -> None:
     assert abs(speeds[0] - speeds[1]) > 0.5
     assert all(math.isfinite(value) for value in values)
     written = tuple(
-        Written(id="v_D", value=speed, step=0.001, position=position)
+        WrittenAnswer(id="v_D", value=speed, step=0.001, position=position)
         for position, speed in ((0, speeds[0]), (1, speeds[1]), (1, speeds[0]), (2, speeds[0]))
     )
     found = [answer.verdict for answer in check(task, Work("s", written)).answers]
@@ -267,7 +270,7 @@ def test_mistakes_that_give_the_same_sheet_are_told_together() -> None:
 def test_another_scale_is_found_by_the_sharpest_answers() -> None:
     """v_S1 is exact, v_A3 read 2 % too long: the factor is 1.25 of the one, not between them."""
     task = task_of("press/press")
-    change = scale_by(Scene(task.sheet(0)), PlanKind.VELOCITY, 1.25)
+    change = scale_by(MistakeContext(task.sheet(0)), PlanKind.VELOCITY, 1.25)
     found = task.explanations(task.sheet(0)).of_change(change)
     assert found is not None
     values = {**found.values, "v_A3": found.values["v_A3"] * 1.02}
@@ -290,7 +293,7 @@ def test_the_direction_of_a_vector_is_an_answer_of_its_own() -> None:
         ("α(VB₃)", 360.0, Verdict.OK),
         ("angle_v_B3", 180.0, Verdict.WRONG),
     ):
-        found = check(task, Work("s", (Written(text, value=right + off, step=0.1),)))
+        found = check(task, Work("s", (WrittenAnswer(text, value=right + off, step=0.1),)))
         assert found.answers[0].verdict is verdict, text
 
 
@@ -302,8 +305,14 @@ def test_a_number_without_a_unit_is_in_the_one_that_is_asked() -> None:
     mm_s, rpm = (abs(entry.exact) / entry.per for entry in key.entries)
     exact = [entry.exact for entry in key_of(Solution(problem)).entries if entry.id == "omega_3"]
     assert [rpm * math.pi / 30.0] == pytest.approx(exact)
-    bare = (Written(id="v", value=mm_s, step=1.0), Written(id="w", value=rpm, sense=Sense.CCW))
-    si = (Written(id="v", value=mm_s / 1e3, unit="м/с"), Written(id="w", value=exact[0]))
+    bare = (
+        WrittenAnswer(id="v", value=mm_s, step=1.0),
+        WrittenAnswer(id="w", value=rpm, sense=Sense.CCW),
+    )
+    si = (
+        WrittenAnswer(id="v", value=mm_s / 1e3, unit="м/с"),
+        WrittenAnswer(id="w", value=exact[0]),
+    )
     right, wrong = (check(task, Work("s", answers)) for answers in (bare, si))
     assert set(verdicts(right).values()) == {Verdict.OK}
     assert list(verdicts(wrong).values()) == [Verdict.OK, Verdict.WRONG]  # 15.5 of 148 rev/min

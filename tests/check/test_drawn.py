@@ -15,7 +15,7 @@ from planmethod.check.checking import check
 from planmethod.check.drawn import as_written, drawn_works, planted
 from planmethod.check.group import Variants, check_works
 from planmethod.check.key import key_of_task
-from planmethod.check.model import Checked, Sense, Verdict
+from planmethod.check.model import CheckedWork, Sense, Verdict
 from planmethod.check.task import Task
 from planmethod.check.works import read_works
 from planmethod.solved.solution import Solution
@@ -104,7 +104,7 @@ def test_the_key_says_what_the_bench_does_not_plant() -> None:
 
 
 @cache
-def checked_group() -> tuple[Checked, ...]:
+def checked_group() -> tuple[CheckedWork, ...]:
     return tuple(check_works(Variants(ROOT / group.PROBLEM), read_works(FILE)))
 
 

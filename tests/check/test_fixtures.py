@@ -15,9 +15,9 @@ from worked import ROOT, path_of
 from planmethod.check.checking import check
 from planmethod.check.group import Variants
 from planmethod.check.marks import DEFAULT, Settings
-from planmethod.check.model import Checked, Verdict, Written
+from planmethod.check.model import CheckedWork, Verdict, WrittenAnswer
 from planmethod.check.questions import Sign
-from planmethod.check.task import Item, Task
+from planmethod.check.task import Task, TaskItem
 from planmethod.check.works.student import read_json
 from planmethod.note.wording import language
 from planmethod.problem import load
@@ -73,12 +73,12 @@ def named(task: Task, text: str) -> str:
     """Return what the checking calls an answer of the table, ``balance @1`` in position 1."""
     what, _, position = text.partition(" @")
     try:
-        return task.find(Written(what, position=int(position) if position else None)).id
+        return task.find(WrittenAnswer(what, position=int(position) if position else None)).id
     except NoValueError:
         return what
 
 
-def right(item: Item, task: Task) -> dict[str, str]:
+def right(item: TaskItem, task: Task) -> dict[str, str]:
     """Return the right answer as somebody would write it."""
     exact = task.sheet(item.position).exact[item.question.id]
     size = abs(exact) if item.question.sign in (Sign.SIZE, Sign.TURN) else exact
@@ -102,7 +102,7 @@ def answers(case: Case, task: Task) -> list[dict[str, str]]:
     return told
 
 
-def judged(case: Case) -> tuple[Task, Checked]:
+def judged(case: Case) -> tuple[Task, CheckedWork]:
     task, beside = asked(case)
     scales = {key: value for key, value in beside.items() if key.startswith("mu_")}
     work: dict[str, Any] = {"student": "s", "scales": scales, "answers": answers(case, task)}

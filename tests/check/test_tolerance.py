@@ -12,9 +12,9 @@ from cases import each
 
 from planmethod.check.judge import Examined, decide
 from planmethod.check.marks import Settings
-from planmethod.check.model import Verdict, Written
+from planmethod.check.model import Verdict, WrittenAnswer
 from planmethod.check.questions import Sign
-from planmethod.check.tolerance import FOLDED, Limit, limit_of
+from planmethod.check.tolerance import FOLDED, Tolerance, limit_of
 
 
 def test_folded_is_how_much_wider_lengths_about_nothing_err_than_their_middle_tells() -> None:
@@ -32,7 +32,7 @@ def test_folded_is_how_much_wider_lengths_about_nothing_err_than_their_middle_te
     assert pytest.approx(2 / (high - low), rel=0.05) == FOLDED
 
 
-def limit(exact: float, sigma: float, *, sign: Sign = Sign.SIZE, **settings: Any) -> Limit:
+def limit(exact: float, sigma: float, *, sign: Sign = Sign.SIZE, **settings: Any) -> Tolerance:
     """Return the limit of an answer that is laid off at 0.01 a millimetre."""
     question: Any = SimpleNamespace(
         id="v_B", is_mm=False, scale="mu_v", sign=sign, selector=SimpleNamespace(kind="v")
@@ -84,13 +84,13 @@ def test_a_policy_takes_the_wider_or_the_stricter_tolerance() -> None:
 
 # Verdicts of what the drawing cannot show ---------------------------------------------------------
 
-UNSEEN = Limit(1.0, 0.2, 0.4, 0.02, 0.1, seen=False, zero=False, per_mm=0.01)
+UNSEEN = Tolerance(1.0, 0.2, 0.4, 0.02, 0.1, seen=False, zero=False, per_mm=0.01)
 """One that is drawn to 0.4 at best, where 0.1 is the most that a tolerance may be."""
 
 
-def verdict(value: float, limit: Limit = UNSEEN, near: float = 1.5, **more: Any) -> Verdict:
+def verdict(value: float, limit: Tolerance = UNSEEN, near: float = 1.5, **more: Any) -> Verdict:
     item: Any = SimpleNamespace(id="v_B", question=SimpleNamespace(sign=Sign.SIZE))
-    one = Examined(item, Written(id="v_B"), limit, value, signed=False, step=0.0, **more)
+    one = Examined(item, WrittenAnswer(id="v_B"), limit, value, signed=False, step=0.0, **more)
     one.right = limit.allows(one.off, abs(value))
     sheet: Any = SimpleNamespace(order={})
     decide(sheet, [one], near)
@@ -116,11 +116,11 @@ def test_what_a_drawing_may_be_off_by_is_not_held_against_an_answer(
 def test_what_is_within_the_errors_of_a_drawing_is_not_told_to_be_inherited() -> None:
     """It follows from a wrong number, but nobody can see that it is wrong itself."""
     item: Any = SimpleNamespace(id="omega_2", question=SimpleNamespace(sign=Sign.SIZE))
-    shown = Limit(1.0, 0.02, 0.04, 0.02, 0.1, seen=True, zero=False, per_mm=0.01)
+    shown = Tolerance(1.0, 0.02, 0.04, 0.02, 0.1, seen=True, zero=False, per_mm=0.01)
     for off, due in ((0.3, Verdict.UNSEEN), (0.45, Verdict.INHERITED)):
-        parent = Examined(item, Written(id="omega_2"), shown, 1.3, signed=False, step=0.0)
+        parent = Examined(item, WrittenAnswer(id="omega_2"), shown, 1.3, signed=False, step=0.0)
         own: Any = SimpleNamespace(id="v_B", question=SimpleNamespace(sign=Sign.SIZE))
-        child = Examined(own, Written(id="v_B"), UNSEEN, 1.0 + off, signed=False, step=0.0)
+        child = Examined(own, WrittenAnswer(id="v_B"), UNSEEN, 1.0 + off, signed=False, step=0.0)
         child.parents, child.follows = {"omega_2": 1.0}, True
         sheet: Any = SimpleNamespace(order={})
         decide(sheet, [parent, child], 1.5)
@@ -134,6 +134,6 @@ def test_who_contradicts_his_own_numbers_is_wrong_within_the_errors_too() -> Non
 
 
 def test_what_the_drawing_shows_is_judged_by_its_tolerance() -> None:
-    seen = Limit(1.0, 0.02, 0.04, 0.02, 0.1, seen=True, zero=False, per_mm=0.01)
+    seen = Tolerance(1.0, 0.02, 0.04, 0.02, 0.1, seen=True, zero=False, per_mm=0.01)
     assert verdict(1.03, seen) is Verdict.OK
     assert verdict(1.05, seen) is Verdict.WRONG

@@ -21,7 +21,7 @@ from worked import PROBLEMS, path_of
 from benchmarks.many import killed
 from planmethod.cli import cli
 from planmethod.commands import batch
-from planmethod.commands.batch import Order
+from planmethod.commands.batch import VariantOrder
 
 POINT = str(PROBLEMS / "point/k11-01.toml")
 VARIANTS = "\n".join(f"[variants.v{n}]\ndriver.phi = {20 + 5 * n}" for n in range(3))
@@ -33,7 +33,9 @@ class Here:
     def nthreads(self) -> dict[str, int]:
         return {"here": 1}
 
-    def submit(self, function: Callable[[Order], Any], order: Order, *, key: str) -> Any:
+    def submit(
+        self, function: Callable[[VariantOrder], Any], order: VariantOrder, *, key: str
+    ) -> Any:
         sent: Callable[[], Any] = partial(function, pickle.loads(pickle.dumps(order)))
         # A worker is in no command: what it does hangs on nothing of the one that sends.
         with ThreadPoolExecutor(1) as thread:

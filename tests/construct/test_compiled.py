@@ -22,7 +22,7 @@ from planmethod.construct.compiled import blocks as blocks_module
 from planmethod.construct.compiled import straight as straight_module
 from planmethod.construct.compiled.blocks import Blocks
 from planmethod.construct.compiled.straight import ImpossibleError, straight, used_by
-from planmethod.construct.compiled.symbolic import Guard, Symbol, Symbolic, Written, write
+from planmethod.construct.compiled.symbolic import Guard, Symbol, Symbolic, TapeProgram, write
 from planmethod.construct.compiled.tape import Ref, Tape, same
 from planmethod.construct.evaluate import limit_of
 from planmethod.construct.program import Builder, Program
@@ -255,7 +255,7 @@ def crank_and_arcs(*, reach: float) -> tuple[Program, dict[str, complex | float]
     return b.program(), {"A": 0j, "D": 2.0 + 0j, "r": 1.5, "q": reach}
 
 
-def written(reach: float, inputs: tuple[str, ...] = ()) -> Written:
+def written(reach: float, inputs: tuple[str, ...] = ()) -> TapeProgram:
     program, data = crank_and_arcs(reach=reach)
     return write(program, {k: v for k, v in data.items() if k not in inputs}, inputs)
 

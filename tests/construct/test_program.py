@@ -16,8 +16,8 @@ from planmethod.construct.steps import (
     STEP_TYPES,
     Compute,
     Given,
+    GivenNumber,
     Join,
-    Known,
     LayOff,
     LineName,
     MeetLines,
@@ -45,7 +45,7 @@ def test_every_name_is_made_once() -> None:
     with pytest.raises(ProgramError, match=r"^step 3: 'A' is already made$"):
         Program((Given(A), Given(B), Given(A)))
     with pytest.raises(ProgramError, match=r"^step 2: 'A' is already made$"):
-        Program((Given(A), Known(NumberName("A"))))
+        Program((Given(A), GivenNumber(NumberName("A"))))
 
 
 def test_an_unknown_name_comes_with_the_nearest_one() -> None:
@@ -68,7 +68,7 @@ def test_a_name_is_made_before_it_is_used() -> None:
 
 
 def test_a_line_is_not_a_point_nor_a_number_a_line() -> None:
-    drawn = (Given(A), Given(B), Join(AB, A, B), Known(L))
+    drawn = (Given(A), Given(B), Join(AB, A, B), GivenNumber(L))
     with pytest.raises(ProgramError, match=r"^step 5 \(AC\): 'AB' is not a .*PointName$"):
         Program((*drawn, Join(AC, A, PointName("AB"))))
     with pytest.raises(ProgramError, match=r"^step 5 \(C\): 'l_AB' is not a .*LineName$"):
@@ -92,7 +92,7 @@ def test_every_step_makes_something_of_a_known_kind() -> None:
         assert "out" in step.__struct_fields__
     assert makes(Given(A)) is PointName
     assert makes(Join(AB, A, B)) is LineName
-    assert makes(Known(L)) is NumberName
+    assert makes(GivenNumber(L)) is NumberName
 
 
 # Only what is needed ------------------------------------------------------------------------------

@@ -16,7 +16,7 @@ from click.testing import CliRunner
 from planmethod.cli import cli
 from planmethod.errors import ExitCode
 from planmethod.gears.answers import answer
-from planmethod.gears.choice import SCHEMES, Scheme, Wanted, choose
+from planmethod.gears.choice import SCHEMES, TrainScheme, Wanted, choose
 from planmethod.gears.chosen import problem_text
 from planmethod.gears.conditions import conditions
 from planmethod.gears.motion import solve_motion
@@ -117,7 +117,7 @@ def test_a_search_finds_what_nested_loops_find(
 @pytest.mark.parametrize("scheme", SCHEMES, ids=lambda scheme: scheme.name)
 @pytest.mark.parametrize("modules", [None, (F(2), F(2)), TWO_FIVE])
 def test_the_file_of_a_set_is_solved_to_its_ratio(
-    scheme: Scheme, modules: tuple[Fraction, Fraction] | None, tmp_path: Path
+    scheme: TrainScheme, modules: tuple[Fraction, Fraction] | None, tmp_path: Path
 ) -> None:
     ratio = next(case[1] for case in CASES if case[0] == scheme.name)
     if scheme.single and modules == TWO_FIVE:

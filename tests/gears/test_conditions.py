@@ -15,7 +15,7 @@ from trains import closed, mesh, planetary, solved, told
 from worked import PROBLEMS
 
 from planmethod.gears.conditions import Condition, conditions, sentence
-from planmethod.gears.motion import Motion, solve_motion
+from planmethod.gears.motion import TrainMotion, solve_motion
 from planmethod.gears.reader import load
 from planmethod.note.wording import LANGUAGES, language
 
@@ -23,7 +23,7 @@ FILES = sorted((PROBLEMS / "gears").glob("*.toml"))
 TERM = re.compile(r"([−+]?) ?[zr]_([\w']+)")
 
 
-def found(motion: Motion, name: str) -> list[Condition]:
+def found(motion: TrainMotion, name: str) -> list[Condition]:
     return [one for one in conditions(motion) if one.name == name]
 
 
@@ -36,7 +36,7 @@ def sums(condition: Condition) -> list[list[tuple[int, str]]]:
     ]
 
 
-def assert_sums_are_ways(motion: Motion, condition: Condition) -> None:
+def assert_sums_are_ways(motion: TrainMotion, condition: Condition) -> None:
     """Each sum goes from axis to axis by meshes, and all are as high as the axis lies.
 
     Axes of an external mesh are the sum of the sizes apart, of an internal one their difference.
@@ -111,7 +111,7 @@ SETS = (
 )
 
 
-def set_of(folder: Path, wheels: dict[str, int], kind: str, count: int) -> Motion:
+def set_of(folder: Path, wheels: dict[str, int], kind: str, count: int) -> TrainMotion:
     rim = "2'" if "2'" in wheels else "2"
     meshes = [mesh("1", "2", carrier="H"), mesh(rim, "3", kind, "H")]
     rest = f'satellites = {count}\nfixed = ["3"]\nn = {{ 1 = 1 }}'

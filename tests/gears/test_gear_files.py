@@ -15,7 +15,7 @@ from worked import PROBLEMS, ROOT
 
 from planmethod.cli import cli
 from planmethod.errors import ExitCode
-from planmethod.gears.asked import AskedError, parse
+from planmethod.gears.asked import SoughtQuantityError, parse
 from planmethod.kinds import KINDS, kind_of
 
 FILES = sorted((PROBLEMS / "gears").glob("*.toml"))
@@ -239,5 +239,5 @@ def test_names_that_are_asked() -> None:
     assert parse("U_15", ("1", "5")).labels == ("1", "5")
     assert parse("U_1_2'^H", known).carrier == "H"
     for text, said in [("U_1555", "2 labels"), ("W_1", "unknown"), ("z_1^H", "not taken")]:
-        with pytest.raises(AskedError, match=said):
+        with pytest.raises(SoughtQuantityError, match=said):
             parse(text, known)

@@ -17,10 +17,10 @@ from worked import PROBLEMS
 from planmethod.cli import cli
 from planmethod.construct.drafting import PROFILES
 from planmethod.errors import ExitCode, LayoutError
-from planmethod.gears.arrangement import Arrangement, Part, arrange
+from planmethod.gears.arrangement import Arrangement, AxisPart, arrange
 from planmethod.gears.motion import solve_motion
 from planmethod.gears.reader import load
-from planmethod.gears.scheme import Scheme
+from planmethod.gears.scheme import SchemeData
 from planmethod.gears.sheet import drawings
 from planmethod.render.backends import render
 from planmethod.render.control.remarks import Severity
@@ -167,7 +167,7 @@ def test_paper_language_and_stamp_are_as_asked(tmp_path: Path) -> None:
 def order(found: Arrangement) -> str:
     return " ".join(
         ",".join(rim.label for rim in station.rims)
-        if station.part is Part.RIMS
+        if station.part is AxisPart.RIMS
         else f"{station.part.value}-{station.body}"
         for station in found.stations
     )
@@ -182,14 +182,16 @@ def order(found: Arrangement) -> str:
     ],
 )
 def test_the_order_of_the_worked_examples(name: str, due: str) -> None:
-    assert order(arrange(Scheme(solve_motion(load(PROBLEMS / f"gears/{name}.toml")), 1.0))) == due
+    assert (
+        order(arrange(SchemeData(solve_motion(load(PROBLEMS / f"gears/{name}.toml")), 1.0))) == due
+    )
 
 
 @each("seed", range(some(40, 5)))
 def test_no_body_stands_in_another_ones_way(seed: int, tmp_path: Path) -> None:
     for maker in PLANAR:
         text = maker(random.Random(200 + seed)).text
-        found = arrange(Scheme(solved(tmp_path, text), 1.0))
+        found = arrange(SchemeData(solved(tmp_path, text), 1.0))
         assert not [c for v in found.verticals() for c in found.crosses(*v)], text
         for one, (a, b) in found.reach.items():
             for other, (c, d) in found.reach.items():
@@ -202,7 +204,7 @@ def test_a_wheel_that_would_lie_on_another_is_drawn_wide(tmp_path: Path) -> None
     """Wheel 1 drives 2 and 3 on the same side, of other radii: two columns."""
     text = told({"1": 20, "2": 30, "3": 40}, [mesh("1", "2"), mesh("1", "3")], "n = { 1 = 100 }")
     motion = solved(tmp_path, text)
-    assert [[rim.label for rim in column] for column in Scheme(motion, 1.0).columns] == [
+    assert [[rim.label for rim in column] for column in SchemeData(motion, 1.0).columns] == [
         ["1", "2"],
         ["1", "3"],
     ]

@@ -24,8 +24,8 @@ from planmethod.gears.angles import angle_of_involute
 from planmethod.gears.involute.blocking import LimitKind, choose, is_kept, limits
 from planmethod.gears.involute.diagrams import Contour
 from planmethod.gears.involute.meshpicture import CURVE, SCALES, view_for
-from planmethod.gears.involute.profile import Contact, Points, Tooth
-from planmethod.gears.involute.quantities import Solved
+from planmethod.gears.involute.profile import LineOfAction, Points, Tooth
+from planmethod.gears.involute.quantities import SolvedMeshing
 from planmethod.gears.involute.reader import load
 from planmethod.gears.involute.sheet import drawings
 from planmethod.gears.involute.sizes import Pair, Rack
@@ -202,7 +202,7 @@ def test_both_flanks_touch_on_the_line_of_action_and_their_normals_pass_through_
 ) -> None:
     pair = pair_of(case)
     one, two = Tooth(pair, 0), Tooth(pair, 1)
-    contact = Contact.of(one, two)
+    contact = LineOfAction.of(one, two)
     pole = one.size("d_b") / 2 * float(np.tan(pair.alpha_w))
     along = np.exp(1j * float(pair.alpha_w))
     for rho in np.linspace(contact.start, contact.end, 9)[1:-1]:
@@ -237,7 +237,7 @@ def test_teeth_in_mesh_do_not_overlap(case: tuple[Any, ...]) -> None:
 
 def test_undercut_is_drawn_and_said() -> None:
     problem = load(FILE, variant="without-shift")
-    first, second = Solved(problem).teeth
+    first, second = SolvedMeshing(problem).teeth
     assert first.is_cut
     assert not second.is_cut
     assert abs(first.fillet(first.theta) - first.flank(first.rho_low)) < EXACT
@@ -273,7 +273,7 @@ def test_the_chosen_shifts_keep_all_limits_and_none_near_them_slides_less() -> N
 
 
 def test_curves_of_the_contour_are_where_their_limits_are_reached() -> None:
-    solved = Solved(load(FILE))
+    solved = SolvedMeshing(load(FILE))
     found = Contour.of(solved).parts
     shown = {(limit.kind, limit.wheel, limit.least) for limit, parts in found if parts}
     assert {
@@ -371,7 +371,7 @@ def test_splines_of_the_dxf_are_the_exact_profile_between_their_points(tmp_path:
     curved = [item for item in sheet.items if isinstance(item, Stroke) and item.smooth]
     path.write_bytes(render(Drawing(sheet.width, sheet.height, items=[*curved]), "dxf"))
     splines = ezdxf.readfile(path).modelspace().query("SPLINE")
-    solved = Solved(load(FILE))
+    solved = SolvedMeshing(load(FILE))
     view = view_for(solved, 1000.0, 500.0)
     assert view.scale in SCALES
     flanks = 0

@@ -10,7 +10,7 @@ import pytest
 from cases import each
 from worked import PROBLEMS
 
-from planmethod.gears.involute.quantities import Solved, Unit
+from planmethod.gears.involute.quantities import SolvedMeshing, Unit
 from planmethod.gears.involute.reader import load
 from planmethod.gears.involute.text import solved_document
 from planmethod.note.document import Document
@@ -25,12 +25,12 @@ BODIES = {
 }
 
 
-def solved_of(name: str, folder: Path) -> Solved:
+def solved_of(name: str, folder: Path) -> SolvedMeshing:
     if name == "ring":
-        return Solved(load(PROBLEMS / "meshing" / "z20-60-internal.toml"))
+        return SolvedMeshing(load(PROBLEMS / "meshing" / "z20-60-internal.toml"))
     path = folder / "pair.toml"
     path.write_text(f"[meshing]\n{BODIES[name]}\n", encoding="utf-8")
-    return Solved(load(path))
+    return SolvedMeshing(load(path))
 
 
 def value_of(text: str) -> float:
@@ -95,7 +95,7 @@ def test_sizes_that_grow_with_the_module_are_told_in_mm(key: str, tmp_path: Path
     small = solved_of("shifted", tmp_path)
     path = tmp_path / "large.toml"
     path.write_text(f"[meshing]\n{BODIES['shifted'].replace('m = 5', 'm = 10')}\n", "utf-8")
-    large = Solved(load(path))
+    large = SolvedMeshing(load(path))
     pairs = [
         (one.quantity, one.values, other.values)
         for group, others in zip(small.told(), large.told(), strict=True)

@@ -19,8 +19,8 @@ from planmethod.cli import cli
 from planmethod.construct.drafting import PROFILES
 from planmethod.construct.steps import LayOff
 from planmethod.errors import ExitCode
-from planmethod.gears.construction import Construction, PictureError, construct, read
-from planmethod.gears.motion import Motion, solve_motion
+from planmethod.gears.construction import GearDrawing, PictureError, construct, read
+from planmethod.gears.motion import TrainMotion, solve_motion
 from planmethod.gears.picture import draw
 from planmethod.gears.reader import load
 
@@ -29,13 +29,13 @@ PLANAR = [maker for maker in MAKERS if maker is not bevel]
 BOARD = PROFILES["board"]
 
 
-def drawn_of(motion: Motion) -> Construction:
+def drawn_of(motion: TrainMotion) -> GearDrawing:
     picture = draw(motion)
     assert picture is not None
     return construct(motion, picture)
 
 
-def trains(folder: Path) -> Iterator[Motion]:
+def trains(folder: Path) -> Iterator[TrainMotion]:
     """Yield the trains of the files that have pictures, and random ones."""
     tasks = sorted((PROBLEMS / "gears").glob("*/*.toml"))
     motions = [solve_motion(load(path)) for path in [*FILES, *thinned(tasks, 5)]]

@@ -16,8 +16,8 @@ from shapely import Point, Polygon
 from worked import PROBLEMS
 
 from planmethod.cli import cli
-from planmethod.gears.involute.profile import Contact, Points, Tooth
-from planmethod.gears.involute.quantities import Solved
+from planmethod.gears.involute.profile import LineOfAction, Points, Tooth
+from planmethod.gears.involute.quantities import SolvedMeshing
 from planmethod.gears.involute.reader import load
 from planmethod.gears.involute.sizes import Pair, Rack
 
@@ -166,12 +166,12 @@ def overlap(pair: Pair) -> float:
 
 def test_a_pinion_turns_freely_in_its_ring_and_interference_is_told() -> None:
     good = load(FILE)
-    solved = Solved(good)
+    solved = SolvedMeshing(good)
     assert all(value >= bound for _, value, bound in solved.judged())
     assert overlap(solved.pair) < 1e-3
     touching = solved.contact.overlap(solved.pair)
     assert touching == pytest.approx(float(solved.pair.epsilon), rel=1e-12)
-    assert Contact.of(*solved.teeth).start == pytest.approx(float(solved.pair.rho_p[0]))
+    assert LineOfAction.of(*solved.teeth).start == pytest.approx(float(solved.pair.rho_p[0]))
     near = ring_of((40, 44), 5.0, (0.0, 0.0), 20)  # too few teeth less: the tips meet outside
     assert float(near.tips) < 0
     assert overlap(near) > 1.0

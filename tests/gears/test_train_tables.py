@@ -22,10 +22,10 @@ from planmethod.construct.drafting import PROFILES
 from planmethod.gears.answers import answer
 from planmethod.gears.construction import construct, read
 from planmethod.gears.drawn.pictures import ARROW_INSIDE, front
-from planmethod.gears.motion import Motion, solve_motion
+from planmethod.gears.motion import TrainMotion, solve_motion
 from planmethod.gears.picture import ContactKind, draw
 from planmethod.gears.reader import load
-from planmethod.gears.scheme import Scheme
+from planmethod.gears.scheme import SchemeData
 from planmethod.gears.sheet import drawings
 from planmethod.gears.text import equation_of
 from planmethod.gears.told import results
@@ -37,7 +37,7 @@ WITH_PICTURES = ("gears-ex1", "gears-ex2", "gears-ex4", "gears-ex6", "planetary-
 BOARD = PROFILES["board"]
 
 
-def motion_of(name: str) -> Motion:
+def motion_of(name: str) -> TrainMotion:
     return solve_motion(load(PROBLEMS / f"gears/{name}.toml"))
 
 
@@ -174,7 +174,7 @@ def test_arrows_on_the_view_along_the_axes_turn_as_the_wheels_do(
 ) -> None:
     made = maker(random.Random(300 + seed))
     motion = solved(tmp_path, made.text)
-    items = front(Scheme(motion, 1.0), 5.0).items
+    items = front(SchemeData(motion, 1.0), 5.0).items
     senses = [item for item in items if getattr(item, "tag", "") == "sense"]
     seen = set()
     for arc, head in zip(senses[::2], senses[1::2], strict=True):

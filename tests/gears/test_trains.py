@@ -15,7 +15,7 @@ from trains import MAKERS, Made, bevel, solved
 from planmethod.gears.answers import answer, efficiency
 from planmethod.gears.conditions import conditions, satellites_held
 from planmethod.gears.linear import solve
-from planmethod.gears.motion import Motion, TrainKind
+from planmethod.gears.motion import TrainKind, TrainMotion
 from planmethod.gears.picture import draw
 from planmethod.gears.text import tabular
 
@@ -41,7 +41,7 @@ def test_speeds_are_those_of_the_step_by_step_formulas(
         assert_contacts_meet(motion)
 
 
-def assert_contacts_meet(motion: Motion) -> None:
+def assert_contacts_meet(motion: TrainMotion) -> None:
     """Both wheels of a mesh have one velocity where they touch, a distance of radii from each."""
     train, axes = motion.train, motion.axes
     carried = {b: c for m in train.meshes for b in train.ends(m) if (c := train.carrier(m))}

@@ -7,13 +7,13 @@ from dataclasses import dataclass
 from fractions import Fraction
 from pathlib import Path
 
-from planmethod.gears.motion import Motion, solve_motion
+from planmethod.gears.motion import TrainMotion, solve_motion
 from planmethod.gears.reader import load
 
 F = Fraction
 
 
-def solved(folder: Path, text: str) -> Motion:
+def solved(folder: Path, text: str) -> TrainMotion:
     path = folder / "train.toml"
     path.write_text(f"[gears]\n{text}", encoding="utf-8")
     return solve_motion(load(path))

@@ -3,7 +3,7 @@ from __future__ import annotations
 import pytest
 from drawings import EX1, EX2, EX3, PRESS, SIX_LINK, TASK12, mechanism
 
-from planmethod.mechanism.describe import Motion, PairKind, Role, kind_of_motion, pairs
+from planmethod.mechanism.describe import MotionKind, PairKind, Role, kind_of_motion, pairs
 from planmethod.mechanism.model import Mechanism
 
 R, P = PairKind.REVOLUTE, PairKind.PRISMATIC
@@ -38,7 +38,7 @@ def test_as_many_rows_as_pairs_and_no_name_twice(mech: Mechanism) -> None:
     assert len({row.name for row in rows}) == len(rows)
 
 
-ROTATION, TRANSLATION, PLANE = Motion.ROTATION, Motion.TRANSLATION, Motion.PLANE
+ROTATION, TRANSLATION, PLANE = MotionKind.ROTATION, MotionKind.TRANSLATION, MotionKind.PLANE
 
 MOTIONS = {
     "ex1": (EX1, [(ROTATION, Role.CRANK), (PLANE, Role.ROD), (TRANSLATION, Role.SLIDER)]),
@@ -95,6 +95,6 @@ MOTIONS = {
 def test_kind_of_motion(name: str) -> None:
     mech, wanted = MOTIONS[name]
     frame, *rows = kind_of_motion(mech)
-    assert (frame.link, frame.motion, frame.role) == ("0", Motion.FIXED, Role.FRAME)
+    assert (frame.link, frame.motion, frame.role) == ("0", MotionKind.FIXED, Role.FRAME)
     assert [row.link for row in rows] == list(mech.links)
     assert [(row.motion, row.role) for row in rows] == wanted

@@ -13,9 +13,9 @@ from worked import every_file
 
 from planmethod.cli import cli
 from planmethod.note.audit.audit import (
+    AuditDocument,
     Audited,
-    Document,
-    Verdict,
+    AuditVerdict,
     audit,
     count,
     half_digit,
@@ -63,20 +63,20 @@ def test_half_of_the_last_printed_digit(value: float, half: float) -> None:
 @pytest.mark.parametrize(
     ("value", "exact", "per_mm", "verdict"),
     [
-        (2.2, 2.24, None, Verdict.AGREES),
-        (2.2, 2.25, None, Verdict.AGREES),  # a tie rounds either way
-        (2.2, 2.26, None, Verdict.DIFFERS),
-        (2.2, 2.26, 0.1, Verdict.DRAWN),
-        (2.2, 2.24, 0.001, Verdict.AGREES),  # right digits, whatever the plan
-        (-2.2, -2.26, 0.1, Verdict.DRAWN),
-        (-2.2, 2.2, 0.05, Verdict.DIFFERS),  # the sense is wrong
-        (9.0, 10.01, 1.0, Verdict.DIFFERS),
-        (9.0, 10.0, 1.0, Verdict.DRAWN),
-        (9.0, None, 1.0, Verdict.ABSENT),
+        (2.2, 2.24, None, AuditVerdict.AGREES),
+        (2.2, 2.25, None, AuditVerdict.AGREES),  # a tie rounds either way
+        (2.2, 2.26, None, AuditVerdict.DIFFERS),
+        (2.2, 2.26, 0.1, AuditVerdict.DRAWN),
+        (2.2, 2.24, 0.001, AuditVerdict.AGREES),  # right digits, whatever the plan
+        (-2.2, -2.26, 0.1, AuditVerdict.DRAWN),
+        (-2.2, 2.2, 0.05, AuditVerdict.DIFFERS),  # the sense is wrong
+        (9.0, 10.01, 1.0, AuditVerdict.DIFFERS),
+        (9.0, 10.0, 1.0, AuditVerdict.DRAWN),
+        (9.0, None, 1.0, AuditVerdict.ABSENT),
     ],
 )
 def test_verdicts(
-    value: float, exact: float | None, per_mm: float | None, verdict: Verdict
+    value: float, exact: float | None, per_mm: float | None, verdict: AuditVerdict
 ) -> None:
     item = Audited(Published("v", value), exact=exact, per_mm=per_mm)
     assert item.verdict is verdict
@@ -93,7 +93,7 @@ def test_differences() -> None:
 
 def test_an_angle_may_be_printed_with_whole_turns() -> None:
     (item,) = audit(problem_of('f = { value = -315, unit = "град", what = "phi 3" }'))
-    assert item.verdict is Verdict.AGREES
+    assert item.verdict is AuditVerdict.AGREES
     assert item.difference == pytest.approx(0.0, abs=1e-9)
 
 
@@ -108,7 +108,7 @@ def test_positions_count_from_zero() -> None:
     )
     assert first.exact == pytest.approx(0.1)
     assert second.exact == pytest.approx(0.0, abs=1e-12)
-    assert (nowhere.why, nowhere.verdict) == (NoValue.NO_POSITION, Verdict.ABSENT)
+    assert (nowhere.why, nowhere.verdict) == (NoValue.NO_POSITION, AuditVerdict.ABSENT)
 
 
 def test_a_position_that_the_problem_does_not_have_is_said() -> None:
@@ -117,14 +117,14 @@ def test_a_position_that_the_problem_does_not_have_is_said() -> None:
     (item,) = audit(late)
     assert item.why is NoValue.NO_POSITION
     said = language("en").audit["whys"][NoValue.NO_POSITION.value]
-    assert said in Document("en", 0.5).markdown([(late, [item])])
+    assert said in AuditDocument("en", 0.5).markdown([(late, [item])])
 
 
 def test_what_is_not_said_is_listed_with_its_note() -> None:
     problem = problem_of('a = { value = 0.1, note = "вторая передаточная функция" }')
     (item,) = audit(problem)
     assert item.why is NoValue.NO_WHAT
-    text = Document("en", 0.5).markdown([(problem, [item])])
+    text = AuditDocument("en", 0.5).markdown([(problem, [item])])
     assert "not computed | вторая передаточная функция |" in text
 
 
@@ -203,7 +203,7 @@ def audits() -> tuple[tuple[Problem, list[Audited]], ...]:
 )
 def test_errors_of_the_sources_differ(stem: str, name: str, reason: str) -> None:
     item = audited(stem)[name]
-    assert item.verdict is Verdict.DIFFERS
+    assert item.verdict is AuditVerdict.DIFFERS
     assert reason in item.published.note
 
 
@@ -222,7 +222,7 @@ def test_slips_smaller_than_drafting_are_told_in_the_remark(
 ) -> None:
     """The text is wrong, but the number is as near as a drawing gives: it cannot be blamed."""
     item = audited(stem)[name]
-    assert item.verdict in (Verdict.AGREES, Verdict.DRAWN)
+    assert item.verdict in (AuditVerdict.AGREES, AuditVerdict.DRAWN)
     assert item.mm is not None
     assert abs(item.mm) < 1.0
     assert reason in item.published.note
@@ -248,14 +248,14 @@ def test_size_of_the_errors_of_the_wrong_arm() -> None:
 
 def test_the_force_plan_of_the_press_is_that_of_the_stone() -> None:
     for name in ("R54", "R65", "плечо F34"):
-        assert audited("press")[name].verdict is Verdict.DIFFERS
-        assert audited("press-stone")[name].verdict is not Verdict.DIFFERS
+        assert audited("press")[name].verdict is AuditVerdict.DIFFERS
+        assert audited("press-stone")[name].verdict is not AuditVerdict.DIFFERS
 
 
 @pytest.mark.parametrize("path", PROBLEMS, ids=lambda path: path.stem)
 def test_what_differs_has_a_reason(path: Path) -> None:
     for item in audited(path.stem).values():
-        if item.verdict in (Verdict.DIFFERS, Verdict.ABSENT):
+        if item.verdict in (AuditVerdict.DIFFERS, AuditVerdict.ABSENT):
             assert item.published.note, item.published.name
 
 
@@ -270,7 +270,7 @@ def test_all_values_with_a_selector_are_computed() -> None:
 
 def test_the_committed_table_is_up_to_date() -> None:
     committed = (ROOT / "docs" / "published.md").read_text(encoding="utf-8")
-    assert Document("en", 0.5).markdown(audits()) == committed, "run: make tables"
+    assert AuditDocument("en", 0.5).markdown(audits()) == committed, "run: make tables"
 
 
 def test_the_counts_add_up() -> None:
@@ -281,7 +281,7 @@ def test_the_counts_add_up() -> None:
 def test_every_row_has_every_cell() -> None:
     for lang in LANGUAGES:
         says = language(lang).audit
-        text = Document(lang, 0.5).markdown(audits())
+        text = AuditDocument(lang, 0.5).markdown(audits())
         for block in text.split("\n\n"):
             rows = [line for line in block.splitlines() if line.startswith("| ")]
             assert len({row.replace("\\|", "").count("|") for row in rows}) <= 1
@@ -292,14 +292,14 @@ def test_every_row_has_every_cell() -> None:
 
 def test_russian_numbers_and_words() -> None:
     problem = problem_of('v = { value = 0.8, unit = "м/с", per_mm = 0.02, what = "v B3" }')
-    text = Document("ru", 0.5).markdown([(problem, audit(problem))])
+    text = AuditDocument("ru", 0.5).markdown([(problem, audit(problem))])
     assert "| v | м/с | 0,8 | 0,70711 | 0,71000 | 0,093 | 13,14 | 4,64 | **расходится** |" in text
     assert "расходится 1" in text
 
 
 def test_signs_of_markdown_in_names_and_notes_are_only_signs() -> None:
     problem = problem_of('"a|b*c" = { value = 1, what = "v B", note = "<b> | x |" }')
-    text = Document("en", 0.5).markdown([(problem, audit(problem))])
+    text = AuditDocument("en", 0.5).markdown([(problem, audit(problem))])
     assert r"| a\|b\*c |" in text
     assert r"\<b\> \| x \| |" in text
 
@@ -309,7 +309,7 @@ def test_the_command_writes_the_document(tmp_path: Path) -> None:
     arguments = ["audit", "--lang", "en", "-o", str(target), *map(str, PROBLEMS)]
     result = CliRunner().invoke(cli, arguments)
     assert result.exit_code == 0, result.output
-    assert target.read_text(encoding="utf-8") == Document("en", 0.5).markdown(audits())
+    assert target.read_text(encoding="utf-8") == AuditDocument("en", 0.5).markdown(audits())
 
 
 def test_the_command_prints_by_default_in_russian() -> None:

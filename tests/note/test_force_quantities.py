@@ -12,7 +12,7 @@ from msgspec.structs import replace
 from slotted import KULISA, SCALES, R, problem_of
 from worked import problem_of as worked
 
-from planmethod.note.audit.audit import Audited, Verdict, audit, source_force_scale
+from planmethod.note.audit.audit import Audited, AuditVerdict, audit, source_force_scale
 from planmethod.note.wording import LANGUAGES, language
 from planmethod.problem import loads
 from planmethod.problem.model import Problem
@@ -285,7 +285,7 @@ def test_millimetres_of_a_force_and_of_its_angle() -> None:
     assert force.mm == pytest.approx((320 - PRESSURE) / 2)
     assert angle.mm == pytest.approx(pi / 180 * PRESSURE / 2)
     assert arm.mm == pytest.approx(105 - 150 * R)
-    assert (angle.verdict, arm.verdict) == (Verdict.DIFFERS, Verdict.DIFFERS)
+    assert (angle.verdict, arm.verdict) == (AuditVerdict.DIFFERS, AuditVerdict.DIFFERS)
 
 
 def test_without_a_scale_of_the_source_an_angle_has_no_millimetres() -> None:

@@ -62,7 +62,7 @@ def arc(way: Way, line: str = "ray", branch: str | None = None) -> steps.MeetLin
 
 def test_what_a_kind_says_itself_outranks_silence(narrator: BoardNarrator) -> None:
     assert narrator.tell(steps.Given(PointName("A"))) == ["mark A_{1}"]
-    assert narrator.tell(steps.Known(NumberName("r"))) == []
+    assert narrator.tell(steps.GivenNumber(NumberName("r"))) == []
 
 
 def test_a_meeting_names_both_lines_and_the_point(narrator: BoardNarrator) -> None:

@@ -12,6 +12,7 @@ from planmethod.note.document import (
     Caption,
     Chapter,
     Document,
+    DrawableView,
     Equation,
     Equations,
     Figure,
@@ -25,7 +26,6 @@ from planmethod.note.document import (
     Table,
     Term,
     Title,
-    View,
     step_of,
     table_of,
     table_of_columns,
@@ -51,7 +51,7 @@ ALONE: dict[type, tuple[Node, str]] = {
         "     v_C = v_B  + v_CB\n           ═══    ────\n           ⊥ AB",
     ),
     Table: (table_of(("link", "ω"), [("1", "20,00")]), "link      ω\n───────────\n1     20,00"),
-    Figure: (Figure(cast("View", None), "Scheme"), "Scheme"),
+    Figure: (Figure(cast("DrawableView", None), "Scheme"), "Scheme"),
     Note: (Note("read"), "read"),
 }
 

@@ -13,7 +13,7 @@ import pytest
 import planmethod
 from planmethod.errors import ExitCode
 from planmethod.languages import WRITTEN
-from planmethod.note.audit.audit import Verdict
+from planmethod.note.audit.audit import AuditVerdict
 from planmethod.note.numbers import Notation
 from planmethod.note.wording import LANGUAGES, Language, UnknownLanguageError, Words, language
 from planmethod.problem import FAMILIES, OTHER_FAMILIES
@@ -111,7 +111,7 @@ def test_a_language_has_the_names_of_what_it_tells(lang: str) -> None:
     assert list(words.families) == [*FAMILIES, *OTHER_FAMILIES]
     audit = words.audit
     assert set(audit["whys"]) == {why.value for why in NoValue}
-    assert list(audit["verdicts"]) == list(audit["counted"]) == [v.value for v in Verdict]
+    assert list(audit["verdicts"]) == list(audit["counted"]) == [v.value for v in AuditVerdict]
 
 
 def test_russian_is_russian_and_english_is_english() -> None:

@@ -10,7 +10,7 @@ import pytest
 from planmethod.construct.arithmetic import Float64
 from planmethod.construct.evaluate import evaluate
 from planmethod.construct.steps import PointName
-from planmethod.plans.diagrams.board import Axes, Board
+from planmethod.plans.diagrams.board import DiagramAxes, DiagramBoard
 from planmethod.plans.diagrams.calculus import Integration, differentiate, integrate, repeated
 
 AT = [0.0, 20.0, 45.0, 60.0, 96.0]
@@ -19,8 +19,8 @@ AT = [0.0, 20.0, 45.0, 60.0, 96.0]
 HEIGHTS = [3.0, -7.0, 12.0, 30.0, 3.0]
 
 
-def plotted() -> tuple[Board, Axes, list[PointName]]:
-    board = Board()
+def plotted() -> tuple[DiagramBoard, DiagramAxes, list[PointName]]:
+    board = DiagramBoard()
     axes = board.axes("s")
     points = [
         board.plot(f"s {k}", axes, x, board.known(f"s{k}", y))
@@ -29,7 +29,7 @@ def plotted() -> tuple[Board, Axes, list[PointName]]:
     return board, axes, points
 
 
-def heights(board: Board, points: list[PointName], axis: float) -> list[float]:
+def heights(board: DiagramBoard, points: list[PointName], axis: float) -> list[float]:
     trace = evaluate(board.b.program(), board.data, Float64())
     return [float(trace.value[point].imag) - axis for point in points]
 

@@ -12,7 +12,7 @@ from worked import PROBLEMS, every_file
 from planmethod.construct.program import Program
 from planmethod.construct.steps import (
     Compute,
-    Known,
+    GivenNumber,
     LayOff,
     Measure,
     MeasureAlong,
@@ -101,7 +101,7 @@ def test_every_result_is_a_computed_number(what: str | int) -> None:
     construction = solution.construction
     sizes = [quantity.size for quantity in construction.legend if quantity.size is not None]
     assert sizes
-    assert {type(construction.step(name)) for name in sizes} <= {Compute, Known}
+    assert {type(construction.step(name)) for name in sizes} <= {Compute, GivenNumber}
     if solution.problem.dynamics is None:
         return
     statics = statics_of(solution)

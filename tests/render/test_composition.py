@@ -403,7 +403,7 @@ def test_a_new_kind_of_block_is_a_function_and_a_line(monkeypatch: pytest.Monkey
         return Column([heading(f"Подпись: {solution.problem.title}", manner.text(3.5))])
 
     monkeypatch.setattr(
-        kinds, "BLOCKS", {**BLOCKS, "signature": kinds.Kind(signature, ("height",))}
+        kinds, "BLOCKS", {**BLOCKS, "signature": kinds.BlockKind(signature, ("height",))}
     )
     monkeypatch.setattr(entries, "BLOCKS", kinds.BLOCKS)
     monkeypatch.setattr("planmethod.render.sheets.pages.BLOCKS", kinds.BLOCKS)

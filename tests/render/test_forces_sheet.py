@@ -28,7 +28,7 @@ from planmethod.plans.forces.polygons import reaction_symbol
 from planmethod.problem.model import FORCE, MOMENT, Problem
 from planmethod.render.control.remarks import Severity
 from planmethod.render.control.sheet import inspect
-from planmethod.render.forces.arms import ARM, Arm, arm_items
+from planmethod.render.forces.arms import ARM, ForceArm, arm_items
 from planmethod.render.forces.arrows import Acting, distance, lay_forces
 from planmethod.render.forces.polygon import drawn_edges
 from planmethod.render.ink.drawing import Bounds, Drawing, Fill, Item, Stroke, Text, View
@@ -454,7 +454,7 @@ def test_norm_control_of_the_command_is_clean(name: str) -> None:
 
 def test_more_arms_than_a_reader_can_tell_apart_are_left_to_the_equations() -> None:
     say = language("en").say
-    arms = [Arm(f"Q{k}", 0j, 10.0 + k + 5j, 10.0) for k in range(25)]
+    arms = [ForceArm(f"Q{k}", 0j, 10.0 + k + 5j, 10.0) for k in range(25)]
     items, labels = arm_items(arms[1:], [], 3.5, "lever", say)
     assert len(items) == len(labels) == 24
     assert arm_items(arms, [], 3.5, "lever", say) == ([], [])

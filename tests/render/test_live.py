@@ -23,7 +23,7 @@ from planmethod.note.wording import language
 from planmethod.problem import loads
 from planmethod.problem.model import Problem
 from planmethod.render.live.page import live_page
-from planmethod.render.live.scene import Scene
+from planmethod.render.live.scene import LiveScene
 from planmethod.solved.machine.flywheel import Flywheel
 from planmethod.solved.many.sweep import Sweep
 
@@ -114,13 +114,13 @@ def page(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Page]:
         yield browser
 
 
-def opened(page: Page, problem: Problem, folder: Path, lang: str = "ru") -> Scene:
+def opened(page: Page, problem: Problem, folder: Path, lang: str = "ru") -> LiveScene:
     """Open the page of a problem on a telephone; return what is on it."""
     file = folder / "live.html"
     file.write_text(live_page(problem, lang), "utf-8")
     page.said.clear()
     page.open(file, width=360, height=740)
-    return Scene(problem, language(lang))
+    return LiveScene(problem, language(lang))
 
 
 @needs_chromium
@@ -201,7 +201,7 @@ def test_what_does_not_exist_is_said_and_play_turns_back(page: Page, tmp_path: P
     for edge, inside in zip(near, (-0.001, 0.001), strict=True):
         values = sweep.run(np.array([edge + inside, edge - inside]))
         assert np.isnan(values).any(axis=0).tolist() == [False, True]
-    assert page.ask("document.querySelectorAll('figure.gone').length") == len(Scene(
+    assert page.ask("document.querySelectorAll('figure.gone').length") == len(LiveScene(
         watt(), language("en")).views)  # fmt: skip
     assert set(page.ask("[...document.querySelectorAll('[data-row]')].map(n => n.textContent)")) > {
         "—"

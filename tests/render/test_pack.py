@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from planmethod.render.ink.drawing import Bounds
 from planmethod.render.layout.block import Shapes, Spacer
-from planmethod.render.layout.cuttings import GAP, Arrange, Group, Part
+from planmethod.render.layout.cuttings import GAP, Arrange, Group, Packed
 from planmethod.render.layout.pack import CLEAR, EDGE, emptiest_share, pack
 
 INNER: Bounds = (20.0, 5.0, 589.0, 415.0)  # A2
@@ -19,8 +19,8 @@ LEFT: Bounds = (20.0, 401.0, 90.0, 415.0)  # graph 26 in the upper left corner
 RIGHT: Bounds = (575.0, 345.0, 589.0, 415.0)  # and in the upper right one, turned
 
 
-def part(width: float, height: float, *, text: bool = False) -> Part:
-    return Part(Spacer(width, height), text)
+def part(width: float, height: float, *, text: bool = False) -> Packed:
+    return Packed(Spacer(width, height), text)
 
 
 def boxes(
@@ -156,7 +156,7 @@ def test_blocks_keep_clear_of_what_is_taken(taken: tuple[Bounds, ...]) -> None:
 @pytest.mark.parametrize(
     ("first", "arrange"), [(part(540, 280), "column"), (part(200, 395), "row")]
 )
-def test_a_block_in_the_corner_moves_down_or_aside(first: Part, arrange: Arrange) -> None:
+def test_a_block_in_the_corner_moves_down_or_aside(first: Packed, arrange: Arrange) -> None:
     whole = Group((first, part(180, 30)), arrange)
     plain, moved = boxes(whole), boxes(whole, taken=(LEFT,))
     assert plain is not None
@@ -220,10 +220,10 @@ def test_the_largest_empty_rectangle() -> None:
 def test_a_block_is_laid_out_in_the_way_that_has_room() -> None:
     wide, high = Spacer(500.0, 160.0), Spacer(120.0, 250.0)
     others = [part(200.0, 300.0), part(180.0, 150.0)]
-    placed = pack(Group((Part(Shapes((wide, high))), *others)), INNER, STAMP)
+    placed = pack(Group((Packed(Shapes((wide, high))), *others)), INNER, STAMP)
     assert placed is not None
     assert placed[0][0] is high
-    assert pack(Group((Part(wide), *others)), INNER, STAMP) is None
+    assert pack(Group((Packed(wide), *others)), INNER, STAMP) is None
 
 
 def test_something_stands_beside_the_last_block_above_a_title_block_as_wide_as_the_sheet() -> None:

@@ -14,7 +14,7 @@ from planmethod.render.ink.drawing import Arc, Drawing, Fill, Pen, Stroke, Text
 from planmethod.render.ink.extent import ink_bounds
 from planmethod.render.ink.style import ARROW, PENS, stroke_lines
 from planmethod.render.sheets.specimen import SPECIMENS
-from planmethod.render.sheets.specimen.cells import Cell, drawn_cell
+from planmethod.render.sheets.specimen.cells import SymbolCell, drawn_cell
 from planmethod.render.sheets.specimen.lines import (
     SAMPLE,
     TYPES,
@@ -89,7 +89,7 @@ def test_the_symbols_asked_for_are_there() -> None:
 
 @pytest.mark.parametrize("lang", LANGUAGES)
 @pytest.mark.parametrize("cell", symbol_cells(), ids=lambda cell: cell.name)
-def test_a_symbol_stays_in_its_cell(cell: Cell, lang: str) -> None:
+def test_a_symbol_stays_in_its_cell(cell: SymbolCell, lang: str) -> None:
     box, words = (0.0, 0.0, WIDTH, HEIGHT), language(lang).specimens
     left, low, right, high = ink_bounds(drawn_cell(cell, 1, box, words))
     assert left > 1

@@ -11,13 +11,13 @@ from planmethod.render.ink.drawing import Arc, Fill, Item, Pen, Stroke, Text
 from planmethod.render.ink.lettering import in_use
 from planmethod.render.ink.typeset import typeset
 from planmethod.render.layout.block import Column, Picture, Row, Spacer, heading, paragraph
-from planmethod.render.layout.tables import Cell, TableColumn, table_block
+from planmethod.render.layout.tables import TableCell, TableColumn, table_block
 
 COLUMNS = (
     TableColumn("№", ("1", "2")),
     TableColumn("v_{B}", ("3,20", "12,345"), "м/с"),
     TableColumn("v_{CB}", ("1,55", "2"), "м/с"),
-    TableColumn("ω_{2}", (Cell("15,5", 1), Cell("0", 0)), "с^{-1}"),
+    TableColumn("ω_{2}", (TableCell("15,5", 1), TableCell("0", 0)), "с^{-1}"),
 )
 
 
@@ -98,7 +98,7 @@ def test_sense_is_an_arc_with_a_head_inside_the_cell() -> None:
 def test_senses_are_mirror_images() -> None:
     heads = []
     for sense in (1, -1):
-        items = table_block([TableColumn("ω", (Cell("5", sense),), "1/с")]).place(0j)
+        items = table_block([TableColumn("ω", (TableCell("5", sense),), "1/с")]).place(0j)
         (arc,) = [i for i in items if isinstance(i, Arc)]
         (head,) = [i for i in items if isinstance(i, Fill)]
         heads.append([p - arc.centre for p in head.points])
@@ -211,7 +211,7 @@ values = st.one_of(
                 TableColumn,
                 st.sampled_from(["v_{B}", "a^{τ}_{CB}", "№", "очень длинная шапка"]),
                 st.lists(
-                    st.builds(Cell, values, st.sampled_from([None, -1, 0, 1])),
+                    st.builds(TableCell, values, st.sampled_from([None, -1, 0, 1])),
                     min_size=rows,
                     max_size=rows,
                 ).map(tuple),

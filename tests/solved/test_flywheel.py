@@ -16,7 +16,7 @@ from worked import ROOT, path_of
 from planmethod.cli import cli
 from planmethod.construct.drafting import PROFILES
 from planmethod.errors import ProblemError
-from planmethod.note.audit.audit import Verdict, audit
+from planmethod.note.audit.audit import AuditVerdict, audit
 from planmethod.note.audit.machine import chain
 from planmethod.problem import load, loads
 from planmethod.problem.load_records import Quadrature
@@ -249,7 +249,7 @@ def test_what_the_source_prints_stands_beside_what_it_should_be() -> None:
     assert near(kinetic.exact or 0.0, 11.1715871058343)
     flywheel = found["Iм"]
     assert near(flywheel.exact or 0.0, 2.54963071814211)
-    assert flywheel.verdict is Verdict.DIFFERS
+    assert flywheel.verdict is AuditVerdict.DIFFERS
     # with the source's own signs table 3 is right but for its scale of velocities, 0.9 % too large
     source = {
         item.published.name: item

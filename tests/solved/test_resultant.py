@@ -15,7 +15,7 @@ from newton import solve as newton
 from worked import problem_of
 
 from planmethod.construct.steps import NumberName, PointName
-from planmethod.plans.forces.board import Given
+from planmethod.plans.forces.board import GivenLoad
 from planmethod.plans.forces.loads import LoadKind, Shift
 from planmethod.plans.model import PlanKind
 from planmethod.problem import loads
@@ -57,7 +57,7 @@ def number(statics: Statics, name: NumberName) -> Reals:
     return statics.si.number(name)
 
 
-def of_kind(statics: Statics, kind: LoadKind) -> dict[str, Given]:
+def of_kind(statics: Statics, kind: LoadKind) -> dict[str, GivenLoad]:
     """Return the loads of a kind by their links."""
     return {g.applied.link: g for g in statics.board.given if g.applied.kind is kind}
 

@@ -18,7 +18,7 @@ from planmethod.construct.compiled.blocks import BLOCK
 from planmethod.errors import AssemblyError
 from planmethod.problem import load, loads
 from planmethod.problem.model import Problem
-from planmethod.solved.many.rows import Row
+from planmethod.solved.many.rows import SweepRow
 from planmethod.solved.many.sweep import FEW, Sweep, SweepError, sweep_variants
 from planmethod.solved.quantities import UnknownQuantityError
 from planmethod.solved.solution import Solution
@@ -257,11 +257,11 @@ def test_a_table_is_by_name() -> None:
 def test_what_is_asked_needs_fewer_steps_and_comes_in_order() -> None:
     sweep = Sweep(problem_of("ex3"), ["omega_3", "v_E", "B"])
     assert sweep.rows == (
-        Row("3.omega", "omega_3"),
-        Row("E.vx", "v_E"),
-        Row("E.vy", "v_E"),
-        Row("B.x", "B"),
-        Row("B.y", "B"),
+        SweepRow("3.omega", "omega_3"),
+        SweepRow("E.vx", "v_E"),
+        SweepRow("E.vy", "v_E"),
+        SweepRow("B.x", "B"),
+        SweepRow("B.y", "B"),
     )
     whole = sweep_of("ex3")
     assert sweep.steps < whole.steps

@@ -6,15 +6,15 @@ from collections.abc import Callable, Iterator
 from typing import TypeAlias
 
 from planmethod.check.mistakes import forces, motion, scales
-from planmethod.check.mistakes.model import Change, Scene
+from planmethod.check.mistakes.model import Change, MistakeContext
 
-Mistake: TypeAlias = Callable[[Scene], Iterator[Change]]
+Mistake: TypeAlias = Callable[[MistakeContext], Iterator[Change]]
 
 MISTAKES: tuple[Mistake, ...] = (*motion.MISTAKES, *scales.MISTAKES, *forces.MISTAKES)
 """Every mistake of a program: each yields the places where it can be made."""
 
 
-def changes(scene: Scene) -> Iterator[Change]:
+def changes(scene: MistakeContext) -> Iterator[Change]:
     """Yield every mistake at every place of a sheet."""
     for mistake in MISTAKES:
         yield from mistake(scene)

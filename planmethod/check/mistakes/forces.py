@@ -6,21 +6,21 @@ from collections.abc import Iterator
 
 from msgspec.structs import replace
 
-from planmethod.check.mistakes.model import Change, Scene, times
+from planmethod.check.mistakes.model import Change, MistakeContext, times
 from planmethod.construct import steps
 from planmethod.construct.steps import LineName, Name, NumberName, Step
 from planmethod.mechanism.model import FRAME
-from planmethod.plans.forces.board import Given
+from planmethod.plans.forces.board import GivenLoad
 from planmethod.plans.forces.loads import LoadKind
 from planmethod.plans.model import FACTS, PlanKind
 
 
-def _loads(scene: Scene, kind: LoadKind) -> Iterator[Given]:
+def _loads(scene: MistakeContext, kind: LoadKind) -> Iterator[GivenLoad]:
     if scene.board is not None:
         yield from (given for given in scene.board.given if given.applied.kind is kind)
 
 
-def inertia_along(scene: Scene) -> Iterator[Change]:
+def inertia_along(scene: MistakeContext) -> Iterator[Change]:
     """F1: Φ along the acceleration: of one link, of all."""
     every: dict[Name, tuple[Step, ...]] = {}
     for given in _loads(scene, LoadKind.INERTIA):
@@ -34,7 +34,7 @@ def inertia_along(scene: Scene) -> Iterator[Change]:
         yield Change("F1", "", every, prior=2.0)
 
 
-def inertia_couple_wrong(scene: Scene) -> Iterator[Change]:
+def inertia_couple_wrong(scene: MistakeContext) -> Iterator[Change]:
     """F2: the couple of inertia with the sense of ε, or forgotten: of one link, of all."""
     for factor in (-1.0, 0.0):
         every: dict[Name, tuple[Step, ...]] = {}
@@ -47,7 +47,7 @@ def inertia_couple_wrong(scene: Scene) -> Iterator[Change]:
             yield Change("F2", "", every, prior=2.0)
 
 
-def weight_wrong(scene: Scene) -> Iterator[Change]:
+def weight_wrong(scene: MistakeContext) -> Iterator[Change]:
     """F3: weights forgotten, or mass taken for weight: of one link, of all."""
     found: list[tuple[str, steps.Compute]] = []
     for given in _loads(scene, LoadKind.WEIGHT):
@@ -67,7 +67,7 @@ def _without_g(step: steps.Compute) -> tuple[Step, ...]:
     return (replace(step, powers=step.powers[:1]),)
 
 
-def arm_along(scene: Scene) -> Iterator[Change]:
+def arm_along(scene: MistakeContext) -> Iterator[Change]:
     """F4: an arm measured along the force in place of across."""
     for step in scene.steps:
         if isinstance(step, steps.MeasureArm):
@@ -76,7 +76,7 @@ def arm_along(scene: Scene) -> Iterator[Change]:
             yield Change("F4", "", {step.out: (steps.Join(line, step.tail, step.head), along)})
 
 
-def moments_in_mm(scene: Scene) -> Iterator[Change]:
+def moments_in_mm(scene: MistakeContext) -> Iterator[Change]:
     """F4: arms in mm in place of metres."""
     mu_l = NumberName(FACTS[PlanKind.POSITION].scale)
     changed: dict[Name, tuple[Step, ...]] = {}
@@ -89,7 +89,7 @@ def moments_in_mm(scene: Scene) -> Iterator[Change]:
         yield Change("F4", "", changed)
 
 
-def reaction_not_reversed(scene: Scene) -> Iterator[Change]:
+def reaction_not_reversed(scene: MistakeContext) -> Iterator[Change]:
     """F5: what acts on the next link with the sense that it has on this one."""
     if scene.board is None:
         return
@@ -108,7 +108,7 @@ def reaction_not_reversed(scene: Scene) -> Iterator[Change]:
             yield Change("F5", f"{reaction.by}{reaction.on}", changed)
 
 
-def lever_not_turned(scene: Scene) -> Iterator[Change]:
+def lever_not_turned(scene: MistakeContext) -> Iterator[Change]:
     """Z1: forces on the velocity plan that was not turned."""
     changed: dict[Name, tuple[Step, ...]] = {
         step.out: (replace(step, turned=False),)
@@ -119,7 +119,7 @@ def lever_not_turned(scene: Scene) -> Iterator[Change]:
         yield Change("Z1", "", changed)
 
 
-def couple_not_converted(scene: Scene) -> Iterator[Change]:
+def couple_not_converted(scene: MistakeContext) -> Iterator[Change]:
     """Z2: a couple on the lever as it is, without (bc)/l."""
     mu_v = NumberName(FACTS[PlanKind.VELOCITY].scale)
     couples = {given.couple for given in (scene.board.given if scene.board else ()) if given.couple}

@@ -14,13 +14,13 @@ from planmethod.construct.program import Program
 from planmethod.construct.rewrite import rewritten
 from planmethod.construct.steps import (
     Compute,
-    Known,
+    GivenNumber,
     Name,
     NumberName,
     PointName,
     Step,
 )
-from planmethod.plans.forces.board import Board
+from planmethod.plans.forces.board import ForceBoard
 from planmethod.plans.model import PlanKind
 from planmethod.plans.motion.leads import Turning
 from planmethod.plans.segments import Segments
@@ -60,7 +60,7 @@ class Change(Struct, frozen=True):
         return rewritten(program, lambda step: self.steps.get(step.out, step))
 
 
-class Scene:
+class MistakeContext:
     """A sheet as the mistakes look at it: which steps do what (что где построено)."""
 
     def __init__(self, sheet: Sheet) -> None:
@@ -73,7 +73,7 @@ class Scene:
         self.made = sheet.made
 
     @property
-    def board(self) -> Board | None:
+    def board(self) -> ForceBoard | None:
         """The force plans, where the sheet has any."""
         statics = self.sheet.questions.statics
         return None if statics is None else statics.board
@@ -123,9 +123,9 @@ def times(step: Compute, factor: float) -> tuple[Step, ...]:
     return (Compute(step.out, step.factor * factor, step.powers, step.size),)
 
 
-def known(name: str) -> tuple[NumberName, Known]:
+def known(name: str) -> tuple[NumberName, GivenNumber]:
     """Return a new number of the data and its step."""
-    return NumberName(name), Known(NumberName(name))
+    return NumberName(name), GivenNumber(NumberName(name))
 
 
 def fresh(name: Name, mark: str) -> PointName:

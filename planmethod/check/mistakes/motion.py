@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from planmethod.check.mistakes.model import Change, Powers, Scene, fresh, known, times
+from planmethod.check.mistakes.model import Change, MistakeContext, Powers, fresh, known, times
 from planmethod.construct import steps
 from planmethod.construct.steps import LineName, Name, NumberName, PointName, Step
 from planmethod.mechanism.model import FRAME
@@ -20,7 +20,7 @@ V, A = PlanKind.VELOCITY, PlanKind.ACCELERATION
 # Rays ----------------------------------------------------------------------------------------
 
 
-def _along_the_link(scene: Scene, plan: PlanKind, code: str) -> Iterator[Change]:
+def _along_the_link(scene: MistakeContext, plan: PlanKind, code: str) -> Iterator[Change]:
     for link, turning in scene.turnings(plan):
         for step in scene.steps:
             if isinstance(step, steps.Perpendicular) and _is_ray(scene, step, turning):
@@ -28,7 +28,7 @@ def _along_the_link(scene: Scene, plan: PlanKind, code: str) -> Iterator[Change]
                 yield Change(code, link, {step.out: (swapped,)})
 
 
-def _is_ray(scene: Scene, step: steps.Perpendicular, turning: Turning) -> bool:
+def _is_ray(scene: MistakeContext, step: steps.Perpendicular, turning: Turning) -> bool:
     """Tell whether a perpendicular is the line across a link that its turning is read along."""
     line = scene.made[step.to]
     ends = {turning.joint, turning.place}
@@ -39,17 +39,17 @@ def _is_ray(scene: Scene, step: steps.Perpendicular, turning: Turning) -> bool:
     )
 
 
-def velocity_along_link(scene: Scene) -> Iterator[Change]:
+def velocity_along_link(scene: MistakeContext) -> Iterator[Change]:
     """V1: v_BA laid along the link."""
     yield from _along_the_link(scene, V, "V1")
 
 
-def tangential_along_link(scene: Scene) -> Iterator[Change]:
+def tangential_along_link(scene: MistakeContext) -> Iterator[Change]:
     """N4: the line of aᵗ drawn along the link."""
     yield from _along_the_link(scene, A, "N4")
 
 
-def driver_reversed(scene: Scene) -> Iterator[Change]:
+def driver_reversed(scene: MistakeContext) -> Iterator[Change]:
     """V2: the driver moves the other way."""
     drive = scene.problem.drive
     name = drive.coordinate.rates[0]
@@ -58,7 +58,7 @@ def driver_reversed(scene: Scene) -> Iterator[Change]:
         yield Change("V2", drive.link, data={name: -drive.rate}, prior=0.04)
 
 
-def similarity_wrong(scene: Scene) -> Iterator[Change]:
+def similarity_wrong(scene: MistakeContext) -> Iterator[Change]:
     """V3: the ratio from the other end; the triangle mirrored: on one plan, or on both."""
     for make in (_reversed, _mirrored):
         plans: dict[PointName, dict[Name, tuple[Step, ...]]] = {}
@@ -90,7 +90,7 @@ def _mirrored(step: steps.Similar) -> tuple[Step, ...]:
     )
 
 
-def sliding_forgotten(scene: Scene) -> Iterator[Change]:
+def sliding_forgotten(scene: MistakeContext) -> Iterator[Change]:
     """V4: v_A3 taken as v_A1, the relative velocity forgotten."""
     for relative in _swinging(scene):
         head, start = relative.head, relative.start
@@ -109,14 +109,14 @@ def sliding_forgotten(scene: Scene) -> Iterator[Change]:
         yield Change("V4", relative.name, changed)
 
 
-def _swinging(scene: Scene) -> Iterator[Relative]:
+def _swinging(scene: MistakeContext) -> Iterator[Relative]:
     """Yield the slidings along guides that turn."""
     for relative in scene.kin.relatives.values():
         if relative.to != FRAME and relative.to in scene.kin.omega:
             yield relative
 
 
-def arm_wrong(scene: Scene) -> Iterator[Change]:
+def arm_wrong(scene: MistakeContext) -> Iterator[Change]:
     """V5: ω by another arm: a given length of the link, or the distance of the pivots."""
     for link, turning in scene.turnings(V):
         step = scene.compute(scene.kin.omega[link])
@@ -131,7 +131,7 @@ def arm_wrong(scene: Scene) -> Iterator[Change]:
                 yield Change("V5", link, {step.out: (made, swapped)}, {number: length})
 
 
-def _arms(scene: Scene, link: str, turning: Turning) -> set[float]:
+def _arms(scene: MistakeContext, link: str, turning: Turning) -> set[float]:
     """Return lengths that are taken for an arm by mistake, m."""
     bodies = scene.problem.bodies
     points = bodies[link].points
@@ -150,7 +150,7 @@ def _arms(scene: Scene, link: str, turning: Turning) -> set[float]:
 # Coriolis ------------------------------------------------------------------------------------
 
 
-def _turned(scene: Scene) -> Iterator[tuple[Relative, steps.Compute]]:
+def _turned(scene: MistakeContext) -> Iterator[tuple[Relative, steps.Compute]]:
     values = scene.segments(A).values
     for relative in scene.kin.relatives.values():
         start, end = relative.a_start, relative.a_turned
@@ -161,7 +161,7 @@ def _turned(scene: Scene) -> Iterator[tuple[Relative, steps.Compute]]:
             yield relative, step
 
 
-def coriolis_by_factor(scene: Scene) -> Iterator[Change]:
+def coriolis_by_factor(scene: MistakeContext) -> Iterator[Change]:
     """A1, A2, A3: no Coriolis acceleration, turned the other way, the factor 2 missing."""
     for code, factor, prior in (("A1", 0.0, 3.0), ("A2", -1.0, 2.0), ("A3", 0.5, 1.5)):
         for relative, step in _turned(scene):
@@ -170,7 +170,7 @@ def coriolis_by_factor(scene: Scene) -> Iterator[Change]:
                 yield from _unlaid(scene, relative.a_turned, code, relative.name)
 
 
-def _unlaid(scene: Scene, end: Name | None, code: str, where: str) -> Iterator[Change]:
+def _unlaid(scene: MistakeContext, end: Name | None, code: str, where: str) -> Iterator[Change]:
     """Yield a component that is computed and then not laid off."""
     laid = None if end is None else scene.made.get(end)
     length = scene.compute(laid.length) if isinstance(laid, steps.LayOff) else None
@@ -178,7 +178,7 @@ def _unlaid(scene: Scene, end: Name | None, code: str, where: str) -> Iterator[C
         yield Change(code, where, {length.out: times(length, 0.0)})
 
 
-def coriolis_of_absolute(scene: Scene) -> Iterator[Change]:
+def coriolis_of_absolute(scene: MistakeContext) -> Iterator[Change]:
     """A4: an absolute velocity of the coincident points in place of the relative one."""
     velocities = scene.segments(V)
     for relative, step in _turned(scene):
@@ -190,7 +190,7 @@ def coriolis_of_absolute(scene: Scene) -> Iterator[Change]:
                 yield Change("A4", relative.name, {step.out: (made,)})
 
 
-def coriolis_of_crank(scene: Scene) -> Iterator[Change]:
+def coriolis_of_crank(scene: MistakeContext) -> Iterator[Change]:
     """A5: ω of the crank in place of that of the slotted link, with its sense or without it."""
     drive = scene.problem.drive
     rate = scene.kin.omega.get(drive.link)
@@ -201,7 +201,7 @@ def coriolis_of_crank(scene: Scene) -> Iterator[Change]:
                 yield Change("A5", relative.name, {step.out: times(made, turn)})
 
 
-def coriolis_for_nothing(scene: Scene) -> Iterator[Change]:
+def coriolis_for_nothing(scene: MistakeContext) -> Iterator[Change]:
     """A6: a Coriolis acceleration where the guide does not turn."""
     scale = scene.segments(A).scale
     for relative in scene.kin.relatives.values():
@@ -234,7 +234,7 @@ def coriolis_for_nothing(scene: Scene) -> Iterator[Change]:
                 yield Change("A6", relative.name, {line.out: changed})
 
 
-def _meets(scene: Scene, line: steps.Parallel, head: PointName | None) -> bool:
+def _meets(scene: MistakeContext, line: steps.Parallel, head: PointName | None) -> bool:
     step = None if head is None else scene.made.get(head)
     return isinstance(step, steps.MeetLines) and line.out in (step.first, step.second)
 
@@ -242,7 +242,7 @@ def _meets(scene: Scene, line: steps.Parallel, head: PointName | None) -> bool:
 # Normal and tangential components ------------------------------------------------------------
 
 
-def _normals(scene: Scene) -> Iterator[tuple[str, steps.Compute, PointName]]:
+def _normals(scene: MistakeContext) -> Iterator[tuple[str, steps.Compute, PointName]]:
     """Yield the normal components ω²·l: letters, step, where each ends."""
     for (_, end), name in scene.segments(A).values.items():
         step = scene.compute(name)
@@ -250,7 +250,7 @@ def _normals(scene: Scene) -> Iterator[tuple[str, steps.Compute, PointName]]:
             yield str(name).removeprefix("an_"), step, end
 
 
-def normal_by_factor(scene: Scene) -> Iterator[Change]:
+def normal_by_factor(scene: MistakeContext) -> Iterator[Change]:
     """N1, N2: aⁿ directed away from the pivot, no aⁿ."""
     for code, factor, prior in (("N1", -1.0, 1.0), ("N2", 0.0, 1.5)):
         for where, step, end in _normals(scene):
@@ -259,7 +259,7 @@ def normal_by_factor(scene: Scene) -> Iterator[Change]:
                 yield from _unlaid(scene, end, code, where)
 
 
-def normal_by_wrong_formula(scene: Scene) -> Iterator[Change]:
+def normal_by_wrong_formula(scene: MistakeContext) -> Iterator[Change]:
     """N3: aⁿ = ω²/l, ω·l, v·l, v²·l, or with the ω of another link; hardly any only if asked."""
     asked = {question.name for question in scene.sheet.asked}
     for where, step, _ in _normals(scene):
@@ -281,7 +281,7 @@ def normal_by_wrong_formula(scene: Scene) -> Iterator[Change]:
                 yield Change("N3", where, {step.out: (made,)})
 
 
-def epsilon_of_whole(scene: Scene) -> Iterator[Change]:
+def epsilon_of_whole(scene: MistakeContext) -> Iterator[Change]:
     """E2: ε by the whole acceleration in place of aᵗ."""
     motion = scene.kin.acceleration
     for link, turning in scene.turnings(A):
@@ -301,7 +301,7 @@ def epsilon_of_whole(scene: Scene) -> Iterator[Change]:
             yield Change("E2", link, {step.out: whole})
 
 
-def turning_reversed(scene: Scene) -> Iterator[Change]:
+def turning_reversed(scene: MistakeContext) -> Iterator[Change]:
     """Sense of one ω or ε, and all that follows from it."""
     for plan in (V, A):
         for link, _ in scene.turnings(plan):

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 
 from msgspec.structs import replace
 
-from planmethod.check.mistakes.model import Change, Scene
+from planmethod.check.mistakes.model import Change, MistakeContext
 from planmethod.construct import steps
 from planmethod.construct.steps import Name, NumberName, Side, Step
 from planmethod.plans.dimensions import DimensionKind
@@ -16,7 +16,7 @@ from planmethod.plans.model import FACTS, MOTION, PlanKind
 READ = (steps.Measure, steps.MeasureAlong)
 
 
-def _readings(scene: Scene, plan: PlanKind) -> Iterator[steps.Compute]:
+def _readings(scene: MistakeContext, plan: PlanKind) -> Iterator[steps.Compute]:
     """Yield the steps that turn a length found on a plan into what it stands for."""
     for name in dict.fromkeys(scene.segments(plan).values.values()):
         step = scene.compute(name)
@@ -31,7 +31,7 @@ def _swapped(
     return steps.Compute(step.out, step.factor, powers, step.size)
 
 
-def scale_inverted(scene: Scene) -> Iterator[Change]:
+def scale_inverted(scene: MistakeContext) -> Iterator[Change]:
     """S1: mm divided by μ where they are multiplied."""
     for plan in MOTION[1:]:
         scale = NumberName(FACTS[plan].scale)
@@ -42,7 +42,7 @@ def scale_inverted(scene: Scene) -> Iterator[Change]:
             yield Change("S1", FACTS[plan].scale, changed, of_scale=True)
 
 
-def scale_of_another_plan(scene: Scene) -> Iterator[Change]:
+def scale_of_another_plan(scene: MistakeContext) -> Iterator[Change]:
     """S3: the μ of another plan."""
     for plan in MOTION[1:]:
         scale = NumberName(FACTS[plan].scale)
@@ -57,7 +57,7 @@ def scale_of_another_plan(scene: Scene) -> Iterator[Change]:
             yield Change("S3", FACTS[plan].scale, changed, of_scale=True)
 
 
-def scale_by(scene: Scene, plan: PlanKind, factor: float) -> Change:
+def scale_by(scene: MistakeContext, plan: PlanKind, factor: float) -> Change:
     """Return the mistake of a plan whose μ is another one by a factor."""
     changed: dict[Name, tuple[Step, ...]] = {
         step.out: (replace(step, factor=step.factor * factor),) for step in _readings(scene, plan)
@@ -65,7 +65,7 @@ def scale_by(scene: Scene, plan: PlanKind, factor: float) -> Change:
     return Change("scale", FACTS[plan].scale, changed, prior=0.02, of_scale=True)
 
 
-def units_of_speed(scene: Scene) -> Iterator[Change]:
+def units_of_speed(scene: MistakeContext) -> Iterator[Change]:
     """S2: rev/min for 1/s, n/30 without π, degrees for radians."""
     drive = scene.problem.drive
     name = drive.coordinate.rates[0]
@@ -75,7 +75,7 @@ def units_of_speed(scene: Scene) -> Iterator[Change]:
         yield Change("S2", drive.link, data={name: drive.rate * factor})
 
 
-def units_of_length(scene: Scene) -> Iterator[Change]:
+def units_of_length(scene: MistakeContext) -> Iterator[Change]:
     """S2: lengths in mm in formulas that want metres."""
     lengths = {
         name
@@ -93,7 +93,7 @@ def units_of_length(scene: Scene) -> Iterator[Change]:
         yield Change("S2", "l", changed)
 
 
-def true_for_drawn(scene: Scene) -> Iterator[Change]:
+def true_for_drawn(scene: MistakeContext) -> Iterator[Change]:
     """Length of a link read on the drawing and taken for its true one."""
     scale = NumberName(FACTS[PlanKind.POSITION].scale)
     changed: dict[Name, tuple[Step, ...]] = {}
@@ -112,7 +112,7 @@ def true_for_drawn(scene: Scene) -> Iterator[Change]:
         yield Change("true_mm", "l", changed)
 
 
-def other_assembly(scene: Scene) -> Iterator[Change]:
+def other_assembly(scene: MistakeContext) -> Iterator[Change]:
     """P1: a group closed the other way."""
     for step in scene.steps:
         swapped: Step
@@ -128,7 +128,7 @@ def other_assembly(scene: Scene) -> Iterator[Change]:
         yield Change("P1", str(step.out), {step.out: (swapped,)})
 
 
-def other_angle(scene: Scene) -> Iterator[Change]:
+def other_angle(scene: MistakeContext) -> Iterator[Change]:
     """P1: the angle of the crank counted the other way, or from another axis."""
     drive = scene.problem.drive
     name = drive.coordinate.name

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
-from planmethod.check.model import Checked, Judged, Unread, Verdict
+from planmethod.check.model import CheckedWork, Judged, Unread, Verdict
 from planmethod.check.pages.speech import Speech, quoted, told
 from planmethod.languages import say
 from planmethod.note.document import Caption, Document, Node, Paragraph, table_of
@@ -14,12 +14,12 @@ from planmethod.note.wording import Language, Words
 _NONE = "—"
 
 
-def compared_document(checked: Sequence[Checked], words: Language) -> Document:
+def compared_document(checked: Sequence[CheckedWork], words: Language) -> Document:
     """Return tables, one for each work: his value, the exact one, how far apart."""
     return Document.of(_nodes(checked, words))
 
 
-def _nodes(checked: Sequence[Checked], words: Language) -> Iterator[Node]:
+def _nodes(checked: Sequence[CheckedWork], words: Language) -> Iterator[Node]:
     speech = Speech(words)
     say: Words = words.check["compared"]
     for one in checked:
@@ -52,7 +52,7 @@ ASIDE = (Unread.COLUMN, Unread.KEY)
 """What is told of, but loses no answer: a column or a key that nobody knows."""
 
 
-def unread_lines(checked: Sequence[Checked], words: Language) -> Iterator[tuple[str, bool]]:
+def unread_lines(checked: Sequence[CheckedWork], words: Language) -> Iterator[tuple[str, bool]]:
     """Yield what could not be read, and whether an answer is lost by it."""
     speech = Speech(words)
     for one in checked:

@@ -15,7 +15,7 @@ from msgspec.structs import asdict, replace
 
 from planmethod.check.key import Key
 from planmethod.check.marks import Settings
-from planmethod.check.model import Checked, Judged, Written
+from planmethod.check.model import CheckedWork, Judged, WrittenAnswer
 from planmethod.check.pages.listing import csv_bytes
 from planmethod.check.pages.overrides import HEAD
 from planmethod.check.pages.results import results_xlsx
@@ -87,12 +87,12 @@ def hidden_name(student: str, salt: str) -> str:
     return "s-" + hashlib.sha256(f"{salt}\n{student}".encode()).hexdigest()[:8]
 
 
-def anonymous(works: Sequence[Checked], salt: str) -> list[Checked]:
+def anonymous(works: Sequence[CheckedWork], salt: str) -> list[CheckedWork]:
     """Return the works without the names of students and of their files."""
     return [_anonymous(checked, salt) for checked in works]
 
 
-def _anonymous(checked: Checked, salt: str) -> Checked:
+def _anonymous(checked: CheckedWork, salt: str) -> CheckedWork:
     work = checked.work
     hidden = hidden_name(work.student, salt)
     file = Path(work.where).name
@@ -102,7 +102,7 @@ def _anonymous(checked: Checked, salt: str) -> Checked:
             text = text.replace(name, hidden) if name else text
         return text
 
-    def rewritten(written: Written) -> Written:
+    def rewritten(written: WrittenAnswer) -> WrittenAnswer:
         return replace(
             written,
             where=bare(written.where),
@@ -150,7 +150,7 @@ def file_names(students: Sequence[str]) -> list[str]:
 
 def write_all(
     out: Path,
-    checked: Sequence[Checked],
+    checked: Sequence[CheckedWork],
     keys: Mapping[str | None, Key],
     settings: Settings,
     inputs: Sequence[Path],
@@ -164,7 +164,7 @@ def write_all(
     ----------
     out : Path
         Folder of the files; the pages go to ``pages`` in it.
-    checked : sequence of Checked
+    checked : sequence of CheckedWork
         With the overrides, and with the names hidden if they shall be.
     keys : mapping
         By the variant of a work; a work without a key has no page.
@@ -207,7 +207,7 @@ def write_all(
 
 
 def _pages(
-    checked: Sequence[Checked], keys: Mapping[str | None, Key], marks: Sequence[str], lang: str
+    checked: Sequence[CheckedWork], keys: Mapping[str | None, Key], marks: Sequence[str], lang: str
 ) -> Iterator[dict[str, bytes]]:
     words = language(lang)
     solutions: dict[str | None, Solution | KindProblem] = {}

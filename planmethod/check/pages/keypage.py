@@ -34,7 +34,7 @@ UNSEEN = "*"
 """Sign of an answer that the drawing does not show, where there is no room for words."""
 
 
-class Row(Struct, frozen=True):
+class KeyRow(Struct, frozen=True):
     """One variant in one position (строка ключа группы)."""
 
     key: Key
@@ -75,13 +75,13 @@ class KeyPage(Struct, frozen=True):
             title += f". {self.say.variant.format(variant=self.keys[0].variant)}"
         return title
 
-    def rows(self) -> list[Row]:
+    def rows(self) -> list[KeyRow]:
         """Return variants and positions."""
         found: dict[tuple[int, int], dict[str, KeyEntry]] = {}
         for number, key in enumerate(self.keys):
             for entry in key.entries:
                 found.setdefault((number, entry.position), {})[entry.label] = entry
-        return [Row(self.keys[number], at, entries) for (number, at), entries in found.items()]
+        return [KeyRow(self.keys[number], at, entries) for (number, at), entries in found.items()]
 
     def scales(self) -> str:
         """Return the scales as a sentence, rich text: variants that have the same ones together.
@@ -166,7 +166,7 @@ class KeyPage(Struct, frozen=True):
         unit = self.speech.unit(entry)
         return f"{self.speech.letters(entry)}, {unit}" if unit else self.speech.letters(entry)
 
-    def lead(self, row: Row) -> str:
+    def lead(self, row: KeyRow) -> str:
         """Return what a row begins with: variant, and position where there are several."""
         several = len({r.position for r in self.rows()}) > 1
         lead = [row.key.variant] if row.key.variant else []

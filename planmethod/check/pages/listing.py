@@ -7,7 +7,7 @@ import io
 from collections.abc import Iterable, Iterator
 from typing import Any
 
-from planmethod.check.model import Checked, Diagnosis, Judged, KeyEntry
+from planmethod.check.model import CheckedWork, Diagnosis, Judged, KeyEntry
 from planmethod.check.pages.speech import told
 from planmethod.note.numbers import finite_or_none
 
@@ -20,7 +20,7 @@ COLUMNS = (
 _FORMULA = "=+-@\t\r"
 
 
-def record(checked: Checked) -> dict[str, Any]:
+def record(checked: CheckedWork) -> dict[str, Any]:
     """Return a judged work as plain data: SI, full precision, None for what there is not."""
     return {
         "student": checked.work.student,
@@ -83,7 +83,7 @@ def _number(value: float | None) -> float | None:
     return None if value is None else finite_or_none(value)
 
 
-def codes_of(checked: Checked, judged: Judged) -> tuple[str, ...]:
+def codes_of(checked: CheckedWork, judged: Judged) -> tuple[str, ...]:
     """Return the codes of the mistakes that begin at an answer."""
     found = [code for d in checked.diagnosis if judged.id in d.roots for code in d.codes]
     return tuple(dict.fromkeys(found))
@@ -94,7 +94,7 @@ def safe(text: str) -> str:
     return f"'{text}" if text[:1] and text[0] in _FORMULA else text
 
 
-def csv_bytes(works: Iterable[Checked]) -> bytes:
+def csv_bytes(works: Iterable[CheckedWork]) -> bytes:
     """Return ``results.csv``: an answer a row, semicolons, decimal points, UTF-8 with a mark."""
     text = io.StringIO(newline="")
     writer = csv.writer(text, delimiter=";", lineterminator="\r\n")
@@ -104,7 +104,7 @@ def csv_bytes(works: Iterable[Checked]) -> bytes:
     return text.getvalue().encode("utf-8-sig")
 
 
-def _rows(checked: Checked) -> Iterator[list[str]]:
+def _rows(checked: CheckedWork) -> Iterator[list[str]]:
     for judged in checked.answers:
         cells = _answer(judged) | {
             "student": checked.work.student,

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping
 
 from msgspec import Struct
 
-from planmethod.check.model import Checked, Diagnosis, Judged, Verdict
+from planmethod.check.model import CheckedWork, Diagnosis, Judged, Verdict
 from planmethod.construct.steps import PointName
 from planmethod.note.narrate.scales import scale_inscription
 from planmethod.note.wording import Language
@@ -82,14 +82,14 @@ class Overlay(Struct, frozen=True):
         return right - left, high - low
 
 
-def overlays(solution: Solution, checked: Checked, words: Language) -> list[Overlay]:
+def overlays(solution: Solution, checked: CheckedWork, words: Language) -> list[Overlay]:
     """Return the plans of velocities and accelerations in the position where trouble begins."""
     index = _position(checked, len(solution.positions))
     made = (_overlay(solution, checked, kind, index, words) for kind in RATES)
     return [overlay for overlay in made if overlay is not None]
 
 
-def _position(checked: Checked, count: int) -> int:
+def _position(checked: CheckedWork, count: int) -> int:
     """Return the position that is drawn: that of the first root, else of the first wrong answer."""
     roots = {id for diagnosis in checked.diagnosis for id in diagnosis.roots}
     told = [judged for judged in checked.answers if judged.key is not None]
@@ -132,7 +132,7 @@ def _bare(letter: str) -> str:
 
 
 def _overlay(
-    solution: Solution, checked: Checked, kind: PlanKind, index: int, words: Language
+    solution: Solution, checked: CheckedWork, kind: PlanKind, index: int, words: Language
 ) -> Overlay | None:
     drawing, pole = true_plan(solution, kind, index)
     at = plan_places(solution, kind, index)

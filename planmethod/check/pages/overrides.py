@@ -14,7 +14,7 @@ from typing import TypeVar
 from msgspec import Struct
 from msgspec.structs import replace
 
-from planmethod.check.model import Checked, Judged
+from planmethod.check.model import CheckedWork, Judged
 from planmethod.errors import ExitCode, PlanMethodError
 from planmethod.problem.source import table_text
 
@@ -22,7 +22,7 @@ COLUMNS = ("student", "id", "points", "remark")
 HEAD = (";".join(COLUMNS) + "\r\n").encode("utf-8-sig")
 MOST_BYTES = 1_000_000
 MOST_ROWS = 10_000
-T = TypeVar("T", Checked, Judged)
+T = TypeVar("T", CheckedWork, Judged)
 
 
 class OverridesError(PlanMethodError):
@@ -123,8 +123,8 @@ def _bare(text: str) -> str:
 
 
 def overridden(
-    works: Sequence[Checked], overrides: Sequence[Override]
-) -> tuple[list[Checked], tuple[str, ...]]:
+    works: Sequence[CheckedWork], overrides: Sequence[Override]
+) -> tuple[list[CheckedWork], tuple[str, ...]]:
     """Return the works with what was set by hand, and the rows that fit no work or answer."""
     used: set[str] = set()
     changed = []

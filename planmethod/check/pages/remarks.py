@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator, Mapping
 
 from msgspec import Struct
 
-from planmethod.check.model import Checked, Diagnosis, Judged, Sense, Verdict, Written
+from planmethod.check.model import CheckedWork, Diagnosis, Judged, Sense, Verdict, WrittenAnswer
 from planmethod.check.pages.speech import Speech, quoted
 from planmethod.note.wording import Words
 from planmethod.plans.model import FACTS, RATES
@@ -21,13 +21,13 @@ class Remarks(Struct, frozen=True):
     Attributes
     ----------
     speech : Speech
-    checked : Checked
+    checked : CheckedWork
     scales : mapping of str to float
         Those of the key, where the student names none of his own.
     """
 
     speech: Speech
-    checked: Checked
+    checked: CheckedWork
     scales: Mapping[str, float]
 
     @property
@@ -272,7 +272,7 @@ class Remarks(Struct, frozen=True):
         return ", ".join(self.speech.symbol(judged) for judged in answers)
 
 
-def what_stands(written: Written) -> str:
+def what_stands(written: WrittenAnswer) -> str:
     """Return what cannot be read, as it stands there."""
     return quoted(written.raw or written.fault or written.unreadable)
 

@@ -6,7 +6,7 @@ from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
-from planmethod.check.model import Checked, Diagnosis, Judged, KeyEntry, Sense, Verdict
+from planmethod.check.model import CheckedWork, Diagnosis, Judged, KeyEntry, Sense, Verdict
 from planmethod.check.pages.listing import codes_of
 from planmethod.check.pages.speech import Speech, told
 from planmethod.check.pages.workbook import Filled, add_sheet, new_workbook, saved
@@ -27,7 +27,7 @@ POINTS, SHARE, VALUE, LENGTH = "0.##", "0%", "0.0000", "0.0"
 
 
 def results_xlsx(
-    works: Sequence[Checked],
+    works: Sequence[CheckedWork],
     words: Language,
     *,
     marks: Sequence[str] = (),
@@ -76,7 +76,7 @@ def results_xlsx(
 
 
 def _summary(
-    works: Sequence[Checked], marks: Sequence[str], words: Language
+    works: Sequence[CheckedWork], marks: Sequence[str], words: Language
 ) -> Iterator[list[Any]]:
     for number, checked in enumerate(works):
         counts = Counter(judged.verdict for judged in checked.answers)
@@ -93,7 +93,7 @@ def _summary(
         ]
 
 
-def told_mistakes(checked: Checked, say: Words) -> str:
+def told_mistakes(checked: CheckedWork, say: Words) -> str:
     """Return the mistakes of a work: codes and names, each with the answers where it begins."""
     labels = _labels(checked)
     begins: dict[str, list[str]] = {}
@@ -106,7 +106,7 @@ def told_mistakes(checked: Checked, say: Words) -> str:
     )
 
 
-def _labels(checked: Checked) -> dict[str, str]:
+def _labels(checked: CheckedWork) -> dict[str, str]:
     return {judged.id: judged.key.label for judged in checked.answers if judged.key is not None}
 
 
@@ -121,7 +121,7 @@ def _name(diagnosis: Diagnosis, say: Words) -> str:
     return " / ".join(names) if diagnosis.sure else f"{results.perhaps}: {' / '.join(names)}"
 
 
-def _notes(checked: Checked, words: Language) -> Iterator[str]:
+def _notes(checked: CheckedWork, words: Language) -> Iterator[str]:
     say = words.check
     if checked.suspicious:
         yield say["results"].suspicious
@@ -133,7 +133,7 @@ def _notes(checked: Checked, words: Language) -> Iterator[str]:
         yield f"{say['verdicts']['unreadable']}: {written.where} {Speech(words).unread(written)}"
 
 
-def _answers(works: Sequence[Checked], words: Language) -> Iterator[list[Any]]:
+def _answers(works: Sequence[CheckedWork], words: Language) -> Iterator[list[Any]]:
     say = words.check
     for checked in works:
         labels = _labels(checked)
@@ -171,7 +171,7 @@ def _sign(sense: Sense | None, say: Words) -> str:
     return "" if sense is None else say["senses"][sense.value][0]
 
 
-def _by_code(works: Sequence[Checked], say: Words) -> Iterator[list[Any]]:
+def _by_code(works: Sequence[CheckedWork], say: Words) -> Iterator[list[Any]]:
     """Yield the mistakes by how many made them, a student once for each."""
     sure: dict[str, list[str]] = {}
     perhaps: dict[str, list[str]] = {}
@@ -195,7 +195,7 @@ def _by_code(works: Sequence[Checked], say: Words) -> Iterator[list[Any]]:
         ]
 
 
-def _by_answer(works: Sequence[Checked]) -> Iterator[list[Any]]:
+def _by_answer(works: Sequence[CheckedWork]) -> Iterator[list[Any]]:
     """Yield the answers: how many gave them, how many got points, which share of the points."""
     found: dict[str, list[Judged]] = {}
     for checked in works:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from msgspec import Struct
 
-from planmethod.check.model import Judged, KeyEntry, Sense, Written
+from planmethod.check.model import Judged, KeyEntry, Sense, WrittenAnswer
 from planmethod.note.numbers import trimmed
 from planmethod.note.plaintext import NO_BREAK
 from planmethod.note.rounding import rounded_to, sigma_text
@@ -55,7 +55,7 @@ class Speech(Struct, frozen=True):
             return key.asked
         return "" if key.unit == "1" else self.words.say.units.get(key.unit, key.unit)
 
-    def unread(self, written: Written) -> str:
+    def unread(self, written: WrittenAnswer) -> str:
         """Return why something cannot be read, as plain text."""
         if written.why is None:
             return quoted(written.unreadable or written.raw)

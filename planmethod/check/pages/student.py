@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping, Sequence
 
 from msgspec import Struct
 
-from planmethod.check.model import Checked, Judged, Verdict
+from planmethod.check.model import CheckedWork, Judged, Verdict
 from planmethod.check.pages.overlay import Overlay, overlays
 from planmethod.check.pages.overlayview import LETTERING, STYLE, OverlayView
 from planmethod.check.pages.remarks import Remarks, what_stands
@@ -42,7 +42,7 @@ SMALLEST = 0.42
 """Plans that would be shrunk further stand one under the other."""
 
 
-class Line(Struct, frozen=True):
+class AnswerLine(Struct, frozen=True):
     """One answer in the table, rich text."""
 
     cells: tuple[str, ...]
@@ -59,7 +59,7 @@ class Page(Struct, frozen=True):
         Student, variant, points, mark.
     counted : str
     remarks, redraw : tuple of str
-    lines : tuple of Line
+    lines : tuple of AnswerLine
     plans : tuple of Overlay
     captions : tuple of str
         Of the plans, one each.
@@ -73,7 +73,7 @@ class Page(Struct, frozen=True):
     counted: str
     remarks: tuple[str, ...]
     redraw: tuple[str, ...]
-    lines: tuple[Line, ...]
+    lines: tuple[AnswerLine, ...]
     plans: tuple[Overlay, ...]
     captions: tuple[str, ...]
     legend: str
@@ -149,7 +149,7 @@ def _nodes(page: Page, solved: Solution | KindProblem, words: Language) -> Itera
 
 
 def student_page(
-    checked: Checked,
+    checked: CheckedWork,
     solved: Solution | KindProblem,
     words: Language,
     *,
@@ -199,11 +199,11 @@ def student_page(
     )
 
 
-def lines(answers: Sequence[Judged], speech: Speech) -> list[Line]:
+def lines(answers: Sequence[Judged], speech: Speech) -> list[AnswerLine]:
     """Return the answers as lines of the table whose heads are ``check.student.columns``."""
     symbols = {judged.id: speech.symbol(judged) for judged in answers}
     return [
-        Line((str(number), *_cells(judged, speech, symbols)), judged.verdict)
+        AnswerLine((str(number), *_cells(judged, speech, symbols)), judged.verdict)
         for number, judged in enumerate(answers, 1)
     ]
 

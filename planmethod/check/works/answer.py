@@ -7,7 +7,7 @@ from collections.abc import Mapping
 
 from msgspec.structs import replace
 
-from planmethod.check.model import Sense, Unread, Written
+from planmethod.check.model import Sense, Unread, WrittenAnswer
 from planmethod.check.works.cells import Cell, found, read_name, read_sense, refused
 from planmethod.check.works.units import read_number, read_unit
 
@@ -28,7 +28,7 @@ class NotReadError(Exception):
         self.why, self.text, self.cell = why, text, cell
 
 
-def read_answer(cells: Mapping[str, Cell], *, where: str = "") -> Written:
+def read_answer(cells: Mapping[str, Cell], *, where: str = "") -> WrittenAnswer:
     """Return an answer; what cannot be read is told by the first cell at fault.
 
     Parameters
@@ -44,7 +44,7 @@ def read_answer(cells: Mapping[str, Cell], *, where: str = "") -> Written:
         name = name or other
     shown = found(cells, "value", "mm", "sense")
     # The unit as written stays also where nothing is written beside it: the answer is blank.
-    answer = Written(
+    answer = WrittenAnswer(
         what=what,
         id=name,
         unit=found(cells, "unit").text,

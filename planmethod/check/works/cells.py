@@ -8,7 +8,7 @@ from functools import lru_cache
 from msgspec import Struct
 from msgspec.structs import replace
 
-from planmethod.check.model import Sense, Unread, Written
+from planmethod.check.model import Sense, Unread, WrittenAnswer
 from planmethod.check.works.units import DASHES
 from planmethod.note.wording import language
 from planmethod.problem.names import fold, short
@@ -125,12 +125,14 @@ def read_name(text: str) -> tuple[str, str]:
     return folded, ""
 
 
-def refused(why: Unread, text: str, where: str, *, base: Written | None = None) -> Written:
+def refused(
+    why: Unread, text: str, where: str, *, base: WrittenAnswer | None = None
+) -> WrittenAnswer:
     """Return an answer that cannot be read, or a remark."""
     words = language("en").form
     text = short(cut(text))
     said = words["unread"][why.value].format(text=text, known=", ".join(words["units"]))
-    base = base or Written(raw=text)
+    base = base or WrittenAnswer(raw=text)
     return replace(base, unreadable=said, where=where, why=why, fault=text)
 
 

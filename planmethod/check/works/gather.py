@@ -8,7 +8,7 @@ from collections.abc import Mapping
 from msgspec import Struct, field
 from msgspec.structs import replace
 
-from planmethod.check.model import Unread, Work, Written
+from planmethod.check.model import Unread, Work, WrittenAnswer
 from planmethod.check.works.answer import NotReadError, read_scaled
 from planmethod.check.works.cells import Cell, key, refused
 from planmethod.check.works.faults import WorksError
@@ -45,7 +45,7 @@ def scale_name(text: str) -> str:
     return "" if match is None else f"mu_{'l' if match[1] == 's' else match[1]}".replace("f", "F")
 
 
-class Draft(Struct):
+class WorkDraft(Struct):
     """Work of a student while it is read."""
 
     student: str
@@ -55,9 +55,9 @@ class Draft(Struct):
     ruler: float | None = None
     fingerprint: str = ""
     scales: dict[str, float] = field(default_factory=dict)
-    answers: dict[tuple[str, str, int | None], Written] = field(default_factory=dict)
-    twice: list[Written] = field(default_factory=list)
-    remarks: list[Written] = field(default_factory=list)
+    answers: dict[tuple[str, str, int | None], WrittenAnswer] = field(default_factory=dict)
+    twice: list[WrittenAnswer] = field(default_factory=list)
+    remarks: list[WrittenAnswer] = field(default_factory=list)
     points: dict[str, str] = field(default_factory=dict)
     """Points of the problem by the names that they have in this work."""
 
@@ -65,7 +65,7 @@ class Draft(Struct):
         """Note what cannot be read."""
         self.remarks.append(refused(why, text, where))
 
-    def put(self, answer: Written) -> None:
+    def put(self, answer: WrittenAnswer) -> None:
         """Take an answer; what is written before, and otherwise, is not read again."""
         name = (answer.what, key(answer.id), answer.position)
         if not answer.what and not answer.id:
@@ -138,7 +138,7 @@ class Draft(Struct):
         else:
             self.remark(Unread.TWICE, cell.text, cell.where)
 
-    def _renamed(self, answer: Written) -> Written:
+    def _renamed(self, answer: WrittenAnswer) -> WrittenAnswer:
         """Return an answer with the points called as the problem calls them."""
         if not self.points:
             return answer
@@ -166,15 +166,15 @@ class Gathering:
 
     def __init__(self, where: str) -> None:
         self.where = where
-        self.drafts: dict[str, Draft] = {}
-        self.remarks: list[Written] = []
+        self.drafts: dict[str, WorkDraft] = {}
+        self.remarks: list[WrittenAnswer] = []
 
     def note(self, why: Unread, text: str, where: str) -> None:
         """Note what cannot be read and belongs to no student."""
         if len(self.remarks) < ANSWER_LIMIT:
             self.remarks.append(refused(why, text, where))
 
-    def of(self, student: str) -> Draft:
+    def of(self, student: str) -> WorkDraft:
         """Return the draft of a student."""
         if student not in self.drafts:
             if len(self.drafts) >= STUDENT_LIMIT:
@@ -183,7 +183,7 @@ class Gathering:
                     self.where,
                     STUDENT_LIMIT,
                 )
-            self.drafts[student] = Draft(student, self.where)
+            self.drafts[student] = WorkDraft(student, self.where)
         return self.drafts[student]
 
     def works(self) -> list[Work]:
@@ -218,13 +218,13 @@ def _called(text: str, names: Mapping[str, str], *, skip: int = 0) -> str:
     return "".join(words)
 
 
-def _joined(one: Written, other: Written) -> Written | None:
+def _joined(one: WrittenAnswer, other: WrittenAnswer) -> WrittenAnswer | None:
     """Return two notes of the same answer as one; None if they do not say the same."""
     if one.unreadable or other.unreadable:
         return None
-    blank = Written()
+    blank = WrittenAnswer()
     said: dict[str, object] = {}
-    for name in Written.__struct_fields__:
+    for name in WrittenAnswer.__struct_fields__:
         mine, theirs, nothing = getattr(one, name), getattr(other, name), getattr(blank, name)
         if name in _KEPT or theirs == nothing:
             continue

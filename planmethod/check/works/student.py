@@ -11,7 +11,7 @@ from planmethod.check.model import Unread, Work
 from planmethod.check.works.answer import read_answer
 from planmethod.check.works.cells import Cell, cut
 from planmethod.check.works.faults import WorksError
-from planmethod.check.works.gather import ANSWER_LIMIT, STUDENT_LIMIT, Draft, scale_name
+from planmethod.check.works.gather import ANSWER_LIMIT, STUDENT_LIMIT, WorkDraft, scale_name
 from planmethod.errors import ProblemError
 from planmethod.problem.source import parse
 
@@ -86,7 +86,7 @@ def _work(whole: Any, path: Path, before: str) -> Work:
     answers = whole.get("answers")
     if not isinstance(answers, list) or len(answers) > ANSWER_LIMIT:
         raise WorksError("{}: 'answers' must be a list of at most {} objects.", where, ANSWER_LIMIT)
-    draft = Draft(_cell(whole.get("student")).text or path.stem, str(path))
+    draft = WorkDraft(_cell(whole.get("student")).text or path.stem, str(path))
     _note_unknown(draft, whole, _WORK, before)
     for field in ("variant", "problem", "ruler_mm"):
         draft.put_field(field, _cell(whole.get(field), f"{before}{field}"))
@@ -115,7 +115,7 @@ def _work(whole: Any, path: Path, before: str) -> Work:
 
 
 def _note_unknown(
-    draft: Draft, table: Mapping[str, Any], known: tuple[str, ...], before: str
+    draft: WorkDraft, table: Mapping[str, Any], known: tuple[str, ...], before: str
 ) -> None:
     for key in table:
         if key not in known and key not in _IGNORED:

@@ -12,7 +12,7 @@ from msgspec.structs import replace
 from planmethod.check.model import Unread
 from planmethod.check.works.answer import read_answer
 from planmethod.check.works.cells import BLANK, HEADS, MM, POINT, Cell, cut, found, key, read_name
-from planmethod.check.works.gather import Draft, Gathering, scale_name
+from planmethod.check.works.gather import Gathering, WorkDraft, scale_name
 from planmethod.check.works.units import read_unit
 
 ASPECTS = ("value", "mm", "sense", "unit", "segment")
@@ -221,7 +221,7 @@ def _above(rows: Sequence[Row]) -> dict[str, tuple[Cell, str]]:
     return told
 
 
-def _share(draft: Draft, shared: Mapping[str, tuple[Cell, str]]) -> None:
+def _share(draft: WorkDraft, shared: Mapping[str, tuple[Cell, str]]) -> None:
     for name, (cell, unit) in shared.items():
         if name.startswith("mu_"):
             draft.put_scale(name, cell, unit)
@@ -249,7 +249,7 @@ def _wide_heads(
     return found_heads, below[1:] if two else below
 
 
-def _read_row(draft: Draft, cells: Sequence[tuple[Head, Cell]]) -> None:
+def _read_row(draft: WorkDraft, cells: Sequence[tuple[Head, Cell]]) -> None:
     """Take what a row says: of the student, and an answer or those of all columns."""
     own: dict[str, Cell] = {}
     asked: list[dict[str, Cell]] = []
@@ -281,7 +281,7 @@ def _read_row(draft: Draft, cells: Sequence[tuple[Head, Cell]]) -> None:
         _read_long_row(draft, own)
 
 
-def _read_long_row(draft: Draft, cells: Mapping[str, Cell]) -> None:
+def _read_long_row(draft: WorkDraft, cells: Mapping[str, Cell]) -> None:
     named, value = found(cells, "what", "id").text, found(cells, "value", "mm")
     word, _, point = named.partition(" ")
     if scale := scale_name(named):

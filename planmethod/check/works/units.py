@@ -10,7 +10,7 @@ from functools import lru_cache
 
 from msgspec import Struct
 
-from planmethod.check.model import Written
+from planmethod.check.model import WrittenAnswer
 
 TEXT_LIMIT = 32
 
@@ -18,7 +18,7 @@ Dimension = tuple[int, int, int, int]
 """Powers of length, time, force and angle."""
 
 
-class Unit(Struct, frozen=True):
+class MeasurementUnit(Struct, frozen=True):
     """A unit (единица).
 
     Attributes
@@ -75,13 +75,13 @@ class _NoUnitError(Exception):
 
 
 @lru_cache(maxsize=1024)
-def read_unit(text: str) -> Unit | None:
+def read_unit(text: str) -> MeasurementUnit | None:
     """Return the unit that a text names, or None: ``м/с²``, ``m/s^2``, ``(м/с)/мм``, ``об/мин``.
 
     Examples
     --------
     >>> read_unit("мм/с")
-    Unit(factor=0.001, dimension=(1, -1, 0, 0))
+    MeasurementUnit(factor=0.001, dimension=(1, -1, 0, 0))
     """
     plain = _plain(text) if len(text) <= TEXT_LIMIT else ""
     try:
@@ -92,7 +92,7 @@ def read_unit(text: str) -> Unit | None:
         factor = math.degrees(factor)
     else:
         dimension = (*dimension[:3], 0)
-    return Unit(factor, dimension)
+    return MeasurementUnit(factor, dimension)
 
 
 def _tokens(plain: str) -> Iterator[tuple[str, int]]:
@@ -134,7 +134,7 @@ def _product(tokens: Iterator[tuple[str, int]], *, inside: bool) -> tuple[float,
     return factor, dimension
 
 
-def ratio(answer: Written, unit: str) -> float | None:
+def ratio(answer: WrittenAnswer, unit: str) -> float | None:
     """Return what ``value`` and ``step`` of an answer are multiplied by to be in a key's unit.
 
     An answer without a unit is in that of the key.

@@ -225,7 +225,7 @@ class Symbolic(Exact, Struct):
         return tail, self.known(along)
 
 
-class Written(Struct, frozen=True):
+class TapeProgram(Struct, frozen=True):
     """A program written on a tape.
 
     Attributes
@@ -250,7 +250,7 @@ class Written(Struct, frozen=True):
 
 def write(
     program: Program, data: Mapping[str, complex | float], inputs: tuple[str, ...]
-) -> Written:
+) -> TapeProgram:
     """Read a program in symbols.
 
     Parameters
@@ -286,7 +286,7 @@ def write(
         env[step.out] = value if isinstance(value, Symbol | tuple) else ar.lift(value)
         depends[step.out] = mine
         _note_lengths(step, env, ar)
-    return Written(ar.tape, env, tuple(guards), depends, inputs)
+    return TapeProgram(ar.tape, env, tuple(guards), depends, inputs)
 
 
 def _watched(guard: Guard, tape: Tape) -> Guard | None:

@@ -10,10 +10,10 @@ import cmath
 from collections.abc import Iterator, Mapping
 from math import asin, cos, radians, sin
 
-from planmethod.gears.construction import FEET, POLE, Construction, Reading
+from planmethod.gears.construction import FEET, POLE, GearDrawing, GearReading
 from planmethod.gears.model import MeshKind
 from planmethod.gears.picture import ContactKind, ContactPoint
-from planmethod.gears.scheme import Rim, Scheme
+from planmethod.gears.scheme import Rim, SchemeData
 from planmethod.note.plaintext import plain_text
 from planmethod.plans.model import VectorKind
 from planmethod.render.ink.drawing import Arc, Disc, Ink, Item, Pen, Span, Stroke
@@ -39,7 +39,7 @@ _ANGLES = (205.0, 330.0, 155.0, 25.0, 240.0, 300.0, 180.0, 0.0)
 """Where the arrows stand, degrees, one wheel after another: off the line of centres."""
 
 
-def front(scheme: Scheme, height: float) -> Picture:
+def front(scheme: SchemeData, height: float) -> Picture:
     """Return the view along the axes; letters are ``height`` mm high."""
     items: list[Item] = []
     labels: list[Label] = []
@@ -71,7 +71,7 @@ def front(scheme: Scheme, height: float) -> Picture:
     return lettered(items, list(unique.values()))
 
 
-def _straight(scheme: Scheme, rims: Mapping[str, Rim]) -> Iterator[Item]:
+def _straight(scheme: SchemeData, rims: Mapping[str, Rim]) -> Iterator[Item]:
     """Yield belts and chains from circle to circle, and racks."""
     for mesh in scheme.motion.train.meshes:
         one, other = rims.get(mesh.first), rims.get(mesh.second)
@@ -108,7 +108,7 @@ def _rim(rim: Rim) -> float:
     return rim.radius + (SIZES.slider_width / 2 if rim.ring else 0.0)
 
 
-def _sense(scheme: Scheme, rim: Rim, angle: float) -> list[Item]:
+def _sense(scheme: SchemeData, rim: Rim, angle: float) -> list[Item]:
     """Return the arrow of a wheel's sense, none of one that stands."""
     speed = scheme.motion.speeds[rim.body]
     radius = rim.radius - ARROW_INSIDE
@@ -131,7 +131,7 @@ NOTHING = 0.05
 """Segments below this are nothing, mm."""
 
 
-def linear(drawn: Construction, seen: Reading, height: float) -> tuple[list[Item], list[Label]]:
+def linear(drawn: GearDrawing, seen: GearReading, height: float) -> tuple[list[Item], list[Label]]:
     """Return the picture of linear velocities, the foot of the main axis at the origin."""
     feet = {spot.foot: seen.point(spot.foot) for spot in drawn.spots} | {FEET: 0j}
     levels = [at.imag for at in feet.values()]
@@ -160,7 +160,7 @@ def linear(drawn: Construction, seen: Reading, height: float) -> tuple[list[Item
     return items, [*labels, *named]
 
 
-def lines(drawn: Construction, seen: Reading) -> dict[str, tuple[complex, complex]]:
+def lines(drawn: GearDrawing, seen: GearReading) -> dict[str, tuple[complex, complex]]:
     """Return the lines of bodies that move, from their lowest point to their highest."""
     scale = float(drawn.motion.train.unit_m / drawn.picture.mu_l)
     found = {}
@@ -175,7 +175,7 @@ def lines(drawn: Construction, seen: Reading) -> dict[str, tuple[complex, comple
     return found
 
 
-def linear_spans(drawn: Construction, seen: Reading, origin: complex) -> Iterator[Span]:
+def linear_spans(drawn: GearDrawing, seen: GearReading, origin: complex) -> Iterator[Span]:
     """Yield the measured segments of a picture whose main axis lies at ``origin`` on the sheet."""
     for spot in drawn.spots:
         foot, end = seen.point(spot.foot), seen.point(spot.end)
@@ -183,7 +183,7 @@ def linear_spans(drawn: Construction, seen: Reading, origin: complex) -> Iterato
             yield Span(plain_text(f"{spot.foot}{spot.letter}"), None, origin + foot, origin + end)
 
 
-def angular(drawn: Construction, seen: Reading, height: float) -> Picture:
+def angular(drawn: GearDrawing, seen: GearReading, height: float) -> Picture:
     """Return the picture of angular velocities, its pole at the origin."""
     foot = -1j * float(drawn.picture.pole_mm)
     ends = {body: seen.point(end) for body, end in drawn.rays.items()}
@@ -207,7 +207,7 @@ def angular(drawn: Construction, seen: Reading, height: float) -> Picture:
     return lettered(items, below)
 
 
-def angular_spans(drawn: Construction, seen: Reading, pole: complex) -> Iterator[Span]:
+def angular_spans(drawn: GearDrawing, seen: GearReading, pole: complex) -> Iterator[Span]:
     """Yield the measured segments of a picture whose pole lies at ``pole`` on the sheet."""
     foot = pole - 1j * float(drawn.picture.pole_mm)
     for body, end in drawn.rays.items():

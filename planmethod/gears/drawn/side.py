@@ -8,7 +8,7 @@ from itertools import pairwise
 
 from msgspec import Struct
 
-from planmethod.gears.arrangement import Arrangement, Part, Stub
+from planmethod.gears.arrangement import Arrangement, AxisPart, Stub
 from planmethod.gears.model import PARALLEL, MeshKind
 from planmethod.gears.picture import ContactKind, ContactPoint
 from planmethod.gears.scheme import Across, Rim, Worm
@@ -37,7 +37,7 @@ BUSH = 3.0
 """Half the length of a bush, and how far a shaft goes out of one, mm."""
 
 
-class Side(Struct, frozen=True, dict=True):
+class SideView(Struct, frozen=True, dict=True):
     """The side view of an arrangement; its main axis is level zero, its first station x = 0.
 
     Attributes
@@ -72,7 +72,7 @@ class Side(Struct, frozen=True, dict=True):
             return SLOT * stubs
         one, other = stations[gap], stations[gap + 1]
         own = one.column == other.column
-        if own and (one.part is Part.APEX or other.part is Part.APEX or one.offset):
+        if own and (one.part is AxisPart.APEX or other.part is AxisPart.APEX or one.offset):
             return other.offset - one.offset
         return max(NEAR if own else STEP, SLOT * stubs + 3.0)
 
@@ -105,7 +105,7 @@ class Side(Struct, frozen=True, dict=True):
                 ends.remove(slot + over)
         if body in self.arrangement.scheme.over:  # out of the bush of the carrier
             for k in numbers:
-                if self.arrangement.stations[k].part is Part.ARM:
+                if self.arrangement.stations[k].part is AxisPart.ARM:
                     ends += [self.places[k] - BUSH, self.places[k] + BUSH]
         elif self._bore(body):
             ends += [min(ends) - BUSH, max(ends) + BUSH] if stub is None else []
@@ -161,9 +161,9 @@ class Side(Struct, frozen=True, dict=True):
             yield from self._across(station.across, x)
         if self._is_conic(number):
             return  # drawn with what it meshes with
-        if station.part is Part.ARM:
+        if station.part is AxisPart.ARM:
             yield from self._arm(station.body, x)
-        elif station.part is Part.WEB:
+        elif station.part is AxisPart.WEB:
             (ring,) = station.rims
             column = self._column(station.column)
             for way in ring.ways:
@@ -175,7 +175,7 @@ class Side(Struct, frozen=True, dict=True):
                     bore=self._bore(ring.body),
                     tag=f"link {ring.body}",
                 )
-        for rim in station.rims if station.part is Part.RIMS else ():
+        for rim in station.rims if station.part is AxisPart.RIMS else ():
             at = complex(x, rim.centre)
             if any(worm.is_level and worm.rim == rim for worm in self.arrangement.scheme.worms):
                 continue
@@ -196,7 +196,7 @@ class Side(Struct, frozen=True, dict=True):
         column = next(s for s in self.arrangement.stations if s.across == across).column
         tag, levels = f"link {across.body}", []
         for station, at in zip(self.arrangement.stations, self.places, strict=True):
-            if station.column != column or station.part is not Part.RIMS:
+            if station.column != column or station.part is not AxisPart.RIMS:
                 continue
             (rim,) = station.rims
             cone = next(c for c in across.cones if c.rim == rim)
@@ -294,7 +294,7 @@ class Side(Struct, frozen=True, dict=True):
         return next(
             x
             for station, x in zip(self.arrangement.stations, self.places, strict=True)
-            if station.part is Part.RIMS and station.column == column
+            if station.part is AxisPart.RIMS and station.column == column
         )
 
     def _halves(self, number: int, rim: Rim) -> tuple[int, ...]:
@@ -334,7 +334,7 @@ class Side(Struct, frozen=True, dict=True):
         """Yield the rims of wheels that mesh in two columns: one wide wheel."""
         found: dict[str, list[tuple[float, Rim]]] = {}
         for station, x in zip(self.arrangement.stations, self.places, strict=True):
-            for rim in station.rims if station.part is Part.RIMS else ():
+            for rim in station.rims if station.part is AxisPart.RIMS else ():
                 found.setdefault(rim.label, []).append((x, rim))
         for label, places in found.items():
             for (x0, one), (x1, rim) in pairwise(places):
@@ -353,7 +353,7 @@ class Side(Struct, frozen=True, dict=True):
             if mesh.kind not in PARALLEL:
                 continue
             for station, x in zip(self.arrangement.stations, self.places, strict=True):
-                rims = {rim.label: rim for rim in station.rims if station.part is Part.RIMS}
+                rims = {rim.label: rim for rim in station.rims if station.part is AxisPart.RIMS}
                 if mesh.first in rims and mesh.second in rims:
                     own = rims[mesh.first]
                     other = rims[mesh.second]
@@ -379,12 +379,12 @@ class Side(Struct, frozen=True, dict=True):
         ):
             if station.across is not None:
                 yield from self._across_labels(station.across, x, height)
-            if station.part is Part.ARM:
+            if station.part is AxisPart.ARM:
                 foot = self._height(station.body)
                 near = min(self.arrangement.arms(station.body), key=lambda h: abs(h - foot))
                 at = complex(x, (foot + near) / 2)
                 yield self._label(station.body, at, 1, height)
-            for rim in station.rims if station.part is Part.RIMS else ():
+            for rim in station.rims if station.part is AxisPart.RIMS else ():
                 if rim.label in told:
                     continue
                 told.add(rim.label)

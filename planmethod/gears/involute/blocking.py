@@ -30,7 +30,7 @@ class LimitKind(Enum):
     TIPS = "tips"
 
 
-class Limit(Struct, frozen=True):
+class BlockingLimit(Struct, frozen=True):
     """One limit (ограничение).
 
     Attributes
@@ -80,24 +80,24 @@ class Limit(Struct, frozen=True):
         return np.asarray(self.value(pair) - self.bound(pair))
 
 
-def limits(tip: float, overlap: float, *, internal: bool = False) -> tuple[Limit, ...]:
+def limits(tip: float, overlap: float, *, internal: bool = False) -> tuple[BlockingLimit, ...]:
     """Return all limits: those without which the pair does not work, then those of good use.
 
     The tips of an internal pair must not meet outside the mesh; its ring has no undercut.
     """
     wheels = (0, 1)
     return (
-        *((Limit(LimitKind.TIPS, None, hard=True),) if internal else ()),
-        *(Limit(LimitKind.INTERFERENCE, k, hard=True) for k in wheels),
-        *(Limit(LimitKind.TIP, k, hard=True) for k in wheels),
-        Limit(LimitKind.OVERLAP, None, 1.0, hard=True),
-        *(Limit(LimitKind.UNDERCUT, k) for k in wheels[: 1 if internal else 2]),
-        *(Limit(LimitKind.TIP, k, tip) for k in wheels),
-        Limit(LimitKind.OVERLAP, None, overlap),
+        *((BlockingLimit(LimitKind.TIPS, None, hard=True),) if internal else ()),
+        *(BlockingLimit(LimitKind.INTERFERENCE, k, hard=True) for k in wheels),
+        *(BlockingLimit(LimitKind.TIP, k, hard=True) for k in wheels),
+        BlockingLimit(LimitKind.OVERLAP, None, 1.0, hard=True),
+        *(BlockingLimit(LimitKind.UNDERCUT, k) for k in wheels[: 1 if internal else 2]),
+        *(BlockingLimit(LimitKind.TIP, k, tip) for k in wheels),
+        BlockingLimit(LimitKind.OVERLAP, None, overlap),
     )
 
 
-def is_kept(pair: Pair, asked: tuple[Limit, ...]) -> Reals:
+def is_kept(pair: Pair, asked: tuple[BlockingLimit, ...]) -> Reals:
     """Tell where all of some limits are kept."""
     with np.errstate(all="ignore"):
         return np.asarray(np.all([one.margin(pair) >= 0 for one in asked], axis=0))
@@ -113,7 +113,7 @@ def tried(total: float | None, side: int = 1) -> Reals:
 
 
 def choose(
-    pair: Pair, asked: tuple[Limit, ...], total: float | None = None
+    pair: Pair, asked: tuple[BlockingLimit, ...], total: float | None = None
 ) -> tuple[float, float] | None:
     """Return shifts that keep all limits, with the least of the greatest specific sliding.
 

@@ -12,9 +12,9 @@ from msgspec import Struct
 from shapely import Polygon, contains_xy, prepare, union_all
 
 from planmethod.construct.scale import series_near
-from planmethod.gears.involute.blocking import Limit, LimitKind, is_kept
+from planmethod.gears.involute.blocking import BlockingLimit, LimitKind, is_kept
 from planmethod.gears.involute.meshpicture import nearest_scale
-from planmethod.gears.involute.quantities import Solved
+from planmethod.gears.involute.quantities import SolvedMeshing
 from planmethod.gears.involute.sizes import Reals
 from planmethod.note.numbers import Notation, trimmed
 from planmethod.note.wording import Language
@@ -64,7 +64,7 @@ class Window(Struct, frozen=True):
         return np.stack(np.meshgrid(across, up))
 
 
-def working(solved: Solved, window: Window) -> Polygon:
+def working(solved: SolvedMeshing, window: Window) -> Polygon:
     """Return the largest region of a window where pairs work, a little widened."""
     grid = window.grid(_COARSE)
     every = solved.pair.shifted(grid)
@@ -89,7 +89,7 @@ def _zero_lines(grid: Reals, values: Reals) -> list[Reals]:
     return list(Figure().subplots().contour(*grid, shown, levels=[0.0]).allsegs[0])
 
 
-def window_of(solved: Solved, region: Polygon) -> Window:
+def window_of(solved: SolvedMeshing, region: Polygon) -> Window:
     """Return the part of the plane that is drawn: the region, the origin, the pair itself."""
     bounds: list[float] = []
     for k in (0, 1):
@@ -99,7 +99,9 @@ def window_of(solved: Solved, region: Polygon) -> Window:
     return Window(*bounds)
 
 
-def curves(solved: Solved, region: Polygon, window: Window) -> Iterator[tuple[Limit, list[Reals]]]:
+def curves(
+    solved: SolvedMeshing, region: Polygon, window: Window
+) -> Iterator[tuple[BlockingLimit, list[Reals]]]:
     """Yield limits with the parts of their curves that the contour shows, arrays (2, n).
 
     Those of hard limits bound the pairs that work, the others run among these.
@@ -125,7 +127,7 @@ def curves(solved: Solved, region: Polygon, window: Window) -> Iterator[tuple[Li
         yield limit, parts
 
 
-def _polished(solved: Solved, limit: Limit, points: Reals) -> Reals:
+def _polished(solved: SolvedMeshing, limit: BlockingLimit, points: Reals) -> Reals:
     """Bring points near a curve onto it, along the gradient of the margin (Newton's method)."""
     small = 1e-6
     with np.errstate(all="ignore"):
@@ -147,12 +149,12 @@ def _polished(solved: Solved, limit: Limit, points: Reals) -> Reals:
 class Contour(Struct, frozen=True):
     """Blocking contour of a pair: what is drawn of the plane, and the curves in it."""
 
-    solved: Solved
+    solved: SolvedMeshing
     window: Window
-    parts: list[tuple[Limit, list[Reals]]]
+    parts: list[tuple[BlockingLimit, list[Reals]]]
 
     @classmethod
-    def of(cls, solved: Solved) -> Contour:
+    def of(cls, solved: SolvedMeshing) -> Contour:
         """Return the contour of a pair."""
         window = window_of(solved, working(solved, Window(LOW, HIGH, LOW, HIGH)))
         return cls(solved, window, list(curves(solved, working(solved, window), window)))
@@ -204,7 +206,7 @@ def _length(points: tuple[complex, ...]) -> float:
     return sum(abs(end - start) for start, end in pairwise(points))
 
 
-def _sign(limit: Limit, say: Notation) -> str:
+def _sign(limit: BlockingLimit, say: Notation) -> str:
     """Return what a curve is called, rich text."""
     number = "" if limit.wheel is None else limit.wheel + 1
     match limit.kind:
@@ -266,19 +268,19 @@ def _axis_numbers(window: Window, per_unit: float, say: Notation, letter: float)
 # Sliding ------------------------------------------------------------------------------------------
 
 
-def sliding_scale(solved: Solved, width: float) -> float:
+def sliding_scale(solved: SolvedMeshing, width: float) -> float:
     """Return the scale in which the line of action has room, mm of paper for one."""
     return nearest_scale((width - _LETTERS) / _line(solved))
 
 
-def _line(solved: Solved) -> float:
+def _line(solved: SolvedMeshing) -> float:
     """Return how long the line of action is drawn, mm: of a ring there is no N₂ on this side."""
     line = float(solved.pair.line)
     return line if line > 0 else _BEYOND * solved.contact.end
 
 
 def sliding_picture(
-    solved: Solved, words: Language, width: float, height: float, letter: float
+    solved: SolvedMeshing, words: Language, width: float, height: float, letter: float
 ) -> Picture:
     """Return the diagram of specific sliding along the line of action from N₁ to N₂.
 

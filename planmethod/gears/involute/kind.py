@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from planmethod.kind import Kind
+from planmethod.kind import ProblemKind
 from planmethod.note.document import Document
 
 if TYPE_CHECKING:
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from planmethod.render.ink.drawing import Drawing
 
 
-class Meshings(Kind["MeshingProblem"]):
+class Meshings(ProblemKind["MeshingProblem"]):
     """Two wheels in mesh (эвольвентное зацепление), as a kind of problem."""
 
     table = "meshing"

@@ -13,7 +13,7 @@ import numpy as np
 from msgspec import Struct
 
 from planmethod.gears.involute.profile import Points, Tooth
-from planmethod.gears.involute.quantities import Solved
+from planmethod.gears.involute.quantities import SolvedMeshing
 from planmethod.note.wording import Language
 from planmethod.render.ink.drawing import Arc, Disc, Ink, Item, Pen, Stroke
 from planmethod.render.ink.extent import ink_bounds
@@ -48,7 +48,7 @@ _ASIDE = 22.0  # mm: from the circles to the dimension of the distance of the ax
 _OVER = 14.0  # mm: circles and lines go on beyond the teeth
 
 
-class View(Struct, frozen=True):
+class MeshView(Struct, frozen=True):
     """How the picture lies on the paper (масштаб картины).
 
     Attributes
@@ -60,7 +60,7 @@ class View(Struct, frozen=True):
         centres is broken.
     """
 
-    solved: Solved
+    solved: SolvedMeshing
     scale: float
     reach: tuple[float, float]
 
@@ -127,7 +127,7 @@ def nearest_scale(most: float) -> float:
     return max((scale for scale in SCALES if scale <= most * (1 + 1e-9)), default=SCALES[0])
 
 
-def view_for(solved: Solved, width: float, height: float) -> View:
+def view_for(solved: SolvedMeshing, width: float, height: float) -> MeshView:
     """Return how the picture of a pair fills a room best, in a scale of GOST 2.302.
 
     The whole pair is shown where its teeth are then high enough; else the line of centres is
@@ -135,7 +135,7 @@ def view_for(solved: Solved, width: float, height: float) -> View:
     """
     pair = solved.pair
     tooth = max(abs(float(d)) for d in (pair.d_a - pair.d_f) / 2)
-    unit = View(solved, 1.0, (1e9, 1e9))
+    unit = MeshView(solved, 1.0, (1e9, 1e9))
     wide = 2 * unit.half_width
     ring = pair.cutter != 0
     tall = max(abs(float(d)) for d in pair.d_w) / 2 if ring else float(pair.a_w)
@@ -144,21 +144,21 @@ def view_for(solved: Solved, width: float, height: float) -> View:
     if scale * tooth >= LEAST:
         most = nearest_scale(1.4 * HIGH / tooth)
         scale = min(scale, most)
-        return View(solved, scale, View(solved, scale, (0.0, 0.0)).radii)
+        return MeshView(solved, scale, MeshView(solved, scale, (0.0, 0.0)).radii)
     limit = min(HIGH / tooth, max(width - 2 * _ASIDE - 4 * _OVER, 20.0) / wide)
     scale = nearest_scale(limit)
-    one, two = View(solved, scale, (0.0, 0.0)).radii
+    one, two = MeshView(solved, scale, (0.0, 0.0)).radii
     room = height - 4 * _OVER
     if ring:
-        return View(solved, scale, (min(one, 0.55 * room), min(two, room)))
+        return MeshView(solved, scale, (min(one, 0.55 * room), min(two, room)))
     if one + two <= room:
-        return View(solved, scale, (one, two))
+        return MeshView(solved, scale, (one, two))
     is_whole = min(one, two) <= room - _SHORTEST
     below = room / 2 if not is_whole else one if one <= two else room - two
-    return View(solved, scale, (below, min(two, room - below)))
+    return MeshView(solved, scale, (below, min(two, room - below)))
 
 
-def meshing_picture(view: View, words: Language, letter: float) -> Picture:
+def meshing_picture(view: MeshView, words: Language, letter: float) -> Picture:
     """Return the picture with its letters; ``letter`` is their height, mm."""
     items: list[Item] = []
     for wheel, tooth in enumerate(view.solved.teeth):
@@ -176,7 +176,7 @@ def meshing_picture(view: View, words: Language, letter: float) -> Picture:
 # Teeth --------------------------------------------------------------------------------------------
 
 
-def _tooth(view: View, tooth: Tooth, wheel: int, number: int) -> Iterator[Item]:
+def _tooth(view: MeshView, tooth: Tooth, wheel: int, number: int) -> Iterator[Item]:
     """Yield a tooth from the middle of a space to that of the next: arcs, fillets, flanks."""
     turn, centre = view.axis(wheel, number), view.centre(wheel)
     tag = f"{CURVE} {wheel + 1}"
@@ -193,7 +193,7 @@ def _tooth(view: View, tooth: Tooth, wheel: int, number: int) -> Iterator[Item]:
         yield Arc(centre, abs(flank[-1]) * view.scale, turn + top, turn - top, tag=tag)
 
 
-def _active(view: View, tooth: Tooth, wheel: int) -> Iterator[Item]:
+def _active(view: MeshView, tooth: Tooth, wheel: int) -> Iterator[Item]:
     """Yield the hatched band along the flank that takes part in the mesh (активный профиль)."""
     contact, line = view.solved.contact, float(view.solved.pair.line)
     ends = (contact.start, contact.end)
@@ -219,14 +219,14 @@ def _active(view: View, tooth: Tooth, wheel: int) -> Iterator[Item]:
         yield Stroke((complex(start), complex(end)), Pen.HATCH, tag=tag)
 
 
-def _circles(view: View, wheel: int) -> Iterator[Item]:
+def _circles(view: MeshView, wheel: int) -> Iterator[Item]:
     """Yield arcs of the circles of a wheel along its three teeth and beyond, on one side more."""
     for radius, pen, _ in _circle_sizes(view, wheel):
         start, end = _arc_ends(view, wheel, radius)
         yield Arc(view.centre(wheel), radius, start, end, pen, tag="circle")
 
 
-def _circle_sizes(view: View, wheel: int) -> list[tuple[float, Pen, str]]:
+def _circle_sizes(view: MeshView, wheel: int) -> list[tuple[float, Pen, str]]:
     """Return radii on the paper, pens and letters of the circles of a wheel, from inside."""
     tooth, number = view.solved.teeth[wheel], wheel + 1
     told = [
@@ -250,7 +250,7 @@ def _circle_sizes(view: View, wheel: int) -> list[tuple[float, Pen, str]]:
     return found
 
 
-def _arc_ends(view: View, wheel: int, radius: float) -> tuple[float, float]:
+def _arc_ends(view: MeshView, wheel: int, radius: float) -> tuple[float, float]:
     """Return where an arc starts and ends: at the side of its letters it goes on."""
     z = view.solved.teeth[wheel].z
     middle = view.axis(wheel)
@@ -265,7 +265,7 @@ def _arc_ends(view: View, wheel: int, radius: float) -> tuple[float, float]:
 # Lines --------------------------------------------------------------------------------------------
 
 
-def _line_of_action(view: View) -> Iterator[Item]:
+def _line_of_action(view: MeshView) -> Iterator[Item]:
     """Yield the line of action with its active part, and the common tangent in P."""
     contact = view.solved.contact
     start, end = (_near(view, wheel) for wheel in (0, 1))
@@ -287,7 +287,7 @@ def _line_of_action(view: View) -> Iterator[Item]:
     yield Stroke((complex(-0.5 * wide), complex(wide)), Pen.THIN, tag="tangent")
 
 
-def _near(view: View, wheel: int) -> complex:
+def _near(view: MeshView, wheel: int) -> complex:
     """Return the end of the line of action, N₁ or N₂; a nearer point where it is far away."""
     full = view.on_line(0.0 if wheel == 0 else float(view.solved.pair.line))
     if wheel and view.solved.pair.side < 0:  # N₂ of a ring lies beyond N₁
@@ -297,14 +297,14 @@ def _near(view: View, wheel: int) -> complex:
     return full / abs(full) * _farthest(view)
 
 
-def _shows_end(view: View, wheel: int) -> bool:
+def _shows_end(view: MeshView, wheel: int) -> bool:
     if wheel and view.solved.pair.side < 0:
         return False
     full = view.on_line(0.0 if wheel == 0 else float(view.solved.pair.line))
     return abs(full) <= _farthest(view)
 
 
-def _farthest(view: View) -> float:
+def _farthest(view: MeshView) -> float:
     contact = view.solved.contact
     active = max(abs(view.on_line(contact.start)), abs(view.on_line(contact.end)))
     return max(1.6 * view.half_width, active + _OVER)
@@ -316,7 +316,7 @@ def _square(corner: complex, one: complex, two: complex) -> Iterator[Item]:
     yield Stroke((corner + one, corner + one + two, corner + two), Pen.THIN, tag="right angle")
 
 
-def _centres(view: View) -> Iterator[Item]:
+def _centres(view: MeshView) -> Iterator[Item]:
     """Yield the line of centres, the centres and the senses of rotation."""
     for wheel in (0, 1):
         centre, way = view.drawn_centre(wheel), view.up(wheel)
@@ -336,7 +336,7 @@ def _centres(view: View) -> Iterator[Item]:
     yield Disc(0j, _DOT, Ink.BLACK)
 
 
-def _distance(view: View, x: float, words: Language, letter: float) -> Iterator[Item]:
+def _distance(view: MeshView, x: float, words: Language, letter: float) -> Iterator[Item]:
     """Yield the dimension of the distance of the axes at an abscissa (межосевое расстояние)."""
     low, high = view.drawn_centre(0), view.drawn_centre(1)
     for centre in (low, high):
@@ -351,12 +351,12 @@ def _distance(view: View, x: float, words: Language, letter: float) -> Iterator[
     yield from text.at(at, anchor="centre", angle=90.0)
 
 
-def _angle_radius(view: View) -> float:
+def _angle_radius(view: MeshView) -> float:
     end = abs(_near(view, 1)) - 14.0
     return min(view.half_width + 1.2 * _OVER, end)
 
 
-def _angle(view: View) -> Iterator[Item]:
+def _angle(view: MeshView) -> Iterator[Item]:
     """Yield the dimension of the working angle between the tangent and the line of action."""
     radius, angle = _angle_radius(view), float(view.solved.pair.alpha_w)
     lean = _HEAD / radius / 2
@@ -369,7 +369,7 @@ def _angle(view: View) -> Iterator[Item]:
 # Letters ------------------------------------------------------------------------------------------
 
 
-def _letters(view: View, height: float) -> list[Label]:
+def _letters(view: MeshView, height: float) -> list[Label]:
     contact = view.solved.contact
     named: list[tuple[str, complex, complex]] = [
         ("P", 0j, -1 + 0j),
@@ -396,7 +396,7 @@ def _letters(view: View, height: float) -> list[Label]:
     return labels
 
 
-def _circle_letters(view: View, height: float) -> list[Label]:
+def _circle_letters(view: MeshView, height: float) -> list[Label]:
     """Return the letters of the circles at the ends of their arcs."""
     labels = []
     for wheel in (0, 1):

@@ -165,7 +165,7 @@ def halved(holds: Callable[[float], bool], low: float, high: float) -> float:
     return (low + high) / 2
 
 
-class Contact(Struct, frozen=True):
+class LineOfAction(Struct, frozen=True):
     """The line of action, by the radius of curvature of wheel 1, mm (линия зацепления).
 
     Attributes
@@ -178,7 +178,7 @@ class Contact(Struct, frozen=True):
     end: float
 
     @classmethod
-    def of(cls, one: Tooth, two: Tooth) -> Contact:
+    def of(cls, one: Tooth, two: Tooth) -> LineOfAction:
         """Return the line of action of two wheels."""
         whole = float(one.pair.line)
         return cls(

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from itertools import groupby
 
 from planmethod.construct.drafting import Profile
-from planmethod.gears.involute.quantities import Solved
+from planmethod.gears.involute.quantities import SolvedMeshing
 from planmethod.gears.involute.sizes import MeshingProblem
 from planmethod.gears.involute.text import head, quality
 from planmethod.note.document import Caption, Chapter, Formula, Item, Node, Paragraph
@@ -15,7 +15,7 @@ from planmethod.note.wording import Language
 
 def protocol_document(problem: MeshingProblem, words: Language, profile: Profile) -> Iterator[Node]:
     """Yield the calculation formula by formula, as the note has it; no hand draws in it."""
-    solved, say = Solved(problem), words.meshing
+    solved, say = SolvedMeshing(problem), words.meshing
     fields = solved.fields(words.say)
     yield from head(solved, words)
     for key, formulas in groupby(solved.formulas(words), lambda one: one[0]):

@@ -1,4 +1,4 @@
-"""What is told of a pair: names of the standard, symbols, units, formulas (величины и формулы)."""
+"""Quantities of a pair: names of the standard, symbols, units, formulas (величины и формулы)."""
 
 from __future__ import annotations
 
@@ -10,8 +10,8 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from planmethod.gears.angles import involute
-from planmethod.gears.involute.blocking import Limit, LimitKind, limits
-from planmethod.gears.involute.profile import Contact, Tooth
+from planmethod.gears.involute.blocking import BlockingLimit, LimitKind, limits
+from planmethod.gears.involute.profile import LineOfAction, Tooth
 from planmethod.gears.involute.sizes import MeshingProblem, Pair, Reals
 from planmethod.note.numbers import Notation, trimmed
 from planmethod.note.wording import Language
@@ -32,7 +32,7 @@ class Unit(Enum):
         return self.value[1]
 
 
-class Quantity(Struct, frozen=True):
+class GearSize(Struct, frozen=True):
     """One quantity of the record, the table and the protocol (величина).
 
     Attributes
@@ -57,95 +57,95 @@ class Quantity(Struct, frozen=True):
 
 
 _OF_PAIR = (
-    Quantity("m", "m", Unit.MM),
-    Quantity("alpha", "α", Unit.DEGREE),
-    Quantity("ha", "h_{a}^{*}", Unit.NONE),
-    Quantity("c", "c^{*}", Unit.NONE),
-    Quantity("rho_f", "ρ_{f}^{*}", Unit.NONE, in_table=False),
-    Quantity("z_min", "z_{min}", Unit.NONE, "2·h_{l}^{*}/sin^{2}α", "2·{h_l}/{sin}^{{2}}", False),
-    Quantity("inv_alpha", "inv α", Unit.FINE, "{tan} α − α", "{tan_alpha} − {rad_alpha}", False),
-    Quantity("x_sum", "x_{Σ}", Unit.NONE, "x_{1} + x_{2}", "{x1} + {x2}"),
-    Quantity(
+    GearSize("m", "m", Unit.MM),
+    GearSize("alpha", "α", Unit.DEGREE),
+    GearSize("ha", "h_{a}^{*}", Unit.NONE),
+    GearSize("c", "c^{*}", Unit.NONE),
+    GearSize("rho_f", "ρ_{f}^{*}", Unit.NONE, in_table=False),
+    GearSize("z_min", "z_{min}", Unit.NONE, "2·h_{l}^{*}/sin^{2}α", "2·{h_l}/{sin}^{{2}}", False),
+    GearSize("inv_alpha", "inv α", Unit.FINE, "{tan} α − α", "{tan_alpha} − {rad_alpha}", False),
+    GearSize("x_sum", "x_{Σ}", Unit.NONE, "x_{1} + x_{2}", "{x1} + {x2}"),
+    GearSize(
         "inv_alpha_w",
         "inv α_{w}",
         Unit.FINE,
         "inv α + 2·x_{Σ}·{tan} α/(z_{1} + z_{2})",
         "{inv_alpha} + 2·{x_sum}·{tan_alpha}/({z1} + {z2})",
     ),
-    Quantity("alpha_w", "α_{w}", Unit.DEGREE),
-    Quantity("a", "a", Unit.MM, "m·(z_{1} + z_{2})/2", "{m}·({z1} + {z2})/2"),
-    Quantity(
+    GearSize("alpha_w", "α_{w}", Unit.DEGREE),
+    GearSize("a", "a", Unit.MM, "m·(z_{1} + z_{2})/2", "{m}·({z1} + {z2})/2"),
+    GearSize(
         "a_w",
         "a_{w}",
         Unit.MM,
         "a·cos α/cos α_{w}",
         "{a}·{cos}/{cos_w}",
     ),
-    Quantity("y", "y", Unit.NONE, "(a_{w} − a)/m", "({a_w} − {a})/{m}"),
-    Quantity("delta_y", "Δy", Unit.NONE, "x_{Σ} − y", "{x_sum} − {y}"),
-    Quantity("p", "p", Unit.MM, "π·m", "π·{m}"),
-    Quantity("p_b", "p_{b}", Unit.MM, "p·cos α", "{p}·{cos}"),
+    GearSize("y", "y", Unit.NONE, "(a_{w} − a)/m", "({a_w} − {a})/{m}"),
+    GearSize("delta_y", "Δy", Unit.NONE, "x_{Σ} − y", "{x_sum} − {y}"),
+    GearSize("p", "p", Unit.MM, "π·m", "π·{m}"),
+    GearSize("p_b", "p_{b}", Unit.MM, "p·cos α", "{p}·{cos}"),
 )
 _OF_WHEELS = (
-    Quantity("z", "z_{#}", Unit.COUNT),
-    Quantity(
+    GearSize("z", "z_{#}", Unit.COUNT),
+    GearSize(
         "x_min", "x_{min#}", Unit.NONE, "h_{l}^{*} − z_{#}·sin^{2}α/2", "{h_l} − {z#}·{sin}^{{2}}/2"
     ),
-    Quantity("x", "x_{#}", Unit.NONE),
-    Quantity("d", "d_{#}", Unit.MM, "m·z_{#}", "{m}·{z#}"),
-    Quantity("d_b", "d_{b#}", Unit.MM, "d_{#}·cos α", "{d#}·{cos}"),
-    Quantity("d_w", "d_{w#}", Unit.MM, "d_{b#}/cos α_{w}", "{d_b#}/{cos_w}"),
-    Quantity(
+    GearSize("x", "x_{#}", Unit.NONE),
+    GearSize("d", "d_{#}", Unit.MM, "m·z_{#}", "{m}·{z#}"),
+    GearSize("d_b", "d_{b#}", Unit.MM, "d_{#}·cos α", "{d#}·{cos}"),
+    GearSize("d_w", "d_{w#}", Unit.MM, "d_{b#}/cos α_{w}", "{d_b#}/{cos_w}"),
+    GearSize(
         "d_a",
         "d_{a#}",
         Unit.MM,
         "d_{#} + 2·m·(h_{a}^{*} + x_{#} − Δy)",
         "{d#} + 2·{m}·({ha} + {x#} − {delta_y})",
     ),
-    Quantity(
+    GearSize(
         "d_f",
         "d_{f#}",
         Unit.MM,
         "d_{#} − 2·m·(h_{a}^{*} + c^{*} − x_{#})",
         "{d#} − 2·{m}·({ha} + {c} − {x#})",
     ),
-    Quantity("s", "s_{#}", Unit.MM, "m·(π/2 + 2·x_{#}·{tan} α)", "{m}·(π/2 + 2·{x#}·{tan_alpha})"),
-    Quantity(
+    GearSize("s", "s_{#}", Unit.MM, "m·(π/2 + 2·x_{#}·{tan} α)", "{m}·(π/2 + 2·{x#}·{tan_alpha})"),
+    GearSize(
         "alpha_a", "α_{a#}", Unit.DEGREE, "arccos(d_{b#}/d_{a#})", "arccos({d_b#}/{d_a#})", False
     ),
-    Quantity(
+    GearSize(
         "s_a",
         "s_{a#}",
         Unit.MM,
         "d_{a#}·(s_{#}/d_{#} + inv α − inv α_{a#})",
         "{d_a#}·({s#}/{d#} + {inv_alpha} − {inv_alpha_a#})",
     ),
-    Quantity("k", "k_{#}", Unit.COUNT),
-    Quantity(
+    GearSize("k", "k_{#}", Unit.COUNT),
+    GearSize(
         "W",
         "W_{#}",
         Unit.MM,
         "m·cos α·(π·(k_{#} − 0,5) + 2·x_{#}·{tan} α + z_{#}·inv α)",
         "{m}·{cos}·(π·({k#} − 0,5) + 2·{x#}·{tan_alpha} + {z#}·{inv_alpha})",
     ),
-    Quantity("rho_a", "ρ_{a#}", Unit.MM, "d_{b#}·{tan} α_{a#}/2", "{d_b#}·{tan_alpha_a#}/2", False),
-    Quantity("rho_p", "ρ_{p#}", Unit.MM, "a_{w}·sin α_{w} − ρ_{a@}", "{a_w}·{sin_w} − {rho_a@}"),
-    Quantity(
+    GearSize("rho_a", "ρ_{a#}", Unit.MM, "d_{b#}·{tan} α_{a#}/2", "{d_b#}·{tan_alpha_a#}/2", False),
+    GearSize("rho_p", "ρ_{p#}", Unit.MM, "a_{w}·sin α_{w} − ρ_{a@}", "{a_w}·{sin_w} − {rho_a@}"),
+    GearSize(
         "rho_l",
         "ρ_{l#}",
         Unit.MM,
         "d_{#}·sin α/2 − m·(h_{l}^{*} − x_{#})/sin α",
         "{d#}·{sin}/2 − {m}·({h_l} − {x#})/{sin}",
     ),
-    Quantity("rho_low", "ρ_{min#}", Unit.MM, in_table=False),
-    Quantity(
+    GearSize("rho_low", "ρ_{min#}", Unit.MM, in_table=False),
+    GearSize(
         "theta_p",
         "ϑ_{p#}",
         Unit.NONE,
         "1 − ρ_{a@}·z_{#}/(ρ_{p#}·z_{@})",
         "1 − {rho_a@}·{z#}/({rho_p#}·{z@})",
     ),
-    Quantity(
+    GearSize(
         "theta_a",
         "ϑ_{a#}",
         Unit.NONE,
@@ -155,15 +155,15 @@ _OF_WHEELS = (
     ),
 )
 _OF_CONTACT = (
-    Quantity("g_alpha", "g_{α}", Unit.MM, "ρ_{a1} − ρ_{p1}", "{rho_a1} − {rho_p1}", False),
-    Quantity(
+    GearSize("g_alpha", "g_{α}", Unit.MM, "ρ_{a1} − ρ_{p1}", "{rho_a1} − {rho_p1}", False),
+    GearSize(
         "epsilon_alpha",
         "ε_{α}",
         Unit.NONE,
         "(ρ_{a1} + ρ_{a2} − a_{w}·sin α_{w})/p_{b}",
         "({rho_a1} + {rho_a2} − {a_w}·{sin_w})/{p_b}",
     ),
-    Quantity("epsilon_active", "ε_{α}'", Unit.NONE, in_table=False),
+    GearSize("epsilon_active", "ε_{α}'", Unit.NONE, in_table=False),
 )
 
 
@@ -221,7 +221,7 @@ _SIGNED_2 = ("z", "x", "d", "d_b", "d_w", "d_a", "d_f", "rho_a", "rho_p", "rho_l
 class Told(Struct, frozen=True):
     """A quantity with its value: one, or those of both wheels."""
 
-    quantity: Quantity
+    quantity: GearSize
     values: tuple[float, ...]
 
     def shown(self, say: Notation) -> list[str]:
@@ -233,14 +233,14 @@ class Told(Struct, frozen=True):
         ]
 
 
-class Solved:
+class SolvedMeshing:
     """A pair solved: its sizes, its teeth, its line of action, its limits (решение)."""
 
     def __init__(self, problem: MeshingProblem) -> None:
         self.problem = problem
         self.pair = pair = Pair.of(problem)
         self.teeth = (Tooth(pair, 0), Tooth(pair, 1))
-        self.contact = Contact.of(*self.teeth)
+        self.contact = LineOfAction.of(*self.teeth)
         self.limits = limits(problem.tip, problem.overlap, internal=bool(problem.cutter))
 
     def _value(self, key: str) -> Reals:
@@ -330,7 +330,7 @@ class Solved:
                     numbers = put(filled).format_map(fields)
                     yield q.key, f"{put(q.symbol)} = {letters} = {numbers} = {shown}{unit}"
 
-    def judged(self) -> Iterator[tuple[Limit, float, float]]:
+    def judged(self) -> Iterator[tuple[BlockingLimit, float, float]]:
         """Yield every limit with what is compared with it, and its bound.
 
         The contact ratio is that of the teeth as they are cut. Radii of a ring are negative.
@@ -342,13 +342,13 @@ class Solved:
                     value = self.contact.overlap(self.pair)
                 yield one, value, float(one.bound(self.pair))
 
-    def shown(self, limit: Limit, value: float, bound: float) -> tuple[float, float]:
+    def shown(self, limit: BlockingLimit, value: float, bound: float) -> tuple[float, float]:
         """Return what is compared as the standard has it: radii of a ring are positive."""
         if limit.kind is LimitKind.INTERFERENCE and limit.wheel == 1:
             return self.pair.side * value, self.pair.side * bound
         return value, bound
 
-    def sentences(self, words: Language) -> list[tuple[Limit, bool, str]]:
+    def sentences(self, words: Language) -> list[tuple[BlockingLimit, bool, str]]:
         """Return every limit: whether it is kept, and what is said of it, rich text."""
         say, found = words.meshing, []
         for one, value, bound in self.judged():

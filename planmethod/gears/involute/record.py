@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from planmethod.gears.involute.quantities import Solved
+from planmethod.gears.involute.quantities import SolvedMeshing
 from planmethod.gears.involute.sizes import MeshingProblem
 from planmethod.gears.record import head
 from planmethod.note.numbers import finite_or_none
@@ -14,7 +14,7 @@ from planmethod.note.wording import language
 
 def record(problem: MeshingProblem, lang: str) -> dict[str, Any]:
     """Return one object for a problem: the standard's names, mm and degrees, full precision."""
-    solved, words = Solved(problem), language(lang)
+    solved, words = SolvedMeshing(problem), language(lang)
     told: dict[str, Any] = {"length": "mm", "angle": "deg", "shifts_chosen": problem.chosen}
     for group in solved.told():
         for one in group:

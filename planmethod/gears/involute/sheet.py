@@ -16,7 +16,7 @@ from planmethod.gears.involute.diagrams import (
     sliding_scale,
 )
 from planmethod.gears.involute.meshpicture import meshing_picture, view_for
-from planmethod.gears.involute.quantities import Solved
+from planmethod.gears.involute.quantities import SolvedMeshing
 from planmethod.gears.involute.sizes import MeshingProblem
 from planmethod.gears.involute.text import (
     quality,
@@ -30,7 +30,7 @@ from planmethod.paper import STAMP_WIDTH
 from planmethod.render.frame.furniture import Furniture, Room
 from planmethod.render.ink.drawing import Drawing
 from planmethod.render.layout.block import Block, Column, Picture, heading, paragraph
-from planmethod.render.layout.cuttings import GAP, Group, Part
+from planmethod.render.layout.cuttings import GAP, Group, Packed
 from planmethod.render.layout.pack import EDGE
 from planmethod.render.layout.tables import TableColumn, table_block
 from planmethod.render.sheets.composer import Blank, Misfit, Packing, Sizes, Viewed, compose
@@ -82,7 +82,7 @@ def drawings(
         ),
         say("Take another --paper."),
     )
-    strategy = _Meshing(Solved(problem), words)
+    strategy = _Meshing(SolvedMeshing(problem), words)
     title = problem.title or words.meshing.sheet
     return compose(problem, strategy, misfit, fields=fields, furniture=furniture, title=title)
 
@@ -90,7 +90,7 @@ def drawings(
 class _Meshing(Struct, frozen=True):
     """How the sheet of a mesh is searched for: by smaller letters and views."""
 
-    solved: Solved
+    solved: SolvedMeshing
     words: Language
 
     formats = ("A1",)
@@ -105,7 +105,7 @@ class _Meshing(Struct, frozen=True):
 
     def _parts(
         self, contour: Contour, room: Room, sizes: Sizes, checks: float, share: float
-    ) -> tuple[Part, ...] | None:
+    ) -> tuple[Packed, ...] | None:
         """Return the blocks in reading order; None where the tables are too high."""
         solved, words, say = self.solved, self.words, self.words.meshing
         wide, tall = room.inner[2] - room.inner[0], room.inner[3] - room.inner[1]
@@ -129,7 +129,7 @@ class _Meshing(Struct, frozen=True):
             _titled(say.sliding.format(scale=scale), sliding, sizes),
             told,
         ]
-        return tuple(map(Part, blocks))
+        return tuple(map(Packed, blocks))
 
 
 def _titled(title: str, picture: Picture, sizes: Sizes) -> Block:
@@ -145,7 +145,7 @@ def _scale(value: float, say: Notation) -> str:
 # Texts and tables -------------------------------------------------------------------------------
 
 
-def _checks(solved: Solved, words: Language, title: float, text: float) -> Iterator[Block]:
+def _checks(solved: SolvedMeshing, words: Language, title: float, text: float) -> Iterator[Block]:
     """Yield what is given and what the limits say, in letters of a height, mm."""
     say = words.meshing
     yield heading(say.checked, title, width=TEXT_WIDTH)
@@ -153,7 +153,7 @@ def _checks(solved: Solved, words: Language, title: float, text: float) -> Itera
         yield paragraph(line, text, TEXT_WIDTH)
 
 
-def _tables(solved: Solved, words: Language, sizes: Sizes) -> Iterator[Block]:
+def _tables(solved: SolvedMeshing, words: Language, sizes: Sizes) -> Iterator[Block]:
     """Yield the tables of the pair and of the wheels."""
     pair, wheels, contact = solved.told()
     say = words.meshing

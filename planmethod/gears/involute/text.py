@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
-from planmethod.gears.involute.quantities import Solved, Told, Unit
+from planmethod.gears.involute.quantities import SolvedMeshing, Told, Unit
 from planmethod.gears.involute.sizes import MeshingProblem
 from planmethod.note.document import Caption, Item, Node, Paragraph, Table, Title, table_of
 from planmethod.note.formula import Rich, escape
@@ -13,7 +13,7 @@ from planmethod.note.wording import Language
 
 def solved_document(problem: MeshingProblem, words: Language) -> Iterator[Node]:
     """Yield what is given, the sizes of the pair and of the wheels, and the limits."""
-    solved, say = Solved(problem), words.meshing
+    solved, say = SolvedMeshing(problem), words.meshing
     pair, wheels, contact = solved.told()
     yield from head(solved, words)
     yield Caption(say.pair)
@@ -24,7 +24,7 @@ def solved_document(problem: MeshingProblem, words: Language) -> Iterator[Node]:
     yield from map(Item, quality(solved, words))
 
 
-def head(solved: Solved, words: Language) -> Iterator[Node]:
+def head(solved: SolvedMeshing, words: Language) -> Iterator[Node]:
     """Yield the title and what is given."""
     title = escape(solved.problem.title or solved.problem.name)
     yield Title(words.meshing.title.format(title=title))
@@ -32,7 +32,7 @@ def head(solved: Solved, words: Language) -> Iterator[Node]:
     yield Paragraph(shifts(solved, words))
 
 
-def _given(solved: Solved, words: Language) -> Rich:
+def _given(solved: SolvedMeshing, words: Language) -> Rich:
     problem, say = solved.problem, words.meshing
     further = ""
     if problem.a_w is not None:
@@ -42,19 +42,19 @@ def _given(solved: Solved, words: Language) -> Rich:
     return say.given.format(further=further, **_bare(solved, words))
 
 
-def shifts(solved: Solved, words: Language) -> Rich:
+def shifts(solved: SolvedMeshing, words: Language) -> Rich:
     """Return which shifts there are, and whether they were chosen."""
     key = "chosen" if solved.problem.chosen else "given"
     sentence: str = words.meshing["shifts"][key]
     return sentence.format(**_bare(solved, words))
 
 
-def _bare(solved: Solved, words: Language) -> dict[str, str]:
+def _bare(solved: SolvedMeshing, words: Language) -> dict[str, str]:
     """Return the numbers without the brackets that they have within a formula."""
     return {name: shown.strip("()") for name, shown in solved.fields(words.say).items()}
 
 
-def quality(solved: Solved, words: Language) -> Iterator[Rich]:
+def quality(solved: SolvedMeshing, words: Language) -> Iterator[Rich]:
     """Yield what the limits say, and what undercut takes away."""
     say = words.meshing
     for _, holds, text in solved.sentences(words):

@@ -47,7 +47,7 @@ NEWTONS, METRES, RADIANS = (
 )
 
 
-class Verdict(Enum):
+class AuditVerdict(Enum):
     """How a printed value stands to the exact one (заключение)."""
 
     AGREES = "agrees"  # the exact value rounds to what is printed
@@ -99,15 +99,15 @@ class Audited(Struct, frozen=True):
         return self.difference / self.per_mm
 
     @property
-    def verdict(self) -> Verdict:
+    def verdict(self) -> AuditVerdict:
         """Judge the value: first by its digits, then by what a drawing can give."""
         if self.difference is None:
-            return Verdict.ABSENT
+            return AuditVerdict.ABSENT
         if abs(self.difference) <= half_digit(self.published.value) * (1 + 1e-9):
-            return Verdict.AGREES
+            return AuditVerdict.AGREES
         if self.mm is not None and abs(self.mm) <= DRAFTING_MM:
-            return Verdict.DRAWN
-        return Verdict.DIFFERS
+            return AuditVerdict.DRAWN
+        return AuditVerdict.DIFFERS
 
 
 def half_digit(value: float) -> float:
@@ -261,9 +261,9 @@ def _nearest_turn(degrees: float) -> float:
     return degrees - 360.0 * round(degrees / 360.0)
 
 
-def count(items: Iterable[Audited]) -> dict[Verdict, int]:
+def count(items: Iterable[Audited]) -> dict[AuditVerdict, int]:
     """Count the verdicts, every kind named."""
-    found = dict.fromkeys(Verdict, 0)
+    found = dict.fromkeys(AuditVerdict, 0)
     for item in items:
         found[item.verdict] += 1
     return found
@@ -274,7 +274,7 @@ DIGITS = 5
 """Significant digits of an exact and of a read value."""
 
 
-class Document:
+class AuditDocument:
     """Audits of one or many problems, written in one language.
 
     Parameters

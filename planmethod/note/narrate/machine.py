@@ -16,9 +16,9 @@ from planmethod.note.wording import Language, Words
 from planmethod.problem.load_records import ConstantMoment, Quadrature, WeightSigns
 from planmethod.problem.model import Convention
 from planmethod.solved.machine.drawing import FlywheelDrawing, split
-from planmethod.solved.machine.flywheel import Extreme, Flywheel
-from planmethod.solved.machine.runup import MOST_CYCLES, NEAR, Course, RunUp, run_up_of
-from planmethod.solved.machine.sizes import Sizes, size_of
+from planmethod.solved.machine.flywheel import Flywheel, SpeedExtreme
+from planmethod.solved.machine.runup import MOST_CYCLES, NEAR, RunUp, TimeCourse, run_up_of
+from planmethod.solved.machine.sizes import FlywheelSizes, size_of
 from planmethod.solved.reading import Reals
 
 _Column: TypeAlias = tuple[str, str, list[str]]
@@ -200,7 +200,7 @@ class MachineTeller:
         )
         return lines
 
-    def _at(self, extreme: Extreme) -> str:
+    def _at(self, extreme: SpeedExtreme) -> str:
         """Return the angle of the crank of an extreme speed."""
         turn = self.flywheel.machine.cycle_deg
         phi = self.flywheel.turn.sense * degrees(extreme.turned) + self.flywheel.turn.start_deg
@@ -240,12 +240,12 @@ class MachineTeller:
     # Sizes -----------------------------------------------------------------------------------
 
     @property
-    def sizes(self) -> Sizes | None:
+    def sizes(self) -> FlywheelSizes | None:
         """Sizes of the exact flywheel."""
         flywheel = self.flywheel
         return size_of(flywheel.machine.wheel, flywheel.exact.inertia, flywheel.middle_speed)
 
-    def size_lines(self, sizes: Sizes) -> list[str]:
+    def size_lines(self, sizes: FlywheelSizes) -> list[str]:
         """Return the sizes of a flywheel with numbers."""
         say, metre = self.say, self.unit("m")
         lines = [f"D = {say.found(sizes.diameter)} {metre}"]
@@ -304,7 +304,7 @@ def run_up_lines(tell: MachineTeller) -> list[str]:
     return [*lines, template.format(**places, **_ends(run.stop, tell))]
 
 
-def _ends(course: Course, tell: MachineTeller) -> dict[str, str]:
+def _ends(course: TimeCourse, tell: MachineTeller) -> dict[str, str]:
     turned = float(course.turned[-1])
     return {
         "time": f"{tell.say.found(float(course.time[-1]))} {tell.unit('s')}",
@@ -355,7 +355,7 @@ def _driven(run: RunUp, tell: MachineTeller) -> list[str]:
     return lines
 
 
-def courses(tell: MachineTeller) -> list[tuple[str, Course]]:
+def courses(tell: MachineTeller) -> list[tuple[str, TimeCourse]]:
     """Return what there is of run-up and stop, with its title."""
     run, found = run_up_of(tell.flywheel), []
     if run.machine.motor is not None and run.failure is None:
@@ -365,7 +365,7 @@ def courses(tell: MachineTeller) -> list[tuple[str, Course]]:
     return found
 
 
-def course_columns(course: Course, tell: MachineTeller) -> list[tuple[str, str, list[str]]]:
+def course_columns(course: TimeCourse, tell: MachineTeller) -> list[tuple[str, str, list[str]]]:
     """Return a run-up or a stop by even times: heads, units and cells of its columns."""
     time, turned, omega = course.rows(ROWS)
     columns = (("t", "s", time), ("φ", "deg", turned * 180.0 / pi), ("ω", "1/s", omega))

@@ -55,7 +55,7 @@ class StepNarrator:
         match step:
             case steps.Given():
                 return self.given(step)
-            case steps.Known():
+            case steps.GivenNumber():
                 return []
             case steps.Join() | steps.Parallel() | steps.Perpendicular() | steps.AtAngle():
                 return self.line(step)

@@ -7,7 +7,7 @@ from planmethod.note.narrate.scales import scale_inscription
 from planmethod.note.numbers import significant, with_unit
 from planmethod.note.wording import Language
 from planmethod.problem.model import Differentiation
-from planmethod.solved.turn.construction import PRIMES, Construction, Locus
+from planmethod.solved.turn.construction import PRIMES, ExtremesConstruction, Locus
 from planmethod.solved.turn.diagrams import Diagrams
 from planmethod.solved.turn.output import Output
 from planmethod.solved.turn.turn import TURN, NoNumber, Turn
@@ -136,7 +136,7 @@ def drawn_note(way: Differentiation, words: Language) -> str:
     return words.cycle.drawn.format(way=words.cycle["chords"][way.value])
 
 
-def radius_names(made: Construction) -> tuple[str, str, str]:
+def radius_names(made: ExtremesConstruction) -> tuple[str, str, str]:
     """Return what the crank's radius, the sum and the difference of rod and crank are called."""
     crank, rod = f"l_{{{_flat(made.pivot, made.pin)}}}", f"l_{{{_flat(made.pin, made.end)}}}"
     if made.locus is Locus.TANGENTS:
@@ -149,7 +149,7 @@ def _flat(*names: str) -> str:
     return "".join(name.translate(str.maketrans("", "", "{}_")) for name in map(point_name, names))
 
 
-def extreme_steps(turn: Turn, made: Construction | None, words: Language) -> list[str]:
+def extreme_steps(turn: Turn, made: ExtremesConstruction | None, words: Language) -> list[str]:
     """Return how the extreme positions are constructed, and what is read of them."""
     said, say = words.cycle, words.say
     if made is None:

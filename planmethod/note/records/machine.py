@@ -11,8 +11,8 @@ from planmethod.construct.drafting import Profile
 from planmethod.note.numbers import plain
 from planmethod.problem.load_records import Quadrature
 from planmethod.solved.machine.drawing import FlywheelDrawing, drawing_of, split
-from planmethod.solved.machine.flywheel import Extreme, Flywheel
-from planmethod.solved.machine.runup import MOST_CYCLES, Course, RunUp, run_up_of
+from planmethod.solved.machine.flywheel import Flywheel, SpeedExtreme
+from planmethod.solved.machine.runup import MOST_CYCLES, RunUp, TimeCourse, run_up_of
 from planmethod.solved.machine.sizes import size_of
 
 
@@ -130,7 +130,7 @@ def _inertias(flywheel: Flywheel, drawing: FlywheelDrawing) -> dict[str, Any]:
     }
 
 
-def _extreme(flywheel: Flywheel, extreme: Extreme) -> dict[str, float]:
+def _extreme(flywheel: Flywheel, extreme: SpeedExtreme) -> dict[str, float]:
     position = extreme.turned / flywheel.cycle * flywheel.machine.count
     phi = flywheel.turn.phi(np.array([extreme.turned]))[0]
     return {"value": plain(extreme.value), "phi_deg": plain(phi), "position": plain(position)}
@@ -199,7 +199,7 @@ def _why(run: RunUp) -> str:
     )
 
 
-def _told(course: Course | None, flywheel: Flywheel, reason: str) -> dict[str, Any]:
+def _told(course: TimeCourse | None, flywheel: Flywheel, reason: str) -> dict[str, Any]:
     if course is None:
         return {"time": None, "turned_deg": None, "turns": None, "table": [], "reason": reason}
     time, turned, omega = (column.tolist() for column in course.rows(_ROWS))

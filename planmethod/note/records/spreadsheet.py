@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 Rows = Sequence[Sequence[Any]]
 
 
-class Table(Struct, frozen=True):
+class SpreadsheetRows(Struct, frozen=True):
     """Rows of a problem, made block by block while they are written.
 
     Attributes
@@ -44,7 +44,7 @@ class Table(Struct, frozen=True):
     count: int
     blocks: Callable[[], Iterator[Rows]]
 
-    def held(self) -> Table:
+    def held(self) -> SpreadsheetRows:
         """Return the table with its rows made, which can travel to another process."""
         return replace(self, blocks=partial(iter, list(self.blocks())))
 
@@ -152,15 +152,15 @@ def csv_rows(solution: Solution) -> tuple[list[str], list[list[float | int]]]:
     return ["position", *columns], [[number, *row] for number, row in rows]
 
 
-def solved_table(solution: Solution) -> Table:
+def solved_table(solution: Solution) -> SpreadsheetRows:
     """Return the rows of a solution."""
     header, rows = csv_rows(solution)
-    return Table(solution.problem, tuple(header), len(rows), lambda: iter([rows]))
+    return SpreadsheetRows(solution.problem, tuple(header), len(rows), lambda: iter([rows]))
 
 
 def large_table(
     problem: Problem, positions: Reals, gaps: Gaps, *, ruler: float, partial: bool
-) -> Table:
+) -> SpreadsheetRows:
     """Return the rows of any number of positions, solved again block by block.
 
     Parameters
@@ -191,10 +191,10 @@ def large_table(
             empty = [[""] * len(here)] * (1 + len(names) - len(cells))
             yield _rows(part, here, [*cells, *empty][1:], gaps if partial else None)
 
-    return Table(problem, _header(problem, names, partial), len(positions), made)
+    return SpreadsheetRows(problem, _header(problem, names, partial), len(positions), made)
 
 
-def swept_table(swept: GappedSweep, *, partial: bool) -> Table:
+def swept_table(swept: GappedSweep, *, partial: bool) -> SpreadsheetRows:
     """Return the rows of a sweep: ``position``, ``phi_deg`` or ``s``, and what was asked."""
 
     def made() -> Iterator[Rows]:
@@ -206,7 +206,7 @@ def swept_table(swept: GappedSweep, *, partial: bool) -> Table:
             yield _rows(part, here, spread, swept.gaps if partial else None)
 
     header = _header(swept.problem, swept.names, partial)
-    return Table(swept.problem, header, len(swept.positions), made)
+    return SpreadsheetRows(swept.problem, header, len(swept.positions), made)
 
 
 def _header(problem: Problem, names: Iterable[str], partial: bool) -> tuple[str, ...]:
@@ -234,7 +234,7 @@ def _rows(part: slice, positions: Reals, cells: list[list[Any]], gaps: Gaps | No
 
 
 def csv_text(
-    tables: Sequence[Table], *, done: Callable[[int], None] = lambda rows: None
+    tables: Sequence[SpreadsheetRows], *, done: Callable[[int], None] = lambda rows: None
 ) -> Iterator[str]:
     """Yield tables as CSV, part by part; of several each row tells its problem and variant.
 

@@ -19,7 +19,7 @@ from planmethod.solved.errors.motion import drafting_of
 from planmethod.solved.errors.spread import SHORT
 
 MOST = 3
-"""Causes that are told of one result."""
+"""Causes that are listed for one result."""
 
 
 class Causes:
@@ -101,7 +101,7 @@ class Causes:
                 return words.cause_read.format(segment=names.segment(tail, head))
             case steps.MeasureArm(_, about, at):
                 return words.cause_read.format(segment=names.segment(about, at))
-            case steps.Known() | steps.Compute() | steps.Total():
+            case steps.GivenNumber() | steps.Compute() | steps.Total():
                 raise TypeError(f"{step.out} is no stroke")
             case _:
                 assert_never(step)

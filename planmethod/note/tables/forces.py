@@ -25,7 +25,7 @@ from planmethod.solved.errors.forces import (
     moment_label,
     size_label,
 )
-from planmethod.solved.forces.contact import VANISHING, Contact, JointForce
+from planmethod.solved.forces.contact import VANISHING, JointForce, SlideReaction
 from planmethod.solved.forces.statics import Statics, statics_of
 from planmethod.solved.reading import Flags
 from planmethod.solved.solution import Solution
@@ -37,7 +37,7 @@ def _angle(force: complex, largest: float) -> float | None:
     return plain(np.degrees(np.angle(force)) % 360.0)
 
 
-def _acts(contact: Contact | None) -> dict[str, Column]:
+def _acts(contact: SlideReaction | None) -> dict[str, Column]:
     """Return where the reaction of a guide acts, m."""
     if contact is None:
         return {}
@@ -47,7 +47,7 @@ def _acts(contact: Contact | None) -> dict[str, Column]:
     return {"b": listed(b), "point": point}
 
 
-def _at_edges(contact: Contact | None) -> dict[int, dict[str, Any]]:
+def _at_edges(contact: SlideReaction | None) -> dict[int, dict[str, Any]]:
     """Return what acts at the edges of a slider, N, by the positions where it does."""
     if contact is None:
         return {}

@@ -13,7 +13,7 @@ from planmethod.note.tables.results import position_line
 from planmethod.note.wording import Language, Words
 from planmethod.plans.legend import QuantityKind
 from planmethod.solved.solution import Solution
-from planmethod.solved.trust.accuracy import Refereed, Verdict, examine
+from planmethod.solved.trust.accuracy import AccuracyVerdict, Refereed, examine
 
 
 def judged(solution: Solution, digits: int) -> list[Refereed]:
@@ -21,7 +21,7 @@ def judged(solution: Solution, digits: int) -> list[Refereed]:
     fixed = solution.problem.bodies[FRAME].points
     found = examine(solution.problem, [float(p) for p in solution.positions], digits=digits)
 
-    def worth(verdict: Verdict) -> bool:
+    def worth(verdict: AccuracyVerdict) -> bool:
         return verdict.kind is not QuantityKind.UNIT and verdict.quantity.of not in fixed
 
     return [
@@ -45,7 +45,7 @@ def _referee(solution: Solution, digits: int, words: Words) -> Iterator[Node]:
         yield table_of(words["columns_referee"], rows)
 
 
-def _row(verdict: Verdict, words: Words) -> list[str]:
+def _row(verdict: AccuracyVerdict, words: Words) -> list[str]:
     from mpmath import nstr
 
     real, imag = _parts(verdict)
@@ -60,7 +60,7 @@ def _row(verdict: Verdict, words: Words) -> list[str]:
     ]
 
 
-def _parts(verdict: Verdict) -> tuple[Any, Any]:
+def _parts(verdict: AccuracyVerdict) -> tuple[Any, Any]:
     """Return the coordinates of what the referee found; None for the second of a number."""
     value = verdict.value
     return value.real, None if verdict.kind.is_number else value.imag
@@ -91,7 +91,7 @@ def referee_record(solution: Solution, digits: int) -> list[dict[str, Any]]:
     ]
 
 
-def _told(verdict: Verdict, digits: int) -> dict[str, str]:
+def _told(verdict: AccuracyVerdict, digits: int) -> dict[str, str]:
     from mpmath import nstr
 
     real, imag = _parts(verdict)

@@ -28,7 +28,7 @@ from planmethod.plans.legend import TURNING, Quantity, QuantityKind
 from planmethod.plans.model import FACTS, MOTION, PlanKind
 from planmethod.problem.model import Coordinate, Problem
 from planmethod.solved.reading import Reals
-from planmethod.solved.solution import Segment, Solution
+from planmethod.solved.solution import SegmentReading, Solution
 
 FEW = 3
 """Most positions that are shown each with tables of its own."""
@@ -106,7 +106,7 @@ def scale_texts(solution: Solution, words: Language, index: int) -> list[Rich]:
 
 
 def position_line(solution: Solution, words: Words, index: int) -> Rich:
-    """Return which position is told: its number and the driver's place."""
+    """Return which position is meant: its number and the driver's place."""
     coordinate = solution.problem.drive.coordinate
     value = given(float(solution.positions[index]), words)
     count = len(solution.positions)
@@ -241,7 +241,7 @@ def _segments(
     words, rows = names.words, []
     segments = solution.segments(kind)
 
-    def lengths(segment: Segment) -> list[str]:
+    def lengths(segment: SegmentReading) -> list[str]:
         return [*_lengths(segment, words, i), *sigmas.cell(f"{kind.value}.{segment.name}", i)]
 
     if kind is PlanKind.POSITION:
@@ -256,11 +256,11 @@ def _segments(
     return rows
 
 
-def _joined(segment: Segment) -> str:
+def _joined(segment: SegmentReading) -> str:
     return segment.name.replace("-", "")
 
 
-def _lengths(segment: Segment, words: Words, i: int) -> list[str]:
+def _lengths(segment: SegmentReading, words: Words, i: int) -> list[str]:
     exact, read = float(segment.exact[i]), float(segment.read[i])
     return [fixed(exact, words), given(read, words, 6)]
 

@@ -10,7 +10,7 @@ from typing import assert_never
 
 from planmethod.note import document
 from planmethod.note.document import Document, Equation, Node, Table
-from planmethod.note.formula import Bar, Index, Letters, parse
+from planmethod.note.formula import Index, Letters, Overline, parse
 from planmethod.note.formula import Node as Sign
 
 STYLE = """
@@ -158,7 +158,7 @@ def _sign(node: Sign, above: str, below: str) -> str:
         case Index(low, high):
             lower = f"<{below}>{inside(low)}</{below}>" if low else ""
             return (f"<{above}>{inside(high)}</{above}>" if high else "") + lower
-        case Bar(body):
+        case Overline(body):
             return f'<span class="bar">{inside(body)}</span>' if above == "sup" else inside(body)
         case _:
             assert_never(node)

@@ -8,7 +8,7 @@ from planmethod.construct.program import Builder
 from planmethod.construct.steps import LineName, NumberName, PointName
 
 
-class Axes(Struct, frozen=True):
+class DiagramAxes(Struct, frozen=True):
     """Axes of a diagram: origin, axis of abscissae to the right, axis of ordinates up."""
 
     name: str
@@ -17,7 +17,7 @@ class Axes(Struct, frozen=True):
     up: LineName
 
 
-class Board(Struct):
+class DiagramBoard(Struct):
     """Steps of diagrams with their data (планшет диаграмм).
 
     Attributes
@@ -42,13 +42,13 @@ class Board(Struct):
         self.data[name] = place
         return self.b.given(name)
 
-    def axes(self, name: str, origin: complex = 0j) -> Axes:
+    def axes(self, name: str, origin: complex = 0j) -> DiagramAxes:
         """Draw the axes of a diagram; ``name`` begins the names of all that stands in it."""
         start = self.given(f"{name} O", origin)
         across = self.b.at_angle(start, None, self.known("0", 0.0))
-        return Axes(name, start, across, self.b.perpendicular(start, across))
+        return DiagramAxes(name, start, across, self.b.perpendicular(start, across))
 
-    def abscissa(self, axes: Axes, x: float) -> PointName:
+    def abscissa(self, axes: DiagramAxes, x: float) -> PointName:
         """Lay an abscissa off, mm; the origin for nothing."""
         if x == 0:
             return axes.origin
@@ -58,15 +58,15 @@ class Board(Struct):
             self._feet[axes.name, x] = foot
         return self._feet[axes.name, x]
 
-    def upright(self, axes: Axes, x: float) -> LineName:
+    def upright(self, axes: DiagramAxes, x: float) -> LineName:
         """Draw the upright over an abscissa, mm."""
         return self.b.perpendicular(self.abscissa(axes, x), axes.across)
 
-    def plot(self, name: str, axes: Axes, x: float, y: NumberName) -> PointName:
+    def plot(self, name: str, axes: DiagramAxes, x: float, y: NumberName) -> PointName:
         """Lay an ordinate off, mm."""
         return self.b.lay_off(name, self.abscissa(axes, x), self.upright(axes, x), y)
 
-    def pole(self, axes: Axes, distance: float) -> PointName:
+    def pole(self, axes: DiagramAxes, distance: float) -> PointName:
         """Lay the pole off to the left of the origin (полюсное расстояние), mm."""
         length = self.known(f"-K = {-distance:.12g}", -distance)
         return self.b.lay_off(f"{axes.name} P", axes.origin, axes.across, length)

@@ -17,7 +17,7 @@ from collections.abc import Sequence
 from enum import Enum
 
 from planmethod.construct.steps import PointName
-from planmethod.plans.diagrams.board import Axes, Board
+from planmethod.plans.diagrams.board import DiagramAxes, DiagramBoard
 
 
 class Integration(Enum):
@@ -28,9 +28,9 @@ class Integration(Enum):
 
 
 def differentiate(
-    board: Board,
+    board: DiagramBoard,
     pairs: Sequence[tuple[PointName, PointName]],
-    axes: Axes,
+    axes: DiagramAxes,
     at: Sequence[float],
     *,
     pole: PointName,
@@ -42,12 +42,12 @@ def differentiate(
     pairs : sequence of (PointName, PointName)
         Ends of the chords: neighbours for the method of chords, and for the method of tangents the
         neighbours on both sides, whose chord the tangent between them is drawn parallel to.
-    axes : Axes
+    axes : DiagramAxes
         Of the derivative.
     at : sequence of float, mm
         Abscissa of every ordinate.
     pole : PointName
-        Pole of the derivative's axes: `Board.pole`.
+        Pole of the derivative's axes: `DiagramBoard.pole`.
     """
     b, made = board.b, []
     for k, ((tail, head), x) in enumerate(zip(pairs, at, strict=True)):
@@ -59,17 +59,17 @@ def differentiate(
 
 
 def repeated(
-    board: Board, name: str, point: PointName, end: PointName, start: PointName
+    board: DiagramBoard, name: str, point: PointName, end: PointName, start: PointName
 ) -> PointName:
     """Return a point of a periodic diagram a period earlier: moved as ``end`` is to ``start``."""
     return board.b.carry(name, start, end, point)
 
 
 def integrate(
-    board: Board,
+    board: DiagramBoard,
     curve: Sequence[PointName],
-    over: Axes,
-    axes: Axes,
+    over: DiagramAxes,
+    axes: DiagramAxes,
     at: Sequence[float],
     *,
     pole: PointName,
@@ -82,14 +82,14 @@ def integrate(
     curve : sequence of PointName
         Points of the diagram: over the middles of the n intervals for middle ordinates, over all
         their n + 1 ends for trapezoids.
-    over : Axes
+    over : DiagramAxes
         Axes of that diagram.
-    axes : Axes
+    axes : DiagramAxes
         Of the integral, which starts on its axis of abscissae.
     at : sequence of float, mm
         Abscissae of the n + 1 ends, in order.
     pole : PointName
-        Pole of ``over``: `Board.pole`.
+        Pole of ``over``: `DiagramBoard.pole`.
 
     Returns
     -------

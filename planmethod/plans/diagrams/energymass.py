@@ -17,11 +17,11 @@ from msgspec import Struct
 
 from planmethod.construct.program import Program
 from planmethod.construct.steps import NumberName, PointName
-from planmethod.plans.diagrams.board import Axes, Board
+from planmethod.plans.diagrams.board import DiagramAxes, DiagramBoard
 from planmethod.plans.diagrams.calculus import Integration, integrate
 
 
-class Given(Struct, frozen=True):
+class EnergyMassData(Struct, frozen=True):
     """Numbers that the diagrams are drawn of.
 
     Attributes
@@ -80,7 +80,7 @@ class EnergyMass(Struct, frozen=True):
     program : Program
     data : mapping
         Of the program: points in mm, numbers in their units.
-    axes : mapping of str to Axes
+    axes : mapping of str to DiagramAxes
         ``M``, ``A``, ``T``, ``J``; ``E`` of the energy-mass diagram.
     moments, middles, work, energies, inertias, turned, curve : tuple of PointName
         Points of the diagrams; ``turned`` those on the line at 45 degrees, ``curve`` the points of
@@ -93,7 +93,7 @@ class EnergyMass(Struct, frozen=True):
 
     program: Program
     data: Mapping[str, complex | float]
-    axes: Mapping[str, Axes]
+    axes: Mapping[str, DiagramAxes]
     moments: tuple[PointName, ...]
     middles: tuple[PointName, ...]
     work: tuple[PointName, ...]
@@ -108,9 +108,9 @@ class EnergyMass(Struct, frozen=True):
     J_f: NumberName
 
 
-def build(of: Given, places: Places) -> EnergyMass:
+def build(of: EnergyMassData, places: Places) -> EnergyMass:
     """Draw all diagrams of a flywheel as steps (построить диаграммы)."""
-    board = Board()
+    board = DiagramBoard()
     b, count = board.b, len(of.moments) - 1
     step = of.length / count
     at = [step * k for k in range(count + 1)]
@@ -120,7 +120,7 @@ def build(of: Given, places: Places) -> EnergyMass:
     )
 
     def plotted(
-        letter: str, axes: Axes, xs: Sequence[float], values: Sequence[float], mu: NumberName
+        letter: str, axes: DiagramAxes, xs: Sequence[float], values: Sequence[float], mu: NumberName
     ) -> list[PointName]:
         points = []
         for k, (x, value) in enumerate(zip(xs, values, strict=True)):

@@ -9,7 +9,7 @@ from msgspec import Struct
 
 from planmethod.construct.program import Program
 from planmethod.construct.steps import NumberName, PointName
-from planmethod.plans.diagrams.board import Board
+from planmethod.plans.diagrams.board import DiagramBoard
 
 
 class MassMoments(Struct, frozen=True):
@@ -42,7 +42,7 @@ def build(vectors: Sequence[complex], per_mm: float, radius: float) -> MassMomen
     radius : float, m
         Where the counterweight stands.
     """
-    board = Board()
+    board = DiagramBoard()
     b, mu = board.b, board.known("mu", per_mm)
     corners = [board.given("P", 0j)]
     for k, vector in enumerate(vectors, 1):

@@ -49,7 +49,7 @@ class Force(Struct, frozen=True):
         return replace(self, tail=self.head, head=self.tail, symbol=symbol)
 
 
-class Given(Struct, frozen=True):
+class GivenLoad(Struct, frozen=True):
     """Load that does not come from a joint, as the plan has it; a force or a couple."""
 
     applied: Applied
@@ -78,7 +78,7 @@ class Reaction(Struct, frozen=True):
     couple: NumberName | None = None
 
 
-class Board:
+class ForceBoard:
     """State of the force plans while they are being planned (планы сил в работе).
 
     ``forces`` and ``couples`` hold what acts on every link so far: its own loads, and what the
@@ -93,7 +93,7 @@ class Board:
         self.data: dict[str, Number] = {}
         self.forces: dict[str, list[Force]] = {}
         self.couples: dict[str, list[NumberName]] = {}
-        self.given: list[Given] = []
+        self.given: list[GivenLoad] = []
         self.reactions: list[Reaction] = []
         self.plans: list[ForcePlan] = []
         self.symbols: dict[NumberName, str] = {}
@@ -146,7 +146,7 @@ class Board:
                 couple = self._couple(one)
                 self.couples.setdefault(one.link, []).append(couple)
                 self.symbols[couple] = one.name
-                self.given.append(Given(one, None, couple))
+                self.given.append(GivenLoad(one, None, couple))
                 continue
             link, place = self.kin.velocity.named[one.point]
             at = PointName(place)
@@ -158,7 +158,7 @@ class Board:
                 ends = self._laid_off(one)
             force = Force(at, *ends, one.name)
             self.forces.setdefault(one.link, []).append(force)
-            self.given.append(Given(one, force, None))
+            self.given.append(GivenLoad(one, force, None))
 
     def _couple(self, one: Applied) -> NumberName:
         if one.kind is LoadKind.INERTIA_COUPLE and one.link in self.kin.epsilon:

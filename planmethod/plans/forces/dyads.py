@@ -19,7 +19,7 @@ from msgspec.structs import replace
 from planmethod.construct.steps import LineName, NumberName, PointName
 from planmethod.mechanism.groups import AssurGroup, Lead
 from planmethod.mechanism.model import FRAME, Revolute
-from planmethod.plans.forces.board import Board, Force
+from planmethod.plans.forces.board import Force, ForceBoard
 from planmethod.plans.forces.polygons import (
     Balance,
     Components,
@@ -61,7 +61,7 @@ class Driving(Struct, frozen=True):
     force: Force | None = None
 
 
-def group_forces(board: Board, group: AssurGroup) -> None:
+def group_forces(board: ForceBoard, group: AssurGroup) -> None:
     """Find the reactions in all joints of a dyad."""
     match group.signature:
         case "RRR" | "RRP" | "PRP":
@@ -72,7 +72,7 @@ def group_forces(board: Board, group: AssurGroup) -> None:
             _sliding(board, group)
 
 
-def _middle_revolute(board: Board, group: AssurGroup) -> None:
+def _middle_revolute(board: ForceBoard, group: AssurGroup) -> None:
     """RRR, RRP, PRP: what moments leave unknown of both outer reactions closes the plan."""
     middle = PointName(inner_point(group))
     one, two = split(group)
@@ -121,7 +121,7 @@ def _middle_revolute(board: Board, group: AssurGroup) -> None:
 
 
 def _tangent(
-    board: Board, lead: Lead, origin: PointName, middle: PointName
+    board: ForceBoard, lead: Lead, origin: PointName, middle: PointName
 ) -> tuple[PointName, Components | None]:
     """Lay off the tangential reaction of a revolute lead: its moment about the middle joint.
 
@@ -136,7 +136,7 @@ def _tangent(
     return end, Components(lead, PointName(outer), (outer, str(middle)), lever.length)
 
 
-def _unknown(board: Board, lead: Lead, through: PointName, middle: PointName) -> LineName:
+def _unknown(board: ForceBoard, lead: Lead, through: PointName, middle: PointName) -> LineName:
     """Draw the line of what is unknown of an outer reaction: along the link, across the guide."""
     b = board.draft.b
     if isinstance(lead.joint, Revolute):
@@ -145,7 +145,12 @@ def _unknown(board: Board, lead: Lead, through: PointName, middle: PointName) ->
 
 
 def _outer(
-    board: Board, lead: Lead, parts: Components | None, normal: Ends, tangential: Ends, whole: Ends
+    board: ForceBoard,
+    lead: Lead,
+    parts: Components | None,
+    normal: Ends,
+    tangential: Ends,
+    whole: Ends,
 ) -> tuple[Edge, ...]:
     """Return the sides of an outer reaction: normal and tangential, or that across the guide."""
     if parts is None:
@@ -153,7 +158,7 @@ def _outer(
     return parts.normal(*normal), parts.tangential(*tangential)
 
 
-def _guide_reaction(board: Board, lead: Lead, force: Force, inner: Edge) -> CoupleOn:
+def _guide_reaction(board: ForceBoard, lead: Lead, force: Force, inner: Edge) -> CoupleOn:
     """Note the reaction of a guide: its moment about the pin balances those of all other forces.
 
     ``inner`` is the reaction of the middle joint on the slider.
@@ -164,7 +169,7 @@ def _guide_reaction(board: Board, lead: Lead, force: Force, inner: Edge) -> Coup
     return board.react_guide(pin, lead.link, lead.to, replace(force, at=pin), couple)
 
 
-def _guide_edge(board: Board, lead: Lead, tail: PointName, head: PointName) -> Edge:
+def _guide_edge(board: ForceBoard, lead: Lead, tail: PointName, head: PointName) -> Edge:
     """Return the reaction of a guide, which is across it."""
     slide = slide_of(board.draft, lead.joint)
     direction = track_direction(slide, board.draft.problem, turned=True)
@@ -177,7 +182,7 @@ def _of_guide(couple: CoupleOn, edges: Sequence[Edge], known: tuple[CoupleOn, ..
     return Moments((couple.on,), couple.at, tuple(map(as_known, edges)), known, couple=couple)
 
 
-def _swinging(board: Board, group: AssurGroup) -> None:
+def _swinging(board: ForceBoard, group: AssurGroup) -> None:
     """RPR: the moment of the whole group about the host's joint, the slider's plan closes it."""
     b = board.draft.b
     slide, host, slider = rpr_parts(board.draft, group)
@@ -233,7 +238,7 @@ def _swinging(board: Board, group: AssurGroup) -> None:
     )
 
 
-def _pressed_block(board: Board, slide: Slide, force: Force, loads: Sequence[Edge]) -> Moments:
+def _pressed_block(board: ForceBoard, slide: Slide, force: Force, loads: Sequence[Edge]) -> Moments:
     """Note the reaction of a block on the bar through it, by the moments about its own joint."""
     known = board.couples_on(slide.host)
     held = board.negative(board.moment((slide.host,), force.at))
@@ -243,7 +248,7 @@ def _pressed_block(board: Board, slide: Slide, force: Force, loads: Sequence[Edg
     return _of_guide(couple, loads, known)
 
 
-def _sliding(board: Board, group: AssurGroup) -> None:
+def _sliding(board: ForceBoard, group: AssurGroup) -> None:
     """RPP: the plan of the link between two guides gives both forces across them."""
     b = board.draft.b
     revolute, prismatic = split(group)
@@ -294,7 +299,7 @@ def _sliding(board: Board, group: AssurGroup) -> None:
     )
 
 
-def drive_forces(board: Board) -> Driving:
+def drive_forces(board: ForceBoard) -> Driving:
     """Find what balances the driving link, and the reaction of the frame."""
     b, drive = board.draft.b, board.draft.problem.drive
     links = (drive.link,)

@@ -12,7 +12,7 @@ from __future__ import annotations
 from msgspec import Struct
 
 from planmethod.construct.steps import NumberName, PointName
-from planmethod.plans.forces.board import Board, Given
+from planmethod.plans.forces.board import ForceBoard, GivenLoad
 from planmethod.plans.forces.dyads import Driving
 from planmethod.plans.forces.loads import Shift
 
@@ -40,12 +40,12 @@ class Lever(Struct, frozen=True):
 class LeverLoad(Struct, frozen=True):
     """Load on the lever; of a force the point where it hangs, and its arm about the pole, mm."""
 
-    given: Given
+    given: GivenLoad
     at: PointName | None = None
     arm: NumberName | None = None
 
 
-def plan_lever(board: Board, driving: Driving) -> Lever | None:
+def plan_lever(board: ForceBoard, driving: Driving) -> Lever | None:
     """Hang the given loads on the turned velocity plan; None where the driver stands."""
     b, motion, drive = board.draft.b, board.kin.velocity, board.draft.problem.drive
     if drive.rate == 0:
@@ -81,7 +81,7 @@ def plan_lever(board: Board, driving: Driving) -> Lever | None:
     return Lever(pole, balance, off, tuple(loads))
 
 
-def _beside(board: Board, shift: Shift, centre: PointName) -> PointName:
+def _beside(board: ForceBoard, shift: Shift, centre: PointName) -> PointName:
     """Return the point t of a shifted force: ω·h off the centre of mass, parallel to h.
 
     On the turned plan the relative velocity lies along the link, against it where that goes

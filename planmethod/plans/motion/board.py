@@ -45,7 +45,7 @@ def _number(vector: Vector) -> str:
     return vector.symbol.replace("^{", "").replace("_{", "_").replace("}", "")
 
 
-class Motion(Struct):
+class MotionBoard(Struct):
     """One plan being planned (план скоростей или ускорений в работе).
 
     Attributes
@@ -75,7 +75,7 @@ class Motion(Struct):
     equations: list[VectorEquation] = field(default_factory=list)
 
     @classmethod
-    def start(cls, kind: PlanKind, draft: Draft) -> Motion:
+    def start(cls, kind: PlanKind, draft: Draft) -> MotionBoard:
         """Put the pole down: the fixed points are there."""
         pole = draft.b.given(FACTS[kind].prefix + "0")
         draft.places[pole] = 0j
@@ -157,7 +157,7 @@ class Motion(Struct):
         return self.add(Vector(symbol, VectorKind.ABSOLUTE, self.pole, at, known, direction))
 
 
-def plain_letter(motion: Motion, point: PointName) -> str:
+def plain_letter(motion: MotionBoard, point: PointName) -> str:
     """Return the letter of a plan point without markup: ``b3``, ``n_CB``, ``p``."""
     if point == motion.pole:
         return pole_letter(motion.draft.problem, motion.kind)
@@ -192,7 +192,7 @@ class Ray(Struct, frozen=True):
     unknown: tuple[str, VectorKind, Direction]
     name: str
 
-    def close(self, motion: Motion, head: PointName) -> Vector:
+    def close(self, motion: MotionBoard, head: PointName) -> Vector:
         """Return the unknown component, its end being found."""
         symbol, kind, direction = self.unknown
         return motion.add(Vector(symbol, kind, self.start, head, Known.ONE, direction))

@@ -5,7 +5,7 @@ from __future__ import annotations
 from planmethod.mechanism.groups import AssurGroup
 from planmethod.mechanism.model import Revolute
 from planmethod.plans.model import FACTS, Known, PlanKind, Vector, VectorKind
-from planmethod.plans.motion.board import Motion
+from planmethod.plans.motion.board import MotionBoard
 from planmethod.plans.motion.leads import (
     Kinematics,
     carried,
@@ -27,7 +27,7 @@ from planmethod.plans.motion.position import (
 )
 
 
-def drive_motion(kin: Kinematics, motion: Motion) -> None:
+def drive_motion(kin: Kinematics, motion: MotionBoard) -> None:
     """Lay off the motion of the driving link's points."""
     drive = kin.draft.problem.drive
     b = kin.draft.b
@@ -54,7 +54,7 @@ def drive_motion(kin: Kinematics, motion: Motion) -> None:
     carry_rest(kin, motion, (drive.link,))
 
 
-def group_motion(kin: Kinematics, motion: Motion, group: AssurGroup) -> None:
+def group_motion(kin: Kinematics, motion: MotionBoard, group: AssurGroup) -> None:
     """Close a dyad's plan: the rays of its two leads meet in the middle joint."""
     match group.signature:
         case "RRR" | "RRP" | "PRP":
@@ -66,7 +66,7 @@ def group_motion(kin: Kinematics, motion: Motion, group: AssurGroup) -> None:
     carry_rest(kin, motion, group.links)
 
 
-def carry_rest(kin: Kinematics, motion: Motion, links: tuple[str, ...]) -> None:
+def carry_rest(kin: Kinematics, motion: MotionBoard, links: tuple[str, ...]) -> None:
     """Find the remaining points of links whose motion is known (теорема подобия)."""
     for link in links:
         for place in kin.draft.problem.bodies[link].points:
@@ -75,7 +75,7 @@ def carry_rest(kin: Kinematics, motion: Motion, links: tuple[str, ...]) -> None:
     motion.read_off()
 
 
-def _middle_revolute(kin: Kinematics, motion: Motion, group: AssurGroup) -> None:
+def _middle_revolute(kin: Kinematics, motion: MotionBoard, group: AssurGroup) -> None:
     """RRR, RRP, PRP: the middle joint is a point of both links."""
     place = inner_point(group)
     leads = split(group)
@@ -98,7 +98,7 @@ def _middle_revolute(kin: Kinematics, motion: Motion, group: AssurGroup) -> None
             kin.share_turning(lead.link, lead.to)
 
 
-def _swinging(kin: Kinematics, motion: Motion, group: AssurGroup) -> None:
+def _swinging(kin: Kinematics, motion: MotionBoard, group: AssurGroup) -> None:
     """RPR: the point of the slotted link under the slider's joint is sought (кулиса)."""
     slide, host, slider = rpr_parts(kin.draft, group)
     joint, place = lead_point(host), lead_point(slider)
@@ -110,7 +110,7 @@ def _swinging(kin: Kinematics, motion: Motion, group: AssurGroup) -> None:
     kin.share_turning(slider.link, host.link)
 
 
-def _sliding(kin: Kinematics, motion: Motion, group: AssurGroup) -> None:
+def _sliding(kin: Kinematics, motion: MotionBoard, group: AssurGroup) -> None:
     """RPP: both links turn with the link that the group slides on."""
     revolute, prismatic = split(group)
     outer, inner = slide_of(kin.draft, prismatic.joint), slide_of(kin.draft, group.inner[0])

@@ -28,7 +28,7 @@ from planmethod.plans.model import (
     across,
     towards,
 )
-from planmethod.plans.motion.board import Motion, Ray
+from planmethod.plans.motion.board import MotionBoard, Ray
 from planmethod.problem.model import Problem, Slide
 
 
@@ -81,8 +81,8 @@ class Kinematics(Struct):
     """
 
     draft: Draft
-    velocity: Motion
-    acceleration: Motion
+    velocity: MotionBoard
+    acceleration: MotionBoard
     omega: dict[str, NumberName] = field(default_factory=dict)
     epsilon: dict[str, NumberName] = field(default_factory=dict)
     relatives: dict[tuple[str, str, str], Relative] = field(default_factory=dict)
@@ -122,7 +122,7 @@ def _inverse(powers: tuple[tuple[NumberName, int], ...]) -> tuple[tuple[NumberNa
     return tuple((name, -power) for name, power in powers)
 
 
-def revolute_ray(kin: Kinematics, motion: Motion, link: str, joint: str, place: str) -> Ray:
+def revolute_ray(kin: Kinematics, motion: MotionBoard, link: str, joint: str, place: str) -> Ray:
     """Return the ray of a link that hangs on a revolute joint (вращательный поводок).
 
     ``place`` is where on the drawing the middle point is.
@@ -153,7 +153,7 @@ def revolute_ray(kin: Kinematics, motion: Motion, link: str, joint: str, place: 
 
 def _normal(
     kin: Kinematics,
-    motion: Motion,
+    motion: MotionBoard,
     link: str,
     ends: tuple[str, str],
     start: PointName,
@@ -200,7 +200,7 @@ def track_direction(slide: Slide, problem: Problem, *, turned: bool = False) -> 
 
 
 def prismatic_ray(
-    kin: Kinematics, motion: Motion, slide: Slide, of: str, to: str, place: str
+    kin: Kinematics, motion: MotionBoard, slide: Slide, of: str, to: str, place: str
 ) -> Ray:
     """Return the ray of a link that slides on another (поступательный поводок).
 
@@ -247,7 +247,7 @@ def prismatic_ray(
 
 
 def close(
-    kin: Kinematics, motion: Motion, links: tuple[str, str], place: str, rays: tuple[Ray, Ray]
+    kin: Kinematics, motion: MotionBoard, links: tuple[str, str], place: str, rays: tuple[Ray, Ray]
 ) -> PointName:
     """Intersect the rays of two leads: the plan point of the middle joint, and its equations."""
     owner = links[0]
@@ -265,7 +265,7 @@ def close(
 
 
 def read_turning(
-    kin: Kinematics, motion: Motion, link: str, joint: str, place: str, ray: Ray
+    kin: Kinematics, motion: MotionBoard, link: str, joint: str, place: str, ray: Ray
 ) -> None:
     """Read the angular velocity (or acceleration) of a link off its closed ray."""
     b = kin.draft.b
@@ -280,7 +280,9 @@ def read_turning(
         kin.epsilon[link] = b.compute(f"epsilon_{link}", *powers)
 
 
-def read_sliding(kin: Kinematics, motion: Motion, of: str, to: str, place: str, ray: Ray) -> None:
+def read_sliding(
+    kin: Kinematics, motion: MotionBoard, of: str, to: str, place: str, ray: Ray
+) -> None:
     """Read the relative motion off a closed ray."""
     head = motion.point[of, place]
     value = motion.segments.read_along(ray.start, head, ray.line, ray.name)
@@ -290,7 +292,7 @@ def read_sliding(kin: Kinematics, motion: Motion, of: str, to: str, place: str, 
     kin.relatives[place, of, to] = Relative(place, of, to, value, ray.start, head)
 
 
-def carried(kin: Kinematics, motion: Motion, link: str, place: str) -> PointName:
+def carried(kin: Kinematics, motion: MotionBoard, link: str, place: str) -> PointName:
     """Return the plan point of the point of a link that is at ``place`` on the drawing.
 
     By similarity from two known points; by turning about one known point when the link's angular
@@ -318,7 +320,7 @@ def carried(kin: Kinematics, motion: Motion, link: str, place: str) -> PointName
 
 
 def _similar(
-    kin: Kinematics, motion: Motion, link: str, known: tuple[str, str], place: str
+    kin: Kinematics, motion: MotionBoard, link: str, known: tuple[str, str], place: str
 ) -> PointName:
     """Find a point by similarity; its distances from the two known points are computed."""
     b, name, segments = kin.draft.b, motion.name(motion.label(link, place)), motion.segments
@@ -349,7 +351,7 @@ def _on_drawing(draft: Draft, link: str, p: str, q: str) -> NumberName:
     return draft.measured(p, q)
 
 
-def _spread(motion: Motion, link: str) -> tuple[str, str] | None:
+def _spread(motion: MotionBoard, link: str) -> tuple[str, str] | None:
     """Return two known places of a link far enough apart to compare by, the given ones first."""
     body = motion.draft.problem.bodies[link].points
     here = motion.moving[link]
@@ -361,7 +363,9 @@ def _spread(motion: Motion, link: str) -> tuple[str, str] | None:
     return (given[0], found[0]) if given and found else None
 
 
-def turn_about(kin: Kinematics, motion: Motion, link: str, joint: str, place: str) -> PointName:
+def turn_about(
+    kin: Kinematics, motion: MotionBoard, link: str, joint: str, place: str
+) -> PointName:
     """Lay off the motion of a place about a known point of a link whose turning is known."""
     b = kin.draft.b
     start = motion.point[link, joint]

@@ -27,7 +27,7 @@ _MOST = 24  # arms on a picture: of more nobody finds one, and the equations tel
 _HEIGHT = 3.5  # of the letters, mm, where others are larger
 
 
-class Arm(Struct, frozen=True):
+class ForceArm(Struct, frozen=True):
     """Arm of a force about a point, mm.
 
     Attributes
@@ -46,16 +46,16 @@ class Arm(Struct, frozen=True):
     read: float
 
 
-def arm_of(force: Acting, about: complex, read: float) -> Arm:
+def arm_of(force: Acting, about: complex, read: float) -> ForceArm:
     """Return the arm of a force that acts along a line."""
     along = unit(force.direction)
     foot = force.at + along * ((about - force.at) * along.conjugate()).real
-    return Arm(force.symbol, about, foot, abs(read))
+    return ForceArm(force.symbol, about, foot, abs(read))
 
 
-def arms_of(reading: ForceReading, equations: Iterable[Moments], say: Notation) -> list[Arm]:
+def arms_of(reading: ForceReading, equations: Iterable[Moments], say: Notation) -> list[ForceArm]:
     """Return the arms that the equations of moments of a force plan need, each once."""
-    found: dict[tuple[str, complex], Arm] = {}
+    found: dict[tuple[str, complex], ForceArm] = {}
     for equation in equations:
         about = reading.place(equation.about)
         for edge in equation.edges:
@@ -67,7 +67,7 @@ def arms_of(reading: ForceReading, equations: Iterable[Moments], say: Notation) 
 
 
 def arm_items(
-    arms: Iterable[Arm],
+    arms: Iterable[ForceArm],
     placed: Sequence[tuple[Acting, Segment]],
     height: float,
     prefix: str,
@@ -78,7 +78,7 @@ def arm_items(
     ``placed`` are the arrows of the forces. Arms on one line have it together: ``h_{G5} = h_{Φ5}``.
     None are drawn where they are more than a reader can tell apart.
     """
-    lines: list[list[Arm]] = []
+    lines: list[list[ForceArm]] = []
     for arm in arms:
         if arm.read < _LEAST:
             continue
@@ -103,12 +103,12 @@ def arm_items(
     return items, labels
 
 
-def _is_same(one: Arm, other: Arm) -> bool:
+def _is_same(one: ForceArm, other: ForceArm) -> bool:
     apart = max(abs(one.about - other.about), abs(one.foot - other.foot))
     return apart < _SAME and one.read == other.read
 
 
-def _action(arm: Arm, placed: Sequence[tuple[Acting, Segment]]) -> list[Item]:
+def _action(arm: ForceArm, placed: Sequence[tuple[Acting, Segment]]) -> list[Item]:
     """Return the line of action from an arrow to the foot of its arm, with the right angle."""
     arrow = next((ends for force, ends in placed if force.symbol == arm.symbol), None)
     if arrow is None:

@@ -56,7 +56,7 @@ class Acting(Struct, frozen=True):
     gap: float | None = None
 
 
-class Turning(Struct, frozen=True):
+class CoupleArc(Struct, frozen=True):
     """Couple to be drawn: its letter, a place on its link, mm, and its sense."""
 
     symbol: str
@@ -151,7 +151,7 @@ def force_items(
 
 
 def couple_items(
-    couples: Sequence[Turning], around: Sequence[Item], height: float, prefix: str
+    couples: Sequence[CoupleArc], around: Sequence[Item], height: float, prefix: str
 ) -> tuple[list[Item], list[Label]]:
     """Return circular arrows where there is room for them, and their letters."""
     items: list[Item] = []

@@ -16,11 +16,11 @@ from planmethod.note.narrate.given import point_name
 from planmethod.note.numbers import Notation
 from planmethod.plans.forces.polygons import CoupleOn, Edge, Moments, Share
 from planmethod.problem.model import Slide
-from planmethod.render.forces.arms import Arm, arm_items, arms_of
+from planmethod.render.forces.arms import ForceArm, arm_items, arms_of
 from planmethod.render.forces.arrows import (
     Acting,
+    CoupleArc,
     Segment,
-    Turning,
     couple_items,
     force_items,
     lay_forces,
@@ -58,7 +58,7 @@ _BEYOND_POINT = 5.0
 """Length of it beyond the place of a reaction, mm."""
 
 
-class Cut(Scheme):
+class FreeBodyScheme(Scheme):
     """Some links of a mechanism in one position, cut free from the others (группа отдельно).
 
     The axis of a cut guide goes at least ``reach`` mm to both sides of the slider's pin.
@@ -149,12 +149,12 @@ def _loaded_picture(
     scheme: Scheme,
     links: Iterable[str],
     forces: Sequence[Acting],
-    couples: Sequence[Turning],
+    couples: Sequence[CoupleArc],
     shifts: Sequence[Shifted],
     prefix: str,
     say: Notation,
     guided: Sequence[Pressed] = (),
-    arms: Sequence[Arm] = (),
+    arms: Sequence[ForceArm] = (),
 ) -> Picture:
     items = [*_drawn(scheme), *point_items(guided, scheme.factor)]
     bars = [part for parts in scheme.segments.values() for part in parts]
@@ -200,7 +200,7 @@ def loads_picture(reading: ForceReading, letter_height: float, say: Notation) ->
 def cut_picture(reading: ForceReading, number: int, letter_height: float, say: Notation) -> Picture:
     """Return the links of a force plan cut free, with all that acts on them, mm."""
     plan = reading.plans[number]
-    scheme = Cut(reading.solution, reading.index, letter_height, links=plan.links)
+    scheme = FreeBodyScheme(reading.solution, reading.index, letter_height, links=plan.links)
     prefix = f"cut {reading.index} {number}"
     return _cut(
         reading, scheme, reading.shown(plan), reading.couples(plan), prefix, say, plan.moments
@@ -226,13 +226,13 @@ def inner_picture(
     edges = [edge for edge in balance.edges if not reading.is_none(edge)]
     couples = [couple for couple in reading.couples(plan) if couple.on == link]
     couples.append(CoupleOn(guided.symbol("M"), link, reaction.couple, reaction.force.at))
-    scheme = Cut(reading.solution, reading.index, letter_height, links=(link,))
+    scheme = FreeBodyScheme(reading.solution, reading.index, letter_height, links=(link,))
     return link, _cut(reading, scheme, edges, couples, f"link {reading.index} {link}", say)
 
 
 def _cut(
     reading: ForceReading,
-    scheme: Cut,
+    scheme: FreeBodyScheme,
     edges: Sequence[Edge],
     couples: Sequence[CoupleOn],
     prefix: str,
@@ -269,15 +269,15 @@ def _link_lines(reading: ForceReading, links: Iterable[str]) -> list[Segment]:
     return [pair for ends in places for pair in combinations(ends, 2)]
 
 
-def _turning(reading: ForceReading, scheme: Scheme, couple: CoupleOn, say: Notation) -> Turning:
+def _turning(reading: ForceReading, scheme: Scheme, couple: CoupleOn, say: Notation) -> CoupleArc:
     """Return a couple as it is drawn: about its own place, else about the centre of mass."""
     sense, symbol = 1 if reading.number(couple.moment) > 0 else -1, say.symbol(couple.symbol)
     if couple.at is not None:
-        return Turning(symbol, reading.place(couple.at), sense)
+        return CoupleArc(symbol, reading.place(couple.at), sense)
     problem = scheme.solution.problem
     mass = problem.dynamics.masses.get(couple.on) if problem.dynamics is not None else None
     points = list(problem.bodies[couple.on].points)
     places = [scheme.at(point) for point in points]
     if mass is not None and mass.centre in points and couple.symbol.startswith("M_{Φ"):
-        return Turning(symbol, scheme.at(mass.centre), sense)
-    return Turning(symbol, sum(places) / len(places), sense)
+        return CoupleArc(symbol, scheme.at(mass.centre), sense)
+    return CoupleArc(symbol, sum(places) / len(places), sense)

@@ -45,7 +45,7 @@ def drawn_length(solution: Solution, slide: Slide, factor: float) -> float:
     return SIZES.slider_length * factor
 
 
-class Span(Struct, frozen=True):
+class DimensionSpan(Struct, frozen=True):
     """Distance to be dimensioned: its letter, and its ends on the guide, mm."""
 
     symbol: str
@@ -63,13 +63,13 @@ class Pressed(Struct, frozen=True):
     forces : tuple of Acting
     points : tuple of complex, mm
         Where they act.
-    span : Span or None
+    span : DimensionSpan or None
     """
 
     replaced: frozenset[str]
     forces: tuple[Acting, ...]
     points: tuple[complex, ...]
-    span: Span | None
+    span: DimensionSpan | None
 
 
 def pressed(
@@ -129,7 +129,7 @@ def _at_edges(guided: Guided, factor: float) -> Pressed | None:
         Acting(guided.symbol("F", primes), place, edge.force, gap=_face(factor))
         for primes, place, edge in zip(("'", "''"), places, edges, strict=True)
     )
-    span = Span(guided.own.symbol("a"), places[1], places[0])
+    span = DimensionSpan(guided.own.symbol("a"), places[1], places[0])
     return Pressed(_replaced(guided), forces, places, span)
 
 
@@ -144,7 +144,7 @@ def _at_point(guided: Guided, bars: Sequence[Segment], factor: float) -> Pressed
         return None
     force = guided.sense * complex(contact.joint.force[reading.index])
     acting = Acting(guided.symbol("F"), place, force, gap=_face(factor))
-    span = Span(guided.own.symbol("l"), origin, place) if abs(shift) >= _LEAST else None
+    span = DimensionSpan(guided.own.symbol("l"), origin, place) if abs(shift) >= _LEAST else None
     return Pressed(_replaced(guided), (acting,), (place,), span)
 
 
@@ -157,7 +157,7 @@ def point_items(ones: Iterable[Pressed], factor: float) -> list[Item]:
 
 
 def span_dimension(
-    span: Span, lines: Sequence[Segment], height: float, prefix: str
+    span: DimensionSpan, lines: Sequence[Segment], height: float, prefix: str
 ) -> tuple[list[Item], Label]:
     """Return a dimension along a guide on its freer side, and its letter (размер).
 
@@ -186,7 +186,7 @@ def span_dimension(
     return items, label
 
 
-def _crowded(span: Span, out: complex, lines: Iterable[Segment]) -> float:
+def _crowded(span: DimensionSpan, out: complex, lines: Iterable[Segment]) -> float:
     """Return what a dimension line costs among other lines; less the nearer it is."""
     start, end = span.start + out, span.end + out
     places = [start + (end - start) * k / 6 for k in range(-2, 9)]

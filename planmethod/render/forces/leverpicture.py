@@ -9,7 +9,7 @@ from planmethod.plans.model import PlanKind
 from planmethod.render.forces.arms import arm_items, arm_of
 from planmethod.render.forces.arrows import (
     Acting,
-    Turning,
+    CoupleArc,
     couple_items,
     force_items,
     lay_forces,
@@ -66,6 +66,6 @@ def lever_picture(reading: ForceReading, letter_height: float, say: Notation) ->
     return lettered([*items, *turns], named)
 
 
-def _turning(one: LeverCouple, say: Notation) -> Turning:
+def _turning(one: LeverCouple, say: Notation) -> CoupleArc:
     place = 0j if one.segment is None else sum(one.segment) / 2
-    return Turning(say.symbol(one.symbol), place, 1 if one.lever_moment > 0 else -1)
+    return CoupleArc(say.symbol(one.symbol), place, 1 if one.lever_moment > 0 else -1)

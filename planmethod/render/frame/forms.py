@@ -17,7 +17,7 @@ from planmethod.render.ink.drawing import Bounds
 from planmethod.render.layout.block import Align
 
 
-class Cell(NamedTuple):
+class FormCell(NamedTuple):
     """Cell of a form: box, greatest letter height, side that the text is set to."""
 
     box: Bounds
@@ -38,9 +38,9 @@ class Form(Struct, frozen=True):
         thin ones the rows and the three small cells of "Лит.".
     captions : tuple of (str, Bounds, Align)
         By their names in ``captions`` of a language's ``frame``.
-    cells : mapping of str to Cell
+    cells : mapping of str to FormCell
         Where the fields go; a form leaves out fields that it has no graph for.
-    organisation : Cell, optional
+    organisation : FormCell, optional
         Graph 9, which several fields share.
     letters : tuple of Bounds
         The small cells of graph 4, from the left.
@@ -52,8 +52,8 @@ class Form(Struct, frozen=True):
     thick: tuple[Bounds, ...]
     thin: tuple[Bounds, ...]
     captions: tuple[Caption, ...]
-    cells: Mapping[str, Cell]
-    organisation: Cell | None = None
+    cells: Mapping[str, FormCell]
+    organisation: FormCell | None = None
     letters: tuple[Bounds, ...] = ()
 
     @property
@@ -77,13 +77,13 @@ def _header(y: float) -> tuple[Caption, ...]:
     return tuple((caption, (x0, y, x1, y + 5), "centre") for caption, x0, x1 in _COLUMNS)
 
 
-def _hands(rows: Sequence[str]) -> Iterator[tuple[str, Cell]]:
+def _hands(rows: Sequence[str]) -> Iterator[tuple[str, FormCell]]:
     """Yield the cells of surnames and dates; the roles of ``rows`` go from the bottom up."""
     for y, role in zip(range(0, 5 * len(rows), 5), rows, strict=True):
-        yield role, Cell((17, y, 40, y + 5), 2.5, "left")
-        yield f"{role}_date", Cell((55, y, 65, y + 5), 2.5)
+        yield role, FormCell((17, y, 40, y + 5), 2.5, "left")
+        yield f"{role}_date", FormCell((55, y, 65, y + 5), 2.5)
         if role == "extra":
-            yield "extra_role", Cell((0, y, 17, y + 5), 2.5, "left")
+            yield "extra_role", FormCell((0, y, 17, y + 5), 2.5, "left")
 
 
 def _roles(rows: Sequence[str]) -> Iterator[Caption]:
@@ -140,17 +140,17 @@ FORM_1 = Form(
     ),
     cells=MappingProxyType(
         {
-            "designation": Cell((65, 40, 185, 55), 7.0),
-            "title": Cell((65, 15, 135, 40), 5.0),
-            "material": Cell((65, 0, 135, 15), 3.5),
-            "mass": Cell((150, 20, 167, 35), 3.5),
-            "scale": Cell((167, 20, 185, 35), 3.5),
-            "sheet": Cell((146, 15, 155, 20), 2.5),
-            "sheets": Cell((171, 15, 185, 20), 2.5),
+            "designation": FormCell((65, 40, 185, 55), 7.0),
+            "title": FormCell((65, 15, 135, 40), 5.0),
+            "material": FormCell((65, 0, 135, 15), 3.5),
+            "mass": FormCell((150, 20, 167, 35), 3.5),
+            "scale": FormCell((167, 20, 185, 35), 3.5),
+            "sheet": FormCell((146, 15, 155, 20), 2.5),
+            "sheets": FormCell((171, 15, 185, 20), 2.5),
             **dict(_hands(_HANDS_1)),
         }
     ),
-    organisation=Cell((135, 0, 185, 15), 3.5),
+    organisation=FormCell((135, 0, 185, 15), 3.5),
     letters=_LETTERS_1,
 )
 """Form 1: every sheet of a drawing (185x55 mm)."""
@@ -181,14 +181,14 @@ FORM_2 = Form(
     ),
     cells=MappingProxyType(
         {
-            "designation": Cell((65, 25, 185, 40), 7.0),
-            "title": Cell((65, 0, 135, 25), 5.0),
-            "sheet": Cell((150, 15, 165, 20), 2.5),
-            "sheets": Cell((165, 15, 185, 20), 2.5),
+            "designation": FormCell((65, 25, 185, 40), 7.0),
+            "title": FormCell((65, 0, 135, 25), 5.0),
+            "sheet": FormCell((150, 15, 165, 20), 2.5),
+            "sheets": FormCell((165, 15, 185, 20), 2.5),
             **dict(_hands(_HANDS_2)),
         }
     ),
-    organisation=Cell((135, 0, 185, 15), 3.5),
+    organisation=FormCell((135, 0, 185, 15), 3.5),
     letters=_LETTERS_2,
 )
 """Form 2: first sheet of a text document (185x40 mm)."""
@@ -207,8 +207,8 @@ FORM_2A = Form(
     captions=(*_header(0), ("sheet", (175, 8, 185, 15), "centre")),
     cells=MappingProxyType(
         {
-            "designation": Cell((65, 0, 175, 15), 7.0),
-            "sheet": Cell((175, 0, 185, 8), 3.5),
+            "designation": FormCell((65, 0, 175, 15), 7.0),
+            "sheet": FormCell((175, 0, 185, 8), 3.5),
         }
     ),
 )

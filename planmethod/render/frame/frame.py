@@ -24,7 +24,7 @@ from planmethod.paper import (
     Format,
     paper_format,
 )
-from planmethod.render.frame.forms import Cell
+from planmethod.render.frame.forms import FormCell
 from planmethod.render.frame.furniture import Furniture
 from planmethod.render.frame.titleblock import (
     STAMP,
@@ -102,7 +102,7 @@ def sheet_frame(
     for number, box in furniture.graphs(paper, sheet).items():
         items.append(rectangle(box, Pen.FRAME, STAMP))
         if number == "26" and fields.get("designation"):
-            items += _turned_into(str(fields["designation"]), Cell(box, 7.0), turn, STAMP)
+            items += _turned_into(str(fields["designation"]), FormCell(box, 7.0), turn, STAMP)
     if furniture.side_columns:
         items += _side_columns(paper, fields, words, first=furniture.is_first(sheet))
     items += _under_the_frame(paper, words)
@@ -145,10 +145,10 @@ def _side_columns(
             box = (x0, bottom, x1, top)
             yield rectangle(box, Pen.FRAME, STAMP)
             if text:
-                yield from _turned_into(text, Cell(box, size), 90.0, f"{STAMP} {MARGIN_NOTE}")
+                yield from _turned_into(text, FormCell(box, size), 90.0, f"{STAMP} {MARGIN_NOTE}")
 
 
-def _turned_into(text: str, cell: Cell, angle: float, tag: str) -> list[Item]:
+def _turned_into(text: str, cell: FormCell, angle: float, tag: str) -> list[Item]:
     """Put a text into its cell turned by a multiple of 90 degrees, counter-clockwise."""
     x0, y0, x1, y1 = cell.box
     middle = complex(x0 + x1, y0 + y1) / 2

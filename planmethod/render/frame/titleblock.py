@@ -10,7 +10,7 @@ from planmethod.languages import LANGUAGES, say
 from planmethod.note.wording import language
 from planmethod.problem.head import TITLE_BLOCK
 from planmethod.problem.names import near_hint
-from planmethod.render.frame.forms import FORM_1, Cell, Form
+from planmethod.render.frame.forms import FORM_1, Form, FormCell
 from planmethod.render.ink.drawing import Bounds, Item, Pen, Stroke
 from planmethod.render.ink.style import HEIGHTS
 from planmethod.render.ink.typeset import smaller_heights
@@ -71,7 +71,7 @@ def title_block(
         ]
     items.append(rectangle((0.0, 0.0, form.width, form.height), Pen.FRAME, STAMP))
     for caption, box, align in form.captions:
-        items += filled(captions[caption], Cell(box, 2.5, align))
+        items += filled(captions[caption], FormCell(box, 2.5, align))
     for key, cell in form.cells.items():
         if key in values:
             items += filled(values[key], cell, shrink_first=key != "title")
@@ -87,10 +87,10 @@ def _letters(letters: str, boxes: tuple[Bounds, ...], *, divided: bool) -> Itera
     if not boxes or not letters:
         return
     if not divided:
-        yield from filled(letters, Cell((*boxes[0][:2], *boxes[-1][2:]), 3.5))
+        yield from filled(letters, FormCell((*boxes[0][:2], *boxes[-1][2:]), 3.5))
         return
     for letter, box in zip(letters, boxes, strict=False):
-        yield from filled(letter, Cell(box, 3.5))
+        yield from filled(letter, FormCell(box, 3.5))
 
 
 def check_fields(fields: Iterable[str]) -> None:
@@ -106,7 +106,7 @@ def check_fields(fields: Iterable[str]) -> None:
             raise LayoutError("Unknown field {!r} of the title block. {}", key, hint)
 
 
-def filled(text: str, cell: Cell, tag: str = STAMP, *, shrink_first: bool = True) -> list[Item]:
+def filled(text: str, cell: FormCell, tag: str = STAMP, *, shrink_first: bool = True) -> list[Item]:
     """Put a text into its cell; in narrow cells less white is left at the sides."""
     wide = cell.box[2] - cell.box[0]
     pad = 0.45 if wide <= 7 else 0.45 if wide <= 10 else 0.6 if wide <= 25 else 1.5

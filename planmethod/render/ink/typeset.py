@@ -11,7 +11,7 @@ from typing import Literal, TypeAlias
 from msgspec import Struct
 from msgspec.structs import replace
 
-from planmethod.note.formula import Bar, Index, Letters, Node, parse
+from planmethod.note.formula import Index, Letters, Node, Overline, parse
 from planmethod.render.ink.drawing import Bounds, Item, Pen, Stroke, Text
 from planmethod.render.ink.lettering import OutlineLettering, in_use
 from planmethod.render.ink.style import HEIGHTS
@@ -253,7 +253,7 @@ class _Setter:
                     if isinstance(before, Index) and (text[0] == "·" or text[0].isalpha()):
                         x += _AFTER_INDEX * height
                     x = self._letters(text, x, y, height)
-                case Bar(body):
+                case Overline(body):
                     x += _AFTER_INDEX * height if isinstance(before, Index) else 0.0
                     x = self._bar(body, x, y, height)
                 case Index(below, above):

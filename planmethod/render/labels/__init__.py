@@ -15,7 +15,7 @@ from planmethod.render.labels.model import (
     CROWDED,
     UNDER_LABEL,
     Label,
-    Manner,
+    LabelStyle,
     Placed,
     segment_label,
 )
@@ -29,7 +29,7 @@ __all__ = [
     "CROWDED",
     "UNDER_LABEL",
     "Label",
-    "Manner",
+    "LabelStyle",
     "Placed",
     "place_labels",
     "segment_label",

@@ -20,7 +20,7 @@ BREAKABLE = frozenset({Pen.THIN, Pen.PALE, Pen.PHANTOM})
 """Pens of the lines that it may break."""
 
 
-class Manner(Struct, frozen=True):
+class LabelStyle(Struct, frozen=True):
     """How a label looks for its place; all lengths mm.
 
     Attributes
@@ -55,10 +55,10 @@ class Manner(Struct, frozen=True):
     heavy: float = 7.0
 
 
-ALONE = Manner()
+ALONE = LabelStyle()
 """A letter among few: eighty places around its point."""
 
-BUSY = Manner(
+BUSY = LabelStyle(
     rings=(0.0, 0.8, 1.8, 3.0, 4.5, 6.5, 9.0, 12.0, 16.0),
     angles=24,
     leader_from=5.0,
@@ -68,7 +68,7 @@ BUSY = Manner(
 )
 """A letter among few, on a drawing with many lines."""
 
-CROWDED = Manner(
+CROWDED = LabelStyle(
     rings=(0.0, 0.5, 1.1, 2.0, 3.0, 4.5, 6.5, 9.0, 12.0, 15.5),
     angles=20,
     far_rings=(18.5, 22.0, 26.0, 31.0, 37.0, 44.0),
@@ -101,7 +101,7 @@ class Label(Struct, frozen=True):
         Greater is placed earlier.
     name : str
         Name of the inscription for the lint; made of markup and place when empty.
-    manner : Manner
+    manner : LabelStyle
         How it looks for its place.
     series : str
         What it is one of: the labels of a series whose points are close together stand in a column.
@@ -114,7 +114,7 @@ class Label(Struct, frozen=True):
     gap: float = 1.5
     priority: int = 0
     name: str = ""
-    manner: Manner = ALONE
+    manner: LabelStyle = ALONE
     series: str = ""
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 
 from planmethod.render.ink.typeset import typeset
-from planmethod.render.labels.model import ALONE, Label, Manner
+from planmethod.render.labels.model import ALONE, Label, LabelStyle
 
 Spots = list[tuple[complex, list[str]]]
 """Places, mm, and what stands there."""
@@ -35,7 +35,7 @@ def shared_spots(letters: Iterable[tuple[complex, Sequence[str]]], near: float =
 
 
 def spot_labels(
-    spots: Spots, height: float, prefix: str, *, gap: float = 1.4, manner: Manner = ALONE
+    spots: Spots, height: float, prefix: str, *, gap: float = 1.4, manner: LabelStyle = ALONE
 ) -> list[Label]:
     """Return the letters of spots, away from the middle of them all; ``prefix`` is of names."""
     middle = sum(place for place, _ in spots) / len(spots)

@@ -22,7 +22,7 @@ _OPTIONS = 12  # cuttings kept for one run of blocks: widths from the narrowest 
 Arrange: TypeAlias = Literal["free", "row", "column"]
 
 
-class Part(Struct, frozen=True):
+class Packed(Struct, frozen=True):
     """A block to be packed; ``text`` says that it stands together with neighbouring texts."""
 
     block: Block
@@ -40,14 +40,14 @@ class Group(Struct, frozen=True):
     ``arrange`` says how they may stand: as the paper has room, side by side, one under another.
     """
 
-    members: tuple[Part | Group, ...]
+    members: tuple[Packed | Group, ...]
     arrange: Arrange = "free"
 
     def inner(self) -> Group:
         """Return the innermost groups alone, none arranged in a certain way."""
-        members: list[Part | Group] = []
+        members: list[Packed | Group] = []
         for member in self.members:
-            if isinstance(member, Part):
+            if isinstance(member, Packed):
                 members.append(member)
             elif any(isinstance(one, Group) for one in member.members):
                 members += member.inner().members
@@ -59,10 +59,10 @@ class Group(Struct, frozen=True):
         """Return the parts without groups."""
         return Group(tuple(self.parts()))
 
-    def parts(self) -> Iterator[Part]:
+    def parts(self) -> Iterator[Packed]:
         """Yield the parts in reading order."""
         for member in self.members:
-            if isinstance(member, Part):
+            if isinstance(member, Packed):
                 yield member
             else:
                 yield from member.parts()
@@ -79,7 +79,7 @@ class Leaf(Struct, frozen=True):
     group: bool = False
 
 
-class Cut(Struct, frozen=True):
+class GuillotineCut(Struct, frozen=True):
     """Two parts side by side (``across`` false) or one above the other.
 
     ``text``: all in it are texts, which stand together; ``group``: it is a whole group.
@@ -94,7 +94,7 @@ class Cut(Struct, frozen=True):
     group: bool = False
 
 
-Node: TypeAlias = "Leaf | Cut"
+Node: TypeAlias = "Leaf | GuillotineCut"
 Unit: TypeAlias = tuple[Node, Bounds]
 """A block, or texts that stand together, and the room that is theirs."""
 
@@ -120,7 +120,7 @@ def cuttings(
     """
     options: list[list[Node]] = []
     for member in group.members:
-        if isinstance(member, Part):
+        if isinstance(member, Packed):
             options.append(list(next(leaves)))
         else:
             options.append([replace(node, group=True) for node in cuttings(member, leaves, room)])
@@ -142,13 +142,13 @@ def cuttings(
     return [node for node in kept[0, count] if fits(node, room)]
 
 
-def _joined(one: Node, two: Node, *, across: bool) -> Cut:
+def _joined(one: Node, two: Node, *, across: bool) -> GuillotineCut:
     text = one.text and two.text
     if across:
         tall = one.height + GAP + two.height
-        return Cut(one, two, True, max(one.width, two.width), tall, text)
+        return GuillotineCut(one, two, True, max(one.width, two.width), tall, text)
     wide = one.width + GAP + two.width
-    return Cut(one, two, False, wide, max(one.height, two.height), text)
+    return GuillotineCut(one, two, False, wide, max(one.height, two.height), text)
 
 
 def _pareto(nodes: list[Node]) -> list[Node]:
@@ -198,7 +198,7 @@ def _drawn_together(node: Node, box: Bounds) -> Bounds:
     return (left + across, low + along, right - across, high - along)
 
 
-def _share(node: Cut, *, across: bool) -> float:
+def _share(node: GuillotineCut, *, across: bool) -> float:
     """Return the first part's share of spare white: by the number of blocks in that direction."""
     one, two = _steps(node.first, across=across), _steps(node.second, across=across)
     return one / (one + two)

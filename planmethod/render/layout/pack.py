@@ -29,7 +29,7 @@ from planmethod.render.layout.cuttings import (
     Group,
     Leaf,
     Node,
-    Part,
+    Packed,
     Unit,
     box_of,
     corners_of,
@@ -177,8 +177,8 @@ def _with_the_last(whole: Group) -> Iterator[Group]:
     if not isinstance(group, Group) or last is None:
         return
     if {whole.arrange, group.arrange} == {"free"}:
-        views = [one for one in group.members if not (isinstance(one, Part) and one.text)]
-        texts = tuple(one for one in group.members if isinstance(one, Part) and one.text)
+        views = [one for one in group.members if not (isinstance(one, Packed) and one.text)]
+        texts = tuple(one for one in group.members if isinstance(one, Packed) and one.text)
         if group.members == (*views, *texts):
             joined = Group((*views, *([Group(texts)] if texts else []), last))
             yield Group((*whole.members[: len(before) - 1], joined))

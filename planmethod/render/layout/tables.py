@@ -33,7 +33,7 @@ _SIGN_GAP = 1.2  # between a value and the sign of its sense, mm
 _NUMBER = r"[-−+]?\d+(?P<fraction>[.,]\d+)?( ± \d+([.,]\d+)?)?\*?$"
 
 
-class Cell(Struct, frozen=True):
+class TableCell(Struct, frozen=True):
     """One value (графа): rich text and, for ω and ε, the sense.
 
     ``sense`` is +1 (counter-clockwise) or -1 (clockwise): a small circular arrow beside the value;
@@ -53,15 +53,15 @@ class TableColumn(Struct, frozen=True):
     """
 
     head: str
-    values: tuple[Cell | str, ...]
+    values: tuple[TableCell | str, ...]
     unit: str = ""
     width: float | None = None
     least: float = 12.0
 
     @property
-    def cells(self) -> tuple[Cell, ...]:
+    def cells(self) -> tuple[TableCell, ...]:
         """The values, plain strings made into cells."""
-        return tuple(v if isinstance(v, Cell) else Cell(v) for v in self.values)
+        return tuple(v if isinstance(v, TableCell) else TableCell(v) for v in self.values)
 
 
 class _Set(Struct, frozen=True):

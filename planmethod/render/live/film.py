@@ -29,7 +29,7 @@ from planmethod.render.ink.drawing import Drawing, Fill, Item, Pen, Stroke, plac
 from planmethod.render.ink.extent import ink_bounds
 from planmethod.render.ink.lettering import in_use
 from planmethod.render.ink.typeset import typeset
-from planmethod.render.live.scene import LETTER, Ref, Scene, View
+from planmethod.render.live.scene import LETTER, LiveScene, LiveView, Ref
 from planmethod.render.symbols import vector_arrow
 
 Complexes = npt.NDArray[np.complex128]
@@ -53,7 +53,7 @@ class DrawnBody(Struct, frozen=True):
     turns: Reals
 
 
-class Segment(Struct, frozen=True):
+class FilmSegment(Struct, frozen=True):
     """Segment between two points, mm in every frame, with an arrowhead at its head or without."""
 
     tails: Complexes
@@ -92,7 +92,7 @@ class Film(Struct):
     width: float = 0.0
     height: float = 0.0
     still: list[Item] = field(default_factory=list)
-    segments: list[Segment] = field(default_factory=list)
+    segments: list[FilmSegment] = field(default_factory=list)
     bodies: list[DrawnBody] = field(default_factory=list)
     readings: list[list[Item]] = field(default_factory=list)
 
@@ -213,7 +213,7 @@ def film_of(problem: Problem, lang: str, *, frames: int, plans: bool) -> Film:
     StructureError, ProblemError, AssemblyError, SelfCheckError
     """
     words = language(lang)
-    scene = Scene(replace(problem, dynamics=None, machine=None), words)
+    scene = LiveScene(replace(problem, dynamics=None, machine=None), words)
     shown = ("scheme", *([PlanKind.VELOCITY.value] if plans else []))
     return _Cutting(scene, [view for view in scene.views if view.id in shown], frames).film()
 
@@ -221,7 +221,7 @@ def film_of(problem: Problem, lang: str, *, frames: int, plans: bool) -> Film:
 class _Cutting:
     """Puts a film together: which frames there are, and what stands where in them."""
 
-    def __init__(self, scene: Scene, views: list[View], frames: int) -> None:
+    def __init__(self, scene: LiveScene, views: list[LiveView], frames: int) -> None:
         self.scene, self.views, self.frames = scene, views, frames
         self.drive = scene.problem.drive
         self.origin = scene.construction.draft.origin
@@ -286,7 +286,7 @@ class _Cutting:
             made.readings.append(list(text.at(complex(4.0, 4.0))))
         return made
 
-    def _view(self, made: Film, view: View, corner: complex) -> None:
+    def _view(self, made: Film, view: LiveView, corner: complex) -> None:
         scene = self.scene
 
         def at(ref: Ref, values: npt.NDArray[np.float64] = self.values) -> Complexes:
@@ -309,10 +309,10 @@ class _Cutting:
             for one in view.segments:
                 pen = Pen.MAIN if one["style"] == "main" else Pen.THIN
                 ends = at(one["a"]), at(one["b"])
-                made.segments.append(Segment(*ends, pen, bool(one.get("arrow"))))
+                made.segments.append(FilmSegment(*ends, pen, bool(one.get("arrow"))))
         made.bodies += self._labels(view, at, corner)
 
-    def _traces(self, view: View, at: Callable[..., Complexes]) -> Iterator[Item]:
+    def _traces(self, view: LiveView, at: Callable[..., Complexes]) -> Iterator[Item]:
         """Yield the lines that the points move along."""
         count = len(self.positions)
         ends = [*range(count), *([0] if self.closed else [])]
@@ -331,7 +331,7 @@ class _Cutting:
     # Inscriptions --------------------------------------------------------------------------------
 
     def _labels(
-        self, view: View, at: Callable[..., Complexes], corner: complex
+        self, view: LiveView, at: Callable[..., Complexes], corner: complex
     ) -> Iterator[DrawnBody]:
         """Yield the inscriptions, each where it covers the least, and seldom changes its place."""
         at_left, top, width, height = view.box
@@ -408,5 +408,5 @@ def _covered(centre: Complexes, half: complex, tails: Complexes, heads: Complexe
     return np.asarray(np.clip(1.2 - far, 0.0, None).sum(axis=0))
 
 
-def _refs(view: View) -> list[Ref]:
+def _refs(view: LiveView) -> list[Ref]:
     return [one[end] for one in view.segments for end in ("a", "b")]

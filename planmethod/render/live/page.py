@@ -24,7 +24,7 @@ from planmethod.render.backends.canvas import Options
 from planmethod.render.backends.svg import SvgCanvas
 from planmethod.render.ink.lettering import in_use
 from planmethod.render.ink.typeset import typeset
-from planmethod.render.live.scene import LETTER, Scene, View
+from planmethod.render.live.scene import LETTER, LiveScene, LiveView
 
 POLICY = "default-src 'none'; script-src '{script}'; style-src '{style}'; base-uri 'none'"
 """What the page may do: run its own script and style."""
@@ -73,7 +73,7 @@ def _hash(source: str) -> str:
 class _Page:
     def __init__(self, problem: Problem, lang: str) -> None:
         self.problem, self.words = problem, language(lang)
-        self.scene = Scene(problem, self.words)
+        self.scene = LiveScene(problem, self.words)
         self.canvas = SvgCanvas(Options())
         self.canvas.open(0.0, 0.0, "", in_use())
 
@@ -125,7 +125,7 @@ class _Page:
     def _views(self) -> str:
         return '<main id="views">' + "\n".join(map(self._view, self.scene.views)) + "</main>"
 
-    def _view(self, view: View) -> str:
+    def _view(self, view: LiveView) -> str:
         say, convention = self.words.say, self.problem.scales.convention
         box = " ".join(f"{value:.3f}" for value in view.box)
         scheme = view.id == "scheme"
@@ -143,7 +143,7 @@ class _Page:
             f'<g class="lines"></g>{labels}</svg><output id="told-{view.id}"></output></figure>'
         )
 
-    def _lettered(self, view: View, label: dict[str, Any]) -> str:
+    def _lettered(self, view: LiveView, label: dict[str, Any]) -> str:
         """Return the letters of an inscription from its start, and note their size."""
         text = typeset(label.pop("text"), label.pop("height", LETTER))
         label |= {"width": text.width, "up": text.ascent, "down": text.descent}
@@ -284,7 +284,7 @@ class _Page:
             }
         ]
 
-    def _told(self, view: View) -> dict[str, Any]:
+    def _told(self, view: LiveView) -> dict[str, Any]:
         segments = [
             {k: _runs(v) if k in ("name", "symbol") else v for k, v in one.items()}
             for one in view.segments

@@ -18,7 +18,7 @@ from planmethod.render.symbols.axes import axis_line
 from planmethod.solved.solution import Solution
 
 
-class Part(Struct, frozen=True):
+class MovingPart(Struct, frozen=True):
     """Items that move with a link as one body, mm, as they lie in one position.
 
     ``layer`` tells which parts lie over which.
@@ -33,7 +33,7 @@ class Part(Struct, frozen=True):
 GUIDES, BODIES, LINES, JOINTS = range(4)
 
 
-def parts_of(solution: Solution, letter_height: float) -> tuple[list[Part], Scheme]:
+def parts_of(solution: Solution, letter_height: float) -> tuple[list[MovingPart], Scheme]:
     """Return the parts of a scheme, what lies below first, and the scheme of the first position.
 
     The positions of the solution are those that the mechanism moves through: slots and guides are
@@ -41,12 +41,12 @@ def parts_of(solution: Solution, letter_height: float) -> tuple[list[Part], Sche
     """
     problem = solution.problem
     scheme = Scheme(solution, 0, letter_height)
-    found: list[Part] = []
+    found: list[MovingPart] = []
     for link in problem.mechanism.links:
         before = len(scheme.lines), len(scheme.corners)
         scheme.draw_link(link)
         items = (*scheme.lines[before[0] :], *scheme.corners[before[1] :])
-        found.append(Part(link, 0, LINES, items))
+        found.append(MovingPart(link, 0, LINES, items))
     for slide in sorted(problem.slides.values(), key=lambda slide: slide.host != FRAME):
         if slide.host == FRAME and not problem.is_block(slide):
             found += _on_frame(scheme, slide)
@@ -58,20 +58,20 @@ def parts_of(solution: Solution, letter_height: float) -> tuple[list[Part], Sche
         links = [link for link in joint.links if link != FRAME]
         place = scheme.at(joint.point)
         link = next((one for one in links if scheme.passes(one, place)), links[0])
-        found.append(Part(link, 0, JOINTS, tuple(scheme.joint_items(joint, place))))
+        found.append(MovingPart(link, 0, JOINTS, tuple(scheme.joint_items(joint, place))))
     for link, body in problem.bodies.items():
         dots = tuple(
             Disc(scheme.at(point), 0.8 * scheme.factor, Ink.BLACK)
             for point in body.points
             if link != FRAME and point not in pivots
         )
-        found.append(Part(link, 0, JOINTS, dots))
+        found.append(MovingPart(link, 0, JOINTS, dots))
     fixed = [item for support in scheme.supports for item in support.items()]
-    found.append(Part(FRAME, 0, GUIDES, (*fixed, *_sense(scheme))))
+    found.append(MovingPart(FRAME, 0, GUIDES, (*fixed, *_sense(scheme))))
     return sorted((p for p in found if p.items), key=lambda part: part.layer), scheme
 
 
-def _on_link(scheme: Scheme, slide: Slide, letter_height: float) -> Iterator[Part]:
+def _on_link(scheme: Scheme, slide: Slide, letter_height: float) -> Iterator[MovingPart]:
     """Yield stone or block, and the bar that passes through a block, in full length."""
     solution = scheme.solution
     index = 0
@@ -82,11 +82,11 @@ def _on_link(scheme: Scheme, slide: Slide, letter_height: float) -> Iterator[Par
     alone = Scheme(solution, index, letter_height)
     alone.draw_slider(slide)
     body = slide.host if solution.problem.is_block(slide) else slide.slider
-    yield Part(body, index, BODIES, tuple(alone.bodies))
-    yield Part(slide.slider, index, LINES, tuple(alone.lines))
+    yield MovingPart(body, index, BODIES, tuple(alone.bodies))
+    yield MovingPart(slide.slider, index, LINES, tuple(alone.lines))
 
 
-def _on_frame(scheme: Scheme, slide: Slide) -> Iterator[Part]:
+def _on_frame(scheme: Scheme, slide: Slide) -> Iterator[MovingPart]:
     """Yield a slider, and its fixed guide as long as the way, hatched away from the mechanism."""
     solution, factor = scheme.solution, scheme.factor
     along = cis(slide.angle)
@@ -102,8 +102,8 @@ def _on_frame(scheme: Scheme, slide: Slide) -> Iterator[Part]:
     )
     beyond = AXIS * factor
     axis = axis_line(pin + along * (low - beyond), pin + along * (high + beyond), tag="guide")
-    yield Part(FRAME, 0, GUIDES, (*axis, *guide))
-    yield Part(slide.slider, 0, BODIES, tuple(slider(pin, angle=angle, factor=factor)))
+    yield MovingPart(FRAME, 0, GUIDES, (*axis, *guide))
+    yield MovingPart(slide.slider, 0, BODIES, tuple(slider(pin, angle=angle, factor=factor)))
 
 
 def _sense(scheme: Scheme) -> list[Item]:

@@ -28,7 +28,7 @@ from planmethod.problem.bodies import rotation
 from planmethod.problem.load_records import Fixed, Interpolation, Over, SizeTable, TurningSense
 from planmethod.problem.model import Problem
 from planmethod.render.ink.drawing import Stroke
-from planmethod.render.live.parts import Part, parts_of
+from planmethod.render.live.parts import MovingPart, parts_of
 from planmethod.render.pictures.planview import COMPONENTS, similar_lines
 from planmethod.render.symbols import SIZES
 from planmethod.solved.course.motion import TurnMotion
@@ -60,7 +60,7 @@ _STEPS = {True: 72, False: 60}  # of the positions in which the scheme is drawn
 _LOOKS = 4  # so many times finer is the way looked at
 
 
-class View(Struct):
+class LiveView(Struct):
     """One picture that moves: the scheme, a plan, the lever.
 
     ``segments`` are ``{a, b, style, arrow, name, symbol}``; ``labels`` are ``{text, height}`` with
@@ -78,7 +78,7 @@ class View(Struct):
     pushes: list[dict[str, Any]] = field(default_factory=list)
 
 
-class Scene:
+class LiveScene:
     """A problem as it moves.
 
     Parameters
@@ -90,8 +90,8 @@ class Scene:
     ----------
     sweep : Sweep
         The tape: its rows are the outputs.
-    views : list of View
-    parts : list of Part
+    views : list of LiveView
+    parts : list of MovingPart
         Of the scheme.
     shown : Solution
         Of the positions that the mechanism moves through, at the scale of the scheme's view.
@@ -122,7 +122,7 @@ class Scene:
         if has_loads:
             draft = self.construction.draft.copy()
             self.planned = plan_forces(bare, draft, applied(bare))
-        self.views: list[View] = [
+        self.views: list[LiveView] = [
             self._scheme(),
             *map(self._plan, RATES),
             *(self._forces() if self.planned is not None else []),
@@ -130,7 +130,7 @@ class Scene:
         self.sweep = Sweep(problem, forces=has_loads, drawn=tuple(self._drawn))
         assert [row.name for row in self.sweep.rows][: len(self._row)] == self.columns
         self._look()
-        self.parts: list[Part]
+        self.parts: list[MovingPart]
         self.parts, self.drawing = parts_of(self.shown, LETTER)
         self._fit()
         # What inscriptions keep clear of beside the segments: of the frame, and the sliders.
@@ -170,9 +170,9 @@ class Scene:
 
     # Views -----------------------------------------------------------------------------------
 
-    def _scheme(self) -> View:
+    def _scheme(self) -> LiveView:
         kind = PlanKind.POSITION
-        view = View("scheme", self.words.sheets["views"][kind.value][0], _unit(kind))
+        view = LiveView("scheme", self.words.sheets["views"][kind.value][0], _unit(kind))
         bodies = self.problem.bodies
         points = dict.fromkeys(p for body in bodies.values() for p in body.points)
         known = [p for p in points if f"{p}.x" in self._row]
@@ -197,9 +197,9 @@ class Scene:
             view.labels.append({"text": link, "height": SMALL, "on": where})
         return view
 
-    def _plan(self, kind: PlanKind) -> View:
+    def _plan(self, kind: PlanKind) -> LiveView:
         plan, problem = self.construction.plan(kind), self.problem
-        view = View(kind.value, self.words.sheets["views"][kind.value][0], _unit(kind))
+        view = LiveView(kind.value, self.words.sheets["views"][kind.value][0], _unit(kind))
         letters = shown_letters(problem, plan)
         for tail, head in similar_lines(Solution(problem, positions=[]), plan):
             view.segments.append({"a": self._ref(tail), "b": self._ref(head), "style": "similar"})
@@ -220,13 +220,13 @@ class Scene:
             view.labels.append({"at": self._ref(at), "text": ", ".join(own)})
         return view
 
-    def _forces(self) -> list[View]:
+    def _forces(self) -> list[LiveView]:
         assert self.planned is not None
         said, found = self.words.sheets, []
         for number, plan in enumerate(self.planned.board.plans):
             whose = said.plan_of_group if len(plan.links) > 1 else said.plan_of_link
             title = whose.format(links=link_names(plan.links))
-            view = View(f"forces-{number}", title, _unit(PlanKind.FORCE))
+            view = LiveView(f"forces-{number}", title, _unit(PlanKind.FORCE))
             inner = () if plan.inner is None else (plan.inner,)
             for edge in (*plan.polygon, *plan.wholes, *inner):
                 self._edge(view, edge, beside=edge not in plan.polygon)
@@ -234,7 +234,7 @@ class Scene:
         lever = self._lever()
         return [*found, lever] if lever is not None else found
 
-    def _edge(self, view: View, edge: Edge, *, beside: bool) -> None:
+    def _edge(self, view: LiveView, edge: Edge, *, beside: bool) -> None:
         symbol = self.words.say.symbol(edge.symbol)
         view.labels.append({"text": symbol, "height": SMALL, "of": len(view.segments)})
         view.segments.append(
@@ -248,13 +248,13 @@ class Scene:
             }
         )
 
-    def _lever(self) -> View | None:
+    def _lever(self) -> LiveView | None:
         assert self.planned is not None
         lever, say = self.planned.lever, self.words.say
         if lever is None:
             return None
         velocity = self.construction.plan(PlanKind.VELOCITY)
-        view = View("lever", self.words.sheets.lever, _unit(PlanKind.LEVER))
+        view = LiveView("lever", self.words.sheets.lever, _unit(PlanKind.LEVER))
         bare = Solution(self.problem, positions=[])
         letters = shown_letters(self.problem, velocity)
         lines = [(vector.tail, vector.head) for vector in velocity.vectors]
@@ -508,7 +508,7 @@ def _unit(kind: PlanKind) -> Scale:
     return Scale(FACTS[kind].scale, 1.0, FACTS[kind].unit)
 
 
-def kind_of(view: View) -> PlanKind:
+def kind_of(view: LiveView) -> PlanKind:
     """Return the plan that a view shows."""
     name = {"scheme": "position"}.get(view.id, view.id.partition("-")[0])
     return PlanKind.FORCE if name == "forces" else PlanKind(name)

@@ -14,7 +14,7 @@ from planmethod.render.labels import BUSY, Label
 from planmethod.render.pictures.paths import Paths
 from planmethod.render.pictures.senses import ends_of, nearness
 from planmethod.render.symbols import angle_dimension, dimension
-from planmethod.solved.turn.construction import PRIMES, Construction, Locus
+from planmethod.solved.turn.construction import PRIMES, ExtremesConstruction, Locus
 
 EXTREME = "extreme position"
 """Tag of the lines of its construction."""
@@ -28,7 +28,7 @@ _LEVELS = np.arange(12.0, 60.0, 3.0)  # mm from the guide to the dimension of th
 _CLEAR = 2.5  # mm: nearer a dimension line crowds a line of the scheme
 
 
-def construction_items(made: Construction, height: float) -> tuple[list[Item], list[Label]]:
+def construction_items(made: ExtremesConstruction, height: float) -> tuple[list[Item], list[Label]]:
     """Return thin lines and the names of the radii, mm of the scheme.
 
     Radii and tangents themselves are the links in these positions, which are drawn.

@@ -36,7 +36,7 @@ _MARK = 0.7  # radius of the circle at a joint in another position, mm
 _LEAST_MARK = 0.45  # where circles would run into each other, mm
 
 
-class Spot(Struct):
+class SharedPlace(Struct):
     """One place of a point and the numbers of the positions that it is there in."""
 
     place: complex
@@ -95,16 +95,16 @@ class Positions:
         trace = self.shown.paper
         return complex(trace.point(PointName(point))[index])
 
-    def spots(self, point: str) -> list[Spot]:
+    def spots(self, point: str) -> list[SharedPlace]:
         """Return the places of a point, those that coincide on the paper joined."""
-        found: list[Spot] = []
+        found: list[SharedPlace] = []
         for index, number in self.numbers.items():
             if number in PRIMES and point not in self._turning:
                 continue
             place = self.at(point, index)
             spot = next((s for s in found if abs(s.place - place) < TOGETHER), None)
             if spot is None:
-                spot = Spot(place, [])
+                spot = SharedPlace(place, [])
                 found.append(spot)
             spot.numbers.append(number)
             if index == self.bold:
@@ -181,7 +181,7 @@ class Positions:
         return labels
 
     def _label(
-        self, point: str, spot: Spot, numbers: Sequence[str], way: complex, height: float
+        self, point: str, spot: SharedPlace, numbers: Sequence[str], way: complex, height: float
     ) -> Label:
         size = max(height, self.letter_height) if spot.bold else height
         return Label(

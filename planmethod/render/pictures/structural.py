@@ -321,7 +321,7 @@ class _Draft(Struct):
     # Motion and inscriptions -----------------------------------------------------------------
 
     def draw_motion(self, driver: str, sense: int) -> None:
-        """Show what the driver is told to do: an arrow of ω or v."""
+        """Show the given motion of the driver: an arrow of ω or v."""
         for pin in self.chain.pins:
             if driver in pin.links and pin.far is Far.FRAME:
                 place = self.at[pin.node]

@@ -37,7 +37,7 @@ from planmethod.render.sheets.composer import Viewed
 from planmethod.render.sheets.model import Manner
 from planmethod.render.sheets.texts import stated
 from planmethod.render.sheets.views import named
-from planmethod.solved.cycle import Cycle, Peak, Piece, cycle
+from planmethod.solved.cycle import Cycle, Piece, ReactionPeak, cycle
 from planmethod.solved.errors.forces import drawn_forces
 from planmethod.solved.forces.statics import statics_of
 from planmethod.solved.solution import Solution
@@ -271,7 +271,7 @@ def _whose(forces: Cycle, group: Sequence[int], words: Language) -> str:
     return told.format(symbols=" = ".join(symbols), joints=", ".join(joints))
 
 
-def _largest(solution: Solution, symbol: str, peak: Peak, words: Language) -> str:
+def _largest(solution: Solution, symbol: str, peak: ReactionPeak, words: Language) -> str:
     """Return the largest size of a reaction and the position where it is, or comes near to."""
     drive, say = solution.problem.drive, words.say
     letter, _, index = symbol.partition("_")

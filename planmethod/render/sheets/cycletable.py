@@ -10,7 +10,7 @@ from planmethod.note.numbers import Notation, alike, half_up
 from planmethod.note.wording import Language
 from planmethod.plans.forces.polygons import reaction_symbol
 from planmethod.render.layout.block import Block, Column, paragraph
-from planmethod.render.layout.tables import Cell, TableColumn, table_block
+from planmethod.render.layout.tables import TableCell, TableColumn, table_block
 from planmethod.render.sheets.guides import angle_text
 from planmethod.render.sheets.model import Manner
 from planmethod.render.sheets.results import position_columns, table_width
@@ -71,7 +71,7 @@ def _reaction_columns(
     if not all(none):
         texts = alike([0.0 if nil else abs(m) for m, nil in zip(moments, none, strict=True)])
         cells = tuple(
-            Cell(say.number(text), 0 if nil else (1 if m > 0 else -1))
+            TableCell(say.number(text), 0 if nil else (1 if m > 0 else -1))
             for text, m, nil in zip(texts, moments, none, strict=True)
         )
         columns.append(TableColumn(f"M{index}", cells, unit=say.units["N·m"]))
@@ -94,7 +94,7 @@ def _balance_columns(
         for text in texts:
             size = text.removeprefix("-") if sense else text
             turning = 0 if not float(text) else (-1 if text.startswith("-") else 1)
-            cells.append(Cell(say.number(size), turning if sense else None))
+            cells.append(TableCell(say.number(size), turning if sense else None))
         return TableColumn(head, tuple(cells), unit=unit)
 
     def chosen(values: Reals) -> list[float]:

@@ -9,7 +9,7 @@ from planmethod.note.numbers import Notation, alike
 from planmethod.note.wording import Language
 from planmethod.plans.forces.polygons import reaction_symbol
 from planmethod.render.layout.block import Block
-from planmethod.render.layout.tables import Cell, TableColumn, table_block
+from planmethod.render.layout.tables import TableCell, TableColumn, table_block
 from planmethod.render.symbols import angle_of
 from planmethod.solved.forces.guides import Guided, guides
 from planmethod.solved.forces.reading import ForceReading
@@ -59,11 +59,11 @@ def is_couple(one: Guided | None) -> bool:
     return one is not None and one.is_none and not one.is_no_couple
 
 
-def _moment(one: Guided | None, say: Notation) -> Cell:
+def _moment(one: Guided | None, say: Notation) -> TableCell:
     if one is None or not is_couple(one):
-        return Cell(_NONE)
+        return TableCell(_NONE)
     moment = float(one.contact.joint.moment[one.reading.index])
-    return Cell(say.found(abs(moment)), 1 if moment > 0 else -1)
+    return TableCell(say.found(abs(moment)), 1 if moment > 0 else -1)
 
 
 def edges_table(

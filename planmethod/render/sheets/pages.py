@@ -12,7 +12,7 @@ from msgspec.structs import replace
 
 from planmethod.render.frame.furniture import Room
 from planmethod.render.layout.block import Block, Column, Row, Shapes
-from planmethod.render.layout.cuttings import GAP, Arrange, Group, Part
+from planmethod.render.layout.cuttings import GAP, Arrange, Group, Packed
 from planmethod.render.layout.pack import EDGE, Placed
 from planmethod.render.sheets.blocks import BLOCKS
 from planmethod.render.sheets.composer import Blank, LaidPage, Viewed, free_area, packed
@@ -90,7 +90,7 @@ def _sheet(
 ) -> list[LaidPage] | None:
     """Return a sheet of a composition: a page, perhaps several, or None when it does not fit.
 
-    What is tried is told by `_tries`.
+    For what is tried see `_tries`.
     """
     entries = spread([entry for entry in composition.blocks if entry.sheet == number], solution)
     sizes = composition.sizes_for(paper.name, share)
@@ -291,10 +291,10 @@ def grouped(
 ) -> Group:
     """Return blocks as the tree of their groups."""
     depth = len(path)
-    members: list[Part | Group] = []
+    members: list[Packed | Group] = []
     for name, run in groupby(made, lambda one: one.entry.group[depth : depth + 1]):
         if name:
             members.append(grouped(list(run), arranged, path + name))
         else:
-            members += [Part(one.block, one.is_text) for one in run]
+            members += [Packed(one.block, one.is_text) for one in run]
     return Group(tuple(members), arranged.get(path, "free"))

@@ -8,7 +8,7 @@ from planmethod.note.numbers import Notation
 from planmethod.note.rounding import as_long, rounded_to, sigma_text
 from planmethod.note.tables.sigmas import marked
 from planmethod.note.wording import Language
-from planmethod.render.layout.tables import Cell, TableColumn
+from planmethod.render.layout.tables import TableCell, TableColumn
 from planmethod.render.sheets.guides import guided_at, is_couple
 from planmethod.solved.errors.forces import (
     BALANCE,
@@ -112,10 +112,10 @@ def _with_error(
     """Return the column of a balance to the place of its error, and the error."""
     value = column.cells[0]
     if label in drawn_forces(reading.statics).items:
-        value = Cell(read_text(reading, label, say), value.sense)
+        value = TableCell(read_text(reading, label, say), value.sense)
     return TableColumn(column.head, (value, _like(column, sigma_cell(reading, label, say))))
 
 
-def _like(column: TableColumn, text: str) -> Cell:
+def _like(column: TableColumn, text: str) -> TableCell:
     """Return a cell that keeps room for the sign of a sense where the column has one."""
-    return Cell(text, None if column.cells[0].sense is None else 0)
+    return TableCell(text, None if column.cells[0].sense is None else 0)

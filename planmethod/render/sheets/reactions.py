@@ -11,7 +11,7 @@ from planmethod.note.wording import Language
 from planmethod.plans.forces.polygons import reaction_symbol
 from planmethod.render.frame.frame import STAMP_WIDTH
 from planmethod.render.layout.block import Block, Column
-from planmethod.render.layout.tables import Cell, TableColumn, table_block
+from planmethod.render.layout.tables import TableCell, TableColumn, table_block
 from planmethod.render.sheets.guides import angle_text, edges_table, place_columns
 from planmethod.render.sheets.model import Manner
 from planmethod.render.sheets.reactionerrors import (
@@ -82,14 +82,18 @@ def _balances(reading: ForceReading, words: Language) -> list[TableColumn]:
     share = difference(reading)
     sense = reading.balancing.turns
 
-    def cell(value: float | None) -> Cell:
+    def cell(value: float | None) -> TableCell:
         if value is None:
-            return Cell("—")
-        return Cell(say.found(abs(value)), (1 if value > 0 else -1) if sense and value else None)
+            return TableCell("—")
+        return TableCell(
+            say.found(abs(value)), (1 if value > 0 else -1) if sense and value else None
+        )
 
     return [
         TableColumn(f"{symbol}, {unit}", (cell(exact),)),
         TableColumn(said.by_plans, (cell(plans),)),
         TableColumn(said.by_lever, (cell(lever),)),
-        TableColumn(said.difference, (Cell("—" if share is None else say.number(f"{share:.1f}")),)),
+        TableColumn(
+            said.difference, (TableCell("—" if share is None else say.number(f"{share:.1f}")),)
+        ),
     ]

@@ -14,7 +14,7 @@ from planmethod.plans.legend import Quantity
 from planmethod.render.frame.frame import STAMP_WIDTH
 from planmethod.render.layout.block import Block, Column, paragraph
 from planmethod.render.layout.pack import EDGE
-from planmethod.render.layout.tables import Cell, TableColumn, table_block
+from planmethod.render.layout.tables import TableCell, TableColumn, table_block
 from planmethod.render.sheets.model import Manner
 from planmethod.solved.errors.motion import drafting_of
 from planmethod.solved.solution import Solution
@@ -39,7 +39,7 @@ def _sense(value: float) -> int:
 
 def _sigma_rows(
     solution: Solution, quantity: Quantity, index: int, say: Notation, like: str
-) -> tuple[Cell, ...]:
+) -> tuple[TableCell, ...]:
     """Return what was read on the plans, how far off, and the error.
 
     What was read has as many decimals as the exact value, ``like``, but where that is nothing.
@@ -56,12 +56,12 @@ def _sigma_rows(
         else rounded_to(abs(read), sigma)
     )
     return (
-        Cell(say.number(text), _sense(read) if turns else None),
-        Cell(
+        TableCell(say.number(text), _sense(read) if turns else None),
+        TableCell(
             say.number(f"{round(off, 1) + 0.0:.1f}") if abs(off) < MOST_OFF else "—",
             0 if turns else None,
         ),
-        Cell(say.number(sigma_text(sigma)) + mark, 0 if turns else None),
+        TableCell(say.number(sigma_text(sigma)) + mark, 0 if turns else None),
     )
 
 
@@ -95,7 +95,7 @@ def result_columns(
             written = say.number(as_long(text, abs(value), error))
             if error and not alone:
                 written += f" ± {say.number(sigma_text(error))}{mark}"
-            cells.append(Cell(written, _sense(value) if turns else None))
+            cells.append(TableCell(written, _sense(value) if turns else None))
         if sigma and alone:
             cells += _sigma_rows(solution, quantity, indices[0], say, texts[0])
         return TableColumn(quantity.symbol, tuple(cells), unit=say.units[quantity.kind.unit])

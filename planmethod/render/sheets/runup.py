@@ -24,7 +24,7 @@ from planmethod.render.sheets.texts import stated
 from planmethod.render.sheets.views import named
 from planmethod.solved.machine.drawing import drawing_of
 from planmethod.solved.machine.flywheel import flywheel_of
-from planmethod.solved.machine.runup import Course, run_up_of
+from planmethod.solved.machine.runup import TimeCourse, run_up_of
 from planmethod.solved.reading import Reals
 from planmethod.solved.room import Box
 from planmethod.solved.solution import Solution
@@ -99,7 +99,7 @@ def _diagrams(tell: MachineTeller, manner: Manner, size: Box) -> Block:
     return Column(rows, gap=12.0)
 
 
-def _count(course: Course) -> int:
+def _count(course: TimeCourse) -> int:
     """Return of how many points a curve is drawn: as many as show every turn."""
     return min(max(_POINTS, int(4.0 * course.turned[-1])), _MOST)
 

@@ -41,13 +41,13 @@ from planmethod.render.symbols.pairs import (
     slider,
     stone,
 )
-from planmethod.render.symbols.sizes import SIZES, Sizes, angle_of, unit
+from planmethod.render.symbols.sizes import SIZES, SymbolSizes, angle_of, unit
 
 __all__ = [
     "GROUND",
     "SIZES",
     "SLIDER",
-    "Sizes",
+    "SymbolSizes",
     "angle_dimension",
     "angle_of",
     "arrowhead",

@@ -8,7 +8,7 @@ from math import degrees
 from msgspec import Struct
 
 
-class Sizes(Struct, frozen=True):
+class SymbolSizes(Struct, frozen=True):
     """Sizes of the symbols, mm, before ``factor``."""
 
     joint: float = 3.0  # diameter of a revolute pair
@@ -27,7 +27,7 @@ class Sizes(Struct, frozen=True):
     shaft: float = 3.2  # between the two plates of a bearing
 
 
-SIZES = Sizes()
+SIZES = SymbolSizes()
 
 
 def unit(direction: complex) -> complex:

@@ -25,7 +25,7 @@ _FIT = np.cos(np.outer(np.arange(NODES), np.arccos(_UNIT))) * (2.0 / NODES)
 _FIT[0] /= 2.0
 
 
-class Curve(Struct, frozen=True):
+class Piecewise(Struct, frozen=True):
     """Functions of one argument on joining pieces, with jumps and kinks at their edges only.
 
     Attributes
@@ -54,30 +54,30 @@ class Curve(Struct, frozen=True):
         """Return the values of the first function, ndarray of shape (n,)."""
         return self(at)[:, 0]
 
-    def mixed(self, weights: npt.ArrayLike) -> Curve:
+    def mixed(self, weights: npt.ArrayLike) -> Piecewise:
         """Return one function: these with their weights, added up."""
-        return Curve(self.edges, self.terms @ np.asarray(weights, dtype=float)[:, np.newaxis])
+        return Piecewise(self.edges, self.terms @ np.asarray(weights, dtype=float)[:, np.newaxis])
 
-    def plus(self, number: float) -> Curve:
+    def plus(self, number: float) -> Piecewise:
         """Return the functions with a number added."""
         terms = self.terms.copy()
         terms[0] += number
-        return Curve(self.edges, terms)
+        return Piecewise(self.edges, terms)
 
     @property
-    def slope(self) -> Curve:
+    def slope(self) -> Piecewise:
         """The derivatives."""
         half = np.diff(self.edges)[:, np.newaxis] / 2.0
-        return Curve(self.edges, np.polynomial.chebyshev.chebder(self.terms) / half)
+        return Piecewise(self.edges, np.polynomial.chebyshev.chebder(self.terms) / half)
 
     @property
-    def integral(self) -> Curve:
+    def integral(self) -> Piecewise:
         """The integrals from the first edge, continuous."""
         half = np.diff(self.edges)[:, np.newaxis] / 2.0
         terms = np.polynomial.chebyshev.chebint(self.terms, lbnd=-1) * half
         ends = np.cumsum(terms.sum(axis=0), axis=0)  # every Chebyshev polynomial is 1 at 1
         terms[0, 1:] += ends[:-1]
-        return Curve(self.edges, terms)
+        return Piecewise(self.edges, terms)
 
     @property
     def samples(self) -> Reals:
@@ -119,15 +119,15 @@ def nodes(edges: Reals) -> Reals:
     return (low + high) / 2.0 + (high - low) / 2.0 * _UNIT
 
 
-def joined(curves: Iterable[Curve]) -> Curve:
+def joined(curves: Iterable[Piecewise]) -> Piecewise:
     """Return the functions of several curves of the same pieces as one."""
     several = list(curves)
     degrees = max(len(one.terms) for one in several)
     padded = [np.pad(one.terms, ((0, degrees - len(one.terms)), (0, 0), (0, 0))) for one in several]
-    return Curve(several[0].edges, np.concatenate(padded, axis=2))
+    return Piecewise(several[0].edges, np.concatenate(padded, axis=2))
 
 
-def resolved(read: Callable[[Reals], Reals], edges: Reals, scale: Reals | None = None) -> Curve:
+def resolved(read: Callable[[Reals], Reals], edges: Reals, scale: Reals | None = None) -> Piecewise:
     """Return functions as polynomials, on pieces that are halved until they hold all digits.
 
     Parameters
@@ -161,4 +161,4 @@ def resolved(read: Callable[[Reals], Reals], edges: Reals, scale: Reals | None =
         todo = np.concatenate((np.column_stack((low, middle)), np.column_stack((middle, high))))
     done.sort(key=lambda piece: piece[0])
     whole = np.array([*(piece[0] for piece in done), done[-1][1]])
-    return Curve(whole, np.stack([piece[2] for piece in done], axis=1))
+    return Piecewise(whole, np.stack([piece[2] for piece in done], axis=1))

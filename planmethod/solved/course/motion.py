@@ -15,7 +15,7 @@ from planmethod.languages import say
 from planmethod.plans.build import Construction
 from planmethod.problem.model import Problem
 from planmethod.problem.names import told_length
-from planmethod.solved.course.curve import Curve, resolved
+from planmethod.solved.course.curve import Piecewise, resolved
 from planmethod.solved.reading import Complexes, Reals
 from planmethod.solved.solution import LinkMotion, PointMotion, Solution
 
@@ -49,7 +49,7 @@ class Moved(Struct, frozen=True):
     links: Mapping[str, LinkMotion]
 
 
-class Stroke(Struct, frozen=True):
+class PointStroke(Struct, frozen=True):
     """Course of a point between its dead positions (ход точки по прямой).
 
     Attributes
@@ -153,7 +153,7 @@ class TurnMotion:
         return np.stack(columns, axis=1)
 
     @cached_property
-    def curve(self) -> Curve:
+    def curve(self) -> Piecewise:
         """All of it as polynomials: six columns for each point, then two for each link."""
         turns = round(self.cycle / (2.0 * pi))
         edges = np.linspace(0.0, self.cycle, turns * PANELS + 1)
@@ -195,14 +195,14 @@ class TurnMotion:
         """The motion at angles that come near to everything that happens."""
         return self.at(self.curve.samples)
 
-    def column(self, point: str, direction: complex, *, velocity: bool = False) -> Curve:
+    def column(self, point: str, direction: complex, *, velocity: bool = False) -> Piecewise:
         """Return the place or the velocity of a point along a direction, m or m/s."""
         weights = np.zeros(self.curve.terms.shape[2])
         first = _COLUMNS * self._names[0].index(point) + (2 if velocity else 0)
         weights[first : first + 2] = direction.real, direction.imag
         return self.curve.mixed(weights)
 
-    def omega(self, link: str) -> Curve:
+    def omega(self, link: str) -> Piecewise:
         """Return the angular velocity of a link, 1/s."""
         weights = np.zeros(self.curve.terms.shape[2])
         points, links = self._names
@@ -218,10 +218,10 @@ class TurnMotion:
     # Strokes ---------------------------------------------------------------------------------
 
     @cached_property
-    def _strokes(self) -> dict[str, Stroke]:
+    def _strokes(self) -> dict[str, PointStroke]:
         return {}
 
-    def stroke(self, point: str) -> Stroke:
+    def stroke(self, point: str) -> PointStroke:
         """Return the stroke of a point that moves to and fro on a straight line.
 
         Raises
@@ -233,7 +233,7 @@ class TurnMotion:
             self._strokes[point] = self._stroke(point)
         return self._strokes[point]
 
-    def _stroke(self, point: str) -> Stroke:
+    def _stroke(self, point: str) -> PointStroke:
         way = self.course(point)
         dead = self.column(point, way, velocity=True).roots()
         first = self.at(np.zeros(1)).points[point]
@@ -272,7 +272,7 @@ class TurnMotion:
                 ),
                 'Give the load over the path of a slider, or over "phi".',
             )
-        return Stroke(start, towards, dead)
+        return PointStroke(start, towards, dead)
 
 
 def _fault(problem: Problem, path: str, message: str, hint: str) -> ProblemError:

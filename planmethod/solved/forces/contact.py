@@ -89,7 +89,7 @@ class EdgeForce(Struct, frozen=True):
     force: complex
 
 
-class Contact(Struct, frozen=True, dict=True):
+class SlideReaction(Struct, frozen=True, dict=True):
     """Reaction of one prismatic pair and its slider in every position, ndarrays of shape (n,).
 
     Attributes
@@ -168,7 +168,7 @@ class Contact(Struct, frozen=True, dict=True):
 
 def contacts(
     solution: Solution, reactions: Sequence[JointForce], largest: Reals
-) -> Mapping[int, Contact]:
+) -> Mapping[int, SlideReaction]:
     """Return the prismatic pairs by the numbers of their reactions.
 
     Parameters
@@ -193,7 +193,7 @@ def slide_between(problem: Problem, joint: JointForce) -> Slide | None:
     return None
 
 
-def _contact(solution: Solution, slide: Slide, joint: JointForce, largest: Reals) -> Contact:
+def _contact(solution: Solution, slide: Slide, joint: JointForce, largest: Reals) -> SlideReaction:
     along = _directions(solution, slide)
     if slide.through is not None:
         base = solution.place(PointName(slide.through))
@@ -201,7 +201,7 @@ def _contact(solution: Solution, slide: Slide, joint: JointForce, largest: Reals
         base = np.full(along.shape, slide.base)
     centre = base if solution.problem.is_block(slide) else solution.place(PointName(slide.pin))
     middle = ((centre - joint.at) * along.conjugate()).real
-    return Contact(slide, joint, along, base, middle, largest)
+    return SlideReaction(slide, joint, along, base, middle, largest)
 
 
 def _directions(solution: Solution, slide: Slide) -> Complexes:

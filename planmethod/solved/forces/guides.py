@@ -9,7 +9,7 @@ from msgspec import Struct
 
 from planmethod.plans.forces.board import Reaction
 from planmethod.plans.forces.polygons import CoupleOn, reaction_symbol
-from planmethod.solved.forces.contact import Contact, EdgeForce
+from planmethod.solved.forces.contact import EdgeForce, SlideReaction
 from planmethod.solved.forces.reading import FAINT_SHARE, ForceReading
 from planmethod.solved.reading import remembered
 
@@ -32,7 +32,7 @@ class Guided(Struct, frozen=True, dict=True):
     by: str
 
     @property
-    def contact(self) -> Contact:
+    def contact(self) -> SlideReaction:
         """The pair in all positions."""
         return self.reading.statics.contacts[self.number]
 

@@ -13,7 +13,7 @@ from typing import TypeAlias
 from msgspec import Struct
 
 from planmethod.construct.steps import NumberName, PointName
-from planmethod.plans.forces.board import Given
+from planmethod.plans.forces.board import GivenLoad
 from planmethod.plans.model import PlanKind
 from planmethod.plans.motion.board import letter
 from planmethod.solved.forces.reading import ForceReading
@@ -159,7 +159,7 @@ class LeverReading:
         turned = -moment * self._omega(link) / self.per_mm
         return LeverCouple(symbol, link, *self._on(link), moment, turned)
 
-    def _shift(self, given: Given, place: complex) -> None:
+    def _shift(self, given: GivenLoad, place: complex) -> None:
         """Note the shift of a force that hangs beside its centre of mass."""
         link = given.applied.link
         shift = self.reading.statics.board.shifts.get(link)

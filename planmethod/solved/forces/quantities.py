@@ -9,7 +9,7 @@ from msgspec.structs import replace
 
 from planmethod.construct.arithmetic import Number
 from planmethod.construct.steps import Name
-from planmethod.plans.forces.board import SCALE, Board, Reaction
+from planmethod.plans.forces.board import SCALE, ForceBoard, Reaction
 from planmethod.plans.forces.polygons import reaction_symbol
 from planmethod.plans.legend import Quantity, QuantityKind
 from planmethod.solved.forces.loads import applied
@@ -58,7 +58,7 @@ def _plain(value: Number) -> complex | float:
     return complex(value) if np.iscomplexobj(value) else float(value)
 
 
-def _reactions(board: Board) -> Iterator[Quantity]:
+def _reactions(board: ForceBoard) -> Iterator[Quantity]:
     b = board.draft.b
     for reaction in board.reactions:
         force, on, by = reaction.force, reaction.on, reaction.by

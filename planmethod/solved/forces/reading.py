@@ -11,7 +11,7 @@ from msgspec.structs import replace
 from planmethod.construct.scale import Scale
 from planmethod.construct.steps import NumberName, PointName
 from planmethod.errors import Fault, ProblemError
-from planmethod.plans.forces.board import Force, Given
+from planmethod.plans.forces.board import Force, GivenLoad
 from planmethod.plans.forces.polygons import (
     CoupleOn,
     Edge,
@@ -139,7 +139,7 @@ class ForceReading(Remembering):
         """Return a product of powers as the hand has it."""
         return math.prod(self.read_number(name) ** power for name, power in powers)
 
-    def read_load(self, given: Given) -> float:
+    def read_load(self, given: GivenLoad) -> float:
         """Return a given force as the hand has it, N, or a couple as it computes it, N·m."""
         if given.force is not None:
             return self.read_size(given.force.ends)

@@ -22,7 +22,7 @@ from planmethod.construct.program import Program
 from planmethod.construct.scale import Scale, choose_scale
 from planmethod.construct.steps import Name, NumberName
 from planmethod.plans.draft import Draft
-from planmethod.plans.forces.board import SCALE, Board, Force, Reaction
+from planmethod.plans.forces.board import SCALE, Force, ForceBoard, Reaction
 from planmethod.plans.forces.dyads import Driving, drive_forces, group_forces
 from planmethod.plans.forces.lever import Lever, plan_lever
 from planmethod.plans.forces.loads import Applied
@@ -30,7 +30,7 @@ from planmethod.plans.forces.polygons import ForcePlan
 from planmethod.plans.model import FACTS, PlanKind
 from planmethod.problem.model import Convention
 from planmethod.solved.failures import PositionError
-from planmethod.solved.forces.contact import Contact, JointForce, contacts
+from planmethod.solved.forces.contact import JointForce, SlideReaction, contacts
 from planmethod.solved.forces.loads import applied
 from planmethod.solved.forces.resultants import UnshiftedInertia, shifted_inertia
 from planmethod.solved.impossible import explain, failing
@@ -58,7 +58,7 @@ class Planned(Struct, frozen=True):
     ``lever`` is None where the driver stands.
     """
 
-    board: Board
+    board: ForceBoard
     driving: Driving
     lever: Lever | None
 
@@ -74,14 +74,14 @@ def plan_forces(
     Parameters
     ----------
     draft : Draft
-        Is gone on with.
+        Construction that is continued.
     loads : iterable of Applied
         What acts on the links beside the reactions.
     single : mapping of str to Applied
         Couples that the force of inertia of their link stands for as well, by link.
     """
     start = len(draft.b.steps)
-    board = Board(draft, solution.construction.kinematics, solution.problem.dynamics)
+    board = ForceBoard(draft, solution.construction.kinematics, solution.problem.dynamics)
     board.load(loads, single)
     for group in reversed(solution.structure.groups):
         group_forces(board, group)
@@ -196,7 +196,7 @@ class Statics(Remembering):
         )
 
     @cached_property
-    def contacts(self) -> Mapping[int, Contact]:
+    def contacts(self) -> Mapping[int, SlideReaction]:
         """The reactions of the guides, by their numbers: where they act."""
         return contacts(self.solution, self.reactions, self.largest_forces)
 

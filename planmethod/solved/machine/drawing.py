@@ -14,7 +14,7 @@ from planmethod.construct.evaluate import evaluate
 from planmethod.construct.hand import Hand
 from planmethod.construct.scale import choose_scale, series_near
 from planmethod.plans.diagrams.calculus import Integration
-from planmethod.plans.diagrams.energymass import EnergyMass, Given, Places, build
+from planmethod.plans.diagrams.energymass import EnergyMass, EnergyMassData, Places, build
 from planmethod.problem.load_records import FlywheelMethod, Quadrature
 from planmethod.solved.errors.drawing import Drafted, DrawnKind, DrawnQuantity, number
 from planmethod.solved.errors.spread import Errors
@@ -76,7 +76,7 @@ class FlywheelDrawing:
         touched = (round(at / step) for at in (points.tangents.at_max, points.tangents.at_min))
         top, bottom = touched
         middle = machine.ordinates is Quadrature.MIDDLE
-        given = Given(
+        given = EnergyMassData(
             (self.flywheel.sign * points.ordinates).tolist(),
             (self.flywheel.sign * points.middles).tolist(),
             points.inertia.tolist(),

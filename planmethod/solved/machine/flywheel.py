@@ -33,7 +33,7 @@ from planmethod.problem.load_records import (
     WeightSigns,
 )
 from planmethod.problem.model import Problem
-from planmethod.solved.course.curve import Curve, joined
+from planmethod.solved.course.curve import Piecewise, joined
 from planmethod.solved.course.motion import TurnMotion
 from planmethod.solved.forces.statics import statics_of
 from planmethod.solved.machine.reduced import Reduced, reduce, reduced_curves
@@ -66,7 +66,7 @@ class Tangents(Struct, frozen=True):
     at_min: float
 
 
-class Rows(Struct, frozen=True):
+class MachineRows(Struct, frozen=True):
     """A machine in even positions, ndarrays of shape (n,), as its tables have it (таблица).
 
     ``turned`` is in rad, ``moment`` in N·m, ``work`` and ``gain`` (dT) in J, ``inertia`` and its
@@ -105,7 +105,7 @@ class Points(Struct, frozen=True):
     tangents: Tangents
 
 
-class Extreme(Struct, frozen=True):
+class SpeedExtreme(Struct, frozen=True):
     """A largest or least speed: 1/s, and the angle turned where it is, rad."""
 
     value: float
@@ -136,7 +136,7 @@ class Flywheel(Remembering):
         self.cycle = self.turn.cycle
         found = reduced_curves(self.turn, self.machine)
         self.moment, self.inertia, self.slope = (
-            Curve(found.edges, found.terms[:, :, k : k + 1]) for k in range(3)
+            Piecewise(found.edges, found.terms[:, :, k : k + 1]) for k in range(3)
         )
         self.sign = 1.0 if self.machine.constant is ConstantMoment.DRIVING else -1.0
         self.work = self.moment.mixed([self.sign]).integral
@@ -265,7 +265,7 @@ class Flywheel(Remembering):
         return omega, pushed / mass
 
     @cached_property
-    def integrated(self) -> tuple[Extreme, Extreme]:
+    def integrated(self) -> tuple[SpeedExtreme, SpeedExtreme]:
         """Greatest and least speed by integrating the equation of motion (проверка).
 
         Runge and Kutta's fourth order over each smooth piece, with the moments, the inertia and
@@ -276,7 +276,7 @@ class Flywheel(Remembering):
         most = 2.0 * pi / _STEPS
         parts = np.maximum(np.ceil(np.diff(edges) / most).astype(int), 2)
         omega = float(self.speeds(np.zeros(1))[0][0])
-        highest = lowest = Extreme(omega, 0.0)
+        highest = lowest = SpeedExtreme(omega, 0.0)
         for low, high, count in zip(edges[:-1], edges[1:], parts.tolist(), strict=True):
             # nodes and middles; a hair inside the piece, where a moment that jumps is this piece's
             at = np.linspace(low, high, 2 * count + 1)
@@ -298,7 +298,7 @@ class Flywheel(Remembering):
                 after = omega + step / 6.0 * (one + 2.0 * two + 2.0 * three + four)
                 for share in turning_points(omega, after, step * one, step * rate(k + 2, after)):
                     value = hermite(omega, after, step * one, step * rate(k + 2, after), share)
-                    found = Extreme(value, float(at[k]) + share * step)
+                    found = SpeedExtreme(value, float(at[k]) + share * step)
                     highest = max(highest, found, key=lambda extreme: extreme.value)
                     lowest = min(lowest, found, key=lambda extreme: extreme.value)
                 omega = after
@@ -346,14 +346,14 @@ class Flywheel(Remembering):
         return np.asarray(self.turn.sense * found, dtype=float)
 
     @cached_property
-    def rows(self) -> Rows:
+    def rows(self) -> MachineRows:
         """The positions of the file's count."""
         turned = self.turned(self.machine.count)
         parts = self.reduced(self.machine.count)
         omega, _ = self.speeds(turned)
         moment, mass = parts.moment, self.fitted + parts.inertia
         pushed = self.sign * self.constant - moment - omega**2 * parts.slope / 2.0
-        return Rows(
+        return MachineRows(
             turned,
             self.turn.phi(turned),
             moment,

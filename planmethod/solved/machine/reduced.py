@@ -24,7 +24,7 @@ from planmethod.problem.load_records import (
     SizeTable,
     WeightSigns,
 )
-from planmethod.solved.course.curve import Curve, resolved
+from planmethod.solved.course.curve import Piecewise, resolved
 from planmethod.solved.course.motion import Moved, TurnMotion
 from planmethod.solved.forces.loads import MotionValues, external
 from planmethod.solved.reading import Reals
@@ -105,7 +105,7 @@ def reduce(motion: MotionValues, machine: Machine) -> Reduced:
     return Reduced(loads, weights, links, inertia, 2.0 * growth / speed**3)
 
 
-def reduced_curves(turn: TurnMotion, machine: Machine) -> Curve:
+def reduced_curves(turn: TurnMotion, machine: Machine) -> Piecewise:
     """Return moment, inertia and its slope over the cycle as polynomials of the angle turned.
 
     Raises
@@ -145,7 +145,7 @@ def reduced_curves(turn: TurnMotion, machine: Machine) -> Curve:
             )
     sums = np.zeros((len(peaks), 3))
     sums[:-2, 0] = sums[-2, 1] = sums[-1, 2] = 1.0
-    return Curve(made.edges, made.terms @ sums)
+    return Piecewise(made.edges, made.terms @ sums)
 
 
 _OVER = "A cycle needs it at every angle: give the table over phi, x, y or path."

@@ -55,7 +55,7 @@ class StalledError(Exception):
         self.turned, self.time = turned, time
 
 
-class Course(Struct, frozen=True):
+class TimeCourse(Struct, frozen=True):
     """Motion by steps: ndarrays of shape (n,), rad, z in 1/s², s, and dz/dphi on both sides."""
 
     turned: Reals
@@ -187,7 +187,7 @@ class RunUp(Remembering):
         over: Callable[[float, float], bool],
         *,
         stops: bool = False,
-    ) -> Course:
+    ) -> TimeCourse:
         """Return the motion from a half square of speed, until a cycle of some z is the last."""
         start = time = 0.0
         if not z:
@@ -212,7 +212,7 @@ class RunUp(Remembering):
             rows = [row for row in rows if row[0] < end.turned - 1e-13]
             rows.append((end.turned, 0.0, end.time, push, push))
         turned, halves, times, before, after = np.array(rows).T
-        return Course(turned, halves, times, np.append(before[1:], 0.0), after)
+        return TimeCourse(turned, halves, times, np.append(before[1:], 0.0), after)
 
     # With the motor --------------------------------------------------------------------------
 
@@ -221,7 +221,7 @@ class RunUp(Remembering):
         return self.machine.motor.at(omega)
 
     @cached_property
-    def starting(self) -> Course:
+    def starting(self) -> TimeCourse:
         """The run-up from rest in position 0, some cycles long, until the cycles are alike.
 
         Raises
@@ -244,7 +244,7 @@ class RunUp(Remembering):
         return StalledError(inf, inf) if last > MOST_CYCLES - 0.5 else None
 
     @remembered
-    def steady(self, inertia: float) -> Course:
+    def steady(self, inertia: float) -> TimeCourse:
         """Return a cycle of the steady motion with a flywheel, kg·m².
 
         Raises
@@ -302,7 +302,7 @@ class RunUp(Remembering):
         return at
 
     @cached_property
-    def run_up(self) -> Course:
+    def run_up(self) -> TimeCourse:
         """The run-up until the speed is within `NEAR` of the steady motion's.
 
         Raises
@@ -315,13 +315,13 @@ class RunUp(Remembering):
         late = np.flatnonzero(np.abs(off) > NEAR)
         last = min(int(late[-1]) + 1 if late.size else 0, len(off) - 1)
         kept = slice(0, max(last, 1) + 1)
-        return Course(
+        return TimeCourse(
             whole.turned[kept], whole.half[kept], whole.time[kept],
             whole.after[kept], whole.before[kept],
         )  # fmt: skip
 
     @cached_property
-    def stop(self) -> Course | None:
+    def stop(self) -> TimeCourse | None:
         """The stop from the steady motion in position 0, by the brake and the loads.
 
         None where the crank still turns after `MOST_CYCLES`, or the motor does not hold the load.

@@ -27,7 +27,7 @@ WIDEST = 0.4
 """Width over diameter beyond which a flywheel is not made."""
 
 
-class Sizes(Struct, frozen=True):
+class FlywheelSizes(Struct, frozen=True):
     """A flywheel as it is made (маховик).
 
     Attributes
@@ -54,7 +54,7 @@ class Sizes(Struct, frozen=True):
     held: bool
 
 
-def size_of(wheel: FlywheelTask, inertia: float, omega: float) -> Sizes | None:
+def size_of(wheel: FlywheelTask, inertia: float, omega: float) -> FlywheelSizes | None:
     """Return the sizes of a flywheel; None where none is needed.
 
     Parameters
@@ -82,7 +82,7 @@ def size_of(wheel: FlywheelTask, inertia: float, omega: float) -> Sizes | None:
     if held:
         breadth = 4.0 * mass / (pi * density * diameter**2 * (1.0 - bore**2))
     speed = turning * diameter / 2.0
-    return Sizes(wheel.shape, own, diameter, bore * diameter, breadth, mass, speed, held)
+    return FlywheelSizes(wheel.shape, own, diameter, bore * diameter, breadth, mass, speed, held)
 
 
 def too_wide(wheel: FlywheelTask, inertia: float, omega: float) -> str | None:

@@ -1,4 +1,4 @@
-"""Positions by the thousand: each looked at before any is told, solved block by block."""
+"""Positions by the thousand: all examined before any is reported, solved block by block."""
 
 from __future__ import annotations
 
@@ -130,7 +130,7 @@ class Gaps(Struct, frozen=True):
         return Gaps(reason, (*self.told, *other.told), other.unforced)
 
 
-class Checked(Struct, frozen=True):
+class CheckedPositions(Struct, frozen=True):
     """Positions that were looked at.
 
     Attributes
@@ -163,7 +163,7 @@ def evenly(places: Places, most: int = SAMPLE) -> Places:
 
 def examine(
     problem: Problem, positions: Reals, *, numbers: Places | None = None, forces: bool = False
-) -> Checked:
+) -> CheckedPositions:
     """Check every position as `verify` does and estimate its error, block by block.
 
     Parameters
@@ -223,7 +223,7 @@ def examine(
     if forces:
         other = Gaps.of(unforced, tell)
         gaps = gaps.joined(np.arange(count), replace(other, unforced=len(other.told)))
-    return Checked(gaps, tuple(doubtful), tuple(gaps.sentences[k] for k in kinds))
+    return CheckedPositions(gaps, tuple(doubtful), tuple(gaps.sentences[k] for k in kinds))
 
 
 def _listed(positions: Reals) -> list[float]:

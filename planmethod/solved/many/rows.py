@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 
 from msgspec import Struct
 
-from planmethod.construct.compiled.symbolic import Symbol, Written
+from planmethod.construct.compiled.symbolic import Symbol, TapeProgram
 from planmethod.construct.compiled.tape import Ref
 from planmethod.construct.steps import Name
 from planmethod.plans.legend import Quantity, QuantityKind
@@ -15,7 +15,7 @@ from planmethod.plans.model import FACTS, PlanKind
 FORCES = FACTS[PlanKind.FORCE].prefix
 
 
-class Row(Struct, frozen=True):
+class SweepRow(Struct, frozen=True):
     """One row of a sweep's output.
 
     Attributes
@@ -33,11 +33,11 @@ class Row(Struct, frozen=True):
 
 def rows_of(
     chosen: Sequence[Quantity],
-    written: Written,
+    written: TapeProgram,
     origin: complex,
     moved: Sequence[Quantity] = (),
     drawn: Sequence[Name] = (),
-) -> tuple[tuple[Row, ...], list[Ref], list[frozenset[int]]]:
+) -> tuple[tuple[SweepRow, ...], list[Ref], list[frozenset[int]]]:
     """Return the rows of some results: their names, their numbers on the tape, their guards.
 
     Parameters
@@ -50,7 +50,7 @@ def rows_of(
         Points and numbers of the plans that are rows as well.
     """
     loaded = frozenset[int]().union(*(written.depends[result.name] for result in moved))
-    rows: list[Row] = []
+    rows: list[SweepRow] = []
     refs: list[Ref] = []
     depends: list[frozenset[int]] = []
     for result in chosen:
@@ -58,20 +58,20 @@ def rows_of(
         if result.kind is QuantityKind.PLACE:
             here = zip(parts, (origin.real, origin.imag), strict=True)
             parts = [written.tape.add(part, at) for part, at in here]
-        rows += [Row(name, result.label) for name in result.columns]
+        rows += [SweepRow(name, result.label) for name in result.columns]
         refs += parts
         mine = written.depends[result.name]
         depends += [mine | loaded if result.kind.is_force else mine] * len(parts)
     for name in drawn:
         place: Symbol = written.value[name]
-        rows += [Row(f"{name}.{axis}", name) for axis in "xy"]
+        rows += [SweepRow(f"{name}.{axis}", name) for axis in "xy"]
         refs += [place.re, 0.0 if place.im is None else place.im]
         mine = written.depends[name]
         depends += [mine | loaded if name.startswith(FORCES) else mine] * 2
     return tuple(rows), refs, depends
 
 
-def _parts(result: Quantity, written: Written) -> Iterator[Ref]:
+def _parts(result: Quantity, written: TapeProgram) -> Iterator[Ref]:
     """Yield the numbers of the tape that a result consists of."""
     value, tape = written.value[result.name], written.tape
     if isinstance(value, tuple):

@@ -24,7 +24,7 @@ from planmethod.solved.closings import drive_data
 from planmethod.solved.failures import Cause, Failure, Place
 from planmethod.solved.impossible import explain, failing
 from planmethod.solved.labelled import quantities_for
-from planmethod.solved.many.rows import Row, rows_of
+from planmethod.solved.many.rows import SweepRow, rows_of
 from planmethod.solved.quantities import Quantities
 from planmethod.solved.reading import Reading
 from planmethod.solved.solution import UNIT_SCALES, Solution
@@ -80,7 +80,7 @@ class Sweep:
 
     Attributes
     ----------
-    rows : tuple of Row
+    rows : tuple of SweepRow
     parameters : dict
         Every known number of the motion and its value, SI and degrees.
     forces : bool
@@ -455,7 +455,7 @@ class Sweep:
 
 def sweep_variants(
     problems: Sequence[Problem], positions: npt.ArrayLike, asked: Iterable[str] | None = None
-) -> tuple[tuple[Row, ...], Array]:
+) -> tuple[tuple[SweepRow, ...], Array]:
     """Return the results of several variants of one problem in the same positions.
 
     Variants that are built by the same steps and differ in numbers only go through one compiled
@@ -463,7 +463,7 @@ def sweep_variants(
 
     Returns
     -------
-    rows : tuple of Row
+    rows : tuple of SweepRow
     values : ndarray of shape (k, v, n)
 
     Raises

@@ -14,7 +14,7 @@ from msgspec import Struct
 from planmethod.construct.arithmetic import Float64
 from planmethod.construct.evaluate import Trace
 from planmethod.construct.steps import Name, NumberName
-from planmethod.plans.forces.board import SCALE, Force, Given
+from planmethod.plans.forces.board import SCALE, Force, GivenLoad
 from planmethod.plans.forces.loads import LoadKind
 from planmethod.plans.forces.polygons import Edge, Share, reaction_symbol
 from planmethod.plans.legend import ZERO
@@ -34,7 +34,7 @@ LOADS = {
 }
 
 
-class Line(Struct, frozen=True):
+class ForceLine(Struct, frozen=True):
     """Force with its line of action: its segment and place, and its moment about the place.
 
     ``sense`` is -1 where the plan has the force that acts back.
@@ -172,7 +172,7 @@ class ForceValues:
             return self._zero
         return couple
 
-    def _load(self, given: Given | None) -> NumberName:
+    def _load(self, given: GivenLoad | None) -> NumberName:
         """Return the size of a load; None is zero by nature."""
         if given is None:
             return self._zero
@@ -232,18 +232,18 @@ class ForceValues:
 
     # Lines of action -------------------------------------------------------------------------
 
-    def _directed(self, line: Line) -> complex:
+    def _directed(self, line: ForceLine) -> complex:
         """Return a force that has a direction, N."""
         vector = self._vector(line.force)
         if self._is_nothing(abs(vector)):
             raise NoValueError(NoValue.NO_DIRECTION)
         return vector * line.sense
 
-    def _angle(self, line: Line) -> float:
+    def _angle(self, line: ForceLine) -> float:
         vector = self._directed(line)
         return math.degrees(math.atan2(vector.imag, vector.real)) % 360.0
 
-    def _arm(self, selecting: SelectorSteps, line: Line, about: str) -> NumberName:
+    def _arm(self, selecting: SelectorSteps, line: ForceLine, about: str) -> NumberName:
         """Return the arm of a force; that of a guide acts where its moment puts it."""
         self._directed(line)
         pole, force = selecting.point(PlanKind.POSITION, about), line.force
@@ -256,24 +256,24 @@ class ForceValues:
 
     # Names -----------------------------------------------------------------------------------
 
-    def _joint(self, on: str, by: str) -> Line:
+    def _joint(self, on: str, by: str) -> ForceLine:
         """Return what one link does to another; two links have one joint."""
         for reaction in self.statics.board.reactions:
             if {reaction.on, reaction.by} == {on, by}:
                 sense = 1.0 if reaction.on == on else -1.0
-                return Line(reaction.force, reaction.couple, sense)
+                return ForceLine(reaction.force, reaction.couple, sense)
         raise NoValueError(NoValue.NO_JOINT)
 
-    def _line(self, kind: str, names: tuple[str, ...]) -> Line:
+    def _line(self, kind: str, names: tuple[str, ...]) -> ForceLine:
         """Return the line of a force that must act somewhere."""
         if kind == "F":
             return self._joint(*names)
         given = self._given(kind, names[0])
         if given is None or given.force is None:
             raise NoValueError(NoValue.NO_DIRECTION)
-        return Line(given.force)
+        return ForceLine(given.force)
 
-    def _given(self, kind: str, name: str) -> Given | None:
+    def _given(self, kind: str, name: str) -> GivenLoad | None:
         """Return a load: of a link, or by its letter; None of what is zero by nature."""
         for given in self.statics.board.given:
             of = given.applied
@@ -283,7 +283,7 @@ class ForceValues:
             elif of.kind is LOADS[kind] and of.link == name:
                 return given
         shift = self.statics.board.shifts.get(name) if kind == "inertia couple" else None
-        return None if shift is None else Given(shift.moment, None, shift.couple)
+        return None if shift is None else GivenLoad(shift.moment, None, shift.couple)
 
 
 def _both(motion: Reading, forces: Reading) -> Reading:

@@ -12,7 +12,7 @@ from planmethod.mechanism.model import FRAME
 from planmethod.plans.draft import Draft
 from planmethod.plans.legend import ZERO
 from planmethod.plans.model import FACTS, MOTION, RATES, PlanKind
-from planmethod.plans.motion.board import Motion
+from planmethod.plans.motion.board import MotionBoard
 from planmethod.plans.segments import Segments
 from planmethod.problem.selector import ANALOGUES, POLE, Selector
 from planmethod.solved.solution import Solution
@@ -85,7 +85,7 @@ class SelectorSteps:
     ----------
     solution : Solution
     draft : Draft
-        Is gone on with.
+        Construction that is continued.
     """
 
     def __init__(self, solution: Solution, draft: Draft) -> None:
@@ -106,7 +106,7 @@ class SelectorSteps:
         """Return the segments of the velocity or the acceleration plan."""
         return self._segments[plan]
 
-    def motion(self, plan: PlanKind) -> Motion:
+    def motion(self, plan: PlanKind) -> MotionBoard:
         """Return the points of the velocity or the acceleration plan."""
         return self.kin.acceleration if plan is PlanKind.ACCELERATION else self.kin.velocity
 

@@ -32,7 +32,7 @@ VANISHED, NOISE = 1e-25, 1e-9
 which slopes in float64 are rounding."""
 
 
-class Verdict(Struct, frozen=True):
+class AccuracyVerdict(Struct, frozen=True):
     """Error of one result in one position, found by the referee (приговор арбитра).
 
     Attributes
@@ -79,7 +79,7 @@ class Refereed(Struct, frozen=True):
         Why the position is impossible or refused; empty where it is solved. Results of steps that
         do exist are judged all the same.
     warned : float
-        Bound of the relative error that the user is told:
+        Bound of the relative error as reported to the user:
         `planmethod.solved.trust.conditioning.doubt`.
     agreed : bool
         The referee, too, finds the same results to exist.
@@ -92,11 +92,11 @@ class Refereed(Struct, frozen=True):
     reason: str
     warned: float
     agreed: bool
-    verdicts: tuple[Verdict, ...]
+    verdicts: tuple[AccuracyVerdict, ...]
     unexplained: int = 0
 
     @property
-    def worst(self) -> Verdict | None:
+    def worst(self) -> AccuracyVerdict | None:
         """Verdict with the largest multiple."""
         return max(self.verdicts, key=lambda v: v.multiple, default=None)
 
@@ -144,7 +144,7 @@ def examine(
 
 
 def _told(problem: Problem, position: float) -> tuple[str, float]:
-    """Return why a position is impossible, or what bound of its error the user is told."""
+    """Return why a position is impossible, or what bound of its error is reported."""
     try:
         return "", float(error_bound(Solution(problem, positions=[position]))[0])
     except PlanMethodError as error:
@@ -158,7 +158,7 @@ def _entry(value: Number, i: int) -> Number:
 
 def _judge(
     results: Sequence[Quantity], trace: Trace, right: Mapping[Name, tuple[Number, Number]], i: int
-) -> tuple[tuple[Verdict, ...], bool]:
+) -> tuple[tuple[AccuracyVerdict, ...], bool]:
     """Return verdicts on the results that exist, and whether the referee finds the same to."""
     rows: list[tuple[Quantity, Number, float, float]] = []
     agreed = True
@@ -189,7 +189,9 @@ def _natural(largest: Mapping[QuantityKind, float]) -> dict[QuantityKind, float]
     return {kind: float(natural_size(kind, full)) for kind in full}
 
 
-def _verdict(result: Quantity, value: Number, error: float, span: float, largest: float) -> Verdict:
+def _verdict(
+    result: Quantity, value: Number, error: float, span: float, largest: float
+) -> AccuracyVerdict:
     size = float(abs(value))
     # Zero by nature: neither it nor its slopes are anything, but for rounding of the slopes.
     nothing = span <= ZERO_SHARE * largest or (
@@ -198,4 +200,4 @@ def _verdict(result: Quantity, value: Number, error: float, span: float, largest
     unit = largest if nothing else span
     multiple = 0.0 if error == 0 else error / (UNIT_ROUNDOFF * unit) if unit else math.inf
     kappa = span / size if size else math.inf
-    return Verdict(result, error, size, span, multiple, kappa, value)
+    return AccuracyVerdict(result, error, size, span, multiple, kappa, value)

@@ -50,7 +50,7 @@ def error_bound(solution: Solution) -> Reals:
 
 
 def _bound(solution: Solution) -> Reals:
-    solution.si  # noqa: B018 - what does not exist is told first
+    solution.si  # noqa: B018 - what does not exist is reported first
     bound = np.full(solution.positions.shape, MULTIPLE * UNIT_ROUNDOFF / SAFE**3)
     results = [r for r in quantities_of(solution.construction).all if r.name != ZERO]
     for chosen in _blocks(_suspects(solution)):

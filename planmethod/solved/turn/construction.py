@@ -47,7 +47,7 @@ class Locus(Enum):
     TANGENTS = "tangents"
 
 
-class Construction(Struct, frozen=True, dict=True):
+class ExtremesConstruction(Struct, frozen=True, dict=True):
     """The construction of both extreme positions, in millimetres of the scheme.
 
     Attributes
@@ -168,7 +168,7 @@ def _dyads(solution: Solution) -> Iterator[tuple[AssurGroup, Lead, Lead]]:
 
 
 @remembered
-def extreme_construction(solution: Solution) -> Construction | None:
+def extreme_construction(solution: Solution) -> ExtremesConstruction | None:
     """Return the construction of the extreme positions; None where there is none that is known."""
     turn = turn_of(solution)
     if turn.ends is None:
@@ -193,7 +193,7 @@ def _ray(turn: Turn, phi: tuple[float, float], tail: str, head: str) -> Complexe
 
 def _built(
     turn: Turn, solution: Solution, dyad: tuple[AssurGroup, Lead, Lead], phi: tuple[float, float]
-) -> Construction | None:
+) -> ExtremesConstruction | None:
     group, own, other = dyad
     problem, per_mm = solution.problem, solution.scales[PlanKind.POSITION].per_mm
     pivot, inner = problem.drive.pivot, group.inner[0]
@@ -280,6 +280,6 @@ def _built(
             if centre:
                 at, tail = PointName(f"{end}{p}"), PointName(centre)
                 b.measure_along(f"{centre}{end}{p} {name}", tail, at, b.parallel(tail, line))
-    return Construction(
+    return ExtremesConstruction(
         turn, solution, locus, other.link, pivot, pin, end, centre, b.program(), data, phi, far
     )

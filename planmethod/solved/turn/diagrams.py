@@ -25,7 +25,7 @@ from planmethod.construct.program import Program
 from planmethod.construct.scale import Scale, choose_scale
 from planmethod.construct.steps import PointName
 from planmethod.errors import AssemblyError
-from planmethod.plans.diagrams.board import Axes, Board
+from planmethod.plans.diagrams.board import DiagramAxes, DiagramBoard
 from planmethod.plans.diagrams.calculus import differentiate, integrate, repeated
 from planmethod.problem.model import Convention, Differentiation
 from planmethod.solved.errors.drawing import Drafted, DrawnQuantity
@@ -88,7 +88,7 @@ class Graph(Struct, frozen=True):
     ----------
     program : Program
     data : dict
-    axes : tuple of Axes
+    axes : tuple of DiagramAxes
         Of s, v and a.
     poles : tuple of PointName
         Of the diagrams of v and a.
@@ -100,7 +100,7 @@ class Graph(Struct, frozen=True):
 
     program: Program
     data: dict[str, complex | float]
-    axes: tuple[Axes, Axes, Axes]
+    axes: tuple[DiagramAxes, DiagramAxes, DiagramAxes]
     poles: tuple[PointName, PointName]
     points: tuple[list[PointName], list[PointName], list[PointName]]
     at: tuple[Reals, Reals, Reals]
@@ -275,7 +275,7 @@ class Diagrams(Remembering):
 
     def integrated(self) -> Reals:
         """Return the path found from exact velocities by middle ordinates, mm; n + 1 ordinates."""
-        board = Board()
+        board = DiagramBoard()
         over, axes = board.axes("v"), board.axes("s", -200j)
         at = self.x(self.shares).tolist()
         _, v, _ = self.exact(self.middles)
@@ -314,7 +314,7 @@ class Diagrams(Remembering):
 
 
 def _graph(diagrams: Diagrams, way: Differentiation) -> Graph:
-    board, task = Board(), diagrams.task
+    board, task = DiagramBoard(), diagrams.task
     exact = diagrams.exact(diagrams.fine)
     lows, highs = ([float(f(one)) for one in exact] for f in (np.nanmin, np.nanmax))
     down = [0.0]
@@ -351,7 +351,7 @@ def _graph(diagrams: Diagrams, way: Differentiation) -> Graph:
     return Graph(board.b.program(), board.data, (s, v, a), poles, (path, speed, bend), (ends, *at))
 
 
-def _taken_off(board: Board, axes: Axes, at: Reals, path: Reals) -> list[PointName]:
+def _taken_off(board: DiagramBoard, axes: DiagramAxes, at: Reals, path: Reals) -> list[PointName]:
     """Plot a path that is read on the scheme: how far the output is from position zero."""
     up = board.known("90", 90.0)
     places = [board.given(f"scheme {k}", complex(-100.0, y)) for k, y in enumerate(path)]

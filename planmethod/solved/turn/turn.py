@@ -59,7 +59,7 @@ class Extreme(Struct, frozen=True):
     value: float
 
 
-class Peak(Struct, frozen=True):
+class PressureAnglePeak(Struct, frozen=True):
     """Greatest and least pressure angle, degrees, and where the crank then is, degrees."""
 
     most: float
@@ -420,7 +420,7 @@ class Turn(Remembering):
     # Pressure angle ------------------------------------------------------------------------------
 
     @cached_property
-    def pressure(self) -> Peak | None:
+    def pressure(self) -> PressureAnglePeak | None:
         """Greatest and least pressure angle on the output link, and where; None: has no meaning."""
         told = pressure_on(self.unit, self.output)
         if told is None:
@@ -454,7 +454,7 @@ class Turn(Remembering):
             flat = np.round(np.nan_to_num(size(alike - 1.0) + size(alike + 1.0), nan=-TURN), 6)
             ways = [self._ahead(self.zero, float(at)) for at in alike[flat == flat.max()]]
             found += [sign * most, self.zero + self.sense * min(ways)]
-        return Peak(*found)
+        return PressureAnglePeak(*found)
 
 
 @remembered

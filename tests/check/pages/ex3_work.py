@@ -8,14 +8,14 @@ from msgspec.structs import replace
 from worked import problem_of
 
 from planmethod.check.model import (
-    Checked,
+    CheckedWork,
     Diagnosis,
     Judged,
     KeyEntry,
     Sense,
     Verdict,
     Work,
-    Written,
+    WrittenAnswer,
 )
 from planmethod.construct.arithmetic import Float64
 from planmethod.construct.evaluate import evaluate
@@ -95,14 +95,14 @@ def mistaken() -> tuple[dict[str, float], dict[str, complex]]:
     return values, places
 
 
-def work(student: str = "s02") -> Checked:
+def work(student: str = "s02") -> CheckedWork:
     """Return the judged work."""
     values, places = mistaken()
     judged = []
     for key in entries():
         value = values[key.id] * 1.003
         mm = None if key.mm is None else round(value / SCALES[key.scale], 1)
-        written = Written(
+        written = WrittenAnswer(
             id=key.id, value=value, mm=mm, sense=key.sense, where=f"{student}.json", raw=f"{value}"
         )
         is_off = abs(value - key.exact) > key.tolerance
@@ -128,7 +128,7 @@ def work(student: str = "s02") -> Checked:
             )
         )
     found = Diagnosis(("A1",), True, ("a_B3",), "B3/2", values, places)
-    return Checked(
+    return CheckedWork(
         Work(student, tuple(j.written for j in judged if j.written), scales=SCALES),
         None,
         tuple(judged),

@@ -14,7 +14,7 @@ from worked import path_of, problem_of
 
 from planmethod.check.key import Key
 from planmethod.check.marks import Settings
-from planmethod.check.model import Checked
+from planmethod.check.model import CheckedWork
 from planmethod.check.pages.files import anonymous, file_names, hidden_name, write_all
 from planmethod.check.pages.overrides import OverridesError, overridden, read_overrides
 from planmethod.errors import PlanMethodError
@@ -22,7 +22,7 @@ from planmethod.errors import PlanMethodError
 HEAD = "student;id;points;remark\n"
 
 
-def written(out: Path, checked: list[Checked], lang: str = "ru") -> dict[str, bytes]:
+def written(out: Path, checked: list[CheckedWork], lang: str = "ru") -> dict[str, bytes]:
     key = Key(problem_of("linkages/ex3"), None, ex3_work.entries(), ex3_work.SCALES, {})
     files = write_all(out, checked, {None: key}, Settings(), [path_of("linkages/ex3")], lang)
     return {str(path.relative_to(out)): path.read_bytes() for path in files}
@@ -49,7 +49,9 @@ def test_overrides_of_the_instructor_are_left_alone(tmp_path: Path) -> None:
     assert (tmp_path / "overrides.csv").read_bytes() == mine
 
 
-def read(tmp_path: Path, text: str, encoding: str = "utf-8-sig") -> tuple[Checked, tuple[str, ...]]:
+def read(
+    tmp_path: Path, text: str, encoding: str = "utf-8-sig"
+) -> tuple[CheckedWork, tuple[str, ...]]:
     path = tmp_path / "overrides.csv"
     path.write_bytes(text.encode(encoding))
     works, unused = overridden([ex3_work.work("s01")], read_overrides(path))

@@ -12,7 +12,7 @@ import openpyxl
 import pytest
 from msgspec.structs import replace
 
-from planmethod.check.model import Diagnosis, Judged, Verdict, Written
+from planmethod.check.model import Diagnosis, Judged, Verdict, WrittenAnswer
 from planmethod.check.pages.listing import COLUMNS, csv_bytes, record, safe
 from planmethod.check.pages.results import results_xlsx
 from planmethod.check.pages.workbook import add_sheet, new_workbook, saved
@@ -38,13 +38,13 @@ def test_a_record_has_the_keys_of_the_contract_and_no_nan() -> None:
 
 def test_a_size_is_told_without_its_sign() -> None:
     key = replace(ex3_work.entries()[0], exact=-2.0, signed=False)
-    judged = Judged("v", Verdict.OK, key, Written(id="v"), value=-2.01, local=-2.02)
+    judged = Judged("v", Verdict.OK, key, WrittenAnswer(id="v"), value=-2.01, local=-2.02)
     told = record(replace(ex3_work.work(), answers=(judged,)))["answers"][0]
     assert (told["exact"], told["value"], told["local"]) == (2.0, 2.01, 2.02)
 
 
 def test_an_answer_that_nobody_knows_is_told_all_the_same() -> None:
-    odd = Judged("q_7", Verdict.UNREADABLE, written=Written(what="q 7", where="g.csv:3"))
+    odd = Judged("q_7", Verdict.UNREADABLE, written=WrittenAnswer(what="q 7", where="g.csv:3"))
     work = replace(ex3_work.work(), answers=(odd,))
     told = record(work)["answers"][0]
     assert (told["exact"], told["where"]) == (None, "g.csv:3")

@@ -14,7 +14,15 @@ import ex3_work
 import pytest
 from msgspec.structs import replace
 
-from planmethod.check.model import Checked, Diagnosis, Judged, Sense, Unread, Verdict, Written
+from planmethod.check.model import (
+    CheckedWork,
+    Diagnosis,
+    Judged,
+    Sense,
+    Unread,
+    Verdict,
+    WrittenAnswer,
+)
 from planmethod.check.pages.overlay import overlays
 from planmethod.check.pages.remarks import Remarks
 from planmethod.check.pages.speech import Speech
@@ -33,20 +41,20 @@ CODES = [
 ]
 
 
-def remarks(checked: Checked, lang: str = "ru") -> list[str]:
+def remarks(checked: CheckedWork, lang: str = "ru") -> list[str]:
     return Remarks(Speech(language(lang)), checked, ex3_work.SCALES).sentences()
 
 
-def page_of(checked: Checked, lang: str = "ru") -> Page:
+def page_of(checked: CheckedWork, lang: str = "ru") -> Page:
     return student_page(
         checked, ex3_work.solution(), language(lang), scales=ex3_work.SCALES, mark="4"
     )
 
 
-def one(verdict: Verdict, number: int = 0, **told: object) -> Checked:
+def one(verdict: Verdict, number: int = 0, **told: object) -> CheckedWork:
     """Return a work with one answer, judged so."""
     key = ex3_work.entries()[number]
-    written = told.pop("written", Written(id=key.id, value=key.exact, mm=key.mm))
+    written = told.pop("written", WrittenAnswer(id=key.id, value=key.exact, mm=key.mm))
     judged = Judged(key.id, verdict, key, written, **{"of": 1.0, **told})  # type: ignore[arg-type]
     return replace(ex3_work.work(), answers=(judged,), diagnosis=(), points=judged.points, of=1.0)
 
@@ -108,12 +116,12 @@ def test_each_verdict_has_its_remark() -> None:
     assert "44,87 мм · 0,05 = 2,243" in " ".join(slipped).replace("\N{NO-BREAK SPACE}", " ")
     blank = remarks(one(Verdict.BLANK, written=None))
     assert blank == [RU.check["student"].blank.format(answers="v_{B3}")]
-    raw = Written(
+    raw = WrittenAnswer(
         id="v_B3", raw="семь", where="Ответы!D12", unreadable="x", why=Unread.NUMBER, fault="семь"
     )
     unread = remarks(one(Verdict.UNREADABLE, written=raw))[0]
     assert "«семь»" in unread and "Ответы!D12" in unread
-    wrong_way = Written(id="v_B3", value=key.exact, sense=Sense.RIGHT)
+    wrong_way = WrittenAnswer(id="v_B3", value=key.exact, sense=Sense.RIGHT)
     assert (
         "←" in remarks(one(Verdict.WRONG, value=key.exact, written=wrong_way, sense_right=False))[0]
     )
@@ -132,7 +140,7 @@ def test_points_that_inheriting_costs_are_told() -> None:
 
 def test_what_is_unreadable_beside_the_answers_is_told() -> None:
     work = ex3_work.work()
-    scale = Written(where="group.csv:7", unreadable="x", why=Unread.SCALE, fault="два")
+    scale = WrittenAnswer(where="group.csv:7", unreadable="x", why=Unread.SCALE, fault="два")
     told = remarks(replace(work, work=replace(work.work, remarks=(scale,))))
     assert "«два»" in told[-1] and "(group.csv:7)" in told[-1]
 
@@ -144,7 +152,9 @@ def test_what_is_to_be_drawn_anew_is_where_the_trouble_begins() -> None:
 
 def test_a_number_that_follows_from_a_segment_does_not_tell_to_draw_it_anew() -> None:
     key = replace(ex3_work.entries()[1], mm=44.9, scale="mu_v", segment="p-b3")
-    judged = Judged(key.id, Verdict.WRONG, key, Written(id=key.id), value=-15.5, sense_right=False)
+    judged = Judged(
+        key.id, Verdict.WRONG, key, WrittenAnswer(id=key.id), value=-15.5, sense_right=False
+    )
     work = replace(ex3_work.work(), answers=(judged,), diagnosis=())
     assert Remarks(Speech(RU), work, ex3_work.SCALES).redraw() == []
     turned = one(Verdict.WRONG, value=ex3_work.entries()[0].exact, sense_right=False)

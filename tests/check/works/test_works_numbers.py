@@ -2,7 +2,7 @@ from __future__ import annotations
 
 import pytest
 
-from planmethod.check.model import Sense, Written
+from planmethod.check.model import Sense, WrittenAnswer
 from planmethod.check.works.cells import read_sense
 from planmethod.check.works.units import Number, ratio, read_number, read_unit
 
@@ -132,10 +132,10 @@ def test_a_negative_power_is_a_quotient(text: str) -> None:
 
 
 def test_a_value_goes_into_the_unit_of_the_key_or_is_of_another_quantity() -> None:
-    assert ratio(Written(value=0.072, unit="мм"), "mm") == pytest.approx(1000.0)
-    assert ratio(Written(value=3.2), "mm") == 1.0
-    assert ratio(Written(value=3.2, unit="мм/с"), "m/s") == 1.0
-    assert ratio(Written(value=3.2, unit="м/с"), "m/s²") is None
+    assert ratio(WrittenAnswer(value=0.072, unit="мм"), "mm") == pytest.approx(1000.0)
+    assert ratio(WrittenAnswer(value=3.2), "mm") == 1.0
+    assert ratio(WrittenAnswer(value=3.2, unit="мм/с"), "m/s") == 1.0
+    assert ratio(WrittenAnswer(value=3.2, unit="м/с"), "m/s²") is None
 
 
 @pytest.mark.parametrize(

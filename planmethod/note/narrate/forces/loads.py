@@ -8,7 +8,7 @@ from planmethod.construct.steps import Compute, NumberName
 from planmethod.note.narrate.forces.common import ForceContext, closed
 from planmethod.note.narrate.forces.resultants import shift_symbol
 from planmethod.note.narrate.scales import scale_inscription
-from planmethod.plans.forces.board import Given
+from planmethod.plans.forces.board import GivenLoad
 from planmethod.plans.forces.loads import Applied, LoadKind, Shift
 from planmethod.plans.model import PlanKind
 from planmethod.problem.load_records import Against, Mass
@@ -40,14 +40,14 @@ class LoadNarrator:
                 lines += self.shifted(load, shift)
         return lines
 
-    def formula(self, load: Given) -> str:
+    def formula(self, load: GivenLoad) -> str:
         """Return a weight, an inertia force or couple: ``Φ_{2} = m_{2}·a_{S2} = 40·68,5``..."""
         segments, couple = self.reading.statics.board.segments, load.couple
         made = segments.known(load.force.ends) if load.force is not None else couple
         assert made is not None
         return self._product(load.applied, made)
 
-    def shifted(self, force: Given, shift: Shift) -> list[str]:
+    def shifted(self, force: GivenLoad, shift: Shift) -> list[str]:
         """Return the couple that a shifted force of inertia stands for, and the shift."""
         size, moment = self.reading.read_load(force), self.reading.read_number(shift.couple)
         metres = self.context.say.per_mm(PlanKind.POSITION) * self.reading.read_number(shift.length)
@@ -102,7 +102,7 @@ class LoadNarrator:
     def _is_shifted(self, link: str, kind: LoadKind) -> bool:
         return kind is LoadKind.INERTIA_COUPLE and link in self.reading.statics.board.shifts
 
-    def _told(self, load: Given) -> list[str]:
+    def _told(self, load: GivenLoad) -> list[str]:
         """Tell a load; of a shifted force of inertia, which couple it stands for and where."""
         one = load.applied
         shift = self.reading.statics.board.shifts.get(one.link)
@@ -110,7 +110,7 @@ class LoadNarrator:
             return [self._load(load)]
         return [self._load(load), *self._shift(load, shift)]
 
-    def _shift(self, load: Given, shift: Shift) -> list[str]:
+    def _shift(self, load: GivenLoad, shift: Shift) -> list[str]:
         couple = float(shift.moment.couple[self.reading.index])
         if not couple:
             return []
@@ -139,7 +139,7 @@ class LoadNarrator:
                 symbol=f"M_{{Φ{link}}}", epsilon=f"ε_{{{link}}}"
             )
 
-    def _load(self, load: Given) -> str:
+    def _load(self, load: GivenLoad) -> str:
         one, index, said = load.applied, self.reading.index, self.said
         force, couple = complex(one.force[index]), float(one.couple[index])
         value = couple if one.point is None else abs(force)
@@ -163,7 +163,7 @@ class LoadNarrator:
                 epsilon = f"ε_{{{one.link}}}"
                 return said.inertia_couple.format(sense=sense, epsilon=epsilon, **common)
 
-    def _external(self, load: Given, force: complex, couple: float) -> str:
+    def _external(self, load: GivenLoad, force: complex, couple: float) -> str:
         symbol = load.applied.name
         if load.applied.point is not None:
             size = f"{self.found(abs(force))} {self.units['N']}"
@@ -172,7 +172,7 @@ class LoadNarrator:
         size = f"{self.found(abs(couple))} {self.units['N·m']}"
         return self.said.couple.format(symbol=symbol, size=size, sense=self.context.sense(couple))
 
-    def _resisting(self, load: Given) -> str:
+    def _resisting(self, load: GivenLoad) -> str:
         """Tell of a force that it is against the velocity of its point; of others nothing."""
         dynamics, one = self.context.solution.problem.dynamics, load.applied
         assert dynamics is not None and one.point is not None

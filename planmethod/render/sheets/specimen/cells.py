@@ -42,7 +42,7 @@ class Clause(NamedTuple):
         return words.clause.format(number=self.number, item=item)
 
 
-class Cell(Struct, frozen=True):
+class SymbolCell(Struct, frozen=True):
     """One symbol with its letters (клетка).
 
     Attributes
@@ -76,7 +76,7 @@ def scheme(*parts: list[Item]) -> tuple[Item, ...]:
     return tuple(before_links([item for part in parts for item in part]))
 
 
-def drawn_cell(cell: Cell, number: int, box: Bounds, words: Words) -> list[Item]:
+def drawn_cell(cell: SymbolCell, number: int, box: Bounds, words: Words) -> list[Item]:
     """Return a cell in its box: number, picture in the middle, name and clause below it."""
     left, low, right, high = box
     middle, inner = (left + right) / 2, right - left - 2 * EDGE
@@ -98,7 +98,7 @@ def drawn_cell(cell: Cell, number: int, box: Bounds, words: Words) -> list[Item]
 
 
 def drawn_grid(
-    cells: Sequence[Cell],
+    cells: Sequence[SymbolCell],
     corner: complex,
     words: Words,
     *,

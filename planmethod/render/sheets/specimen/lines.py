@@ -21,7 +21,7 @@ from planmethod.render.frame.furniture import Furniture
 from planmethod.render.ink.drawing import Arc, Drawing, Item, Pen, Stroke
 from planmethod.render.ink.style import ARROW, PENS, S, stroke_lines
 from planmethod.render.layout.block import Align, fit, heading
-from planmethod.render.sheets.specimen.cells import Cell, Clause, drawn_grid
+from planmethod.render.sheets.specimen.cells import Clause, SymbolCell, drawn_grid
 from planmethod.render.symbols import SIZES
 from planmethod.render.symbols.axes import (
     SMALL_CIRCLE,
@@ -163,27 +163,27 @@ def _width(pen: Pen, say: Notation) -> str:
 # Rules -------------------------------------------------------------------------------------------
 
 
-def rule_cells(say: Notation) -> list[Cell]:
+def rule_cells(say: Notation) -> list[SymbolCell]:
     """Return how lines meet, begin and end, each rule with its picture."""
     return [*_crossings(say), *_dashed(), *_meanings()]
 
 
-def _crossings(say: Notation) -> Iterator[Cell]:
+def _crossings(say: Notation) -> Iterator[SymbolCell]:
     """Yield axes that cross and touch."""
-    yield Cell(
+    yield SymbolCell(
         "axes_cross",
         RULE,
         (Arc(0j, 12.0), *centre_lines(0j, 12.0)),
     )
     small = SMALL_CIRCLE / 2 - 1.0
-    yield Cell(
+    yield SymbolCell(
         "small_circle",
         RULE,
         (Arc(0j, small), *centre_lines(0j, small)),
         size=said(SMALL_CIRCLE, say),
     )
     touch = 9 + 0j
-    yield Cell(
+    yield SymbolCell(
         "circles_touch",
         RULE,
         (
@@ -194,26 +194,26 @@ def _crossings(say: Notation) -> Iterator[Cell]:
     )
 
 
-def _dashed() -> Iterator[Cell]:
+def _dashed() -> Iterator[SymbolCell]:
     """Yield dashed lines with corners and without ends."""
-    yield Cell(
+    yield SymbolCell(
         "dashed_corners",
         RULE,
         (Stroke((-18 - 9j, 18 - 9j, 18 + 9j, -18 + 9j), Pen.HIDDEN, closed=True),),
     )
-    yield Cell("dashed_closed", RULE, (Arc(0j, 12.0, pen=Pen.HIDDEN),))
+    yield SymbolCell("dashed_closed", RULE, (Arc(0j, 12.0, pen=Pen.HIDDEN),))
     heads: list[Item] = []
     for k, length in enumerate((2.5, 3.5, 5.0, 7.0)):
         tip = 15 - 6.5j * k
         pen = Pen.MAIN if length >= ARROW.length else Pen.THIN
         heads += symbols.vector_arrow(tip - 30, tip, pen=pen, length=length)
-    yield Cell("arrow", Clause("2.307"), tuple(heads))
+    yield SymbolCell("arrow", Clause("2.307"), tuple(heads))
 
 
-def _meanings() -> Iterator[Cell]:
+def _meanings() -> Iterator[SymbolCell]:
     """Yield lines in use."""
     end = 20 + 3j
-    yield Cell(
+    yield SymbolCell(
         "broken",
         RULE,
         (
@@ -223,7 +223,7 @@ def _meanings() -> Iterator[Cell]:
         ),
     )
     ways = [cmath.rect(22.0, radians(turn)) for turn in (65.0, 115.0, 90.0)]
-    yield Cell(
+    yield SymbolCell(
         "extreme",
         RULE,
         (
@@ -234,7 +234,7 @@ def _meanings() -> Iterator[Cell]:
         ),
     )
     edge = SIZES.slider_length / 2
-    yield Cell(
+    yield SymbolCell(
         "guide_axis",
         RULE,
         (

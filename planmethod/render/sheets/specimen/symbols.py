@@ -13,7 +13,7 @@ from planmethod.render.frame.furniture import Furniture
 from planmethod.render.ink.drawing import Bounds, Drawing, Item
 from planmethod.render.ink.style import ARROW
 from planmethod.render.layout.block import Column, heading, paragraph
-from planmethod.render.sheets.specimen.cells import Cell, Clause, drawn_grid, letter, scheme
+from planmethod.render.sheets.specimen.cells import Clause, SymbolCell, drawn_grid, letter, scheme
 from planmethod.render.sheets.specimen.wheels import GEARS, wheel_cells
 from planmethod.render.symbols import SIZES
 from planmethod.render.symbols.axes import axis_line
@@ -70,7 +70,7 @@ def _sizes(corner: complex, inner: Bounds, words: Language) -> list[Item]:
     return room.place(complex(left, high))
 
 
-def symbol_cells() -> list[Cell]:
+def symbol_cells() -> list[SymbolCell]:
     """Return every symbol with its name and clause."""
     return [*_joints(), *_links(), *_sliders(), *_drivers(), *wheel_cells()]
 
@@ -80,31 +80,31 @@ def way(degrees: float, length: float = 1.0) -> complex:
     return cmath.rect(length, radians(degrees))
 
 
-def _joints() -> Iterator[Cell]:
+def _joints() -> Iterator[SymbolCell]:
     """Yield links, the frame and the revolute pairs."""
     a, b = -16 - 5j, 16 + 5j
-    yield Cell(
+    yield SymbolCell(
         "link",
         Clause("2.770", "1"),
         scheme(symbols.link(a, b), symbols.revolute(a), symbols.revolute(b)),
         (letter("A", a, 1j), letter("B", b, 1j), letter("2", 0j, 1j, gap=1.5)),
     )
-    yield Cell("frame", Clause("2.770", "2"), scheme(symbols.ground_line(-18, 18)))
+    yield SymbolCell("frame", Clause("2.770", "2"), scheme(symbols.ground_line(-18, 18)))
     tip = way(55, 24)
-    yield Cell(
+    yield SymbolCell(
         "support",
         None,
         scheme(symbols.link(0j, tip, tag="link 1"), symbols.fixed_pivot(0j)),
         (letter("O", 0j, -1), letter("1", tip / 2, -1 + 1j, gap=1.5)),
     )
-    yield Cell(
+    yield SymbolCell(
         "support_turned",
         None,
         scheme(symbols.link(0j, way(-60, 24), tag="link 1"), symbols.fixed_pivot(0j, direction=1j)),
         (letter("O", 0j, -1), letter("1", way(-60, 12), 1 + 1j, gap=1.5)),
     )
     pair = (0j, 8 + 0j)
-    yield Cell(
+    yield SymbolCell(
         "supports",
         None,
         scheme(
@@ -114,7 +114,7 @@ def _joints() -> Iterator[Cell]:
         ),
         (letter("A", pair[0], -1), letter("D", pair[1], 1)),
     )
-    yield Cell(
+    yield SymbolCell(
         "revolute",
         Clause("2.770", "6", "a"),
         scheme(symbols.link(way(215, 24), 0j, way(-25, 22)), symbols.revolute(0j)),
@@ -125,7 +125,7 @@ def _joints() -> Iterator[Cell]:
         ),
     )
     arms = (way(205, 22), way(-20, 22), way(80, 18))
-    yield Cell(
+    yield SymbolCell(
         "double",
         Clause("2.770", "6", "b"),
         scheme(*(symbols.link(0j, arm) for arm in arms), symbols.revolute(0j, count=2)),
@@ -137,7 +137,7 @@ def _joints() -> Iterator[Cell]:
         ),
     )
     along = way(10)
-    yield Cell(
+    yield SymbolCell(
         "on_link",
         None,
         scheme(
@@ -153,10 +153,10 @@ def _joints() -> Iterator[Cell]:
     )
 
 
-def _links() -> Iterator[Cell]:
+def _links() -> Iterator[SymbolCell]:
     """Yield rigid joints and links with three pairs."""
     a, b = way(180, 20), way(40, 26)
-    yield Cell(
+    yield SymbolCell(
         "rigid",
         Clause("2.770", "5", "a"),
         scheme(
@@ -174,13 +174,13 @@ def _links() -> Iterator[Cell]:
         letter("C", corners[2], 1j),
     )
     joints = [item for corner in corners for item in symbols.revolute(corner)]
-    yield Cell(
+    yield SymbolCell(
         "ternary_corners",
         None,
         scheme(symbols.stiff_triangle(*corners, marked=True), joints),
         letters,
     )
-    yield Cell(
+    yield SymbolCell(
         "ternary_hatched",
         None,
         scheme(symbols.stiff_triangle(*corners, hatched=True), joints),
@@ -188,11 +188,11 @@ def _links() -> Iterator[Cell]:
     )
 
 
-def _sliders() -> Iterator[Cell]:
+def _sliders() -> Iterator[SymbolCell]:
     """Yield sliding pairs."""
     rod = way(32, 30)
     axis = axis_line(-29, -SIZES.slider_length / 2), axis_line(SIZES.slider_length / 2, 29)
-    yield Cell(
+    yield SymbolCell(
         "slider",
         Clause("2.770", "6", "c"),
         scheme(
@@ -204,7 +204,7 @@ def _sliders() -> Iterator[Cell]:
         ),
         (letter("E", 0j, 1j, gap=5), letter("4", rod * 0.7, 1j, gap=1.5)),
     )
-    yield Cell(
+    yield SymbolCell(
         "slider_between",
         Clause("2.770", "6", "c"),
         scheme(
@@ -217,7 +217,7 @@ def _sliders() -> Iterator[Cell]:
         (letter("E", -5 + 0j, 1j, gap=7),),
     )
     pin = 9j
-    yield Cell(
+    yield SymbolCell(
         "slider_offset",
         None,
         scheme(
@@ -230,7 +230,7 @@ def _sliders() -> Iterator[Cell]:
     )
     turn = 35.0
     bar = (way(turn, -16), way(turn, 30))
-    yield Cell(
+    yield SymbolCell(
         "stone",
         None,
         scheme(
@@ -248,7 +248,7 @@ def _sliders() -> Iterator[Cell]:
             letter("1", 8 * way(turn) + way(-55, 12), 1, gap=1.5),
         ),
     )
-    yield Cell(
+    yield SymbolCell(
         "stone_swinging",
         None,
         scheme(
@@ -261,16 +261,16 @@ def _sliders() -> Iterator[Cell]:
     )
 
 
-def _drivers() -> Iterator[Cell]:
+def _drivers() -> Iterator[SymbolCell]:
     """Yield cranks, rockers and the arrows of the driver."""
     pin = way(50, 15)
-    yield Cell(
+    yield SymbolCell(
         "crank",
         None,
         scheme(symbols.crank(0j, pin, path=True, tag="link 1")),
         (letter("O", 0j, 1 - 0.6j), letter("A", pin, symbols.unit(pin))),
     )
-    yield Cell(
+    yield SymbolCell(
         "driver_turning",
         None,
         scheme(
@@ -279,7 +279,7 @@ def _drivers() -> Iterator[Cell]:
         ),
         (letter("ω_{1}", way(140, 12), -1, gap=1.5), letter("1", pin * 0.8, 1 - 1j, gap=1.5)),
     )
-    yield Cell(
+    yield SymbolCell(
         "driver_sliding",
         None,
         scheme(
@@ -291,14 +291,14 @@ def _drivers() -> Iterator[Cell]:
         ),
         (letter("v_{1}", -9 + 8j, -1, gap=1.0),),
     )
-    yield Cell(
+    yield SymbolCell(
         "rocker",
         None,
         scheme(symbols.rocker(0j, way(85, 28), swing=(35.0, 28.0), tag="link 3")),
         (letter("D", 0j, 1), letter("C", way(85, 28), 1j)),
     )
     shaft = (-20 + 0j, 20 + 0j)
-    yield Cell(
+    yield SymbolCell(
         "shaft",
         Clause("2.770", "7", "a"),
         scheme(symbols.link(*shaft, tag="link 1"), symbols.bearing(-12), symbols.bearing(12)),

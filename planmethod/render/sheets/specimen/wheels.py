@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from planmethod.render.sheets.specimen.cells import Cell, Clause, letter, scheme
+from planmethod.render.sheets.specimen.cells import Clause, SymbolCell, letter, scheme
 from planmethod.render.symbols import (
     bearing,
     guide_plates,
@@ -26,16 +26,16 @@ from planmethod.render.symbols.gears import (
 GEARS = Clause("2.770")
 
 
-def wheel_cells() -> Iterator[Cell]:
+def wheel_cells() -> Iterator[SymbolCell]:
     """Yield wheels from the front and from the side, racks and cams."""
     yield from _front()
     yield from _side()
     yield _cam()
 
 
-def _front() -> Iterator[Cell]:
+def _front() -> Iterator[SymbolCell]:
     second = 22.5 + 0j
-    yield Cell(
+    yield SymbolCell(
         "mesh_front",
         GEARS,
         scheme(mesh_front(0j, 9.0, second), revolute(0j), revolute(second)),
@@ -46,13 +46,13 @@ def _front() -> Iterator[Cell]:
         ),
     )
     planet = 9j
-    yield Cell(
+    yield SymbolCell(
         "ring_front",
         GEARS,
         scheme(mesh_front(planet, 9.5, 0j, internal=True), revolute(planet), revolute(0j)),
         (letter("P", 18.5j, 1 - 2j, gap=2.4),),
     )
-    yield Cell(
+    yield SymbolCell(
         "rack",
         Clause("2.770", "38"),
         scheme(
@@ -64,8 +64,8 @@ def _front() -> Iterator[Cell]:
     )
 
 
-def _side() -> Iterator[Cell]:
-    yield Cell(
+def _side() -> Iterator[SymbolCell]:
+    yield SymbolCell(
         "mesh_side",
         GEARS,
         scheme(
@@ -78,7 +78,7 @@ def _side() -> Iterator[Cell]:
         ),
         (letter("1", -6j, 1), letter("2", 27j, 1)),
     )
-    yield Cell(
+    yield SymbolCell(
         "ring_side",
         GEARS,
         scheme(
@@ -93,7 +93,7 @@ def _side() -> Iterator[Cell]:
     )
     sun, planet, ring = 8.0, 6.0, 20.0
     pin = 1j * (sun + planet)
-    yield Cell(
+    yield SymbolCell(
         "planetary",
         GEARS,
         scheme(
@@ -116,10 +116,10 @@ def _side() -> Iterator[Cell]:
     )
 
 
-def _cam() -> Cell:
+def _cam() -> SymbolCell:
     nose, base, lift = 0.95, 8.0, 6.0
     at = rest_on_cam(0j, 1j, base=base, lift=lift, nose=nose)
-    return Cell(
+    return SymbolCell(
         "cam",
         GEARS,
         scheme(
