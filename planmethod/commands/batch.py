@@ -39,7 +39,7 @@ if TYPE_CHECKING:
     from planmethod.check.marks import Settings
     from planmethod.commands.processes import Outcome
 
-NEEDS = "batch needs dask: pip install 'planmethod[batch]'"
+NEEDS = "batch needs dask: pip install 'dask[distributed]'"
 
 MANIFEST = "batch.jsonl"
 """What was made and of what, in the folder of the files: a line for each variant."""
@@ -346,8 +346,8 @@ def _cluster(scheduler: str | None, jobs: int) -> Iterator[Client]:
             ) from None
         except ImportError as error:
             raise UsageError(
-                "--scheduler {}: a worker cannot begin: {}. Install there: pip install "
-                "'planmethod[batch]'",
+                "--scheduler {}: a worker cannot begin: {}. Install planmethod and "
+                "'dask[distributed]' there.",
                 scheduler,
                 error,
             ) from None

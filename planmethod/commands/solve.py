@@ -320,7 +320,7 @@ def _need_mpmath() -> None:
     try:
         import mpmath  # noqa: F401
     except ImportError:
-        raise UsageError("--referee needs mpmath: pip install 'planmethod[referee]'") from None
+        raise UsageError("--referee needs mpmath: pip install mpmath") from None
 
 
 def _refuse_contradictions(
