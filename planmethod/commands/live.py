@@ -1,4 +1,4 @@
-"""Command ``live``: the mechanism and its plans moving, one HTML file."""
+"""Command ``live``: a mechanism and its plans, or a gear train, moving: one HTML file."""
 
 from __future__ import annotations
 
@@ -26,18 +26,20 @@ def live(
     lang: str,
     shown: bool,
 ) -> None:
-    """Write a page where the mechanism and its plans move: one HTML file for any browser."""
+    """Write a page where a mechanism and its plans, or a gear train, move, for any browser."""
     from planmethod.render.live.page import live_page
 
     written: list[Path] = []
 
     def write(todo: Todo) -> None:
-        problem = todo.linkage
-        page = out / f"{stem(problem)}-live.html"
-        put(live_page(problem, lang), str(page))
+        page = out / f"{stem(todo.problem)}-live.html"
+        if todo.kind is None:
+            put(live_page(todo.linkage, lang), str(page))
+        else:
+            put(todo.kind.live_page(todo.problem, lang), str(page))
         written.append(page)
 
-    code = each(problems, variant, all_variants, write, kinds=False)
+    code = each(problems, variant, all_variants, write)
     if shown and written:
         show(written[0])
     finish(code)
