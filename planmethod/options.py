@@ -228,6 +228,17 @@ def open_option(command: F) -> F:
     )(command)
 
 
+def position_option(command: F) -> F:
+    """Add the number of the calculated position."""
+    return click.option(
+        "--position",
+        type=click.IntRange(min=0),
+        metavar="NUMBER",
+        help="Calculated position, from 0: drawn bold, loaded; else that of [project], that of "
+        "phi or the clearest one.",
+    )(command)
+
+
 def layout_option(command: F) -> F:
     """Add what is on the sheets and how it is arranged."""
     return click.option(

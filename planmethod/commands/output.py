@@ -77,31 +77,47 @@ def write_drawings(
     author: str | None = None,
     dxf_text: Literal["text", "strokes"] = "strokes",
 ) -> list[Path]:
-    """Write the sheets of a problem and return the files, which appear only when all are made.
+    """Write the sheets of a problem and return the files; all or none appear (`drawing_files`)."""
+    from planmethod.render.backends.output import write
+
+    files = drawing_files(drawings, stem, formats, dpi=dpi, author=author, dxf_text=dxf_text)
+    for name, data in files.items():
+        write(out / name, data)
+    paths = [out / name for name in files]
+    for path in paths:
+        click.echo(str(path))
+    return paths
+
+
+def drawing_files(
+    drawings: Sequence[Drawing],
+    stem: str,
+    formats: Iterable[str],
+    *,
+    dpi: int = 100,
+    author: str | None = None,
+    dxf_text: Literal["text", "strokes"] = "strokes",
+) -> dict[str, bytes]:
+    """Return the files of sheets by their names.
 
     A format with pages has one file for all sheets, ``stem.pdf``; of the others each sheet has its
     own, ``stem.svg``, ``stem-2.svg``...
     """
     from planmethod.render.backends import PAGED, render, render_pages
     from planmethod.render.backends.canvas import Options
-    from planmethod.render.backends.output import write
 
     options = Options(dpi=dpi, dxf_text=dxf_text)
     if author is not None:
         options = replace(options, author=author)
-    files: dict[Path, bytes] = {}
+    files: dict[str, bytes] = {}
     for fmt in formats:
         if fmt in PAGED:
-            files[out / f"{stem}.{fmt}"] = render_pages(drawings, fmt, options=options)
+            files[f"{stem}.{fmt}"] = render_pages(drawings, fmt, options=options)
             continue
         for number, drawing in enumerate(drawings, 1):
             name = f"{stem}.{fmt}" if number == 1 else f"{stem}-{number}.{fmt}"
-            files[out / name] = render(drawing, fmt, options=options)
-    for path, data in files.items():
-        write(path, data)
-    for path in files:
-        click.echo(str(path))
-    return list(files)
+            files[name] = render(drawing, fmt, options=options)
+    return files
 
 
 def show(path: Path) -> None:

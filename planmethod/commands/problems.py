@@ -81,16 +81,43 @@ def guarded(command: F) -> F:
 
 
 def load(path: Path, variant: str | None, all_variants: bool) -> list[Problem]:
-    """Read a problem file: one problem, or one for each variant."""
+    """Read a problem file: one problem, or one for each variant; that of a project is settled."""
+    found = []
+    for problem in _read(path, variant, all_variants):
+        if problem.project is not None:
+            from planmethod.project.settle import settled
+
+            problem = settled(problem)
+        found.append(problem)
+    for table in left_out(found[0]) if found else ():
+        if table == "point":
+            warn(found[0], "[point] is left out; give it a file of its own.")
+        else:
+            warn(found[0], say("[{}] is left out; planmethod project draws it.", table))
+    return found
+
+
+def load_unsettled(path: Path, variant: str | None) -> Problem:
+    """Read a problem file as it stands."""
+    (problem,) = _read(path, variant, all_variants=False)
+    return problem
+
+
+def _read(path: Path, variant: str | None, all_variants: bool) -> Iterator[Problem]:
     from planmethod.kinds import load_each
     from planmethod.problem.unlikely import unlikely
 
-    found = []
     for problem in load_each(path, variants_of(path, variant, all_variants)):
-        found.append(problem)
         for said in unlikely(problem):
             warn(problem, said)
-    return found
+        yield problem
+
+
+def left_out(problem: Problem) -> Iterator[str]:
+    """Yield the tables of a linkage's file that are of other kinds of problem, and not used."""
+    for table in problem.tables:
+        if table != "gears" or problem.drive.geared is None:
+            yield table
 
 
 def _load_other(

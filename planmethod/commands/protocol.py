@@ -36,7 +36,13 @@ from planmethod.options import (
     type=click.Path(path_type=Path, file_okay=False),
     help="Folder for a text file; to the terminal when absent.",
 )
-@click.option("--position", type=click.IntRange(min=1), default=1, help="Number of the position.")
+@click.option(
+    "--position",
+    type=click.IntRange(min=0),
+    default=0,
+    show_default=True,
+    help="Number of the position, from 0.",
+)
 @lang_option
 @guarded
 def protocol(
@@ -60,14 +66,16 @@ def protocol(
     def tell(todo: Todo) -> None:
         kind, problem = todo.kind, todo.problem
         if kind is not None:
-            refuse_plans(kind, phi=phi is not None, position=position > 1)
+            refuse_plans(kind, phi=phi is not None, position=position > 0)
             told = kind.protocol_document(problem, words, hand)
         else:
             solution = solution_of(todo.linkage, phi, hand, machine=True)
             count = len(solution.positions)
-            if position > count:
-                raise UsageError("--position {}: {} has {}", position, problem.name, count)
-            told = protocol_document(solution, words, position - 1)
+            if position >= count:
+                raise UsageError(
+                    "--position {}: the last of {} is {}", position, problem.name, count - 1
+                )
+            told = protocol_document(solution, words, position)
         text = plain_document(told, words) + "\n"
         put(text, None if out is None else str(out / f"{stem(problem)}-protocol.txt"))
 

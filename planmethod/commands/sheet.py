@@ -36,6 +36,7 @@ from planmethod.options import (
     layout_option,
     open_option,
     out_option,
+    position_option,
     problem_options,
     reading_options,
 )
@@ -53,6 +54,7 @@ class SheetOptions(Struct, frozen=True, kw_only=True):
 
     settled: Settled
     phi: Positions | None
+    position: int | None = None
     ruler: float | None
     profile: str | None
     layout: str | None
@@ -103,6 +105,7 @@ def compacted(problem: Problem, positions: Sequence[float] | None) -> Problem:
 @click.command(cls=Spoken)
 @problem_options
 @reading_options
+@position_option
 @out_option
 @format_option("svg,pdf")
 @sheet_options
@@ -130,6 +133,7 @@ def sheet(
     variant: str | None,
     all_variants: bool,
     phi: Positions | None,
+    position: int | None,
     ruler: float | None,
     profile: str | None,
     out: Path,
@@ -158,6 +162,7 @@ def sheet(
     options = SheetOptions(
         settled=asked.settle(),
         phi=phi,
+        position=position,
         ruler=ruler,
         profile=profile,
         layout=layout,
@@ -212,12 +217,16 @@ def draw(todo: Todo, options: SheetOptions) -> Path:
 def _settled(todo: Todo, options: SheetOptions) -> Todo:
     """Return a problem with all that is asked of its sheets."""
     todo = replace(todo, problem=options.settled.over(todo.problem))
-    if todo.kind is None:
-        tell_changes(todo.linkage, options.phi)
-        if todo.linkage.machine is not None and _has_flywheel(options.layout):
-            from planmethod.solved.machine.flywheel import Flywheel
+    if todo.kind is not None:
+        return todo
+    if options.phi is not None or options.position is not None:
+        # What a project decided is of its own positions.
+        todo = replace(todo, problem=replace(todo.linkage, calculated=options.position))
+    tell_changes(todo.linkage, options.phi)
+    if todo.linkage.machine is not None and _has_flywheel(options.layout):
+        from planmethod.solved.machine.flywheel import Flywheel
 
-            tell_wheel(Flywheel(todo.linkage))
+        tell_wheel(Flywheel(todo.linkage))
     return todo
 
 
@@ -244,7 +253,14 @@ def _drawn(
     hand = hand or drawn_by(options.profile, options.ruler)
     kind = todo.kind
     if kind is not None:
-        refuse_plans(kind, phi=phi is not None, layout=layout, errors=errors, sigma=bool(sigma))
+        refuse_plans(
+            kind,
+            phi=phi is not None,
+            position=options.position is not None,
+            layout=layout,
+            errors=errors,
+            sigma=bool(sigma),
+        )
         return kind.drawings(todo.problem, fields=fields, profile=hand, before=before, total=total)
     from planmethod.render.frame.furniture import Furniture
     from planmethod.render.sheets.kinematics import kinematics_sheets

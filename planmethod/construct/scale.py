@@ -92,3 +92,23 @@ def choose_scale(
     if mm_per_unit:
         return 1.0 / series_near(1.0 / needed, up=False)
     return series_near(needed, up=True)
+
+
+LEAST_AXIS = 160.0
+"""Least length of the axis of angles of a diagram, mm."""
+
+
+def angle_scale(way: float, *, mm_per_unit: bool = False) -> float:
+    """Return the scale of an axis of angles, degrees per millimetre (масштаб углов).
+
+    That of the series at which so many degrees have the least of such an axis at least, and less
+    than twice of it.
+
+    Examples
+    --------
+    >>> angle_scale(360.0), angle_scale(720.0), angle_scale(90.0)
+    (2.0, 4.0, 0.5)
+    """
+    if mm_per_unit:
+        return 1.0 / series_near(LEAST_AXIS / way, up=True)
+    return series_near(way / LEAST_AXIS, up=False)

@@ -38,7 +38,7 @@ def protocol_document(problem: GearProblem, words: Language, profile: Profile) -
     ProblemError
         The train cannot be, or its inputs do not fit.
     """
-    motion = solve_motion(problem)
+    motion, notation = solve_motion(problem), problem.sheet.notation
     say: Words = words.gears["sheet"]
     yield Title(say.protocol.format(title=escape(problem.title)))
     if problem.source:
@@ -46,7 +46,7 @@ def protocol_document(problem: GearProblem, words: Language, profile: Profile) -
     yield Chapter(say.given)
     yield Paragraph("; ".join(given(motion, words)) + ".")
     yield Chapter(say.calculation)
-    yield from (Item(_carried(line)) for line in calculation(motion, words))
+    yield from (Item(_carried(line)) for line in calculation(motion, words, notation))
     picture = draw(motion)
     if picture is None:
         yield Chapter(words.gears.picture)

@@ -66,26 +66,13 @@ def given(motion: TrainMotion, words: Language) -> list[str]:
     return facts
 
 
-def calculation(motion: TrainMotion, words: Language) -> list[str]:
+def calculation(motion: TrainMotion, words: Language, notation: str | None = None) -> list[str]:
     """Return kind, mobility, equations of the meshes with their ratios, ratios asked for."""
     train, say, found = motion.train, words.gears, motion.structure
-    lines = [kind_of(found, words), mobility(found, words)]
+    lines = [kind_of(found, words), mobility(found, words, notation)]
     for mesh in train.meshes:
         lines.append(";  ".join(equation_of(motion, mesh)))
-    letter, known = train.letter, tuple(train.body_of)
-    for name in dict.fromkeys(train.ask):
-        asked, one = parse(name, known), answer(motion, name)
-        if asked.kind != "U":
-            continue
-        if one.value is None:
-            told = say["reasons"][one.reason].format(label=one.label)
-            lines.append(f"{symbol(name, known)}: {told}")
-            continue
-        hat = f"^{{({asked.carrier})}}" if asked.carrier else ""
-        letters = "/".join(f"{letter}{hat}_{{{label}}}" for label in asked.labels)
-        value = fraction_text(one.exact)
-        decimal = f" = {words.say.found(one.value)}" if "/" in value else ""
-        lines.append(f"{symbol(name, known)} = {letters} = {value}{decimal}")
+    lines += ratios(motion, words)
     rest = [one for name in dict.fromkeys(train.ask) for one in _plain(name, motion, words)]
     lines += ["; ".join(rest)] if rest else []
     lines += [
@@ -93,6 +80,25 @@ def calculation(motion: TrainMotion, words: Language) -> list[str]:
         for one in conditions(motion)
     ]
     return lines
+
+
+def ratios(motion: TrainMotion, words: Language) -> Iterator[str]:
+    """Yield the ratios that are asked for, each with letters and value (отношения)."""
+    train, say = motion.train, words.gears
+    letter, known = train.letter, tuple(train.body_of)
+    for name in dict.fromkeys(train.ask):
+        asked, one = parse(name, known), answer(motion, name)
+        if asked.kind != "U":
+            continue
+        if one.value is None:
+            told = say["reasons"][one.reason].format(label=one.label)
+            yield f"{symbol(name, known)}: {told}"
+            continue
+        hat = f"^{{({asked.carrier})}}" if asked.carrier else ""
+        letters = "/".join(f"{letter}{hat}_{{{label}}}" for label in asked.labels)
+        value = fraction_text(one.exact)
+        decimal = f" = {words.say.found(one.value)}" if "/" in value else ""
+        yield f"{symbol(name, known)} = {letters} = {value}{decimal}"
 
 
 def _plain(name: str, motion: TrainMotion, words: Language) -> Iterator[str]:

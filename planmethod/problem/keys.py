@@ -32,14 +32,14 @@ from planmethod.problem.load_records import (
     MotorTable,
     Phase,
 )
-from planmethod.problem.model import CycleTask, PoleDistances, Scales
+from planmethod.problem.model import CycleTask, PoleDistances, ProjectTask, Scales
 
 TOP = (
     "title", "source", "units", "frame", "links", "driver", "assembly", "scales", "stamp",
     "sheet", "published", "answers", "compare", "variants", "dynamics", "loads", "machine",
-    "balancing", "gears", "point", "cycle", "meshing",
+    "balancing", "gears", "point", "cycle", "meshing", "project",
 )  # fmt: skip
-FRAME = ("guides",)
+FRAME = ("guides", "number")
 GUIDE = ("through", "angle")
 LINK = ("points", "slides", "angle")
 SLIDES = ("on", "along", "through", "angle", "offset", "length", "centre", "radius")
@@ -94,6 +94,7 @@ FLAT: Mapping[str, type[object]] = {
     "load": LoadEntry, "phases": Phase, "machine": Machine, "flywheel": FlywheelTask,
     "motor": MotorTable, "kloss": KlossTable, "line": LineTable, "balancing": CounterweightTask,
     "wheel": GearWheelTable, "picture": PictureTable, "meshing": MeshingTable,
+    "project": ProjectTask,
 }  # fmt: skip
 """Records of flat tables by the kind of table."""
 

@@ -464,16 +464,24 @@ class Machine(Struct, frozen=True):
     count: Annotated[
         int,
         WholeKey(
-            "positions of the construction in a cycle", 4, 72, absent="one for every 30 degrees"
+            "positions of the construction in a cycle", 4, 72,
+            absent="those of `[cycle]`, else one for every 30 degrees",
         ),
-    ] = 12
+    ] = 12  # fmt: skip
     pole_mm: Annotated[
-        float,
-        NumberKey("pole distance of the graphical integration", "a distance", "mm", 5.0, 500.0),
-    ] = 30.0
+        float | None,
+        NumberKey(
+            "pole distance of the graphical integration; the scale of the work follows from it",
+            "a distance", "mm", 5.0, 500.0, absent="from a round scale",
+        ),
+    ] = None  # fmt: skip
     turn_mm: Annotated[
-        float, NumberKey("length of the cycle on the sheet", "a length", "mm", 60.0, 1000.0)
-    ] = 240.0
+        float | None,
+        NumberKey(
+            "length of the cycle on the sheet; the scale of φ follows from it then",
+            "a length", "mm", 60.0, 1000.0, absent="from a round scale",
+        ),
+    ] = None  # fmt: skip
     mu_M: Annotated[  # noqa: N815 - the letters of the textbook
         float | None,
         NumberKey("scale of the moment", "a scale", "N·m/mm", 1e-12, 1e12, absent="chosen"),
@@ -505,7 +513,7 @@ class Machine(Struct, frozen=True):
         AngleKey(
             "angle of the crank in position 0, degrees",
             name="phi_0",
-            absent="the first of `[driver]`",
+            absent="that of `[cycle]`, else the first of `[driver]`",
             more=". Positions follow in the sense of its rotation",
         ),
     ] = None  # fmt: skip
@@ -527,6 +535,8 @@ class Machine(Struct, frozen=True):
             more="; 0: it coasts. `planmethod sheet FILE --layout run-up` draws run-up and stop",
         ),
     ] = None  # fmt: skip
+    told_count: int | None = None
+    """``count`` where the file has it."""
 
 
 class Weighing(Enum):

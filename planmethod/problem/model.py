@@ -12,11 +12,13 @@ from math import inf
 from typing import TYPE_CHECKING, Annotated, Any
 
 from msgspec import Struct, field
+from msgspec.structs import replace
 
 from planmethod.languages import say
 from planmethod.mechanism.model import FRAME, Mechanism
-from planmethod.problem.declared import NumberKey, OwnKey, WholeKey, WordKey
+from planmethod.problem.declared import FlagKey, NumberKey, OwnKey, WholeKey, WordKey
 from planmethod.problem.head import KindProblem
+from planmethod.problem.load_records import TurningSense
 from planmethod.problem.names import told_length
 
 if TYPE_CHECKING:
@@ -253,6 +255,13 @@ class Posed(Struct, frozen=True):
         return f"{self.by.value}_{self.of}" if self.of else self.by.value
 
 
+SAME_DEG = 0.1
+"""Degrees within which two positions that a file gives are one: it has them rounded."""
+
+ANYWHERE = tuple(10.0 * number for number in range(36))
+"""Positions of a crank of which none is meant, degrees: the first that can be assembled counts."""
+
+
 class Drive(Struct, frozen=True):
     """Law of motion of the driving link (начальное звено) in the positions asked for.
 
@@ -272,6 +281,9 @@ class Drive(Struct, frozen=True):
         Rotational speed, where the file gives that.
     posed : Posed or None
         What tells the positions, where it is not the driver's coordinate: `positions` follow.
+    judged : tuple of float
+        Positions in which the rules of assembly are judged, where ``[cycle]`` tells the positions:
+        those that the file lists, else `ANYWHERE`; empty where they are the positions themselves.
     """
 
     link: str
@@ -282,6 +294,7 @@ class Drive(Struct, frozen=True):
     geared: Geared | None = None
     turns: float | None = None
     posed: Posed | None = None
+    judged: tuple[float, ...] = ()
 
     @property
     def is_crank(self) -> bool:
@@ -306,10 +319,22 @@ DIAGRAM_HINT = "Millimetres of the diagrams."
 
 
 class Zero(Enum):
-    """Position zero by name: where the quicker stroke of the output starts, or the slower one."""
+    """Position zero by name: where the quicker, the slower or the working stroke starts."""
 
     EXTREME = "extreme"
     OTHER = "other extreme"
+    WORKING = "working"
+
+
+class StrokeSense(Enum):
+    """Sense in which the output moves on its working stroke (направление рабочего хода)."""
+
+    UP = "up"
+    DOWN = "down"
+    LEFT = "left"
+    RIGHT = "right"
+    CCW = "ccw"
+    CW = "cw"
 
 
 class Differentiation(Enum):
@@ -321,22 +346,24 @@ class Differentiation(Enum):
 
 
 class PoleDistances(Struct, frozen=True):
-    """Pole distances of both differentiations (полюсные расстояния)."""
+    """Pole distances of both differentiations (полюсные расстояния); None where scales set them."""
 
     v: Annotated[
-        float,
+        float | None,
         NumberKey(
-            "of the first differentiation", "a length", "mm", 1.0, 500.0, positive=True,
-            hint=DIAGRAM_HINT,
+            "of the first differentiation; the scale of the velocity follows from it then",
+            "a length", "mm", 1.0, 500.0, positive=True, hint=DIAGRAM_HINT,
+            absent="from round scales",
         ),
-    ] = 36.0  # fmt: skip
+    ] = None  # fmt: skip
     a: Annotated[
-        float,
+        float | None,
         NumberKey(
-            "of the second differentiation", "a length", "mm", 1.0, 500.0, positive=True,
-            hint=DIAGRAM_HINT,
+            "of the second differentiation; the scale of the acceleration follows from it then",
+            "a length", "mm", 1.0, 500.0, positive=True, hint=DIAGRAM_HINT,
+            absent="from round scales",
         ),
-    ] = 36.0  # fmt: skip
+    ] = None  # fmt: skip
 
 
 class CycleTask(Struct, frozen=True):
@@ -352,21 +379,45 @@ class CycleTask(Struct, frozen=True):
     zero: Annotated[
         Zero | float,
         OwnKey(
-            'position zero: `"extreme"` (the default), `"other extreme"`, or the angle of the '
-            "crank, degrees; numbered in the sense of the driver"
+            'position zero: `"extreme"` (the default), `"other extreme"`, `"working"`, or the '
+            "angle of the crank, degrees; `phi_0` of `[machine]` where that stands alone"
         ),
     ] = Zero.EXTREME
-    count: Annotated[int, WholeKey("positions of a turn", 3, 360)] = 12
-    length: Annotated[
-        float,
-        NumberKey(
-            "of the axis of φ for a turn", "a length", "mm", 20.0, 2000.0, positive=True,
-            hint=DIAGRAM_HINT,
+    direction: Annotated[
+        TurningSense | None,
+        WordKey(
+            'the sense in which positions are numbered: `"ccw"` or `"cw"`; that of the driver when '
+            "absent"
         ),
-    ] = 288.0  # fmt: skip
+    ] = None
+    count: Annotated[
+        int,
+        WholeKey(
+            "positions of a turn", 3, 360,
+            more="; `count` of `[machine]` where that stands alone",
+        ),
+    ] = 12  # fmt: skip
+    working: Annotated[
+        StrokeSense | None,
+        WordKey(
+            'the sense in which the output moves on its working stroke: `"up"`, `"down"`, '
+            '`"left"`, `"right"`, of a link `"ccw"` or `"cw"`; the stroke that the loads resist '
+            "when absent, without loads the longer one"
+        ),
+    ] = None
+    length: Annotated[
+        float | None,
+        NumberKey(
+            "of the axis of φ for the cycle; the scale of φ follows from it then", "a length", "mm",
+            20.0, 2000.0, positive=True, hint=DIAGRAM_HINT, absent="from a round scale",
+        ),
+    ] = None  # fmt: skip
     pole: Annotated[
         PoleDistances,
-        OwnKey("pole distances of both differentiations: `{ v = 36, a = 36 }`, mm"),
+        OwnKey(
+            "pole distances of both differentiations: `{ v = 36, a = 36 }`, mm; from round scales "
+            "when absent"
+        ),
     ] = PoleDistances()
     differentiation: Annotated[
         Differentiation,
@@ -375,6 +426,45 @@ class CycleTask(Struct, frozen=True):
             "curve)"
         ),
     ] = Differentiation.CHORDS
+
+
+PROJECT_PARTS = ("kinematics", "forces", "flywheel", "gears", "meshing", "note")
+"""Parts of a project in the order of their sheets."""
+
+
+class ProjectTask(Struct, frozen=True):
+    """What is decided of a project (курсовой проект): ``[project]``."""
+
+    calculated: Annotated[
+        int | None,
+        WholeKey(
+            "number of the calculated position, from 0: drawn bold, loaded, told in full",
+            0,
+            719,
+            absent="that of `phi`, if it is one of the positions, else the clearest one",
+        ),
+    ] = None
+    gears: Annotated[
+        str,
+        OwnKey(
+            'file of the gear train, beside this one: `"train.toml"`',
+            absent="`[gears]` of this file",
+        ),
+    ] = ""
+    meshing: Annotated[
+        str,
+        OwnKey(
+            'file of the wheels in mesh, beside this one: `"wheels.toml"`',
+            absent="`[meshing]` of this file",
+        ),
+    ] = ""
+    parts: Annotated[
+        tuple[str, ...],
+        OwnKey(
+            "which parts are made: " + ", ".join(f'`"{part}"`' for part in PROJECT_PARTS),
+            absent="all that the file has",
+        ),
+    ] = ()
 
 
 class Convention(Enum):
@@ -388,7 +478,8 @@ class Scales(Struct, frozen=True):
     """Scales asked for in the file; None where the program chooses.
 
     ``mu_l, mu_v, mu_a, mu_F`` are always stored as unit per millimetre, whichever convention the
-    file and the sheet use.
+    file and the sheet use. Where they are ``decided``, for all that is handed in, no sheet leaves
+    them: it takes larger paper, or more sheets.
     """
 
     convention: Annotated[
@@ -416,6 +507,20 @@ class Scales(Struct, frozen=True):
         ),
     ] = None  # fmt: skip
 
+    own: Annotated[
+        bool,
+        FlagKey(
+            "plans of several positions have scales of their own, each to fill its room; else one "
+            "scale holds for all plans of a kind"
+        ),
+    ] = False
+    decided: bool = False
+
+    @property
+    def freed(self) -> Scales:
+        """Those without the scales of the plans, which may be too fine for other positions."""
+        return self if self.decided else replace(self, mu_v=None, mu_a=None)
+
     @property
     def in_mm_per_unit(self) -> bool:
         """Whether round numbers are those in mm per unit."""
@@ -436,6 +541,14 @@ class Problem(KindProblem, frozen=True, kw_only=True):
         Masses and loads; None when the file has neither ``[dynamics]`` nor ``[[loads]]``.
     cycle : CycleTask or None
         What ``[cycle]`` asks; None when the file has none.
+    project : ProjectTask or None
+        What ``[project]`` decides; None when the file has none.
+    calculated : int or None
+        Number of the calculated position of a settled project (`planmethod.project`), whose
+        positions and scales are those of all sheets; None of a problem as it is read.
+    numbered : tuple of float
+        Positions of the cycle in the order of their numbers, degrees, over both turns of a cycle
+        of 720; empty without ``[cycle]`` (`planmethod.solved.turn.numbering`).
     machine : Machine or None
         What the choice of a flywheel needs; None when the file has no ``[machine]``.
     balancing : CounterweightTask or None
@@ -458,11 +571,27 @@ class Problem(KindProblem, frozen=True, kw_only=True):
     scales: Scales = Scales()
     dynamics: Dynamics | None = None
     cycle: CycleTask | None = None
+    project: ProjectTask | None = None
+    calculated: int | None = None
+    numbered: tuple[float, ...] = ()
     machine: Machine | None = None
     balancing: CounterweightTask | None = None
     tables: Mapping[str, Any] = field(default_factory=dict)
     unit: str = "m"
     stated: Mapping[str, str] = field(default_factory=dict)
+
+    @property
+    def turns(self) -> int:
+        """Turns of the crank in a cycle: two of a machine of 720 degrees."""
+        return 1 if self.machine is None else round(self.machine.cycle_deg / 360.0)
+
+    def shown(self, position: float) -> float:
+        """Return a driver position as documents write it: a numbered one is within its cycle."""
+        whole, count = 360.0 * self.turns, len(self.numbered)
+        step = abs(self.numbered[1] - self.numbered[0]) if self.numbered else 0.0
+        if abs(step * count - whole) > SAME_DEG:  # over a range angles are as its limits are
+            return position
+        return round(position % whole, 2) % whole
 
     def is_block(self, slide: Slide) -> bool:
         """Tell whether the host of a slide is a block through which the slider, a bar, passes."""

@@ -24,6 +24,7 @@ class FrameText(Struct, frozen=True):
 
     points: Mapping[str, complex]
     guides: Mapping[str, Guide]
+    number: str = FRAME
     sound: bool = True
 
 
@@ -35,9 +36,14 @@ def read_frame(faults: Faults, table: object) -> FrameText:
     if faults.beyond("frame", "{} points, the limit is {}", len(entries), keys.POINT_LIMIT):
         return FrameText({}, {}, sound=False)
     rest: object = {}
+    number = FRAME
     for key, value in entries.items():
         if key == "guides":
             rest = value
+            continue
+        if key == "number":
+            whole = fields.read_whole(faults, "frame.number", value, 0, 99)
+            number = FRAME if whole is None else str(whole)
             continue
         path = f"frame.{segment(key)}"
         if isinstance(value, Mapping):
@@ -51,7 +57,7 @@ def read_frame(faults: Faults, table: object) -> FrameText:
             # a point with a faulty place is still a point: others may name it
             points[name] = 0j if place is None else place
     guides = _read_guides(faults, rest, points)
-    return FrameText(points, guides, sound=len(faults) == before)
+    return FrameText(points, guides, number, sound=len(faults) == before)
 
 
 def _read_guides(faults: Faults, table: object, points: Mapping[str, complex]) -> dict[str, Guide]:

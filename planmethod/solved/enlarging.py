@@ -13,7 +13,7 @@ from msgspec import Struct
 
 from planmethod.construct.steps import Measure, MeasureAlong, NumberName, PointName
 from planmethod.plans.build import Construction
-from planmethod.plans.model import PlanKind
+from planmethod.plans.model import RATES, PlanKind
 from planmethod.solved.reading import Reading, Reals
 
 SHORT = 5.0
@@ -28,6 +28,14 @@ line is off, and half a division of the ruler."""
 
 _WANTED = 10.0  # mm that the shortest segment of a knot has on its view
 _WIDEST = 60.0  # mm that such a view may be across
+
+
+SMALL, SHOWN = 18.0, 28.0
+"""A plan of several positions whose larger side is less than the first is shown enlarged beside
+itself, so that it is the second at least, mm."""
+
+AROUND, NAMED = 26.0, 20.0
+"""Room that such a view takes beside what it shows, and above it, mm."""
 
 
 class Knot(Struct, frozen=True):
@@ -65,6 +73,41 @@ def ratio_for(length: float) -> float:
     (20.0, 2.5)
     """
     return next((ratio for ratio in RATIOS if length * ratio >= _WANTED), RATIOS[-1])
+
+
+def times_beside(size: Reals) -> Reals:
+    """Return how many times larger plans of several positions are shown beside themselves.
+
+    One where a plan is large enough, or nothing. Sizes are larger sides, mm, shape (n,).
+
+    Examples
+    --------
+    >>> times_beside(np.array([0.0, 7.0, 60.0]))
+    array([1., 4., 1.])
+    """
+    wanted = np.searchsorted(RATIOS, SHOWN / np.maximum(size, 1e-9))
+    fitting = np.array(RATIOS)[np.minimum(wanted, len(RATIOS) - 1)]
+    return np.where((size < SMALL) & (size > SHORT / RATIOS[-1]), fitting, 1.0)
+
+
+def small_plans(construction: Construction, paper: Reading) -> dict[PlanKind, dict[int, Knot]]:
+    """Return the plans of several positions that are shown enlarged beside themselves.
+
+    By kind and position: all of their segments, about their middle.
+    """
+    found: dict[PlanKind, dict[int, Knot]] = {kind: {} for kind in RATES}
+    for kind in RATES:
+        pairs = tuple((v.tail, v.head) for v in construction.plan(kind).vectors)
+        if not pairs:
+            continue
+        at = np.stack([paper.point(end) for end in sorted({e for pair in pairs for e in pair})])
+        size = np.maximum(np.ptp(at.real, axis=0), np.ptp(at.imag, axis=0))
+        middle = (at.real.max(0) + at.real.min(0) + 1j * (at.imag.max(0) + at.imag.min(0))) / 2
+        times = times_beside(size)
+        for k in np.flatnonzero(times > 1.0).tolist():
+            number = sum(map(len, found.values()))
+            found[kind][k] = Knot(number, complex(middle[k]), float(times[k]), pairs)
+    return found
 
 
 def find_knots(

@@ -65,7 +65,8 @@ class Texts(Struct, frozen=True):
         )
         number = sum(self.vectors)
         height = 55.0 if positions == 1 else 26.0 + 7.5 * min(positions, 12)
-        table = (min(40.0 + 12.2 * number, 0.58 * (paper.inner[2] - paper.inner[0])), height)
+        column = 12.2 if positions <= FEW else 14.0
+        table = (min(40.0 + column * number, 0.58 * (paper.inner[2] - paper.inner[0])), height)
         if positions == 1:  # enlarged views take what other ways would leave
             return [statement, *equations, *calculations, table]
         narrower = (0.7 * statement[0], statement[1] / 0.7)

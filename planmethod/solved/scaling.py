@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from functools import cached_property
+from math import inf
 
 import numpy as np
 from msgspec import Struct
@@ -16,6 +17,7 @@ from planmethod.paper import FORMATS, TRIED, paper_format
 from planmethod.plans.build import Construction
 from planmethod.plans.model import FACTS, MOTION, PlanKind
 from planmethod.problem.model import Problem, Scales
+from planmethod.solved.enlarging import AROUND, NAMED, times_beside
 from planmethod.solved.reading import Reading, Reals
 from planmethod.solved.room import FEW, Box, Texts, Ways, has_room
 
@@ -120,6 +122,9 @@ SAID = 5.5
 ALL = 10.0
 """Room that several positions of a scheme take around one."""
 
+STROKE = 18.0
+"""Room that the stroke and its lines take over the scheme of many positions, mm."""
+
 NAME = {"A4": 28.0, "A3": 32.0, "A2": 35.0, "A1": 40.0, "A0": 40.0}
 """Room that a view's letters take above and below it, with its name and its scale, mm."""
 
@@ -140,29 +145,25 @@ PLAN = 60.0
 STEP = 0.55
 """What of these sizes is enough: the scales of the series lie as far apart."""
 
-FAR = 1.4
-"""A plan that would be so many times larger than its share of the room has a scale of its own."""
-
-NEAR, SMALL = 0.4, 0.9
-"""A plan that takes less than that part of its share is drawn at a finer scale of its own, so that
-it takes so much of it at most."""
-
-LEAST = 30.0
-"""Larger side below which a plan has a finer scale of its own, mm: half of what it shall have."""
-
 LESS = 0.8
-"""So much of its share a plan at a scale of its own keeps when the others get smaller."""
+"""So much of the sizes of a composition is tried where all of them have no room."""
 
-FEW_FAR = 0.2
-"""Part of the plans of a kind that may have scales of their own."""
+DEAD = 40.0
+"""A plan that many times larger than the middle one stands nearly in a dead position: at one scale
+with it all others would be nothing, enlarged or not."""
+
+LEAST = 9.0
+"""Larger side that the middle one of many plans shall not fall short of for the room of all, mm."""
 
 OUTLIER = 5.0
-"""A plan that many times larger than the middle one does not set the scale of all: it stands near a
-dead position and is drawn at a scale of its own."""
-
+"""A plan that many times larger than the middle one is not looked at where a paper is chosen: it
+stands near a dead position. It has room on the paper all the same."""
 
 MOST_DRAWN = 120
-"""Most positions drawn in one call: ten sheets of a dozen. Of more no plan has its own scale."""
+"""Most positions drawn in one call: ten sheets of a dozen."""
+
+RAGGED = 1.15
+"""So many times wider rows may be for their plans to stand in columns."""
 
 BETWEEN = 6.0
 """White between the plans of a row, and between rows, mm."""
@@ -171,6 +172,25 @@ BETWEEN = 6.0
 def per_row(count: int) -> int:
     """Return how many of so many plans stand in a row."""
     return count if count <= FEW else 6
+
+
+def even_columns(wide: Sequence[float] | Reals, step: int) -> list[float]:
+    """Return widths of columns for plans in rows of so many, mm.
+
+    None where one large plan would widen the column of many small ones: then rows stand for
+    themselves.
+    """
+    columns = [float(max(wide[k::step])) for k in range(step)]
+    return columns if sum(columns) <= RAGGED * _widest_row(wide, step) else []
+
+
+def row_width(wide: Sequence[float] | Reals, step: int) -> float:
+    """Return how wide rows of so many plans are, mm."""
+    return (sum(even_columns(wide, step)) or _widest_row(wide, step)) + BETWEEN * (step - 1)
+
+
+def _widest_row(wide: Sequence[float] | Reals, step: int) -> float:
+    return max(float(sum(wide[k : k + step])) for k in range(0, len(wide), step))
 
 
 def _spread(si: Reading, names: list[PointName]) -> tuple[Reals, Reals]:
@@ -251,6 +271,24 @@ def choose_views(construction: Construction, si: Reading, problem: Problem) -> V
     return Views.for_paper(TRIED[-1], si.count)
 
 
+def decide(
+    construction: Construction, si: Reading, problem: Problem, *, moved: bool
+) -> tuple[Views, Scales]:
+    """Return the room, and the scales that are given: for all that is told of some positions.
+
+    Those of the file hold for its own positions. For others (``moved``) that of a plan may be too
+    fine for the largest paper: then the file's scales of plans are left.
+    """
+    given = problem.scales
+    views = choose_views(construction, si, problem)
+    if moved and given != given.freed and si.count <= MOST_DRAWN:
+        over = CLOSE if si.count > FEW else 1.0
+        if not _Chosen.of(construction, si, views, given).has_room(over):
+            problem = replace(problem, scales=given.freed)
+            views = choose_views(construction, si, problem)
+    return views, problem.scales
+
+
 def choose_scales(
     construction: Construction, si: Reading, views: Views, asked: Scales
 ) -> dict[PlanKind, Scale]:
@@ -281,7 +319,11 @@ class _Chosen(Struct, frozen=True):
         """Choose the scales of a construction that are free."""
         drawn = {kind: _Drawn(construction, si, views, asked, kind) for kind in MOTION}
         given = {kind: getattr(asked, FACTS[kind].scale) for kind in MOTION}
-        free = [kind for kind in MOTION if given[kind] is None and any(drawn[kind].size)]
+        free = [
+            kind
+            for kind in MOTION
+            if given[kind] is None and any(drawn[kind].size) and not drawn[kind].own_only
+        ]
         per_mm = {kind: given[kind] or drawn[kind].alone for kind in MOTION}
         own = cls(drawn, views, per_mm, tuple(kind for kind in free if kind not in views.kept))
         return own._filled(asked) if views.paper else own
@@ -341,7 +383,6 @@ class _Drawn(Struct, frozen=True, dict=True):
     views: Views
     asked: Scales
     kind: PlanKind
-    whole: bool = False  # plans at scales of their own have their share of the room, however small
 
     @cached_property
     def sizes(self) -> tuple[Reals, Reals]:
@@ -352,6 +393,13 @@ class _Drawn(Struct, frozen=True, dict=True):
     def size(self) -> Box:
         """Width and height of the largest that is not an outlier."""
         return extent(self.construction, self.si, self.kind)
+
+    @property
+    def largest(self) -> Box:
+        """Width and height of the largest at the common scale, outliers too."""
+        common = np.isnan(self.own) if self.kind is not PlanKind.POSITION else True
+        width, height = (np.where(common, size, 0.0) for size in self.sizes)
+        return float(width.max()), float(height.max())
 
     @property
     def box(self) -> Box:
@@ -365,18 +413,21 @@ class _Drawn(Struct, frozen=True, dict=True):
 
     @cached_property
     def alone(self) -> float:
-        """The finest scale of the series at which it has the room of its own.
-
-        Where there is none, all plans having scales of their own, it is that of the largest alone.
-        """
-        asked, own = self.asked, replace(self, whole=True)
-        per_mm = first = _fitting(asked, self.box, self.size)
-        drawn = np.maximum(*self.sizes) > 0.0
-        while self.rows and not (own.stretches(per_mm, 1.0) and own.share(per_mm) <= 1.0):
-            if (own.each(per_mm) != per_mm)[drawn].all():
-                return first
-            per_mm = _next(per_mm, asked, finer=False)
-        return per_mm
+        """The finest scale of the series at which it has the room of its own."""
+        wide, high = self.box
+        stretched = self.box if self.rows else (COARSER * wide, COARSER * high)
+        usual = _fitting(self.asked, self.box, self.size)
+        found = per_mm = max(usual, _fitting(self.asked, stretched, self.largest))
+        worst = inf
+        middle = median(np.maximum(*self.sizes))
+        while self.rows and (per_mm == found or LEAST * per_mm <= middle):
+            crowded = max(self.share(per_mm), self.on_paper(per_mm)[0] / self.box[0])
+            if crowded < worst:  # smaller plans take more room, shown enlarged
+                found, worst = per_mm, crowded
+            if crowded <= 1.0 or self.own_only:
+                break
+            per_mm = _next(per_mm, self.asked, finer=False)
+        return found
 
     def share(self, per_mm: float) -> float:
         """Return how much of its room it takes at a scale."""
@@ -407,11 +458,13 @@ class _Drawn(Struct, frozen=True, dict=True):
         name = NAME[AS_HIGH.get(self.views.paper, self.views.paper)]
         if self.rows:
             wide, _ = self._on_paper(per_mm)
-            step = min(per_row(self.si.count), self.si.count)
-            across = sum(float(wide[k::step].max()) + BETWEEN for k in range(step)) - BETWEEN
+            across = row_width(wide, min(per_row(self.si.count), self.si.count))
             return across, self.taken(per_mm) + BETWEEN + name - BESIDE
-        several = ALL if self.si.count > 1 and self.kind is PlanKind.POSITION else 0.0
-        return self.size[0] / per_mm + BESIDE + several, self.size[1] / per_mm + name + several
+        scheme = self.kind is PlanKind.POSITION
+        several = ALL if self.si.count > 1 and scheme else 0.0
+        stroke = STROKE if self.si.count > FEW and scheme else 0.0
+        wide, high = self.size[0] / per_mm, self.size[1] / per_mm
+        return wide + BESIDE + several, high + name + several + stroke
 
     def ways(self, per_mm: float) -> Ways:
         """Return the sizes of the view at a scale, mm: of plans in rows with so many in a row."""
@@ -420,7 +473,7 @@ class _Drawn(Struct, frozen=True, dict=True):
             wide, high = self._on_paper(per_mm)
             name = NAME[AS_HIGH.get(self.views.paper, self.views.paper)]
             for step in range(1 if count <= FEW else 3, per_row(count)):
-                across = sum(float(wide[k::step].max()) + BETWEEN for k in range(step)) - BETWEEN
+                across = row_width(wide, step)
                 up = sum(float(high[k : k + step].max()) for k in range(0, count, step))
                 found.add((across, up + BETWEEN + name - BESIDE))
         return frozenset(found)
@@ -436,42 +489,44 @@ class _Drawn(Struct, frozen=True, dict=True):
         return self._known[per_mm]
 
     def _lettered(self, per_mm: float) -> tuple[Reals, Reals]:
-        width, height = self.sizes
         each = self.each(per_mm)
-        if (each > per_mm).mean() > FEW_FAR:
-            return np.full(self.si.count, np.inf), np.full(self.si.count, np.inf)
-        return width / each + BESIDE, height / each + UNDER + np.where(each == per_mm, 0.0, SAID)
+        width, height = (size / each for size in self.sizes)
+        times = times_beside(np.maximum(width, height))
+        beside = times > 1.0
+        said = np.where(np.isnan(self.own), 0.0, SAID)
+        high = np.where(beside, times * height + NAMED, height)
+        return width + np.where(beside, times * width + AROUND, 0.0) + BESIDE, high + UNDER + said
+
+    @property
+    def own_only(self) -> bool:
+        """Whether the file wants all plans of several positions to have scales of their own."""
+        several = self.si.count > 1 and self.kind is not PlanKind.POSITION
+        return several and self.asked.own and not self.given
+
+    @cached_property
+    def own(self) -> Reals:
+        """Scales of plans that have their own, shape (n,); NaN where the common one holds.
+
+        Beside those that the file wants: a plan so near a dead position that all others would be
+        nothing beside it.
+        """
+        width, height = self.sizes
+        size, own = np.maximum(width, height), np.full(self.si.count, np.nan)
+        if self.kind is not PlanKind.POSITION:
+            box = self.views.plan_box(self.kind, self.si.count)
+            alone = (size > 0.0) if self.own_only else size > DEAD * median(size)
+            for k in np.flatnonzero(alone):
+                own[k] = _fitting(self.asked, box, (float(width[k]), float(height[k])))
+        return own
 
     def each(self, per_mm: float) -> Reals:
-        """Return the scale at which it is drawn in every position, shape (n,).
+        """Return the scale of the plan in every position, shape (n,)."""
+        return np.where(np.isnan(self.own), per_mm, self.own)
 
-        It is the common one, but for a plan that would leave its view by far (near a dead
-        position), or would be too small to be read where the file gives no scale. As the common one
-        gets coarser to make room, these plans get smaller, too.
-        """
-        count = self.si.count
-        asked = self.asked
-        given = getattr(asked, FACTS[self.kind].scale) is not None
-        less = 1.0
-        if self.rows and not (self.whole or given):
-            less = max(LESS, min(1.0, self.alone / per_mm))
-        across, up = self.views.plan_box(self.kind, count)
-        own = (less * across, less * up)
-        width, height = self.sizes
-        over = np.maximum(width / own[0], height / own[1]) / per_mm
-        far, small = over > _far(count), over < NEAR
-        small |= np.maximum(width, height) < LEAST * per_mm
-        own_too = far if given or count == 1 else (far | small) & (over > 0.0)
-        each = np.full(count, per_mm)
-        for k in np.flatnonzero(own_too & (count > 1 or not given)):
-            box = own if far[k] else (SMALL * own[0], SMALL * own[1])
-            each[k] = _fitting(asked, box, (float(width[k]), float(height[k])))
-        return each
-
-
-def _far(count: int) -> float:
-    """Return how many times larger than its share of the room one of so many plans may be."""
-    return FAR if count > FEW else OUTLIER / 2
+    @property
+    def given(self) -> bool:
+        """Whether the file has the scale."""
+        return getattr(self.asked, FACTS[self.kind].scale) is not None
 
 
 def _next(per_mm: float, asked: Scales, *, finer: bool) -> float:
@@ -483,12 +538,7 @@ def _fitting(asked: Scales, box: Box, size: Box) -> float:
 
 
 def own_scales(
-    construction: Construction,
-    si: Reading,
-    views: Views,
-    asked: Scales,
-    per_mm: float,
-    kind: PlanKind,
+    construction: Construction, si: Reading, views: Views, asked: Scales, kind: PlanKind
 ) -> Reals:
-    """Return the scale of a plan in every position, shape (n,): the common one, mostly."""
-    return _Drawn(construction, si, views, asked, kind).each(per_mm)
+    """Return scales of plans that have their own, shape (n,); NaN where the common one holds."""
+    return _Drawn(construction, si, views, asked, kind).own

@@ -25,11 +25,18 @@ from planmethod.plans.model import RATES, PlanKind
 from planmethod.plans.motion.leads import Relative
 from planmethod.problem.model import Problem, Scales
 from planmethod.solved.closings import construct, drive_data
-from planmethod.solved.enlarging import Knot, find_knots, least_shown, measured
+from planmethod.solved.enlarging import Knot, find_knots, least_shown, measured, small_plans
 from planmethod.solved.failures import PositionError
 from planmethod.solved.impossible import explain, failing
 from planmethod.solved.reading import Complexes, Reading, Reals, Remembering
-from planmethod.solved.scaling import MOST_DRAWN, Views, choose_scales, choose_views, own_scales
+from planmethod.solved.scaling import (
+    MOST_DRAWN,
+    Views,
+    choose_scales,
+    decide,
+    median,
+    own_scales,
+)
 
 UNIT_SCALES: Mapping[str, float] = MappingProxyType({"mu_l": 1.0, "mu_v": 1.0, "mu_a": 1.0})
 """Scales at which a millimetre of a plan is a metre, a metre per second, one per second squared."""
@@ -99,6 +106,11 @@ class Solution(Remembering):
     construction : Construction, optional
         That of the problem, where it is made already; scales and paper do not change it.
 
+    Attributes
+    ----------
+    origin : Solution
+        That which this one is drawn anew of, at other scales; itself mostly.
+
     Raises
     ------
     StructureError, ProblemError, AssemblyError
@@ -124,6 +136,7 @@ class Solution(Remembering):
         self.construction: Construction = construction or construct(problem)
         self._views = views
         self._scales = scales
+        self.origin = self
 
     def moved(self, positions: Sequence[float]) -> Solution:
         """Return the same mechanism, assembled in the same way, in other positions."""
@@ -152,6 +165,7 @@ class Solution(Remembering):
 
     def _redrawn(self, **changed: Any) -> Solution:
         other = self._alike(**changed)
+        other.origin = self.origin
         if "si" in vars(self):
             other.si = self.si  # no scale changes what is exact
         return other
@@ -214,60 +228,64 @@ class Solution(Remembering):
 
     @cached_property
     def scales(self) -> dict[PlanKind, Scale]:
-        """Scales of the plans: given, the file's, or those of the series that most plans have."""
+        """Scales of the plans: given, the file's, or those of the series that fill the views.
+
+        One for all plans of a kind. Where the file wants their own (`own_scale`), one of these.
+        """
         if self._scales is not None:
             return dict(self._scales)
-        scales = dict(self._chosen)
+        scales = choose_scales(self.construction, self.si, self.views, self.given_scales)
         for kind, own in self._own_scales.items():
-            if getattr(self.problem.scales, scales[kind].symbol) is None:
-                per_mm, counts = np.unique(own, return_counts=True)
-                scales[kind] = replace(scales[kind], per_mm=float(per_mm[counts.argmax()]))
+            if not np.isnan(own).any():  # there is no common one: one of them stands for it
+                scales[kind] = replace(scales[kind], per_mm=float(median(own)))
         return scales
 
     @cached_property
-    def _chosen(self) -> dict[PlanKind, Scale]:
-        """The file's scales, else those of the series that fill the views."""
-        return choose_scales(self.construction, self.si, self.views, self.problem.scales)
-
-    @cached_property
     def _own_scales(self) -> dict[PlanKind, Reals]:
-        """Scales in every position, shape (n,), of the kinds of plans that have several.
+        """Scales of the plans that have their own, shape (n,), of the kinds that have such plans.
 
-        At a scale that the file gives only a sheet leaves what goes beyond its views.
+        NaN where the common one holds.
         """
         found: dict[PlanKind, Reals] = {}
-        drawn = self._scales is None and len(self.positions) <= MOST_DRAWN
-        for kind in RATES if drawn else ():
-            chosen = self._chosen[kind]
-            if self._views is None and getattr(self.problem.scales, chosen.symbol) is not None:
-                continue
-            views, asked = self.views, self.problem.scales
-            own = own_scales(self.construction, self.si, views, asked, chosen.per_mm, kind)
-            if (own != chosen.per_mm).any():
+        for kind in RATES if self._scales is None and not self._too_many else ():
+            own = own_scales(self.construction, self.si, self.views, self.given_scales, kind)
+            if not np.isnan(own).all():
                 found[kind] = own
         return found
 
+    @property
+    def _too_many(self) -> bool:
+        """Whether nobody draws so many positions."""
+        return len(self.positions) > MOST_DRAWN
+
     def own_scale(self, kind: PlanKind, index: int) -> Scale:
-        """Return the scale at which a plan is drawn in one position.
-
-        It is the common one, but for a plan that would leave its view by far (near a dead
-        position), or would be too small to be read. Scales that the solution was given are kept to.
-        """
+        """Return the scale at which a plan is drawn in one position: mostly the common one."""
         common, own = self.scales[kind], self._own_scales.get(kind)
-        return common if own is None else replace(common, per_mm=float(own[index]))
+        if own is None or np.isnan(own[index]):
+            return common
+        return replace(common, per_mm=float(own[index]))
 
-    def has_common(self, kind: PlanKind, indices: Sequence[int]) -> bool:
-        """Tell whether at least half of the plans of some positions are drawn at the common scale.
-
-        Where it holds for fewer it is named with none of them.
-        """
-        own = sum(self.own_scale(kind, i) != self.scales[kind] for i in indices)
-        return 2 * own <= len(indices)
+    def has_common(self, kind: PlanKind) -> bool:
+        """Tell whether plans of a kind have one scale."""
+        own = self._own_scales.get(kind)
+        return own is None or bool(np.isnan(own).any())
 
     @cached_property
+    def _decided(self) -> tuple[Views, Scales]:
+        if self._views is not None:
+            return self._views, self.problem.scales
+        moved = tuple(self.positions.tolist()) != self.problem.drive.positions
+        return decide(self.construction, self.si, self.problem, moved=moved)
+
+    @property
     def views(self) -> Views:
         """Boxes that the plans shall fill: those of the format that a sheet is tried on first."""
-        return self._views or choose_views(self.construction, self.si, self.problem)
+        return self._decided[0]
+
+    @property
+    def given_scales(self) -> Scales:
+        """Scales that are given: the file's, as far as other positions than its own bear them."""
+        return self._decided[1]
 
     @cached_property
     def per_mm(self) -> dict[str, Number]:
@@ -275,8 +293,11 @@ class Solution(Remembering):
 
         Of several positions those of the plans of each, shape (n,), where one has its own.
         """
-        own = self._own_scales
-        return {s.symbol: own.get(kind, s.per_mm) for kind, s in self.scales.items()}
+        found: dict[str, Number] = {s.symbol: s.per_mm for s in self.scales.values()}
+        for kind, own in self._own_scales.items():
+            common = self.scales[kind]
+            found[common.symbol] = np.where(np.isnan(own), common.per_mm, own)
+        return found
 
     @cached_property
     def paper(self) -> Reading:
@@ -298,20 +319,45 @@ class Solution(Remembering):
         return found
 
     @cached_property
-    def read_on(self) -> dict[NumberName, Knot]:
-        """The lengths that are read on an enlarged view, and on which."""
+    def small_plans(self) -> dict[PlanKind, dict[int, Knot]]:
+        """Plans of several positions that are shown enlarged beside themselves, by position."""
+        if len(self.positions) == 1 or self._too_many:
+            return {kind: {} for kind in RATES}
+        return small_plans(self.construction, self.paper)
+
+    def knots_of(self, kind: PlanKind, index: int) -> tuple[Knot, ...]:
+        """Return what is enlarged of a plan in one position."""
+        small = self.small_plans[kind].get(index)
+        return self.knots[kind] if small is None else (small,)
+
+    def read_on(self, index: int) -> dict[NumberName, Knot]:
+        """Return the lengths that are read on an enlarged view in a position, and on which."""
         return {
             name: knot
-            for kind, knots in self.knots.items()
-            for knot in knots
+            for kind in RATES
+            for knot in self.knots_of(kind, index)
             for name in measured(self.construction, kind, knot)
         }
 
     @cached_property
     def hand(self) -> Hand:
         """Draughtsman with a ruler: short segments he reads where they are enlarged."""
-        ruler = self.profile.ruler
-        return Hand(ruler, {name: knot.times for name, knot in self.read_on.items()})
+        if len(self.positions) == 1:
+            alone: dict[str, Number] = {n: knot.times for n, knot in self.read_on(0).items()}
+            return Hand(self.profile.ruler, alone)
+        enlarged: dict[str, Number] = {}
+        for index in sorted({k for small in self.small_plans.values() for k in small}):
+            for name, knot in self.read_on(index).items():
+                times = enlarged.setdefault(name, np.ones(len(self.positions)))
+                times[index] = knot.times
+        calculated = self.problem.calculated
+        if calculated is not None and self.positions.tolist() == list(self.problem.drive.positions):
+            # Of the calculated position there is a plan alone: it is read as there.
+            one = self.moved([float(self.positions[calculated])])
+            for name in {*enlarged, *one.hand.enlarged}:
+                times = enlarged.setdefault(name, np.ones(len(self.positions)))
+                times[calculated] = one.hand.enlarged.get(name, 1.0)
+        return Hand(self.profile.ruler, enlarged)
 
     @cached_property
     def by_hand(self) -> Reading:

@@ -153,7 +153,7 @@ class Formulas:
 
     def _read_on(self, step: Compute) -> str:
         """Return on which enlarged view a quantity's segment is read; empty of other segments."""
-        read_on = self.solution.read_on
+        read_on = self.solution.read_on(self.index)
         knot = next((read_on[name] for name, _ in step.powers if name in read_on), None)
         if knot is None:
             return ""

@@ -144,9 +144,13 @@ def _position(text: As, asked: Sequence[float]) -> str:
         key = f"driver.{drive.coordinate.name}"
 
     def told(value: float) -> str:
-        return text.metres(value, key) if unit == "m" else text.number(value, unit, key)
+        if unit == "m":
+            return text.metres(value, key)
+        return text.number(value if key else text.problem.shown(value), unit, key)
 
     symbol = drive.coordinate.symbol
+    if tuple(asked) == text.problem.numbered:
+        return _numbered(text, asked)
     if len(asked) <= MOST_LISTED:
         return f"{symbol} = {', '.join(told(float(one)) for one in asked)}"
     first, last = float(asked[0]), float(asked[-1])
@@ -156,6 +160,22 @@ def _position(text: As, asked: Sequence[float]) -> str:
         return f"{symbol} {steps.format(first=told(first), last=told(last), step=told(step))}"
     count = text.words.note.given_count.format(count=len(asked))
     return f"{symbol} = {told(first)}…{told(last)}{count}"
+
+
+def _numbered(text: As, asked: Sequence[float]) -> str:
+    """Return the numbered positions of the cycle: the first one, the step and its sense."""
+    drive, note = text.problem.drive, text.words.note
+    step = float(asked[1]) - float(asked[0])
+    against = step * (drive.rate or 1.0) < 0.0
+    facts = [text.number(round(one, 2), drive.coordinate.unit, "")
+             for one in (text.problem.shown(float(asked[0])), abs(step))]  # fmt: skip
+    return note.given_numbered.format(
+        symbol=drive.coordinate.symbol,
+        first=facts[0],
+        step=facts[1],
+        sense=text.words.cycle["senses"]["against" if against else "along"],
+        count=len(asked),
+    )
 
 
 def _posed(posed: Posed, of: Sequence[int], text: As) -> str:

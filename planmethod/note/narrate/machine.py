@@ -11,7 +11,7 @@ from planmethod.construct.scale import Scale
 from planmethod.note.narrate.forces.statement import mass_lines
 from planmethod.note.narrate.given import given
 from planmethod.note.narrate.scales import scale_inscription
-from planmethod.note.numbers import alike
+from planmethod.note.numbers import alike, half_up
 from planmethod.note.wording import Language, Words
 from planmethod.problem.load_records import ConstantMoment, Quadrature, WeightSigns
 from planmethod.problem.model import Convention
@@ -61,9 +61,13 @@ class MachineTeller:
     def scale(self, letter: str, per_mm: float, unit: str) -> str:
         """Return the inscription of a scale; one that follows from others with four digits."""
         if letter in ("A", "T", "φ"):
-            return f"μ_{{{letter}}} = {self.say.found(per_mm)} {self.unit(unit)}/{self.unit('mm')}"
+            per_mm = float(f"{per_mm:.4g}")
         return scale_inscription(Scale(f"mu_{letter}", per_mm, unit), Convention.UNIT_PER_MM,
                                  self.say)  # fmt: skip
+
+    def _value(self, letter: str, per_mm: float, unit: str) -> str:
+        """Return the value of a scale as it is inscribed."""
+        return self.scale(letter, per_mm, unit).partition(" = ")[2]
 
     # Given and wanted ------------------------------------------------------------------------
 
@@ -112,7 +116,7 @@ class MachineTeller:
             "mu_M": self.scale("M", scales.moment, "N·m"),
             "mu_A": self.scale("A", scales.work, "J"),
             "mu_J": self.scale("J", scales.inertia, "kg·m²"),
-            "pole": f"{self.say.given(machine.pole_mm)} {mm}",
+            "pole": f"{self.say.given(half_up(drawing.pole, 2))} {mm}",
             "way": self.said.by_middle if middle else self.said.by_trapezoid,
             "constant": f"{self.say.found(constant)} {self.unit('N·m')}",
             "psi_max": self._angle(drawing.psi[0]),
@@ -133,16 +137,28 @@ class MachineTeller:
 
     def formulas(self) -> list[str]:
         """Return scales, angles and the flywheel by the construction, with numbers."""
-        drawing, machine, say = self.drawing, self.flywheel.machine, self.say
+        drawing, say = self.drawing, self.say
         scales, mm, omega = drawing.scales, self.unit("mm"), self.letter("mean speed")
-        turn = say.found(self.flywheel.cycle)
+        turn, pole = degrees(self.flywheel.cycle), say.given(half_up(drawing.pole, 2))
+        angles = [
+            self._value("φ", degrees(scales.phi), "deg"), self._value("φ", scales.phi, "rad"),
+        ]  # fmt: skip
         lines = [
-            f"μ_{{φ}} = {turn}/{say.given(machine.turn_mm)} = "
-            + self.scale("φ", scales.phi, "rad").partition(" = ")[2],
-            f"μ_{{A}} = μ_{{T}} = μ_{{M}}·H·μ_{{φ}} = {say.given(scales.moment)}·"
-            f"{say.given(machine.pole_mm)}·{say.found(scales.phi)} = "
-            + self.scale("A", scales.work, "J").partition(" = ")[2],
+            f"μ_{{φ}} = {say.given(turn)}/{say.given(half_up(drawing.length, 2))} = "
+            + " = ".join(angles)
         ]
+        parts = f"{say.given(scales.moment)}·{{}}{say.found(scales.phi)}"
+        if self.flywheel.machine.pole_mm is None:
+            above, below = say.given(float(f"{scales.work:.4g}")), parts.format("")
+            lines += [
+                f"μ_{{A}} = μ_{{T}} = {self._value('A', scales.work, 'J')}",
+                f"H = μ_{{A}}/(μ_{{M}}·μ_{{φ}}) = {above}/({below}) = {pole} {mm}",
+            ]
+        else:
+            lines.append(
+                f"μ_{{A}} = μ_{{T}} = μ_{{M}}·H·μ_{{φ}} = {parts.format(pole + '·')} = "
+                + self._value("A", scales.work, "J")
+            )
         slopes = self.flywheel.usual_slopes
         for name, slope, psi in zip(("max", "min"), slopes, drawing.psi, strict=True):
             factor = {True: "·(1 + δ)", False: "·(1 − δ)"}[slope > 1.0] if slope != 1.0 else ""
@@ -212,9 +228,11 @@ class MachineTeller:
         """Return the table by positions: heads, units and cells of its columns, rich text."""
         flywheel, say = self.flywheel, self.say
         rows, turn = flywheel.rows, flywheel.machine.cycle_deg
-        angles = [f"{round(phi % turn, 1) % turn:.1f}" for phi in rows.phi_deg.tolist()]
+        order = np.argsort(flywheel.turn.numbers(flywheel.machine.count)[:-1])
+        angles = [f"{round(phi % turn, 1) % turn:.1f}" for phi in rows.phi_deg[order].tolist()]
 
         def column(head: str, values: Reals, unit: str, digits: int = 4) -> _Column:
+            values = values[order]
             peak = float(np.max(np.abs(values)))
             clean = np.where(np.abs(values) < 1e-9 * peak, 0.0, values)
             told = [say.number(text) for text in alike(clean.tolist(), digits)]

@@ -2,28 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
 from planmethod.construct.scale import Scale
 from planmethod.note.numbers import Notation
-from planmethod.note.wording import Language
-from planmethod.plans.model import PlanKind
 from planmethod.problem.model import Convention
-from planmethod.solved.solution import Solution
-
-NAMED = 12
-"""Most positions that are named for having scales of their own."""
-
-
-def common_scale(
-    solution: Solution, kind: PlanKind, indices: Sequence[int], words: Language
-) -> str:
-    """Return the scale of most plans of a kind, and which positions have their own."""
-    common = solution.scales[kind]
-    said = scale_inscription(common, solution.problem.scales.convention, words.say)
-    own = [str(i) for i in indices if solution.own_scale(kind, i) != common]
-    named = ", ".join(own if len(own) <= NAMED else [*own[:NAMED], "…"])
-    return said + words.sheets.but_for.format(numbers=named) if own else said
 
 
 def scale_inscription(scale: Scale, convention: Convention, say: Notation) -> str:

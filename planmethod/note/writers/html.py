@@ -12,6 +12,7 @@ from planmethod.note import document
 from planmethod.note.document import Document, Equation, Node, Table
 from planmethod.note.formula import Index, Letters, Overline, parse
 from planmethod.note.formula import Node as Sign
+from planmethod.note.wording import Words, language
 
 STYLE = """
 @page{size:A4;margin:12mm}
@@ -31,6 +32,8 @@ tr{break-inside:avoid}sub,sup{line-height:0}.bar{text-decoration:overline}
 .near td.tone,.inconsistent td.tone,.unseen td.tone{background:#fdf3d3}
 .wrong td.tone{background:#fbe3e0;font-weight:600}
 .blank td.tone,.unreadable td.tone{background:#ececec}
+.titlepage{text-align:center;break-after:page}.break{break-after:page}
+.level2{margin-left:5mm}.level3{margin-left:10mm}.number{float:right}
 .note{color:#555;font-size:9pt}.formula{margin-left:8mm}
 .term{display:inline-block;text-align:center;vertical-align:top}
 .term small{display:block;font-size:8pt}.u1{border-bottom:.3mm solid}.u2{border-bottom:1mm double}
@@ -64,16 +67,19 @@ def html_document(written: Document, *, title: str, lang: str, style: str = "") 
             '<meta http-equiv="Content-Security-Policy" '
             "content=\"default-src 'none'; style-src 'unsafe-inline'\">",
             f"<title>{html.escape(clean(title))}</title><style>{STYLE}{style}</style></head><body>",
-            *_body(written),
+            *_body(document.referred(written), language(lang).document),
             "</body></html>\n",
         ]
     )
 
 
-def _body(written: Document) -> Iterator[str]:
+def _body(written: Document, words: Words) -> Iterator[str]:
     """Yield the elements; items that follow one another are a list, figures stand side by side."""
-    for kind, run in groupby(written.nodes, type):
-        elements = map(_element, run)
+    for kind, run in groupby(document.numbers_of(written), lambda pair: type(pair[0])):
+        if kind is document.Contents:
+            yield f"<h2>{words.contents}</h2>{''.join(_contents(written))}"
+            continue
+        elements = (_element(node, number, words) for node, number in run)
         if kind is document.Item:
             yield f"<ul>{''.join(elements)}</ul>"
         elif kind is document.Step:
@@ -84,14 +90,28 @@ def _body(written: Document) -> Iterator[str]:
             yield from elements
 
 
-def _element(node: Node) -> str:
+def _contents(written: Document) -> Iterator[str]:
+    for level, number, title in document.headings_of(written):
+        yield f'<p class="level{level}">{number} {markup(title)}</p>'
+
+
+def _element(node: Node, number: str, words: Words) -> str:
     match node:
         case document.Title(text):
             return f"<h1>{markup(text)}</h1>"
-        case document.Chapter(title):
+        case document.TitlePage():
+            lines = "<br>".join(map(markup, document.lines_of(node, words)))
+            return f'<p class="titlepage">{lines}</p>'
+        case document.Contents():
+            return ""
+        case document.PageBreak():
+            return '<div class="break"></div>'
+        case document.StructuralHeading(title) | document.Chapter(title):
             return f"<h2>{markup(title)}</h2>"
         case document.Part(title):
             return f"<h3>{markup(title)}</h3>"
+        case document.Subpart(title):
+            return f"<h4>{markup(title)}</h4>"
         case document.Caption(text):
             return f'<p class="caption">{markup(text)}</p>'
         case document.Paragraph(text):
@@ -101,17 +121,26 @@ def _element(node: Node) -> str:
         case document.Step(lines):
             return f"<li>{'<br>'.join(map(markup, lines))}</li>"
         case document.Formula(text):
-            return f'<p class="formula">{markup(text)}</p>'
+            return f'<p class="formula">{markup(text)}{_numbered(number)}</p>'
         case document.Equations(equations):
-            return "".join(f'<p class="formula">{_equation(one)}</p>' for one in equations)
-        case document.Table():
-            return _table(node)
+            lines = "".join(f'<p class="formula">{_equation(one)}</p>' for one in equations)
+            return lines + _numbered(number)
+        case document.Table(name=name):
+            above = document.captioned(words.table, number, name)
+            return (f'<p class="caption">{markup(above)}</p>' if name else "") + _table(node)
         case document.Figure(view, caption):
+            caption = document.captioned(words.figure, number, caption)
             return f"<figure>{view.svg()}<figcaption>{markup(caption)}</figcaption></figure>"
+        case document.References(entries):
+            return f"<ol>{''.join(f'<li>{markup(entry)}</li>' for entry in entries)}</ol>"
         case document.Note(text):
             return f'<p class="note">{markup(text)}</p>'
         case _:
             assert_never(node)
+
+
+def _numbered(number: str) -> str:
+    return f'<span class="number">({number})</span>' if number else ""
 
 
 def _equation(equation: Equation) -> str:

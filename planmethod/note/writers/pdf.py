@@ -141,9 +141,13 @@ class _Setter:
         match node:
             case document.Title(text):
                 yield self._text(text, 15.0)
-            case document.Chapter(title):
+            case document.TitlePage() | document.Contents() | document.PageBreak():
+                pass
+            case document.References(entries):
+                yield from map(self._text, entries)
+            case document.Chapter(title) | document.StructuralHeading(title):
                 yield self._text(title, 12.0, before=6.0)
-            case document.Part(title):
+            case document.Part(title) | document.Subpart(title):
                 yield self._text(title, 10.5, before=5.0)
             case document.Caption(text):
                 yield self._text(text, 11.0, before=3.0)

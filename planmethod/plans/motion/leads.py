@@ -209,7 +209,7 @@ def prismatic_ray(
     b = kin.draft.b
     guide = kin.draft.direction(slide)
     start = carried(kin, motion, to, place)
-    base = motion.label(to, place) if to != FRAME else f"{place}0"
+    base = motion.label(to, place) if to != FRAME else f"{place}{kin.draft.problem.mechanism.frame}"
     if (to, place) in motion.alias:
         base = motion.moving[to][0]  # the whole link moves so: its first letter tells it
     both = f"{motion.label(of, place)}{base}"

@@ -77,7 +77,8 @@ def _across(diagrams: Diagrams, *, numbered: bool) -> Abscissae:
     """Return the axis of φ; of many positions only the first diagram has the numbers."""
     # Of a range the axis ends with its last position.
     at = diagrams.x(diagrams.shares)[: None if diagrams.turn.range is None else -1]
-    numbers = [str(k % diagrams.count) if numbered else "" for k in range(len(at))]
+    names = diagrams.turn.numbers
+    numbers = [str(names[k % diagrams.count]) if numbered else "" for k in range(len(at))]
     return Abscissae("φ", tuple(at.tolist()), tuple(numbers))
 
 
@@ -103,7 +104,7 @@ def _curves(diagrams: Diagrams, graph: Graph, trace: Trace, number: int) -> list
     if not number:
         return [Curve("", _parts(x, exact))]
     found = _places(graph, trace, number)
-    step = diagrams.task.length / diagrams.count
+    step = diagrams.length / diagrams.count
     drawn = smooth(found.imag, (x - graph.at[number][0]) / step)
     return [Curve("", _parts(x, drawn)), Curve("", _parts(x, exact), Pen.THIN)]
 

@@ -99,8 +99,11 @@ def plan_picture(
             tag=vector.kind.value,
         )
     items.append(Disc(at[plan.pole], 0.9 * factor, Ink.BLACK, tag=POLE))
-    labels = _labels(solution, plan, at, letter_height, f"{kind.value} {index}")
-    for knot, letter in zip(solution.knots[kind], knots, strict=False):
+    enlarged = solution.knots_of(kind, index) if knots else ()
+    whole = bool(enlarged) and index in solution.small_plans[kind]  # it has its letters there
+    prefix = f"{kind.value} {index}"
+    labels = [] if whole else _labels(solution, plan, at, letter_height, prefix)
+    for knot, letter in zip(enlarged, knots, strict=False):
         circle, label = knot_mark(knot, at, letter, letter_height)
         items.append(circle)
         labels.append(label)
@@ -121,15 +124,16 @@ def is_thin(vector: Vector, kind: PlanKind) -> bool:
 
 
 def knot_pictures(
-    solution: Solution, kind: PlanKind, *, letter_height: float, by_hand: bool
+    solution: Solution, kind: PlanKind, index: int, *, letter_height: float, by_hand: bool
 ) -> list[Picture]:
-    """Return the knots of the plan of one position as they are enlarged."""
-    plan, at = solution.construction.plan(kind), plan_places(solution, kind, 0, by_hand=by_hand)
+    """Return the knots of the plan of a position as they are enlarged."""
+    plan = solution.construction.plan(kind)
+    at = plan_places(solution, kind, index, by_hand=by_hand)
     thin = frozenset((v.tail, v.head) for v in plan.vectors if is_thin(v, kind))
     letters = shown_letters(solution.problem, plan)
     return [
         enlarged_picture(plan, knot, at, letters, thin, letter_height)
-        for knot in solution.knots[kind]
+        for knot in solution.knots_of(kind, index)
     ]
 
 

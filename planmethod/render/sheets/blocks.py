@@ -91,6 +91,7 @@ BLOCKS: Mapping[str, BlockKind] = MappingProxyType(
         "kinematic-diagrams": BlockKind(_late("turn", "diagrams_view"), _DIAGRAM),
         "chosen-plans": BlockKind(_late("turn", "chosen_plans"), ("of", *_VIEW[:-1])),
         "hodograph": BlockKind(_late("turn", "hodograph_view"), ("of", *_DIAGRAM)),
+        "measured-results": BlockKind(_late("measured", "measured_table"), _TEXT),
         "turn-table": BlockKind(_late("turn", "turn_table"), _TEXT),
         "deviations": BlockKind(_late("turn", "deviations_table"), _TEXT),
         "machine-statement": BlockKind(_late("flywheel", "statement_block"), _TEXT),

@@ -50,8 +50,12 @@ class Sizes(Struct, frozen=True):
 
     def parts(self, share: float) -> Sizes:
         """Return the sizes with columns and boxes a part as wide and high."""
-        boxes = tuple((kind, (share * wide, share * high)) for kind, (wide, high) in self.boxes)
-        return replace(self, column=share * self.column, boxes=boxes)
+        return replace(self.with_boxes(share), column=share * self.column)
+
+    def with_boxes(self, times: float) -> Sizes:
+        """Return the sizes with boxes so many times as wide and high."""
+        boxes = tuple((kind, (times * wide, times * high)) for kind, (wide, high) in self.boxes)
+        return replace(self, boxes=boxes)
 
 
 class Viewed(Struct, frozen=True):
@@ -255,18 +259,19 @@ def enlarged(
     Notes
     -----
     A larger view is accepted when it takes no more pages, no smaller letters and no groups apart.
+    What had no room once has none when others have grown.
     """
     refused = set()
     for key in turns:
+        if key in refused:
+            continue
         finer = next_scale(laid.scales[key], finer=True, mm_per_unit=asked.in_mm_per_unit)
         wish = {**laid.scales, key: finer}
-        if tuple(wish.values()) in refused:
-            continue
         tried = draw(wish)
         if tried is not None and tried.is_as_good_as(laid):
             laid = replace(tried, scales=wish)
         else:
-            refused.add(tuple(wish.values()))
+            refused.add(key)
     return laid
 
 

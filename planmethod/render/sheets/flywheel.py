@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from itertools import pairwise
+from math import degrees
 
 import numpy as np
 
@@ -95,7 +96,7 @@ def diagrams_view(solution: Solution, indices: Sequence[int], manner: Manner) ->
     told = "; ".join(
         (
             tell.scale("M", scales.moment, "N·m"),
-            tell.scale("φ", scales.phi, "rad"),
+            tell.scale("φ", degrees(scales.phi), "deg"),
             tell.scale("A", scales.work, "J"),
             tell.scale("T", scales.work, "J"),
             tell.scale("J", scales.inertia, "kg·m²"),
@@ -115,24 +116,25 @@ def diagrams_view(solution: Solution, indices: Sequence[int], manner: Manner) ->
 def speed_diagram(solution: Solution, indices: Sequence[int], manner: Manner) -> Viewed:
     """Return by how much the speed of the steady motion differs from the mean one."""
     tell, flywheel = _teller(solution, manner), flywheel_of(solution)
-    width, height = _diagram_room(manner)
+    _, height = _diagram_room(manner)
     at = np.linspace(0.0, flywheel.cycle, 721)
     omega = flywheel.speeds(np.append(at[:-1], 0.0))[0] - flywheel.middle_speed
     per_mm = choose_scale((0.0, float(np.ptp(omega))), (1.0, height))
-    across = flywheel.cycle / width
+    across = _drawing(solution).scales.phi
+    width = flywheel.cycle / across
     places = tuple(complex(t / across, y / per_mm) for t, y in zip(at, omega, strict=True))
     count = flywheel.machine.count
     marks = tuple(width * k / count for k in range(count + 1))
     unit = tell.unit("1/s")
     picture = diagram_picture(
-        Abscissae("φ", marks, tuple(map(str, range(count + 1)))),
+        Abscissae("φ", marks, tuple(map(str, flywheel.turn.numbers(count)))),
         Ordinates(f"ω − {tell.letter('mean speed')}, {unit}", per_mm, tell.say),
         [Curve("", (places,))],
         letter_height=manner.letter,
         name="speed",
     )
     scale = Scale("mu_ω", per_mm, "1/s")
-    told = [tell.scale("ω", per_mm, "1/s")]
+    told = [f"{tell.scale('ω', per_mm, '1/s')}; {tell.scale('φ', degrees(across), 'deg')}"]
     return Viewed(named(picture, manner.entry.title or tell.said.speed, told, manner),
                   "diagram", scale)  # fmt: skip
 

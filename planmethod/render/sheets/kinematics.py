@@ -19,7 +19,15 @@ from planmethod.plans.model import FACTS, MOTION
 from planmethod.problem.model import Problem, Scales
 from planmethod.render.frame.furniture import Furniture
 from planmethod.render.ink.drawing import Drawing
-from planmethod.render.sheets.composer import Blank, Laid, LaidPage, Misfit, compose, enlarged
+from planmethod.render.sheets.composer import (
+    Blank,
+    Laid,
+    LaidPage,
+    Misfit,
+    compose,
+    composed,
+    enlarged,
+)
 from planmethod.render.sheets.composition.reader import composition
 from planmethod.render.sheets.compositions import SHIPPED
 from planmethod.render.sheets.model import Composition, Extras
@@ -85,28 +93,64 @@ def kinematics_sheets(
     """
     if paper:
         problem = replace(problem, sheet=replace(problem.sheet, paper=paper_format(paper).name))
-    words = language(problem.sheet.lang or LANGUAGES[0])
-    made = composition(layout, words.lang) if isinstance(layout, str | Path) else layout
     solution = Solution(problem, positions=positions, ruler=ruler, profile=profile)
-    if positions is None and made is not None and made.turn:
-        solution = _at_the_turn(solution)
-    made = made or _usual(len(solution.positions), words)
-    _check_positions(made, solution)
-    count = len(solution.positions)
+    strategy = _strategy(solution, layout, errors=errors, sigma=sigma, moved=positions is not None)
+    count, made = len(strategy.solution.positions), strategy.layout
     least = len(made.sheets) * -(-count // made.at_most(count)[0])
     _refuse_many(problem, count, least, most)  # before the work, where it is known
+    drawings = compose(problem, strategy, _misfit(problem), fields=fields, furniture=furniture)
+    _refuse_many(problem, count, len(drawings), most)
+    return drawings
+
+
+def sheet_scales(
+    problem: Problem,
+    layout: str | Path | Composition | None = None,
+    positions: Sequence[float] | None = None,
+) -> Scales:
+    """Return the scales at which a layout shows a mechanism, decided (масштабы листа).
+
+    In the problem they are kept to by every output. Parameters and errors are those of
+    `kinematics_sheets`.
+    """
+    solution = Solution(problem, positions=positions)
+    strategy = _strategy(solution, layout, moved=positions is not None)
+    furniture = Furniture.of(problem.sheet)
+    _, laid = composed(problem, strategy, _misfit(problem), furniture)
+    taken: dict[str, Any] = dict(laid.scales)
+    return replace(problem.scales, **taken, decided=True)
+
+
+def _strategy(
+    solution: Solution,
+    layout: str | Path | Composition | None,
+    *,
+    errors: bool = False,
+    sigma: bool | None = None,
+    moved: bool,
+) -> Linkage:
+    """Return how sheets of a layout are searched for; ``moved``: positions were asked for."""
+    words = language(solution.problem.sheet.lang or LANGUAGES[0])
+    made = composition(layout, words.lang) if isinstance(layout, str | Path) else layout
+    if not moved and made is not None and made.cycle:
+        solution = _over_the_cycle(solution)
+    made = made or _usual(len(solution.positions), words)
+    _check_positions(made, solution)
+    calculated = solution.problem.calculated
+    if calculated is not None and made.per_sheet == (1,):
+        solution = solution.moved([float(solution.positions[calculated])])
     verify(solution)
-    strategy = Linkage(made, solution, Extras(words, errors, sigma, made.turn))
-    misfit = Misfit(
+    return Linkage(made, solution, Extras(words, errors, sigma, made.turn))
+
+
+def _misfit(problem: Problem) -> Misfit:
+    return Misfit(
         lambda paper, advice: LayoutError(
             "{}: the views do not fit {}. {}", problem.name, paper, advice
         ),
         say("Ask fewer positions (--phi), or leave out blocks of the layout."),
         problem.scales,
     )
-    drawings = compose(problem, strategy, misfit, fields=fields, furniture=furniture)
-    _refuse_many(problem, count, len(drawings), most)
-    return drawings
 
 
 def _refuse_many(problem: Problem, count: int, sheets: int, most: int | None) -> None:
@@ -122,11 +166,19 @@ def _refuse_many(problem: Problem, count: int, sheets: int, most: int | None) ->
         )
 
 
-def _at_the_turn(solution: Solution) -> Solution:
-    """Return the mechanism in the positions of ``[cycle]``."""
-    from planmethod.solved.turn.turn import turn_of
+def _over_the_cycle(solution: Solution) -> Solution:
+    """Return the mechanism in the numbered positions of its cycle; a slider has those of its file.
 
-    return solution.moved(turn_of(solution).positions.tolist())
+    Raises
+    ------
+    ProblemError
+        Nothing can be the output.
+    """
+    from planmethod.solved.turn.numbering import numbered_positions
+
+    if not solution.problem.drive.is_crank:
+        return solution
+    return solution.moved(numbered_positions(solution).tolist())
 
 
 def _usual(count: int, words: Language) -> Composition:
@@ -143,6 +195,15 @@ def _check_positions(layout: Composition, solution: Solution) -> None:
             solution.problem.name,
             MOST_DRAWN,
             count,
+        )
+    calculated = solution.problem.calculated
+    if calculated is not None and calculated >= count:
+        raise LayoutError(
+            "{}: there is no position {} to be calculated. Of {} positions the last is {}.",
+            solution.problem.name,
+            calculated,
+            count,
+            count - 1,
         )
     for number, entry in enumerate(layout.blocks):
         if entry.position is not None and entry.position >= count:
@@ -188,19 +249,19 @@ class Linkage(Struct, frozen=True):
         """Yield scales and numbers of positions on a sheet, paper by paper.
 
         One decision: the estimated scales stay on a larger paper, if the smaller one had no room
-        after all. Then each paper has its own, then those of the file are given up: for one
-        position they may be too fine for a dozen plans on one sheet, or for another one.
+        after all. Where a composition has views of its own, each paper has its own scales then, and
+        at last those of the file are given up: for one position they may be too fine for a turn.
         """
         problem, count = self.solution.problem, len(self.solution.positions)
         own: tuple[Views | None, Scales] = (None, problem.scales)
-        free = (None, replace(problem.scales, mu_v=None, mu_a=None))
+        free = (None, problem.scales.freed)
         views = self.views
-        first = [own if views.kept else (views, problem.scales)]
-        given = free[1] != problem.scales
-        if given and (self.layout.turn or count > FEW):
-            first.append(free)
-        moved = tuple(self.solution.positions.tolist()) != tuple(problem.drive.positions)
-        turns = (first, [own], [free] if given and moved else [])
+        turns = [[own if views.kept else (views, self.solution.given_scales)]]
+        given = free != own
+        if given and self.layout.turn:
+            turns[0].append(free)
+        if not (self.layout.is_estimated or problem.scales.decided):
+            turns += [[own], [free] if given and not self._is_own else []]
         spread = self.layout.shares, self.layout.at_most(count)
         for paper, share, per_sheet, (boxes, scales) in chain(
             *(product(papers, *spread, some) for some in turns)
@@ -208,12 +269,15 @@ class Linkage(Struct, frozen=True):
             boxes = boxes or self.layout.views_for(paper.name, count, share)
             yield OnPaper(self, paper, share, per_sheet, boxes, scales)
 
+    @property
+    def _is_own(self) -> bool:
+        """Whether the positions are those of the file."""
+        return tuple(self.solution.positions.tolist()) == self.solution.problem.drive.positions
+
     def solved(self, views: Views, scales: Scales) -> Solution:
         """Return the solution whose plans fill certain views, at the scales that are given."""
         one = self.solution
-        # Without views told the estimate keeps to scales of the file in all of several positions.
-        keeps = len(one.positions) > 1 and scales != Scales(scales.convention)
-        if not keeps and (one.views, one.problem.scales) == (views, scales):
+        if (one.views, one.given_scales) == (views, scales):
             return one
         return one.once(Solution.filling, views, scales)
 
@@ -241,17 +305,18 @@ class OnPaper(Struct, frozen=True):
             without = self._laid(solution, bare)
             if without is not None and not _cut_down(without):
                 laid, extras = without, bare
-        if not of.layout.grow:
-            return laid
+        drawn = {scale.symbol: scale.per_mm for scale in solution.scales.values()}
+        free = [key for key in KEYS if getattr(self.scales, key) is None]
+        if not of.layout.grow or not free:
+            return replace(laid, scales=drawn)
 
         def draw(scales: Mapping[str, float]) -> Laid | None:
             wish: dict[str, Any] = dict(scales)
             return self._laid(of.solved(self.views, replace(self.scales, **wish)), extras)
 
-        drawn = {scale.symbol: scale.per_mm for scale in solution.scales.values()}
-        free = [key for key in KEYS if getattr(self.scales, key) is None]
         laid = replace(laid, scales={key: drawn[key] for key in free})
-        return enlarged(laid, free * STEPS, self.scales, draw)
+        laid = enlarged(laid, free * STEPS, self.scales, draw)
+        return replace(laid, scales={**drawn, **laid.scales})
 
     def _laid(self, solution: Solution, extras: Extras) -> Laid | None:
         """Return the sheets at the scales of a solution, or None when one does not fit."""

@@ -16,6 +16,7 @@ from planmethod.note.wording import Language
 from planmethod.plans.model import PlanKind
 from planmethod.render.layout.cuttings import Arrange
 from planmethod.render.sheets.composer import Sizes
+from planmethod.render.sheets.compositions import SHIPPED
 from planmethod.solved.scaling import AS_HIGH, LESS, Views
 
 
@@ -82,7 +83,9 @@ class Composition(Struct, frozen=True):
     grow : bool
         Plans whose scale is free are drawn larger where the paper has room.
     turn : bool
-        The positions are those of ``[cycle]`` where no others are asked.
+        It is the sheet of a turn: ``cycle``, and scales of velocities and accelerations give way.
+    cycle : bool
+        The positions are the numbered ones of the cycle where no others are asked.
     sizes : mapping
         By basic format.
     arranged : mapping
@@ -97,6 +100,7 @@ class Composition(Struct, frozen=True):
     per_sheet: tuple[int, ...]
     grow: bool
     turn: bool
+    cycle: bool
     sizes: Mapping[str, Sizes]
     arranged: Mapping[tuple[str, ...], Arrange]
     titles: Mapping[int, str]
@@ -106,6 +110,14 @@ class Composition(Struct, frozen=True):
     def sheets(self) -> tuple[int, ...]:
         """Numbers of the sheets that have blocks."""
         return tuple(sorted({entry.sheet for entry in self.blocks}))
+
+    @property
+    def is_estimated(self) -> bool:
+        """Whether room and scales are those that the estimate has decided for all outputs.
+
+        So it is of the compositions that are taken when none is asked for.
+        """
+        return self.name in SHIPPED[:3]
 
     @property
     def levels(self) -> int:

@@ -7,12 +7,12 @@ from collections.abc import Sequence
 from planmethod.note.narrate.given import point_name
 from planmethod.note.narrate.scales import scale_inscription
 from planmethod.note.narrate.turn import extremes_named
-from planmethod.note.numbers import Notation, with_unit
+from planmethod.note.numbers import with_unit
+from planmethod.note.wording import Language
 from planmethod.plans.model import PlanKind
 from planmethod.render.ink.typeset import typeset
 from planmethod.render.layout.block import Block, Column, Line, Row, Spacer
 from planmethod.render.pictures.paths import Paths
-from planmethod.render.pictures.planview import plan_picture
 from planmethod.render.pictures.positions import PRIMES, shows_extremes
 from planmethod.render.pictures.schemeview import scheme_picture
 from planmethod.render.pictures.seriesview import series_picture
@@ -21,12 +21,13 @@ from planmethod.render.sheets.composer import Viewed
 from planmethod.render.sheets.model import Manner
 from planmethod.render.sheets.results import position_text
 from planmethod.render.sheets.views import (
+    plan_with_knots,
     plans_viewed,
     shown_position,
     with_scale,
 )
 from planmethod.solved.room import FEW
-from planmethod.solved.scaling import BETWEEN, per_row
+from planmethod.solved.scaling import BETWEEN, even_columns, per_row
 from planmethod.solved.solution import Solution
 from planmethod.solved.turn.turn import turn_of
 
@@ -75,8 +76,8 @@ def plan_view(solution: Solution, indices: Sequence[int], manner: Manner) -> Blo
     assert kind is not None
     if manner.entry.position is not None:
         indices = (manner.entry.position,)
-    step, say = manner.entry.per_row, manner.words.say
-    pictures = plan_grid(solution, kind, indices, say, in_row=step, errors=manner.extras.errors)
+    step, words = manner.entry.per_row, manner.words
+    pictures = plan_grid(solution, kind, indices, words, in_row=step, errors=manner.extras.errors)
     return plans_viewed(solution, pictures, indices, manner)
 
 
@@ -84,7 +85,7 @@ def plan_grid(
     solution: Solution,
     kind: PlanKind,
     indices: Sequence[int],
-    say: Notation,
+    words: Language,
     *,
     in_row: int | None = None,
     errors: bool = False,
@@ -94,9 +95,9 @@ def plan_grid(
     There are as many ways as numbers of plans in a row, the usual one first; ``in_row`` asks for
     one.
     """
-    coordinate = solution.problem.drive.coordinate
+    coordinate, say = solution.problem.drive.coordinate, words.say
     cells: list[Block] = []
-    common = solution.has_common(kind, indices)
+    common = solution.has_common(kind)
     convention = solution.problem.scales.convention
     for i in indices:
         value = with_unit(position_text(solution, i, say), say.units[coordinate.unit])
@@ -106,9 +107,7 @@ def plan_grid(
         if own != solution.scales[kind] or not common:
             scale = Line(typeset(scale_inscription(own, convention, say), CAPTION))
             caption = Column([caption, scale], gap=2.0, align="centre")
-        picture = plan_picture(
-            solution, kind, i, letter_height=CAPTION, errors=errors, by_hand=not errors
-        )
+        picture = plan_with_knots(solution, kind, i, words, letter_height=CAPTION, errors=errors)[0]
         cells.append(Column([picture, caption], gap=3.0, align="centre"))
     count, usual = len(cells), in_row or per_row(len(cells))
     steps = (usual,) if in_row else (usual, 4, 3, 2, 1) if count <= FEW else (usual, 4, 3)
@@ -116,8 +115,10 @@ def plan_grid(
 
 
 def _rows(cells: Sequence[Block], step: int) -> Block:
-    """Return blocks in rows of so many, the columns even."""
-    wide = [Spacer(max(cell.width for cell in cells[k::step]), 0.0) for k in range(step)]
-    even = [Column([cell, wide[k % step]], gap=0.0, align="centre") for k, cell in enumerate(cells)]
+    """Return blocks in rows of so many, in columns where these are not much wider."""
+    columns = even_columns([cell.width for cell in cells], step)
+    if columns:
+        wide = [Spacer(width, 0.0) for width in columns]
+        cells = [Column([c, wide[k % step]], 0.0, "centre") for k, c in enumerate(cells)]
     found = range(0, len(cells), step)
-    return Column([Row(even[k : k + step], gap=BETWEEN, align="bottom") for k in found], BETWEEN)
+    return Column([Row(cells[k : k + step], gap=BETWEEN, align="bottom") for k in found], BETWEEN)

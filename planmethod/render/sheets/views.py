@@ -7,9 +7,10 @@ from types import MappingProxyType
 
 from planmethod.note.narrate.formulas import knot_letter, view_name
 from planmethod.note.narrate.letters import shown_letters
-from planmethod.note.narrate.scales import common_scale
+from planmethod.note.narrate.scales import scale_inscription
 from planmethod.note.numbers import is_nothing
 from planmethod.note.plaintext import plain_text
+from planmethod.note.wording import Language
 from planmethod.plans.model import PlanKind
 from planmethod.render.ink.drawing import Arc, Disc, Item, Span
 from planmethod.render.ink.typeset import typeset
@@ -23,7 +24,7 @@ from planmethod.render.pictures.planview import (
     plan_places,
 )
 from planmethod.render.pictures.schemeview import scheme_picture
-from planmethod.render.pictures.traces import shown_traces
+from planmethod.render.pictures.traces import Shown, shown_traces
 from planmethod.render.sheets.composer import Viewed
 from planmethod.render.sheets.model import Manner
 from planmethod.solved.clearest import clearest_position
@@ -79,7 +80,8 @@ def plan_spans(
         for vector, size in zip(plan.vectors, sizes, strict=True)
         if not is_nothing(size, max(sizes))
     }
-    shown = {frozenset(p): k for k in solution.knots[kind] if k.number in views for p in k.ends}
+    knots = [knot for knot in solution.knots_of(kind, index) if knot.number in views]
+    shown = {frozenset(pair): knot for knot in knots for pair in knot.ends}
     spans: list[Span] = []
     alone, least = len(solution.positions) == 1, least_shown(solution.profile.ruler)
     for ends, vector in named.items():
@@ -120,18 +122,12 @@ def plan_view(solution: Solution, indices: Sequence[int], manner: Manner) -> Blo
     """
     kind = manner.entry.of
     assert kind is not None
-    errors = manner.extras.errors
-    picture = plan_picture(
-        solution,
-        kind,
-        indices[0],
-        letter_height=manner.letter,
-        errors=errors,
-        by_hand=not errors,
+    ways = plan_with_knots(
+        solution, kind, indices[0], manner.words,
+        letter_height=manner.letter, errors=manner.extras.errors,
         traces=shown_traces(solution, manner.entry.traces, room=manner.extras.traces),
-        knots=tuple(knot_letter(knot, manner.words) for knot in solution.knots[kind]),
-    )
-    return plans_viewed(solution, _with_knots(solution, kind, picture, manner), indices, manner)
+    )  # fmt: skip
+    return plans_viewed(solution, ways, indices, manner)
 
 
 def plans_viewed(
@@ -148,16 +144,29 @@ def plans_viewed(
     )
 
 
-def _with_knots(solution: Solution, kind: PlanKind, picture: Block, manner: Manner) -> list[Block]:
+def plan_with_knots(
+    solution: Solution,
+    kind: PlanKind,
+    index: int,
+    words: Language,
+    *,
+    letter_height: float,
+    errors: bool = False,
+    traces: Shown = False,
+) -> list[Block]:
     """Return a plan with what is enlarged of it, in all ways: what takes the least room first."""
-    pictures = knot_pictures(
-        solution, kind, letter_height=manner.letter, by_hand=not manner.extras.errors
-    )
-    if not pictures:
+    knots, by_hand = solution.knots_of(kind, index), not errors
+    letters = tuple(knot_letter(knot, words) for knot in knots)
+    picture = plan_picture(
+        solution, kind, index, letter_height=letter_height, errors=errors, by_hand=by_hand,
+        traces=traces, knots=letters,
+    )  # fmt: skip
+    if not knots:
         return [picture]
+    pictures = knot_pictures(solution, kind, index, letter_height=letter_height, by_hand=by_hand)
     views = [
-        Column([Line(typeset(view_name(knot, manner.words), manner.letter)), one], 2.5, "centre")
-        for knot, one in zip(solution.knots[kind], pictures, strict=True)
+        Column([Line(typeset(view_name(knot, words), letter_height)), one], 2.5, "centre")
+        for knot, one in zip(knots, pictures, strict=True)
     ]
     ways: list[Block] = []
     for step in range(1, len(views) + 1):
@@ -169,10 +178,10 @@ def _with_knots(solution: Solution, kind: PlanKind, picture: Block, manner: Mann
 
 
 def shown_position(solution: Solution, indices: Sequence[int], manner: Manner) -> int:
-    """Return the position that stands for all: the asked one, else the clearest one."""
-    asked = manner.entry.position
-    if asked is not None and asked in indices:
-        return asked
+    """Return the position that stands for all: the asked or calculated one, else the clearest."""
+    for asked in (manner.entry.position, solution.problem.calculated):
+        if asked is not None and asked in indices:
+            return asked
     return indices[0] if len(indices) == 1 else clearest_position(solution, tuple(indices))
 
 
@@ -193,8 +202,10 @@ def with_scale(
     chosen = manner.entry.position is not None and kind is not PlanKind.POSITION
     title = manner.entry.title or (one if len(solution.positions) == 1 or chosen else many)
     said = []
-    if solution.has_common(kind, ellipses):
-        said.append(common_scale(solution, kind, ellipses, words))
+    if solution.has_common(kind):
+        said.append(
+            scale_inscription(solution.scales[kind], solution.problem.scales.convention, words.say)
+        )
     said += more
     said += ellipse_inscription(solution, kind, ellipses, words) if manner.extras.errors else []
     return named(picture, title, said, manner)

@@ -12,7 +12,7 @@ from planmethod.construct.arithmetic import Float64
 from planmethod.construct.drafting import Profile
 from planmethod.construct.evaluate import evaluate
 from planmethod.construct.hand import Hand
-from planmethod.construct.scale import choose_scale, series_near
+from planmethod.construct.scale import angle_scale, choose_scale, series_near
 from planmethod.plans.diagrams.calculus import Integration
 from planmethod.plans.diagrams.energymass import EnergyMass, EnergyMassData, Places, build
 from planmethod.problem.load_records import FlywheelMethod, Quadrature
@@ -26,6 +26,9 @@ MOST_M, MOST_J = 85.0, 70.0
 
 MOST_HIGH = 460.0
 """Height of all diagrams above one another up to which the program enlarges their scales, mm."""
+
+POLE = 30.0
+"""Pole distance that is usual, mm: that of a round scale of the work is near to it."""
 
 _GAP = 24.0  # between two diagrams above each other, mm
 _BESIDE = 52.0  # from the last position to the axis of the energies of the energy-mass diagram, mm
@@ -59,15 +62,28 @@ class FlywheelDrawing:
         slopes = flywheel.usual_slopes
         self.points: Points = flywheel.by_points(self.count, machine.ordinates, slopes)
         shown = np.append(self.points.ordinates, self.points.middles)
-        phi = flywheel.cycle / machine.turn_mm
+        self.length = machine.turn_mm or degrees(flywheel.cycle) / angle_scale(
+            degrees(flywheel.cycle)
+        )
+        phi = flywheel.cycle / self.length
         inertia = machine.mu_J or _fitting(self.points.inertia, MOST_J)
         moment = machine.mu_M or _fitting(shown, MOST_M)
-        self.scales = MachineScales(phi, moment, moment * machine.pole_mm * phi, inertia)
+        self.scales = self._scales(phi, moment, inertia)
         while machine.mu_M is None and self.height > MOST_HIGH:
             moment = series_near(1.1 * moment, up=True)
-            self.scales = MachineScales(phi, moment, moment * machine.pole_mm * phi, inertia)
+            self.scales = self._scales(phi, moment, inertia)
+        self.pole = machine.pole_mm or self.scales.work / (moment * phi)
         half = self.scales.inertia * flywheel.middle_speed**2 / (2.0 * self.scales.work)
         self.psi = degrees(atan(half * slopes[0])), degrees(atan(half * slopes[1]))
+
+    def _scales(self, phi: float, moment: float, inertia: float) -> MachineScales:
+        """Return the scales: that of the work round, its pole distance as usual as can be."""
+        given = self.flywheel.machine.pole_mm
+        work = moment * phi * (given or POLE)
+        if given is None:
+            both = [series_near(work, up=up) for up in (True, False)]
+            work = min(both, key=lambda one: max(one / work, work / one))
+        return MachineScales(phi, moment, work, inertia)
 
     @cached_property
     def made(self) -> EnergyMass:
@@ -82,8 +98,8 @@ class FlywheelDrawing:
             points.inertia.tolist(),
             self.flywheel.sign > 0.0,
             Integration.MIDDLE if middle else Integration.TRAPEZOIDS,
-            machine.pole_mm,
-            machine.turn_mm,
+            self.pole,
+            self.length,
             self.scales.moment,
             self.scales.work,
             self.scales.inertia,
@@ -119,7 +135,7 @@ class FlywheelDrawing:
             origins.append(complex(0.0, at - low))
             at += high - low + _GAP
         inertia, energy, work, moment = origins
-        right = self.flywheel.machine.turn_mm + _BESIDE
+        right = self.length + _BESIDE
         return Places(moment, work, energy, inertia, complex(right, inertia.imag))
 
     @cached_property

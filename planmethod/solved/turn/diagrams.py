@@ -14,7 +14,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from functools import cached_property
 from itertools import pairwise
-from math import radians
+from math import degrees, radians
 
 import numpy as np
 from msgspec import Struct
@@ -22,12 +22,12 @@ from msgspec import Struct
 from planmethod.construct.arithmetic import Arithmetic, Float64, Number
 from planmethod.construct.evaluate import Trace, evaluate
 from planmethod.construct.program import Program
-from planmethod.construct.scale import Scale, choose_scale
+from planmethod.construct.scale import Scale, angle_scale, choose_scale
 from planmethod.construct.steps import PointName
 from planmethod.errors import AssemblyError
 from planmethod.plans.diagrams.board import DiagramAxes, DiagramBoard
 from planmethod.plans.diagrams.calculus import differentiate, integrate, repeated
-from planmethod.problem.model import Convention, Differentiation
+from planmethod.problem.model import Differentiation
 from planmethod.solved.errors.drawing import Drafted, DrawnQuantity
 from planmethod.solved.errors.spread import Errors
 from planmethod.solved.reading import Reals, Remembering, remembered
@@ -37,13 +37,32 @@ from planmethod.solved.turn.turn import Turn, turn_of
 HEIGHT = 80.0
 """Height that the diagram of the path shall have where the file gives no scale of lengths, mm."""
 
-HIGHEST = 140.0
-"""Height that those of velocity and acceleration then keep to, mm."""
+HEIGHTS = 80.0, 110.0
+"""Heights that those of velocity and acceleration keep to, mm."""
+
+POLE, FARTHEST = 36.0, 60.0
+"""Pole distance where no scale sets it, and the largest one, mm."""
 
 LOW, HIGH = 20.0, 120.0
 """Heights between which it is drawn in the scale of lengths, mm: as it is taken off the scheme."""
 
 _BETWEEN = 16.0  # mm of paper between two diagrams
+
+
+def rounded(value: float) -> float:
+    """Return a scale without the last bits, so that a round one is round.
+
+    Examples
+    --------
+    >>> rounded(0.1 + 0.2)
+    0.3
+    """
+    return float(f"{value:.12g}")
+
+
+def _height(values: Reals) -> float:
+    """Return how high a curve is from its lowest to its highest place, zero among them."""
+    return float(np.ptp(np.append(values[np.isfinite(values)], 0.0)))
 
 
 def smooth(values: Reals, at: Reals) -> Reals:
@@ -140,7 +159,7 @@ class Diagrams(Remembering):
     def __init__(self, turn: Turn, count: int | None = None) -> None:
         super().__init__()
         self.turn, self.task = turn, turn.task
-        self.count = count or self.task.count
+        self.count = count or turn.count
 
     # Exact ---------------------------------------------------------------------------------------
 
@@ -169,11 +188,22 @@ class Diagrams(Remembering):
         _, sign = self._start
         return sign * self.turn.sense * one, sign * two
 
+    def speeds(self, shares: Reals) -> tuple[Reals, Reals, Reals]:
+        """Return velocity, acceleration, and its part of a crank that turns evenly, SI.
+
+        a = s''·omega² + s'·epsilon, of which the diagrams have the first.
+        """
+        drive = self.turn.solution.problem.drive
+        one, two = self.rates(shares)
+        even = two * drive.rate**2
+        return one * abs(drive.rate), even + one * self.turn.sense * drive.acceleration, even
+
     def exact(self, shares: Reals) -> tuple[Reals, Reals, Reals]:
         """Return the exact ordinates of s, v and a after shares of the way, mm."""
         one, two = self.rates(shares)
-        by = self.mu_phi * self.task.pole.v / self.mu_s
-        return self.path(shares) / self.mu_s, one * by, two * by * self.mu_phi * self.task.pole.a
+        v, a = self.poles
+        by = self.mu_phi * v / self.mu_s
+        return self.path(shares) / self.mu_s, one * by, two * by * self.mu_phi * a
 
     @cached_property
     def shares(self) -> Reals:
@@ -191,62 +221,94 @@ class Diagrams(Remembering):
     @cached_property
     def fine(self) -> Reals:
         """Shares of the way that the curves are drawn through, from the first to the last."""
-        return np.linspace(self.shares[0], 1 - self.shares[0], 361)
+        return np.linspace(self.shares[0], 1 - self.shares[0], 360 * self.turn.turns + 1)
 
     def x(self, shares: Reals) -> Reals:
         """Return abscissae, mm from that of position 0."""
-        return np.asarray(self.task.length * (shares - self.shares[0]), dtype=float)
+        return np.asarray(self.length * (shares - self.shares[0]), dtype=float)
 
     # Scales --------------------------------------------------------------------------------------
+
+    @cached_property
+    def _inverse(self) -> bool:
+        return self.turn.solution.problem.scales.in_mm_per_unit
+
+    @cached_property
+    def length(self) -> float:
+        """Length of the axis of φ, mm: the file's, else at a round scale."""
+        way = self.turn.way
+        return self.task.length or way / angle_scale(way, mm_per_unit=self._inverse)
 
     @property
     def mu_phi(self) -> float:
         """Radians of the crank per mm."""
-        return radians(self.turn.way) / self.task.length
+        return radians(self.turn.way) / self.length
 
     @cached_property
     def mu_s(self) -> float:
         """Of the path, m or radians per mm: the file's ``mu_l`` where the diagram is then fit."""
         problem, output = self.turn.solution.problem, self.turn.output
-        one, two = self.rates(self.fine)
-        by = self.mu_phi * self.task.pole.v
-        drawn = self.path(self.fine), one * by, two * by * self.mu_phi * self.task.pole.a
-        s, v, a = (float(np.ptp(np.append(y[np.isfinite(y)], 0.0))) for y in drawn)
-        given = problem.scales.mu_l
-        if given is not None and output.slide is not None and LOW <= s / given <= HIGH:
+        s, given = _height(self.path(self.fine)), problem.scales.mu_l
+        asked = given is not None and not problem.scales.decided
+        if given is not None and asked and output.slide is not None and LOW <= s / given <= HIGH:
             return given
-        inverse = problem.scales.convention is Convention.MM_PER_UNIT
-        return choose_scale((s, max(v, a)), (HEIGHT, HIGHEST), mm_per_unit=inverse)
+        return choose_scale((s, 0.0), (HEIGHT, 1.0), mm_per_unit=self._inverse)
+
+    @property
+    def rate(self) -> float:
+        """Angular velocity of the crank, 1/s, without its sense."""
+        return abs(self.turn.solution.problem.drive.rate)
+
+    @cached_property
+    def poles(self) -> tuple[float, float]:
+        """Pole distances of both differentiations, mm: the file's, else from round scales."""
+        pole, heights = self.task.pole, [_height(one) for one in self.rates(self.fine)]
+        v = pole.v or self._pole(self.mu_s, self.rate, heights[0] * self.rate, HEIGHTS[0])
+        mu_v = self._next_scale(self.mu_s, v)
+        a = pole.a or self._pole(mu_v, self.rate, heights[1] * self.rate**2, HEIGHTS[1])
+        return v, a
+
+    def _pole(self, per_mm: float, rate: float, most: float, height: float) -> float:
+        """Return the pole distance that the finest round scale of a derivative sets, mm.
+
+        It keeps to a height, and the pole to a distance. ``per_mm`` is the scale of what is
+        differentiated, ``most`` the height of the derivative in its unit.
+        """
+        if not rate or not most:
+            return POLE
+        needed = max(most / height, per_mm * rate / (self.mu_phi * FARTHEST))
+        round_one = choose_scale((needed, 0.0), (1.0, 1.0), mm_per_unit=self._inverse)
+        return per_mm * rate / (self.mu_phi * round_one)
+
+    def _next_scale(self, per_mm: float, pole: float) -> float:
+        """Return the scale of what is found of a diagram with a pole, units per mm."""
+        return per_mm * self.rate / (self.mu_phi * pole)
 
     @property
     def mu_t(self) -> float | None:
         """Seconds per mm; None where the crank stands still."""
-        rate = abs(self.turn.solution.problem.drive.rate)
-        return self.mu_phi / rate if rate else None
+        return self.mu_phi / self.rate if self.rate else None
 
     @property
     def mu_v(self) -> float | None:
-        """Of the velocity, m/s or 1/s per mm: mu_s / (mu_t K)."""
-        return None if self.mu_t is None else self.mu_s / (self.mu_t * self.task.pole.v)
+        """Of the velocity, m/s or 1/s per mm: mu_s omega / (mu_phi K)."""
+        return rounded(self._next_scale(self.mu_s, self.poles[0])) if self.rate else None
 
     @property
     def mu_a(self) -> float | None:
-        """Of the acceleration, m/s² or 1/s² per mm: mu_v / (mu_t K)."""
-        if self.mu_v is None or self.mu_t is None:
-            return None
-        return self.mu_v / (self.mu_t * self.task.pole.a)
+        """Of the acceleration, m/s² or 1/s² per mm: mu_v omega / (mu_phi K)."""
+        return None if self.mu_v is None else rounded(self._next_scale(self.mu_v, self.poles[1]))
 
     @property
     def scales(self) -> list[Scale]:
-        """Scales of s, v, a, phi and t, those that there are."""
+        """Scales of s, v, a and phi (degrees), those that there are."""
         turns = self.turn.output.slide is None
         units = ("rad", "1/s", "1/s²") if turns else ("m", "m/s", "m/s²")
         found = [
             ("mu_s", self.mu_s, units[0]),
             ("mu_v", self.mu_v, units[1]),
             ("mu_a", self.mu_a, units[2]),
-            ("mu_φ", self.mu_phi, "rad"),
-            ("mu_t", self.mu_t, "s"),
+            ("mu_φ", rounded(degrees(self.mu_phi)), "deg"),
         ]
         return [Scale(name, mu, unit) for name, mu, unit in found if mu is not None]
 
@@ -283,7 +345,7 @@ class Diagrams(Remembering):
             board.plot(f"v {k}", over, x, board.known(f"v{k}", float(y)))
             for k, (x, y) in enumerate(zip(self.x(self.middles), v, strict=True))
         ]
-        pole = board.pole(over, self.task.pole.v)
+        pole = board.pole(over, self.poles[0])
         made = integrate(board, points, over, axes, at, pole=pole)
         trace = evaluate(board.b.program(), dict(board.data), Float64())
         return np.array([float(trace.value[point].imag) + 200.0 for point in made])
@@ -314,7 +376,7 @@ class Diagrams(Remembering):
 
 
 def _graph(diagrams: Diagrams, way: Differentiation) -> Graph:
-    board, task = DiagramBoard(), diagrams.task
+    board = DiagramBoard()
     exact = diagrams.exact(diagrams.fine)
     lows, highs = ([float(f(one)) for one in exact] for f in (np.nanmin, np.nanmax))
     down = [0.0]
@@ -323,7 +385,8 @@ def _graph(diagrams: Diagrams, way: Differentiation) -> Graph:
     s, v, a = (board.axes(name, 1j * y) for name, y in zip("sva", down, strict=True))
     ends, middles = diagrams.x(diagrams.shares), diagrams.x(diagrams.middles)
     path = _taken_off(board, s, ends, diagrams.exact(diagrams.shares)[0])
-    poles = board.pole(v, task.pole.v), board.pole(a, task.pole.a)
+    first, second = diagrams.poles
+    poles = board.pole(v, first), board.pole(a, second)
     end = board.abscissa(v, float(ends[-1]))
     if way is Differentiation.TANGENTS:
         back = repeated(board, "s -1", path[-2], path[-1], path[0])
@@ -371,7 +434,7 @@ def deviations(
     for way in ways:
         graph, drawn = diagrams.graph(way), diagrams.drawn(way, arithmetic)
         for number, letter in ((1, "v"), (2, "a")):
-            at = graph.at[number] / diagrams.task.length + diagrams.shares[0]
+            at = graph.at[number] / diagrams.length + diagrams.shares[0]
             exact = diagrams.exact(at)[number]
             found[way, letter] = Deviation.of(drawn[number], exact)
     return found
@@ -409,7 +472,11 @@ def _ordinate(point: PointName, origin: PointName) -> Callable[[Trace], Number]:
     return lambda trace: (trace.value[point] - trace.value[origin]).imag
 
 
-@remembered
 def diagrams_of(solution: Solution) -> Diagrams:
-    """Return the diagrams of a mechanism; kept, since several views show them."""
+    """Return the diagrams of a mechanism; kept, whatever the scales of its plans."""
+    return _diagrams(solution.origin)
+
+
+@remembered
+def _diagrams(solution: Solution) -> Diagrams:
     return Diagrams(turn_of(solution))

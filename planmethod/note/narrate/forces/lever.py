@@ -103,7 +103,13 @@ class LeverNarrator:
         on_link = {first, second} <= set(problem.bodies[one.link].points)
         return first + second if on_link and second + first not in given else second + first
 
-    def _shift(self, one: LeverShift) -> str:
+    def segments(self) -> list[str]:
+        """Return the segments and lengths by which couples stand on the lever, each once."""
+        on_links = (*self.lever.couples, *self.lever.shifts)
+        told = (self._pair(one).segment for one in on_links)
+        return [text for text in dict.fromkeys(told) if text]
+
+    def shift(self, one: LeverShift) -> str:
         """Return how far the point of a shifted force is from the centre of mass on the lever."""
         told = self._pair(one)
         formula = f"{one.symbol}·{told.letters} = {self.found(one.shift)}·{told.numbers}"
@@ -117,10 +123,8 @@ class LeverNarrator:
             return [said.lever_no_work.format(symbol=self.balancing)]
         arms, lines = self.arms(), [self.equation()]
         lines += [f"{arms} {self.context.units['mm']}"] if arms else []
-        on_links = (*self.lever.couples, *self.lever.shifts)
-        segments = (self._pair(one).segment for one in on_links)
-        lines += [text.replace("; ", ";  ") for text in dict.fromkeys(segments) if text]
-        lines += [self._shift(one) for one in self.lever.shifts]
+        lines += [text.replace("; ", ";  ") for text in self.segments()]
+        lines += [self.shift(one) for one in self.lever.shifts]
         lines.append(said.lever_found.format(symbol=self.balancing, **self._both()))
         share, sigma = difference(self.reading), expected(self.reading)
         if share is not None:
@@ -172,7 +176,7 @@ class LeverNarrator:
             lines.append(self.said.hung.format(forces="; ".join(told)))
         lines += [
             self.said.shift_on_lever.format(
-                point=shift.letters[1], force=force_symbol(shift.link), formula=self._shift(shift)
+                point=shift.letters[1], force=force_symbol(shift.link), formula=self.shift(shift)
             )
             for shift in self.lever.shifts
         ]
@@ -225,8 +229,13 @@ class LeverNarrator:
         end = "."
         if self.reading.balancing.turns and value:
             end = self.said.directed.format(sense=self.context.sense(value))
-        result = f"{self.balancing} = {self._numbers()} = {self.found(abs(value))} {self.unit}"
-        return [f"{self.equation()},", f"{result}{exact}{end}"]
+        return [f"{self.equation()},", f"{self.result()}{exact}{end}"]
+
+    def result(self) -> str:
+        """Return what balances the driver, with numbers."""
+        value = both_balances(self.reading)[1]
+        assert value is not None
+        return f"{self.balancing} = {self._numbers()} = {self.found(abs(value))} {self.unit}"
 
     def _numbers(self) -> str:
         """Return the sum of the known moments over the arm of what balances them."""
