@@ -94,12 +94,10 @@ def kinematics_sheets(
     if paper:
         problem = replace(problem, sheet=replace(problem.sheet, paper=paper_format(paper).name))
     solution = Solution(problem, positions=positions, ruler=ruler, profile=profile)
-    strategy = _strategy(solution, layout, errors=errors, sigma=sigma, moved=positions is not None)
-    count, made = len(strategy.solution.positions), strategy.layout
-    least = len(made.sheets) * -(-count // made.at_most(count)[0])
-    _refuse_many(problem, count, least, most)  # before the work, where it is known
+    moved = positions is not None
+    strategy = _strategy(solution, layout, errors=errors, sigma=sigma, moved=moved, most=most)
     drawings = compose(problem, strategy, _misfit(problem), fields=fields, furniture=furniture)
-    _refuse_many(problem, count, len(drawings), most)
+    _refuse_many(strategy.solution, len(drawings), most)
     return drawings
 
 
@@ -128,6 +126,7 @@ def _strategy(
     errors: bool = False,
     sigma: bool | None = None,
     moved: bool,
+    most: int | None = None,
 ) -> Linkage:
     """Return how sheets of a layout are searched for; ``moved``: positions were asked for."""
     words = language(solution.problem.sheet.lang or LANGUAGES[0])
@@ -139,6 +138,9 @@ def _strategy(
     calculated = solution.problem.calculated
     if calculated is not None and made.per_sheet == (1,):
         solution = solution.moved([float(solution.positions[calculated])])
+    count = len(solution.positions)
+    least = len(made.sheets) * -(-count // made.at_most(count)[0])
+    _refuse_many(solution, least, most)  # before the work, where it is known
     verify(solution)
     return Linkage(made, solution, Extras(words, errors, sigma, made.turn))
 
@@ -153,16 +155,17 @@ def _misfit(problem: Problem) -> Misfit:
     )
 
 
-def _refuse_many(problem: Problem, count: int, sheets: int, most: int | None) -> None:
+def _refuse_many(solution: Solution, sheets: int, most: int | None) -> None:
     """Refuse more sheets than are probably meant; those of one position are always made."""
+    count = len(solution.positions)
     if most is not None and sheets > most and count > 1:
         raise LayoutError(
             "{0}: {1} position{1:||s} take {2} sheet{2:||s}. Name the positions that are to be "
             "drawn (--phi {3:g}), or give --all-positions for all of them.",
-            problem.name,
+            solution.problem.name,
             count,
             sheets,
-            problem.drive.positions[0],
+            solution.problem.drive.positions[0],
         )
 
 
