@@ -9,8 +9,9 @@ import click
 from planmethod.commands.asked import PaperRequest, sheet_options
 from planmethod.commands.decided import decided
 from planmethod.commands.helptext import Spoken
+from planmethod.commands.output import show
 from planmethod.commands.problems import guarded, stem
-from planmethod.options import BadParameter, out_option, position_option
+from planmethod.options import BadParameter, open_option, out_option, position_option
 
 FORMATS = ("docx", "pdf")
 
@@ -40,6 +41,7 @@ def read_formats(ctx: click.Context, param: click.Parameter, value: str) -> tupl
 )
 @out_option
 @sheet_options
+@open_option
 @guarded
 def note(
     problem: Path,
@@ -48,6 +50,7 @@ def note(
     formats: tuple[str, ...],
     out: Path,
     asked: PaperRequest,
+    shown: bool,
 ) -> None:
     """Write the explanatory note of a project, or of one homework, for Word and as PDF."""
     from planmethod.project.notes import note_files
@@ -58,3 +61,5 @@ def note(
     write_all(out, files)
     for name in files:
         click.echo(str(out / name))
+    if shown:
+        show(out / next(iter(files)))

@@ -71,6 +71,8 @@ def test_what_stands_after_two_dashes_is_no_option() -> None:
         (["sheet", EX1, "--format", "pdf", "--one-file", "all.pdf"], "all.pdf"),
         (["live", EX1, EX3], "ex1-live.html"),
         (["sketch", EX1], "ex1-sketch.html"),
+        (["project", EX1, "--parts", "kinematics"], "ex1/project.pdf"),
+        (["note", EX1], "ex1-note.docx"),
     ],
 )
 def test_one_written_file_is_shown(
