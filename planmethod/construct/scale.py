@@ -94,6 +94,17 @@ def choose_scale(
     return series_near(needed, up=True)
 
 
+def rounded(value: float) -> float:
+    """Return a scale without the last bits, so that a round one is round.
+
+    Examples
+    --------
+    >>> rounded(0.1 + 0.2)
+    0.3
+    """
+    return float(f"{value:.12g}")
+
+
 LEAST_AXIS = 160.0
 """Least length of the axis of angles of a diagram, mm."""
 

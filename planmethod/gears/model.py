@@ -99,14 +99,15 @@ class PictureSettings(Struct, frozen=True):
     ----------
     mu_l : Fraction, m/mm
     longest_mm : Fraction, mm
-        Longest segment of the picture of linear velocities.
-    pole_mm : Fraction, mm
-        Distance of the pole of the rays.
+        No segment of the picture of linear velocities is longer.
+    pole_mm : Fraction or None, mm
+        Distance of the pole of the rays; None where round scales set it, near to ``near_mm``.
     """
 
     mu_l: Fraction = Fraction(1, 1000)
     longest_mm: Fraction = Fraction(60)
-    pole_mm: Fraction = Fraction(40)
+    pole_mm: Fraction | None = None
+    near_mm: Fraction = Fraction(40)
 
 
 class Train(Struct, frozen=True):

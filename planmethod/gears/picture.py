@@ -11,7 +11,8 @@ from fractions import Fraction
 
 from msgspec import Struct
 
-from planmethod.gears.model import PARALLEL, MeshKind, PictureSettings
+from planmethod.construct.scale import rounded, series_near
+from planmethod.gears.model import PARALLEL, MeshKind, PictureSettings, Train
 from planmethod.gears.motion import TrainMotion
 
 
@@ -69,12 +70,18 @@ class VelocityPictures(Struct, frozen=True):
     @property
     def mu_v(self) -> float:
         """Scale of the linear velocities, (m/s)/mm."""
-        return float(self.speed_per_mm) * self.rate
+        return rounded(float(self.speed_per_mm) * self.rate)
 
     @property
     def mu_omega(self) -> float:
         """Scale of the angular velocities, (1/s)/mm."""
-        return self.mu_v / float(self.mu_l * self.pole_mm)
+        return rounded(self.mu_v / float(self.mu_l * self.pole_mm))
+
+    def ray_scale(self, unit: str) -> tuple[str, float]:
+        """Return the scale of the rays by the unit of the speeds: its name, and units per mm."""
+        if unit == "n":
+            return "mu_n", rounded(float(self.turn_per_mm))
+        return "mu_omega", self.mu_omega
 
     @property
     def turn_per_mm(self) -> Fraction:
@@ -109,12 +116,34 @@ def draw(motion: TrainMotion, settings: PictureSettings | None = None) -> Veloci
     if not most:
         return None
     mm = train.unit_m / settings.mu_l
-    scale = settings.longest_mm / most
+    per_mm = _round_speed(train, most / settings.longest_mm)
+    scale = train.unit_m / per_mm
+    pole = settings.pole_mm or _round_pole(train, per_mm / settings.mu_l, settings.near_mm)
     contacts = tuple(PicturePoint(at, height * mm, speed * scale) for at, height, speed in points)
-    per = settings.pole_mm * scale / mm
+    per = pole * scale / mm
     rays = tuple((label, motion.speed(label) * per) for label in train.numbers)
-    per_mm = train.unit_m / scale
-    return VelocityPictures(settings.mu_l, settings.pole_mm, per_mm, contacts, rays, train.rate)
+    return VelocityPictures(settings.mu_l, pole, per_mm, contacts, rays, train.rate)
+
+
+def _round_speed(train: Train, least: Fraction) -> Fraction:
+    """Return the speed of a millimetre, unit of the speeds times metre: round in m/s.
+
+    ``least`` is the least that it may be, sizes in place of metres.
+    """
+    mu_v = series_near(float(least * train.unit_m) * train.rate, up=True)
+    return Fraction(repr(mu_v)) / Fraction(train.rate)
+
+
+def _round_pole(train: Train, per_mm: Fraction, near: Fraction) -> Fraction:
+    """Return the pole distance at which the scale of the rays is round, mm.
+
+    ``per_mm`` is what a millimetre of a ray stands for at a pole distance of one. The scale is
+    round in the unit of the speeds, and as near as can be to that of a distance.
+    """
+    wanted = float(per_mm / near)
+    round_ones = (series_near(wanted, up=up) for up in (True, False))
+    best = min(round_ones, key=lambda one: max(one / wanted, wanted / one))
+    return per_mm / Fraction(repr(best))
 
 
 def _at(motion: TrainMotion, body: str, height: Fraction) -> Fraction:

@@ -23,9 +23,9 @@ from planmethod.gears.motion import solve_motion
 from planmethod.gears.picture import ContactKind, draw
 from planmethod.gears.told import calculation, given, symbol, unit_of
 from planmethod.note.document import Chapter, Item, Node, Paragraph, Step, Title
-from planmethod.note.formula import Rich, escape
+from planmethod.note.formula import Rich, escape, fraction
 from planmethod.note.narrate.narrator import Line, StepNarrator
-from planmethod.note.numbers import Notation, raised
+from planmethod.note.numbers import Notation, half_up, raised
 from planmethod.note.rounding import rounded_to, sigma_text
 from planmethod.note.wording import Language, Words
 
@@ -75,7 +75,7 @@ def _pictures(drawn: GearDrawing, words: Language) -> Iterator[Node]:
         if lines:
             yield Step(tuple(lines))
     yield Chapter(say["steps"]["rays"])
-    pole = words.say.given(float(drawn.picture.pole_mm))
+    pole = words.say.given(half_up(float(drawn.picture.pole_mm), 2))
     yield Step((say["steps"]["pole"].format(pole=pole),))
     for body in drawn.rays:
         yield Step((say["steps"]["ray"].format(body=drawn.label(body)),))
@@ -191,11 +191,11 @@ def _found(one: Found, drawn: GearDrawing, seen: GearReading, words: Language) -
     parts = rays[: len(asked.labels)]
     if asked.carrier is not None:
         parts = [f"[{part} − {rays[-1]}]" for part in parts]
-    formula = "/".join(parts) if asked.kind == "U" else f"{_scale(drawn)}·{parts[0]}"
+    formula = fraction(*parts) if asked.kind == "U" else f"{_scale(drawn)}·{parts[0]}"
     if asked.kind == "omega" and train.unit == "n":
-        formula = f"π/30·{formula}"
+        formula = f"{fraction('π', '30')}·{formula}"
     if asked.kind == "n" and train.unit != "n":
-        formula = f"30/π·{formula}"
+        formula = f"{fraction('30', 'π')}·{formula}"
     value, sigma = float(seen.read.value[one.read]), seen.sigma[one.read]
     unit = unit_of(answer(drawn.motion, one.name), words)
     found: str = words.gears["sheet"]["steps"]["found"]

@@ -22,6 +22,7 @@ from planmethod.gears.picture import draw
 from planmethod.gears.scheme import SchemeData
 from planmethod.gears.told import calculation, given, results
 from planmethod.languages import LANGUAGES, say
+from planmethod.note.numbers import half_up
 from planmethod.note.wording import Language, Words, language
 from planmethod.paper import STAMP_WIDTH, TRIED
 from planmethod.render.frame.furniture import Furniture
@@ -119,7 +120,7 @@ def pictures(
     settings = motion.train.picture
     scheme = SchemeData(motion, float(motion.train.unit_m / settings.mu_l))
     order = None if scheme.undrawn else best_order(scheme)
-    sheet = _Sheet(motion, settings, profile, words, sizes, order)
+    sheet = _Sheet(motion, settings, profile, words, sizes, order, None)
     return sheet.pictures()
 
 
@@ -163,19 +164,19 @@ class _Train(Struct, frozen=True):
                 if not asked and extent / mu_l < LEAST:  # from 5 to 10 the series makes a wide step
                     mu_l = series_near(extent / target, up=False)
                 tried = replace(settings, mu_l=Fraction(repr(mu_l)))
-                yield paper, replace(tried, pole_mm=_pole(motion, tried)), sizes
+                yield paper, replace(tried, near_mm=_pole(motion, tried)), sizes
 
 
 def _pole(motion: TrainMotion, settings: PictureSettings) -> Fraction:
     """Return a pole distance that keeps the rays within a width."""
     for pole in POLES:
-        tried = replace(settings, pole_mm=Fraction(pole))
+        tried = replace(settings, near_mm=Fraction(pole))
         picture = draw(motion, tried)
         if picture is None:
             break
         ends = [Fraction(0), *(segment for _, segment in picture.rays)]
         if max(ends) - min(ends) <= WIDEST:
-            return tried.pole_mm
+            return tried.near_mm
     return Fraction(POLES[-1])
 
 
@@ -364,14 +365,13 @@ class _Sheet(Struct, frozen=True):
 
     def _angular(self, drawn: GearDrawing, seen: GearReading) -> Viewed:
         picture = drawn.picture
-        pole = self.words.say.given(float(picture.pole_mm))
-        scales = [self._scale("mu_omega", picture.mu_omega, pole=pole)]
-        if self.motion.train.unit == "n":
-            scales.append(self._scale("mu_n", float(picture.turn_per_mm)))
+        pole = self.words.say.given(half_up(float(picture.pole_mm), 2))
+        name, per_mm = picture.ray_scale(self.motion.train.unit)
+        scales = [self._scale(name, per_mm, pole=pole)]
         spans = list(angular_spans(drawn, seen, 0j))
         title = self.words.gears["sheet"].angular
         view = angular(drawn, seen, self.sizes.letter)
-        scale = Scale("mu_ω", picture.mu_omega, "1/s")
+        scale = Scale({"mu_omega": "mu_ω"}.get(name, name), per_mm, "1/s")
         return self._titled(view, title, "velocity", scale, scales, spans)
 
     # Texts ---------------------------------------------------------------------------------------

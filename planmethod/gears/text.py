@@ -32,7 +32,7 @@ from planmethod.note.document import (
 )
 from planmethod.note.formula import Rich, escape
 from planmethod.note.narrate.structure import pair_classes
-from planmethod.note.numbers import MINUS
+from planmethod.note.numbers import MINUS, half_up
 from planmethod.note.wording import Language
 
 
@@ -241,21 +241,18 @@ def _picture(motion: TrainMotion, words: Language) -> Iterator[Node]:
     if picture is None:
         yield Item(say.no_picture)
         return
-    yield Item(
-        say.scales.format(
-            mu_l=number(float(picture.mu_l)),
-            mu_v=number(picture.mu_v),
-            pole=number(float(picture.pole_mm)),
-            mu_omega=number(picture.mu_omega),
-        )
-    )
+    name, per_mm = picture.ray_scale(motion.train.unit)
+    pole = words.say.given(half_up(float(picture.pole_mm), 2))
+    rays = say["sheet"]["inscriptions"][name].format(value=number(per_mm), pole=pole)
+    mu_l, mu_v = number(float(picture.mu_l)), number(picture.mu_v)
+    yield Item(say.scales.format(mu_l=mu_l, mu_v=mu_v, rays=rays))
     points = []
     for one in picture.contacts:
         shown = (number(float(mm)) for mm in (one.height_mm, one.speed_mm))
         points.append([say["points"][one.at.kind.value].format(name=one.at.of), *shown])
     yield table_of(say["columns_contacts"], points)
-    rays = ((label, number(float(segment))) for label, segment in picture.rays)
-    yield table_of(say["columns_rays"], rays)
+    segments = ((label, number(float(segment))) for label, segment in picture.rays)
+    yield table_of(say["columns_rays"], segments)
 
 
 def _published(problem: GearProblem, motion: TrainMotion, words: Language) -> Iterator[Node]:

@@ -11,6 +11,7 @@ from planmethod.gears.conditions import conditions, sentence
 from planmethod.gears.construction import GearDrawing, GearReading
 from planmethod.gears.motion import TrainMotion
 from planmethod.gears.text import equation_of, fraction_text, kind_of, mobility
+from planmethod.note.formula import fraction
 from planmethod.note.numbers import raised
 from planmethod.note.rounding import sigma_text
 from planmethod.note.wording import Language
@@ -95,7 +96,7 @@ def ratios(motion: TrainMotion, words: Language) -> Iterator[str]:
             yield f"{symbol(name, known)}: {told}"
             continue
         hat = f"^{{({asked.carrier})}}" if asked.carrier else ""
-        letters = "/".join(f"{letter}{hat}_{{{label}}}" for label in asked.labels)
+        letters = fraction(*(f"{letter}{hat}_{{{label}}}" for label in asked.labels))
         value = fraction_text(one.exact)
         decimal = f" = {words.say.found(one.value)}" if "/" in value else ""
         yield f"{symbol(name, known)} = {letters} = {value}{decimal}"

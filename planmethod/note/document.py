@@ -359,11 +359,6 @@ def headings_of(written: Document) -> Iterator[tuple[int, str, Rich]]:
                 yield 3, number, title
 
 
-def captioned(template: Rich, number: str, caption: Rich) -> Rich:
-    """Return the caption of a figure or a table, with its number if it has one."""
-    return template.format(number=number, text=caption).rstrip(" –") if number else caption
-
-
 def lines_of(page: TitlePage, words: Mapping[str, Any]) -> Iterator[Rich]:
     """Yield the lines of a title page for writers that have no pages."""
     yield from page.organisation

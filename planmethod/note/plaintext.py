@@ -2,9 +2,19 @@
 
 from __future__ import annotations
 
-import re
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, assert_never
 
+from planmethod.note.formula import (
+    SPECIAL,
+    Fraction,
+    Index,
+    Letters,
+    Node,
+    Overline,
+    Root,
+    inline,
+    parse,
+)
 from planmethod.note.numbers import rich_number, significant, trimmed
 
 if TYPE_CHECKING:
@@ -16,24 +26,28 @@ NO_BREAK = "\N{NO-BREAK SPACE}"
 
 _SUPER = dict(zip("0123456789-−ntτkr", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻⁻ⁿᵗᵗᵏʳ", strict=True))
 _SUB = dict(zip("0123456789", "₀₁₂₃₄₅₆₇₈₉", strict=True))
-_UP = r"\^\{([^}]*)\}"
-_DOWN = r"_\{([^}]*)\}"
-_LITERAL = r"\\([_^{}\\])"
 
 
 def plain_text(rich: str) -> str:
     """Return rich text as plain: ``ω_{2}`` gives ``ω₂``, ``a^{n}_{CB}`` gives ``aⁿ_CB``."""
+    return "".join(map(_plain, inline(parse(rich)))) if any(c in SPECIAL for c in rich) else rich
 
-    def up(match: re.Match[str]) -> str:
-        return "".join(_SUPER.get(c, c) for c in match[1])
 
-    def down(match: re.Match[str]) -> str:
-        text = match[1]
-        if not text:
-            return ""
-        return "".join(_SUB[c] for c in text) if all(c in _SUB for c in text) else f"_{text}"
-
-    return re.sub(_LITERAL, r"\1", re.sub(_DOWN, down, re.sub(_UP, up, rich)))
+def _plain(node: Node) -> str:
+    match node:
+        case Letters(text):
+            return text
+        case Index(below, above, is_power):
+            low = "".join(map(_plain, below))
+            lowered = "".join(_SUB[c] for c in low) if set(low) <= set(_SUB) else f"_{low}"
+            raised = "".join(_SUPER.get(c, c) for c in "".join(map(_plain, above)))
+            return lowered + raised if is_power else raised + lowered
+        case Overline(body):
+            return "".join(map(_plain, body))
+        case Fraction() | Root():
+            raise AssertionError  # the formula is in one line
+        case _:
+            assert_never(node)
 
 
 def spoken(text: str, words: Words) -> str:

@@ -361,12 +361,16 @@ class PictureTable(Struct, frozen=True):
     longest_mm: Annotated[
         float,
         NumberKey(
-            "longest segment of the picture of linear velocities", "a length", "mm", 1.0, 1e4
+            "no segment of the picture of linear velocities is longer", "a length", "mm", 1.0, 1e4
         ),
     ] = 60.0
     pole_mm: Annotated[
-        float, NumberKey("distance of the pole of the rays", "a length", "mm", 1.0, 1e4)
-    ] = 40.0
+        float | None,
+        NumberKey(
+            "distance of the pole of the rays; their scale follows from it then", "a length", "mm",
+            1.0, 1e4, absent="from a round scale",
+        ),
+    ] = None  # fmt: skip
 
 
 class GearWheelTable(Struct, frozen=True):

@@ -2,15 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 
 import numpy as np
 
 from planmethod.construct.scale import choose_scale
 from planmethod.mechanism.model import FRAME
-from planmethod.plans.model import FACTS, MOTION
-from planmethod.problem.model import Scales
-from planmethod.render.ink.drawing import Drawing
 from planmethod.solved.clearest import clearest_position
 from planmethod.solved.forces.loads import external
 from planmethod.solved.forces.statics import statics_of
@@ -36,17 +33,6 @@ def loaded_positions(solution: Solution) -> tuple[int, ...]:
 def clear_position(solution: Solution, indices: Sequence[int]) -> int:
     """Return the one of some positions that shows the mechanism best."""
     return clearest_position(solution, tuple(indices))
-
-
-def drawn_scales(drawings: Iterable[Drawing], asked: Scales) -> dict[str, float]:
-    """Return the scales of the plans that are drawn, by their keys: one of each kind."""
-    kinds = {kind.value: FACTS[kind].scale for kind in MOTION}
-    found: dict[str, float] = {}
-    for drawing in drawings:
-        for view in drawing.views:
-            if view.kind in kinds and view.per_mm:
-                found.setdefault(kinds[view.kind], view.per_mm)
-    return {key: getattr(asked, key) or per_mm for key, per_mm in found.items()}
 
 
 def force_scale(solution: Solution) -> float:

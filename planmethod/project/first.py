@@ -9,31 +9,17 @@ from msgspec.structs import replace
 
 from planmethod.errors import LayoutError
 from planmethod.languages import LANGUAGES
-from planmethod.note.wording import language
-from planmethod.problem.model import Problem
+from planmethod.problem.model import Problem, Scales
 from planmethod.render.ink.drawing import Drawing
 from planmethod.render.sheets.composition.reader import composition
-from planmethod.render.sheets.kinematics import kinematics_sheets
+from planmethod.render.sheets.kinematics import kinematics_sheets, sheet_scales
 from planmethod.render.sheets.model import Composition
 
 SEVERAL = "project-kinematics"
 """Composition where a crank turns through its cycle."""
 
 PAPER = "A1"
-"""Format where none is asked for; what it has no room for goes on a further sheet."""
-
-FURTHER = (
-    "kinematic-diagrams",
-    "hodograph",
-    "measured-results",
-    "turn-table",
-    "deviations",
-)
-"""Kinds of blocks that the second of two sheets has."""
-
-
-WIDER = 1.5
-"""How many times larger the views are where plans and diagrams have a sheet each."""
+"""Format where none is asked for."""
 
 FEW = 6
 """Most positions whose plans, diagrams and tables are tried on one sheet."""
@@ -45,7 +31,7 @@ def first_sheet(problem: Problem, **more: Any) -> list[Drawing]:
     Parameters
     ----------
     problem : Problem
-        Settled: the scales are those of `plans_alone`.
+        Settled: its scales are those of `first_scales`.
     more
         Taken by `kinematics_sheets`.
 
@@ -60,18 +46,16 @@ def first_sheet(problem: Problem, **more: Any) -> list[Drawing]:
     made, paper = _composition(problem), problem.sheet.paper or PAPER
     draw = partial(kinematics_sheets, problem, paper=paper, positions=positions, **more)
     if len(positions) <= FEW:
+        blocks = tuple(replace(entry, sheet=1) for entry in made.blocks)
         try:
-            return draw(layout=made)
+            return draw(layout=replace(made, blocks=blocks))
         except LayoutError:
             pass
-    words = language(problem.sheet.lang or LANGUAGES[0])
-    blocks = (replace(e, sheet=2) if e.kind in FURTHER else e for e in made.blocks)
-    titles = {**made.titles, 2: words.project["titles"]["diagrams"]}
-    return draw(layout=replace(made, blocks=tuple(blocks), titles=titles))
+    return draw(layout=made)
 
 
-def plans_alone(problem: Problem) -> list[Drawing]:
-    """Return what sheet 1 has of scheme and plans: its scales are those of the project.
+def first_scales(problem: Problem) -> Scales:
+    """Return the scales of a project: those of scheme and plans on a sheet of their own.
 
     Raises
     ------
@@ -79,16 +63,13 @@ def plans_alone(problem: Problem) -> list[Drawing]:
     """
     positions = problem.drive.positions
     if problem.cycle is None:
-        return kinematics_sheets(problem, positions=positions)
-    made, paper = _composition(problem), problem.sheet.paper or PAPER
-    some = tuple(entry for entry in made.blocks if entry.kind not in FURTHER)
-    return kinematics_sheets(
-        problem, layout=replace(made, blocks=some), paper=paper, positions=positions
-    )
+        return sheet_scales(problem, positions=positions)
+    made = _composition(problem)
+    plans = tuple(entry for entry in made.blocks if entry.sheet == 1)
+    paper = replace(problem.sheet, paper=problem.sheet.paper or PAPER)
+    one = replace(problem, sheet=paper)
+    return sheet_scales(one, replace(made, blocks=plans), positions)
 
 
 def _composition(problem: Problem) -> Composition:
-    """Return the composition of sheet 1, its views as large as a sheet of plans alone bears."""
-    made = composition(SEVERAL, problem.sheet.lang or LANGUAGES[0])
-    sizes = {paper: own.with_boxes(WIDER) for paper, own in made.sizes.items()}
-    return replace(made, sizes=sizes)
+    return composition(SEVERAL, problem.sheet.lang or LANGUAGES[0])

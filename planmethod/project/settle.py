@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 from msgspec.structs import replace
@@ -20,11 +19,10 @@ from planmethod.problem.load_records import TurningSense
 from planmethod.problem.model import SAME_DEG, CycleTask, Problem, ProjectTask
 from planmethod.project.decided import (
     clear_position,
-    drawn_scales,
     force_scale,
     loaded_positions,
 )
-from planmethod.project.first import plans_alone
+from planmethod.project.first import first_scales
 from planmethod.project.model import PartName, Project, ProjectPart
 from planmethod.render.frame.titleblock import merged
 from planmethod.solved.forces.loads import only_in_positions
@@ -60,10 +58,9 @@ def settle(problem: Problem, path: Path | None = None) -> Project:
     calculated = _calculated(problem, Solution(problem), asked)
     task = replace(problem.project or ProjectTask(), calculated=calculated)
     problem = replace(problem, calculated=calculated, project=task)
-    scales = problem.scales
+    scales = replace(problem.scales, decided=True)
     if None in (scales.mu_l, scales.mu_v, scales.mu_a):
-        found: dict[str, Any] = dict(drawn_scales(plans_alone(problem), scales))
-        scales = replace(scales, **found)
+        scales = first_scales(problem)
     problem = replace(problem, scales=scales)
     if problem.dynamics is not None:
         loaded = Solution(problem, positions=[problem.drive.positions[calculated]])

@@ -1,44 +1,109 @@
-"""Which of several positions shows a mechanism best."""
+"""Which of several positions shows a mechanism best: drawn in full, calculated (расчётное)."""
 
 from __future__ import annotations
 
 from itertools import combinations
 
 import numpy as np
+import numpy.typing as npt
 
-from planmethod.plans.model import PlanKind
+from planmethod.construct.steps import PointName
+from planmethod.plans.model import RATES, PlanKind
 from planmethod.solved.enlarging import short_readings
-from planmethod.solved.reading import remembered
-from planmethod.solved.scaling import median
+from planmethod.solved.reading import Reals, remembered
+from planmethod.solved.scaling import OUTLIER, median, sizes
 from planmethod.solved.solution import Solution
 
 _APART = 0.3  # sine of the least angle between joined links of the clearest one
 _SMALL = 0.15  # part of its usual size that a velocity has in the clearest one at least
+_JOINTS = 3.0  # mm of paper between two joints of a clear one
+_SEEN = 1.0  # mm that a vector of its plans has at least
+
+
+def clear_position(solution: Solution) -> int:
+    """Return which position is drawn in full and calculated where nobody says it.
+
+    See `clearest_position`; positions count from 0.
+    """
+    return clearest_position(solution, tuple(range(len(solution.positions))))
 
 
 @remembered
 def clearest_position(solution: Solution, indices: tuple[int, ...]) -> int:
-    """Return the position that shows the mechanism best.
+    """Return which of some positions shows the mechanism best.
 
-    Of those in which no two joined links stand nearly in one line, and no vector of the velocity
-    plan nearly vanishes, as it does where the output turns back, one in which the fewest segments
-    are too short to be read well; of such the furthest from a dead position.
+    Of those in which no two joints lie within 3 mm of paper and no vector of a plan vanishes, one
+    in which no two joined links stand nearly in one line, no velocity nearly vanishes, as it does
+    where the output turns back, and no plan is much larger than the others. Of several the one in
+    which the fewest segments are too short to be read well; of such the furthest from a dead
+    position.
     """
-    chosen = list(indices)
-    plan = solution.construction.plan(PlanKind.VELOCITY)
-    sizes = np.abs([solution.si.vector(v.tail, v.head)[chosen] for v in plan.vectors])
-    usual = [median(size[size > 0.0]) if size.any() else 0.0 for size in sizes]
-    moving = np.all(sizes >= _SMALL * np.asarray(usual)[:, None], axis=0)
-    apart = np.ones(len(chosen), dtype=bool)
+    solution, chosen = solution.origin, list(indices)  # whatever scales a sheet tries
+    clear = _joints_apart(solution) & _vectors_seen(solution)
+    better = sum(f(solution)[chosen].astype(int) for f in (_moving, _links_apart, _usual))
+    short = -short_readings(solution.construction, solution.paper)[chosen]
+    ranked = zip(clear[chosen].tolist(), np.asarray(better).tolist(), short.tolist(),
+                 solution.margin[chosen].tolist(), indices, strict=True)  # fmt: skip
+    return max(ranked, key=lambda one: one[:4])[4]
+
+
+def _vectors(solution: Solution, kind: PlanKind) -> list[Reals]:
+    """Return the sizes of the vectors of a plan that are ever something, in its unit."""
+    plan = solution.construction.plan(kind)
+    found = [np.abs(solution.si.vector(v.tail, v.head)) for v in plan.vectors]
+    return [size for size in found if size.any()]
+
+
+def _joints_apart(solution: Solution) -> npt.NDArray[np.bool_]:
+    """Tell in which positions all joints lie apart on the paper, those that ever do."""
+    problem, paper = solution.problem, solution.paper
+    names = {joint.point for joint in problem.mechanism.revolutes}
+    names |= {slide.pin for slide in problem.slides.values()}
+    places = [paper.point(PointName(name)) for name in sorted(names)]
+    apart = np.ones(len(solution.positions), dtype=bool)
+    for one, other in combinations(places, 2):
+        distance = np.abs(one - other)
+        if distance.max() >= _JOINTS:
+            apart &= distance >= _JOINTS
+    return apart
+
+
+def _vectors_seen(solution: Solution) -> npt.NDArray[np.bool_]:
+    """Tell in which positions no vector of a plan is nothing, but for those that mostly are."""
+    seen = np.ones(len(solution.positions), dtype=bool)
+    for kind in RATES:
+        per_mm = solution.scales[kind].per_mm
+        for size in _vectors(solution, kind):
+            seen &= size >= min(_SEEN * per_mm, _SMALL * median(size))
+    return seen
+
+
+def _moving(solution: Solution) -> npt.NDArray[np.bool_]:
+    """Tell in which positions no velocity is much smaller than it usually is."""
+    found = [
+        size >= _SMALL * median(size[size > 0]) for size in _vectors(solution, PlanKind.VELOCITY)
+    ]
+    return np.all(found, axis=0) if found else np.ones(len(solution.positions), dtype=bool)
+
+
+def _links_apart(solution: Solution) -> npt.NDArray[np.bool_]:
+    """Tell in which positions no two joined links stand nearly in one line."""
+    apart = np.ones(len(solution.positions), dtype=bool)
     axes = {
-        link: np.exp(1j * np.radians(motion.phi_deg[chosen]))
+        link: np.exp(1j * np.radians(motion.phi_deg))
         for link, motion in solution.links.items()
         if len(solution.problem.bodies[link].points) > 1
     }
     for joint in solution.problem.mechanism.revolutes:
         for one, two in combinations([link for link in joint.links if link in axes], 2):
             apart &= np.abs((axes[one] * np.conj(axes[two])).imag) > _APART
-    good = (moving.astype(int) + apart).tolist()
-    short = (-short_readings(solution.construction, solution.paper)[chosen]).tolist()
-    margins = solution.margin[chosen].tolist()
-    return max(zip(good, short, margins, indices, strict=True), key=lambda one: one[:3])[3]
+    return apart
+
+
+def _usual(solution: Solution) -> npt.NDArray[np.bool_]:
+    """Tell in which positions no plan is much larger than the others."""
+    usual = np.ones(len(solution.positions), dtype=bool)
+    for kind in RATES:
+        size = np.maximum(*sizes(solution.construction, solution.si, kind))
+        usual &= size <= OUTLIER / 2 * median(size)
+    return usual

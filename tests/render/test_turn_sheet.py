@@ -52,11 +52,11 @@ def test_the_points_of_the_diagrams_stand_where_the_numbers_say() -> None:
         if isinstance(item, Stroke) and item.tag == AXIS and item.points[0].real == 0
         and item.points[0].imag == item.points[1].imag
     ]  # fmt: skip
-    for letter, key, start in (("v", "v_chord_mm", 12.0), ("a", "a_chord_mm", 0.0)):
+    for letter, key, start in (("v", "v_chord_mm", 7.5), ("a", "a_chord_mm", 0.0)):
         found = [i.centre for i in items if isinstance(i, Disc) and i.tag == f"{FOUND} {letter}"]
         level = min(levels, key=lambda y: abs(found[0].imag - told[key][0] - y))
         assert [p.imag - level for p in found] == pytest.approx(told[key], abs=1e-9)
-        assert [p.real for p in found] == pytest.approx([start + 24.0 * k for k in range(12)])
+        assert [p.real for p in found] == pytest.approx([start + 15.0 * k for k in range(12)])
 
 
 @pytest.mark.parametrize("way", Differentiation)
@@ -64,8 +64,8 @@ def test_every_ray_is_parallel_to_its_chord(way: Differentiation) -> None:
     """The slope of what a ray cuts off over the pole distance is that of the path."""
     made = diagrams(press(differentiation=way, pole=PoleDistances(v=30.0)))
     s, v, _ = made.drawn(way)
-    chords = np.diff(s) / 24.0
-    tangents = (s[(np.arange(12) + 1) % 12] - s[(np.arange(12) - 1) % 12]) / 48.0
+    chords = np.diff(s) / 15.0
+    tangents = (s[(np.arange(12) + 1) % 12] - s[(np.arange(12) - 1) % 12]) / 30.0
     expected = {
         Differentiation.CHORDS: 30.0 * chords,
         Differentiation.TANGENTS: 30.0 * tangents,
@@ -88,12 +88,12 @@ def test_sigmas_of_the_ordinates_are_those_of_random_sheets() -> None:
 def test_the_protocol_tells_poles_and_scales_in_both_languages() -> None:
     solution = press()
     for lang, words in (
-        ("ru", ("Из полюса P_v (K₁ = 36 мм)", "хорды")),
+        ("ru", ("Из полюса P_v (K₁ = 19,5 мм)", "хорды")),
         ("en", ("From the pole", "from O₃ tangents to the circle of the radius l_O1A")),
     ):
         text = cycle_protocol(solution, lang)
         assert all(word in text for word in words), text
-        assert "0.631" in text or "0,631" in text  # the greatest deviation of v by chords
+        assert "0.547" in text or "0,547" in text  # the greatest deviation of v by chords
 
 
 @pytest.mark.parametrize("name", ["press/press", *SIX[: some(len(SIX), 0)]])

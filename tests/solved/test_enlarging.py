@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+import numpy as np
 import pytest
 from worked import problem_of
 
@@ -13,7 +14,8 @@ from planmethod.plans.model import PlanKind
 from planmethod.render.ink.drawing import Arc
 from planmethod.render.pictures.enlarged import ENLARGED
 from planmethod.render.sheets.kinematics import kinematics_sheets
-from planmethod.solved.enlarging import NOTHING, RATIOS, SHORT, least_shown
+from planmethod.solved.enlarging import NOTHING, RATIOS, SHORT, SHOWN, SMALL, least_shown
+from planmethod.solved.scaling import sizes
 from planmethod.solved.solution import Solution
 
 NAMES = (
@@ -51,7 +53,7 @@ def test_what_is_read_on_a_view_is_read_to_five_per_cent_and_the_calculation_say
     """Half a division of the ruler is less than that of the segment as it is enlarged."""
     seen = 0
     for solution in solutions():
-        for name, knot in solution.read_on.items():
+        for name, knot in solution.read_on(0).items():
             read, drawn = (float(r.number(name)[0]) for r in (solution.by_hand, solution.paper))
             step = solution.hand.ruler / knot.times
             assert read / step == pytest.approx(round(read / step), abs=1e-6)
@@ -63,7 +65,7 @@ def test_what_is_read_on_a_view_is_read_to_five_per_cent_and_the_calculation_say
             for line in calculation(solution, kind, 0, language("ru"))
             if "по виду" in line
         ]
-        assert bool(told) == bool(solution.read_on)
+        assert bool(told) == bool(solution.read_on(0))
     assert seen >= 3
 
 
@@ -75,10 +77,33 @@ def test_what_is_less_than_half_a_division_is_told_to_be_nothing() -> None:
     assert least_shown(0.5) == NOTHING > least_shown(0.01) == SHORT / RATIOS[-1]
 
 
-def test_many_positions_have_no_enlarged_views() -> None:
+def test_short_segments_of_many_positions_are_not_enlarged() -> None:
     solution = Solution(problem_of("levers/task-49"), positions=[30.0, 60.0])
     assert not any(solution.knots.values())
     assert not solution.hand.enlarged
+
+
+def test_a_small_plan_of_many_is_shown_enlarged_beside_itself_and_read_there() -> None:
+    """At the one scale of the series; where one plan is much larger than the others."""
+    positions = [30.0 * k for k in range(12)]
+    problem = problem_of("levers/task-61")
+    solution = Solution(problem, positions=positions)
+    assert solution.has_common(PlanKind.ACCELERATION)
+    small = solution.small_plans[PlanKind.ACCELERATION]
+    assert small
+    width, height = sizes(solution.construction, solution.si, PlanKind.ACCELERATION)
+    drawn = np.maximum(width, height) / solution.scales[PlanKind.ACCELERATION].per_mm
+    assert {k for k in range(12) if drawn[k] < SMALL} == set(small)
+    assert all(knot.times * drawn[k] >= SHOWN for k, knot in small.items())
+    for k, knot in small.items():
+        for name in solution.read_on(k):
+            read = float(solution.by_hand.number(name)[k]) * knot.times
+            assert read / 0.5 == pytest.approx(round(read / 0.5), abs=1e-6)
+    (sheet,) = kinematics_sheets(problem, positions=positions)
+    (view,) = (v for v in sheet.views if v.kind == "acceleration")
+    tags = {i.tag for i in sheet.items if isinstance(i, Arc) and i.tag.startswith(ENLARGED)}
+    assert {f"{ENLARGED} {knot.number}" for knot in small.values()} <= tags
+    assert {span.position for span in view.spans if span.share > 1.0} == set(small)
 
 
 def test_a_sheet_has_a_circle_at_each_knot_and_its_view_with_measured_segments() -> None:

@@ -1,4 +1,4 @@
-"""Plans of many positions that have scales of their own."""
+"""One scale for all plans of a kind; their own where the file asks, or where none can be common."""
 
 from __future__ import annotations
 
@@ -9,44 +9,63 @@ from worked import problem_of
 
 from planmethod.plans.model import RATES, PlanKind
 from planmethod.problem.model import Scales
+from planmethod.render.sheets.kinematics import kinematics_sheets
 from planmethod.solved.errors.motion import drafting_of
-from planmethod.solved.scaling import Views, sizes
+from planmethod.solved.scaling import DEAD, median, sizes
 from planmethod.solved.solution import Solution
 
 
-def test_a_scale_is_found_where_all_plans_have_scales_of_their_own() -> None:
-    """They are of so different sizes that none of three has room beside the others."""
-    problem = problem_of("levers/task-16")
+@pytest.mark.parametrize("name", ["levers/task-16", "levers/task-49", "levers/task-13"])
+def test_plans_of_several_positions_have_one_scale(name: str) -> None:
+    problem = problem_of(name)
     first = problem.drive.positions[0]
     solution = Solution(problem, positions=[first + 120.0 * k for k in range(3)])
     for kind in RATES:
-        own = [solution.own_scale(kind, i).per_mm for i in range(3)]
-        drawn = np.maximum(*sizes(solution.construction, solution.si, kind)) / own
-        assert (drawn[drawn > 0.0] > 20.0).all()
+        assert solution.has_common(kind)
+        assert {solution.own_scale(kind, i) for i in range(3)} == {solution.scales[kind]}
+        size = np.maximum(*sizes(solution.construction, solution.si, kind))
+        assert size.max() / solution.scales[kind].per_mm < 400.0
 
 
-def test_a_plan_is_read_at_the_scale_at_which_it_is_drawn() -> None:
-    """Its segments and their errors are those of the position alone at that scale."""
+def test_plans_have_their_own_scales_where_the_file_asks() -> None:
+    """Each fills its room, is read at its scale, and its errors are those at that scale."""
     problem = problem_of("levers/task-49")
-    together = Solution(problem, positions=[30.0, 150.0, 270.0])
-    kind = PlanKind.ACCELERATION
+    positions, kind = [30.0, 150.0, 270.0], PlanKind.ACCELERATION
+    asked = replace(problem, scales=replace(problem.scales, own=True))
+    together = Solution(asked, positions=positions)
     own = [together.own_scale(kind, i).per_mm for i in range(3)]
-    assert own == [5.0, 1.0, 1.0]
+    assert not together.has_common(kind) and len(set(own)) > 1
     scales = {k: together.own_scale(k, 0) for k in PlanKind if k in together.scales}
     alone = Solution(problem, positions=[30.0, 30.0], scales=scales)
     for one, other in zip(together.segments(kind), alone.segments(kind), strict=True):
         assert one.exact[0] == pytest.approx(other.exact[0], rel=1e-12)
-        assert one.read[0] == pytest.approx(other.read[0], rel=1e-12)
     found = drafting_of(together).spreads["a_D"].sigma[0]
     assert found == pytest.approx(drafting_of(alone).spreads["a_D"].sigma[0], rel=1e-9)
+    assert kinematics_sheets(asked, positions=positions)
 
 
-def test_a_scale_of_the_file_is_left_by_sheets_alone() -> None:
+def test_a_scale_of_the_file_is_left_for_other_positions_where_it_is_too_fine() -> None:
+    """By the numbers as by the sheet; decided ones never are."""
     problem = problem_of("levers/task-13")
-    given = replace(problem, scales=Scales(mu_a=0.25))
-    positions = [30.0, 150.0, 270.0]
+    given = replace(problem, scales=Scales(mu_a=0.05))
+    positions = [30.0 * k for k in range(12)]
     told = Solution(given, positions=positions)
-    drawn = Solution(given, positions=positions, views=Views.for_paper("A2", 3))
-    assert told.per_mm["mu_a"] == 0.25
-    assert (drawn.per_mm["mu_a"] >= 0.25).all()
-    assert drawn.own_scale(PlanKind.ACCELERATION, 2).per_mm > 0.25
+    assert told.scales[PlanKind.ACCELERATION].per_mm > 0.05
+    assert Solution(given).scales[PlanKind.ACCELERATION].per_mm == 0.05
+    decided = replace(problem, scales=Scales(mu_a=0.05, decided=True))
+    kept = Solution(decided, positions=positions)
+    assert kept.scales[PlanKind.ACCELERATION].per_mm == 0.05
+
+
+def test_a_plan_in_a_dead_position_has_a_scale_of_its_own() -> None:
+    """At one scale with it all others would be nothing."""
+    problem = problem_of("linkages/2.1.4")
+    first = problem.drive.positions[0]
+    solution = Solution(problem, positions=[first + 120.0 * k for k in range(3)])
+    kind = PlanKind.ACCELERATION
+    size = np.maximum(*sizes(solution.construction, solution.si, kind))
+    dead = size > DEAD * median(size)
+    assert dead.sum() == 1
+    own = [solution.own_scale(kind, i) != solution.scales[kind] for i in range(3)]
+    assert own == dead.tolist()
+    assert solution.has_common(kind)

@@ -76,21 +76,24 @@ def test_the_diagrams_of_the_press_are_those_of_their_definitions() -> None:
     mu = diagrams["mu_s"]
     s = (height(phi[0]) - height(phi)) / mu
     assert diagrams["s_mm"] == pytest.approx(s.tolist(), abs=1e-9)
-    chords = 1.5 * np.diff(s)
+    assert diagrams["length_mm"] == 180.0  # two degrees a millimetre
+    one, two = diagrams["poles_mm"]
+    chords = one / 15.0 * np.diff(s)
     assert diagrams["v_chord_mm"] == pytest.approx(chords.tolist(), abs=1e-9)
-    second = 1.5 * (chords - np.roll(chords, 1))
+    second = two / 15.0 * (chords - np.roll(chords, 1))
     assert diagrams["a_chord_mm"] == pytest.approx(second.tolist(), abs=1e-9)
     h, fine = 1e-4, (height(phi + 1e-4) - height(phi - 1e-4)) / 2e-4
-    v = -fine * (2 * pi / 288) * 36 / mu
+    v = -fine * (2 * pi / 180) * one / mu
     assert diagrams["v_exact_mm"] == pytest.approx(v.tolist(), abs=1e-5)
     bend = -(height(phi + h) - 2 * height(phi) + height(phi - h)) / h**2
     assert diagrams["a_exact_mm"] == pytest.approx(
-        (bend * (2 * pi / 288 * 36) ** 2 / mu).tolist(), abs=1e-4
+        (bend * (2 * pi / 180) ** 2 * one * two / mu).tolist(), abs=1e-4
     )
     assert diagrams["v_curve_mm"] == pytest.approx(
         smooth(chords, np.arange(-0.5, 11.0)).tolist(), abs=1e-9
     )
-    assert diagrams["mu_v"] == pytest.approx(mu * 13.6135681655558 / (2 * pi / 288 * 36))
+    assert diagrams["mu_v"] == pytest.approx(mu * 13.6135681655558 / (2 * pi / 180 * one))
+    assert (mu, diagrams["mu_v"], diagrams["mu_a"]) == (0.002, 0.04, 0.4)
 
 
 def test_a_smooth_curve_goes_through_its_values_and_has_no_corner() -> None:
@@ -152,12 +155,15 @@ def test_the_range_of_a_crank_that_does_not_turn_fully_ends_where_the_dyad_is_st
     way = (angle(phi) - angle(zero)) * np.sign(angle(zero + 1) - angle(zero))
     way = np.angle(np.exp(1j * way)) / made["mu_s"]
     assert made["s_mm"][:-1] == pytest.approx(way.tolist(), abs=1e-9)
-    chords = 1.5 * np.diff(way)
+    (one, two), step = made["poles_mm"], made["length_mm"] / 12
+    chords = one / step * np.diff(way)
     assert made["v_chord_mm"][:-1] == pytest.approx(chords.tolist(), abs=1e-9)
-    assert made["a_chord_mm"][1:-1] == pytest.approx((1.5 * np.diff(chords)).tolist(), abs=1e-9)
+    assert made["a_chord_mm"][1:-1] == pytest.approx(
+        (two / step * np.diff(chords)).tolist(), abs=1e-9
+    )
     beyond = [made["s_mm"][-1], made["v_chord_mm"][-1], made["a_chord_mm"][0]]
     assert beyond == [made["a_chord_mm"][-1], made["v_curve_mm"][0], None]
-    assert made["mu_phi"] * 288 == pytest.approx(np.radians(2 * end))
+    assert made["mu_phi"] * made["length_mm"] == pytest.approx(np.radians(2 * end))
     assert told["zero_deg"] == told["extremes"][0]["phi_deg"] and len(told["hodograph"]["C"]) == 12
     # A position that is out of the range is none to count from.
     other = four_bar(a, b, c, d, asked="zero = 180")

@@ -8,6 +8,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from planmethod.mechanism.model import FRAME
+from planmethod.note.formula import fraction
 from planmethod.note.numbers import MINUS, Notation, trimmed, with_unit
 from planmethod.note.wording import Language
 from planmethod.plans.legend import Quantity, QuantityKind
@@ -78,7 +79,8 @@ def given(problem: Problem, words: Language, positions: Sequence[float] | None =
         if drive.turns is not None:
             speed = text.number(drive.turns, "rev/min", "driver.n")
             rate = text.say.found(drive.rate)
-            found = f"{omega} = πn_{{{drive.link}}}/30 = {rate} {text.say.units['1/s']}"
+            turns = fraction(f"πn_{{{drive.link}}}", "30")
+            found = f"{omega} = {turns} = {rate} {text.say.units['1/s']}"
             lines.append(f"n_{{{drive.link}}} = {speed}{constant} ({found})")
         else:
             rate = text.number(drive.rate, "1/s", "driver.omega")

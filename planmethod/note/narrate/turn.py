@@ -150,7 +150,7 @@ def diagram_steps(diagrams: Diagrams, words: Language) -> list[str]:
         said.again.format(pole=say.given(half_up(diagrams.poles[1], 2))),
         said.scales.format(
             scales="; ".join(diagram_scales(diagrams, words)),
-            radians=say.given(significant(diagrams.mu_phi, 4)),
+            radians=say.found(diagrams.mu_phi),
             omega=f"ω_{{{diagrams.turn.solution.problem.drive.link}}}",
         ),
     ]

@@ -10,7 +10,7 @@ from typing import assert_never
 
 from planmethod.note import document
 from planmethod.note.document import Document, Equation, Node, Table
-from planmethod.note.formula import Index, Letters, Overline, parse
+from planmethod.note.formula import Fraction, Index, Letters, Overline, Root, inline, parse
 from planmethod.note.formula import Node as Sign
 from planmethod.note.wording import Words, language
 
@@ -34,6 +34,8 @@ tr{break-inside:avoid}sub,sup{line-height:0}.bar{text-decoration:overline}
 .blank td.tone,.unreadable td.tone{background:#ececec}
 .titlepage{text-align:center;break-after:page}.break{break-after:page}
 .level2{margin-left:5mm}.level3{margin-left:10mm}.number{float:right}
+.fraction{display:inline-block;vertical-align:middle;text-align:center}
+.fraction span{display:block;padding:0 .3em}.fraction span+span{border-top:.2mm solid}
 .note{color:#555;font-size:9pt}.formula{margin-left:8mm}
 .term{display:inline-block;text-align:center;vertical-align:top}
 .term small{display:block;font-size:8pt}.u1{border-bottom:.3mm solid}.u2{border-bottom:1mm double}
@@ -121,15 +123,15 @@ def _element(node: Node, number: str, words: Words) -> str:
         case document.Step(lines):
             return f"<li>{'<br>'.join(map(markup, lines))}</li>"
         case document.Formula(text):
-            return f'<p class="formula">{markup(text)}{_numbered(number)}</p>'
+            return f'<p class="formula">{markup(text, built=True)}{_numbered(number)}</p>'
         case document.Equations(equations):
             lines = "".join(f'<p class="formula">{_equation(one)}</p>' for one in equations)
             return lines + _numbered(number)
         case document.Table(name=name):
-            above = document.captioned(words.table, number, name)
+            above = words.table.format(number=number, text=name)
             return (f'<p class="caption">{markup(above)}</p>' if name else "") + _table(node)
         case document.Figure(view, caption):
-            caption = document.captioned(words.figure, number, caption)
+            caption = words.figure.format(number=number, text=caption) if number else caption
             return f"<figure>{view.svg()}<figcaption>{markup(caption)}</figcaption></figure>"
         case document.References(entries):
             return f"<ol>{''.join(f'<li>{markup(entry)}</li>' for entry in entries)}</ol>"
@@ -172,22 +174,31 @@ def _table(table: Table) -> str:
 # Text --------------------------------------------------------------------------------------------
 
 
-def markup(rich: str, *, above: str = "sup", below: str = "sub") -> str:
-    """Return rich text with tags of indices; whatever else looks like a tag is escaped."""
-    return "".join(_sign(node, above, below) for node in parse(clean(rich)))
+def markup(rich: str, *, built: bool = False) -> str:
+    """Return rich text with tags of indices; whatever else looks like a tag is escaped.
+
+    ``built``: whether fractions are built up, as on a line of their own.
+    """
+    nodes = parse(clean(rich))
+    return "".join(map(_sign, nodes if built else inline(nodes)))
 
 
-def _sign(node: Sign, above: str, below: str) -> str:
+def _sign(node: Sign) -> str:
     def inside(nodes: tuple[Sign, ...]) -> str:
-        return "".join(_sign(one, above, below) for one in nodes)
+        return "".join(map(_sign, nodes))
 
     match node:
         case Letters(text):
             return html.escape(text)
         case Index(low, high):
-            lower = f"<{below}>{inside(low)}</{below}>" if low else ""
-            return (f"<{above}>{inside(high)}</{above}>" if high else "") + lower
+            lower = f"<sub>{inside(low)}</sub>" if low else ""
+            return (f"<sup>{inside(high)}</sup>" if high else "") + lower
         case Overline(body):
-            return f'<span class="bar">{inside(body)}</span>' if above == "sup" else inside(body)
+            return f'<span class="bar">{inside(body)}</span>'
+        case Fraction(above, below):
+            parts = f"<span>{inside(above)}</span><span>{inside(below)}</span>"
+            return f'<span class="fraction">{parts}</span>'
+        case Root(body):
+            return f'√<span class="bar">{inside(body)}</span>'
         case _:
             assert_never(node)

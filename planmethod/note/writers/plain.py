@@ -44,7 +44,7 @@ class PlainWriter:
 
     def __init__(self, words: Language) -> None:
         units = {name for unit in words.note["units"].values() for name in re.findall(_WORD, unit)}
-        self._words = words.document
+        self._language = words
         self._unit = rf"(?<=\d) (?=(?:{'|'.join(sorted(units))})(?![^\W\d_]))"
         self._step = 0
         self._below = ""  # what stands before the items of a caption
@@ -67,7 +67,7 @@ class PlainWriter:
         return lines
 
     def _contents(self, written: Document) -> list[str]:
-        lines = heading(self._words.contents)
+        lines = heading(self._language.document.contents)
         for level, number, title in document.headings_of(written):
             lead = INDENT[: 2 * (level - 1)] + (f"{number} " if number else "")
             lines += wrap(self._whole(title), first=lead, rest=" " * len(lead))
@@ -107,7 +107,7 @@ class PlainWriter:
             case document.Title(text):
                 return heading(plain_text(text), "═")
             case document.TitlePage():
-                texts = document.lines_of(node, self._words)
+                texts = document.lines_of(node, self._language.document)
                 return [line for text in texts for line in wrap(self._whole(text))]
             case document.Contents() | document.PageBreak():
                 return []
@@ -132,11 +132,9 @@ class PlainWriter:
             case document.Equations(equations):
                 return self._equations(equations) + [f"{INDENT}({number})"] * bool(number)
             case document.Table(name=name):
-                above = document.captioned(self._words.table, number, name)
-                return (wrap(self._whole(above)) if name else []) + _tabulated(node)
+                return (self._caption("table", number, name) if name else []) + _tabulated(node)
             case document.Figure(caption=caption):
-                caption = document.captioned(self._words.figure, number, caption)
-                return wrap(self._whole(caption)) if caption else []
+                return self._caption("figure", number, caption)
             case document.References(entries):
                 return [
                     line
@@ -149,6 +147,11 @@ class PlainWriter:
     def _whole(self, rich: str) -> str:
         """Return rich text as plain, its numbers tied to their units."""
         return re.sub(self._unit, NO_BREAK, plain_text(rich))
+
+    def _caption(self, kind: str, number: str, text: str) -> list[str]:
+        # Only what has a number needs the words that stand before it.
+        text = self._language.document[kind].format(number=number, text=text) if number else text
+        return wrap(self._whole(text))
 
     def _stepped(self, lines: Sequence[str], *, continues: bool) -> list[str]:
         self._step += not continues

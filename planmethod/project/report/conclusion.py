@@ -7,10 +7,9 @@ from collections.abc import Iterator
 from planmethod.gears.model import GearProblem
 from planmethod.mechanism.structure import roman
 from planmethod.note.document import Item, Node, References, StructuralHeading, Table
-from planmethod.note.formula import Rich, escape
+from planmethod.note.formula import Rich, escape, inlined
 from planmethod.note.narrate.forces.lever import both_balances, difference, expected
 from planmethod.note.wording import Words
-from planmethod.plans.forces.polygons import reaction_symbol
 from planmethod.project.model import PartName
 from planmethod.project.report.context import Report, sentences
 from planmethod.project.report.flywheel import machine_of
@@ -43,7 +42,7 @@ def conclusion(report: Report) -> Iterator[Node]:
         *_gears(report, said),
     ]
     for number, text in enumerate(filter(None, found), 1):
-        yield Item(text, f"{number})")
+        yield Item(inlined(text), f"{number})")
 
 
 def _structure(report: Report, said: Words) -> Rich:
@@ -78,7 +77,7 @@ def _turn(report: Report, said: Words) -> Iterator[Rich]:
         slides = turn.output.slide is not None
         size = report.quantity(turn.stroke, "m") if slides else report.degrees(turn.stroke)
         told.append(str(said["stroke"][turn.output.unit]).format(stroke=size))
-    if strokes is not None:
+    if strokes is not None and strokes.K_v is not None:
         told.append(
             said.ratio.format(
                 working=report.degrees(strokes.working_deg),
@@ -97,7 +96,7 @@ def _forces(report: Report, said: Words) -> Iterator[Rich]:
     balancing = reading.balancing
     yield said.forces.format(
         position=report.in_position,
-        symbol=reaction_symbol(most.on, most.by),
+        symbol=report.reaction(most),
         value=report.quantity(abs(complex(most.force[0])), "N"),
         name=said["balancing"][balancing.quantity],
         balancing=say.symbol(reading.balancing_symbol),

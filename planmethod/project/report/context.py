@@ -8,7 +8,7 @@ from collections.abc import Iterable, Sequence
 from planmethod.construct.steps import Compute, NumberName
 from planmethod.mechanism.describe import LinkKind, kind_of_motion
 from planmethod.note.document import Formula, Paragraph
-from planmethod.note.formula import Rich
+from planmethod.note.formula import Rich, inlined
 from planmethod.note.narrate.formulas import Formulas
 from planmethod.note.narrate.naming import Names
 from planmethod.note.narrate.scales import scale_inscription
@@ -16,8 +16,10 @@ from planmethod.note.narrate.steps import Narrator
 from planmethod.note.numbers import Notation, with_unit
 from planmethod.note.plaintext import given
 from planmethod.note.wording import Language, Words
+from planmethod.plans.forces.polygons import reaction_symbol
 from planmethod.plans.model import FACTS, PlanKind, Vector
 from planmethod.project.model import PartName, Project
+from planmethod.solved.forces.contact import JointForce
 from planmethod.solved.solution import Solution
 
 NBSP = "\u00a0"
@@ -58,6 +60,15 @@ class NoteFormulas(Formulas):
         return lines
 
 
+def as_told(words: Language) -> Language:
+    """Return a language in which narrators and statements speak as a note does."""
+    own = Language(words.lang)
+    own.note = Words({**words.note, **words.report["voice"]})
+    own.forces = Words({**words.forces, **words.report["force_voice"]})
+    vars(own)["say"] = words.say  # pictures are kept by it
+    return own
+
+
 class Report:
     """What the chapters of a note share (общее для глав записки).
 
@@ -65,8 +76,9 @@ class Report:
     ----------
     project : Project
     words : Language
-    said, note : Words
-        The sentences of notes; those of the narrators, as a note has them.
+        With the sentences of the narrators as a note has them.
+    said : Words
+        The sentences of notes.
     every, one : Solution
         All positions, and the calculated one alone.
     names : Names
@@ -79,15 +91,14 @@ class Report:
     """
 
     def __init__(self, project: Project, words: Language) -> None:
-        self.project, self.words, self.said = project, words, words.report
+        self.project, self.words, self.said = project, as_told(words), words.report
         self.every: Solution = project.solution
         self.one: Solution = project.loaded
-        self.note = Words({**words.note, **self.said["voice"]})
         self.described: set[str] = set()
-        self.names = Names(self.one, self.note, on_sheet=True)
+        self.names = Names(self.one, self.words.note, on_sheet=True)
         self.formulas = NoteFormulas(self.one, self.names, 0)
         if self.one.problem.drive.is_crank:
-            self.formulas.shown_angle = self.shown_places[project.calculated]
+            self.formulas.shown_angle = round(self.shown_places[project.calculated], 2)
         self.narrator = Narrator(self.one, self.names, 0, self.formulas)
 
     @property
@@ -122,6 +133,12 @@ class Report:
         """Return a length that is measured on paper, with its unit."""
         return with_unit(self.say.ruled(value), self.unit("mm"))
 
+    def parts(self, count: int) -> Rich:
+        """Return so many equal parts, as the language counts them."""
+        last, teens = count % 10, 10 < count % 100 < 20
+        form = "many" if teens or not 0 < last < 5 else "one" if last == 1 else "few"
+        return str(self.said["counts"]["parts"][form]).format(count=count)
+
     def listed(self, parts: Sequence[Rich]) -> Rich:
         """Return a list in a sentence: ``a, b и c``."""
         *first, last = parts
@@ -148,11 +165,8 @@ class Report:
 
     @property
     def shown_places(self) -> list[float]:
-        """Where the driver stands in each position, as tables have it: of a turn within 360°."""
-        turn = self.one.problem.cycle is not None
-        return [
-            round(value % 360.0, 2) % 360.0 if turn else value for value in self.project.positions
-        ]
+        """Where the driver stands in each position, as tables have it."""
+        return [round(self.one.problem.shown(value), 4) for value in self.project.positions]
 
     @property
     def of_position(self) -> Rich:
@@ -166,8 +180,8 @@ class Report:
 
     @property
     def for_position(self) -> Rich:
-        """For the calculated position, after a blank; nothing where it is the only one."""
-        return self._told(self.said.for_position)
+        """For the calculated position, after a blank."""
+        return self._told(self.said.for_position) or self.said.for_only.format()
 
     def _told(self, template: str) -> Rich:
         return template.format(number=self.project.calculated) if self.is_series else ""
@@ -177,6 +191,10 @@ class Report:
         """Letter of the driver's coordinate, with its link."""
         drive = self.one.problem.drive
         return f"φ_{{{drive.link}}}" if drive.is_crank else drive.coordinate.symbol
+
+    def reaction(self, joint: JointForce) -> Rich:
+        """Return the letter of a reaction, the frame by its number."""
+        return reaction_symbol(joint.on, self.one.problem.mechanism.called(joint.by))
 
     # Links ---------------------------------------------------------------------------------------
 
@@ -209,4 +227,5 @@ def chain(lines: Iterable[Rich]) -> list[Formula]:
 
 def sentences(*texts: Rich) -> Paragraph:
     """Return a paragraph of some sentences, those that there are."""
-    return Paragraph(lettered(" ".join(text for text in texts if text)))
+    # In a line of text a built-up fraction would push the lines apart.
+    return Paragraph(lettered(" ".join(inlined(text) for text in texts if text)))

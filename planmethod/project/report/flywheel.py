@@ -3,16 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from itertools import takewhile
 from math import degrees
 
 from planmethod.note.document import Chapter, Node, Part, Table
-from planmethod.note.formula import Rich
+from planmethod.note.formula import Rich, fraction
 from planmethod.note.narrate.machine import MachineTeller
-from planmethod.note.numbers import with_unit
+from planmethod.note.numbers import half_up, with_unit
 from planmethod.note.wording import Words
 from planmethod.problem.load_records import Load, Quadrature, SizeTable, WheelShape
 from planmethod.project.report.context import NBSP, Report, displayed, sentences
-from planmethod.project.report.figures import WIDTH, figure, of_sheet
+from planmethod.project.report.figures import figure, of_sheet
 from planmethod.render.pictures.flywheel import construction_picture
 from planmethod.solved.machine.drawing import drawing_of, split
 from planmethod.solved.machine.flywheel import flywheel_of
@@ -46,11 +47,11 @@ def flywheel_chapter(report: Report) -> Iterator[Node]:
 def _reduced(report: Report, tell: MachineTeller, said: Words) -> Iterator[Node]:
     J = tell.letter("reduced inertia")  # noqa: N806 - the letter of the textbook
     yield sentences(said.about.format())
-    moment = f"{tell.moment} = Σ(F_{{i}}·v_{{i}}·cos α_{{i}} ± M_{{i}}·ω_{{i}})/ω_{{1}}"
-    inertia = f"{J} = Σ(m_{{i}}·v_{{Si}}^{{2}} + J_{{Si}}·ω_{{i}}^{{2}})/ω_{{1}}^{{2}}"
-    link = report.one.problem.drive.link
-    yield displayed(f"{moment},".replace("_{1}", f"_{{{link}}}"))
-    yield displayed(f"{inertia},".replace("_{1}", f"_{{{link}}}"))
+    omega = f"ω_{{{report.one.problem.drive.link}}}"
+    moment = fraction("Σ(F_{i}·v_{i}·cos α_{i} ± M_{i}·ω_{i})", omega)
+    inertia = fraction("Σ(m_{i}·v_{Si}^{2} + J_{Si}·ω_{i}^{2})", f"{omega}^{{2}}")
+    yield displayed(f"{tell.moment} = {moment},")
+    yield displayed(f"{J} = {inertia},")
     yield sentences(said.where.format())
     flywheel = tell.flywheel
     cycle = with_unit(report.say.given(flywheel.machine.cycle_deg), "°")
@@ -67,7 +68,7 @@ def _reduced(report: Report, tell: MachineTeller, said: Words) -> Iterator[Node]
     if changing:
         made = of_sheet("load-diagram", report.every, report.words, column=COLUMN)
         yield sentences(said.load_text.format())
-        yield figure(made, said.load_figure.format(), "load", room=(WIDTH, 90.0))
+        yield figure(made, said.load_figure.format(), "load", height=90.0)
 
 
 def _diagrams(report: Report, tell: MachineTeller, said: Words) -> Iterator[Node]:
@@ -87,12 +88,12 @@ def _diagrams(report: Report, tell: MachineTeller, said: Words) -> Iterator[Node
             A=letters["A"],
             mu_M=tell.scale("M", scales.moment, "N·m"),
             way=str(said["ways"]["middle" if middle else "trapezoid"]).format(),
-            pole=with_unit(say.given(machine.pole_mm), report.unit("mm")),
+            pole=with_unit(say.given(half_up(drawing.pole, 2)), report.unit("mm")),
         )
     )
-    formulas = tell.formulas()
-    yield displayed(f"{formulas[0]},")
-    yield displayed(f"{formulas[1]}.")
+    scaled = list(takewhile(_is_no_angle, tell.formulas()))
+    for k, text in enumerate(scaled, 1):
+        yield displayed(f"{text}{'.' if k == len(scaled) else ','}")
     constant = float(drawing.points.work[-1]) / tell.flywheel.cycle
     yield sentences(
         said.constant.format(
@@ -104,8 +105,13 @@ def _diagrams(report: Report, tell: MachineTeller, said: Words) -> Iterator[Node
     yield figure(
         lambda letter: construction_picture(drawing, tell, letter),
         said.figure.format(),
-        "machine-diagrams",
+        "machine_diagrams",
+        height=190.0,
     )
+
+
+def _is_no_angle(formula: Rich) -> bool:
+    return not formula.startswith("tg")
 
 
 def _inertia(report: Report, tell: MachineTeller, said: Words) -> Iterator[Node]:
@@ -113,8 +119,7 @@ def _inertia(report: Report, tell: MachineTeller, said: Words) -> Iterator[Node]
     points, step = drawing.points.tangents, flywheel.cycle / drawing.count
     slopes = flywheel.usual_slopes
     yield sentences((said.tangents_one if slopes[0] == slopes[1] else said.tangents).format())
-    formulas = tell.formulas()
-    tangents = dict.fromkeys(formulas[2:4])
+    tangents = dict.fromkeys(text for text in tell.formulas() if not _is_no_angle(text))
     for k, text in enumerate(tangents, 1):
         yield displayed(f"{text}{'.' if k == len(tangents) else ','}")
     exact = float(drawing.exact.number(drawing.made.KL)[0])
@@ -128,12 +133,13 @@ def _inertia(report: Report, tell: MachineTeller, said: Words) -> Iterator[Node]
     )
     symbol, omega = tell.letter("flywheel"), tell.letter("mean speed")
     speed = say.found(flywheel.middle_speed)
-    numbers = (
-        f"{say.found(drawing.scales.work)}·{say.ruled(tell.KL)}"
-        f"/({speed}^{{2}}·{say.given(flywheel.machine.delta)})"
+    letters = fraction("μ_{T}·KL", f"{omega}^{{2}}·δ")
+    numbers = fraction(
+        f"{say.found(drawing.scales.work)}·{say.ruled(tell.KL)}",
+        f"{speed}^{{2}}·{say.given(flywheel.machine.delta)}",
     )
     value = report.quantity(drawing.read_inertia, "kg·m²")
-    yield displayed(f"{symbol} = μ_{{T}}·KL/({omega}^{{2}}·δ) = {numbers} = {value}.", "flywheel")
+    yield displayed(f"{symbol} = {letters} = {numbers} = {value}.", "flywheel")
     sigma = f"{say.short(drawing.sigma, 2)} {report.unit('kg·m²')}"
     yield sentences(said.sigma.format(sigma=sigma), *_checked(report, tell, said))
     sizes = tell.sizes
@@ -141,7 +147,7 @@ def _inertia(report: Report, tell: MachineTeller, said: Words) -> Iterator[Node]
         yield from _sizes(report, tell, said)
     made = of_sheet("speed-diagram", report.every, report.words, column=COLUMN)
     yield sentences(said.speed.format())
-    yield figure(made, said.speed_figure.format(), "speed", room=(WIDTH, 90.0))
+    yield figure(made, said.speed_figure.format(), "speed", height=90.0)
 
 
 def _checked(report: Report, tell: MachineTeller, said: Words) -> Iterator[Rich]:
@@ -209,4 +215,4 @@ def _sizes(report: Report, tell: MachineTeller, said: Words) -> Iterator[Node]:
         said.wheel_text.format(),
     )
     made = of_sheet("flywheel", report.every, report.words, column=130.0)
-    yield figure(made, said.wheel_figure.format(), "wheel", room=(WIDTH, 90.0))
+    yield figure(made, said.wheel_figure.format(), "wheel", height=90.0)

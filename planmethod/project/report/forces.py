@@ -8,7 +8,7 @@ import numpy as np
 
 from planmethod.construct.steps import Name
 from planmethod.note.document import Chapter, Equations, Node, Part, Table, table_of_columns
-from planmethod.note.formula import Rich
+from planmethod.note.formula import Rich, fraction
 from planmethod.note.narrate.forces.common import ForceContext, balance_equation
 from planmethod.note.narrate.forces.lever import (
     LeverNarrator,
@@ -27,10 +27,10 @@ from planmethod.note.tables.results import lead_columns
 from planmethod.note.wording import Words
 from planmethod.plans.forces.board import GivenLoad
 from planmethod.plans.forces.loads import LoadKind
-from planmethod.plans.forces.polygons import ForcePlan, Moments, reaction_symbol
+from planmethod.plans.forces.polygons import ForcePlan, Moments
 from planmethod.plans.model import PlanKind
 from planmethod.project.report.context import Report, chain, displayed, sentences
-from planmethod.project.report.figures import WIDTH, figure
+from planmethod.project.report.figures import figure
 from planmethod.render.forces.cut import cut_picture, inner_picture, loads_picture
 from planmethod.render.forces.leverpicture import lever_picture
 from planmethod.render.forces.polygon import drawn_edges, polygon_picture
@@ -51,7 +51,7 @@ class ForceChapter:
         self.report, self.said = report, report.said["forces"]
         self.reading = force_reading(report.one, 0)
         self.context = ForceContext(self.reading, report.formulas)
-        self.context.said = Words({**self.context.said, **report.said["force_voice"]})
+        self.context.said = report.words.forces
         self.drive = report.one.problem.drive.link
         self.find = report.say.found
 
@@ -172,7 +172,7 @@ class ForceChapter:
         moments = MomentNarrator(self.context, plan)
         links = "–".join(plan.links)
         driver = plan.links == (self.drive,)
-        yield Part((said.driver.format(link=links) if driver else said.group.format(links=links)))
+        yield Part(said.driver.format(link=links) if driver else said.group.format(links=links))
         if not number:
             yield sentences(said.order.format())
         yield sentences(*voice.freed())
@@ -196,8 +196,8 @@ class ForceChapter:
         for balance in plan.balances:
             template = said["balance"]["one" if len(balance.links) == 1 else "many"]
             yield sentences(template.format(links="–".join(balance.links)))
-            equation = balance_equation(balance, self.context, direction_text)
-            yield Equations((equation,), numbered=True)
+            summed = balance_equation(balance, self.context, direction_text)
+            yield Equations((summed,), numbered=True)
         *steps, _ = voice.steps()
         form = said["plan"]["one" if len(plan.balances) == 1 else "many"]
         yield sentences(form.format(), *(line for step in steps for line in step))
@@ -226,7 +226,11 @@ class ForceChapter:
         template = said.moments if len(equation.links) == 1 else said.moments_links
         yield sentences(template.format(point=equation.about, links=", ".join(equation.links)))
         whose = f"Σ_{{{','.join(equation.links)}}}M"  # the sentence before says it
-        yield displayed(f"{told.equation.replace(whose, 'ΣM', 1)}.")
+        summed, _, zero = told.equation.replace(whose, "ΣM", 1).partition(": ")
+        yield displayed(f"{summed}.")
+        if zero:  # it is nothing for want of moments
+            yield sentences(said.no_moments.format(point=equation.about))
+            yield from chain([zero])
         lead = said.hence.format()
         if told.arms:
             arms = said.arms if len(told.arms) > 1 else said.arms_one
@@ -246,7 +250,7 @@ class ForceChapter:
             return whole if inner is None else Row([whole, inner[1]], GAP, "centre")
 
         caption = self.said["figure_cut_driver" if driver else "figure_cut"]
-        return figure(picture, caption.format(links=links, link=links), key, room=(WIDTH, 150.0))
+        return figure(picture, caption.format(links=links, link=links), key, height=120.0)
 
     def _polygon(self, number: int, links: Rich, key: str, *, driver: bool) -> Node:
         reading, say = self.reading, self.report.say
@@ -258,7 +262,7 @@ class ForceChapter:
             lambda letter: polygon_picture(reading, number, letter, say),
             caption.format(links=links, link=links, scale=scale),
             key,
-            room=(WIDTH, 150.0),
+            height=120.0,
         )
 
     # Results -------------------------------------------------------------------------------------
@@ -276,7 +280,7 @@ class ForceChapter:
             rows.append(
                 (
                     mark(joint.joint),
-                    reaction_symbol(joint.on, joint.by),
+                    report.reaction(joint),
                     self.find(read),
                     self.find(exact),
                     off,
@@ -354,7 +358,8 @@ class ForceChapter:
         )
         if share is not None:
             one, two = self.find(abs(lever)), self.find(abs(plans))
-            sides = f"|{one} − {two}|/{two}·100 % = {say.number(f'{share:.1f}')} %"
+            share_of = fraction(f"|{one} − {two}|", two)
+            sides = f"{share_of}·100 % = {say.number(f'{share:.1f}')} %"
             yield displayed(f"Δ = {sides}.")
         if sigma is not None:
             told = f"{say.number(sigma_text(sigma))} {unit}"
@@ -377,7 +382,7 @@ class ForceChapter:
         sizes = {}
         for joint in statics.reactions:
             size = np.abs(joint.force)
-            symbol = reaction_symbol(joint.on, joint.by)
+            symbol = report.reaction(joint)
             sizes[symbol] = size
             columns.append([symbol, *(report.say.number(t) for t in alike(size.tolist()))])
         drive = every.problem.drive
@@ -389,7 +394,7 @@ class ForceChapter:
         yield sentences(str(said["all_text"][quantity]).format())
         table = table_of_columns([*lead, *columns], repeated=len(lead))
         name = str(said["all_table"][quantity]).format()
-        yield Table(table.head, table.rows, 0, len(lead), name=name, key="all-reactions")
+        yield Table(table.head, table.rows, 0, len(lead), name=name, key="all_reactions")
         peak = max(sizes, key=lambda one: float(sizes[one].max()))
         k = int(sizes[peak].argmax())
         value = f"{self.find(float(sizes[peak][k]))} {report.unit('N')}"

@@ -5,22 +5,24 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
+from planmethod.mechanism.structure import roman
 from planmethod.note.document import (
     Contents,
     Item,
     Node,
+    PageBreak,
     StructuralHeading,
     Table,
     TitlePage,
 )
 from planmethod.note.formula import Rich, escape
+from planmethod.note.narrate.forces.common import QUARTERS
 from planmethod.note.narrate.forces.statement import mass_lines
 from planmethod.note.narrate.given import given
 from planmethod.note.narrate.machine import MachineTeller
 from planmethod.note.numbers import with_unit
 from planmethod.note.wording import Words
-from planmethod.problem.load_records import Against, Couple, Load, SizeTable
-from planmethod.mechanism.structure import roman
+from planmethod.problem.load_records import Against, Couple, Fixed, Load, SizeTable
 from planmethod.project.model import PartName
 from planmethod.project.report.context import NBSP, Report, lettered, sentences
 from planmethod.project.report.figures import figure
@@ -59,6 +61,7 @@ def front(report: Report) -> Iterator[Node]:
     """Yield all that stands before the first chapter."""
     yield title_page(report)
     yield from _assignment(report)
+    yield PageBreak()
     yield Contents()
     yield from _introduction(report)
 
@@ -78,7 +81,7 @@ def _assignment(report: Report) -> Iterator[Node]:
     rows, further = _data(report)
     yield sentences(said.data.format())
     yield Table(
-        tuple(said["columns_data"]), tuple(rows), 2, name=said.data_table.format(), key="data"
+        tuple(said["columns_data"]), tuple(rows), 3, name=said.data_table.format(), key="data"
     )
     if further:
         yield sentences(said.further.format(facts="; ".join(further)))
@@ -127,7 +130,7 @@ def _data(report: Report) -> tuple[list[tuple[Rich, Rich, Rich]], list[Rich]]:
         for fact in own:
             told = _FACT.match(fact)
             if told is not None and told[1] in ("δ", tell.letter("crank inertia")):
-                key = "δ" if told[1] == "δ" else "J_кр"
+                key = "δ" if told[1] == "δ" else "crank inertia"
                 rows.append((str(quantities[key]).format(), told[1], told[2]))
     return rows, further
 
@@ -174,17 +177,29 @@ def _load(load: Load | Couple, report: Report) -> Rich:
     else:
         size = said.constant.format(value=with_unit(report.say.short(load.size), report.unit(unit)))
     against = said.against if force else said.against_couple
+    sense = against.format() if isinstance(load.sense, Against) else ""
+    if isinstance(load.sense, Fixed):
+        sense = said.fixed.format(way=_way(load, load.sense, report))
     moving = None if load.phase is None else load.phase.moving
     facts = {
         "link": report.link(load.link, "on"),
         "symbol": load.name,
         "size": size,
-        "sense": against.format() if isinstance(load.sense, Against) else "",
+        "sense": sense,
         "phase": str(said["moving"][moving.value]).format() if moving else "",
     }
     if isinstance(load, Load):
         return said.force.format(point=load.at, **facts)
     return said.couple.format(**facts)
+
+
+def _way(load: Load | Couple, fixed: Fixed, report: Report) -> Rich:
+    """Return the way of a force that stays on the paper."""
+    largest = max(load.size.values, key=abs) if isinstance(load.size, SizeTable) else load.size
+    angle = (fixed.angle + (180.0 if largest < 0 else 0.0)) % 360.0
+    forces = report.words.forces
+    quarter = QUARTERS.get(round(angle, 6) % 360.0)
+    return forces[quarter] if quarter else forces.way_angle.format(angle=report.say.short(angle))
 
 
 # Introduction ------------------------------------------------------------------------------------
@@ -209,4 +224,8 @@ def _introduction(report: Report) -> Iterator[Node]:
     calculated = said.calculated.format(
         number=report.project.calculated, symbol=report.coordinate, value=report.place
     )
-    yield sentences(said.way.format(ruler=ruler), calculated if report.is_series else "")
+    yield sentences(
+        said.way.format(ruler=ruler),
+        calculated if report.is_series else "",
+        said.drawn.format(),
+    )

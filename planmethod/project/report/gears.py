@@ -20,19 +20,14 @@ from planmethod.gears.sheet import pictures
 from planmethod.gears.text import equation_of, fraction_text
 from planmethod.gears.told import given, indexed, ratios, results
 from planmethod.note.document import Chapter, Formula, Item, Node, Part, Table
-from planmethod.note.formula import Rich
+from planmethod.note.formula import Rich, fraction
+from planmethod.note.narrate.structure import pair_classes
 from planmethod.note.numbers import MINUS, raised
 from planmethod.note.wording import Words
 from planmethod.project.report.context import Report, chain, displayed, sentences
-from planmethod.project.report.figures import WIDTH, bare, figure
+from planmethod.project.report.figures import bare, figure
 from planmethod.render.layout.block import Block
 from planmethod.render.sheets.composer import Sizes
-
-
-def fraction(above: Rich, below: Rich) -> Rich:
-    """Return a quotient."""
-    return f"({above})/({below})" if " " in above + below else f"{above}/{below}"
-
 
 COLUMN = 185.0
 """Width of the texts of the sheet, mm."""
@@ -51,18 +46,22 @@ def train_chapter(report: Report, problem: GearProblem) -> Iterator[Node]:
         str(form).format(labels=", ".join(labels)) if labels else "",
     )
     yield from _figures(report, problem, motion, "train")
-    yield from _structure(report, motion, said)
+    yield from _structure(report, problem, motion, said)
     yield Part(said.analysis.format())
     yield from _ratios(report, motion, said)
     yield Part(said.pictures.format())
     yield from _pictures(report, problem, motion, said)
 
 
-def _structure(report: Report, motion: TrainMotion, said: Words) -> Iterator[Node]:
+def _structure(
+    report: Report, problem: GearProblem, motion: TrainMotion, said: Words
+) -> Iterator[Node]:
     found, roles = motion.structure, motion.roles
     yield sentences(said.kind.format(kind=str(said["kinds"][found.kind.value]).format()))
     w = str(found.formula).replace("-", MINUS)
-    yield displayed(said.mobility.format(n=found.moving, low=found.lower, high=found.higher, w=w))
+    classes = pair_classes(problem.sheet.notation, report.words)
+    counts = {"n": found.moving, "low": found.lower, "high": found.higher}
+    yield displayed(said.mobility.format(w=w, **counts, **classes))
     carriers = [
         said.carrier.format(
             carrier=carrier,
@@ -72,7 +71,7 @@ def _structure(report: Report, motion: TrainMotion, said: Words) -> Iterator[Nod
         for carrier in motion.train.carriers
         if roles.central[carrier]
     ]
-    yield sentences(said.where.format(), *carriers)
+    yield sentences(said.where.format(**classes), *carriers)
 
 
 def _ratios(report: Report, motion: TrainMotion, said: Words) -> Iterator[Node]:
@@ -177,7 +176,7 @@ def _pictures(
         tuple(columns),
         tuple(row[: len(columns)] for row in rows),
         name=said.results.format(),
-        key="train-results",
+        key="train_results",
     )
     if drawn is not None and seen is not None:
         offs = [
@@ -198,13 +197,13 @@ def _figures(
     def made(letter: float) -> Block:
         sizes = Sizes(letter, letter, letter, COLUMN)
         found = pictures(motion, report.one.profile, report.words, sizes)
-        return found[0] if which == "train" else bare(found[1])
+        return found[0] if which == "train" or found[1] is None else bare(found[1])
 
     captions = {
         "train": said.figure if has_picture else said.figure_scheme,
         "angular": said.angular_figure,
     }
-    yield figure(made, captions[which].format(), which, room=(WIDTH, 160.0))
+    yield figure(made, captions[which].format(), which, height=160.0)
 
 
 def meshing_chapter(report: Report, problem: MeshingProblem) -> Iterator[Node]:
@@ -233,7 +232,7 @@ def meshing_chapter(report: Report, problem: MeshingProblem) -> Iterator[Node]:
     yield figure(
         lambda letter: meshing_picture(view_for(solved, 300.0, 240.0), words, letter),
         said.figure.format(),
-        "meshing-picture",
+        "meshing_picture",
     )
 
 

@@ -42,13 +42,22 @@ def note_document(project: Project, words: Language) -> Document:
     PositionError
         Where the mechanism cannot be assembled or a force plan does not close.
     """
-    units = sorted({unit for unit in words.note["units"].values()}, key=len, reverse=True)
+    units = sorted(set(words.note["units"].values()), key=len, reverse=True)
     tie = re.compile(rf"(?<=\d) (?=(?:{'|'.join(map(re.escape, units))}|%)(?![^\W\d_]))")
     return Document.of(_tied(node, tie) for node in _nodes(Report(project, words)))
 
 
 def _nodes(report: Report) -> Iterator[Node]:
     yield from front(report)
+    for node in _chapters(report):
+        if isinstance(node, document.Chapter):
+            yield document.PageBreak()
+        yield node
+    yield from conclusion(report)
+    yield from back(report)
+
+
+def _chapters(report: Report) -> Iterator[Node]:
     yield from structure_chapter(report)
     yield from position_part(report)
     for kind in RATES:
@@ -66,8 +75,6 @@ def _nodes(report: Report) -> Iterator[Node]:
             yield from train_chapter(report, part.problem)
         elif isinstance(part.problem, MeshingProblem):
             yield from meshing_chapter(report, part.problem)
-    yield from conclusion(report)
-    yield from back(report)
 
 
 def _tied(node: Node, tie: re.Pattern[str]) -> Node:

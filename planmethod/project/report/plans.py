@@ -23,7 +23,7 @@ from planmethod.plans.dimensions import DimensionKind
 from planmethod.plans.model import RATES, PlanKind, Relation
 from planmethod.plans.motion.leads import Relative
 from planmethod.project.report.context import Report, chain, displayed, lettered, sentences
-from planmethod.project.report.figures import WIDTH, figure
+from planmethod.project.report.figures import figure
 from planmethod.render.layout.block import Block
 from planmethod.render.pictures.planview import knot_pictures, plan_picture
 
@@ -49,15 +49,16 @@ class PlanChapter:
         assert self.plan.pole is not None
         fixed = self.names.others(self.plan.pole)
         pole = self.names.pole(self.kind)
-        told = str(said["pole"][kind]).format(pole=pole, points=self.report.listed(fixed or [""]))
+        form = said["pole_one" if len(fixed) == 1 else "pole"][kind]
+        told = str(form).format(pole=pole, points=self.report.listed(fixed or [""]))
         yield sentences(
             str(said["scale"][kind]).format(position=position, scale=scale),
             told if fixed else said.bare_pole.format(pole=pole),
         )
+        yield from self._figures()
         sections = [s for s in self.report.one.construction.sections if s.kind is self.kind]
         for section in sections:
             yield from self._section(section)
-        yield from self._figures()
 
     def _section(self, section: Section) -> Iterator[Node]:
         said, drive = self.said, self.report.one.problem.drive
@@ -338,7 +339,7 @@ class PlanChapter:
 
     def _figures(self) -> Iterator[Node]:
         solution, kind, words = self.report.one, self.kind, self.report.words
-        knots = solution.knots[kind]
+        knots = solution.knots_of(kind, 0)
         letters = tuple(knot_letter(knot, words) for knot in knots)
         by_hand = True
 
@@ -353,16 +354,22 @@ class PlanChapter:
         if not knots:
             return
         views = [view_name(knot, words) for knot in knots]
-        yield Paragraph(self.said.enlarged_note.format(views=self.report.listed(views)))
+        keys = [f"{kind.value}_{number}" for number in range(len(views))]
+        told = [
+            self.said.enlarged_at.format(view=view, key=key)
+            for view, key in zip(views, keys, strict=True)
+        ]
+        yield Paragraph(self.said.enlarged_note.format(views=self.report.listed(told)))
         for number, view in enumerate(views):
 
             def enlarged(letter: float, number: int = number) -> Block:
-                pictures = knot_pictures(solution, kind, letter_height=letter, by_hand=by_hand)
+                pictures = knot_pictures(solution, kind, 0, letter_height=letter, by_hand=by_hand)
                 return pictures[number]
 
             yield figure(
                 enlarged,
-                self.said.enlarged.format(view=view),
-                f"{kind.value} {number}",
-                room=(WIDTH, 80.0),
+                str(self.said["enlarged"][kind.value]).format(view=view),
+                keys[number],
+                height=80.0,
+                grows=False,
             )

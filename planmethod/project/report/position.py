@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from planmethod.construct.steps import AtAngle, Step
 from planmethod.mechanism.model import FRAME
 from planmethod.note.document import Chapter, Node, Part, Table
-from planmethod.note.formula import Rich
+from planmethod.note.formula import Rich, fraction
 from planmethod.note.narrate.turn import construction_facts
 from planmethod.note.plaintext import given
 from planmethod.note.wording import Words
@@ -17,6 +17,7 @@ from planmethod.project.report.context import Report, displayed, lettered, sente
 from planmethod.project.report.figures import figure
 from planmethod.render.pictures.seriesview import series_picture
 from planmethod.solved.turn.construction import PRIMES, extreme_construction
+from planmethod.solved.turn.strokes import LONGER, TOLD
 from planmethod.solved.turn.turn import TURN, Turn, turn_of
 
 
@@ -29,6 +30,8 @@ def position_part(report: Report) -> Iterator[Node]:
     if report.is_series:
         yield from _series(report, said)
     yield from _building(report, said)
+    if report.is_series:
+        yield _shown(report, said)
     if report.every.problem.cycle is not None and report.every.problem.drive.is_crank:
         yield from _extremes(report, said)
 
@@ -72,25 +75,34 @@ def _series(report: Report, said: Words) -> Iterator[Node]:
         zero = str(said["zeros"]["extreme" if named else "given"])
         crank = problem.bodies[problem.drive.link]
         pin = next((p for p in crank.points if p not in problem.bodies[FRAME].points), "")
-        note = report.words.note
+        note, turns = report.words.note, problem.turns
+        against = turn.is_against
         yield sentences(
             said.divided.format(
                 zero=zero.format(symbol=report.coordinate, value=report.place_of(0)),
                 pin=pin,
-                count=count,
+                parts=report.parts(count // turns),
+                way=said["turning"]["against" if against else "along"],
                 sense=note.cw if turn.sense < 0 else note.ccw,
+                turns=said.twice.format(count=count) if turns > 1 else "",
             )
         )
     else:
         places = ", ".join(report.place_of(k) for k in range(count))
         yield sentences(said.turned.format(count=count, positions=places))
-    indices = tuple(range(count))
-    yield figure(
+
+
+def _shown(report: Report, said: Words) -> Node:
+    """Return the picture of all positions."""
+    every = report.every
+    indices = tuple(range(len(every.positions)))
+    return figure(
         lambda letter: series_picture(
             every, report.project.calculated, indices, letter_height=letter
         ),
         said.series.format(scale=report.scale(PlanKind.POSITION)),
         "series",
+        height=140.0,
     )
 
 
@@ -123,7 +135,7 @@ def _building(report: Report, said: Words) -> Iterator[Node]:
 def _told(step: Step, report: Report, said: Words) -> list[Rich]:
     """Return the sentences of a step; a guide that is level or upright is told to be so."""
     names = report.names
-    guide = names.guide(step.out) if isinstance(step, AtAngle) else None  # type: ignore[arg-type]
+    guide = names.guide(step.out) if isinstance(step, AtAngle) else None
     if guide is None:
         return report.narrator.tell(step)
     assert isinstance(step, AtAngle)
@@ -144,7 +156,7 @@ def _fixed(report: Report) -> Rich:
         place = report.formulas.place(name)  # type: ignore[arg-type]
         x, y = (given(value, report.words.note, 5) for value in (place.real, place.imag))
         points.append(f"{lettered(name)} ({x}; {y})")
-    return report.note.fixed_points.format(points=", ".join(points))
+    return report.words.note.fixed_points.format(points=", ".join(points))
 
 
 def _extremes(report: Report, said: Words) -> Iterator[Node]:
@@ -197,12 +209,22 @@ def _ratio(report: Report, said: Words) -> Iterator[Node]:
     strokes = report.project.strokes
     if strokes is None:
         return
-    by = strokes.by.partition(" ")[0]
+    why = {LONGER: said["by"]["longer"], TOLD: said["by"]["told"]}.get(
+        strokes.by, said["by"]["load"]
+    )
     working, idle = report.degrees(strokes.working_deg), report.degrees(strokes.idle_deg)
-    yield sentences(said.phases.format(working=working, idle=idle), str(said["by"][by]).format())
+    yield sentences(
+        said.phases.format(working=working, idle=idle),
+        why.format(names=strokes.by.partition(" ")[2]),
+    )
+    if strokes.K_v is None:
+        return
     yield sentences(said.ratio.format())
-    sides = [("φ_{р}", working), ("φ_{х}", idle)]
+    sides = [
+        (str(said["phase"]["working"]).format(), working),
+        (str(said["phase"]["idle"]).format(), idle),
+    ]
     if strokes.working_deg < strokes.idle_deg:
         sides.reverse()
-    letters, numbers = ("/".join(pair) for pair in zip(*sides, strict=True))
+    letters, numbers = (fraction(*pair) for pair in zip(*sides, strict=True))
     yield displayed(f"K_{{v}} = {letters} = {numbers} = {report.say.found(strokes.K_v)}.")

@@ -90,7 +90,7 @@ def results_parts(report: Report) -> Iterator[Node]:
 
 
 def _by_positions(report: Report, kinds: Sequence[QuantityKind], name: Rich, key: str) -> Table:
-    every, drive = report.every, report.every.problem.drive
+    every = report.every
     lead = lead_columns(every.problem, report.project.positions, report.words.note)
     columns = []
     for quantity in told(every, *kinds):

@@ -16,6 +16,7 @@ from planmethod.note.narrate.structure import (
     group_joints,
     link_table,
     local_letters,
+    pair_classes,
     pair_table,
     signed,
 )
@@ -48,7 +49,8 @@ def _mobility(report: Report, said: Words) -> Iterator[Node]:
     structure, mechanism = report.one.structure, report.one.problem.mechanism
     low, spatial = structure.lower_pairs, structure.spatial_mobility
     revolute = sum(pair.kind is PairKind.REVOLUTE for pair in pairs(mechanism))
-    counts = {"n": structure.moving_links, "low": low, "high": structure.higher_pairs}
+    classes = pair_classes(report.one.problem.sheet.notation, report.words)
+    counts = {"n": structure.moving_links, "low": low, "high": structure.higher_pairs, **classes}
     yield sentences(said.chebyshev.format())
     yield displayed(said.chebyshev_formula.format(w=signed(structure.mobility), **counts))
     yield sentences(

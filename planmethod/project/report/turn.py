@@ -3,22 +3,23 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from itertools import pairwise
+from math import degrees
 
 from planmethod.note.document import Chapter, Node, Part, Table
-from planmethod.note.formula import Rich
+from planmethod.note.formula import Rich, fraction
 from planmethod.note.narrate.given import point_name
-from planmethod.note.narrate.scales import scale_inscription
 from planmethod.note.narrate.turn import NO_ANGLE, diagram_scales, output_name, output_symbol
-from planmethod.note.numbers import in_heads, with_unit
+from planmethod.note.numbers import half_up, in_heads, with_unit
 from planmethod.note.tables.turn import Columns, cycle_columns, deviation_columns
 from planmethod.note.wording import Words
 from planmethod.plans.model import RATES
 from planmethod.project.report.context import Report, displayed, sentences
-from planmethod.project.report.figures import WIDTH, figure
+from planmethod.project.report.figures import figure
 from planmethod.render.pictures.kinematic import kinematic_picture
 from planmethod.render.sheets.turn import hodograph
 from planmethod.solved.turn.diagrams import diagrams_of
-from planmethod.solved.turn.turn import turn_of
+from planmethod.solved.turn.turn import TURN, turn_of
 
 SIDE = 100.0
 """Side of the square that a hodograph fills, mm."""
@@ -38,26 +39,35 @@ def diagrams_part(report: Report) -> Iterator[Node]:
     output, drive = turn.output, report.every.problem.drive
     symbol, of = output_symbol(output), output_name(output)
     yield Part(said.part.format())
+    shown = said["whose"][output.unit].format(name=of)
     yield sentences(
+        said.shown.format(of=shown),
         str(said["path"][output.unit]).format(symbol=symbol, of=of),
-        said.axes.format(length=_mm(report, task.length), count=diagrams.count),
+        said.axes.format(
+            whole=str(said["whole"]["turn" if turn.way == TURN else "cycle"]).format(
+                way=report.degrees(turn.way)
+            ),
+            length=_mm(report, half_up(diagrams.length, 2)),
+            parts=report.parts(diagrams.count),
+        ),
     )
     yield displayed(_axis(report))
     scales = diagram_scales(diagrams, words)[:3]
+    v, a = (_mm(report, half_up(pole, 2)) for pole in diagrams.poles)
     yield sentences(
         said.ordinates.format(scale=scales[0]),
-        str(said["ways"][task.differentiation.value]).format(pole=_mm(report, task.pole.v)),
+        str(said["ways"][task.differentiation.value]).format(pole=v),
     )
-    yield sentences(said.again.format(pole=_mm(report, task.pole.a)))
-    for text in _derived(report):
+    yield sentences(said.again.format(pole=a), said.poles.format() if diagrams.rate else "")
+    for text in _poles(report):
         yield displayed(text)
     if drive.acceleration:
         yield sentences(said.even.format(link=drive.link))
-    shown = report.said["turn"]["whose"][output.unit].format(name=of)
     yield figure(
         lambda letter: kinematic_picture(diagrams, letter, say),
         said.figure.format(of=shown, scales="; ".join(scales)),
         "diagrams",
+        height=190.0,
     )
     ruler = report.say.given(report.every.profile.ruler)
     yield sentences(said.deviations.format(ruler=f"{ruler} {report.unit('mm')}"))
@@ -73,40 +83,34 @@ def _mm(report: Report, value: float) -> Rich:
 
 
 def _axis(report: Report) -> Rich:
-    """Return the scale of the angles and that of time, with numbers."""
+    """Return the scale of the angles with numbers, by degrees and by radians."""
     diagrams, say = diagrams_of(report.every), report.say
-    length, rate = say.given(diagrams.task.length), abs(report.every.problem.drive.rate)
-    rad, mm, s = (report.unit(name) for name in ("rad", "mm", "s"))
-    angle = f"μ_{{φ}} = 2π/{length} = {say.found(diagrams.mu_phi)} {rad}/{mm}"
-    if not rate:
-        return f"{angle}."
-    omega = f"ω_{{{report.every.problem.drive.link}}}"
-    phi, speed = say.found(diagrams.mu_phi), say.found(rate)
-    time = say.found(diagrams.mu_phi / rate)
-    return f"{angle},  μ_{{t}} = μ_{{φ}}/{omega} = {phi}/{speed} = {time} {s}/{mm}."
+    length = say.given(half_up(diagrams.length, 2))
+    way, per_mm = diagrams.turn.way, degrees(diagrams.mu_phi)
+    side = fraction(say.given(round(way, 2)), length)
+    rad, mm = (report.unit(name) for name in ("rad", "mm"))
+    found = f"{say.found(diagrams.mu_phi)} {rad}/{mm}"
+    return f"μ_{{φ}} = {side} = {say.short(per_mm, 4)} {say.in_head('deg')}/{mm} = {found}."
 
 
-def _derived(report: Report) -> Iterator[Rich]:
-    """Yield the scales of velocity and acceleration with numbers."""
+def _poles(report: Report) -> Iterator[Rich]:
+    """Yield the pole distances by the scales, with numbers."""
     diagrams, say = diagrams_of(report.every), report.say
-    rate = abs(report.every.problem.drive.rate)
-    if not rate:
+    if not diagrams.rate:
         return
-    convention = report.every.problem.scales.convention
-    first, *others = diagrams.scales[:3]
-    before, poles = first, (diagrams.task.pole.v, diagrams.task.pole.a)
-    inverse = report.names.is_inverse_scale()
-    for number, (scale, pole) in enumerate(zip(others, poles, strict=True), 1):
-        one, two = (f"μ_{{{x.symbol.removeprefix('mu_')}}}" for x in (before, scale))
-        told = scale_inscription(scale, convention, say).partition(" = ")[2]
-        end = "." if number == len(others) else ","
-        if inverse:
-            yield f"{two} = {told}{end}"
-        else:
-            time = say.found(diagrams.mu_phi / rate)
-            sides = f"{say.given(before.per_mm)}/({time}·{say.given(pole)})"
-            yield f"{two} = {one}/(μ_{{t}}·K_{{{number}}}) = {sides} = {told}{end}"
-        before = scale
+    omega = f"ω_{{{report.every.problem.drive.link}}}"
+    speed, phi = say.found(diagrams.rate), say.found(diagrams.mu_phi)
+    scales = diagrams.scales[:3]
+    for number, ((one, two), pole) in enumerate(
+        zip(pairwise(scales), diagrams.poles, strict=True), 1
+    ):
+        first, second = (f"μ_{{{x.symbol.removeprefix('mu_')}}}" for x in (one, two))
+        letters = fraction(f"{omega}·{first}", f"μ_{{φ}}·{second}")
+        above, below = (say.given(float(f"{x.per_mm:.6g}")) for x in (one, two))
+        numbers = fraction(f"{speed}·{above}", f"{phi}·{below}")
+        sides = "" if report.names.is_inverse_scale() else f"{letters} = {numbers} = "
+        end = "." if number == 2 else ","
+        yield f"K_{{{number}}} = {sides}{_mm(report, half_up(pole, 2))}{end}"
 
 
 def _hodographs(report: Report, said: Words) -> Iterator[Node]:
@@ -116,7 +120,7 @@ def _hodographs(report: Report, said: Words) -> Iterator[Node]:
     yield sentences(said.hodograph_text.format(of=point))
     for kind, one in made.items():
         caption = str(said["hodograph"][kind.value]).format(of=point)
-        yield figure(one.picture, caption, f"hodograph.{kind.value}", room=(WIDTH, 110.0))
+        yield figure(one.picture, caption, f"hodograph_{kind.value}", height=75.0)
 
 
 def transfer_chapter(report: Report) -> Iterator[Node]:
@@ -129,9 +133,9 @@ def transfer_chapter(report: Report) -> Iterator[Node]:
     v, a = ("v", "a") if turn.output.slide is not None else ("ω", "ε")
     yield Chapter(said.transfer.format())
     yield sentences(said.transfer_text.format(symbol=symbol))
-    yield displayed(
-        f"{v}_{{q}} = d{symbol}/dφ_{{{link}}},  {a}_{{q}} = d^{{2}}{symbol}/dφ_{{{link}}}^{{2}}."
-    )
+    first = fraction(f"d{symbol}", f"dφ_{{{link}}}")
+    second = fraction(f"d^{{2}}{symbol}", f"dφ_{{{link}}}^{{2}}")
+    yield displayed(f"{v}_{{q}} = {first},  {a}_{{q}} = {second}.")
     yield sentences(said.transfer_true.format())
     yield displayed(
         f"{v}_{index} = {v}_{{q}}·ω_{{{link}}},  "

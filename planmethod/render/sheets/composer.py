@@ -50,12 +50,8 @@ class Sizes(Struct, frozen=True):
 
     def parts(self, share: float) -> Sizes:
         """Return the sizes with columns and boxes a part as wide and high."""
-        return replace(self.with_boxes(share), column=share * self.column)
-
-    def with_boxes(self, times: float) -> Sizes:
-        """Return the sizes with boxes so many times as wide and high."""
-        boxes = tuple((kind, (times * wide, times * high)) for kind, (wide, high) in self.boxes)
-        return replace(self, boxes=boxes)
+        boxes = tuple((kind, (share * wide, share * high)) for kind, (wide, high) in self.boxes)
+        return replace(self, column=share * self.column, boxes=boxes)
 
 
 class Viewed(Struct, frozen=True):

@@ -22,7 +22,7 @@ from msgspec import Struct
 from planmethod.construct.arithmetic import Arithmetic, Float64, Number
 from planmethod.construct.evaluate import Trace, evaluate
 from planmethod.construct.program import Program
-from planmethod.construct.scale import Scale, angle_scale, choose_scale
+from planmethod.construct.scale import Scale, angle_scale, choose_scale, rounded
 from planmethod.construct.steps import PointName
 from planmethod.errors import AssemblyError
 from planmethod.plans.diagrams.board import DiagramAxes, DiagramBoard
@@ -47,17 +47,6 @@ LOW, HIGH = 20.0, 120.0
 """Heights between which it is drawn in the scale of lengths, mm: as it is taken off the scheme."""
 
 _BETWEEN = 16.0  # mm of paper between two diagrams
-
-
-def rounded(value: float) -> float:
-    """Return a scale without the last bits, so that a round one is round.
-
-    Examples
-    --------
-    >>> rounded(0.1 + 0.2)
-    0.3
-    """
-    return float(f"{value:.12g}")
 
 
 def _height(values: Reals) -> float:

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 import numpy as np
 from msgspec import Struct
 
+from planmethod.note.formula import fraction
 from planmethod.note.narrate.forces.common import ForceContext, arm_symbol, signed_sum
 from planmethod.note.narrate.forces.resultants import force_symbol
 from planmethod.note.numbers import significant
@@ -86,7 +87,9 @@ class LeverNarrator:
         names = self.names
         if one.ends is None or one.joints is None or not set(one.ends) <= set(names.letters):
             omega, per_mm = one.ratio * self.lever.per_mm, self.lever.per_mm
-            letters = f"ω_{{{one.link}}}{'·' if names.is_inverse_scale() else '/'}μ_{{v}}"
+            letters, scale = f"ω_{{{one.link}}}", "μ_{v}"
+            is_inverse = names.is_inverse_scale()
+            letters = f"{letters}·{scale}" if is_inverse else fraction(letters, scale)
             return PairText(
                 letters, self.context.scaled(self.context.short(omega), per_mm, back=True)
             )
@@ -94,7 +97,7 @@ class LeverNarrator:
         segment, link = self.ruled(one.ratio * one.length), self.context.short(one.length)
         units = self.context.units
         told = f"{letters} = {segment} {units['mm']}; {length} = {link} {units['m']}"
-        return PairText(f"{letters}/{length}", f"{segment}/{link}", told, length)
+        return PairText(fraction(letters, length), fraction(segment, link), told, length)
 
     def _joints(self, one: OnLink, first: str, second: str) -> str:
         """Return two joints in the order in which their distance is given."""
@@ -255,8 +258,7 @@ class LeverNarrator:
                 text = f"{self.found(abs(couple.moment))}·{numbers}"
                 terms.append((couple.lever_moment, text))
         said = signed_sum([(turn * moment, text) for moment, text in terms])
-        over = f"({divisor})" if "/" in divisor else divisor
-        return f"({said})/{over}" if " " in said else f"{said}/{over}"
+        return fraction(said, divisor)
 
     def _compared(self) -> list[str]:
         """Tell how far lever and force plans are apart, and what a drawing lets expect."""

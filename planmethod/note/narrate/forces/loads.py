@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from planmethod.construct.steps import Compute, NumberName
+from planmethod.note.formula import fraction
 from planmethod.note.narrate.forces.common import ForceContext, closed
 from planmethod.note.narrate.forces.resultants import shift_symbol
 from planmethod.note.narrate.scales import scale_inscription
@@ -51,9 +52,9 @@ class LoadNarrator:
         """Return the couple that a shifted force of inertia stands for, and the shift."""
         size, moment = self.reading.read_load(force), self.reading.read_number(shift.couple)
         metres = self.context.say.per_mm(PlanKind.POSITION) * self.reading.read_number(shift.length)
-        letters = f"{shift_symbol(shift.link)} = {shift.moment.name}/{force.applied.name}"
+        letters = f"{shift_symbol(shift.link)} = {fraction(shift.moment.name, force.applied.name)}"
         numbers, found = (
-            f"{self.found(abs(moment))}/{self.found(abs(size))}",
+            fraction(self.found(abs(moment)), self.found(abs(size))),
             self.found(abs(metres)),
         )
         told = f"{letters} = {numbers} = {found} {self.units['m']}"
