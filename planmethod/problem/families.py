@@ -9,7 +9,7 @@ FAMILIES = (
     "slider-crank", "four-bar", "slotted-link", "swinging-block", "sine", "six-link",
     "driving-slider", "RRR+RRP", "RRP+RPR", "RRP+PRP", "RPR+RPP", "RRR+RPR", "RRR+RRR",
     "moving-guide", "whitworth", "toggle-press", "v-engine", "oscillating-cylinder",
-    "pantograph", "watt", "stephenson", *MACHINES,
+    "pantograph", "watt", "stephenson", *MACHINES, "project",
 )  # fmt: skip
 """Names of those of linkages; what they are stands in `planmethod.note.wording`."""
 
