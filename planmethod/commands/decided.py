@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, TypeVar
 
+import click
 from msgspec.structs import replace
 
 from planmethod.commands.problems import load_unsettled, solution_of
@@ -13,6 +15,21 @@ from planmethod.options import UsageError, drawn_by
 if TYPE_CHECKING:
     from planmethod.commands.asked import Settled
     from planmethod.project.model import Project
+
+F = TypeVar("F", bound=Callable[..., Any])
+
+
+def note_options(command: F) -> F:
+    """Add the template of the department, and the frames of the note's pages."""
+    command = click.option(
+        "--frame", is_flag=True, help="Frames and title blocks on the note's pages (forms 2, 2a)."
+    )(command)
+    return click.option(
+        "--template",
+        type=click.Path(path_type=Path, dir_okay=False),
+        metavar="FILE.docx",
+        help="File of Word whose page and styles the note takes.",
+    )(command)
 
 
 def decided(path: Path, variant: str | None, position: int | None, settled: Settled) -> Project:

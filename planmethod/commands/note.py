@@ -7,7 +7,7 @@ from pathlib import Path
 import click
 
 from planmethod.commands.asked import PaperRequest, sheet_options
-from planmethod.commands.decided import decided
+from planmethod.commands.decided import decided, note_options
 from planmethod.commands.helptext import Spoken
 from planmethod.commands.output import show
 from planmethod.commands.problems import guarded, stem
@@ -39,6 +39,7 @@ def read_formats(ctx: click.Context, param: click.Parameter, value: str) -> tupl
     show_default=True,
     help="docx,pdf.",
 )
+@note_options
 @out_option
 @sheet_options
 @open_option
@@ -48,16 +49,20 @@ def note(
     variant: str | None,
     position: int | None,
     formats: tuple[str, ...],
+    template: Path | None,
+    frame: bool,
     out: Path,
     asked: PaperRequest,
     shown: bool,
 ) -> None:
     """Write the explanatory note of a project, or of one homework, for Word and as PDF."""
-    from planmethod.project.notes import note_files
+    from planmethod.project.notes import NoteOptions, note_files
     from planmethod.render.backends.output import write_all
 
-    project = decided(problem, variant, position, asked.settle())
-    files = note_files(project, f"{stem(project.problem)}-note", formats)
+    settled = asked.settle()
+    project = decided(problem, variant, position, settled)
+    options = NoteOptions(settled.fields, template, frame)
+    files = note_files(project, f"{stem(project.problem)}-note", options, formats)
     write_all(out, files)
     for name in files:
         click.echo(str(out / name))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
@@ -12,7 +12,7 @@ import msgspec
 from msgspec import Struct
 
 from planmethod.commands.asked import PaperRequest, sheet_options
-from planmethod.commands.decided import decided
+from planmethod.commands.decided import decided, note_options
 from planmethod.commands.helptext import Spoken
 from planmethod.commands.output import bar, json_text, show
 from planmethod.commands.problems import guarded, stem, tell_wheel
@@ -31,6 +31,7 @@ from planmethod.problem.model import PROJECT_PARTS
 
 if TYPE_CHECKING:
     from planmethod.project.model import Project, ProjectPart
+    from planmethod.project.notes import NoteOptions
     from planmethod.project.record import PartFiles
     from planmethod.render.ink.drawing import Drawing
 
@@ -84,6 +85,7 @@ def read_parts(
 @format_option("pdf")
 @out_option
 @click.option("--json", "as_json", is_flag=True, help="Print what project.json has.")
+@note_options
 @sheet_options
 @dxf_text_option
 @jobs_option
@@ -97,6 +99,8 @@ def project(
     formats: tuple[str, ...],
     out: Path,
     as_json: bool,
+    template: Path | None,
+    frame: bool,
     asked: PaperRequest,
     dxf_text: Literal["text", "strokes"],
     jobs: int,
@@ -108,6 +112,7 @@ def project(
     parts, project.pdf with all sheets, note.docx and note.pdf, numbers.xlsx, project.json; all of
     them or none.
     """
+    from planmethod.project.notes import NoteOptions
     from planmethod.project.record import project_record
     from planmethod.render.backends.output import write_all
 
@@ -119,7 +124,8 @@ def project(
         from planmethod.solved.machine.flywheel import Flywheel
 
         tell_wheel(Flywheel(chosen.problem))
-    made, files = _made(chosen, wanted, settled.fields, written, jobs)
+    options = NoteOptions(settled.fields, template, frame)
+    made, files = _made(chosen, wanted, options, written, jobs)
     name = stem(chosen.problem)
     record = project_record(chosen, made, name)
     files[RECORD] = msgspec.json.format(msgspec.json.encode(record), indent=2) + b"\n"
@@ -161,7 +167,7 @@ def _wanted(chosen: Project, parts: Sequence[str] | None) -> tuple[str, ...]:
 def _made(
     chosen: Project,
     wanted: Sequence[str],
-    fields: Mapping[str, str],
+    options: NoteOptions,
     written: SheetFormats,
     jobs: int,
 ) -> tuple[list[PartFiles], Files]:
@@ -183,17 +189,17 @@ def _made(
     shown = [name for name in sheets if name in wanted]
     with bar(len(sheets) + len(texts) + len(shown) + whole, long=True) as done:
         drawn: dict[str, MadePart] = {}
-        for name, one in _shared(
-            partial(draw, project=chosen, fields=fields), [*sheets, *texts], jobs
-        ):
+        # The longest first, so that processes end alike.
+        tasks = [*texts[:-1], *sheets, texts[-1]]
+        for name, one in _shared(partial(draw, project=chosen, options=options), tasks, jobs):
             drawn[name] = one
             done(1)
         numbered = numbered_set(chosen, [drawn[name].drawings for name in sheets])
         sets = {name: tuple(some) for name, some in zip(sheets, numbered, strict=True)}
-        tasks = [(name, names[name], sets[name]) for name in shown]
+        files_of = [(name, names[name], sets[name]) for name in shown]
         if whole:
-            tasks.append((WHOLE, "project", tuple(d for some in numbered for d in some)))
-        for name, one in _shared(partial(render, written=written), tasks, jobs):
+            files_of.append((WHOLE, "project", tuple(d for some in numbered for d in some)))
+        for name, one in _shared(partial(render, written=written), files_of, jobs):
             files |= one.files
             done(1)
             if name != WHOLE:
@@ -205,7 +211,7 @@ def _made(
     return named, files
 
 
-def draw(task: str, *, project: Project, fields: Mapping[str, str]) -> tuple[str, MadePart]:
+def draw(task: str, *, project: Project, options: NoteOptions) -> tuple[str, MadePart]:
     """Draw the sheets of a part, or make the note or the numbers."""
     from planmethod.project.sheets import part_drawings
 
@@ -216,9 +222,9 @@ def draw(task: str, *, project: Project, fields: Mapping[str, str]) -> tuple[str
     if task == "note":
         from planmethod.project.notes import note_files
 
-        return task, MadePart(note_files(project, "note"))
+        return task, MadePart(note_files(project, "note", options))
     part: ProjectPart = next(part for part in project.parts if part.name.value == task)
-    return task, MadePart({}, tuple(part_drawings(project, part, fields)))
+    return task, MadePart({}, tuple(part_drawings(project, part, options.fields)))
 
 
 def render(

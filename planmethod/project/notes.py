@@ -2,31 +2,68 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from pathlib import Path
 
-from planmethod.note.plaintext import plain_text
+from msgspec import Struct
+from msgspec.structs import replace
+
 from planmethod.note.wording import language
-from planmethod.note.writers.pdf import pdf_document
 from planmethod.project.model import Project
 from planmethod.project.report import note_document
-from planmethod.render.backends.pdf import registered
-from planmethod.render.ink.lettering import lettering
+from planmethod.render.frame.titleblock import merged
 
 FORMATS = ("docx", "pdf")
 """Formats of a note."""
 
-LETTERING = "A-upright"
-"""Type of the letters of a note in PDF."""
+
+class NoteOptions(Struct, frozen=True):
+    """What is asked of the note (оформление записки).
+
+    Attributes
+    ----------
+    fields : mapping
+        Texts of the title block that outrank the file's.
+    template : Path or None
+        File of Word whose page and styles are taken.
+    frame : bool
+        Frames and title blocks of forms 2 and 2a on the pages of Word.
+    """
+
+    fields: Mapping[str, str] = {}
+    template: Path | None = None
+    frame: bool = False
 
 
-def note_files(project: Project, stem: str, formats: Sequence[str] = FORMATS) -> dict[str, bytes]:
-    """Return the files of the note by their names."""
+def note_files(
+    project: Project, stem: str, options: NoteOptions, formats: Sequence[str] = FORMATS
+) -> dict[str, bytes]:
+    """Return the files of the note by their names.
+
+    Raises
+    ------
+    OutputError
+        The template cannot be read.
+    """
     words = language(project.language)
-    written = note_document(project, words)
-    title = plain_text(project.problem.title or project.problem.name)
+    stamp = merged(project.problem.stamp, options.fields)
+    stamped = replace(project, problem=replace(project.problem, stamp=stamp))
+    written, author = note_document(stamped, words), stamp.get("author", "")
     files: dict[str, bytes] = {}
     for fmt in formats:
-        if fmt == "pdf":
-            font = registered(lettering(LETTERING))
-            files[f"{stem}.{fmt}"] = pdf_document(written, title=title, font=font)
+        if fmt == "docx":
+            from planmethod.note.writers.word import word_document
+
+            files[f"{stem}.{fmt}"] = word_document(
+                written,
+                words,
+                author=author,
+                template=options.template,
+                frame=options.frame,
+                stamp=stamp,
+            )
+        else:
+            from planmethod.note.writers.pdfnote import pdf_note
+
+            files[f"{stem}.{fmt}"] = pdf_note(written, words, author=author)
     return files

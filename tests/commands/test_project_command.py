@@ -17,6 +17,7 @@ import docx
 import openpyxl
 import pytest
 from click.testing import CliRunner, Result
+from docx.oxml.ns import qn
 from worked import ROOT
 
 from planmethod.cli import cli
@@ -24,6 +25,7 @@ from planmethod.errors import ExitCode
 from planmethod.problem.model import PROJECT_PARTS
 
 FILES = ROOT / "tests" / "data" / "projects"
+MATH = "{http://schemas.openxmlformats.org/officeDocument/2006/math}t"
 NAMES = ("shaper", "crusher", "engine", "homework")
 PARTS = {
     "shaper": ["kinematics", "forces", "flywheel", "gears", "note"],
@@ -56,11 +58,11 @@ def record(folder: Path) -> dict[str, Any]:
     return found
 
 
-def text_of(path: Path) -> str:
+def text_of(path: Path, *options: str) -> str:
     if shutil.which("pdftotext") is None:
         pytest.skip("needs pdftotext")
     return subprocess.run(
-        ["pdftotext", "-raw", "-enc", "UTF-8", str(path), "-"],
+        ["pdftotext", *(options or ("-raw",)), "-enc", "UTF-8", str(path), "-"],
         capture_output=True,
         encoding="utf-8",
         check=True,
@@ -107,55 +109,83 @@ def decimal(text: str) -> float:
     return float(text.replace(",", ".").replace("−", "-"))
 
 
-def scales_beside(text: str, names: str, letter: str) -> set[float]:
-    """Return the scales that stand under views of some names."""
-    found = re.findall(rf"(?:{names})[^\n]*\n(?:[^\nμ]*\n)?μ{letter} = ([\d,]+)", text)
-    return {decimal(number) for number in found}
+def words_of(path: Path) -> list[str]:
+    """Return the paragraphs of a file of Word, those of its equations too."""
+    body = docx.Document(str(path)).element.body
+    letters = (qn("w:t"), MATH)
+    return [
+        "".join(run.text or "" for run in paragraph.iter() if run.tag in letters)
+        for paragraph in body.iter(qn("w:p"))
+    ]
 
 
 @pytest.mark.parametrize("name", NAMES)
-def test_all_outputs_say_the_same(name: str, made: Callable[[str], Path]) -> None:
-    """One numbering, one scale for each kind of plan, one value for each quantity."""
+def test_sheets_have_one_numbering(name: str, made: Callable[[str], Path]) -> None:
+    folder = made(name)
+    *sheets, _ = record(folder)["parts"]
+    count = sum(part["sheets"] for part in sheets)
+    found = [text_of(folder / file, "-layout") for part in sheets for file in part["files"]]
+    whole = text_of(folder / "project.pdf", "-layout")
+    assert [text.count("\f") for text in found] == [part["sheets"] for part in sheets]
+    assert whole.count("\f") == count
+    for text in ("".join(found), whole):
+        numbers = re.findall(r"Лист +(\d*) *Листов *(\d*)", text)
+        one = [("", "1")] if count == 1 else [("1", str(count))]
+        assert numbers == one + [(str(k), "") for k in range(2, count + 1)]
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_every_plan_has_the_scale_of_the_project(name: str, made: Callable[[str], Path]) -> None:
+    """On every sheet, in all of them together, in the note for Word and as PDF."""
     folder = made(name)
     told = record(folder)
     scales = told["scales"]
-    sheets = [text_of(folder / f) for part in told["parts"][:-1] for f in part["files"]]
-    linkage = sheets[: len(told["parts"]) - 1 - ("gears" in PARTS[name])]
-    whole, note = text_of(folder / "project.pdf"), text_of(folder / "note.pdf")
-    word = "\n".join(p.text for p in docx.Document(str(folder / "note.docx")).paragraphs)
+    plans = {
+        "v": (r"План(?:ы)? скоростей|Рычаг Жуковского", scales["mu_v"]),
+        "a": (r"План(?:ы)? ускорений", scales["mu_a"]),
+        "F": (r"План сил", scales["mu_F"]),
+        "l": (r"План(?:ы)? положени[яй]|Схема нагружения|Группа звеньев", scales["mu_l"]),
+    }
+    *sheets, _ = told["parts"]
+    linkage = [p for p in sheets if p["name"] in ("kinematics", "forces")]
+    texts = [text_of(folder / file) for part in linkage for file in part["files"]]
+    texts.append(text_of(folder / "note.pdf"))
+    texts.append("\n".join(words_of(folder / "note.docx")))
+    for text in texts:
+        for letter, (names, scale) in plans.items():
+            lines = rf"(?:{names})[^\n]*(?:\n[^\nμ=]*){{0,2}}\n?μ_?{letter} *= *([\d,]+)"
+            assert {decimal(number) for number in re.findall(lines, text)} <= {scale}
+    for letter, (_, scale) in plans.items():
+        if scale is not None:
+            everywhere = re.findall(rf"μ{letter} *= *([\d,]+)", "\n".join(texts))
+            assert scale in map(decimal, everywhere)
 
-    # Numbers of sheets: those of the files are those of the set.
-    numbers = [int(n) for text in sheets for n in re.findall(r"^Лист (\d+)", text, re.M)]
-    count = sum(part["sheets"] for part in told["parts"] if "sheets" in part)
-    assert whole.count("\f") == count
-    if count > 1:
-        assert numbers == list(range(1, count + 1))
-        assert re.search(rf"Листов {count}$", sheets[0], re.M)
 
-    # Scales of the plans, wherever they stand.
-    for text in [*linkage, whole.partition("Картина")[0]]:
-        assert scales_beside(text, "Планы? скоростей|Рычаг", "v") <= {scales["mu_v"]}
-        assert scales_beside(text, "Планы? ускорений", "a") <= {scales["mu_a"]}
-        assert scales_beside(text, "План сил", "F") <= {scales["mu_F"]}
-    assert scales_beside(sheets[0], "Планы? скоростей", "v") == {scales["mu_v"]}
-    for text in (note, word):
-        for key, number in re.findall(r"\bμ_?(l|v|a|F) = ([\d,]+)[^\n]*$", text, re.M):
-            if key == "l":
-                assert decimal(number) == scales["mu_l"]
-
-    # Positions and values: the workbook beside the table on the sheet.
-    book = openpyxl.load_workbook(folder / "numbers.xlsx")
-    rows = list(book.worksheets[0].iter_rows(values_only=True))
-    head, values = rows[0], rows[1:]
-    assert [row[0] for row in values] == [one["number"] for one in told["positions"]]
-    for row, one in zip(values, told["positions"], strict=True):
-        assert (row[1] - one["phi_deg"]) % 360.0 == pytest.approx(0.0, abs=1e-6) or (
-            row[1] - one["phi_deg"]
-        ) % 360.0 == pytest.approx(360.0, abs=1e-6)
-    assert len(head) > 4
-    at = values[told["calculated"]]
-    first = [f"{value:.4g}".replace(".", ",") for value in at[2:4]]
-    assert any(text in sheets[0] for text in first)
+@pytest.mark.parametrize("name", NAMES)
+def test_every_quantity_has_one_value(name: str, made: Callable[[str], Path]) -> None:
+    """What the note measures in the calculated position is in the workbook and on the sheet."""
+    folder = made(name)
+    told = record(folder)
+    head, *rows = (
+        openpyxl.load_workbook(folder / "numbers.xlsx").worksheets[0].iter_rows(values_only=True)
+    )
+    assert [row[0] for row in rows] == [one["number"] for one in told["positions"]]
+    for row, one in zip(rows, told["positions"], strict=True):
+        off = (row[1] - one["phi_deg"] + 180.0) % 360.0 - 180.0
+        assert off == pytest.approx(0.0, abs=1e-6)
+    measured = dict(zip(head, rows[told["calculated"]], strict=True))
+    line = re.compile(r"^v_?([A-Z]\w*) ?= ?μ_?v·\(p\w+\) ?= ?[\d,]+·[\d,]+ ?= ?([\d,]+) м/с")
+    for lines in (text_of(folder / "note.pdf").splitlines(), words_of(folder / "note.docx")):
+        found = [m for text in lines if (m := line.match(text.replace("\u00a0", " ")))]
+        assert found
+        for one_line in found:
+            point, value = one_line.groups()
+            key = f"v_{point}, м/с (по плану)"
+            assert decimal(value) == pytest.approx(measured[key], rel=1e-3)
+    if len(rows) > 1:
+        sheet = text_of(folder / "1-kinematics.pdf").replace(" ", "")
+        exact = next(key for key in head if key.startswith("v_"))
+        assert f"{measured[exact]:.4g}".replace(".", ",") in sheet
 
 
 def test_commands_take_the_decisions_of_the_project(made: Callable[[str], Path]) -> None:
@@ -243,16 +273,14 @@ def test_a_train_alone_is_no_project(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("jobs", ["1", "2"])
 def test_where_a_part_fails_nothing_is_written(jobs: str, tmp_path: Path) -> None:
-    text = (FILES / "homework.toml").read_text("utf-8")
-    train = "[gears]\nwheels = { 1 = 20, 2 = 21 }\nmeshes = [{ of = [1, 2] }]\nn = { 1 = 1 }\n"
-    file = tmp_path / "my.toml"
-    file.write_text(text + train + '[sheet]\npaper = "A4"\n[stamp]\ntitle = "x"\n', "utf-8")
-    out = tmp_path / "out"
+    """A scheme of a metre has no room on A4."""
+    scales = "\n[scales]\nmu_l = 0.0002\nmu_v = 0.01\nmu_a = 0.1\n"
+    text = (FILES / "homework.toml").read_text("utf-8") + scales + '[sheet]\npaper = "A4"\n'
+    file, out = tmp_path / "my.toml", tmp_path / "out"
+    file.write_text(text, "utf-8")
     done = run(str(file), "-o", str(out), "--jobs", jobs, "--lang", "en")
-    if done.exit_code == 0:
-        pytest.skip("both parts fit A4")
-    assert done.exit_code != 0
-    assert re.search(r"(kinematics|gears) is not made, nothing is written: ", done.stderr)
+    assert done.exit_code == ExitCode.USAGE
+    assert re.search(r"kinematics is not made, nothing is written: .* do not fit A4", done.stderr)
     assert not out.exists()
 
 

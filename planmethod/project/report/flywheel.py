@@ -48,10 +48,8 @@ def _reduced(report: Report, tell: MachineTeller, said: Words) -> Iterator[Node]
     J = tell.letter("reduced inertia")  # noqa: N806 - the letter of the textbook
     yield sentences(said.about.format())
     omega = f"ω_{{{report.one.problem.drive.link}}}"
-    moment = fraction("Σ(F_{i}·v_{i}·cos α_{i} ± M_{i}·ω_{i})", omega)
-    inertia = fraction("Σ(m_{i}·v_{Si}^{2} + J_{Si}·ω_{i}^{2})", f"{omega}^{{2}}")
-    yield displayed(f"{tell.moment} = {moment},")
-    yield displayed(f"{J} = {inertia},")
+    yield displayed(said.moment_formula.format(M=tell.moment, omega=omega))
+    yield displayed(said.inertia_formula.format(J=J, omega=omega))
     yield sentences(said.where.format())
     flywheel = tell.flywheel
     cycle = with_unit(report.say.given(flywheel.machine.cycle_deg), "°")

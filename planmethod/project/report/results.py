@@ -30,7 +30,7 @@ FAINT = 1e-6
 """Share of the largest of its kind below which a quantity is nothing."""
 
 
-class Compared(Struct, frozen=True):
+class PlannedValue(Struct, frozen=True):
     """A quantity by the plan and exactly, SI (сравнение)."""
 
     quantity: Quantity
@@ -54,14 +54,14 @@ class Compared(Struct, frozen=True):
         return abs(self.off) / self.sigma if self.sigma else 0.0
 
 
-def compared(solution: Solution, index: int, *kinds: QuantityKind) -> list[Compared]:
+def compared(solution: Solution, index: int, *kinds: QuantityKind) -> list[PlannedValue]:
     """Return the quantities of some kinds in a position; those that are something."""
     errors, found = drafting_of(solution), []
     for quantity in told(solution, *kinds):
         exact = float(solution.exact(quantity)[index])
         read = float(solution.read_off(quantity.label)[index])
         sigma, _ = marked(errors, quantity.label, index)
-        found.append(Compared(quantity, read, exact, sigma))
+        found.append(PlannedValue(quantity, read, exact, sigma))
     sizes = {kind: [abs(c.exact) for c in found if c.quantity.kind is kind] for kind in kinds}
     return [
         c
@@ -70,7 +70,7 @@ def compared(solution: Solution, index: int, *kinds: QuantityKind) -> list[Compa
     ]
 
 
-def worst(found: Sequence[Compared]) -> Compared | None:
+def worst(found: Sequence[PlannedValue]) -> PlannedValue | None:
     """Return the quantity whose difference is the largest share of it."""
     return max(found, key=lambda one: one.percent, default=None)
 
