@@ -11,7 +11,7 @@ LINKAGES = $(sort $(filter-out $(TASKS) problems/point/% problems/gears/% proble
 # tree, also where the environment forbids it: to compile anew in every process is a tenth of the time.
 TESTS := PYTHONDONTWRITEBYTECODE= PYTHONPYCACHEPREFIX=$(CURDIR)/$(VENV)/bytecode $(BIN)/python -m pytest -n 2 --dist loadfile
 
-.PHONY: demo test test-every test-thorough outputs lint size format tables schema tasks gallery group bench dist clean
+.PHONY: demo test test-every test-thorough outputs lint size format tables schema messages tasks gallery group bench dist clean
 
 # The compat mode is a plain path entry: the default finder costs every command a tenth of a second.
 $(VENV)/.ready: pyproject.toml
@@ -62,6 +62,12 @@ tables: $(VENV)/.ready
 # What follows from the declared keys of flat tables: the schema, the references of keys in both languages.
 schema: $(VENV)/.ready
 	$(BIN)/python -m scripts.reference
+
+# The sentences of click in the other languages, as gettext reads them.
+messages: $(VENV)/.ready
+	for text in planmethod/note/wording/*/LC_MESSAGES/click.po; do \
+	  $(BIN)/python -c 'import polib, sys; polib.pofile(sys.argv[1]).save_as_mofile(sys.argv[2])' $$text $${text%.po}.mo; \
+	done
 
 # The index of the shipped problems, docs/tasks.md and its pictures.
 tasks: $(VENV)/.ready

@@ -1,14 +1,14 @@
 """The graphical plan method of the theory of mechanisms (метод планов).
 
 Public names: `load` and `loads` read a problem file, `solve` computes it, `Sweep` computes many
-positions of it, `draw` makes its sheets. They are imported when they are first asked for, so that
-``import planmethod`` costs nothing.
+positions of it, `draw` makes its sheets. They are imported when they are first asked for (PEP 562):
+Python imports this package before any module of it, and a command that needs none of these, or only
+one, would wait a quarter of a second for NumPy, the sheets and what they stand on.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
@@ -34,15 +34,16 @@ __all__ = [
 ]
 
 _HOMES = {
-    "Problem": ("planmethod.problem", "Problem"),
-    "Solution": ("planmethod.solved.solution", "Solution"),
-    "Sweep": ("planmethod.solved.many.sweep", "Sweep"),
-    "drafting": ("planmethod.solved.errors.motion", "drafting_of"),
-    "draw": ("planmethod.render.sheets.kinematics", "kinematics_sheets"),
-    "load": ("planmethod.kinds", "load"),
-    "loads": ("planmethod.kinds", "loads"),
-    "statics": ("planmethod.solved.forces.statics", "statics_of"),
+    "Problem": "planmethod.problem:Problem",
+    "Solution": "planmethod.solved.solution:Solution",
+    "Sweep": "planmethod.solved.many.sweep:Sweep",
+    "drafting": "planmethod.solved.errors.motion:drafting_of",
+    "draw": "planmethod.render.sheets.kinematics:kinematics_sheets",
+    "load": "planmethod.kinds:load",
+    "loads": "planmethod.kinds:loads",
+    "statics": "planmethod.solved.forces.statics:statics_of",
 }
+"""Where the public names are; those of `TYPE_CHECKING`, which a test compares."""
 
 
 def solve(
@@ -72,9 +73,12 @@ def solve(
     return Solution(problem, positions=positions, ruler=ruler, profile=PROFILES[profile])
 
 
-def __getattr__(name: str) -> Any:
-    """Import a public name on first use (PEP 562)."""
-    if name not in _HOMES:
-        raise AttributeError(f"module 'planmethod' has no attribute {name!r}")
-    module, attribute = _HOMES[name]
-    return getattr(import_module(module), attribute)
+if not TYPE_CHECKING:  # what is imported above are the names that there are
+
+    def __getattr__(name: str) -> Any:
+        """Import a public name on first use."""
+        if name not in _HOMES:
+            raise AttributeError(f"module 'planmethod' has no attribute {name!r}")
+        from pkgutil import resolve_name
+
+        return resolve_name(_HOMES[name])

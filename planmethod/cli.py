@@ -1,7 +1,8 @@
 """Command line: the commands by name, and the last safety nets; no geometry here.
 
-What a command does not need it does not import: a command's module is imported when the command is
-called, and the imports of the work stand in its functions.
+What a command does not need it does not import: a command's module is imported by its name when the
+command is called, as click's documentation has it of lazily loaded subcommands, and the imports of
+the work stand in its functions.
 """
 
 from __future__ import annotations
@@ -14,9 +15,9 @@ from typing import Any
 
 import click
 
-from planmethod.commands.helptext import Spoken
+from planmethod.commands.helptext import Spoken, answering
 from planmethod.errors import ExitCode
-from planmethod.languages import LANGUAGES, say, speaking, spoken_to
+from planmethod.languages import LANGUAGES, say, spoken_to
 
 HELP = {
     "To begin with": {
@@ -66,8 +67,9 @@ All commands: planmethod --help. One of them: planmethod sheet --help."""
 
 
 def command_of(name: str) -> click.Command:
-    """Import a command."""
-    command: click.Command = getattr(import_module(f"planmethod.commands.{name}"), name)
+    """Import a command of `COMMANDS`: the function of its name in the module of its name."""
+    command = getattr(import_module(f"planmethod.commands.{name}"), name)
+    assert isinstance(command, click.Command), name
     return command
 
 
@@ -91,7 +93,7 @@ class Commanded(Spoken, click.Group):
     def main(self, args: Sequence[str] | None = None, *rest: Any, **more: Any) -> Any:
         """Run a command."""
         words = sys.argv[1:] if args is None else args
-        with speaking(spoken_to(words)):
+        with answering(spoken_to(words)):
             return super().main(args, *rest, **more)
 
 
@@ -120,7 +122,7 @@ def main() -> None:
     for stream in (sys.stdout, sys.stderr):
         if isinstance(stream, io.TextIOWrapper):
             stream.reconfigure(errors="replace")  # a Russian console has no Greek or arrows
-    with speaking(spoken_to(sys.argv[1:])):
+    with answering(spoken_to(sys.argv[1:])):
         _run()
 
 

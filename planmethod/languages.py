@@ -16,11 +16,12 @@ from pathlib import Path
 from string import Formatter
 from typing import Any
 
-_WORDING = Path(__file__).parent / "note" / "wording"
+WORDING = Path(__file__).parent / "note" / "wording"
+"""Folder of the languages."""
 
 LANGUAGES = tuple(
     sorted(
-        (path.parent.name for path in _WORDING.glob("*/note.toml")),
+        (path.parent.name for path in WORDING.glob("*/note.toml")),
         key=lambda lang: (lang != "ru", lang),
     )
 )
@@ -99,7 +100,7 @@ def translated(sentence: str) -> str:
 @cache
 def _messages(lang: str) -> Mapping[str, str]:
     """Return the text of each catalogue of messages of a language, by its name."""
-    paths = sorted((_WORDING / lang / "messages").glob("*.toml"))
+    paths = sorted((WORDING / lang / "messages").glob("*.toml"))
     return {path.stem: path.read_text(encoding="utf-8") for path in paths}
 
 
@@ -107,7 +108,7 @@ def _messages(lang: str) -> Mapping[str, str]:
 def typed() -> Mapping[str, tuple[str, ...]]:
     """Return the keys and words of files by what is typed in their place, in any language."""
     found: dict[str, tuple[str, ...]] = {}
-    for path in sorted(_WORDING.glob("*/typed.toml")):
+    for path in sorted(WORDING.glob("*/typed.toml")):
         for key, words in catalogue(path.parent.name, "typed").items():
             for word in words.split(", "):
                 found[word] = (*found.get(word, ()), key)
@@ -119,7 +120,7 @@ def catalogue(lang: str, name: str) -> dict[str, Any]:
     """Return the words of one file of a language, as they stand there."""
     import tomllib
 
-    return tomllib.loads((_WORDING / lang / f"{name}.toml").read_text(encoding="utf-8"))
+    return tomllib.loads((WORDING / lang / f"{name}.toml").read_text(encoding="utf-8"))
 
 
 def spoken() -> str:

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias, TypeVar
 import click
 from msgspec.structs import replace
 
-from planmethod.languages import LANGUAGES, say
+from planmethod.languages import LANGUAGES, say, translated
 
 if TYPE_CHECKING:
     import numpy as np
@@ -31,6 +31,27 @@ class BadParameter(click.BadParameter):
 
     def __init__(self, message: str, *facts: object) -> None:
         super().__init__(say(message, *facts))
+
+
+class PathType(click.Path):
+    """A path (путь к файлу или папке), called so in the language that is spoken when it is shown.
+
+    Click names it once, when a command is imported.
+    """
+
+    def __init__(
+        self, *, file_okay: bool = True, dir_okay: bool = True, readable: bool = True
+    ) -> None:
+        super().__init__(path_type=Path, file_okay=file_okay, dir_okay=dir_okay, readable=readable)
+
+    @property
+    def name(self) -> str:
+        """What it is called: a file, a directory or a path."""
+        return translated(self._english)
+
+    @name.setter
+    def name(self, english: str) -> None:
+        self._english = english
 
 
 F = TypeVar("F", bound=Callable[..., Any])
@@ -135,7 +156,7 @@ def problem_options(command: F) -> F:
             nargs=-1,
             required=True,
             metavar="PROBLEM...",
-            type=click.Path(path_type=Path, readable=False),
+            type=PathType(readable=False),
         ),
         click.option("--variant", metavar="NAME", help="Variant of the problem file."),
         click.option("--all-variants", is_flag=True, help="Every variant of the problem file."),
@@ -214,7 +235,7 @@ def out_option(command: F) -> F:
     return click.option(
         "-o",
         "--out",
-        type=click.Path(path_type=Path, file_okay=False),
+        type=PathType(file_okay=False),
         default=Path("out"),
         show_default=True,
         help="Folder for the files.",

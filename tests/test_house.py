@@ -6,8 +6,11 @@ import ast
 from collections import defaultdict
 from collections.abc import Iterator
 from graphlib import TopologicalSorter
+from importlib import import_module
 
 from worked import ROOT
+
+import planmethod
 
 FILES = {
     ".".join(path.relative_to(ROOT).with_suffix("").parts).removesuffix(".__init__"): path
@@ -22,8 +25,9 @@ LATE_IN = (
     "planmethod.moving.kind",
     "planmethod.options",
     "planmethod.render.backends",
+    "planmethod.render.sheets.blocks",
 )
-"""Where imports stand in functions: of a command, a kind or a format, used when it is."""
+"""Where imports stand in functions: of a command, a kind, a format or a block, used when it is."""
 
 LATE_OF = {
     "planmethod.cli": "with its libraries, in a process that is settled",
@@ -48,8 +52,8 @@ LATE_OF = {
     "planmethod.problem.dynamics": "forces, counterweights",
     "planmethod.problem.machine": "machines",
     "planmethod.solved": "forces, drafting errors, the trust in float64",
-    "planmethod.construct.compiled.csource": "machine code",
-    "planmethod.construct.compiled.native": "machine code",
+    "planmethod.compiled.csource": "machine code",
+    "planmethod.compiled.native": "machine code",
     "planmethod.construct.drafting": "the hand",
     "planmethod.moving.audit": "printed values",
     "planmethod.moving.protocol": "what is drawn",
@@ -65,6 +69,7 @@ LATE_OF = {
     "locale": "the language of a system without variables for it",
     "mpmath": "the referee",
     "openpyxl": "workbooks",
+    "pkgutil": "public names",
     "shapely": "areas",
     "tomllib": "descriptions of compositions",
 }
@@ -98,6 +103,15 @@ def test_an_import_in_a_function_is_of_what_few_runs_need() -> None:
         if not any(f"{name}.".startswith(f"{known}.") for known in LATE_OF)
     ]
     assert not late, "put these at the head of the file, or say in LATE_OF who alone needs them"
+
+
+def test_the_public_names_are_those_that_type_checkers_see() -> None:
+    seen = next(node for node in parsed("planmethod").body if isinstance(node, ast.If))
+    told = [one for one in ast.walk(seen) if isinstance(one, ast.ImportFrom)]
+    public = {alias.asname: (one.module, alias.name) for one in told for alias in one.names}
+    assert sorted([*filter(None, public), "solve"]) == planmethod.__all__
+    for name, (module, inner) in public.items():
+        assert getattr(planmethod, str(name)) is getattr(import_module(str(module)), inner)
 
 
 def test_no_module_imports_itself_through_others() -> None:

@@ -92,7 +92,8 @@ def drawing(name: str, *args: str) -> tuple[tuple[str, ...], ...]:
             {*ALL, *FONTS, "fractions", "hashlib", "importlib.metadata", "logging"}
             | {"multiprocessing", "planmethod.problem.model"},
         ),
-        ((("solve", EX3),), {"numpy"}, {*FORCES, "fractions"}),
+        # json: a message is looked up, and there is none
+        ((("solve", EX3, "--lang", "ru"),), {"numpy"}, {*FORCES, "fractions", "json"}),
         (drawing(SIX_LINK, "--format", "svg", "--layout", "forces"), FORCES, {"matplotlib"}),
         (
             (("live", EX3), ("animate", EX3, "--format", "svg", "--frames", "8")),

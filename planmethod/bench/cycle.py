@@ -9,8 +9,9 @@ from msgspec import Struct
 
 from planmethod.bench.speed import clock
 from planmethod.construct.hand import Hand
-from planmethod.problem.load_records import Quadrature
-from planmethod.problem.model import Differentiation, Problem
+from planmethod.problem.cycle_records import Differentiation
+from planmethod.problem.machine_records import Quadrature
+from planmethod.problem.model import Problem
 from planmethod.solved.machine.flywheel import Flywheel
 from planmethod.solved.machine.runup import RunUp
 from planmethod.solved.solution import Solution

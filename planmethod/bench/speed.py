@@ -13,6 +13,7 @@ import numpy as np
 import numpy.typing as npt
 from msgspec import Struct
 
+from planmethod.compiled import FEW
 from planmethod.construct.arithmetic import Float64, Number
 from planmethod.construct.condition import plain
 from planmethod.construct.evaluate import evaluate
@@ -20,7 +21,7 @@ from planmethod.construct.referee import Precise
 from planmethod.errors import AssemblyError
 from planmethod.plans.legend import ZERO, Quantity, QuantityKind
 from planmethod.problem.model import Problem
-from planmethod.solved.many.sweep import FEW, Sweep
+from planmethod.solved.many.sweep import Sweep
 from planmethod.solved.quantities import quantities_of
 from planmethod.solved.selfcheck import verify
 from planmethod.solved.solution import Solution

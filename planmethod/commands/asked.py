@@ -11,7 +11,7 @@ import click
 from msgspec import Struct
 from msgspec.structs import replace
 
-from planmethod.options import BadParameter, UsageError
+from planmethod.options import BadParameter, PathType, UsageError
 
 if TYPE_CHECKING:
     from planmethod.problem.head import KindProblem, SheetSettings
@@ -201,7 +201,7 @@ _SHEET_OPTIONS = (
     ),
     click.option(
         "--config",
-        type=click.Path(path_type=Path),
+        type=PathType(),
         metavar="FILE",
         help="Config file instead of the usual one.",
     ),

@@ -16,12 +16,13 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from planmethod.commands.asked import PaperRequest, sheet_options
-from planmethod.commands.helptext import Spoken
+from planmethod.commands.helptext import Spoken, answering
 from planmethod.commands.problems import Todo, finish, guarded, stem, through
 from planmethod.commands.sheet import SheetOptions, draw
 from planmethod.errors import PlanMethodError
-from planmethod.languages import LANGUAGES, say, speaking, spoken
+from planmethod.languages import LANGUAGES, say, spoken
 from planmethod.options import (
+    PathType,
     Positions,
     UsageError,
     drawing_options,
@@ -85,7 +86,7 @@ def made(order: VariantOrder) -> Outcome[dict[str, bytes]]:
 
     from planmethod.commands.processes import captured
 
-    with _ONE, speaking(order.lang), TemporaryDirectory(prefix="planmethod-") as name:
+    with _ONE, answering(order.lang), TemporaryDirectory(prefix="planmethod-") as name:
         outcome = captured(partial(_files, order, Path(name)))
     return replace(outcome, output="")  # names of files there
 
@@ -130,7 +131,7 @@ def installed() -> str:
 @click.option("--keys", is_flag=True, help="The key of every variant, too: PDF and XLSX.")
 @click.option(
     "--settings",
-    type=click.Path(path_type=Path, dir_okay=False),
+    type=PathType(dir_okay=False),
     metavar="FILE",
     help="TOML of the department for the keys: tolerances, points, marks.",
 )

@@ -15,7 +15,7 @@ from planmethod.commands.output import bar, json_text
 from planmethod.commands.problems import Todo, each, finish, guarded, stem
 from planmethod.errors import ExitCode, PlanMethodError
 from planmethod.languages import say, spoken
-from planmethod.options import UsageError, jobs_option, lang_option, out_option
+from planmethod.options import PathType, UsageError, jobs_option, lang_option, out_option
 
 if TYPE_CHECKING:
     from planmethod.check.group import Variants
@@ -32,9 +32,7 @@ FORMATS = ("html", "pdf")
 
 
 @click.command(cls=Spoken)
-@click.argument(
-    "files", nargs=-1, required=True, metavar="PROBLEM [WORK]...", type=click.Path(path_type=Path)
-)
+@click.argument("files", nargs=-1, required=True, metavar="PROBLEM [WORK]...", type=PathType())
 @click.option("--key", "key_only", is_flag=True, help="Print and write the key of every PROBLEM.")
 @click.option("--variant", metavar="NAME", help="Variant of the works that name none.")
 @click.option("--all-variants", is_flag=True, help="With --key: of every variant.")
@@ -43,7 +41,7 @@ FORMATS = ("html", "pdf")
 @click.option(
     "--settings",
     "settings_file",
-    type=click.Path(path_type=Path, dir_okay=False),
+    type=PathType(dir_okay=False),
     metavar="FILE",
     help="TOML of the department: tolerances, points, marks.",
 )
@@ -53,7 +51,7 @@ FORMATS = ("html", "pdf")
 )
 @click.option(
     "--overrides",
-    type=click.Path(path_type=Path, dir_okay=False),
+    type=PathType(dir_okay=False),
     metavar="FILE",
     help="Points and remarks set by hand; overrides.csv of the output folder when absent.",
 )

@@ -48,7 +48,7 @@ def decided(path: Path, variant: str | None, position: int | None, settled: Sett
         It is no linkage.
     """
     from planmethod.kinds import kind_of
-    from planmethod.problem.model import ProjectTask
+    from planmethod.problem.cycle_records import ProjectTask
     from planmethod.project.settle import settle
 
     kind = kind_of(path)

@@ -8,7 +8,7 @@ import click
 
 from planmethod.commands.helptext import Spoken
 from planmethod.commands.problems import Todo, each, finish, guarded, stem
-from planmethod.options import UsageError, lang_option, out_option, problem_options
+from planmethod.options import PathType, UsageError, lang_option, out_option, problem_options
 
 MOST_STUDENTS = 500
 
@@ -23,7 +23,7 @@ MOST_STUDENTS = 500
 )
 @click.option(
     "--names",
-    type=click.Path(path_type=Path, dir_okay=False),
+    type=PathType(dir_okay=False),
     metavar="FILE",
     help="A form for each student: a text with a name in each line.",
 )

@@ -1,49 +1,43 @@
 """Help and errors of the command line in the language that is spoken; their words are click's own.
 
-Click looks its sentences up by `gettext`, by which name its modules import it; here they are looked
-up in the catalogues of messages, as all others are. Help of commands and options is written in
-English where they are, and translated when it is shown.
+Click looks its sentences up by `gettext`, in the domain that the program names: here in
+``LC_MESSAGES/click.mo`` of a language, which ``make messages`` makes of ``click.po``. Help of
+commands and options is written in English where they are, and translated when it is shown.
 """
 
 from __future__ import annotations
 
 import copy
+import gettext
 import inspect
+import os
+from collections.abc import Iterator
+from contextlib import contextmanager
 
 import click
-from click import core, exceptions, formatting, parser, termui, types
 
-from planmethod.languages import say, translated
+from planmethod.languages import WORDING, say, speaking, translated
 
-
-def _of_number(one: str, many: str, count: int) -> str:
-    return translated(one if count == 1 else many)
+DOMAIN = "click"
+"""Domain of `gettext` in which the sentences of click stand."""
 
 
-class _Kind(str):
-    """What a path is called, "file": translated when it is told, and few runs tell it."""
-
-    __slots__ = ()
-
-    def title(self) -> str:
-        """Return it as it begins a sentence."""
-        return translated(str(self)).title()
-
-    def upper(self) -> str:
-        """Return it as it stands for a value."""
-        return translated(str(self)).upper()
-
-
-def _kind_or_sentence(text: str) -> str:
-    return translated(text) if " " in text else _Kind(text)
-
-
-# The sentences of `decorators` are help.
-for _module in (core, exceptions, formatting, parser, termui, types):
-    for _name, _look_up in (("_", translated), ("ngettext", _of_number)):
-        if hasattr(_module, _name):
-            setattr(_module, _name, _look_up)
-types._ = _kind_or_sentence  # type: ignore[attr-defined, assignment]
+@contextmanager
+def answering(lang: str) -> Iterator[None]:
+    """Speak a language for a while, and have click speak it."""
+    domain, asked = gettext.textdomain(), os.environ.get("LANGUAGE")
+    gettext.bindtextdomain(DOMAIN, str(WORDING))
+    gettext.textdomain(DOMAIN)
+    os.environ["LANGUAGE"] = lang  # the first that gettext looks at
+    try:
+        with speaking(lang):
+            yield
+    finally:
+        gettext.textdomain(domain)
+        if asked is None:
+            del os.environ["LANGUAGE"]
+        else:
+            os.environ["LANGUAGE"] = asked
 
 
 class Spoken(click.Command):

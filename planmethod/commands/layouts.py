@@ -9,12 +9,12 @@ import click
 from planmethod.commands.helptext import Spoken
 from planmethod.commands.output import refuse_unknown, write_new
 from planmethod.commands.problems import guarded
-from planmethod.options import lang_option
+from planmethod.options import PathType, lang_option
 
 
 @click.command(cls=Spoken)
 @click.argument("name", required=False)
-@click.argument("file", required=False, type=click.Path(path_type=Path, dir_okay=False))
+@click.argument("file", required=False, type=PathType(dir_okay=False))
 @click.option("--force", is_flag=True, help="Write over an existing file.")
 @lang_option
 @guarded

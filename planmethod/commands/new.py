@@ -10,12 +10,12 @@ from planmethod.commands.helptext import Spoken
 from planmethod.commands.output import refuse_unknown, write_new
 from planmethod.commands.problems import guarded
 from planmethod.languages import say
-from planmethod.options import UsageError, lang_option
+from planmethod.options import PathType, UsageError, lang_option
 
 
 @click.command(cls=Spoken)
 @click.argument("family", required=False, metavar="[FAMILY|TASK]")
-@click.argument("file", required=False, type=click.Path(path_type=Path, dir_okay=False))
+@click.argument("file", required=False, type=PathType(dir_okay=False))
 @click.option("--list", "show", is_flag=True, help="List the families.")
 @click.option("--force", is_flag=True, help="Write over an existing file.")
 @click.option("--variant", metavar="NAME", help="Of a task: with the values of this variant.")

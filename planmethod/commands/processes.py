@@ -19,8 +19,9 @@ from typing import Generic, TypeVar
 import click
 from msgspec import Struct
 
+from planmethod.commands.helptext import answering
 from planmethod.errors import PlanMethodError
-from planmethod.languages import say, speaking, spoken
+from planmethod.languages import say, spoken
 
 T = TypeVar("T")
 R = TypeVar("R")
@@ -95,7 +96,7 @@ def _follow() -> None:
 
 def _work(act: Callable[[T], R], item: T, lang: str) -> Outcome[R]:
     try:
-        with speaking(lang):
+        with answering(lang):
             return captured(partial(act, item))
     except SystemExit:  # else the executor would send it back, and take the next item
         signal.signal(signal.SIGTERM, signal.SIG_DFL)

@@ -27,7 +27,7 @@ from planmethod.options import (
     out_option,
     position_option,
 )
-from planmethod.problem.model import PROJECT_PARTS
+from planmethod.problem.cycle_records import PROJECT_PARTS
 
 if TYPE_CHECKING:
     from planmethod.project.model import Project, ProjectPart

@@ -18,6 +18,7 @@ from planmethod.commands.problems import (
     stem,
 )
 from planmethod.options import (
+    PathType,
     Positions,
     UsageError,
     drawn_by,
@@ -33,7 +34,7 @@ from planmethod.options import (
 @click.option(
     "-o",
     "--out",
-    type=click.Path(path_type=Path, file_okay=False),
+    type=PathType(file_okay=False),
     help="Folder for a text file; to the terminal when absent.",
 )
 @click.option(

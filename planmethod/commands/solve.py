@@ -29,6 +29,7 @@ from planmethod.languages import say
 from planmethod.options import (
     MOST_POSITIONS,
     MOST_SWEPT,
+    PathType,
     Positions,
     UsageError,
     drawn_by,
@@ -151,7 +152,7 @@ class SolveOptions(Struct, frozen=True, kw_only=True):
     "--compare",
     "work",
     metavar="WORK",
-    type=click.Path(path_type=Path),
+    type=PathType(),
     help="Own numbers beside the exact ones: JSON, TOML, CSV, XLSX or a form, as check reads them.",
 )
 @lang_option

@@ -20,6 +20,7 @@ from planmethod.errors import ExitCode
 from planmethod.languages import say
 from planmethod.options import (
     BadParameter,
+    PathType,
     UsageError,
     drawn_by,
     dxf_text_option,
@@ -120,7 +121,7 @@ def asked_options(command: Callable[..., Any]) -> Callable[..., Any]:
 @click.option(
     "-o",
     "--out",
-    type=click.Path(path_type=Path),
+    type=PathType(),
     help="Problem file to write, *.toml; or a folder for it and the sheet.",
 )
 @click.option("--force", is_flag=True, help="Write over an existing problem file.")

@@ -12,7 +12,7 @@ from planmethod.commands.helptext import Spoken
 from planmethod.commands.output import refuse_unknown, write_new
 from planmethod.commands.problems import finish, guarded
 from planmethod.errors import ExitCode
-from planmethod.options import BadParameter, UsageError, lang_option
+from planmethod.options import BadParameter, PathType, UsageError, lang_option
 
 if TYPE_CHECKING:
     from fractions import Fraction
@@ -106,7 +106,7 @@ def read_modules(
 @click.option(
     "--write",
     nargs=2,
-    type=(click.Path(path_type=Path, dir_okay=False), click.IntRange(1)),
+    type=(PathType(dir_okay=False), click.IntRange(1)),
     metavar="FILE N",
     help="Write the problem file of set N.",
 )

@@ -11,19 +11,11 @@ from msgspec.structs import replace
 from planmethod.languages import say
 from planmethod.mechanism.model import FRAME
 from planmethod.problem import fields
+from planmethod.problem.cycle_records import CycleTask, PoleDistances, StrokeSense, Zero
 from planmethod.problem.fields import Faults
 from planmethod.problem.flat import OwnReader, read_flat
-from planmethod.problem.load_records import Machine
-from planmethod.problem.model import (
-    SAME_DEG,
-    Body,
-    CycleTask,
-    Drive,
-    PoleDistances,
-    Slide,
-    StrokeSense,
-    Zero,
-)
+from planmethod.problem.machine_records import Machine
+from planmethod.problem.model import SAME_DEG, Body, Drive, Slide
 
 _EXAMPLE = '[cycle] output = "B", zero = "extreme", count = 12'
 _NAMED = {zero.value: zero for zero in Zero}

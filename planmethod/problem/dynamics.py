@@ -12,14 +12,8 @@ from planmethod.problem.fields import Faults, Table
 from planmethod.problem.flat import OwnReader, read_flat
 from planmethod.problem.forces import LoadScope, read_loads
 from planmethod.problem.links import LinkText
-from planmethod.problem.load_records import (
-    GRAVITY,
-    CounterweightTask,
-    Dynamics,
-    Machine,
-    Mass,
-    Weighing,
-)
+from planmethod.problem.load_records import GRAVITY, Dynamics, Mass
+from planmethod.problem.machine_records import CounterweightTask, Machine, Weighing
 from planmethod.problem.model import Drive
 from planmethod.problem.names import listed, near_hint, segment
 from planmethod.problem.sizes import TURN

@@ -101,12 +101,11 @@ def _read_key(faults: Faults, path: str, value: object, one: FlatField) -> objec
 
 
 def _read_number(faults: Faults, path: str, value: object, key: NumberKey) -> float | None:
-    what = say(key.expected)
     if key.low == 0.0 and key.unbounded and fields.is_number(value) and value < 0:
-        faults.add(path, say("expected {}, 0 or greater, got {:g}", what, value))
+        faults.add(path, say("expected {}, 0 or greater, got {:g}", key.expected, value))
         return None
     return fields.read_number(
-        faults, path, value, what,
+        faults, path, value, key.expected,  # translated where it is a fault
         low=key.low, high=key.high, positive=key.positive, hint=key.hint,
     )  # fmt: skip
 

@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from planmethod.languages import LANGUAGES
+from planmethod.problem.cycle_records import CycleTask, PoleDistances, ProjectTask
 from planmethod.problem.declared import declared
 from planmethod.problem.head import (
     LETTERINGS,
@@ -20,19 +21,16 @@ from planmethod.problem.head import (
     Published,
     SheetSettings,
 )
-from planmethod.problem.load_records import (
+from planmethod.problem.load_records import Dynamics, LoadEntry, Mass, Phase
+from planmethod.problem.machine_records import (
     CounterweightTask,
-    Dynamics,
     FlywheelTask,
     KlossTable,
     LineTable,
-    LoadEntry,
     Machine,
-    Mass,
     MotorTable,
-    Phase,
 )
-from planmethod.problem.model import CycleTask, PoleDistances, ProjectTask, Scales
+from planmethod.problem.model import Scales
 
 TOP = (
     "title", "source", "units", "frame", "links", "driver", "assembly", "scales", "stamp",

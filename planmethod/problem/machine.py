@@ -10,7 +10,7 @@ from planmethod.languages import say
 from planmethod.problem import fields, keys
 from planmethod.problem.fields import Faults
 from planmethod.problem.flat import read_flat
-from planmethod.problem.load_records import (
+from planmethod.problem.machine_records import (
     ConstantMoment,
     FlywheelTask,
     KlossTable,

@@ -6,9 +6,9 @@ from pathlib import PurePath
 
 from planmethod.languages import say
 from planmethod.problem import fields
+from planmethod.problem.cycle_records import PROJECT_PARTS, ProjectTask
 from planmethod.problem.fields import Faults
 from planmethod.problem.flat import OwnReader, read_flat
-from planmethod.problem.model import PROJECT_PARTS, ProjectTask
 from planmethod.problem.names import near_hint, short
 
 _EXAMPLE = '[project] calculated = 4, gears = "train.toml"'

@@ -1,8 +1,8 @@
-"""Read a problem file: every part in turn, all faults at once."""
+"""Read a problem file, and lay a variant over it: all faults at once."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping
 from functools import lru_cache
 from pathlib import Path
 from typing import Any, TypeAlias
@@ -11,29 +11,15 @@ from msgspec.structs import replace
 
 from planmethod.errors import Fault, ProblemError
 from planmethod.languages import say, spoken
-from planmethod.mechanism.model import FRAME, Mechanism
-from planmethod.problem import keys
-from planmethod.problem.answers import AnswerScope, read_answers
-from planmethod.problem.bodies import place_points
-from planmethod.problem.cycle import cycle_count, followed, read_cycle
-from planmethod.problem.drive import read_assembly, read_drive, read_scales
-from planmethod.problem.fields import Faults, read_keys, read_word
-from planmethod.problem.joints import coincident_points, join
-from planmethod.problem.links import LinkText, check_arcs, read_links
-from planmethod.problem.model import Body, Geared, Problem, Slide
-from planmethod.problem.names import UNITS, fold, listed, near
-from planmethod.problem.project import read_project
-from planmethod.problem.selector import check_what, read_published, read_tables
-from planmethod.problem.sheet import read_head
-from planmethod.problem.slides import FrameText, find_host, order_hosts, read_frame, read_slide
+from planmethod.problem.fields import Faults
+from planmethod.problem.model import Problem
+from planmethod.problem.names import fold, listed, near
+from planmethod.problem.parts import TrainReader, read_parts
 from planmethod.problem.source import parse, read_source
 from planmethod.problem.variants import apply_variant, read_variants, with_table
 
 Variants: TypeAlias = Mapping[str, Mapping[tuple[str, ...], Any]]
 """Overrides of every variant, by path."""
-
-TrainReader: TypeAlias = Callable[[Faults, Mapping[str, Any], object], Geared | None]
-"""What reads ``[gears]`` for the driver's ``train``: faults, that table, the label."""
 
 
 def load(
@@ -203,7 +189,7 @@ def _read_varied(
     variant: str | None,
     train: TrainReader | None,
 ) -> Problem:
-    problem = _read_parts(faults, table, name, train)
+    problem = read_parts(faults, table, name, train)
     if faults or problem is None:
         raise ProblemError(source, faults.found)
     return replace(problem, variants=variants, variant=variant)
@@ -220,279 +206,3 @@ def unknown_variant(variant: str, known: Mapping[str, Any]) -> Fault:
     if guess and fold(guess) == fold(variant):
         hint = say("Did you mean '{}' in the other layout (Russian or Latin)?", guess)
     return Fault("variants", say("there is no variant '{}'", variant), hint)
-
-
-def _read_parts(
-    faults: Faults, table: Mapping[str, Any], name: str, train: TrainReader | None
-) -> Problem | None:
-    given = read_keys(faults, "", table, keys.TOP)
-    if "units" in given:
-        faults.unit = read_word(faults, "units", given["units"], UNITS) or faults.unit
-    head = read_head(faults, given)
-    scales = read_scales(faults, given.get("scales", {}))
-    tables = read_tables(faults, given)
-    if "links" not in given:
-        _report_no_links(faults, given)
-        read_frame(faults, given.get("frame", {}))
-        return None
-    for key in ("frame", "driver"):
-        if key not in given:
-            faults.add(key, "missing", _MISSING[key])
-    drivers = _drivers(given)
-    if len(drivers) > 1:
-        given["driver"] = drivers[0]
-    frame = read_frame(faults, given.get("frame", {}))
-    links = read_links(faults, given["links"])
-    if "frame" not in given:
-        return None
-    check_arcs(faults, links, frame.points)
-    for guide in frame.guides:
-        if guide in links:
-            hint = "Rename the guide, for instance x-x."
-            faults.add(f"frame.guides.{guide}", say("link {} has the same name", guide), hint)
-    hosts, guides = _find_hosts(faults, links, frame)
-    bodies = _place(faults, links, frame, hosts)
-    slides = _read_slides(faults, links, frame, hosts, guides, bodies)
-    drive = None
-    if "driver" in given and links:
-        geared = _read_geared(faults, given, train)
-        numbered = cycle_count(given)
-        drive = read_drive(faults, given["driver"], links, frame.points, hosts, geared, numbered)
-    driver = drive.link if drive else str(_driver_name(given))
-    complete = (
-        bool(links)
-        and frame.sound
-        and len(links) == len(given["links"])
-        and all(link.whole for link in links.values())
-    )
-    mechanism = join(faults, frame, links, hosts, driver, complete=complete) if links else None
-    if frame.number in links:
-        hint = "The frame has a number of its own: 0, or one that no link has."
-        faults.add("frame.number", say("link {} has the same number", frame.number), hint)
-    elif mechanism is not None:
-        mechanism = replace(mechanism, frame=frame.number)
-    if len(drivers) > 1:
-        _refuse_drivers(faults, drivers, mechanism if complete else None)
-    moving = [p for link in links.values() for p in link.points if p not in frame.points]
-    moving = list(dict.fromkeys(moving))
-    assembly = read_assembly(faults, given.get("assembly", {}), moving, frame.points)
-    dynamics = machine = None
-    if "machine" in given:
-        from planmethod.problem.machine import read_machine  # few files have one
-
-        machine = read_machine(faults, given, drive)
-    if "dynamics" in given or "loads" in given:
-        from planmethod.problem.dynamics import read_dynamics  # few files have any
-
-        dynamics = read_dynamics(faults, given, links, frame.points, drive, machine)
-    balancing = None
-    if "balancing" in given:
-        from planmethod.problem.dynamics import read_balancing  # few files have one
-
-        balancing = read_balancing(faults, given, tuple(links), drive, dynamics)
-    cycle = None
-    if "cycle" in given:
-        cycle = read_cycle(faults, given["cycle"], bodies, slides, drive, machine)
-        if cycle is not None and machine is not None:
-            machine = followed(faults, machine, cycle)
-    project = read_project(faults, given["project"]) if "project" in given else None
-    points = [*frame.points, *moving, *coincident_points(slides.values())]
-    named: tuple[Sequence[str], Sequence[str]] = ((), ()) if faults else (points, tuple(links))
-
-    def checked(path: str, what: str, _: str) -> str:
-        if what:
-            check_what(faults, path, what, *named, dynamics)
-        return what
-
-    count = len(drive.positions) if drive else 0
-    if project is not None and cycle is not None:  # its positions are those of the cycle
-        count = cycle.count if machine is None else cycle.count * round(machine.cycle_deg / 360.0)
-    published = read_published(faults, given.get("published", {}), checked, positions=count)
-    scene = AnswerScope(
-        () if faults else points,
-        () if faults else tuple(links),
-        mechanism.revolutes if mechanism else (),
-        slides,
-        dynamics,
-        drive,
-    )
-    answers = read_answers(faults, given, scene)
-    if faults or drive is None or mechanism is None:
-        assert faults, "a part was left out without a word"
-        return None
-    return Problem(
-        name=name,
-        **head,
-        unit=faults.unit,
-        stated=dict(faults.stated),
-        mechanism=mechanism,
-        bodies=bodies,
-        slides={link: slides[link] for link in links if link in slides},
-        drive=drive,
-        lengths=tuple(
-            (link.name, length.key, length.value)
-            for link in links.values()
-            for length in link.lengths
-        ),
-        guides=frame.guides,
-        assembly=assembly,
-        scales=scales,
-        published=published,
-        answers=answers,
-        dynamics=dynamics,
-        cycle=cycle,
-        project=project,
-        machine=machine,
-        balancing=balancing,
-        tables=tables,
-    )
-
-
-_MISSING = {
-    "frame": "Give the fixed points: [frame] A = [0, 0].",
-    "driver": 'Give the driving link: [driver] link = "1", phi = 20, omega = 50.',
-}
-
-
-def _report_no_links(faults: Faults, given: Mapping[str, Any]) -> None:
-    for key, what in (("gears", "a gear train"), ("point", "a moving point")):
-        if key in given:
-            faults.add(
-                "links",
-                say("missing: the file describes {} ([{}]), not a linkage", what, key),
-                "Plans of a linkage need [frame], [links] and [driver].",
-            )
-            return
-    faults.add("links", "missing", 'Give the links: [links.1] points = ["A", "B"], AB = 0.1.')
-
-
-def _read_geared(
-    faults: Faults, given: Mapping[str, Any], train: TrainReader | None
-) -> Geared | None:
-    """Read the train that the driver names."""
-    driver = given["driver"]
-    if not isinstance(driver, Mapping) or "train" not in driver:
-        return None
-    if not isinstance(given.get("gears"), Mapping):
-        faults.add("driver.train", "the file has no train", "Describe it in [gears].")
-        return None
-    if train is None:
-        hint = "Read the file by planmethod.load or planmethod.loads."
-        faults.add("driver.train", "trains are not read here", hint)
-        return None
-    return train(faults, given["gears"], driver["train"])
-
-
-def _drivers(given: Mapping[str, Any]) -> list[Mapping[str, Any]]:
-    """Return the drivers: several as a list of tables, or as a list of links."""
-    driver = given.get("driver")
-    listed_links = driver.get("link") if isinstance(driver, Mapping) else None
-    if isinstance(driver, Mapping) and isinstance(listed_links, list):
-        return [{**driver, "link": link} for link in listed_links]
-    return [one for one in driver if isinstance(one, Mapping)] if isinstance(driver, list) else []
-
-
-def _refuse_drivers(
-    faults: Faults, drivers: Sequence[Mapping[str, Any]], mechanism: Mechanism | None
-) -> None:
-    """Say why several drivers are refused: what they are, and how many the mechanism needs."""
-    count, names = len(drivers), listed(str(one.get("link", "?")) for one in drivers)
-    message = say("{} drivers are given: links {}", count, names)
-    hint = "Plans are made of mechanisms with one: keep one, and join the others to it."
-    if mechanism is not None:
-        n, pairs = len(mechanism.links), mechanism.lower_pairs
-        mobility = 3 * n - 2 * pairs
-        message += f"; W = 3n - 2p1 = 3·{n} - 2·{pairs} = {mobility}"
-        if mobility == 1:
-            hint = "One driver moves all links of this mechanism: keep one of them."
-        elif mobility == count:
-            hint = say(
-                "The mechanism needs {}, and plans are made of mechanisms with W = 1: "
-                "give a pair that joins two of the drivers, or take one of them as fixed.",
-                count,
-            )
-    faults.add("driver", message, hint)
-
-
-def _driver_name(given: Mapping[str, Any]) -> object:
-    driver = given.get("driver")
-    return driver.get("link") if isinstance(driver, Mapping) else None
-
-
-def _find_hosts(
-    faults: Faults, links: Mapping[str, LinkText], frame: FrameText
-) -> tuple[dict[str, str], dict[str, str | None]]:
-    """Host of every slider, and its guide where the host is the frame."""
-    hosts: dict[str, str] = {}
-    guides: dict[str, str | None] = {}
-    for name, link in links.items():
-        if link.slides is None:
-            continue
-        found = find_host(faults, link, links, frame)
-        if found is None:
-            link.sound = link.whole = False
-            continue
-        hosts[name], guides[name] = found
-    return hosts, guides
-
-
-def _place(
-    faults: Faults, links: Mapping[str, LinkText], frame: FrameText, hosts: Mapping[str, str]
-) -> dict[str, Body]:
-    bodies = {FRAME: Body(dict(frame.points), None)}
-    carriers = set(hosts.values())
-    for name, link in links.items():
-        alone = len(link.points) == 1 and link.slides is None
-        if alone and name not in carriers and link.sound:
-            faults.add(
-                link.path,
-                say("link {} has one point and neither slides nor carries a slide", name),
-                "List its second point, or give slides = { on = ... }.",
-            )
-            link.sound = link.whole = False
-            continue
-        body = place_points(faults, link)
-        if body is not None:
-            bodies[name] = body
-    return bodies
-
-
-def _read_slides(
-    faults: Faults,
-    links: Mapping[str, LinkText],
-    frame: FrameText,
-    hosts: Mapping[str, str],
-    guides: Mapping[str, str | None],
-    bodies: Mapping[str, Body],
-) -> dict[str, Slide]:
-    slides: dict[str, Slide] = {}
-    turns: dict[str, float | None] = {FRAME: 0.0}
-    first: dict[str, str] = {}
-    for slider, host in hosts.items():
-        first.setdefault(host, slider)
-    for slider in order_hosts(faults, hosts):
-        host = hosts[slider]
-        turn = turns.get(host)
-        body = bodies.get(host) or _stand_in(links[host])
-        # A mark laid off along the own axis names that axis, and the line is still it.
-        free = host != FRAME and host not in hosts and not links[host].lengths
-        slide = read_slide(
-            faults,
-            links[slider],
-            host,
-            guides[slider],
-            body,
-            frame,
-            turn=turn,
-            bare=free and first[host] == slider,
-        )
-        if slide is not None and host in bodies:
-            slides[slider] = slide
-            turns[slider] = None if turn is None else turn + slide.angle
-    return slides
-
-
-def _stand_in(link: LinkText) -> Body:
-    """Body of a link that could not be placed: its names are known, so slides can be checked."""
-    points = {point: complex(place) for place, point in enumerate(link.points)}
-    return Body(points, ("", "") if len(points) > 1 else None)

@@ -15,8 +15,9 @@ from msgspec.structs import replace
 from planmethod.errors import Fault, ProblemError
 from planmethod.kinds import KINDS
 from planmethod.languages import LANGUAGES, say
+from planmethod.problem.cycle_records import CycleTask, ProjectTask
 from planmethod.problem.load_records import TurningSense
-from planmethod.problem.model import SAME_DEG, CycleTask, Problem, ProjectTask
+from planmethod.problem.model import SAME_DEG, Problem
 from planmethod.project.decided import (
     clear_position,
     force_scale,

@@ -17,7 +17,8 @@ from planmethod.construct.arithmetic import Float64
 from planmethod.errors import Fault, PlanMethodError, ProblemError
 from planmethod.problem.fields import Faults
 from planmethod.problem.model import Problem
-from planmethod.problem.reader import TrainReader, read_parsed
+from planmethod.problem.parts import TrainReader
+from planmethod.problem.reader import read_parsed
 from planmethod.problem.variants import apply_variant, read_variants
 from planmethod.solved.failures import Failure, PositionError
 from planmethod.solved.impossible import explain, failing

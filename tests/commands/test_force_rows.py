@@ -22,8 +22,8 @@ from worked import DEAD, ROOT, path_of
 
 from benchmarks.generator import random_problem
 from planmethod.cli import cli
+from planmethod.compiled import symbolic
 from planmethod.construct import evaluate
-from planmethod.construct.compiled import symbolic
 from planmethod.construct.steps import MeetLines, Step
 from planmethod.problem import load
 from planmethod.solved import impossible

@@ -22,7 +22,7 @@ from worked import ROOT
 
 from planmethod.cli import cli
 from planmethod.errors import ExitCode
-from planmethod.problem.model import PROJECT_PARTS
+from planmethod.problem.cycle_records import PROJECT_PARTS
 
 FILES = ROOT / "tests" / "data" / "projects"
 MATH = "{http://schemas.openxmlformats.org/officeDocument/2006/math}t"

@@ -14,9 +14,9 @@ from hypothesis import strategies as st
 from jets import Jets, adjudicate
 from msgspec.structs import replace
 
+from planmethod.compiled.blocks import Blocks
+from planmethod.compiled.symbolic import write
 from planmethod.construct.arithmetic import Arithmetic, Float64
-from planmethod.construct.compiled.blocks import Blocks
-from planmethod.construct.compiled.symbolic import write
 from planmethod.construct.condition import reach
 from planmethod.construct.drafting import Counted, Profile, Propagated, Sampled
 from planmethod.construct.dual import Dual, Duals, as_dual

@@ -13,6 +13,7 @@ from pathlib import Path
 from string import Formatter
 
 import click
+import polib
 import pytest
 from cases import each
 from click.testing import CliRunner
@@ -52,6 +53,7 @@ NO_MESSAGES = (
     "check/sheet.py",  # names of answers
     "__init__.py",  # for programs in Python
     "check/works/vocabulary.py",  # what works of students say
+    "compiled/",  # mistakes of ours
     "construct/",  # mistakes of ours; names of steps, as in the next
     "gears/construction.py",
     "gears/drawn/pictures.py",
@@ -74,7 +76,8 @@ NO_MESSAGES = (
     "render/pictures/",
     "render/sheets/flywheel.py",
     "render/sheets/runup.py",
-    "solved/closings.py",  # rules, in the words of the file
+    "solved/closings.py",  # rules, in the words of the file, as in the next
+    "solved/rules.py",
     "solved/many/sweep.py",  # for programs in Python
     "solved/turn/",  # codes of JSON, as in the next but one
     "synthesis/measured.py",  # what the file says
@@ -219,6 +222,21 @@ def test_a_message_has_the_same_places_in_every_language(lang: str) -> None:
         assert there <= all_of_them, english
 
 
+@pytest.mark.parametrize("lang", OTHERS)
+def test_the_sentences_of_click_are_compiled(lang: str) -> None:
+    folder = WORDING / lang / "LC_MESSAGES"
+    written, compiled = polib.pofile(folder / "click.po"), polib.mofile(folder / "click.mo")
+
+    def told(one: polib.POEntry) -> tuple[str, str, str, dict[int, str]]:
+        return one.msgid, one.msgid_plural, one.msgstr, one.msgstr_plural
+
+    assert sorted(map(told, written)) == sorted(map(told, compiled)), "make messages"
+    for one in written:
+        for other in (one.msgstr, *one.msgstr_plural.values()):
+            named = {place for _, place, _, _ in Formatter().parse(other) if place}
+            assert named <= set(re.findall(r"\{(\w+)", one.msgid + one.msgid_plural)), one.msgid
+
+
 def helps() -> Iterator[str]:
     """Yield the help of the commands and their options, and that of the program."""
     for command in (cli, *map(command_of, COMMANDS)):
@@ -245,7 +263,11 @@ def test_the_help_is_shown_in_russian() -> None:
     one = CliRunner().invoke(cli, ["solve", "--lang=ru", "--hlep"])
     assert one.exit_code == 2
     assert "Ошибка: Нет ключа '--hlep'." in one.output
-    assert "--hlep" in CliRunner().invoke(cli, ["solve", "--lang=en", "--hlep"]).output
+    other = CliRunner().invoke(cli, ["solve", "--lang=en", "--hlep"])
+    assert "Error: No such option '--hlep'." in other.output
+    for lang, kind in (("ru", "Папка"), ("en", "Directory"), ("ru", "Папка")):  # each anew
+        told = CliRunner().invoke(cli, ["sheet", "x.toml", "--lang", lang, "-o", __file__]).output
+        assert kind in told
     assert "Usage:" in CliRunner().invoke(cli, ["--help"]).output  # as before
 
 

@@ -13,7 +13,7 @@ from worked import problem_of
 
 from planmethod.note.tables.turn import cycle_columns
 from planmethod.note.wording import language
-from planmethod.problem.model import CycleTask
+from planmethod.problem.cycle_records import CycleTask
 from planmethod.solved.errors.motion import drafting_of
 from planmethod.solved.solution import Solution
 from planmethod.solved.turn.diagrams import diagrams_of

@@ -63,6 +63,8 @@ TERMS = {
     "problem/head.py",
     "problem/links.py",
     "problem/load_records.py",
+    "problem/machine_records.py",
+    "problem/cycle_records.py",
     "problem/model.py",
     "render/sheets/composition/reader.py",
 }

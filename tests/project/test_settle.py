@@ -11,7 +11,8 @@ from msgspec.structs import replace
 from planmethod.errors import ProblemError
 from planmethod.kinds import load
 from planmethod.problem import loads
-from planmethod.problem.model import Problem, ProjectTask
+from planmethod.problem.cycle_records import ProjectTask
+from planmethod.problem.model import Problem
 from planmethod.project.decided import loaded_positions
 from planmethod.project.model import PartName, Project
 from planmethod.project.settle import settle, settled

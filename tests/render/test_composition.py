@@ -398,13 +398,12 @@ def test_plans_grow_where_the_paper_has_room_and_given_scales_stay() -> None:
     assert [v.per_mm for v in kept.views] == [v.per_mm for v in same.views]
 
 
-def test_a_new_kind_of_block_is_a_function_and_a_line(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_new_kind_of_block_is_a_function_and_its_lines(monkeypatch: pytest.MonkeyPatch) -> None:
     def signature(solution: Solution, indices: object, manner: Manner) -> Block:
         return Column([heading(f"Подпись: {solution.problem.title}", manner.text(3.5))])
 
-    monkeypatch.setattr(
-        kinds, "BLOCKS", {**BLOCKS, "signature": kinds.BlockKind(signature, ("height",))}
-    )
+    signed = kinds.BlockKind(lambda: {"signature": signature}, ("height",))
+    monkeypatch.setattr(kinds, "BLOCKS", {**BLOCKS, "signature": signed})
     monkeypatch.setattr(entries, "BLOCKS", kinds.BLOCKS)
     monkeypatch.setattr("planmethod.render.sheets.pages.BLOCKS", kinds.BLOCKS)
     text = '[[blocks]]\nkind = "scheme"\n[[blocks]]\nkind = "signature"\nheight = 5\n'
@@ -542,6 +541,7 @@ def test_the_document_names_every_key_and_no_other() -> None:
     for name, kind in BLOCKS.items():
         (row,) = re.findall(rf"(?m)^\| `{name}` \|.*\| (.*) \|$", text)
         assert tuple(row.split(", ")) == kind.keys
+        assert callable(kinds.maker_of(name))
     for name in SHIPPED:
         assert f"`{name}`" in text
 

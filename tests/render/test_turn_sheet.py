@@ -16,7 +16,7 @@ from planmethod.construct.evaluate import evaluate
 from planmethod.note.records.solution import cycle_record
 from planmethod.note.wording import language
 from planmethod.paper import FORMATS
-from planmethod.problem.model import CycleTask, Differentiation, PoleDistances
+from planmethod.problem.cycle_records import CycleTask, Differentiation, PoleDistances
 from planmethod.render.control.texts import lint
 from planmethod.render.ink.drawing import VIEW_KINDS, Disc, Stroke
 from planmethod.render.pictures.diagram import AXIS

@@ -19,7 +19,7 @@ from planmethod.errors import ProblemError
 from planmethod.note.audit.audit import AuditVerdict, audit
 from planmethod.note.audit.machine import chain
 from planmethod.problem import load, loads
-from planmethod.problem.load_records import Quadrature
+from planmethod.problem.machine_records import Quadrature
 from planmethod.solved.machine.drawing import FlywheelDrawing, split
 from planmethod.solved.machine.flywheel import Flywheel
 

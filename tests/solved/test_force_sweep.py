@@ -16,13 +16,14 @@ from loaded import loaded_problem
 from worked import DEAD, every_file, path_of
 
 from benchmarks.generator import KINDS
-from planmethod.construct.compiled.blocks import BLOCK
+from planmethod.compiled import FEW
+from planmethod.compiled.blocks import BLOCK
 from planmethod.errors import AssemblyError, ProblemError
 from planmethod.problem import load, loads
 from planmethod.problem.model import Problem
 from planmethod.solved.forces.statics import Statics
 from planmethod.solved.many.gaps import CHUNK, GappedSweep
-from planmethod.solved.many.sweep import FEW, Sweep, SweepError, sweep_variants
+from planmethod.solved.many.sweep import Sweep, SweepError, sweep_variants
 from planmethod.solved.quantities import UnknownQuantityError
 from planmethod.solved.solution import Solution
 

@@ -14,12 +14,13 @@ from cases import each, some
 from worked import DEAD, every_file, path_of
 
 from benchmarks.generator import random_problem
-from planmethod.construct.compiled.blocks import BLOCK
+from planmethod.compiled import FEW
+from planmethod.compiled.blocks import BLOCK
 from planmethod.errors import AssemblyError
 from planmethod.problem import load, loads
 from planmethod.problem.model import Problem
 from planmethod.solved.many.rows import SweepRow
-from planmethod.solved.many.sweep import FEW, Sweep, SweepError, sweep_variants
+from planmethod.solved.many.sweep import Sweep, SweepError, sweep_variants
 from planmethod.solved.quantities import UnknownQuantityError
 from planmethod.solved.solution import Solution
 

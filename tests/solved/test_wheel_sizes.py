@@ -11,7 +11,7 @@ from msgspec.structs import replace
 from worked import path_of
 
 from planmethod.cli import cli
-from planmethod.problem.load_records import FlywheelTask, WheelShape
+from planmethod.problem.machine_records import FlywheelTask, WheelShape
 from planmethod.solved.machine.sizes import WIDEST, size_of, too_wide
 
 INERTIA, OMEGA = 0.273, 314.0

@@ -6,7 +6,7 @@ import numpy as np
 from msgspec.structs import replace
 
 from planmethod.note.numbers import is_nothing
-from planmethod.problem.load_records import Quadrature, WeightSigns
+from planmethod.problem.machine_records import Quadrature, WeightSigns
 from planmethod.problem.model import Problem
 from planmethod.problem.selector import Selector
 from planmethod.solved.machine.drawing import drawing_of

@@ -14,7 +14,7 @@ from planmethod.note.narrate.given import given
 from planmethod.note.narrate.scales import scale_inscription
 from planmethod.note.numbers import alike, half_up
 from planmethod.note.wording import Language, Words
-from planmethod.problem.load_records import ConstantMoment, Quadrature, WeightSigns
+from planmethod.problem.machine_records import ConstantMoment, Quadrature, WeightSigns
 from planmethod.problem.model import Convention
 from planmethod.solved.machine.drawing import FlywheelDrawing, split
 from planmethod.solved.machine.flywheel import Flywheel, SpeedExtreme

@@ -9,7 +9,7 @@ import numpy as np
 
 from planmethod.construct.drafting import Profile
 from planmethod.note.numbers import plain
-from planmethod.problem.load_records import Quadrature
+from planmethod.problem.machine_records import Quadrature
 from planmethod.solved.machine.drawing import FlywheelDrawing, drawing_of, split
 from planmethod.solved.machine.flywheel import Flywheel, SpeedExtreme
 from planmethod.solved.machine.runup import MOST_CYCLES, RunUp, TimeCourse, run_up_of

@@ -14,7 +14,7 @@ from planmethod.note.written import Column, Records, plain_of, rows, together
 from planmethod.plans.legend import TURNING, Quantity, QuantityKind
 from planmethod.plans.model import FACTS, MOTION, PlanKind, pole_letter
 from planmethod.plans.motion.leads import Relative
-from planmethod.problem.model import Differentiation
+from planmethod.problem.cycle_records import Differentiation
 from planmethod.solved.analogues import analogues
 from planmethod.solved.errors.motion import drafting_of
 from planmethod.solved.reading import Complexes

@@ -25,7 +25,7 @@ from planmethod.note.narrate.turn import (
 )
 from planmethod.note.numbers import alike, in_heads, significant
 from planmethod.note.wording import Language
-from planmethod.problem.model import Differentiation
+from planmethod.problem.cycle_records import Differentiation
 from planmethod.solved.reading import Reals
 from planmethod.solved.solution import Solution
 from planmethod.solved.turn.construction import extreme_construction

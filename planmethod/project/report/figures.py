@@ -16,7 +16,7 @@ from planmethod.note.wording import Language
 from planmethod.render.backends.view import DrawingView
 from planmethod.render.ink.drawing import Drawing
 from planmethod.render.layout.block import Block, Column, Row
-from planmethod.render.sheets.blocks import BLOCKS
+from planmethod.render.sheets.blocks import maker_of
 from planmethod.render.sheets.composer import Sizes, Viewed
 from planmethod.render.sheets.model import Entry, Extras, Manner
 from planmethod.solved.solution import Solution
@@ -146,8 +146,6 @@ def of_sheet(kind: str, solution: Solution, words: Language, *, column: float) -
     def made(letter: float) -> Block:
         entry, sizes = Entry(kind, letter=letter), Sizes(letter, letter, letter, column)
         indices = tuple(range(len(solution.positions)))
-        return bare(
-            BLOCKS[kind].make(solution, indices, Manner(entry, sizes, column, Extras(words)))
-        )
+        return bare(maker_of(kind)(solution, indices, Manner(entry, sizes, column, Extras(words))))
 
     return made

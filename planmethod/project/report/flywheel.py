@@ -11,7 +11,8 @@ from planmethod.note.formula import Rich, fraction
 from planmethod.note.narrate.machine import MachineTeller
 from planmethod.note.numbers import half_up, with_unit
 from planmethod.note.wording import Words
-from planmethod.problem.load_records import Load, Quadrature, SizeTable, WheelShape
+from planmethod.problem.load_records import Load, SizeTable
+from planmethod.problem.machine_records import Quadrature, WheelShape
 from planmethod.project.report.context import NBSP, Report, displayed, sentences
 from planmethod.project.report.figures import figure, of_sheet
 from planmethod.render.pictures.flywheel import construction_picture

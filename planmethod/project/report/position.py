@@ -12,7 +12,7 @@ from planmethod.note.narrate.turn import construction_facts
 from planmethod.note.plaintext import given
 from planmethod.note.wording import Words
 from planmethod.plans.model import PlanKind
-from planmethod.problem.model import Zero
+from planmethod.problem.cycle_records import Zero
 from planmethod.project.report.context import Report, displayed, lettered, sentences
 from planmethod.project.report.figures import figure
 from planmethod.render.pictures.seriesview import series_picture

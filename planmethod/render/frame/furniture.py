@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from types import MappingProxyType
 from typing import TypeAlias
 
@@ -13,7 +13,8 @@ from planmethod.languages import LANGUAGES
 from planmethod.paper import FRAME_OTHER, Format
 from planmethod.problem.head import SheetSettings
 from planmethod.render.frame.forms import FORM_1, FORM_2, FORM_2A, Form
-from planmethod.render.ink.drawing import Bounds
+from planmethod.render.ink.drawing import Bounds, Item
+from planmethod.render.ink.extent import ink_bounds, overlap
 
 FORMS: Mapping[str, tuple[Form, Form]] = MappingProxyType(
     {
@@ -32,6 +33,10 @@ _BESIDE = 67.0  # mm: graphs 27 to 29 beside graph 26
 _ABOVE = {"1": 8.0, "2": 22.0}  # mm: graph 30, or 27 to 30, above the title block
 
 
+CLEARANCE = 4.0
+"""Least white between what is drawn and a graph within the frame (свободное поле), mm."""
+
+
 class Room(Struct, frozen=True):
     """Where on a sheet the drawing may be (поле чертежа), mm.
 
@@ -48,6 +53,11 @@ class Room(Struct, frozen=True):
     inner: Bounds
     stamp: Bounds
     taken: tuple[Bounds, ...] = ()
+
+    def is_clear(self, items: Iterable[Item]) -> bool:
+        """Whether no item comes near a graph; one that lies across it is judged by its box."""
+        boxes = [ink_bounds([item]) for item in items] if self.taken else []
+        return not any(overlap(box, graph, CLEARANCE) for box in boxes for graph in self.taken)
 
 
 class Furniture(Struct, frozen=True):

@@ -12,7 +12,7 @@ from msgspec import Struct
 from numpy.typing import NDArray
 
 from planmethod.render.ink.drawing import Bounds
-from planmethod.render.labels.model import ALONE, CLEAR, Label
+from planmethod.render.labels.model import ALONE, CLEAR, Label, Placed
 from planmethod.render.symbols import unit
 
 Floats: TypeAlias = NDArray[np.float64]
@@ -222,3 +222,22 @@ def crossed(leaders: Sequence[Floats]) -> int:
         return 0
     lines = np.asarray(leaders)
     return int(crossing(lines, lines, *np.triu_indices(len(lines), 1)).sum())
+
+
+# How tidy placed labels are -----------------------------------------------------------------------
+
+# How many leader lines that cross are as bad as
+_BROKEN = 2  # a label that breaks thin lines
+_OVER = 100  # a label over something
+
+
+def crossed_leaders(placed: Sequence[Placed]) -> int:
+    """Return how many pairs of leader lines cross."""
+    leaders = [label.leader for label in placed if label.leader is not None]
+    return crossed([np.asarray([(z.real, z.imag) for z in leader]) for leader in leaders])
+
+
+def untidiness(placed: Sequence[Placed]) -> int:
+    """Return what is to be least: crossed leader lines, and labels that are not free."""
+    unfree = sum(0 if label.free else _BROKEN if label.ground else _OVER for label in placed)
+    return unfree + crossed_leaders(placed)

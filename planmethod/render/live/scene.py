@@ -24,15 +24,13 @@ from planmethod.note.wording import Language
 from planmethod.plans.forces.polygons import Edge, Share
 from planmethod.plans.legend import Quantity, QuantityKind
 from planmethod.plans.model import FACTS, RATES, PlanKind
-from planmethod.problem.bodies import rotation
-from planmethod.problem.load_records import Fixed, Interpolation, Over, SizeTable, TurningSense
 from planmethod.problem.model import Problem
 from planmethod.render.ink.drawing import Stroke
+from planmethod.render.live.loads import cycle_deg, moving_loads
 from planmethod.render.live.parts import MovingPart, parts_of
 from planmethod.render.pictures.planview import COMPONENTS, similar_lines
 from planmethod.render.symbols import SIZES
-from planmethod.solved.course.motion import TurnMotion
-from planmethod.solved.forces.loads import AHEAD, applied, only_in_positions
+from planmethod.solved.forces.loads import applied, only_in_positions
 from planmethod.solved.forces.statics import Planned, plan_forces, statics_of
 from planmethod.solved.labelled import quantities_for
 from planmethod.solved.many.sweep import Sweep
@@ -333,7 +331,7 @@ class LiveScene:
         """Look where the mechanism can go; choose the scales."""
         drive = self.problem.drive
         if drive.is_crank:
-            self.way = (0.0, self._cycle())
+            self.way = (0.0, cycle_deg(self.problem))
         else:
             self.way = self._reach()
         count = _STEPS[drive.is_crank] * _LOOKS
@@ -426,68 +424,10 @@ class LiveScene:
 
     def loads(self) -> dict[str, Any] | None:
         """Return the loads that differ from position to position; None if there are none."""
-        dynamics = self.problem.dynamics
-        if self.sweep.loads is None or dynamics is None:
+        if self.sweep.loads is None:
             return None
-        by_name = {load.name: load for load in dynamics.loads}
         named = self.construction.kinematics.velocity.named
-        bodies = (self.problem.bodies[link] for link in self.problem.mechanism.links)
-        return {
-            "list": [self._load(by_name[name]) for name in self.sweep.loads.loads],
-            "speeds": [self._row[f"{name}.vx"] for name in named],
-            "omegas": [self._row[f"{link}.omega"] for link in self.problem.mechanism.links],
-            "reach": max(abs(z) for body in bodies for z in body.points.values()) or 1.0,
-            "positions": list(self.problem.drive.positions),
-        }
-
-    def _cycle(self) -> float:
-        """Return after how many degrees all is as before, the loads too."""
-        dynamics, machine = self.problem.dynamics, self.problem.machine
-        tables = [load.size for load in dynamics.loads] if dynamics is not None else []
-        turns = [table.turn for table in tables if isinstance(table, SizeTable)]
-        if machine is not None and any(isinstance(table, SizeTable) for table in tables):
-            turns.append(machine.cycle_deg)
-        return max([360.0, *turns])
-
-    def _stroke(self, point: str) -> dict[str, Any]:
-        turn = TurnMotion(self.problem)
-        stroke = turn.stroke(point)
-        return {
-            "start": [stroke.start.real, stroke.start.imag],
-            "towards": [stroke.towards.real, stroke.towards.imag],
-            "dead": stroke.dead.tolist(),
-            "first": turn.start_deg,
-            "sense": turn.sense,
-            "cycle": turn.cycle,
-        }
-
-    def _load(self, load: Any) -> dict[str, Any]:
-        phase = load.phase
-        told: dict[str, Any] = {"omega": self._row[f"{load.link}.omega"]}
-        size = load.size
-        if isinstance(size, SizeTable):
-            told["over"], told["step"] = size.over.value, size.interpolation is Interpolation.STEP
-            told["at"], told["values"] = list(size.at), list(size.values)
-            told["turn"] = size.turn
-            if size.over in (Over.PATH, Over.STROKES):
-                told["stroke"] = self._stroke(load.at)
-        else:
-            told["size"] = size
-        if phase is not None:
-            told["spans"] = [list(span) for span in phase.phi]
-            if phase.moving is not None:
-                ahead = AHEAD[phase.moving]
-                told["ahead"] = [ahead.real, ahead.imag]
-            if phase.turning is not None:
-                told["turning"] = 1 if phase.turning is TurningSense.CCW else -1
-        if hasattr(load, "at"):
-            told["place"], told["speed"] = self._row[f"{load.at}.x"], self._row[f"{load.at}.vx"]
-            if isinstance(load.sense, Fixed):
-                along = rotation(load.sense.angle)
-                told["along"] = [along.real, along.imag]
-        else:
-            told["against"] = load.sense is not None
-        return told
+        return moving_loads(self.problem, self.sweep.loads.loads, named, self._row)
 
     def reasons(self) -> list[str]:
         """Return for every guard of the tape why a position has no results where it fails."""

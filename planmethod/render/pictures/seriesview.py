@@ -10,7 +10,7 @@ from planmethod.mechanism.model import FRAME
 from planmethod.plans.model import PlanKind
 from planmethod.render.ink.extent import ink_bounds
 from planmethod.render.labels import BUSY, Placed, place_labels
-from planmethod.render.labels.tidy import untidiness
+from planmethod.render.labels.candidates import untidiness
 from planmethod.render.layout.block import Picture
 from planmethod.render.pictures.ellipses import Ellipses, error_ellipses
 from planmethod.render.pictures.extremes import construction_items, stroke_items

@@ -1,63 +1,156 @@
 """Kinds of blocks that a composition may name: for each the function that makes it, and its keys.
 
-A new kind is one function and one line here.
+A new kind is one function, its line in the table of its subject and one in `BLOCKS`. The makers of
+the kinematics are imported at once; those of the other subjects when a composition names one, as
+they bring forces, machines and the turn of a crank.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from importlib import import_module
 from types import MappingProxyType
 from typing import TypeAlias
 
 from msgspec import Struct
 
 from planmethod.render.layout.block import Block
+from planmethod.render.sheets import results, texts, views
 from planmethod.render.sheets.model import Manner
-from planmethod.render.sheets.results import results_block
-from planmethod.render.sheets.texts import (
-    calculation_block,
-    equations_block,
-    statement_block,
-    text_block,
-)
-from planmethod.render.sheets.views import plan_view, scheme_view
 from planmethod.solved.solution import Solution
 
 Maker: TypeAlias = Callable[[Solution, Sequence[int], Manner], Block]
 """From a solution and the positions of a sheet to a block."""
 
+Makers: TypeAlias = Callable[[], Mapping[str, Maker]]
+"""Imports the makers of a subject, by the names of their kinds."""
+
 
 class BlockKind(Struct, frozen=True):
-    """Kind of block: what makes it, and the keys of a composition file that it listens to.
+    """Kind of block: where its maker is, and the keys of a composition that it listens to.
 
     ``each``: there is one for every force plan, whose blocks in a row stand together.
     """
 
-    make: Maker
+    makers: Makers
     keys: tuple[str, ...]
     each: bool = False
 
 
-def _late(home: str, name: str) -> Maker:
-    """Return a maker of a module of `planmethod.render.sheets`, imported when first needed."""
-
-    def make(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
-        maker: Maker = getattr(import_module(f"planmethod.render.sheets.{home}"), name)
-        return maker(solution, indices, manner)
-
-    return make
+def maker_of(kind: str) -> Maker:
+    """Return what makes the blocks of a kind."""
+    return BLOCKS[kind].makers()[kind]
 
 
-def _by_number(one: Maker, name: str) -> Maker:
-    """Return a maker of one position that has another, of `sheets.several`, for several."""
-    several = _late("several", name)
+# Makers by subject -------------------------------------------------------------------------------
 
-    def make(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
-        return (one if len(solution.positions) == 1 else several)(solution, indices, manner)
 
-    return make
+def _kinematics() -> Mapping[str, Maker]:
+    return {
+        "scheme": _scheme,
+        "statement": texts.statement_block,
+        "plan": _plan,
+        "equations": texts.equations_block,
+        "calculation": texts.calculation_block,
+        "results": results.results_block,
+        "text": texts.text_block,
+    }
 
+
+def _scheme(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
+    if len(solution.positions) == 1:
+        return views.scheme_view(solution, indices, manner)
+    from planmethod.render.sheets import several
+
+    return several.scheme_view(solution, indices, manner)
+
+
+def _plan(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
+    if len(solution.positions) == 1:
+        return views.plan_view(solution, indices, manner)
+    from planmethod.render.sheets import several
+
+    return several.plan_view(solution, indices, manner)
+
+
+def _forces() -> Mapping[str, Maker]:
+    from planmethod.render.sheets import forces, loads, reactions
+
+    return {
+        "loads": forces.loads_view,
+        "load-statement": forces.statement_block,
+        "load-curves": loads.load_curves,
+        "cut": forces.cut_view,
+        "force-equations": forces.equations_block,
+        "force-plan": forces.plan_view,
+        "lever": forces.lever_view,
+        "lever-equation": forces.lever_block,
+        "reactions": reactions.reactions_block,
+    }
+
+
+def _cycle() -> Mapping[str, Maker]:
+    from planmethod.render.sheets import cycle, cycletable
+
+    return {
+        "cycle-statement": cycle.statement_block,
+        "balance-diagram": cycle.balance_diagram,
+        "reaction-diagram": cycle.reaction_diagram,
+        "hodographs": cycle.hodographs,
+        "cycle-reactions": cycletable.reactions_table,
+    }
+
+
+def _turn() -> Mapping[str, Maker]:
+    from planmethod.render.sheets import measured, turn
+
+    return {
+        "turn-statement": turn.turn_statement,
+        "kinematic-diagrams": turn.diagrams_view,
+        "chosen-plans": turn.chosen_plans,
+        "hodograph": turn.hodograph_view,
+        "turn-table": turn.turn_table,
+        "deviations": turn.deviations_table,
+        "measured-results": measured.measured_table,
+    }
+
+
+def _flywheel() -> Mapping[str, Maker]:
+    from planmethod.render.sheets import flywheel
+
+    return {
+        "machine-statement": flywheel.statement_block,
+        "flywheel-diagrams": flywheel.diagrams_view,
+        "machine-table": flywheel.machine_table,
+        "flywheel-calculation": flywheel.calculation_block,
+        "speed-diagram": flywheel.speed_diagram,
+        "load-diagram": flywheel.load_diagrams,
+        "flywheel": flywheel.wheel_view,
+    }
+
+
+def _run_up() -> Mapping[str, Maker]:
+    from planmethod.render.sheets import runup
+
+    return {
+        "run-up-text": runup.run_up_text,
+        "run-up-diagrams": runup.run_up_diagrams,
+        "run-up-tables": runup.run_up_tables,
+    }
+
+
+def _balancing() -> Mapping[str, Maker]:
+    from planmethod.render.sheets import balancing
+
+    return {
+        "balancing-text": balancing.balancing_text,
+        "balanced-scheme": balancing.scheme_view,
+        "mass-polygons": balancing.polygon_views,
+        "inertia-hodographs": balancing.hodograph_views,
+        "balancing-tables": balancing.tables,
+    }
+
+
+# Kinds and their keys ----------------------------------------------------------------------------
 
 _VIEW = ("title", "title_height", "letter", "height", "position")
 _TEXT = ("title", "height", "width")
@@ -67,48 +160,48 @@ _FORCE_TEXT = ("height", "width", "position")
 
 BLOCKS: Mapping[str, BlockKind] = MappingProxyType(
     {
-        "scheme": BlockKind(_by_number(scheme_view, "scheme_view"), (*_VIEW, "traces")),
-        "statement": BlockKind(statement_block, _TEXT),
-        "plan": BlockKind(_by_number(plan_view, "plan_view"), ("of", *_VIEW, "per_row", "traces")),
-        "equations": BlockKind(equations_block, ("of", *_TEXT)),
-        "calculation": BlockKind(calculation_block, ("of", "title", "height", "position")),
-        "results": BlockKind(results_block, (*_TEXT, "columns")),
-        "text": BlockKind(text_block, ("text", *_TEXT)),
-        "loads": BlockKind(_late("forces", "loads_view"), _VIEW),
-        "load-statement": BlockKind(_late("forces", "statement_block"), (*_TEXT, "position")),
-        "load-curves": BlockKind(_late("loads", "load_curves"), (*_FORCES, "width")),
-        "cut": BlockKind(_late("forces", "cut_view"), _FORCES, each=True),
-        "force-equations": BlockKind(_late("forces", "equations_block"), _FORCE_TEXT, each=True),
-        "force-plan": BlockKind(_late("forces", "plan_view"), _FORCES, each=True),
-        "lever": BlockKind(_late("forces", "lever_view"), _VIEW),
-        "lever-equation": BlockKind(_late("forces", "lever_block"), (*_TEXT, "position")),
-        "reactions": BlockKind(_late("reactions", "reactions_block"), (*_TEXT, "position")),
-        "cycle-statement": BlockKind(_late("cycle", "statement_block"), _TEXT),
-        "balance-diagram": BlockKind(_late("cycle", "balance_diagram"), _DIAGRAM),
-        "reaction-diagram": BlockKind(_late("cycle", "reaction_diagram"), _DIAGRAM[1:], each=True),
-        "hodographs": BlockKind(_late("cycle", "hodographs"), (*_DIAGRAM, "per_row")),
-        "turn-statement": BlockKind(_late("turn", "turn_statement"), _TEXT),
-        "kinematic-diagrams": BlockKind(_late("turn", "diagrams_view"), _DIAGRAM),
-        "chosen-plans": BlockKind(_late("turn", "chosen_plans"), ("of", *_VIEW[:-1])),
-        "hodograph": BlockKind(_late("turn", "hodograph_view"), ("of", *_DIAGRAM)),
-        "measured-results": BlockKind(_late("measured", "measured_table"), _TEXT),
-        "turn-table": BlockKind(_late("turn", "turn_table"), _TEXT),
-        "deviations": BlockKind(_late("turn", "deviations_table"), _TEXT),
-        "machine-statement": BlockKind(_late("flywheel", "statement_block"), _TEXT),
-        "flywheel-diagrams": BlockKind(_late("flywheel", "diagrams_view"), _VIEW[:-1]),
-        "machine-table": BlockKind(_late("flywheel", "machine_table"), _TEXT),
-        "flywheel-calculation": BlockKind(_late("flywheel", "calculation_block"), _TEXT),
-        "speed-diagram": BlockKind(_late("flywheel", "speed_diagram"), _DIAGRAM),
-        "load-diagram": BlockKind(_late("flywheel", "load_diagrams"), _DIAGRAM),
-        "run-up-text": BlockKind(_late("runup", "run_up_text"), _TEXT),
-        "run-up-diagrams": BlockKind(_late("runup", "run_up_diagrams"), _DIAGRAM),
-        "run-up-tables": BlockKind(_late("runup", "run_up_tables"), _TEXT),
-        "balancing-text": BlockKind(_late("balancing", "balancing_text"), _TEXT),
-        "balanced-scheme": BlockKind(_late("balancing", "scheme_view"), _VIEW),
-        "mass-polygons": BlockKind(_late("balancing", "polygon_views"), _DIAGRAM),
-        "inertia-hodographs": BlockKind(_late("balancing", "hodograph_views"), _DIAGRAM),
-        "balancing-tables": BlockKind(_late("balancing", "tables"), _TEXT),
-        "flywheel": BlockKind(_late("flywheel", "wheel_view"), _DIAGRAM),
-        "cycle-reactions": BlockKind(_late("cycletable", "reactions_table"), _TEXT),
+        "scheme": BlockKind(_kinematics, (*_VIEW, "traces")),
+        "statement": BlockKind(_kinematics, _TEXT),
+        "plan": BlockKind(_kinematics, ("of", *_VIEW, "per_row", "traces")),
+        "equations": BlockKind(_kinematics, ("of", *_TEXT)),
+        "calculation": BlockKind(_kinematics, ("of", "title", "height", "position")),
+        "results": BlockKind(_kinematics, (*_TEXT, "columns")),
+        "text": BlockKind(_kinematics, ("text", *_TEXT)),
+        "loads": BlockKind(_forces, _VIEW),
+        "load-statement": BlockKind(_forces, (*_TEXT, "position")),
+        "load-curves": BlockKind(_forces, (*_FORCES, "width")),
+        "cut": BlockKind(_forces, _FORCES, each=True),
+        "force-equations": BlockKind(_forces, _FORCE_TEXT, each=True),
+        "force-plan": BlockKind(_forces, _FORCES, each=True),
+        "lever": BlockKind(_forces, _VIEW),
+        "lever-equation": BlockKind(_forces, (*_TEXT, "position")),
+        "reactions": BlockKind(_forces, (*_TEXT, "position")),
+        "cycle-statement": BlockKind(_cycle, _TEXT),
+        "balance-diagram": BlockKind(_cycle, _DIAGRAM),
+        "reaction-diagram": BlockKind(_cycle, _DIAGRAM[1:], each=True),
+        "hodographs": BlockKind(_cycle, (*_DIAGRAM, "per_row")),
+        "turn-statement": BlockKind(_turn, _TEXT),
+        "kinematic-diagrams": BlockKind(_turn, _DIAGRAM),
+        "chosen-plans": BlockKind(_turn, ("of", *_VIEW[:-1])),
+        "hodograph": BlockKind(_turn, ("of", *_DIAGRAM)),
+        "measured-results": BlockKind(_turn, _TEXT),
+        "turn-table": BlockKind(_turn, _TEXT),
+        "deviations": BlockKind(_turn, _TEXT),
+        "machine-statement": BlockKind(_flywheel, _TEXT),
+        "flywheel-diagrams": BlockKind(_flywheel, _VIEW[:-1]),
+        "machine-table": BlockKind(_flywheel, _TEXT),
+        "flywheel-calculation": BlockKind(_flywheel, _TEXT),
+        "speed-diagram": BlockKind(_flywheel, _DIAGRAM),
+        "load-diagram": BlockKind(_flywheel, _DIAGRAM),
+        "run-up-text": BlockKind(_run_up, _TEXT),
+        "run-up-diagrams": BlockKind(_run_up, _DIAGRAM),
+        "run-up-tables": BlockKind(_run_up, _TEXT),
+        "balancing-text": BlockKind(_balancing, _TEXT),
+        "balanced-scheme": BlockKind(_balancing, _VIEW),
+        "mass-polygons": BlockKind(_balancing, _DIAGRAM),
+        "inertia-hodographs": BlockKind(_balancing, _DIAGRAM),
+        "balancing-tables": BlockKind(_balancing, _TEXT),
+        "flywheel": BlockKind(_flywheel, _DIAGRAM),
+        "cycle-reactions": BlockKind(_cycle, _TEXT),
     }
 )

@@ -13,7 +13,8 @@ from planmethod.errors import LayoutError
 from planmethod.note.document import Caption, Formula, Paragraph
 from planmethod.note.narrate.given import point_name
 from planmethod.note.narrate.machine import MachineTeller
-from planmethod.problem.load_records import Load, SizeTable, WheelShape
+from planmethod.problem.load_records import Load, SizeTable
+from planmethod.problem.machine_records import WheelShape
 from planmethod.render.ink.drawing import Arc, Disc, Item, Pen, Span, Stroke
 from planmethod.render.ink.extent import ink_bounds
 from planmethod.render.ink.typeset import typeset

@@ -14,7 +14,7 @@ from planmethod.render.frame.furniture import Room
 from planmethod.render.layout.block import Block, Column, Row, Shapes
 from planmethod.render.layout.cuttings import GAP, Arrange, Group, Packed
 from planmethod.render.layout.pack import EDGE, Placed
-from planmethod.render.sheets.blocks import BLOCKS
+from planmethod.render.sheets.blocks import BLOCKS, maker_of
 from planmethod.render.sheets.composer import Blank, LaidPage, Viewed, free_area, packed
 from planmethod.render.sheets.model import Composition, Entry, Extras, Manner
 from planmethod.solved.room import FEW
@@ -222,7 +222,7 @@ class _Stock(Struct, frozen=True):
         level = min(manner.level, max(0, len(entry.heights) - 1))
         key = (id(entry), level, manner.inside)
         if key not in self.blocks:
-            make = BLOCKS[entry.kind].make
+            make = maker_of(entry.kind)
             self.blocks[key] = make(self.solution, self.indices, manner)
         return self.blocks[key]
 

@@ -27,7 +27,6 @@ from planmethod.note.narrate.structure import (
 from planmethod.note.wording import Language, language
 from planmethod.paper import STAMP_WIDTH, TRIED, paper_format
 from planmethod.problem.model import Problem
-from planmethod.render.frame.clearance import is_clear
 from planmethod.render.ink.drawing import Drawing, Item
 from planmethod.render.ink.typeset import typeset
 from planmethod.render.layout.block import Block, Column, Line, Row, Spacer, paragraph
@@ -173,7 +172,7 @@ class _Columns(Struct, frozen=True):
                 block, corner = make(top), complex(x, top)
                 if block is None:
                     return None
-                if is_clear(block.place(corner), room):
+                if room.is_clear(block.place(corner)):
                     return block, corner
             return None
 

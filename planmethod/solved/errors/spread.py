@@ -7,7 +7,7 @@ off to first order; where a step itself is as good as impossible, whole sheets a
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping
 from functools import cached_property
 from typing import Any, TypeVar
 
@@ -17,7 +17,7 @@ from msgspec import Struct
 
 from planmethod.construct.arithmetic import Number
 from planmethod.construct.drafting import EVEN, Counted, Even, Propagated, Sampled
-from planmethod.construct.dual import Dual, alike, as_dual
+from planmethod.construct.dual import Dual, as_dual
 from planmethod.construct.evaluate import Trace, evaluate, go_on
 from planmethod.construct.program import Program
 from planmethod.construct.steps import (
@@ -33,6 +33,7 @@ from planmethod.construct.steps import (
 )
 from planmethod.errors import PlanMethodError
 from planmethod.solved.errors.drawing import RADIAN, Drafted, DrawnKind, DrawnQuantity
+from planmethod.solved.errors.widths import covariance_of, half_width, half_widths, sigma_of
 from planmethod.solved.reading import Flags, Reals
 
 Key = TypeVar("Key", bound=str)
@@ -54,9 +55,6 @@ BLOCK = 512
 
 AT_ONCE = 128
 """Positions whose readings are made again in one go: more do not stay in the cache."""
-
-CENTRAL = (0.158655253931457, 0.841344746068543)
-"""Quantiles of one sigma either side of the mean of a normal error."""
 
 
 class UnknownItemError(PlanMethodError, ValueError):
@@ -152,7 +150,7 @@ class Errors:
         )
 
     def _reduced(self, part: _Slopes) -> _First:
-        sigmas = {label: _sigma(dual) for label, dual in part.taken.items()}
+        sigmas = {label: sigma_of(dual) for label, dual in part.taken.items()}
         short = {
             label: (sigmas[label] > 0)
             & (_size(item, part.taken[label].value) < SHORT * sigmas[label])
@@ -164,12 +162,13 @@ class Errors:
                 short[label] = short[label] | short[item.direction]
         with np.errstate(divide="ignore", invalid="ignore"):
             strain = {
-                name: _sigma(margin) / np.abs(margin.value) for name, margin in part.margins.items()
+                name: sigma_of(margin) / np.abs(margin.value)
+                for name, margin in part.margins.items()
             }
         return _First(
             sigmas,
             strain,
-            {name: _covariance([point]) for name, point in part.points.items()},
+            {name: covariance_of([point]) for name, point in part.points.items()},
             {label: self._read_again(label, part, where) for label, where in short.items()},
         )
 
@@ -229,7 +228,7 @@ class Errors:
         pencil = Even(self.profile, self.drawing.free, wide)
         coordinates: Iterator[Reals] = iter(())
         if off:  # else it errs by its own reading alone
-            spread = np.moveaxis(_covariance([read[name] for name in off]), -1, 0)
+            spread = np.moveaxis(covariance_of([read[name] for name in off]), -1, 0)
             size, turned = np.linalg.eigh(spread)
             root = turned * np.sqrt(np.maximum(size, 0.0))[:, None, :]
             coordinates = iter(np.moveaxis(root @ pencil.normals(root.shape[-1]), 1, 0))
@@ -242,7 +241,7 @@ class Errors:
         with np.errstate(all="ignore"):
             taken = item.take(go_on(Trace(env, {}), steps, {}, pencil))
         drawn = np.broadcast_to(np.asarray(taken, dtype=float), (len(chosen), EVEN))
-        return np.nan_to_num(_half_widths(item, drawn), nan=np.inf)
+        return np.nan_to_num(half_widths(item, drawn), nan=np.inf)
 
     def _at(self, index: int) -> _Slopes:
         """Return the slopes in one position."""
@@ -301,7 +300,7 @@ class Errors:
         if index not in self._sheets:
             drawn = self.sample(index)
             self._sheets[index] = {
-                label: _half_width(item, drawn[label]) for label, item in self.items.items()
+                label: half_width(item, drawn[label]) for label, item in self.items.items()
             }
         return self._sheets[index]
 
@@ -417,63 +416,6 @@ def _size(item: DrawnQuantity, values: Reals) -> Reals | float:
 def _joined(parts: list[dict[Key, Any]]) -> dict[Key, Any]:
     """Return blocks of positions as one."""
     return {key: np.concatenate([part[key] for part in parts], -1) for key in parts[0]}
-
-
-def _sigma(value: Dual) -> Reals:
-    # All causes, those that change nothing too: a position alone is added up as one of many.
-    slope = value.slope
-    sigma = 0.0 if slope is None else np.sqrt((slope**2).sum(axis=0))
-    return np.array(np.broadcast_to(sigma, value.value.shape), dtype=float)
-
-
-def _covariance(values: Sequence[Dual]) -> Reals:
-    """Return how numbers err together, x and y of each place: shape (k, k, n)."""
-    slopes, _ = alike(*values)
-    shape = np.broadcast_shapes((1, len(values[0].value)), *map(np.shape, slopes))
-    rows = [
-        np.broadcast_to(side, shape)
-        for slope, value in zip(slopes, values, strict=True)
-        for side in ((np.real(slope), np.imag(slope)) if np.iscomplexobj(value.value) else (slope,))
-    ]
-    return np.asarray(np.einsum("amn,bmn->abn", rows, rows), dtype=float)
-
-
-def _half_widths(item: DrawnQuantity, rows: Reals) -> Reals:
-    """Return `_half_width` of every row; those that could all be are looked at together."""
-    if not np.isfinite(rows).all():
-        return np.array([_half_width(item, row) for row in rows])
-    if item.kind is DrawnKind.DIRECTION:
-        rows = _unwound(rows)
-    # Seven figures are sorted faster than sixteen, and whole rows than `np.quantile` parts them.
-    ordered = np.sort(rows.astype(np.float32), axis=1)
-    low, high = (_at_share(ordered, share) for share in CENTRAL)
-    return (high - low) / 2
-
-
-def _at_share(ordered: npt.NDArray[np.float32], share: float) -> Reals:
-    """Return the quantile of every row."""
-    k, part = divmod(share * (ordered.shape[1] - 1), 1.0)
-    low, high = ordered[:, int(k)], ordered[:, int(k) + 1]
-    return np.asarray(low + part * (high - low), dtype=float)
-
-
-def _half_width(item: DrawnQuantity, values: Reals) -> float:
-    """Return half of the interval of the middle 68 % of what was drawn and could be."""
-    able = values[np.isfinite(values)]
-    if not able.size:
-        return float("nan")
-    if item.kind is DrawnKind.DIRECTION:
-        able = _unwound(able)
-    low, high = np.quantile(able, CENTRAL)
-    return float(high - low) / 2
-
-
-def _unwound(degrees: Reals) -> Reals:
-    """Return directions from their mean one, in (-180, 180]: those about 180 lie together."""
-    ways = np.radians(degrees).astype(np.float32)
-    across, along = (f(ways).sum(axis=-1, keepdims=True) for f in (np.sin, np.cos))
-    off = degrees - np.degrees(np.arctan2(across, along))
-    return np.asarray(off - 360.0 * np.rint(off / 360.0), dtype=float)
 
 
 def _ancestors(program: Program) -> dict[Name, frozenset[Name]]:

@@ -26,7 +26,7 @@ from planmethod.errors import Fault, ProblemError
 from planmethod.languages import say
 from planmethod.mechanism.model import FRAME
 from planmethod.plans.diagrams.massmoments import MassMoments, build
-from planmethod.problem.load_records import Weighing
+from planmethod.problem.machine_records import Weighing
 from planmethod.problem.model import Problem
 from planmethod.solved.course.motion import TurnMotion
 from planmethod.solved.reading import Complexes, Reading, Reals, Remembering, remembered

@@ -15,7 +15,7 @@ from planmethod.construct.hand import Hand
 from planmethod.construct.scale import angle_scale, choose_scale, series_near
 from planmethod.plans.diagrams.calculus import Integration
 from planmethod.plans.diagrams.energymass import EnergyMass, EnergyMassData, Places, build
-from planmethod.problem.load_records import FlywheelMethod, Quadrature
+from planmethod.problem.machine_records import FlywheelMethod, Quadrature
 from planmethod.solved.errors.drawing import Drafted, DrawnKind, DrawnQuantity, number
 from planmethod.solved.errors.spread import Errors
 from planmethod.solved.machine.flywheel import Flywheel, Points

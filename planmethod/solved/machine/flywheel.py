@@ -22,12 +22,10 @@ from planmethod.construct.evaluate import evaluate
 from planmethod.errors import Fault, ProblemError
 from planmethod.languages import say
 from planmethod.plans.forces.board import SCALE
-from planmethod.problem.load_records import (
+from planmethod.problem.load_records import Dynamics, Fixed, Load
+from planmethod.problem.machine_records import (
     ConstantMoment,
-    Dynamics,
-    Fixed,
     FlywheelMethod,
-    Load,
     MeanSpeed,
     Quadrature,
     WeightSigns,

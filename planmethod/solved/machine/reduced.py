@@ -14,16 +14,8 @@ from msgspec import Struct
 from planmethod.errors import Fault, ProblemError
 from planmethod.languages import say
 from planmethod.plans.forces.loads import Applied
-from planmethod.problem.load_records import (
-    Against,
-    Couple,
-    Interpolation,
-    Load,
-    Machine,
-    Over,
-    SizeTable,
-    WeightSigns,
-)
+from planmethod.problem.load_records import Against, Couple, Interpolation, Load, Over, SizeTable
+from planmethod.problem.machine_records import Machine, WeightSigns
 from planmethod.solved.course.curve import Piecewise, resolved
 from planmethod.solved.course.motion import Moved, TurnMotion
 from planmethod.solved.forces.loads import MotionValues, external

@@ -15,7 +15,7 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from planmethod.languages import say
-from planmethod.problem.load_records import FlywheelTask, WheelShape
+from planmethod.problem.machine_records import FlywheelTask, WheelShape
 
 STEEL_FACTOR, STEEL = 0.38, 7800.0
 """D = 0.38·J^(1/5) of a steel disc, m and kg·m², and the density of a steel rim, kg/m³."""

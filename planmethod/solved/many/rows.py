@@ -6,8 +6,7 @@ from collections.abc import Iterator, Sequence
 
 from msgspec import Struct
 
-from planmethod.construct.compiled.symbolic import Symbol, TapeProgram
-from planmethod.construct.compiled.tape import Ref
+from planmethod.compiled import Ref, Symbol, TapeProgram
 from planmethod.construct.steps import Name
 from planmethod.plans.legend import Quantity, QuantityKind
 from planmethod.plans.model import FACTS, PlanKind

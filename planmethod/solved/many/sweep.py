@@ -9,11 +9,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import numpy.typing as npt
 
+from planmethod.compiled import FEW, Array, Runner, write
 from planmethod.construct.arithmetic import Float64
-from planmethod.construct.compiled.blocks import Blocks
-from planmethod.construct.compiled.javascript import javascript
-from planmethod.construct.compiled.straight import ImpossibleError, Straight, straight
-from planmethod.construct.compiled.symbolic import write
 from planmethod.construct.evaluate import evaluate
 from planmethod.construct.steps import Name
 from planmethod.errors import PlanMethodError
@@ -30,19 +27,7 @@ from planmethod.solved.reading import Reading
 from planmethod.solved.solution import UNIT_SCALES, Solution
 
 if TYPE_CHECKING:
-    from planmethod.construct.compiled.native import Native
     from planmethod.solved.many.loads import LoadColumns
-
-Array = npt.NDArray[Any]
-
-FEW = 40
-"""Positions up to which a line of Python is quicker than NumPy's calls."""
-
-MANY = 4096
-"""Positions from which a sweep looks whether its tape was compiled before."""
-
-PAYS = 30_000_000
-"""Positions that take NumPy about as long as the compiler takes: from there on it is called."""
 
 
 class SweepError(PlanMethodError, ValueError):
@@ -74,9 +59,9 @@ class Sweep:
         ``v:c.x``; places as they lie on their plan.
     native : bool, optional
         Compile the tape with the system's C compiler now (True), or never use such code (False).
-        When absent, it is used for `MANY` positions if it was compiled before, and compiled where
-        that pays (`PAYS`). Without a compiler, with ``PLANMETHOD_NATIVE=0`` and in float32 NumPy
-        gives the same numbers to rounding; `uncompiled` says why.
+        When absent, it is used for thousands of positions if it was compiled before, and compiled
+        where that pays (`Runner`). Without a compiler, with ``PLANMETHOD_NATIVE=0`` and in float32
+        NumPy gives the same numbers to rounding; `uncompiled` says why.
 
     Attributes
     ----------
@@ -91,8 +76,6 @@ class Sweep:
         Loads that must be told for every position.
     steps : int
         Steps of the program that are needed.
-    uncompiled : str
-        Why there is no machine code; empty if there is.
 
     Raises
     ------
@@ -146,15 +129,7 @@ class Sweep:
         given = (*self.branches, *(() if self.loads is None else self.loads.names))
         written = write(self.program, fixed, (self.driver, *self.varied, *given))
         self.rows, refs, depends = rows_of(chosen, written, results.draft.origin, moved, drawn)
-        self._refs, self._depends, self._written = refs, depends, written
-        self._blocks = Blocks(written.tape, refs, written.guards, depends, dtype=dtype)
-        self._straight: Straight | None = None
-        self._native: Native | None = None
-        self._may_look = native is not False
-        self._done = 0
-        self.uncompiled = "it was not asked for"
-        if native:
-            self._compiled(make=True)
+        self._runner = Runner(written, refs, depends, dtype=dtype, native=native)
 
     def _changing(self, solution: Solution, results: Quantities) -> LoadColumns | None:
         """Return the loads that must be told for every position; None if there are none."""
@@ -174,7 +149,12 @@ class Sweep:
     @property
     def operations(self) -> int:
         """Real operations for one position, after folding."""
-        return self._blocks.operations
+        return self._runner.operations
+
+    @property
+    def uncompiled(self) -> str:
+        """Why there is no machine code; empty if there is."""
+        return self._runner.uncompiled
 
     def _check(self, varied: Sequence[str]) -> None:
         unknown = [name for name in varied if name not in self.parameters]
@@ -222,42 +202,30 @@ class Sweep:
         SweepError
             When the shapes do not go together.
         """
-        angle = np.asarray(positions, dtype=self._blocks.dtype)
-        alone = not self.varied and not parameters and angle.ndim == 1 and self._native is None
-        if alone and out is None and failed is None and len(angle) <= FEW:
-            found = self._in_line(angle, self._loaded(angle), len(angle))
+        angle = np.asarray(positions, dtype=self._runner.dtype)
+        # Alone they are of one shape: there is nothing to be looked at.
+        if not (self.varied or parameters) and angle.ndim == 1 and out is None and failed is None:
+            found = self._runner.few(lambda: [angle, *self._loaded(angle)], len(angle))
             if found is not None:
                 return found
         parameters = parameters or {}
         if set(parameters) != set(self.varied):
             raise SweepError(f"run() takes the parameters {', '.join(self.varied) or '(none)'}")
-        extra = [np.asarray(parameters[name], dtype=self._blocks.dtype) for name in self.varied]
+        extra = [np.asarray(parameters[name], dtype=self._runner.dtype) for name in self.varied]
         shape = self._shape(angle, extra, out, failed)
         if out is None:
-            quick = len(shape) == 1 and shape[0] <= FEW and failed is None
-            if quick and self._native is None:
-                found = self._in_line(angle, [*extra, *self._loaded(angle)], shape[0])
+            if self.varied and len(shape) == 1 and failed is None:
+                found = self._runner.few(lambda: [angle, *extra], shape[0])
                 if found is not None:
                     return found
-            out = np.empty((len(self.rows), *shape), self._blocks.dtype)
-        runner = self._runner(math.prod(shape), out, failed)
-        if len(shape) == 1:
-            columns = [np.broadcast_to(value, shape) if value.ndim else value for value in extra]
-            here = angle if angle.shape == shape else np.broadcast_to(angle, shape)
-            runner.run([here, *columns, *self._loaded(here)], out, failed)
+            out = np.empty((len(self.rows), *shape), self._runner.dtype)
+        self._runner.expect(math.prod(shape))
+        if len(shape) == 2 and (self.branches or self.loads):  # known for one row of positions
+            for i, here in enumerate(angle):
+                columns = [here, *self._loaded(here)]
+                self._runner.run(columns, out[:, i], None if failed is None else failed[i])
             return out
-        if runner is self._native and not (self.branches or self.loads):
-            runner.run([angle, *extra], out, failed)
-            return out
-        wide = [np.broadcast_to(value, (shape[0], (value.shape or (1,))[-1])) for value in extra]
-        for i in range(shape[0]):
-            columns = [
-                value[i, 0] if value.shape[1] == 1 else np.broadcast_to(value, shape)[i]
-                for value in wide
-            ]
-            here = np.broadcast_to(angle, shape)[i]
-            columns += self._loaded(here)
-            runner.run([here, *columns], out[:, i], None if failed is None else failed[i])
+        self._runner.run([angle, *extra, *self._loaded(angle)], out, failed)
         return out
 
     def bind(
@@ -279,25 +247,23 @@ class Sweep:
         callable
             Of nothing; it fills ``out`` (and ``failed``) and returns it, the same array every time.
         """
-        angle = np.asarray(positions, dtype=self._blocks.dtype)
-        given = {k: np.asarray(v, dtype=self._blocks.dtype) for k, v in (parameters or {}).items()}
+        angle = np.asarray(positions, dtype=self._runner.dtype)
+        given = {k: np.asarray(v, dtype=self._runner.dtype) for k, v in (parameters or {}).items()}
         filled = self.run(angle, given, out=out, failed=failed)
         out = np.array(filled, order="C") if out is None else out
-        self._compiled(make=True)
-        native = self._native
-        if native is None or not native.takes(out, failed) or (out.ndim == 3 and self.branches):
+        self._runner.compile()
+        if not self._runner.takes(out, failed) or (out.ndim == 3 and self.branches):
             return lambda: self._again(angle, given, out, failed)
-        columns = [given[name] for name in self.varied]
-        if not (self.branches or self.loads):
-            call = native.bound([angle, *columns], out, failed)
+        loaded = self._loaded(angle)
+        columns = [angle, *(given[name] for name in self.varied), *loaded]
+        call = self._runner.bound(columns, out, failed)
+        if not loaded:
 
             def bound() -> Array:
                 call()
                 return out
 
             return bound
-        loaded = self._loaded(angle)
-        call = native.bound([angle, *columns, *loaded], out, failed)
 
         def bound_loads() -> Array:
             for column, value in zip(loaded, self._loaded(angle), strict=True):
@@ -316,39 +282,12 @@ class Sweep:
             return out
         return self.run(angle, parameters, out=out, failed=failed)
 
-    def _runner(self, count: int, out: Array, failed: Array | None) -> Blocks | Native:
-        """Return what runs the tape for so many positions into these buffers."""
-        self._done += count
-        if self._native is None and self._may_look and count >= MANY:
-            self._compiled(make=self._done >= PAYS)
-        if self._native is None or not self._native.takes(out, failed):
-            return self._blocks
-        return self._native
-
-    def _compiled(self, *, make: bool) -> None:
-        """Take the machine code of the tape if there is any."""
-        from planmethod.construct.compiled.csource import c_source
-        from planmethod.construct.compiled.native import Native, NotCompiledError
-
-        if self._native is not None or not self._may_look:
-            return
-        if self._blocks.dtype != np.float64:
-            self.uncompiled = "single precision is NumPy's alone"
-            return
-        w = self._written
-        try:
-            self._native = Native(c_source(w.tape, self._refs, w.guards, self._depends), make=make)
-            self.uncompiled = ""
-        except NotCompiledError as reason:
-            self.uncompiled = str(reason)
-            self._may_look = not make
-
     def _loaded(self, positions: Array) -> list[Array]:
         """Return the columns of branches and loads that differ from position to position."""
         columns = [closing.branch(positions) for closing in self.branches.values()]
         if self.loads is not None:
             columns += self.loads.at(positions)
-        return [column.astype(self._blocks.dtype) for column in columns]
+        return [column.astype(self._runner.dtype) for column in columns]
 
     def _shape(
         self, angle: Array, extra: list[Array], out: Array | None, failed: Array | None
@@ -377,23 +316,6 @@ class Sweep:
             raise SweepError(f"failed must be of a signed integer type, got {failed.dtype}")
         return shape
 
-    def _in_line(self, angle: Array, extra: list[Array], count: int) -> Array | None:
-        """Run few positions as one line of Python; None where a step is impossible."""
-        if self._blocks.dtype != np.float64:
-            return None
-        if self._straight is None:
-            self._straight = straight(self._written.tape, self._refs, self._written.guards)
-        buffer = bytearray(8 * len(self._refs) * count)
-        columns = [
-            (value if value.shape == (count,) else np.broadcast_to(value, (count,))).tolist()
-            for value in (angle, *extra)
-        ]
-        try:
-            self._straight(columns, buffer)
-        except (ImpossibleError, ArithmeticError, ValueError):
-            return None
-        return np.frombuffer(buffer).reshape(count, len(self._refs)).T
-
     def table(
         self, positions: npt.ArrayLike, parameters: Mapping[str, npt.ArrayLike] | None = None
     ) -> dict[str, Array]:
@@ -404,21 +326,19 @@ class Sweep:
     @property
     def guards(self) -> list[tuple[Name, PlanKind]]:
         """Step and plan of every margin that is watched, by the numbers of `reason`."""
-        steps = (guard.step for guard in self._written.guards)
-        return [(step, self._draft.plans.get(step, PlanKind.POSITION)) for step in steps]
+        plans = self._draft.plans
+        return [(step, plans.get(step, PlanKind.POSITION)) for step in self._runner.guards]
 
     def javascript(self) -> str:
         """Return the source of a function of JavaScript: of a position, branches and loads.
 
-        It returns the results of one position in the order of the rows; see
-        `planmethod.construct.compiled.javascript`.
+        It returns the results of one position in the order of the rows; see `Runner.javascript`.
         """
-        w = self._written
-        return javascript(w.tape, self._refs, w.guards, self._depends, len(w.inputs))
+        return self._runner.javascript()
 
     def reason(self, guard: int) -> str:
         """Return the step behind a guard's number; empty for -1, which no guard has."""
-        return "" if guard < 0 else str(self._written.guards[guard].step)
+        return "" if guard < 0 else str(self._runner.guards[guard])
 
     def explain(self, position: float, *, number: int | None = None) -> str:
         """Return why a position is impossible, in the words and numbers of the drawing.

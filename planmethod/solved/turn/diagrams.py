@@ -27,7 +27,7 @@ from planmethod.construct.steps import PointName
 from planmethod.errors import AssemblyError
 from planmethod.plans.diagrams.board import DiagramAxes, DiagramBoard
 from planmethod.plans.diagrams.calculus import differentiate, integrate, repeated
-from planmethod.problem.model import Differentiation
+from planmethod.problem.cycle_records import Differentiation
 from planmethod.solved.errors.drawing import Drafted, DrawnQuantity
 from planmethod.solved.errors.spread import Errors
 from planmethod.solved.reading import Reals, Remembering, remembered

@@ -11,8 +11,9 @@ from msgspec.structs import replace
 
 from planmethod.errors import PlanMethodError, ProblemError
 from planmethod.problem.cycle import report_start
+from planmethod.problem.cycle_records import Zero
 from planmethod.problem.fields import Faults
-from planmethod.problem.model import Problem, Zero
+from planmethod.problem.model import Problem
 from planmethod.solved.forces.loads import only_in_positions
 from planmethod.solved.reading import Reals
 from planmethod.solved.solution import Solution

@@ -11,7 +11,8 @@ import numpy as np
 from msgspec import Struct
 from msgspec.structs import replace
 
-from planmethod.problem.model import Problem, StrokeSense
+from planmethod.problem.cycle_records import StrokeSense
+from planmethod.problem.model import Problem
 from planmethod.solved.forces.loads import external, only_in_positions
 from planmethod.solved.reading import Flags, Reals
 from planmethod.solved.solution import Solution

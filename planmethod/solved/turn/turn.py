@@ -20,8 +20,9 @@ from planmethod.construct.steps import MeetCircles, MeetLineCircle, Name, PointN
 from planmethod.errors import Fault, ProblemError
 from planmethod.languages import say
 from planmethod.plans.model import PlanKind
+from planmethod.problem.cycle_records import CycleTask, Zero
 from planmethod.problem.load_records import TurningSense
-from planmethod.problem.model import CycleTask, Problem, Zero
+from planmethod.problem.model import Problem
 from planmethod.solved.closings import drive_data
 from planmethod.solved.reading import Flags, Reading, Reals, Remembering, remembered
 from planmethod.solved.solution import Solution

@@ -14,16 +14,17 @@ import pytest
 from tapes import drawn
 from worked import path_of
 
-from planmethod.construct.compiled import native as native_module
-from planmethod.construct.compiled.blocks import Blocks
-from planmethod.construct.compiled.csource import BLOCK, WORD, c_source
-from planmethod.construct.compiled.native import COMPILERS, Native, NotCompiledError
-from planmethod.construct.compiled.symbolic import Guard
-from planmethod.construct.compiled.tape import Ref, Tape
+from planmethod.compiled import native as native_module
+from planmethod.compiled.blocks import Blocks
+from planmethod.compiled.csource import BLOCK, WORD, c_source
+from planmethod.compiled.native import COMPILERS, Native, NotCompiledError
+from planmethod.compiled.runner import MANY
+from planmethod.compiled.symbolic import Guard
+from planmethod.compiled.tape import Ref, Tape
 from planmethod.construct.steps import NumberName
 from planmethod.problem import load, loads, template
 from planmethod.problem.model import Problem
-from planmethod.solved.many.sweep import MANY, Sweep
+from planmethod.solved.many.sweep import Sweep
 
 AS_ALWAYS = native_module.FLAGS
 

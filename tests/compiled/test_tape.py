@@ -18,12 +18,12 @@ from tapes import INPUTS, drawn
 from worked import every_file
 
 from benchmarks.generator import random_problem
-from planmethod.construct.compiled import blocks as blocks_module
-from planmethod.construct.compiled import straight as straight_module
-from planmethod.construct.compiled.blocks import Blocks
-from planmethod.construct.compiled.straight import ImpossibleError, straight, used_by
-from planmethod.construct.compiled.symbolic import Guard, Symbol, Symbolic, TapeProgram, write
-from planmethod.construct.compiled.tape import Ref, Tape, same
+from planmethod.compiled import blocks as blocks_module
+from planmethod.compiled import straight as straight_module
+from planmethod.compiled.blocks import Blocks
+from planmethod.compiled.straight import ImpossibleError, straight, used_by
+from planmethod.compiled.symbolic import Guard, Symbol, Symbolic, TapeProgram, write
+from planmethod.compiled.tape import Ref, Tape, same
 from planmethod.construct.evaluate import limit_of
 from planmethod.construct.program import Builder, Program
 from planmethod.construct.steps import Name, NumberName, PointName, Side
@@ -294,11 +294,11 @@ def test_scaled_guards_are_looked_at_without_the_scale() -> None:
     for path in every_file():
         sweep = Sweep(load(path))
         steps = {step.out: step for step in sweep.program.steps}
-        for guard in sweep._written.guards:
+        for guard in sweep._runner.written.guards:
             assert guard.step in steps
             assert math.isfinite(limit_of(steps[guard.step]))
             if type(guard.margin) is int:
-                kind, refs = sweep._written.tape.nodes[guard.margin]
+                kind, refs = sweep._runner.written.tape.nodes[guard.margin]
                 constant = refs[-1] if kind == "div" else refs[0] if kind == "mul" else None
                 assert not (type(constant) is float and constant > 0)
 
@@ -429,4 +429,4 @@ def test_a_program_is_cut_down_to_what_is_asked() -> None:
     problem = load(next(path for path in every_file() if path.stem == "ex3"))
     whole, few = Sweep(problem), Sweep(problem, ["omega_3"])
     assert steps_of(few.program) < steps_of(whole.program)
-    assert len(few._written.tape.nodes) < len(whole._written.tape.nodes)
+    assert len(few._runner.written.tape.nodes) < len(whole._runner.written.tape.nodes)

@@ -11,10 +11,10 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from planmethod.compiled.straight import EQUAL, used_by
+from planmethod.compiled.symbolic import Guard
+from planmethod.compiled.tape import Ref, Tape
 from planmethod.construct.arithmetic import unit_vectors
-from planmethod.construct.compiled.straight import EQUAL, used_by
-from planmethod.construct.compiled.symbolic import Guard
-from planmethod.construct.compiled.tape import Ref, Tape
 
 Array = npt.NDArray[Any]
 

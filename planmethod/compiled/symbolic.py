@@ -8,9 +8,9 @@ from typing import Any
 
 from msgspec import Struct, field
 
+from planmethod.compiled.tape import Ref, Tape, same
 from planmethod.construct import steps
 from planmethod.construct.arithmetic import Exact, Number, unit_vectors
-from planmethod.construct.compiled.tape import Ref, Tape, same
 from planmethod.construct.evaluate import apply, limit_of
 from planmethod.construct.program import Program
 from planmethod.construct.steps import Name, Step, operands

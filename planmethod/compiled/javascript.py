@@ -9,9 +9,9 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 
-from planmethod.construct.compiled.straight import BINARY, used_by
-from planmethod.construct.compiled.symbolic import Guard
-from planmethod.construct.compiled.tape import Ref, Tape
+from planmethod.compiled.straight import BINARY, used_by
+from planmethod.compiled.symbolic import Guard
+from planmethod.compiled.tape import Ref, Tape
 
 _TURN = """function turn(a) {
   const q = Math.round(a / 90), r = (a - 90 * q) * %r, c = Math.cos(r), s = Math.sin(r);

@@ -10,9 +10,9 @@ from collections import Counter
 from collections.abc import Sequence
 from typing import NamedTuple
 
-from planmethod.construct.compiled.straight import BINARY, EQUAL, used_by
-from planmethod.construct.compiled.symbolic import Guard
-from planmethod.construct.compiled.tape import Ref, Tape, same
+from planmethod.compiled.straight import BINARY, EQUAL, used_by
+from planmethod.compiled.symbolic import Guard
+from planmethod.compiled.tape import Ref, Tape, same
 
 BLOCK = 512
 """Positions between two looks at the margins."""

@@ -22,7 +22,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
-from planmethod.construct.compiled.csource import Source
+from planmethod.compiled.csource import Source
 
 Array = npt.NDArray[Any]
 

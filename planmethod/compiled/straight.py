@@ -11,8 +11,8 @@ import struct
 from collections.abc import Callable, Sequence
 from typing import Any
 
-from planmethod.construct.compiled.symbolic import Guard
-from planmethod.construct.compiled.tape import Ref, Tape
+from planmethod.compiled.symbolic import Guard
+from planmethod.compiled.tape import Ref, Tape
 
 EQUAL = 1e-9
 """Largest departure from equal steps, degrees, that a table of angles corrects."""

@@ -1,0 +1,197 @@
+"""A tape run for any number of positions, in the way that is quickest for so many (прогон)."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+import numpy.typing as npt
+
+from planmethod.compiled.blocks import Blocks
+from planmethod.compiled.javascript import javascript
+from planmethod.compiled.straight import ImpossibleError, Straight, straight
+from planmethod.compiled.symbolic import TapeProgram
+from planmethod.compiled.tape import Ref
+from planmethod.construct.steps import Name
+
+if TYPE_CHECKING:
+    from planmethod.compiled.native import Native
+
+Array = npt.NDArray[Any]
+
+FEW = 40
+"""Positions up to which a line of Python is quicker than NumPy's calls."""
+
+MANY = 4096
+"""Positions from which it is looked whether a tape was compiled before."""
+
+PAYS = 30_000_000
+"""Positions that take NumPy about as long as the compiler takes: from there on it is called."""
+
+
+class Runner:
+    """A written program and the results wanted of it, made ready to be run.
+
+    Parameters
+    ----------
+    written : TapeProgram
+    results : sequence of Ref
+        Rows of the output.
+    depends : sequence of frozenset of int
+        Guards that each result depends on.
+    dtype : dtype
+        float64, or float32 for a picture.
+    native : bool, optional
+        Compile the tape with the system's C compiler now (True), or never use such code (False).
+        When absent, it is used from `MANY` positions on if it was compiled before, and compiled
+        where that pays (`PAYS`).
+
+    Attributes
+    ----------
+    uncompiled : str
+        Why there is no machine code; empty if there is.
+    """
+
+    def __init__(
+        self,
+        written: TapeProgram,
+        results: Sequence[Ref],
+        depends: Sequence[frozenset[int]],
+        *,
+        dtype: npt.DTypeLike = np.float64,
+        native: bool | None = None,
+    ) -> None:
+        self.written, self._results, self._depends = written, tuple(results), tuple(depends)
+        self._blocks = Blocks(written.tape, results, written.guards, depends, dtype=dtype)
+        self._straight: Straight | None = None
+        self._native: Native | None = None
+        self._may_look = native is not False
+        self._done = 0
+        self.uncompiled = "it was not asked for"
+        if native:
+            self.compile()
+
+    @property
+    def dtype(self) -> np.dtype[Any]:
+        """Type of the numbers that go in and come out."""
+        return self._blocks.dtype
+
+    @property
+    def operations(self) -> int:
+        """Real operations for one position, after folding."""
+        return self._blocks.operations
+
+    @property
+    def guards(self) -> tuple[Name, ...]:
+        """Step of every margin that is watched."""
+        return tuple(guard.step for guard in self.written.guards)
+
+    def few(self, columns: Callable[[], Sequence[Array]], count: int) -> Array | None:
+        """Return the results of a few positions, by one line of Python.
+
+        Parameters
+        ----------
+        columns : callable
+            Gives the inputs, of shape (count,) or of one number each.
+
+        Returns
+        -------
+        ndarray of shape (k, count) or None
+            None where `run` is quicker, or has to tell which position is impossible.
+        """
+        if count > FEW or self._native is not None or self.dtype != np.float64:
+            return None
+        if self._straight is None:
+            self._straight = straight(self.written.tape, self._results, self.written.guards)
+        buffer = bytearray(8 * len(self._results) * count)
+        given = [
+            (value if value.shape == (count,) else np.broadcast_to(value, (count,))).tolist()
+            for value in columns()
+        ]
+        try:
+            self._straight(given, buffer)
+        except (ImpossibleError, ArithmeticError, ValueError):
+            return None
+        return np.frombuffer(buffer).reshape(count, len(self._results)).T
+
+    def expect(self, count: int) -> None:
+        """Look for machine code where so many positions more are worth it."""
+        self._done += count
+        if self._native is None and self._may_look and count >= MANY:
+            self._look(make=self._done >= PAYS)
+
+    def run(
+        self,
+        columns: Sequence[Array],
+        out: Array,
+        failed: npt.NDArray[np.int16] | None = None,
+    ) -> None:
+        """Fill ``out`` of shape (k, n) or (k, v, n); NaN where a step is impossible.
+
+        Parameters
+        ----------
+        columns : sequence of ndarray
+            Inputs, which go together with an array of shape (n,) or (v, n).
+        failed : ndarray of shape (n,) or (v, n), optional
+            Filled with the number of the first guard that does not hold, or -1.
+        """
+        if self._native is not None and self._native.takes(out, failed):
+            self._native.run(columns, out, failed)
+            return
+        if out.ndim == 2:
+            self._blocks.run([_alone(column, out.shape[1]) for column in columns], out, failed)
+            return
+        count, size = out.shape[1:]
+        wide = [np.broadcast_to(c, (count, (c.shape or (1,))[-1])) for c in columns]
+        for i in range(count):
+            mine = [_alone(c[i, 0] if c.shape[1] == 1 else c[i], size) for c in wide]
+            self._blocks.run(mine, out[:, i], None if failed is None else failed[i])
+
+    def takes(self, out: Array, failed: Array | None) -> bool:
+        """Tell whether there is machine code that fills these arrays."""
+        return self._native is not None and self._native.takes(out, failed)
+
+    def bound(
+        self, columns: Sequence[Array], out: Array, failed: npt.NDArray[np.int16] | None = None
+    ) -> Callable[[], None]:
+        """Return a call that does `run` again and again in the same arrays, which it `takes`."""
+        assert self._native is not None
+        return self._native.bound(columns, out, failed)
+
+    def compile(self) -> None:
+        """Make machine code of the tape if it may be made and can be."""
+        self._look(make=True)
+
+    def _look(self, *, make: bool) -> None:
+        """Take the machine code of the tape if there is any."""
+        from planmethod.compiled.csource import c_source
+        from planmethod.compiled.native import Native, NotCompiledError
+
+        if self._native is not None or not self._may_look:
+            return
+        if self.dtype != np.float64:
+            self.uncompiled = "single precision is NumPy's alone"
+            return
+        w = self.written
+        try:
+            source = c_source(w.tape, self._results, w.guards, self._depends)
+            self._native = Native(source, make=make)
+            self.uncompiled = ""
+        except NotCompiledError as reason:
+            self.uncompiled = str(reason)
+            self._may_look = not make
+
+    def javascript(self) -> str:
+        """Return the tape as a function of JavaScript of its inputs, ``run(x0, x1, ...)``.
+
+        It returns an array of the results of one position and last the number of the first guard
+        that does not hold, or -1; NaN for a result that depends on such a guard.
+        """
+        w = self.written
+        return javascript(w.tape, self._results, w.guards, self._depends, len(w.inputs))
+
+
+def _alone(column: Any, count: int) -> Any:
+    """Return an input for each position of one variant, or one number for all."""
+    return np.broadcast_to(column, (count,)) if column.ndim else column

@@ -1,1 +1,0 @@
-"""A program compiled to one straight line of real arithmetic, for batches of positions."""

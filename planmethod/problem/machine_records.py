@@ -1,0 +1,318 @@
+"""Flywheel, motor and counterweights of a problem, put into plain records (SI units)."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from enum import Enum
+from typing import Annotated
+
+from msgspec import Struct, field
+
+from planmethod.problem.declared import (
+    AngleKey,
+    NumberKey,
+    OwnKey,
+    WholeKey,
+    WordKey,
+)
+
+
+class MeanSpeed(Enum):
+    """What the mean speed of a machine is (средняя угловая скорость)."""
+
+    HALF_SUM = "half-sum"  # of the largest and the least
+    TIME = "time"
+
+
+class ConstantMoment(Enum):
+    """Which reduced moment does not change (постоянный приведённый момент)."""
+
+    DRIVING = "driving"
+    RESISTING = "resisting"
+
+
+class WeightSigns(Enum):
+    """How weights are added to the loads (знаки сил тяжести)."""
+
+    TRUE = "true"
+    SOURCE = "source"  # with the other sign, as a coursework may have it
+
+
+class Quadrature(Enum):
+    """By what the work under a curve is measured (способ интегрирования)."""
+
+    MIDDLE = "middle"
+    TRAPEZOID = "trapezoid"
+
+
+class FlywheelMethod(Enum):
+    """How the flywheel is found of the diagrams (метод определения момента инерции маховика)."""
+
+    WITTENBAUER = "wittenbauer"
+    MERTSALOV = "mertsalov"
+
+
+class WheelShape(Enum):
+    """WheelShape of a flywheel (форма маховика)."""
+
+    DISC = "disc"
+    RIM = "rim"
+
+
+class FlywheelTask(Struct, frozen=True):
+    """What the flywheel is to be like (исходные данные маховика)."""
+
+    shape: Annotated[WheelShape, WordKey('`"disc"` or `"rim"`')] = WheelShape.DISC
+    density: Annotated[
+        float | None, NumberKey("density", "a density", "kg/m³", 100.0, 3e4, absent="steel")
+    ] = None
+    speed: Annotated[
+        float | None,
+        NumberKey(
+            "greatest speed of the rim",
+            "a speed",
+            "m/s",
+            0.1,
+            1e3,
+            absent="50 of steel, 30 where the density is below 7500 (cast iron)",
+        ),
+    ] = None
+    ratio: Annotated[
+        float,
+        NumberKey(
+            "turns of the flywheel's shaft to one of the crank",
+            "a ratio of speeds", low=1e-3, high=1e3,
+        ),
+    ] = 1.0  # fmt: skip
+
+    @property
+    def greatest_speed(self) -> float:
+        """Speed that the rim may have, m/s: the file's, else what its material stands."""
+        if self.speed is not None:
+            return self.speed
+        return 30.0 if self.density is not None and self.density < CAST_IRON else 50.0
+
+
+CAST_IRON = 7500.0
+"""Density below which a flywheel is of cast iron, not of steel, kg/m³."""
+
+
+class KlossTable(Struct, frozen=True):
+    """Numbers of Kloss's formula as the file gives them, in one of two ways (формула Клосса)."""
+
+    M_max: Annotated[float, NumberKey("greatest moment, N·m", low=1e-9)] = 0.0
+    s_k: Annotated[float, NumberKey("slip of the greatest moment", low=1e-9)] = 0.0
+    n_sync: Annotated[float, NumberKey("synchronous speed, rev/min", low=1e-9)] = 0.0
+    P_nom: Annotated[
+        float,
+        NumberKey(
+            "nominal power as the plate says it, W: with `n_nom`, `lambda` and `n_sync` in place "
+            "of the moment and its slip",
+            low=1e-9,
+        ),
+    ] = 0.0
+    n_nom: Annotated[float, NumberKey("nominal speed, rev/min", low=1e-9)] = 0.0
+    overload: Annotated[
+        float, NumberKey("`M_max` over the nominal moment", low=1e-9, name="lambda")
+    ] = 0.0
+
+
+class LineTable(Struct, frozen=True):
+    """Numbers of a straight characteristic as the file gives them, in one of two ways."""
+
+    M_start: Annotated[float, NumberKey("moment at rest, N·m", low=1e-9)] = 0.0
+    n_idle: Annotated[float, NumberKey("speed without load, rev/min", low=1e-9)] = 0.0
+    M_nom: Annotated[
+        float,
+        NumberKey("moment of a nominal point, N·m: with `n_nom` in place of `M_start`", low=1e-9),
+    ] = 0.0
+    n_nom: Annotated[float, NumberKey("speed of the nominal point, rev/min", low=1e-9)] = 0.0
+
+
+class MotorTable(Struct, frozen=True):
+    """A motor as the file gives it: ``kloss`` or ``line`` (механическая характеристика)."""
+
+    kloss: Annotated[
+        KlossTable,
+        OwnKey("a table: Kloss's formula M = 2M_max/(s/s_k + s_k/s), s = 1 − n/n_sync"),
+    ] = KlossTable()
+    line: Annotated[LineTable, OwnKey("a table: a straight line")] = LineTable()
+    ratio: Annotated[
+        float,
+        NumberKey(
+            "turns of the motor to one of the crank", "a ratio of speeds", low=1e-3, high=1e3,
+            more=". Inertia of its rotor, times ratio², belongs to `J_crank`",
+        ),
+    ] = 1.0  # fmt: skip
+
+
+class Motor(Struct, frozen=True):
+    """Characteristic of a motor, reduced to the crank (механическая характеристика двигателя).
+
+    Attributes
+    ----------
+    idle : float, 1/s
+        Speed of the crank at which there is no moment: synchronous, or of idle running.
+    moment : float, N·m
+        The greatest one of Kloss's formula; of a straight line the moment at rest.
+    critical_slip : float or None
+        Slip of the greatest moment; None of a straight line.
+    """
+
+    idle: float
+    moment: float
+    critical_slip: float | None = None
+
+    def at(self, omega: float) -> float:
+        """Return the moment, N·m, at a speed of the crank, 1/s (формула Клосса, прямая)."""
+        slip = 1.0 - omega / self.idle
+        if self.critical_slip is None:
+            return self.moment * slip
+        critical = self.critical_slip
+        return 2.0 * self.moment * slip * critical / (slip * slip + critical * critical)
+
+
+class Machine(Struct, frozen=True):
+    """What the choice of a flywheel knows beside masses and loads (исходные данные маховика)."""
+
+    delta: Annotated[
+        float,
+        OwnKey(
+            "irregularity of the motion (коэффициент неравномерности δ), between 0 and 1: a number "
+            'or a fraction such as `"1/18"`',
+            required=True,
+            missing='Give the irregularity: delta = "1/18".',
+        ),
+    ]
+    mean: Annotated[
+        MeanSpeed,
+        WordKey(
+            'what the speed of the driver is: `"half-sum"` of the greatest and the least, or the '
+            'mean in `"time"`'
+        ),
+    ] = MeanSpeed.HALF_SUM
+    constant: Annotated[
+        ConstantMoment,
+        WordKey(
+            'the reduced moment that does not change: `"driving"` (presses, pumps, compressors) or '
+            '`"resisting"` (engines)'
+        ),
+    ] = ConstantMoment.DRIVING
+    cycle_deg: Annotated[
+        float,
+        OwnKey("length of a cycle, degrees: 360, or 720 of a four-stroke engine; 360 when absent"),
+    ] = 360.0
+    crank_inertia: Annotated[
+        float,
+        NumberKey(
+            "moment of inertia that turns with the crank beside that of the links in `[dynamics]`",
+            "a moment of inertia", "kg·m²", 0.0, 1e12, name="J_crank",
+        ),
+    ] = 0.0  # fmt: skip
+    count: Annotated[
+        int,
+        WholeKey(
+            "positions of the construction in a cycle", 4, 72,
+            absent="those of `[cycle]`, else one for every 30 degrees",
+        ),
+    ] = 12  # fmt: skip
+    pole_mm: Annotated[
+        float | None,
+        NumberKey(
+            "pole distance of the graphical integration; the scale of the work follows from it",
+            "a distance", "mm", 5.0, 500.0, absent="from a round scale",
+        ),
+    ] = None  # fmt: skip
+    turn_mm: Annotated[
+        float | None,
+        NumberKey(
+            "length of the cycle on the sheet; the scale of φ follows from it then",
+            "a length", "mm", 60.0, 1000.0, absent="from a round scale",
+        ),
+    ] = None  # fmt: skip
+    mu_M: Annotated[  # noqa: N815 - the letters of the textbook
+        float | None,
+        NumberKey("scale of the moment", "a scale", "N·m/mm", 1e-12, 1e12, absent="chosen"),
+    ] = None
+    mu_J: Annotated[  # noqa: N815
+        float | None,
+        NumberKey("scale of the inertia", "a scale", "kg·m²/mm", 1e-12, 1e12, absent="chosen"),
+    ] = None
+    signs: Annotated[
+        WeightSigns,
+        WordKey(
+            'how weights are added to the loads: with their `"true"` sign, or as a `"source"` may '
+            "have it, with the other one"
+        ),
+    ] = WeightSigns.TRUE
+    ordinates: Annotated[
+        Quadrature,
+        WordKey(
+            'the work is integrated by `"middle"` ordinates or by a `"trapezoid"` over each '
+            "interval"
+        ),
+    ] = Quadrature.MIDDLE
+    method: Annotated[
+        FlywheelMethod,
+        WordKey('`"wittenbauer"`: tangents of slopes 1 ± δ; `"mertsalov"`: of slope 1'),
+    ] = FlywheelMethod.WITTENBAUER
+    start_deg: Annotated[
+        float | None,
+        AngleKey(
+            "angle of the crank in position 0, degrees",
+            name="phi_0",
+            absent="that of `[cycle]`, else the first of `[driver]`",
+            more=". Positions follow in the sense of its rotation",
+        ),
+    ] = None  # fmt: skip
+    wheel: Annotated[
+        FlywheelTask, OwnKey("a table: what the flywheel is to be like", name="flywheel")
+    ] = FlywheelTask()
+    motor: Annotated[
+        Motor | None,
+        OwnKey(
+            "a table: the motor's characteristic (механическая характеристика двигателя), for the "
+            "run-up and the motion that it keeps; the driving moment that the flywheel is chosen "
+            "with stays constant"
+        ),
+    ] = None
+    brake: Annotated[
+        float | None,
+        NumberKey(
+            "moment on the crank that stops the machine", "a moment", "N·m", 0.0, 1e12,
+            more="; 0: it coasts. `planmethod sheet FILE --layout run-up` draws run-up and stop",
+        ),
+    ] = None  # fmt: skip
+    told_count: int | None = None
+    """``count`` where the file has it."""
+
+
+class Weighing(Enum):
+    """How much counterweights balance (полное или частичное уравновешивание)."""
+
+    FULL = "full"
+    PARTIAL = "partial"  # by the crank's counterweight alone
+
+
+class CounterweightTask(Struct, frozen=True):
+    """What ``[balancing]`` asks (статическое уравновешивание)."""
+
+    method: Annotated[
+        Weighing, WordKey('`"full"`, or `"partial"`: by the crank\'s counterweight alone')
+    ] = Weighing.FULL
+    share: Annotated[
+        float | None,
+        NumberKey(
+            "with partial, share of the reciprocating mass that the crank balances",
+            "a share from 0 to 1", low=0.0, high=1.0,
+            hint="1/2 takes half of the force along the slide, and puts as much across it.",
+            absent="the first harmonic of the force that turns with the crank",
+        ),
+    ] = None  # fmt: skip
+    radii: Annotated[
+        Mapping[str, float],
+        OwnKey(
+            "distance of the counterweight of a link from its axis (the crank's pin on a rod), m; "
+            "the length of the link when absent"
+        ),
+    ] = field(default_factory=dict)

@@ -1,0 +1,98 @@
+"""Loads that differ from position to position, as the page reads them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from typing import Any
+
+from planmethod.problem.bodies import rotation
+from planmethod.problem.load_records import (
+    Couple,
+    Fixed,
+    Interpolation,
+    Load,
+    Over,
+    SizeTable,
+    TurningSense,
+)
+from planmethod.problem.model import Problem
+from planmethod.solved.course.motion import TurnMotion
+from planmethod.solved.forces.loads import AHEAD
+
+
+def cycle_deg(problem: Problem) -> float:
+    """Return after how many degrees all is as before, the loads too."""
+    dynamics, machine = problem.dynamics, problem.machine
+    tables = [load.size for load in dynamics.loads] if dynamics is not None else []
+    turns = [table.turn for table in tables if isinstance(table, SizeTable)]
+    if machine is not None and any(isinstance(table, SizeTable) for table in tables):
+        turns.append(machine.cycle_deg)
+    return max([360.0, *turns])
+
+
+def moving_loads(
+    problem: Problem, names: Iterable[str], points: Iterable[str], row: Mapping[str, int]
+) -> dict[str, Any]:
+    """Return some loads, and what all of them need.
+
+    Parameters
+    ----------
+    names : iterable of str
+        Of the loads.
+    points : iterable of str
+        Whose velocities tell where the loads act.
+    row : mapping of str to int
+        Outputs of the tape by their columns.
+    """
+    assert problem.dynamics is not None
+    by_name = {load.name: load for load in problem.dynamics.loads}
+    bodies = (problem.bodies[link] for link in problem.mechanism.links)
+    return {
+        "list": [_load(problem, by_name[name], row) for name in names],
+        "speeds": [row[f"{point}.vx"] for point in points],
+        "omegas": [row[f"{link}.omega"] for link in problem.mechanism.links],
+        "reach": max(abs(z) for body in bodies for z in body.points.values()) or 1.0,
+        "positions": list(problem.drive.positions),
+    }
+
+
+def _load(problem: Problem, load: Load | Couple, row: Mapping[str, int]) -> dict[str, Any]:
+    size, phase = load.size, load.phase
+    data: dict[str, Any] = {"omega": row[f"{load.link}.omega"]}
+    if isinstance(size, SizeTable):
+        data["over"], data["step"] = size.over.value, size.interpolation is Interpolation.STEP
+        data["at"], data["values"] = list(size.at), list(size.values)
+        data["turn"] = size.turn
+        if size.over in (Over.PATH, Over.STROKES) and isinstance(load, Load):
+            data["stroke"] = _stroke(problem, load.at)
+    else:
+        data["size"] = size
+    if phase is not None:
+        data["spans"] = [list(span) for span in phase.phi]
+        if phase.moving is not None:
+            ahead = AHEAD[phase.moving]
+            data["ahead"] = [ahead.real, ahead.imag]
+        if phase.turning is not None:
+            data["turning"] = 1 if phase.turning is TurningSense.CCW else -1
+    match load:
+        case Load():
+            data["place"], data["speed"] = row[f"{load.at}.x"], row[f"{load.at}.vx"]
+            if isinstance(load.sense, Fixed):
+                along = rotation(load.sense.angle)
+                data["along"] = [along.real, along.imag]
+        case Couple():
+            data["against"] = load.sense is not None
+    return data
+
+
+def _stroke(problem: Problem, point: str) -> dict[str, Any]:
+    turn = TurnMotion(problem)
+    stroke = turn.stroke(point)
+    return {
+        "start": [stroke.start.real, stroke.start.imag],
+        "towards": [stroke.towards.real, stroke.towards.imag],
+        "dead": stroke.dead.tolist(),
+        "first": turn.start_deg,
+        "sense": turn.sense,
+        "cycle": turn.cycle,
+    }

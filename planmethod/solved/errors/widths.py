@@ -1,0 +1,73 @@
+"""Sigmas of numbers by their slopes, and half widths of what was drawn at random (разброс)."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+import numpy.typing as npt
+
+from planmethod.construct.dual import Dual, alike
+from planmethod.solved.errors.drawing import DrawnKind, DrawnQuantity
+from planmethod.solved.reading import Reals
+
+CENTRAL = (0.158655253931457, 0.841344746068543)
+"""Quantiles of one sigma either side of the mean of a normal error."""
+
+
+def sigma_of(value: Dual) -> Reals:
+    """Return the sigma of a number in every position."""
+    # All causes, those that change nothing too: a position alone is added up as one of many.
+    slope = value.slope
+    sigma = 0.0 if slope is None else np.sqrt((slope**2).sum(axis=0))
+    return np.array(np.broadcast_to(sigma, value.value.shape), dtype=float)
+
+
+def covariance_of(values: Sequence[Dual]) -> Reals:
+    """Return how numbers err together, x and y of each place: shape (k, k, n)."""
+    slopes, _ = alike(*values)
+    shape = np.broadcast_shapes((1, len(values[0].value)), *map(np.shape, slopes))
+    rows = [
+        np.broadcast_to(side, shape)
+        for slope, value in zip(slopes, values, strict=True)
+        for side in ((np.real(slope), np.imag(slope)) if np.iscomplexobj(value.value) else (slope,))
+    ]
+    return np.asarray(np.einsum("amn,bmn->abn", rows, rows), dtype=float)
+
+
+def half_widths(item: DrawnQuantity, rows: Reals) -> Reals:
+    """Return `half_width` of every row; those that could all be are looked at together."""
+    if not np.isfinite(rows).all():
+        return np.array([half_width(item, row) for row in rows])
+    if item.kind is DrawnKind.DIRECTION:
+        rows = _unwound(rows)
+    # Seven figures are sorted faster than sixteen, and whole rows than `np.quantile` parts them.
+    ordered = np.sort(rows.astype(np.float32), axis=1)
+    low, high = (_at_share(ordered, share) for share in CENTRAL)
+    return (high - low) / 2
+
+
+def _at_share(ordered: npt.NDArray[np.float32], share: float) -> Reals:
+    """Return the quantile of every row."""
+    k, part = divmod(share * (ordered.shape[1] - 1), 1.0)
+    low, high = ordered[:, int(k)], ordered[:, int(k) + 1]
+    return np.asarray(low + part * (high - low), dtype=float)
+
+
+def half_width(item: DrawnQuantity, values: Reals) -> float:
+    """Return half of the interval of the middle 68 % of what was drawn and could be."""
+    able = values[np.isfinite(values)]
+    if not able.size:
+        return float("nan")
+    if item.kind is DrawnKind.DIRECTION:
+        able = _unwound(able)
+    low, high = np.quantile(able, CENTRAL)
+    return float(high - low) / 2
+
+
+def _unwound(degrees: Reals) -> Reals:
+    """Return directions from their mean one, in (-180, 180]: those about 180 lie together."""
+    ways = np.radians(degrees).astype(np.float32)
+    across, along = (f(ways).sum(axis=-1, keepdims=True) for f in (np.sin, np.cos))
+    off = degrees - np.degrees(np.arctan2(across, along))
+    return np.asarray(off - 360.0 * np.rint(off / 360.0), dtype=float)
