@@ -21,8 +21,8 @@ from worked import ROOT, path_of
 from planmethod.cli import cli
 from planmethod.commands.problems import load_unsettled
 from planmethod.problem import FAMILIES, OTHER_FAMILIES, load
+from planmethod.problem.cycle_records import PROJECT_PARTS
 from planmethod.problem.families import MACHINES
-from planmethod.problem.model import PROJECT_PARTS
 from planmethod.project.settle import settle
 from planmethod.render.backends.output import write
 
