@@ -160,8 +160,8 @@ def test_a_problem_is_done_with_code_0(command: str) -> None:
         ("solve", EX1, "--ruler", "fine"),
         ("solve", EX1, "--lang", "de"),
         ("solve", VARIANTS, "--variant", "А", "--all-variants"),
-        ("protocol", EX1, "--position", "0"),
-        ("protocol", EX1, "--position", "2"),
+        ("protocol", EX1, "--position", "-1"),
+        ("protocol", EX1, "--position", "1"),
         ("sheet", EX1, "--format", "dwg"),
         ("sheet", EX1, "--format", ""),
         ("sheet", EX1, "--paper", "A9"),
@@ -423,9 +423,9 @@ def test_structure_in_english() -> None:
 
 
 def test_a_protocol_of_a_position() -> None:
-    told = run("protocol", EX1, "--phi", "60,90", "--position", "2").output
+    told = run("protocol", EX1, "--phi", "60,90", "--position", "1").output
     assert "90°" in told
-    assert told != run("protocol", EX1, "--phi", "60,90", "--position", "1").output
+    assert told != run("protocol", EX1, "--phi", "60,90", "--position", "0").output
 
 
 def test_a_protocol_in_a_file() -> None:
@@ -520,6 +520,7 @@ def test_a_mistyped_family_comes_with_the_nearest() -> None:
     refused = run("new", "fourbar")
     assert refused.exit_code == 2
     assert "no family 'fourbar'; did you mean 'four-bar'?" in refused.output
+    assert "did you mean 'linkages-2.1.45'?" in run("new", "2.1.45").output
 
 
 # Files --------------------------------------------------------------------------------------------

@@ -22,9 +22,11 @@ from planmethod.commands.problems import (
     stem,
     tell_changes,
     tell_wheel,
+    warn,
 )
 from planmethod.commands.watch import watch_option
 from planmethod.errors import LayoutError
+from planmethod.languages import say
 from planmethod.options import (
     BadParameter,
     Positions,
@@ -223,11 +225,45 @@ def _settled(todo: Todo, options: SheetOptions) -> Todo:
         # What a project decided is of its own positions.
         todo = replace(todo, problem=replace(todo.linkage, calculated=options.position))
     tell_changes(todo.linkage, options.phi)
+    if options.layout is not None and options.phi is None:
+        _tell_positions(todo.linkage, options.layout)
     if todo.linkage.machine is not None and _has_flywheel(options.layout):
         from planmethod.solved.machine.flywheel import Flywheel
 
         tell_wheel(Flywheel(todo.linkage))
     return todo
+
+
+def _tell_positions(problem: Problem, layout: str) -> None:
+    """Warn that the sheets of the cycle leave the positions of a file without [cycle] out."""
+    from planmethod.render.sheets.composition.reader import composition
+
+    drive = problem.drive
+    if problem.cycle is not None or not drive.is_crank or len(drive.positions) < 2:
+        return
+    if not composition(layout).cycle:
+        return
+    from planmethod.problem.model import SAME_DEG
+    from planmethod.solved.solution import Solution
+    from planmethod.solved.turn.numbering import numbered_positions
+
+    positions = numbered_positions(Solution(problem)).tolist()
+    apart = [abs((a - b + 180.0) % 360.0 - 180.0)
+             for a, b in zip(positions, drive.positions, strict=False)]  # fmt: skip
+    if len(positions) != len(drive.positions) or max(apart) > SAME_DEG:
+        told = say(
+            "layout {} has the positions of the cycle, {} from {:.5g}° on, not the {} of "
+            "driver.phi from {:.5g}° on. With [cycle] zero = {:g}, count = {} in place of phi all "
+            "outputs have the same; --phi asks others.",
+            layout,
+            len(positions),
+            positions[0],
+            len(drive.positions),
+            drive.positions[0],
+            drive.positions[0],
+            len(drive.positions),
+        )
+        warn(problem, told)
 
 
 def _has_flywheel(layout: str | None) -> bool:

@@ -61,6 +61,18 @@ def test_what_stands_after_two_dashes_is_no_option() -> None:
 # --open ------------------------------------------------------------------------------------------
 
 
+def launches(monkeypatch: pytest.MonkeyPatch) -> list[str]:
+    """Return what is opened by the system, as it is."""
+    launched: list[str] = []
+
+    def launch(url: str) -> int:
+        launched.append(url)
+        return 0
+
+    monkeypatch.setattr("click.launch", launch)
+    return launched
+
+
 @pytest.mark.parametrize(
     ("words", "shown"),
     [
@@ -78,8 +90,7 @@ def test_what_stands_after_two_dashes_is_no_option() -> None:
 def test_one_written_file_is_shown(
     words: list[str], shown: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    launched: list[str] = []
-    monkeypatch.setattr("click.launch", lambda url: launched.append(url) or 0)
+    launched = launches(monkeypatch)
     done = CliRunner().invoke(cli, [*words, "-o", str(tmp_path), "--open"])
     assert done.exit_code == 0, done.output
     assert launched == [str(tmp_path / shown)]
@@ -101,8 +112,7 @@ def test_a_file_that_nothing_opens_is_written_and_named(
 def test_nothing_is_shown_of_a_problem_that_fails(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    launched: list[str] = []
-    monkeypatch.setattr("click.launch", lambda url: launched.append(url) or 0)
+    launched = launches(monkeypatch)
     done = CliRunner().invoke(cli, ["sheet", "none.toml", "-o", str(tmp_path), "--open"])
     assert done.exit_code == 3
     assert not launched
