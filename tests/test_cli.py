@@ -520,6 +520,7 @@ def test_a_mistyped_family_comes_with_the_nearest() -> None:
     refused = run("new", "fourbar")
     assert refused.exit_code == 2
     assert "no family 'fourbar'; did you mean 'four-bar'?" in refused.output
+    assert "did you mean 'linkages-2.1.45'?" in run("new", "2.1.45").output
 
 
 # Files --------------------------------------------------------------------------------------------
