@@ -27,6 +27,8 @@ HELP = {
         "solve": "the numbers: tables, JSON, CSV",
         "sheet": "the framed sheets: plans, equations, tables",
         "protocol": "the construction step by step, as a note",
+        "project": "a course project: all sheets, the note, the numbers",
+        "note": "the explanatory note, for Word and as PDF",
     },
     "More of a mechanism": {
         "structure": "mobility and Assur groups",

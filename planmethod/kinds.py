@@ -102,12 +102,16 @@ def part_of(path: Path, *, variant: str | None, views: Views) -> tuple[str, Mech
 
 
 def _posed(problem: Problem) -> Problem:
-    """Return a problem with the positions in which its output is what the file says."""
-    if problem.drive.posed is None:
-        return problem
-    from planmethod.solved.turn.posed import pose
+    """Return a problem with the positions that its output or ``[cycle]`` tells."""
+    if problem.drive.posed is not None:
+        from planmethod.solved.turn.posed import pose
 
-    return pose(problem)
+        problem = pose(problem)
+    if problem.cycle is not None:
+        from planmethod.solved.turn.numbering import number
+
+        problem = number(problem)
+    return problem
 
 
 def _driven(faults: Faults, table: Mapping[str, Any], label: object) -> Geared | None:

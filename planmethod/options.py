@@ -242,6 +242,24 @@ def out_option(command: F) -> F:
     )(command)
 
 
+def open_option(command: F) -> F:
+    """Add the showing of what is written."""
+    return click.option(
+        "--open", "shown", is_flag=True, help="Show what is written in the system's viewer."
+    )(command)
+
+
+def position_option(command: F) -> F:
+    """Add the number of the calculated position."""
+    return click.option(
+        "--position",
+        type=click.IntRange(min=0),
+        metavar="NUMBER",
+        help="Calculated position, from 0: drawn bold, loaded; else that of [project], that of "
+        "phi or the clearest one.",
+    )(command)
+
+
 def layout_option(command: F) -> F:
     """Add what is on the sheets and how it is arranged."""
     return click.option(
@@ -278,6 +296,11 @@ def drawing_options(command: F) -> F:
             "--sigma/--no-sigma",
             default=None,
             help="Show the drafting errors in the table of results.",
+        ),
+        click.option(
+            "--all-positions",
+            is_flag=True,
+            help="However many sheets they take: more than six of a file are refused without it.",
         ),
         click.option(
             "--errors", is_flag=True, help="Draw the error ellipses of the drafting, 2 sigma."

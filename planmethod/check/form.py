@@ -12,11 +12,11 @@ from msgspec import Struct
 from msgspec.structs import asdict
 
 from planmethod.check.model import KeyEntry
-from planmethod.check.pages.workbook import saved
 from planmethod.check.works.gather import is_of
 from planmethod.check.works.units import ratio_of, read_unit
 from planmethod.check.works.xlsx_file import META
 from planmethod.note.wording import Words, language
+from planmethod.note.writers.workbook import saved
 from planmethod.problem.head import KindProblem
 
 SCHEMA = 1

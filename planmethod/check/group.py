@@ -20,6 +20,7 @@ from planmethod.kind import ProblemKind
 from planmethod.kinds import kind_of, load
 from planmethod.problem import Problem, variant_names
 from planmethod.problem.head import KindProblem
+from planmethod.project.settle import settled
 from planmethod.solved.selectors.steps import NoValueError
 from planmethod.solved.solution import Solution
 
@@ -64,7 +65,7 @@ class Variants:
                 problem = kind.load(self.path, name)
                 self._tasks[name] = Calculation(kind, problem, self.settings, self._all)
             else:
-                solution = Solution(load(self.path, variant=name))
+                solution = Solution(settled(load(self.path, variant=name)))
                 _ = solution.si
                 self._tasks[name] = Task(solution, self.settings, self._all)
         return self._tasks[name]

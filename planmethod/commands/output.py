@@ -49,7 +49,9 @@ def refuse_unknown(said: str, name: str, known: Sequence[str], told: str = "") -
     if name not in known:
         from difflib import get_close_matches
 
-        near = get_close_matches(name, known, 1)
+        near = [one for one in known if one.endswith(f"-{name}")] or get_close_matches(
+            name, known, 1
+        )
         hint = say("; did you mean {!r}?", near[0]) if near else "."
         listed = told or ", ".join(known)
         raise UsageError("{}{} Known: {}.", say(said, name), hint, listed)
@@ -74,31 +76,59 @@ def write_drawings(
     dpi: int = 100,
     author: str | None = None,
     dxf_text: Literal["text", "strokes"] = "strokes",
-) -> None:
-    """Write the sheets of a problem; files appear only when all are made.
+) -> list[Path]:
+    """Write the sheets of a problem and return the files; all or none appear (`drawing_files`)."""
+    from planmethod.render.backends.output import write
+
+    files = drawing_files(drawings, stem, formats, dpi=dpi, author=author, dxf_text=dxf_text)
+    for name, data in files.items():
+        write(out / name, data)
+    paths = [out / name for name in files]
+    for path in paths:
+        click.echo(str(path))
+    return paths
+
+
+def drawing_files(
+    drawings: Sequence[Drawing],
+    stem: str,
+    formats: Iterable[str],
+    *,
+    dpi: int = 100,
+    author: str | None = None,
+    dxf_text: Literal["text", "strokes"] = "strokes",
+) -> dict[str, bytes]:
+    """Return the files of sheets by their names.
 
     A format with pages has one file for all sheets, ``stem.pdf``; of the others each sheet has its
     own, ``stem.svg``, ``stem-2.svg``...
     """
     from planmethod.render.backends import PAGED, render, render_pages
     from planmethod.render.backends.canvas import Options
-    from planmethod.render.backends.output import write
 
     options = Options(dpi=dpi, dxf_text=dxf_text)
     if author is not None:
         options = replace(options, author=author)
-    files: dict[Path, bytes] = {}
+    files: dict[str, bytes] = {}
     for fmt in formats:
         if fmt in PAGED:
-            files[out / f"{stem}.{fmt}"] = render_pages(drawings, fmt, options=options)
+            files[f"{stem}.{fmt}"] = render_pages(drawings, fmt, options=options)
             continue
         for number, drawing in enumerate(drawings, 1):
             name = f"{stem}.{fmt}" if number == 1 else f"{stem}-{number}.{fmt}"
-            files[out / name] = render(drawing, fmt, options=options)
-    for path, data in files.items():
-        write(path, data)
-    for path in files:
-        click.echo(str(path))
+            files[name] = render(drawing, fmt, options=options)
+    return files
+
+
+def show(path: Path) -> None:
+    """Open a written file in the system's program for it, once in a run; say so where none does."""
+    opened = click.get_current_context().meta.setdefault("planmethod.opened", set())
+    if path in opened:
+        return
+    opened.add(path)
+    if click.launch(str(path)):
+        told = "Note: no program of this system opens {}; open the file yourself."
+        click.echo(say(told, path), err=True)
 
 
 def write_set(drawings: Sequence[Drawing], path: Path, *, author: str | None = None) -> None:

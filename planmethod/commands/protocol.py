@@ -37,7 +37,12 @@ from planmethod.options import (
     type=PathType(file_okay=False),
     help="Folder for a text file; to the terminal when absent.",
 )
-@click.option("--position", type=click.IntRange(min=1), default=1, help="Number of the position.")
+@click.option(
+    "--position",
+    type=click.IntRange(min=0),
+    metavar="NUMBER",
+    help="Number of the position, from 0; else the calculated one of a project, or 0.",
+)
 @lang_option
 @guarded
 def protocol(
@@ -48,7 +53,7 @@ def protocol(
     ruler: float | None,
     profile: str | None,
     out: Path | None,
-    position: int,
+    position: int | None,
     lang: str,
 ) -> None:
     """Tell the construction step by step, as the explanatory note does."""
@@ -61,14 +66,19 @@ def protocol(
     def tell(todo: Todo) -> None:
         kind, problem = todo.kind, todo.problem
         if kind is not None:
-            refuse_plans(kind, phi=phi is not None, position=position > 1)
+            refuse_plans(kind, phi=phi is not None, position=position is not None)
             told = kind.protocol_document(problem, words, hand)
         else:
-            solution = solution_of(todo.linkage, phi, hand)
+            solution = solution_of(todo.linkage, phi, hand, machine=True)
             count = len(solution.positions)
-            if position > count:
-                raise UsageError("--position {}: {} has {}", position, problem.name, count)
-            told = protocol_document(solution, words, position - 1)
+            chosen = position
+            if chosen is None:
+                chosen = (None if phi is not None else todo.linkage.calculated) or 0
+            if chosen >= count:
+                raise UsageError(
+                    "--position {}: the last of {} is {}", chosen, problem.name, count - 1
+                )
+            told = protocol_document(solution, words, chosen)
         text = plain_document(told, words) + "\n"
         put(text, None if out is None else str(out / f"{stem(problem)}-protocol.txt"))
 

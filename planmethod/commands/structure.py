@@ -63,7 +63,7 @@ def structure(
             from planmethod.note.records.solution import structure_record
 
             head = {"schema": 1, "problem": problem.name}
-            whole = {**head, "structure": structure_record(found)}
+            whole = {**head, "structure": structure_record(found, problem.mechanism)}
             click.echo(json_text(whole))
             return
         from planmethod.note.narrate.structure import structure_document
@@ -71,7 +71,8 @@ def structure(
         if settled is not None:
             problem = settled.over(problem)
         words = language(str(asked.sheet["lang"] or problem.sheet.lang or LANGUAGES[0]))
-        click.echo(plain_document(structure_document(problem.mechanism, found, words), words))
+        written = structure_document(problem.mechanism, found, words, problem.sheet.notation)
+        click.echo(plain_document(written, words))
         if settled is not None:
             from planmethod.render.sheets.structure import structure_sheet
 

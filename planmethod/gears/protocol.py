@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator, Mapping
 
 from planmethod.construct import steps
@@ -23,7 +22,7 @@ from planmethod.gears.motion import solve_motion
 from planmethod.gears.picture import ContactKind, draw
 from planmethod.gears.told import calculation, given, symbol, unit_of
 from planmethod.note.document import Chapter, Item, Node, Paragraph, Step, Title
-from planmethod.note.formula import Rich, escape
+from planmethod.note.formula import Rich, escape, fraction
 from planmethod.note.narrate.narrator import Line, StepNarrator
 from planmethod.note.numbers import Notation, half_up, raised
 from planmethod.note.rounding import rounded_to, sigma_text
@@ -38,7 +37,7 @@ def protocol_document(problem: GearProblem, words: Language, profile: Profile) -
     ProblemError
         The train cannot be, or its inputs do not fit.
     """
-    motion = solve_motion(problem)
+    motion, notation = solve_motion(problem), problem.sheet.notation
     say: Words = words.gears["sheet"]
     yield Title(say.protocol.format(title=escape(problem.title)))
     if problem.source:
@@ -46,7 +45,7 @@ def protocol_document(problem: GearProblem, words: Language, profile: Profile) -
     yield Chapter(say.given)
     yield Paragraph("; ".join(given(motion, words)) + ".")
     yield Chapter(say.calculation)
-    yield from (Item(_carried(line)) for line in calculation(motion, words))
+    yield from (Item(line) for line in calculation(motion, words, notation))
     picture = draw(motion)
     if picture is None:
         yield Chapter(words.gears.picture)
@@ -55,11 +54,6 @@ def protocol_document(problem: GearProblem, words: Language, profile: Profile) -
         drawn = construct(motion, picture)
         yield from _pictures(drawn, words)
         yield from _readings(drawn, read(drawn, profile), profile, words)
-
-
-def _carried(rich: Rich) -> Rich:
-    """Return rich text with carriers behind a sign, which plain letters need: ``U^H_1-2``."""
-    return re.sub(r"\^\{([^}−]+)\}", r"\\^\1", rich)
 
 
 def _pictures(drawn: GearDrawing, words: Language) -> Iterator[Node]:
@@ -191,16 +185,16 @@ def _found(one: Found, drawn: GearDrawing, seen: GearReading, words: Language) -
     parts = rays[: len(asked.labels)]
     if asked.carrier is not None:
         parts = [f"[{part} − {rays[-1]}]" for part in parts]
-    formula = "/".join(parts) if asked.kind == "U" else f"{_scale(drawn)}·{parts[0]}"
+    formula = fraction(*parts) if asked.kind == "U" else f"{_scale(drawn)}·{parts[0]}"
     if asked.kind == "omega" and train.unit == "n":
-        formula = f"π/30·{formula}"
+        formula = f"{fraction('π', '30')}·{formula}"
     if asked.kind == "n" and train.unit != "n":
-        formula = f"30/π·{formula}"
+        formula = f"{fraction('30', 'π')}·{formula}"
     value, sigma = float(seen.read.value[one.read]), seen.sigma[one.read]
     unit = unit_of(answer(drawn.motion, one.name), words)
     found: str = words.gears["sheet"]["steps"]["found"]
     return found.format(
-        formula=_carried(f"{symbol(one.name, tuple(train.body_of))} = {formula}"),
+        formula=f"{symbol(one.name, tuple(train.body_of))} = {formula}",
         read=f"{notation.number(rounded_to(value, sigma))} {unit}".rstrip(),
         exact=notation.found(float(one.exact)),
         sigma=notation.number(sigma_text(sigma)),

@@ -36,9 +36,12 @@ GROUP_LIMIT = 60
 TOP = ("title", "source", "stamp", "sheet", "published", "answers", "compare", "variants", "gears")
 """Tables of the file that a gear train may have."""
 
+SHARED = ("title", "source", "stamp", "sheet", "variants", "gears")
+"""Tables that are read of the file of a linkage, whose project has a train."""
+
 
 def load(path: str | Path, *, variant: str | None = None) -> GearProblem:
-    """Read a file with ``[gears]``.
+    """Read a file with ``[gears]``; of one with a linkage, too, that table and the title block.
 
     Raises
     ------
@@ -47,6 +50,8 @@ def load(path: str | Path, *, variant: str | None = None) -> GearProblem:
     """
     path = Path(path)
     table, variants, faults = varied(path, variant)
+    if "links" in table:
+        table = {key: value for key, value in table.items() if key in SHARED}
     given = fields.read_keys(faults, "", table, TOP)
     head = read_head(faults, given)
     body = fields.read_table(faults, "gears", given.get("gears", {}), "wheels = { 1 = 20, 2 = 36 }")
@@ -150,6 +155,14 @@ def _read_groups(
 ) -> list[tuple[str, ...]]:
     if not isinstance(value, list) or len(value) > GROUP_LIMIT:
         faults.expected(path, "a list of lists", value, '[["3", "H"]]')
+        return []
+    if value and not any(isinstance(group, list) for group in value):
+        written = ", ".join(f'"{label}"' for label in value)
+        faults.add(
+            path,
+            "expected a list of lists, got one list of labels",
+            say("Write {} = [[{}]].", path.partition(".")[2], written),
+        )
         return []
     return [_known(faults, f"{path}[{i}]", group, known) for i, group in enumerate(value)]
 

@@ -113,6 +113,17 @@ def drawings(
     return compose(problem, strategy, misfit, fields=fields, furniture=furniture)
 
 
+def pictures(
+    motion: TrainMotion, profile: Profile, words: Language, sizes: Sizes
+) -> tuple[Block, Block | None]:
+    """Return the side view with the picture of linear velocities, and that of angular ones."""
+    settings = motion.train.picture
+    scheme = SchemeData(motion, float(motion.train.unit_m / settings.mu_l))
+    order = None if scheme.undrawn else best_order(scheme)
+    sheet = _Sheet(motion, settings, profile, words, sizes, order, None)
+    return sheet.pictures()
+
+
 class _Train(Struct, frozen=True):
     """How the sheet of a train is searched for: by the scale of the side view."""
 
@@ -130,7 +141,8 @@ class _Train(Struct, frozen=True):
         plain = SchemeData(self.motion, float(train.unit_m / train.picture.mu_l))
         order = None if plain.undrawn else best_order(plain)
         for paper, settings, sizes in self._scales(papers):
-            sheet = _Sheet(self.motion, settings, self.profile, words, sizes, order)
+            notation = self.problem.sheet.notation
+            sheet = _Sheet(self.motion, settings, self.profile, words, sizes, order, notation)
             if (settings, sizes) not in made:
                 made[settings, sizes] = list(sheet.orders())
             for parts in made[settings, sizes]:
@@ -221,6 +233,7 @@ class _Sheet(Struct, frozen=True):
     words: Language
     sizes: Sizes
     order: ColumnOrder | None
+    notation: str | None
 
     def orders(self) -> Iterator[tuple[Packed, ...]]:
         """Yield the blocks in orders of reading; the last stands on the title block."""
@@ -244,6 +257,15 @@ class _Sheet(Struct, frozen=True):
             yield (*views, *texts, rays, last)
             yield (strip, *texts, *views[1:], rays, last)
             yield (strip, rays, *views[1:], *texts, last)
+
+    def pictures(self) -> tuple[Block, Block | None]:
+        """Return the side view with what stands beside it, and the angular velocities."""
+        picture = draw(self.motion, self.settings)
+        drawn = None if picture is None else construct(self.motion, picture)
+        seen = None if drawn is None else read(drawn, self.profile)
+        scheme = SchemeData(self.motion, float(self.motion.train.unit_m / self.settings.mu_l))
+        strip = self._strip(scheme, drawn, seen)
+        return strip, None if drawn is None or seen is None else self._angular(drawn, seen)
 
     # Views ---------------------------------------------------------------------------------------
 
@@ -360,7 +382,7 @@ class _Sheet(Struct, frozen=True):
         text = self.words.note.given.format(given="; ".join(facts))
         blocks: list[Block] = [paragraph(text, self.sizes.text, width)]
         blocks.append(heading(self.words.gears["sheet"].calculation, self.sizes.text))
-        lines = calculation(self.motion, self.words)
+        lines = calculation(self.motion, self.words, self.notation)
         blocks += [formula_block(line, self.sizes.text, width=width) for line in lines]
         return Column(blocks, gap=2.4)
 

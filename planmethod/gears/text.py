@@ -31,6 +31,7 @@ from planmethod.note.document import (
     table_of,
 )
 from planmethod.note.formula import Rich, escape
+from planmethod.note.narrate.structure import pair_classes
 from planmethod.note.numbers import MINUS, half_up
 from planmethod.note.wording import Language
 
@@ -88,7 +89,7 @@ def _structure(
     yield Title(say.title.format(title=escape(problem.title or problem.name)))
     yield Caption(say.structure)
     yield Paragraph(kind_of(found, words))
-    yield Item(mobility(found, words) + say.of_equal)
+    yield Item(mobility(found, words, problem.sheet.notation) + say.of_equal)
     yield Item(say.by_meshes.format(rank=found.moving - found.mobility, w=found.mobility))
     yield Item(say.redundant.format(plane=found.redundant, space=found.spatial))
     for carrier in train.carriers:
@@ -106,11 +107,15 @@ def kind_of(found: Mobility, words: Language) -> Rich:
     return words.gears.kind.format(kind=words.gears["kinds"][found.kind.value])
 
 
-def mobility(found: Mobility, words: Language) -> Rich:
-    """Return the mobility by Chebyshev's formula."""
+def mobility(found: Mobility, words: Language, notation: str | None = None) -> Rich:
+    """Return the mobility by Chebyshev's formula; ``notation`` is that of ``[sheet]``."""
     formula = str(found.formula).replace("-", MINUS)
     return words.gears.chebyshev.format(
-        n=found.moving, low=found.lower, high=found.higher, w=formula
+        n=found.moving,
+        low=found.lower,
+        high=found.higher,
+        w=formula,
+        **pair_classes(notation, words),
     )
 
 
@@ -254,7 +259,7 @@ def _published(problem: GearProblem, motion: TrainMotion, words: Language) -> It
     say, rows, notes = words.say, [], []
     for one in problem.published:
         exact, name = answer(motion, one.what).value, escape(one.name)
-        off = "" if not exact else say.found(100 * (one.value / exact - 1))
+        off = "" if not exact else say.found(100 * (one.value - exact) / abs(exact))
         printed = say.number(f"{one.value:g}")
         rows.append([name, printed, "—" if exact is None else say.found(exact), off])
         if one.note:

@@ -11,6 +11,7 @@ from planmethod.gears.conditions import conditions, sentence
 from planmethod.gears.construction import GearDrawing, GearReading
 from planmethod.gears.motion import TrainMotion
 from planmethod.gears.text import equation_of, fraction_text, kind_of, mobility
+from planmethod.note.formula import fraction
 from planmethod.note.numbers import raised
 from planmethod.note.rounding import sigma_text
 from planmethod.note.wording import Language
@@ -66,26 +67,13 @@ def given(motion: TrainMotion, words: Language) -> list[str]:
     return facts
 
 
-def calculation(motion: TrainMotion, words: Language) -> list[str]:
+def calculation(motion: TrainMotion, words: Language, notation: str | None = None) -> list[str]:
     """Return kind, mobility, equations of the meshes with their ratios, ratios asked for."""
     train, say, found = motion.train, words.gears, motion.structure
-    lines = [kind_of(found, words), mobility(found, words)]
+    lines = [kind_of(found, words), mobility(found, words, notation)]
     for mesh in train.meshes:
         lines.append(";  ".join(equation_of(motion, mesh)))
-    letter, known = train.letter, tuple(train.body_of)
-    for name in dict.fromkeys(train.ask):
-        asked, one = parse(name, known), answer(motion, name)
-        if asked.kind != "U":
-            continue
-        if one.value is None:
-            told = say["reasons"][one.reason].format(label=one.label)
-            lines.append(f"{symbol(name, known)}: {told}")
-            continue
-        hat = f"^{{({asked.carrier})}}" if asked.carrier else ""
-        letters = "/".join(f"{letter}{hat}_{{{label}}}" for label in asked.labels)
-        value = fraction_text(one.exact)
-        decimal = f" = {words.say.found(one.value)}" if "/" in value else ""
-        lines.append(f"{symbol(name, known)} = {letters} = {value}{decimal}")
+    lines += ratios(motion, words)
     rest = [one for name in dict.fromkeys(train.ask) for one in _plain(name, motion, words)]
     lines += ["; ".join(rest)] if rest else []
     lines += [
@@ -93,6 +81,26 @@ def calculation(motion: TrainMotion, words: Language) -> list[str]:
         for one in conditions(motion)
     ]
     return lines
+
+
+def ratios(motion: TrainMotion, words: Language) -> Iterator[str]:
+    """Yield the ratios that are asked for, each with letters and value (отношения)."""
+    train, say = motion.train, words.gears
+    letter, known = train.letter, tuple(train.body_of)
+    for name in dict.fromkeys(train.ask):
+        asked, one = parse(name, known), answer(motion, name)
+        if asked.kind != "U":
+            continue
+        if one.value is None:
+            told = say["reasons"][one.reason].format(label=one.label)
+            yield f"{symbol(name, known)}: {told}"
+            continue
+        hat = f"^{{({asked.carrier})}}" if asked.carrier else ""
+        letters = fraction(*(f"{letter}{hat}_{{{label}}}" for label in asked.labels))
+        value = fraction_text(one.exact)
+        decimal = f" = {words.say.found(one.value)}" if "/" in value else ""
+        shown = re.sub(r"(\d+)/(\d+)", r"\\frac{\1}{\2}", value)
+        yield f"{symbol(name, known)} = {letters} = {shown}{decimal}"
 
 
 def _plain(name: str, motion: TrainMotion, words: Language) -> Iterator[str]:

@@ -95,7 +95,8 @@ def pairs(mechanism: Mechanism) -> list[KinematicPair]:
     rows: list[KinematicPair] = []
     taken: set[str] = set()
     for point, links, kind in found:
-        name = f"{point}({','.join(links)})" if point in taken else point
+        printed = ",".join(map(mechanism.called, links))
+        name = f"{point}({printed})" if point in taken else point
         taken.add(point)
         rows.append(KinematicPair(name, point, links, kind))
     return rows

@@ -43,12 +43,19 @@ class Mechanism(Struct, frozen=True):
     prismatics : tuple of Prismatic
     driver : str
         Name of the driving link (начальное звено), joined with the frame.
+    frame : str
+        Number of the frame as it is printed (номер стойки); among the links it is `FRAME`.
     """
 
     links: tuple[str, ...]
     revolutes: tuple[Revolute, ...]
     prismatics: tuple[Prismatic, ...]
     driver: str
+    frame: str = FRAME
+
+    def called(self, link: str) -> str:
+        """Return how a link is printed: the frame by its number."""
+        return self.frame if link == FRAME else link
 
     @property
     def lower_pairs(self) -> int:

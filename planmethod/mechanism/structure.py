@@ -90,7 +90,7 @@ def analyse(mechanism: Mechanism) -> Structure:
     groups = _groups(mechanism)
     n, p1 = len(mechanism.links), mechanism.lower_pairs
     spatial = 6 * n - 5 * p1
-    parts = [f"I({FRAME},{mechanism.driver})"]
+    parts = [f"I({mechanism.frame},{mechanism.driver})"]
     parts += [f"{roman(group.class_number)}({','.join(group.links)})" for group in groups]
     return Structure(
         mobility=3 * n - 2 * p1,

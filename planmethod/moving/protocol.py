@@ -24,7 +24,7 @@ from planmethod.moving.model import PointProblem
 from planmethod.moving.sheet import read_rows, sheet_scales
 from planmethod.moving.text import LEGEND, law, moment, title
 from planmethod.note.document import Caption, Chapter, Node, Paragraph, steps_of, table_of
-from planmethod.note.formula import Rich, escape
+from planmethod.note.formula import Rich, escape, fraction
 from planmethod.note.narrate.narrator import Line, Reading, StepNarrator
 from planmethod.note.narrate.scales import scale_inscription
 from planmethod.note.numbers import significant, with_unit
@@ -165,15 +165,16 @@ class PointNarrator(StepNarrator):
             return [said.nothing.format(symbol=symbol)]
         part = self.parts.get(step.out)
         plan = "l" if part is None else part.plan
-        numbers = f"{self._put(abs(self._number(made.powers[0][0])))}/"
-        numbers += self._put(self.built.scales[plan].per_mm)
+        per_mm = self._put(self.built.scales[plan].per_mm)
+        numbers = fraction(self._put(abs(self._number(made.powers[0][0]))), per_mm)
+        quotient = fraction(f"|{symbol}|", f"μ_{{{plan}}}")
         turned = isinstance(self.step[step.along], steps.Perpendicular)
         way = said["ways"][("across" if turned else "along") + ("" if mm >= 0 else " back")]
         told = said.lay_off_side if part is None else said.lay_off
         return [
             told.format(
                 symbol=symbol,
-                size=f"|{symbol}|/μ_{{{plan}}} = {numbers} = {self._put(abs(mm))}",
+                size=f"{quotient} = {numbers} = {self._put(abs(mm))}",
                 of=self._of(step.origin),
                 way=way,
                 point=letters[step.out],
@@ -192,7 +193,8 @@ class PointNarrator(StepNarrator):
             if not np.isfinite(found):
                 return []
             v, a = (self._put(self._number(name)) for name, _ in step.powers)
-            return [f"{symbol} = v^{{2}}/a_{{n}} = {v}^{{2}}/{a} = {value}."]
+            sought = f"{fraction('v^{2}', 'a_{n}')} = {fraction(f'{v}^{{2}}', a)}"
+            return [f"{symbol} = {sought} = {value}."]
         plan = "v" if column == "v" else "a"
         mm, segment = self._number(length), self.built.letters[length]
         scale = self._put(self.built.scales[plan].per_mm)

@@ -21,7 +21,7 @@ from planmethod.note.document import (
     table_of,
     table_of_columns,
 )
-from planmethod.note.formula import Rich, escape
+from planmethod.note.formula import Rich, escape, fraction, root
 from planmethod.note.numbers import MINUS, Notation, alike, significant, with_unit
 from planmethod.note.wording import Language
 
@@ -213,24 +213,27 @@ def moment(
         found = with_unit(say.short(value[name]), say.units[LEGEND[name].unit])
         return Formula(f"{LEGEND[name].symbol} = {between}{found}")
 
-    def root(x: str, y: str) -> tuple[str, str]:
-        letters = f"√({LEGEND[x].symbol}^{{2}} + {LEGEND[y].symbol}^{{2}})"
-        return letters, f"√({put(x)}^{{2}} + {put(y)}^{{2}})"
+    def length(x: str, y: str) -> tuple[str, str]:
+        squares = f"{LEGEND[x].symbol}^{{2}} + {LEGEND[y].symbol}^{{2}}"
+        return root(squares), root(f"{put(x)}^{{2}} + {put(y)}^{{2}}")
 
     if why is not Undefined.POSITION:
         yield from (line("x"), line("y"))
     if why not in (Undefined.POSITION, Undefined.VELOCITY):
-        yield from (line("vx"), line("vy"), line("v", *root("vx", "vy")))
+        yield from (line("vx"), line("vy"), line("v", *length("vx", "vy")))
         yield from _other_velocities(problem, value, line, say)
     if why in (None, Undefined.REST, Undefined.STRAIGHT):
-        yield from (line("ax"), line("ay"), line("a", *root("ax", "ay")))
+        yield from (line("ax"), line("ay"), line("a", *length("ax", "ay")))
     if why in (None, Undefined.STRAIGHT):
-        dot = f"({put('vx')}·{put('ax')} + {put('vy')}·{put('ay')})/{put('v')}"
-        cross = f"|{put('vx')}·{put('ay')} − {put('vy')}·{put('ax')}|/{put('v')}"
-        yield line("a_tangential", "(v_{x}·a_{x} + v_{y}·a_{y})/v", dot)
-        yield line("a_normal", "|v_{x}·a_{y} − v_{y}·a_{x}|/v", cross)
+        dot = f"{put('vx')}·{put('ax')} + {put('vy')}·{put('ay')}"
+        cross = f"|{put('vx')}·{put('ay')} − {put('vy')}·{put('ax')}|"
+        tangential, normal = "v_{x}·a_{x} + v_{y}·a_{y}", "|v_{x}·a_{y} − v_{y}·a_{x}|"
+        for name, above, told in (("tangential", tangential, dot), ("normal", normal, cross)):
+            sides = fraction(above, "v"), fraction(told, put("v"))
+            yield line(f"a_{name}", *sides)
     if why is None:
-        yield line("rho", "v^{2}/a_{n}", f"{put('v')}^{{2}}/{put('a_normal')}")
+        square = fraction(f"{put('v')}^{{2}}", put("a_normal"))
+        yield line("rho", fraction("v^{2}", "a_{n}"), square)
     else:
         yield Note(words.point["reasons"][why.value])
 

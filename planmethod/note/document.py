@@ -7,18 +7,72 @@ or of a file format. Texts are rich text (`planmethod.note.formula`).
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+import re
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import Any, Protocol, TypeAlias
 
 from msgspec import Struct
+from msgspec.structs import replace
 
+from planmethod.errors import LayoutError
 from planmethod.note.formula import Rich
+
+_REFERENCE = r"\\ref\{([^{}]*)\}"
 
 
 class Title(Struct, frozen=True):
     """Name of the document (заглавие)."""
 
     text: Rich
+
+
+class TitlePage(Struct, frozen=True):
+    """First page of a note (титульный лист); the words between its data are the writers'.
+
+    Attributes
+    ----------
+    organisation : tuple of Rich
+        Line by line, the largest first: the university, the chair.
+    work : Rich
+        Kind of work: ``Пояснительная записка``.
+    subject : Rich
+        What it belongs to: ``к курсовому проекту по теории механизмов и машин``.
+    title : Rich
+        Its theme.
+    designation : Rich
+        Designation of the document, ``ТММ.01.00.00 ПЗ``.
+    author, group, checker : Rich
+        Who did the work, of which group, and who checks it.
+    place, year : Rich
+    """
+
+    organisation: tuple[Rich, ...] = ()
+    work: Rich = ""
+    subject: Rich = ""
+    title: Rich = ""
+    designation: Rich = ""
+    author: Rich = ""
+    group: Rich = ""
+    checker: Rich = ""
+    place: Rich = ""
+    year: Rich = ""
+
+
+class Contents(Struct, frozen=True):
+    """Headings of the document with their pages (содержание), under a heading of its own."""
+
+
+class PageBreak(Struct, frozen=True):
+    """What follows begins on a new page (разрыв страницы)."""
+
+
+class StructuralHeading(Struct, frozen=True):
+    """Heading without a number, in the middle (структурный элемент): introduction, conclusion.
+
+    It begins a new page.
+    """
+
+    title: Rich
 
 
 class Chapter(Struct, frozen=True):
@@ -33,6 +87,12 @@ class Chapter(Struct, frozen=True):
 
 class Part(Struct, frozen=True):
     """Heading of a part of a chapter (раздел)."""
+
+    title: Rich
+
+
+class Subpart(Struct, frozen=True):
+    """Heading of a part of a part (подраздел)."""
 
     title: Rich
 
@@ -70,9 +130,15 @@ class Step(Struct, frozen=True):
 
 
 class Formula(Struct, frozen=True):
-    """A formula on a line of its own (формула)."""
+    """A formula on a line of its own (формула).
+
+    ``numbered``: whether it has a number in its chapter, ``(2.1)``, on the right; ``key`` is the
+    name by which texts refer to that number.
+    """
 
     text: Rich
+    numbered: bool = False
+    key: str = ""
 
 
 class Term(Struct, frozen=True):
@@ -106,9 +172,11 @@ class Equation(Struct, frozen=True):
 
 
 class Equations(Struct, frozen=True):
-    """Vector equations one under another (система уравнений)."""
+    """Vector equations one under another (система уравнений), with one number as a formula's."""
 
     equations: tuple[Equation, ...]
+    numbered: bool = False
+    key: str = ""
 
 
 class Table(Struct, frozen=True):
@@ -128,6 +196,10 @@ class Table(Struct, frozen=True):
     tones : tuple of str
         What a row says, where it is one of a few kinds: the word of a verdict; a writer may give
         the cell of column ``toned`` a ground by it.
+    name : Rich
+        Where there is one, the table has a number: ``Таблица 1 – name`` above it.
+    key : str
+        Name by which texts refer to the number.
     """
 
     head: tuple[Rich, ...]
@@ -137,6 +209,8 @@ class Table(Struct, frozen=True):
     right: tuple[int, ...] = ()
     tones: tuple[str, ...] = ()
     toned: int = 0
+    name: Rich = ""
+    key: str = ""
 
     @property
     def numbers(self) -> frozenset[int]:
@@ -164,12 +238,28 @@ class DrawableView(Protocol):
         """Draw on a canvas of reportlab whose unit is the millimetre, the lower left at zero."""
         ...
 
+    def png(self, dpi: float) -> bytes:
+        """Return a PNG file with so many dots to the inch."""
+        ...
+
 
 class Figure(Struct, frozen=True):
-    """A picture (рисунок) and its caption; writers of plain text give the caption alone."""
+    """A picture (рисунок) and its caption; writers of plain text give the caption alone.
+
+    ``numbered``: whether the caption has a number, ``Рисунок 1 – caption``; ``key`` is the name by
+    which texts refer to it.
+    """
 
     view: DrawableView
     caption: Rich = ""
+    numbered: bool = False
+    key: str = ""
+
+
+class References(Struct, frozen=True):
+    """Numbered list of sources (список использованных источников), without its heading."""
+
+    entries: tuple[Rich, ...]
 
 
 class Note(Struct, frozen=True):
@@ -180,8 +270,13 @@ class Note(Struct, frozen=True):
 
 Node: TypeAlias = (
     Title
+    | TitlePage
+    | Contents
+    | PageBreak
+    | StructuralHeading
     | Chapter
     | Part
+    | Subpart
     | Caption
     | Paragraph
     | Item
@@ -190,6 +285,7 @@ Node: TypeAlias = (
     | Equations
     | Table
     | Figure
+    | References
     | Note
 )
 """Closed union: a writer matches it and ends in `assert_never`, so mypy names what it forgot."""
@@ -204,6 +300,117 @@ class Document(Struct, frozen=True):
     def of(cls, nodes: Iterable[Node]) -> Document:
         """Return a document of nodes."""
         return cls(tuple(nodes))
+
+
+def within(written: Document) -> Iterator[Node]:
+    """Yield the nodes of a document as a chapter of another: each heading a level lower."""
+    for node in written.nodes:
+        match node:
+            case Title(text):
+                yield Chapter(text)
+            case Chapter(title):
+                yield Part(title)
+            case Part(title):
+                yield Subpart(title)
+            case _:
+                yield node
+
+
+def numbers_of(written: Document) -> Iterator[tuple[Node, str]]:
+    """Yield the nodes, each with its number: ``2``, ``2.1``, ``3``; empty where it has none.
+
+    Chapters, figures and tables are counted through the document; parts and formulas in the
+    chapter, subparts in the part.
+    """
+    chapter = part = subpart = formula = figure = table = 0
+    for node in written.nodes:
+        number = ""
+        match node:
+            case Chapter(numbered=numbered):
+                chapter, part, subpart, formula = chapter + numbered, 0, 0, formula * (not numbered)
+                number = str(chapter) if numbered else ""
+            case Part():
+                part, subpart = part + 1, 0
+                number = f"{chapter}.{part}"
+            case Subpart():
+                subpart += 1
+                number = f"{chapter}.{part}.{subpart}"
+            case Formula(numbered=True) | Equations(numbered=True):
+                formula += 1
+                number = f"{chapter}.{formula}" if chapter else str(formula)
+            case Figure(numbered=True):
+                figure += 1
+                number = str(figure)
+            case Table() if node.name:
+                table += 1
+                number = str(table)
+        yield node, number
+
+
+def headings_of(written: Document) -> Iterator[tuple[int, str, Rich]]:
+    """Yield what contents list: the level of a heading from 1 on, its number, its text."""
+    for node, number in numbers_of(written):
+        match node:
+            case StructuralHeading(title) | Chapter(title):
+                yield 1, number, title
+            case Part(title):
+                yield 2, number, title
+            case Subpart(title):
+                yield 3, number, title
+
+
+def lines_of(page: TitlePage, words: Mapping[str, Any]) -> Iterator[Rich]:
+    """Yield the lines of a title page for writers that have no pages."""
+    yield from page.organisation
+    yield from (text for text in (page.work, page.subject) if text)
+    for key in ("title", "author", "group", "checker"):
+        if text := getattr(page, key):
+            yield words["theme" if key == "title" else key].format(**{key: text})
+    yield from (
+        text for text in (page.designation, " ".join((page.place, page.year))) if text.strip()
+    )
+
+
+def referred(written: Document) -> Document:
+    r"""Return a document with the numbers of what its texts refer to: ``\ref{key}``.
+
+    Writers do that before they write. A text names the kind itself: ``на рисунке \ref{scheme}``,
+    ``по формуле (\ref{speed})``.
+
+    Raises
+    ------
+    LayoutError
+        When nothing numbered has the key.
+    """
+    numbers = {
+        node.key: number
+        for node, number in numbers_of(written)
+        if isinstance(node, Formula | Equations | Figure | Table) and node.key and number
+    }
+
+    def told(text: Rich) -> Rich:
+        return re.sub(_REFERENCE, number, text) if "\\ref{" in text else text
+
+    def number(found: re.Match[str]) -> str:
+        if found[1] not in numbers:
+            raise LayoutError(
+                "A text refers to '{}', but no numbered formula, figure or table has that key. "
+                "Keys: {}.",
+                found[1],
+                ", ".join(numbers) or "–",
+            )
+        return numbers[found[1]]
+
+    nodes = list[Node]()
+    for node in written.nodes:
+        match node:
+            case Paragraph() | Item() | Note() | Formula() | Caption():
+                nodes.append(replace(node, text=told(node.text)))
+            case Step(lines):
+                nodes.append(replace(node, lines=tuple(map(told, lines))))
+            case _:
+                nodes.append(node)
+    return Document(tuple(nodes))
 
 
 def table_of(head: Sequence[Rich], rows: Iterable[Sequence[Rich]], *, names: int = 1) -> Table:

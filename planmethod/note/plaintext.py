@@ -2,9 +2,20 @@
 
 from __future__ import annotations
 
-import re
-from typing import TYPE_CHECKING
+from collections.abc import Iterable
+from typing import TYPE_CHECKING, assert_never
 
+from planmethod.note.formula import (
+    SPECIAL,
+    Fraction,
+    Index,
+    Letters,
+    Node,
+    Overline,
+    Root,
+    inline,
+    parse,
+)
 from planmethod.note.numbers import rich_number, significant, trimmed
 
 if TYPE_CHECKING:
@@ -16,24 +27,39 @@ NO_BREAK = "\N{NO-BREAK SPACE}"
 
 _SUPER = dict(zip("0123456789-−ntτkr", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻⁻ⁿᵗᵗᵏʳ", strict=True))
 _SUB = dict(zip("0123456789", "₀₁₂₃₄₅₆₇₈₉", strict=True))
-_UP = r"\^\{([^}]*)\}"
-_DOWN = r"_\{([^}]*)\}"
-_LITERAL = r"\\([_^{}\\])"
+_RATIO = "U"
+"""Above it stands the carrier that a ratio is seen from, ``U^{H}_{13}``: no power of it."""
 
 
 def plain_text(rich: str) -> str:
     """Return rich text as plain: ``ω_{2}`` gives ``ω₂``, ``a^{n}_{CB}`` gives ``aⁿ_CB``."""
+    return _plain_of(inline(parse(rich))) if any(c in SPECIAL for c in rich) else rich
 
-    def up(match: re.Match[str]) -> str:
-        return "".join(_SUPER.get(c, c) for c in match[1])
 
-    def down(match: re.Match[str]) -> str:
-        text = match[1]
-        if not text:
-            return ""
-        return "".join(_SUB[c] for c in text) if all(c in _SUB for c in text) else f"_{text}"
+def _plain_of(nodes: Iterable[Node]) -> str:
+    text = ""
+    for node in nodes:
+        text += _plain(node, is_ratio=text.endswith(_RATIO))
+    return text
 
-    return re.sub(_LITERAL, r"\1", re.sub(_DOWN, down, re.sub(_UP, up, rich)))
+
+def _plain(node: Node, *, is_ratio: bool = False) -> str:
+    match node:
+        case Letters(text):
+            return text
+        case Index(below, above, is_power):
+            low = _plain_of(below)
+            lowered = "".join(_SUB[c] for c in low) if set(low) <= set(_SUB) else f"_{low}"
+            high = _plain_of(above)
+            is_carrier = high.startswith("(") or (is_ratio and high.isalnum())
+            raised = f"^{high}" if is_carrier else "".join(_SUPER.get(c, c) for c in high)
+            return lowered + raised if is_power else raised + lowered
+        case Overline(body):
+            return _plain_of(body)
+        case Fraction() | Root():
+            raise AssertionError  # the formula is in one line
+        case _:
+            assert_never(node)
 
 
 def spoken(text: str, words: Words) -> str:

@@ -4,17 +4,43 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from functools import partial
+from typing import Any
+
+from msgspec.structs import replace
 
 from planmethod.languages import say
 from planmethod.mechanism.model import FRAME
 from planmethod.problem import fields
-from planmethod.problem.cycle_records import CycleTask, PoleDistances, Zero
+from planmethod.problem.cycle_records import CycleTask, PoleDistances, StrokeSense, Zero
 from planmethod.problem.fields import Faults
 from planmethod.problem.flat import OwnReader, read_flat
-from planmethod.problem.model import Body, Drive, Slide
+from planmethod.problem.machine_records import Machine
+from planmethod.problem.model import SAME_DEG, Body, Drive, Slide
 
 _EXAMPLE = '[cycle] output = "B", zero = "extreme", count = 12'
 _NAMED = {zero.value: zero for zero in Zero}
+_COUNTS, _OF_MACHINE = range(3, 361), range(4, 73)
+
+
+def cycle_count(given: Mapping[str, Any]) -> int:
+    """Return how many positions the cycle of a file has as far as it can be read; 0 without any.
+
+    Parameters
+    ----------
+    given : mapping
+        The whole file.
+    """
+    table, machine = given.get("cycle"), given.get("machine")
+    if not isinstance(table, Mapping):
+        return 0
+    machine = machine if isinstance(machine, Mapping) else {}
+    turns = 2 if machine.get("cycle_deg") == 720 else 1
+    own, other = table.get("count"), machine.get("count")
+    if isinstance(own, int) and own in _COUNTS:
+        return own * turns
+    if isinstance(other, int) and other % turns == 0 and other // turns in _COUNTS:
+        return other
+    return 12 * turns
 
 
 def read_cycle(
@@ -23,6 +49,7 @@ def read_cycle(
     bodies: Mapping[str, Body],
     slides: Mapping[str, Slide],
     drive: Drive | None,
+    machine: Machine | None,
 ) -> CycleTask | None:
     """Read ``[cycle]``; None after a fault.
 
@@ -30,8 +57,8 @@ def read_cycle(
     ----------
     bodies, slides : mapping
         As far as the file has them.
-    drive : Drive or None
-        None where it has a fault of its own.
+    drive, machine : Drive or None, Machine or None
+        None where it has a fault of its own; what a machine tells alone holds for the cycle.
     """
     before = len(faults)
     entries = fields.read_table(faults, "cycle", table, _EXAMPLE)
@@ -46,7 +73,61 @@ def read_cycle(
     output = partial(_read_output, bodies=bodies, slides=slides, drive=drive)
     own: dict[str, OwnReader] = {"output": output, "zero": _read_zero, "pole": _read_pole}
     found = read_flat(faults, "cycle", entries, CycleTask, own)
+    if len(faults) > before:
+        return None
+    _check_working(faults, found, slides)
+    if machine is not None:
+        found |= _of_machine(faults, found, machine)
     return None if len(faults) > before else CycleTask(**found)
+
+
+def _check_working(faults: Faults, found: Mapping[str, Any], slides: Mapping[str, Slide]) -> None:
+    """Refuse a sense of turning of an output that slides."""
+    sense, output = found.get("working"), found.get("output")
+    slides_on = output in slides or any(slide.pin == output for slide in slides.values())
+    if sense in (StrokeSense.CCW, StrokeSense.CW) and slides_on:
+        hint = 'Say where it goes: "left", "right", "up" or "down".'
+        faults.add("cycle.working", say("{} slides: it does not turn", output), hint)
+
+
+def _of_machine(faults: Faults, found: Mapping[str, Any], machine: Machine) -> dict[str, Any]:
+    """Return what ``[machine]`` alone says of the positions; what both say must agree."""
+    told: dict[str, Any] = {}
+    turns = round(machine.cycle_deg / 360.0)
+    start, count = machine.start_deg, machine.told_count
+    if start is not None and "zero" not in found:
+        told["zero"] = start
+    elif start is not None and not isinstance(found["zero"], Zero):
+        report_start(faults, found["zero"], start)
+    if count is None:
+        return told
+    if "count" not in found and count % turns == 0 and count // turns in _COUNTS:
+        told["count"] = count // turns
+    elif count != found.get("count", 0) * turns:
+        message = say("{} positions of a cycle of {:g} degrees", count, machine.cycle_deg)
+        if "count" in found:
+            message = say("{}, and [cycle] has {} of a turn", message, found["count"])
+        hint = "The positions are those of [cycle]: delete count of [machine]."
+        faults.add("machine.count", message, hint)
+    return told
+
+
+def report_start(faults: Faults, zero: float, start: float) -> None:
+    """Note a fault where a machine starts in another position than the cycle."""
+    if abs((start - zero + 180.0) % 360.0 - 180.0) > SAME_DEG:
+        hint = "The positions are those of [cycle]: delete phi_0 of [machine]."
+        message = say("{:g} deg, and position 0 of [cycle] is at {:.2f} deg", start, zero)
+        faults.add("machine.phi_0", message, hint)
+
+
+def followed(faults: Faults, machine: Machine, cycle: CycleTask) -> Machine:
+    """Return a machine with as many positions as the cycle has."""
+    count = cycle.count * round(machine.cycle_deg / 360.0)
+    if count not in _OF_MACHINE and machine.told_count is None:
+        message = say("{} positions of a cycle of {:g} degrees", count, machine.cycle_deg)
+        low, high = _OF_MACHINE[0], _OF_MACHINE[-1]
+        faults.add("cycle.count", message, say("A flywheel takes from {} to {}.", low, high))
+    return replace(machine, count=count)
 
 
 def _read_zero(faults: Faults, path: str, value: object) -> Zero | float | None:

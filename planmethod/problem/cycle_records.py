@@ -1,4 +1,4 @@
-"""What is asked of the cycle of a crank, put into plain records."""
+"""What is asked of the cycle of a crank, and decided of a project, put into plain records."""
 
 from __future__ import annotations
 
@@ -8,15 +8,28 @@ from typing import Annotated
 from msgspec import Struct
 
 from planmethod.problem.declared import NumberKey, OwnKey, WholeKey, WordKey
+from planmethod.problem.load_records import TurningSense
 
 DIAGRAM_HINT = "Millimetres of the diagrams."
 
 
 class Zero(Enum):
-    """Position zero by name: where the quicker stroke of the output starts, or the slower one."""
+    """Position zero by name: where the quicker, the slower or the working stroke starts."""
 
     EXTREME = "extreme"
     OTHER = "other extreme"
+    WORKING = "working"
+
+
+class StrokeSense(Enum):
+    """Sense in which the output moves on its working stroke (направление рабочего хода)."""
+
+    UP = "up"
+    DOWN = "down"
+    LEFT = "left"
+    RIGHT = "right"
+    CCW = "ccw"
+    CW = "cw"
 
 
 class Differentiation(Enum):
@@ -61,15 +74,36 @@ class CycleTask(Struct, frozen=True):
     zero: Annotated[
         Zero | float,
         OwnKey(
-            'position zero: `"extreme"` (the default), `"other extreme"`, or the angle of the '
-            "crank, degrees; numbered in the sense of the driver"
+            'position zero: `"extreme"` (the default), `"other extreme"`, `"working"`, or the '
+            "angle of the crank, degrees; `phi_0` of `[machine]` where that stands alone"
         ),
     ] = Zero.EXTREME
-    count: Annotated[int, WholeKey("positions of a turn", 3, 360)] = 12
+    direction: Annotated[
+        TurningSense | None,
+        WordKey(
+            'the sense in which positions are numbered: `"ccw"` or `"cw"`; that of the driver when '
+            "absent"
+        ),
+    ] = None
+    count: Annotated[
+        int,
+        WholeKey(
+            "positions of a turn", 3, 360,
+            more="; `count` of `[machine]` where that stands alone",
+        ),
+    ] = 12  # fmt: skip
+    working: Annotated[
+        StrokeSense | None,
+        WordKey(
+            'the sense in which the output moves on its working stroke: `"up"`, `"down"`, '
+            '`"left"`, `"right"`, of a link `"ccw"` or `"cw"`; the stroke that the loads resist '
+            "when absent, without loads the longer one"
+        ),
+    ] = None
     length: Annotated[
         float | None,
         NumberKey(
-            "of the axis of φ for a turn; the scale of φ follows from it then", "a length", "mm",
+            "of the axis of φ for the cycle; the scale of φ follows from it then", "a length", "mm",
             20.0, 2000.0, positive=True, hint=DIAGRAM_HINT, absent="from a round scale",
         ),
     ] = None  # fmt: skip
@@ -87,3 +121,42 @@ class CycleTask(Struct, frozen=True):
             "curve)"
         ),
     ] = Differentiation.CHORDS
+
+
+PROJECT_PARTS = ("kinematics", "forces", "flywheel", "gears", "meshing", "note")
+"""Parts of a project in the order of their sheets."""
+
+
+class ProjectTask(Struct, frozen=True):
+    """What is decided of a project (курсовой проект): ``[project]``."""
+
+    calculated: Annotated[
+        int | None,
+        WholeKey(
+            "number of the calculated position, from 0: drawn bold, loaded, told in full",
+            0,
+            719,
+            absent="that of `phi`, if it is one of the positions, else the clearest one",
+        ),
+    ] = None
+    gears: Annotated[
+        str,
+        OwnKey(
+            'file of the gear train, beside this one: `"train.toml"`',
+            absent="`[gears]` of this file",
+        ),
+    ] = ""
+    meshing: Annotated[
+        str,
+        OwnKey(
+            'file of the wheels in mesh, beside this one: `"wheels.toml"`',
+            absent="`[meshing]` of this file",
+        ),
+    ] = ""
+    parts: Annotated[
+        tuple[str, ...],
+        OwnKey(
+            "which parts are made: " + ", ".join(f'`"{part}"`' for part in PROJECT_PARTS),
+            absent="all that the file has",
+        ),
+    ] = ()

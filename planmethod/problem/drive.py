@@ -13,7 +13,7 @@ from planmethod.problem import fields, keys
 from planmethod.problem.fields import Faults, Table
 from planmethod.problem.flat import read_flat
 from planmethod.problem.links import LinkText
-from planmethod.problem.model import Convention, Drive, Geared, Rule, Scales, Where
+from planmethod.problem.model import ANYWHERE, Convention, Drive, Geared, Rule, Scales, Where
 from planmethod.problem.names import is_point_name, listed, near, segment, split_pair
 from planmethod.problem.posed import is_length, is_place, is_posed, is_rate, read_posed
 
@@ -27,8 +27,13 @@ def read_drive(
     fixed: Collection[str],
     hosts: Mapping[str, str],
     geared: Geared | None = None,
+    numbered: int = 0,
 ) -> Drive | None:
-    """Read ``[driver]``; ``hosts`` maps each slider to its host, ``geared`` is its train."""
+    """Read ``[driver]``; ``hosts`` maps each slider to its host, ``geared`` is its train.
+
+    ``numbered`` is the number of positions of ``[cycle]``: of a crank they outrank several that
+    the driver lists, and stand for what is left out.
+    """
     before = len(faults)
     given = fields.read_table(faults, "driver", table, '[driver] link = "1", phi = 20, omega = 50')
     if given is None:
@@ -61,7 +66,10 @@ def read_drive(
             hint = say("Link {} is {}: {}.", link.name, kind, listed(own))
             faults.add(f"driver.{key}", say("does not go with {}", kind), hint)
     posed = read_posed(faults, given, link, links, fixed, crank=bool(pivots))
+    counted = bool(numbered and pivots)
     required: tuple[str, ...] = () if any(map(is_place, given)) else ("phi" if pivots else "s",)
+    if counted:
+        required = ()
     acted = any(is_rate(key) or is_length(key) for key in given)
     if not pivots and not acted:
         required += ("v",)
@@ -84,11 +92,15 @@ def read_drive(
         acceleration = _read_rate(faults, given, "a", "an acceleration in m/s²")
     if posed is not None:
         positions = (math.nan,) * len(posed.values)  # found when the mechanism is assembled
+    judged: Span = ()
+    if counted and posed is None and (positions is None or len(positions) > 1):
+        judged = positions or ANYWHERE
+        positions = (math.nan,) * numbered if positions or "phi" not in given else None
     if len(faults) != before or positions is None or rate is None or acceleration is None:
         return None
     turns = rate * 30.0 / math.pi if "n" in given else None
     pivot, geared = (pivots[0], geared) if pivots else (None, None)
-    return Drive(link.name, pivot, positions, rate, acceleration, geared, turns, posed)
+    return Drive(link.name, pivot, positions, rate, acceleration, geared, turns, posed, judged)
 
 
 def _read_link(faults: Faults, given: Table, links: Mapping[str, LinkText]) -> LinkText | None:

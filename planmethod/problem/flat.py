@@ -132,4 +132,4 @@ def chosen(text: str, known: Collection[str]) -> str | None:
     '2a'
     """
     word = fold(text.replace("Б", "B")).replace(" ", "").casefold()
-    return next((name for name in known if name.casefold() == word), None)
+    return next((name for name in known if name.replace(" ", "").casefold() == word), None)

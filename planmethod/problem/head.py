@@ -192,6 +192,10 @@ class AskedAnswer(Struct, frozen=True):
     ] = None  # fmt: skip
 
 
+NOTATIONS = ("p5 p4", "p1 p2", "pn pv")
+"""How the numbers of lower and higher pairs are lettered; of the last one a language has words."""
+
+
 class SheetSettings(Struct, frozen=True):
     """How the sheets are to be made up (оформление листов): ``[sheet]``; None: not given."""
 
@@ -208,6 +212,15 @@ class SheetSettings(Struct, frozen=True):
         ChoiceKey('lettering: `"A"`, `"A-upright"`, `"B"` or `"B-upright"`', LETTERINGS),
     ] = None
     lang: Annotated[str | None, OwnKey('language of the sheets: `"ru"` or `"en"`')] = None
+    notation: Annotated[
+        str | None,
+        ChoiceKey(
+            'letters of the numbers of lower and higher pairs: `"p5 p4"`, `"p1 p2"` or `"pn pv"` '
+            "(p_н, p_в)",
+            NOTATIONS,
+            absent="in Russian `pn pv`, in English `p1 p2`",
+        ),
+    ] = None
     traces: Annotated[
         bool | None,
         FlagKey(

@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from planmethod.languages import LANGUAGES
-from planmethod.problem.cycle_records import CycleTask, PoleDistances
+from planmethod.problem.cycle_records import CycleTask, PoleDistances, ProjectTask
 from planmethod.problem.declared import declared
 from planmethod.problem.head import (
     LETTERINGS,
@@ -35,9 +35,9 @@ from planmethod.problem.model import Scales
 TOP = (
     "title", "source", "units", "frame", "links", "driver", "assembly", "scales", "stamp",
     "sheet", "published", "answers", "compare", "variants", "dynamics", "loads", "machine",
-    "balancing", "gears", "point", "cycle", "meshing",
+    "balancing", "gears", "point", "cycle", "meshing", "project",
 )  # fmt: skip
-FRAME = ("guides",)
+FRAME = ("guides", "number")
 GUIDE = ("through", "angle")
 LINK = ("points", "slides", "angle")
 SLIDES = ("on", "along", "through", "angle", "offset", "length", "centre", "radius")
@@ -92,6 +92,7 @@ FLAT: Mapping[str, type[object]] = {
     "load": LoadEntry, "phases": Phase, "machine": Machine, "flywheel": FlywheelTask,
     "motor": MotorTable, "kloss": KlossTable, "line": LineTable, "balancing": CounterweightTask,
     "wheel": GearWheelTable, "picture": PictureTable, "meshing": MeshingTable,
+    "project": ProjectTask,
 }  # fmt: skip
 """Records of flat tables by the kind of table."""
 

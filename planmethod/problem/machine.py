@@ -56,6 +56,7 @@ def read_machine(faults: Faults, given: Mapping[str, Any], drive: Drive | None) 
         "motor": _read_motor,
     }
     found = read_flat(faults, "machine", table, Machine, own)
+    found["told_count"] = found.get("count")
     found.setdefault("count", round(found.get("cycle_deg", 360.0) / 30))
     if found.get("constant") is ConstantMoment.RESISTING:
         if "motor" in found:

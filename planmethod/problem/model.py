@@ -16,7 +16,7 @@ from msgspec.structs import replace
 
 from planmethod.languages import say
 from planmethod.mechanism.model import FRAME, Mechanism
-from planmethod.problem.cycle_records import CycleTask
+from planmethod.problem.cycle_records import CycleTask, ProjectTask
 from planmethod.problem.declared import FlagKey, NumberKey, WordKey
 from planmethod.problem.head import KindProblem
 from planmethod.problem.names import told_length
@@ -256,6 +256,13 @@ class Posed(Struct, frozen=True):
         return f"{self.by.value}_{self.of}" if self.of else self.by.value
 
 
+SAME_DEG = 0.1
+"""Degrees within which two positions that a file gives are one: it has them rounded."""
+
+ANYWHERE = tuple(10.0 * number for number in range(36))
+"""Positions of a crank of which none is meant, degrees: the first that can be assembled counts."""
+
+
 class Drive(Struct, frozen=True):
     """Law of motion of the driving link (начальное звено) in the positions asked for.
 
@@ -275,6 +282,9 @@ class Drive(Struct, frozen=True):
         Rotational speed, where the file gives that.
     posed : Posed or None
         What tells the positions, where it is not the driver's coordinate: `positions` follow.
+    judged : tuple of float
+        Positions in which the rules of assembly are judged, where ``[cycle]`` tells the positions:
+        those that the file lists, else `ANYWHERE`; empty where they are the positions themselves.
     """
 
     link: str
@@ -285,6 +295,7 @@ class Drive(Struct, frozen=True):
     geared: Geared | None = None
     turns: float | None = None
     posed: Posed | None = None
+    judged: tuple[float, ...] = ()
 
     @property
     def is_crank(self) -> bool:
@@ -379,6 +390,14 @@ class Problem(KindProblem, frozen=True, kw_only=True):
         Masses and loads; None when the file has neither ``[dynamics]`` nor ``[[loads]]``.
     cycle : CycleTask or None
         What ``[cycle]`` asks; None when the file has none.
+    project : ProjectTask or None
+        What ``[project]`` decides; None when the file has none.
+    calculated : int or None
+        Number of the calculated position of a settled project (`planmethod.project`), whose
+        positions and scales are those of all sheets; None of a problem as it is read.
+    numbered : tuple of float
+        Positions of the cycle in the order of their numbers, degrees, over both turns of a cycle
+        of 720; empty without ``[cycle]`` (`planmethod.solved.turn.numbering`).
     machine : Machine or None
         What the choice of a flywheel needs; None when the file has no ``[machine]``.
     balancing : CounterweightTask or None
@@ -401,11 +420,27 @@ class Problem(KindProblem, frozen=True, kw_only=True):
     scales: Scales = Scales()
     dynamics: Dynamics | None = None
     cycle: CycleTask | None = None
+    project: ProjectTask | None = None
+    calculated: int | None = None
+    numbered: tuple[float, ...] = ()
     machine: Machine | None = None
     balancing: CounterweightTask | None = None
     tables: Mapping[str, Any] = field(default_factory=dict)
     unit: str = "m"
     stated: Mapping[str, str] = field(default_factory=dict)
+
+    @property
+    def turns(self) -> int:
+        """Turns of the crank in a cycle: two of a machine of 720 degrees."""
+        return 1 if self.machine is None else round(self.machine.cycle_deg / 360.0)
+
+    def shown(self, position: float) -> float:
+        """Return a driver position as documents write it: a numbered one is within its cycle."""
+        whole, count = 360.0 * self.turns, len(self.numbered)
+        step = abs(self.numbered[1] - self.numbered[0]) if self.numbered else 0.0
+        if abs(step * count - whole) > SAME_DEG:  # over a range angles are as its limits are
+            return position
+        return round(position % whole, 2) % whole
 
     def is_block(self, slide: Slide) -> bool:
         """Tell whether the host of a slide is a block through which the slider, a bar, passes."""

@@ -5,18 +5,21 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from typing import Any, TypeAlias
 
+from msgspec.structs import replace
+
 from planmethod.languages import say
 from planmethod.mechanism.model import FRAME, Mechanism
 from planmethod.problem import keys
 from planmethod.problem.answers import AnswerScope, read_answers
 from planmethod.problem.bodies import place_points
-from planmethod.problem.cycle import read_cycle
+from planmethod.problem.cycle import cycle_count, followed, read_cycle
 from planmethod.problem.drive import read_assembly, read_drive, read_scales
 from planmethod.problem.fields import Faults, read_keys, read_word
 from planmethod.problem.joints import coincident_points, join
 from planmethod.problem.links import LinkText, check_arcs, read_links
 from planmethod.problem.model import Body, Geared, Problem, Slide
 from planmethod.problem.names import UNITS, listed
+from planmethod.problem.project import read_project
 from planmethod.problem.selector import check_what, read_published, read_tables
 from planmethod.problem.sheet import read_head
 from planmethod.problem.slides import FrameText, find_host, order_hosts, read_frame, read_slide
@@ -68,7 +71,8 @@ def read_parts(
     drive = None
     if "driver" in given and links:
         geared = _read_geared(faults, given, train)
-        drive = read_drive(faults, given["driver"], links, frame.points, hosts, geared)
+        numbered = cycle_count(given)
+        drive = read_drive(faults, given["driver"], links, frame.points, hosts, geared, numbered)
     driver = drive.link if drive else str(_driver_name(given))
     complete = (
         bool(links)
@@ -77,6 +81,11 @@ def read_parts(
         and all(link.whole for link in links.values())
     )
     mechanism = join(faults, frame, links, hosts, driver, complete=complete) if links else None
+    if frame.number in links:
+        hint = "The frame has a number of its own: 0, or one that no link has."
+        faults.add("frame.number", say("link {} has the same number", frame.number), hint)
+    elif mechanism is not None:
+        mechanism = replace(mechanism, frame=frame.number)
     if len(drivers) > 1:
         _refuse_drivers(faults, drivers, mechanism if complete else None)
     moving = [p for link in links.values() for p in link.points if p not in frame.points]
@@ -98,7 +107,10 @@ def read_parts(
         balancing = read_balancing(faults, given, tuple(links), drive, dynamics)
     cycle = None
     if "cycle" in given:
-        cycle = read_cycle(faults, given["cycle"], bodies, slides, drive)
+        cycle = read_cycle(faults, given["cycle"], bodies, slides, drive, machine)
+        if cycle is not None and machine is not None:
+            machine = followed(faults, machine, cycle)
+    project = read_project(faults, given["project"]) if "project" in given else None
     points = [*frame.points, *moving, *coincident_points(slides.values())]
     named: tuple[Sequence[str], Sequence[str]] = ((), ()) if faults else (points, tuple(links))
 
@@ -108,6 +120,8 @@ def read_parts(
         return what
 
     count = len(drive.positions) if drive else 0
+    if project is not None and cycle is not None:  # its positions are those of the cycle
+        count = cycle.count if machine is None else cycle.count * round(machine.cycle_deg / 360.0)
     published = read_published(faults, given.get("published", {}), checked, positions=count)
     scene = AnswerScope(
         () if faults else points,
@@ -142,6 +156,7 @@ def read_parts(
         answers=answers,
         dynamics=dynamics,
         cycle=cycle,
+        project=project,
         machine=machine,
         balancing=balancing,
         tables=tables,

@@ -8,7 +8,7 @@ from math import pi
 from planmethod.languages import say
 from planmethod.mechanism.model import FRAME
 from planmethod.problem.bodies import rotation
-from planmethod.problem.model import Problem
+from planmethod.problem.model import ANYWHERE, SAME_DEG, Problem
 from planmethod.problem.names import told_length
 
 LONGEST, SHORTEST = 20.0, 0.0005
@@ -35,6 +35,24 @@ def unlikely(problem: Problem) -> Iterator[str]:
         told = "the crank makes {:.0f} rev/min (omega = {:g} 1/s). Give rev/min as n, 1/s as omega."
         yield say(told, speed, drive.rate)
     yield from _short_rods(problem)
+    yield from _outranked(problem)
+
+
+def _outranked(problem: Problem) -> Iterator[str]:
+    """Yield what the driver lists beside ``[cycle]``, whose positions are others."""
+    listed, numbered = problem.drive.judged, problem.numbered
+    if not numbered or not listed or listed == ANYWHERE:
+        return
+    apart = [abs((a - b + 180.0) % 360.0 - 180.0) for a, b in zip(listed, numbered, strict=False)]
+    if len(listed) == len(numbered) and max(apart) <= SAME_DEG:
+        return
+    told = (
+        "driver.phi lists {} positions from {} to {}, [cycle] numbers {} from {} to {}, and these "
+        "are taken. Delete phi of [driver], or [cycle]; with --phi others are asked."
+    )
+    ends = ([f"{one:.5g}°" for one in (way[0], way[-1])] for way in (listed, numbered))
+    (one, two), (first, last) = ends
+    yield say(told, len(listed), one, two, len(numbered), first, last)
 
 
 def _short_rods(problem: Problem) -> Iterator[str]:

@@ -1,7 +1,8 @@
 """Which of the two closings of a group is meant (способ сборки групп).
 
 A rule compares the two candidate places of its point; the side it picks at the first asked
-position of the file that can be assembled holds for every position, or tells which branch of the
+position of the file that can be assembled (without any, at the first of 0, 10, ... degrees)
+holds for every position, or tells which branch of the
 motion is kept. So a position computed alone and the same one in a batch agree, and no closing
 depends on the one before it.
 """
@@ -89,7 +90,7 @@ def choose_closings(problem: Problem, structure: Structure) -> dict[tuple[str, .
     AssemblyError
         When a group closes at no asked position, or neither closing satisfies its rule.
     """
-    positions = np.asarray(problem.drive.positions, dtype=float)
+    positions = np.asarray(problem.drive.judged or problem.drive.positions, dtype=float)
     rules = {rule.point: rule for rule in problem.assembly}
     choice: dict[tuple[str, ...], Closing] = {}
     faults: list[Fault] = []
@@ -290,4 +291,5 @@ def _missing(group: AssurGroup, both: list[Tried], positions: Reals, untold: Rul
             say(both[0][0].problem.unit),
         ),
         hint,
+        tuple(words),
     )

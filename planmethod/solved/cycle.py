@@ -14,8 +14,8 @@ import numpy.typing as npt
 from msgspec import Struct
 
 from planmethod.errors import LayoutError
-from planmethod.problem.load_records import Dynamics, Over, SizeTable
 from planmethod.solved.forces.contact import JointForce
+from planmethod.solved.forces.loads import only_in_positions
 from planmethod.solved.forces.reading import FAINT_SHARE, require_dynamics
 from planmethod.solved.forces.statics import statics_of
 from planmethod.solved.many.positions import impossible_steps
@@ -81,7 +81,8 @@ class Cycle(Remembering):
     def __init__(self, solution: Solution) -> None:
         super().__init__()
         self.solution = solution
-        self.course = Travel(solution, step=STEP, least=LEAST)
+        turns = solution.problem.turns
+        self.course = Travel(solution, step=STEP, least=LEAST, turns=turns)
         self.joints: list[JointForce] = statics_of(solution).reactions
         assert solution.problem.dynamics is not None
         self.smooth = not only_in_positions(solution.problem.dynamics)
@@ -96,7 +97,8 @@ class Cycle(Remembering):
         s = self.solution
         order = np.unique(s.positions, return_index=True)[1]
         if self.course.closed:
-            order = np.append(order, order[:1])
+            ends = (order[-1:], order) if self.course.falling else (order, order[:1])
+            order = np.concatenate(ends)
         rows = [*(joint.force for joint in statics_of(s).reactions), statics_of(s).balance]
         return np.array([np.asarray(row, dtype=complex)[order] for row in rows])
 
@@ -205,12 +207,6 @@ def _around(steps: Reals) -> Reals:
     padded = np.pad(steps, _AROUND, mode="reflect" if len(steps) > _AROUND else "edge")
     windows = np.lib.stride_tricks.sliding_window_view(padded, 2 * _AROUND + 1)
     return np.asarray(np.median(windows, axis=1), dtype=float)
-
-
-def only_in_positions(dynamics: Dynamics) -> bool:
-    """Tell whether a load is known in the positions of the file only."""
-    tables = (load.size for load in dynamics.loads if isinstance(load.size, SizeTable))
-    return any(table.over is Over.POSITION for table in tables)
 
 
 @remembered

@@ -86,7 +86,7 @@ def changed_branches(solution: Solution) -> list[Passed]:
     ones. A group that keeps a parallelogram or goes on continuously has nothing to be told of.
     """
     drive, draft = solution.problem.drive, solution.construction.draft
-    way = np.append(solution.positions, drive.positions[0])
+    way = np.append(solution.positions, (drive.judged or drive.positions)[0])
     low, high = float(way.min()), float(way.max())
     said = []
     for group in solution.structure.groups if high > low else ():

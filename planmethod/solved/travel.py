@@ -13,6 +13,7 @@ from planmethod.solved.solution import Solution
 
 TURN = 360.0
 
+_SAME = 1e-6  # degrees within which positions are one
 _PARTS = 12  # parts of a step of a driving slider
 _MOST = 720  # points of a line
 
@@ -21,7 +22,7 @@ class Travel(Struct, frozen=True, dict=True):
     """Driver positions that a smooth line goes through (ход начального звена).
 
     A full turn asked in even steps is closed; other positions are joined from the first to the
-    last.
+    last. What is asked of several turns goes over one again.
 
     Attributes
     ----------
@@ -29,17 +30,42 @@ class Travel(Struct, frozen=True, dict=True):
         Greatest step of a crank between points of the line.
     least : int
         Steps of the line at the least.
+    turns : int
+        Of a crank after which all is as before: two of loads over 720 degrees.
     """
 
     solution: Solution
     step: float = 3.0
     least: int = 1
+    turns: int = 1
+
+    @property
+    def _turn(self) -> float:
+        return self.solution.problem.drive.coordinate.turn * self.turns
+
+    @property
+    def falling(self) -> bool:
+        """Whether positions fall in the order of their numbers."""
+        asked = self.solution.positions
+        return len(asked) > 1 and bool(asked[1] < asked[0])
+
+    @cached_property
+    def asked(self) -> Reals:
+        """The asked positions in order, each once."""
+        asked = np.unique(self.solution.positions)
+        if len(asked) < 2 or np.ptp(asked) <= self._turn + _SAME:
+            return asked
+        return np.unique(asked[0] + np.round((asked - asked[0]) % self._turn, 9) % self._turn)
 
     @cached_property
     def drawn(self) -> Reals:
-        """The asked positions in order, each once, and of a closed course the first one again."""
-        drawn = np.unique(self.solution.positions)
-        return np.append(drawn, drawn[0] + TURN) if self.closed else drawn
+        """The asked positions in order; of a closed course that of number 0 at both ends."""
+        drawn = self.asked
+        if not self.closed:
+            return drawn
+        if self.falling:
+            return np.insert(drawn, 0, drawn[-1] - self._turn)
+        return np.append(drawn, drawn[0] + self._turn)
 
     @cached_property
     def positions(self) -> Reals:
@@ -64,6 +90,6 @@ class Travel(Struct, frozen=True, dict=True):
     @cached_property
     def closed(self) -> bool:
         """Whether the asked positions go all round."""
-        drawn = np.unique(self.solution.positions)
-        gaps = np.diff(np.append(drawn, drawn[:1] + self.solution.problem.drive.coordinate.turn))
+        drawn = self.asked
+        gaps = np.diff(np.append(drawn, drawn[:1] + self._turn))
         return len(drawn) > 2 and bool(np.ptp(gaps) < 1e-6)

@@ -14,6 +14,7 @@ from planmethod.gears.involute.quantities import SolvedMeshing, Unit
 from planmethod.gears.involute.reader import load
 from planmethod.gears.involute.text import solved_document
 from planmethod.note.document import Document
+from planmethod.note.formula import inlined
 from planmethod.note.plaintext import plain_text
 from planmethod.note.wording import LANGUAGES, language
 from planmethod.note.writers.plain import plain_document
@@ -35,7 +36,7 @@ def solved_of(name: str, folder: Path) -> SolvedMeshing:
 
 def value_of(text: str) -> float:
     """Return what a formula with numbers gives, angles in degrees."""
-    text = re.sub(r"\^\{(\d)\}", r"**\1", text)
+    text = re.sub(r"\^\{(\d)\}", r"**\1", inlined(text))
     text = text.replace("·", "*").replace("−", "-").replace("π", str(pi))
     return float(eval(text, {"arccos": lambda x: degrees(acos(x))}))
 

@@ -22,6 +22,7 @@ from planmethod.moving.pictures import hodograph_picture, trajectory_picture
 from planmethod.moving.reader import loads
 from planmethod.moving.sheet import drawings, sheet_scales
 from planmethod.moving.text import LEGEND, moment
+from planmethod.note.formula import inlined
 from planmethod.note.wording import LANGUAGES, language
 from planmethod.render.ink.drawing import Arc, Disc, Drawing, Fill, Pen, Stroke, Text, View
 from planmethod.render.pictures.planview import POLE
@@ -49,7 +50,7 @@ def number(text: str) -> float:
 
 def value_of(formula: str, names: dict[str, float] | None = None) -> float:
     """Return what a formula gives, of numbers or of letters."""
-    text = re.sub(r"\^\{([^{}]+)\}", r"**\1", formula).replace("·", "*").replace("−", "-")
+    text = re.sub(r"\^\{([^{}]+)\}", r"**\1", inlined(formula)).replace("·", "*").replace("−", "-")
     text = re.sub(r"√(\([^√]*\))", r"(\1)**0.5", text)
     text = re.sub(r"\|([^|]*)\|", r"abs(\1)", text)
     text = text.replace("10**", "10.0**")

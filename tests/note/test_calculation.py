@@ -13,6 +13,7 @@ from told import LANGUAGES, drawn, worked
 from worked import PROBLEMS, SIX, every_file
 
 from planmethod.construct.steps import Compute
+from planmethod.note.formula import inlined
 from planmethod.note.narrate.naming import Names
 from planmethod.note.narrate.steps import calculation
 from planmethod.note.plaintext import plain_text
@@ -35,7 +36,7 @@ def lines_of(solution: Solution, lang: str) -> list[str]:
 def assert_computes(lines: list[str], lang: str) -> int:
     """Four digits of the numbers put in, of a difference too; returns how many formulas."""
     count, decimal = 0, language(lang).say.decimal
-    for line in lines:
+    for line in map(inlined, lines):
         *_, numbers, result = ["", *line.split(" = ")]
         letters = re.search(r"[^\W\d]", re.sub(r"\^\{.*?\}", "", numbers))
         if "∼" in line or " " not in result or not numbers or letters:
@@ -83,7 +84,7 @@ def test_the_protocol_has_the_formulas_of_the_sheet(name: str, lang: str) -> Non
 
     solution = worked(name)
     text = bare(protocol(solution, lang=lang))
-    for line in lines_of(solution, lang):
+    for line in map(inlined, lines_of(solution, lang)):
         *symbols, result = line.split(" = ")
         if len(symbols) > 1 and "," not in result.removeprefix(result.split(" ")[0]):
             assert bare(" = ".join([*symbols, result])) in text, line

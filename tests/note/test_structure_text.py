@@ -1,13 +1,24 @@
 from __future__ import annotations
 
+import re
+
 import pytest
 from cases import each, some
-from texts import structure_text
+from texts import protocol, result_tables, structure_text
 from told import LANGUAGES, assert_readable, drawn, worked
-from worked import SIX
+from worked import ROOT, SIX
 
+from planmethod.errors import ProblemError
+from planmethod.kinds import loads
 from planmethod.mechanism.model import Mechanism, Revolute
 from planmethod.mechanism.structure import analyse
+from planmethod.note.narrate.structure import structure_document
+from planmethod.note.records.solution import structure_record
+from planmethod.note.wording import language
+from planmethod.note.writers.plain import plain_document
+from planmethod.render.ink.drawing import Text
+from planmethod.render.sheets.kinematics import kinematics_sheets
+from planmethod.solved.solution import Solution
 
 
 def text_of(name: str, lang: str = "ru") -> str:
@@ -34,7 +45,7 @@ def test_numbers_and_letters_of_the_six_link() -> None:
     text = text_of("levers/six-link")
     for line in (
         "W = 3n − 2p_н − p_в = 3·5 − 2·7 − 0 = 1",
-        "W_пр = 6n − 5p₁ = 6·5 − 5·7 = −5",
+        "W_пр = 6n − 5p_н = 6·5 − 5·7 = −5",
         "q = W₀ + W_м − W_пр = 1 + 0 − (−5) = 6",
         "  1) Первичный механизм I класса (вращательная пара): звенья 0, 1\n",
         "  2) Группа II класса, 2-го порядка, 1-го вида (ВВВ): звенья 2, 3\n",
@@ -44,6 +55,46 @@ def test_numbers_and_letters_of_the_six_link() -> None:
         "Класс механизма: II",
     ):
         assert line in text
+
+
+@pytest.mark.parametrize(
+    ("notation", "lower", "higher"),
+    [("p5 p4", "p₅", "p₄"), ("p1 p2", "p₁", "p₂"), ("pn pv", "p_н", "p_в"), (None, "p_н", "p_в")],
+)
+def test_the_numbers_of_pairs_have_one_notation(
+    notation: str | None, lower: str, higher: str
+) -> None:
+    solution, words = worked("levers/six-link"), language("ru")
+    document = structure_document(solution.problem.mechanism, solution.structure, words, notation)
+    text = plain_document(document, words)
+    assert f"W = 3n − 2{lower} − {higher} = 3·5" in text
+    assert f"6n − 5{lower} = " in text and f"{lower} = 7" in text.replace("\u00a0", " ")
+
+
+def test_the_frame_has_its_number_wherever_it_is_printed() -> None:
+    text = (ROOT / "problems/press/press.toml").read_text("utf-8")
+    numbered = text.replace("[frame]", "[frame]\nnumber = 6", 1)
+    problem, plain = loads(numbered, name="press"), loads(text, name="press")
+    solution = Solution(problem)
+    told = [
+        structure_text(problem.mechanism, solution.structure),
+        result_tables(solution),
+        protocol(solution),
+    ]
+    assert "I(6,1) → II(2,3) → II(4,5)" in told[0] and "O₃      6 – 3" in told[0]
+    assert "B     5←6" in told[1] and "5 по 6" in told[1]
+    assert "F₅₆" in told[2] and "v_B = v_B6 + v_BB6" in told[2]
+    assert not re.search(r"F.?₅₀|F.?₁₀|I\(0,|B\(0,|←0|v_B0", "\n".join(told))
+    for layout in ("forces", "forces-cycle"):
+        texts = {i.text for sheet in kinematics_sheets(problem, layout=layout)
+                 for i in sheet.items if isinstance(i, Text)}  # fmt: skip
+        assert texts & {"16", "16 max"} and not texts & {"30", "10 max"}
+    record = structure_record(solution.structure, problem.mechanism)
+    assert record["frame"] == "6"
+    groups = structure_record(Solution(plain).structure, plain.mechanism)["groups"]
+    assert record["groups"] == groups
+    with pytest.raises(ProblemError, match=r"frame\.number: link 5 has the same number"):
+        loads(text.replace("[frame]", "[frame]\nnumber = 5", 1), name="press")
 
 
 def test_pairs_and_links_are_listed() -> None:

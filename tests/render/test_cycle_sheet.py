@@ -213,7 +213,7 @@ def test_what_cannot_be_drawn_is_said() -> None:
     with pytest.raises(ProblemError, match="no forces to analyse"):
         draw(problem_of("linkages/ex3"), TURN)
     run = CliRunner().invoke(
-        cli, ["sheet", str(path_of("press/press")), "--layout", "forces-cycle"]
+        cli, ["sheet", str(path_of("press/press")), "--layout", "forces-cycle", "--phi", "98.9"]
     )
     assert run.exit_code == 2 and "--phi 0:360:30" in run.output
 

@@ -7,8 +7,9 @@ import itertools
 import numpy as np
 import pytest
 from msgspec.structs import replace
-from worked import problem_of
+from worked import ROOT, problem_of
 
+from planmethod.kinds import load
 from planmethod.note.wording import language
 from planmethod.problem.load_records import Interpolation, Over, SizeTable
 from planmethod.problem.model import Problem
@@ -67,6 +68,23 @@ def test_where_a_load_does_not_act_its_diagram_shows_no_size() -> None:
         for i in with_table(SizeTable(Over.PHI, (0.0, 90.0), (0.0, 0.0)), 50.0)
         if isinstance(i, Arc)
     ]
+
+
+def test_a_load_of_one_stroke_has_no_diagram_over_the_other() -> None:
+    """A crusher's resistance rises to 40 kN while K goes left, and is none on the way back."""
+    problem = load(ROOT / "tests/data/turn/crusher.toml")
+    items = load_curves(Solution(problem, positions=[180.0]), [0], MANNER).place(0j)
+    start = corner(items)
+    parts = [i.points for i in items if isinstance(i, Stroke) and i.tag.startswith(CURVE)]
+    places = [((p - start).real * 4.0, (p - start).imag) for points in parts for p in points]
+    high = [x for x, y in places if y > 0.1]
+    assert high and min(high) > 89.0 and max(high) == pytest.approx(264.80, abs=0.01)
+    assert min(x for x, _ in places) == pytest.approx(0.0)
+    assert max(x for x, _ in places) == pytest.approx(360.0)
+    (ring,) = (item.centre for item in items if isinstance(item, Arc))
+    assert (ring - start).real * 4.0 == pytest.approx(180.0)
+    back = load_curves(Solution(problem, positions=[300.0]), [0], MANNER).place(0j)
+    assert not [item for item in back if isinstance(item, Arc)]
 
 
 def test_loads_that_do_not_change_have_no_diagram() -> None:

@@ -12,7 +12,6 @@ from planmethod.check.model import KeyEntry
 from planmethod.check.pages.overlayview import LETTERING
 from planmethod.check.pages.remarks import place_letters, scale_letters, segment_letters
 from planmethod.check.pages.speech import Speech, told
-from planmethod.check.pages.workbook import add_sheet, new_workbook, saved
 from planmethod.note.document import (
     Caption,
     Document,
@@ -27,6 +26,7 @@ from planmethod.note.document import (
 from planmethod.note.plaintext import plain_text
 from planmethod.note.wording import Language, Words
 from planmethod.note.writers.pdf import pdf_document
+from planmethod.note.writers.workbook import add_sheet, new_workbook, saved
 from planmethod.plans.model import FACTS
 from planmethod.render.backends.pdf import registered
 

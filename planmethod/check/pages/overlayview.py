@@ -6,13 +6,14 @@ from collections.abc import Iterator
 from typing import Any
 
 from msgspec import Struct
+from msgspec.structs import replace
 
 from planmethod.check.pages.overlay import Overlay, true_plan
 from planmethod.plans.model import PlanKind
 from planmethod.render import backends
 from planmethod.render.backends.canvas import Options, draw_sheet
-from planmethod.render.backends.pdf import PdfCanvas, registered
-from planmethod.render.ink.drawing import Fill, Ink, Pen, Stroke
+from planmethod.render.backends.pdf import OnPage, registered
+from planmethod.render.ink.drawing import Fill, Ink, Pen, Stroke, shifted
 from planmethod.render.ink.lettering import STYLES, OutlineLettering
 from planmethod.solved.reading import remembered
 from planmethod.solved.solution import Solution
@@ -67,6 +68,16 @@ class OverlayView(Struct, frozen=True):
         draw_sheet(self.plan.drawing, _GreyCanvas(canvas))
         _draw_own(canvas, self.plan)
 
+    def png(self, dpi: float) -> bytes:
+        """Return both as black pixels: the student's segments are the thick lines."""
+        plan = self.plan
+        width, height = plan.size
+        left, low, _, _ = plan.bounds
+        own = [item for one in plan.own for item in one.items()]
+        items = list(shifted([*plan.drawing.items, *own], -complex(left, low)))
+        drawing = replace(plan.drawing, width=width, height=height, items=items, views=[])
+        return backends.render(drawing, "png", options=Options(dpi=dpi * self.factor))
+
 
 @remembered
 def true_svg(solution: Solution, kind: PlanKind, index: int) -> str:
@@ -94,17 +105,8 @@ def _own_svg(plan: Overlay) -> Iterator[str]:
             yield f'<text class="number" x="{x:.2f}" y="{y:.2f}">{own.number}</text>'
 
 
-class _GreyCanvas(PdfCanvas):
-    """Draws a plan in grey on a page that is there already."""
-
-    def __init__(self, sheet: Any) -> None:
-        super().__init__(Options())
-        self._pdf = sheet
-
-    def open(self, width: float, height: float, title: str, lettering: OutlineLettering) -> None:
-        """Take the lettering."""
-        self._font, self._lettering = registered(lettering), lettering
-        self._pdf.setLineJoin(1)
+class _GreyCanvas(OnPage):
+    """Draws a plan in grey."""
 
     def _take_pen(self, pen: Pen) -> None:
         super()._take_pen(pen)

@@ -9,9 +9,9 @@ from typing import Any
 from planmethod.check.model import CheckedWork, Diagnosis, Judged, KeyEntry, Sense, Verdict
 from planmethod.check.pages.listing import codes_of
 from planmethod.check.pages.speech import Speech, told
-from planmethod.check.pages.workbook import Filled, add_sheet, new_workbook, saved
 from planmethod.note.plaintext import plain_text
 from planmethod.note.wording import Language, Words
+from planmethod.note.writers.workbook import Filled, add_sheet, new_workbook, saved
 
 COLOURS: Mapping[Verdict, str] = {
     Verdict.OK: "D9EFDC",

@@ -5,6 +5,7 @@ from __future__ import annotations
 from msgspec import Struct
 
 from planmethod.check.model import Judged, KeyEntry, Sense, WrittenAnswer
+from planmethod.note.formula import escape
 from planmethod.note.numbers import trimmed
 from planmethod.note.plaintext import NO_BREAK
 from planmethod.note.rounding import rounded_to, sigma_text
@@ -16,9 +17,9 @@ LONGEST = 60
 
 
 def quoted(text: str) -> str:
-    """Return what somebody else wrote, cut to a length that fits into a sentence."""
+    """Return what somebody else wrote as rich text, cut to a length that fits into a sentence."""
     shown = clean(text).strip()
-    return shown if len(shown) <= LONGEST else f"{shown[: LONGEST - 1]}…"
+    return escape(shown if len(shown) <= LONGEST else f"{shown[: LONGEST - 1]}…")
 
 
 def told(value: float, key: KeyEntry) -> float:

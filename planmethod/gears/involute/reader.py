@@ -35,7 +35,7 @@ _WAYS = 'Give x = [0.5, 0.3], x = "blocking", or a_w = 110 (mm), with x1 or x2 b
 
 
 def load(path: str | Path, *, variant: str | None = None) -> MeshingProblem:
-    """Read a file with ``[meshing]``.
+    """Read a file with ``[meshing]``; of one with a linkage, too, that table and the title block.
 
     Raises
     ------
@@ -44,6 +44,8 @@ def load(path: str | Path, *, variant: str | None = None) -> MeshingProblem:
     """
     path = Path(path)
     table, variants, faults = varied(path, variant)
+    if "links" in table:
+        table = {key: value for key, value in table.items() if key in TOP}
     given = fields.read_keys(faults, "", table, TOP)
     head = read_head(faults, given)
     body = fields.read_table(faults, "meshing", given.get("meshing", {}), MESHING_EXAMPLE)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 
 from planmethod.construct.steps import Compute, LineName, Name, NumberName, PointName
+from planmethod.note.formula import fraction
 from planmethod.note.narrate.naming import SCALE_KIND, Names
 from planmethod.note.wording import Language, language
 from planmethod.plans.model import FACTS, PlanKind, Vector
@@ -179,7 +180,4 @@ def _shown(value: float) -> float:
 
 def _over(above: list[tuple[str, str]], below: list[tuple[str, str]], which: int) -> str:
     top = "·".join(pair[which] for pair in above) or "1"
-    if not below:
-        return top
-    bottom = "·".join(pair[which] for pair in below)
-    return f"{top}/{bottom}" if len(below) == 1 else f"{top}/({bottom})"
+    return fraction(top, "·".join(pair[which] for pair in below)) if below else top

@@ -8,9 +8,11 @@ from collections.abc import Sequence
 import numpy as np
 
 from planmethod.mechanism.model import FRAME
+from planmethod.note.formula import fraction
 from planmethod.note.numbers import MINUS, Notation, trimmed, with_unit
 from planmethod.note.wording import Language
 from planmethod.plans.legend import Quantity, QuantityKind
+from planmethod.plans.motion.leads import slot_name
 from planmethod.problem.model import Body, Geared, Posed, PosedBy, Problem, Slide
 from planmethod.problem.names import UNITS, split_names
 from planmethod.solved.solution import Solution
@@ -77,7 +79,8 @@ def given(problem: Problem, words: Language, positions: Sequence[float] | None =
         if drive.turns is not None:
             speed = text.number(drive.turns, "rev/min", "driver.n")
             rate = text.say.found(drive.rate)
-            found = f"{omega} = πn_{{{drive.link}}}/30 = {rate} {text.say.units['1/s']}"
+            turns = fraction(f"πn_{{{drive.link}}}", "30")
+            found = f"{omega} = {turns} = {rate} {text.say.units['1/s']}"
             lines.append(f"n_{{{drive.link}}} = {speed}{constant} ({found})")
         else:
             rate = text.number(drive.rate, "1/s", "driver.omega")
@@ -98,9 +101,11 @@ class As:
         self.problem, self.words, self.say = problem, words, words.say
 
     def plain(self, value: float, path: str = "") -> str:
-        """Return a number without its unit."""
+        """Return a number without its unit; its arithmetic where digits would not be exact."""
         stated = self.problem.stated.get(path)
-        return self.say.given(value) if stated is None else arithmetic(stated, self.say)
+        if stated is None or abs(float(trimmed(value, 6)) - value) <= 1e-12 * abs(value):
+            return self.say.given(value)
+        return arithmetic(stated, self.say)
 
     def number(self, value: float, unit: str, path: str = "") -> str:
         """Return a number with its unit."""
@@ -123,6 +128,9 @@ def _path(link: str, key: str) -> str:
     return f"links.{link}.{key}"
 
 
+DRAWN = 5
+"""Digits of a coordinate that was computed: a hundredth of a millimetre of a link."""
+
 MOST_LISTED = 6
 """Most positions that are given one by one."""
 
@@ -138,9 +146,13 @@ def _position(text: As, asked: Sequence[float]) -> str:
         key = f"driver.{drive.coordinate.name}"
 
     def told(value: float) -> str:
-        return text.metres(value, key) if unit == "m" else text.number(value, unit, key)
+        if unit == "m":
+            return text.metres(value, key)
+        return text.number(value if key else text.problem.shown(value), unit, key)
 
     symbol = drive.coordinate.symbol
+    if tuple(asked) == text.problem.numbered:
+        return _numbered(text, asked)
     if len(asked) <= MOST_LISTED:
         return f"{symbol} = {', '.join(told(float(one)) for one in asked)}"
     first, last = float(asked[0]), float(asked[-1])
@@ -150,6 +162,22 @@ def _position(text: As, asked: Sequence[float]) -> str:
         return f"{symbol} {steps.format(first=told(first), last=told(last), step=told(step))}"
     count = text.words.note.given_count.format(count=len(asked))
     return f"{symbol} = {told(first)}…{told(last)}{count}"
+
+
+def _numbered(text: As, asked: Sequence[float]) -> str:
+    """Return the numbered positions of the cycle: the first one, the step and its sense."""
+    drive, note = text.problem.drive, text.words.note
+    step = float(asked[1]) - float(asked[0])
+    against = step * (drive.rate or 1.0) < 0.0
+    facts = [text.number(round(one, 2), drive.coordinate.unit, "")
+             for one in (text.problem.shown(float(asked[0])), abs(step))]  # fmt: skip
+    return note.given_numbered.format(
+        symbol=drive.coordinate.symbol,
+        first=facts[0],
+        step=facts[1],
+        sense=text.words.cycle["senses"]["against" if against else "along"],
+        count=len(asked),
+    )
 
 
 def _posed(posed: Posed, of: Sequence[int], text: As) -> str:
@@ -247,6 +275,9 @@ def _line(start: str, end: str) -> str:
 def _carried(problem: Problem, slide: Slide, text: As) -> list[str]:
     """Return how the line of a moving link lies on it, where two letters do not tell it."""
     axis, note = problem.bodies[slide.host].axis, text.words.note
+    if slide.host != FRAME and slide.through and axis is None and slide.offset:
+        guide = slot_name(slide)
+        return [note.given_slot.format(guide=guide, link=slide.host, slider=slide.slider)]
     if slide.host == FRAME or slide.through is None or slide.towards is not None or axis is None:
         return []
     angle = text.number(slide.angle, "deg", _path(slide.slider, "slides.angle"))
@@ -260,15 +291,13 @@ def _carried(problem: Problem, slide: Slide, text: As) -> list[str]:
 
 
 def _coordinates(name: str, place: complex, text: As, path: str) -> list[str]:
-    size = max((length for _, _, length in text.problem.lengths), default=abs(place))
-    size *= UNITS[text.problem.unit]
     lines = []
     for index, (letter, metres) in enumerate((("x", place.real), ("y", place.imag))):
         value, stated = metres * UNITS[text.problem.unit], f"{path}[{index}]"
         said = text.plain(value, stated)
-        # Digits that the mechanism needs, though the number has more.
-        if stated not in text.problem.stated and abs(float(trimmed(value)) - value) > 1e-6 * size:
-            said = text.say.number(trimmed(value, 15))
+        # A coordinate that was computed has more digits than anybody draws.
+        if stated not in text.problem.stated and trimmed(value) != trimmed(value, 6):
+            said = text.say.number(trimmed(value, DRAWN))
         lines.append(f"{letter}_{{{name}}} = {said} {text.say.units[text.problem.unit]}")
     return lines
 

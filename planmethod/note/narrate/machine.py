@@ -8,6 +8,7 @@ from typing import TypeAlias
 import numpy as np
 
 from planmethod.construct.scale import Scale
+from planmethod.note import formula
 from planmethod.note.narrate.forces.statement import mass_lines
 from planmethod.note.narrate.given import given
 from planmethod.note.narrate.scales import scale_inscription
@@ -83,7 +84,11 @@ class MachineTeller:
             lines.append(f"{self.letter('crank inertia')} = {inertia} {self.unit('kg·m²')}")
         inverse = 1.0 / machine.delta
         fraction = abs(inverse - round(inverse)) < 1e-9 * inverse
-        delta = f"1/{round(inverse)}" if fraction else self.say.given(machine.delta)
+        delta = (
+            formula.fraction("1", str(round(inverse)))
+            if fraction
+            else self.say.given(machine.delta)
+        )
         lines.append(f"δ = {delta}")
         speed = self.say.found(abs(problem.drive.rate))
         mean = self.said["means"][machine.mean.value]
@@ -143,16 +148,15 @@ class MachineTeller:
         angles = [
             self._value("φ", degrees(scales.phi), "deg"), self._value("φ", scales.phi, "rad"),
         ]  # fmt: skip
-        lines = [
-            f"μ_{{φ}} = {say.given(turn)}/{say.given(half_up(drawing.length, 2))} = "
-            + " = ".join(angles)
-        ]
+        axis = formula.fraction(say.given(turn), say.given(half_up(drawing.length, 2)))
+        lines = [" = ".join(["μ_{φ}", axis, *angles])]
         parts = f"{say.given(scales.moment)}·{{}}{say.found(scales.phi)}"
         if self.flywheel.machine.pole_mm is None:
             above, below = say.given(float(f"{scales.work:.4g}")), parts.format("")
             lines += [
                 f"μ_{{A}} = μ_{{T}} = {self._value('A', scales.work, 'J')}",
-                f"H = μ_{{A}}/(μ_{{M}}·μ_{{φ}}) = {above}/({below}) = {pole} {mm}",
+                f"H = {formula.fraction('μ_{A}', 'μ_{M}·μ_{φ}')} = "
+                f"{formula.fraction(above, below)} = {pole} {mm}",
             ]
         else:
             lines.append(
@@ -163,9 +167,9 @@ class MachineTeller:
         for name, slope, psi in zip(("max", "min"), slopes, drawing.psi, strict=True):
             factor = {True: "·(1 + δ)", False: "·(1 − δ)"}[slope > 1.0] if slope != 1.0 else ""
             tangent = say.found(float(np.tan(np.radians(psi))))
+            sought = formula.fraction(f"μ_{{J}}·{omega}^{{2}}{factor}", "2μ_{T}")
             lines.append(
-                f"tg ψ_{{{name}}} = μ_{{J}}·{omega}^{{2}}{factor}/(2μ_{{T}}) = {tangent}, "
-                f"ψ_{{{name}}} = {self._angle(psi)}°"
+                f"tg ψ_{{{name}}} = {sought} = {tangent}, ψ_{{{name}}} = {self._angle(psi)}°"
             )
         exact = float(drawing.exact.number(drawing.made.KL)[0])
         told = f"KL = {say.ruled(self.KL)} {mm}"
@@ -228,9 +232,11 @@ class MachineTeller:
         """Return the table by positions: heads, units and cells of its columns, rich text."""
         flywheel, say = self.flywheel, self.say
         rows, turn = flywheel.rows, flywheel.machine.cycle_deg
-        angles = [f"{round(phi % turn, 1) % turn:.1f}" for phi in rows.phi_deg.tolist()]
+        order = np.argsort(flywheel.turn.numbers(flywheel.machine.count)[:-1])
+        angles = [f"{round(phi % turn, 1) % turn:.1f}" for phi in rows.phi_deg[order].tolist()]
 
         def column(head: str, values: Reals, unit: str, digits: int = 4) -> _Column:
+            values = values[order]
             peak = float(np.max(np.abs(values)))
             clean = np.where(np.abs(values) < 1e-9 * peak, 0.0, values)
             told = [say.number(text) for text in alike(clean.tolist(), digits)]
@@ -271,7 +277,7 @@ class MachineTeller:
         lines.append(f"m = {say.found(sizes.mass)} {self.unit('kg')}")
         lines.append(f"v = {say.found(sizes.speed)} {self.unit('m/s')}")
         if sizes.held:
-            limit = f"{say.given(self.flywheel.machine.wheel.speed)} {self.unit('m/s')}"
+            limit = f"{say.given(self.flywheel.machine.wheel.greatest_speed)} {self.unit('m/s')}"
             lines.append(self.said.held.format(speed=limit))
         return lines
 

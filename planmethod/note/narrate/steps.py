@@ -154,11 +154,13 @@ class Narrator(BoardNarrator):
 
     A step's lines are formulas and sentences. Numbers that are only laid off are computed where
     they are laid off, and lines that only carry a length are named there: their own steps say
-    nothing.
+    nothing. ``say`` is how formulas are written, where it is not the usual way.
     """
 
-    def __init__(self, solution: Solution, names: Names, index: int) -> None:
-        self.names, self.say = names, Formulas(solution, names, index)
+    def __init__(
+        self, solution: Solution, names: Names, index: int, say: Formulas | None = None
+    ) -> None:
+        self.names, self.say = names, say or Formulas(solution, names, index)
         self.drawing = PositionNarrator(names, self.say)
         super().__init__(LinkageNaming(names, self.say, self.drawing), names.words)
         self.motion = MotionNarrator(solution, names, self.say)

@@ -17,12 +17,19 @@ from planmethod.note.wording import Language, Words
 NBSP = "\u00a0"
 
 
-def structure_document(mechanism: Mechanism, structure: Structure, words: Language) -> Document:
-    """Return the structural analysis of a mechanism with its numbers (структурный анализ)."""
-    return Document.of(_analysis(mechanism, structure, words))
+def structure_document(
+    mechanism: Mechanism, structure: Structure, words: Language, notation: str | None = None
+) -> Document:
+    """Return the structural analysis of a mechanism with its numbers (структурный анализ).
+
+    ``notation`` is that of the numbers of pairs: `pair_classes`.
+    """
+    return Document.of(_analysis(mechanism, structure, words, notation))
 
 
-def _analysis(mechanism: Mechanism, structure: Structure, words: Language) -> Iterator[Node]:
+def _analysis(
+    mechanism: Mechanism, structure: Structure, words: Language, notation: str | None
+) -> Iterator[Node]:
     said = words.structure
     yield Title(said.title)
     yield Caption(said.pairs)
@@ -30,13 +37,13 @@ def _analysis(mechanism: Mechanism, structure: Structure, words: Language) -> It
     yield Caption(said.links)
     yield link_table(mechanism, words)
     yield Caption(said.formulas)
-    yield from map(Item, mobility_formulas(mechanism, structure, words))
+    yield from map(Item, mobility_formulas(mechanism, structure, words, notation))
     yield Caption(said.parts)
     driver, *counts = driver_caption(mechanism, words)
     yield Step((driver, "; ".join(counts)))
     for group in structure.groups:
         named, *counts = group_caption(group, words)
-        yield Step((named, _joints(group, words.note), "; ".join(counts)))
+        yield Step((named, _joints(mechanism, group, words.note), "; ".join(counts)))
     yield from map(Item, order_formulas(mechanism, structure, words))
     yield Item(_static_counts(structure, words.note))
 
@@ -54,7 +61,13 @@ def pair_table(mechanism: Mechanism, words: Language, *, lettered: bool = False)
         signs = {PairKind.REVOLUTE: "R", PairKind.PRISMATIC: "P"}
         kinds = {kind: f"{kinds[kind]} ({words.note['letters'][signs[kind]]})" for kind in kinds}
     rows = (
-        (pair_letters(pair.name), " – ".join(pair.links), kinds[pair.kind], "V", "1")
+        (
+            pair_letters(pair.name),
+            " – ".join(map(mechanism.called, pair.links)),
+            kinds[pair.kind],
+            "V",
+            "1",
+        )
         for pair in pairs(mechanism)
     )
     return table_of(words.structure["columns_pairs"], rows, names=4)
@@ -65,7 +78,7 @@ def link_table(mechanism: Mechanism, words: Language) -> Table:
     every, said = pairs(mechanism), words.structure
     rows = (
         (
-            row.link,
+            mechanism.called(row.link),
             words.note["roles"][row.role.value],
             said["motions"][row.motion.value],
             ", ".join(pair_letters(pair.name) for pair in every if row.link in pair.links),
@@ -78,25 +91,33 @@ def link_table(mechanism: Mechanism, words: Language) -> Table:
 # Formulas ------------------------------------------------------------------------------------
 
 
+def pair_classes(notation: str | None, words: Language) -> dict[str, str]:
+    """Return the indices of the numbers of lower and higher pairs, as ``[sheet] notation`` says."""
+    said = words.structure["notation"]
+    lower, higher = said[notation or said["usual"]]
+    return {"lower": lower, "higher": higher}
+
+
 def mobility_formulas(
-    mechanism: Mechanism, structure: Structure, words: Language
+    mechanism: Mechanism, structure: Structure, words: Language, notation: str | None = None
 ) -> Iterator[Rich]:
     """Yield mobility and redundant constraints of the whole (подвижность, избыточные связи)."""
     said, low, spatial = words.structure, structure.lower_pairs, structure.spatial_mobility
     revolute = sum(pair.kind is PairKind.REVOLUTE for pair in pairs(mechanism))
-    counts = {"n": structure.moving_links, "low": low, "high": structure.higher_pairs}
+    indices = pair_classes(notation, words)
+    counts = {"n": structure.moving_links, "low": low, "high": structure.higher_pairs, **indices}
     yield said.counts.format(revolute=revolute, prismatic=low - revolute, **counts)
-    yield said.chebyshev.format(w=_signed(structure.mobility), **counts)
-    yield said.spatial.format(w=_signed(spatial), **counts)
+    yield said.chebyshev.format(w=signed(structure.mobility), **counts)
+    yield said.spatial.format(w=signed(spatial), **counts)
     yield said.redundant.format(
-        ways=WAYS_IN, local=LOCAL_MOBILITY, w=_bracketed(spatial), q=_signed(structure.redundant)
+        ways=WAYS_IN, local=LOCAL_MOBILITY, w=_bracketed(spatial), q=signed(structure.redundant)
     )
 
 
 def order_formulas(mechanism: Mechanism, structure: Structure, words: Language) -> Iterator[Rich]:
     """Yield the structural formula, the class, the orders of both analyses (формула строения)."""
     said = words.structure
-    first = f"I({FRAME},{mechanism.driver})"
+    first = f"I({mechanism.frame},{mechanism.driver})"
     steps = [f"{roman(group.class_number)}({','.join(group.links)})" for group in structure.groups]
     order, backwards = " → ".join([first, *steps]), " → ".join([*steps[::-1], first])
     yield said.formula.format(order=order)
@@ -115,18 +136,19 @@ def _static_counts(structure: Structure, words: Words) -> Rich:
         n=structure.moving_links,
         equations=equations,
         pairs=reactions,
-        w=_signed(structure.mobility),
+        w=signed(structure.mobility),
         unknowns=unknowns,
         verdict=verdict,
     )
 
 
-def _signed(number: int) -> str:
+def signed(number: int) -> str:
+    """Return a whole number with the sign of print."""
     return f"{MINUS}{-number}" if number < 0 else str(number)
 
 
 def _bracketed(number: int) -> str:
-    return f"({_signed(number)})" if number < 0 else str(number)
+    return f"({signed(number)})" if number < 0 else str(number)
 
 
 # Groups --------------------------------------------------------------------------------------
@@ -137,7 +159,7 @@ def driver_caption(mechanism: Mechanism, words: Language) -> list[Rich]:
     ends = {FRAME, mechanism.driver}
     kind = next(pair.kind for pair in pairs(mechanism) if set(pair.links) == ends)
     said = words.structure
-    links = _listed(FRAME, mechanism.driver)
+    links = _listed(mechanism.frame, mechanism.driver)
     named = said.primary.format(kind=said["pair_kinds"][kind.value], links=links)
     return [named, *_counts(WAYS_IN, 1, 1)]
 
@@ -158,7 +180,7 @@ def group_caption(group: AssurGroup, words: Language) -> list[Rich]:
 def _counts(drivers: int, n: int, p: int) -> list[Rich]:
     """Return own mobility W and redundant constraints q of a part, with so many drivers."""
     w, q = 3 * n - 2 * p, drivers + LOCAL_MOBILITY - (6 * n - 5 * p)
-    lines = (f"W = 3·{n} − 2·{p} = {_signed(w)}", f"q = {drivers} − (6·{n} − 5·{p}) = {_signed(q)}")
+    lines = (f"W = 3·{n} − 2·{p} = {signed(w)}", f"q = {drivers} − (6·{n} − 5·{p}) = {signed(q)}")
     return [line.replace(" ", NBSP) for line in lines]
 
 
@@ -166,15 +188,24 @@ def _listed(*links: str) -> str:
     return f",{NBSP}".join(links)
 
 
-def _joints(group: AssurGroup, words: Words) -> Rich:
+def _joints(mechanism: Mechanism, group: AssurGroup, words: Words) -> Rich:
     """Return the outer and the inner pairs of a group."""
-    outer = (_joint(lead.joint, (lead.to, lead.link), words) for lead in group.leads)
-    inner = (_joint(joint, _inside(joint, group), words) for joint in group.inner)
+    outer, inner = group_joints(mechanism, group, words)
     told = (
         words.joint_outer.format(joints=", ".join(outer)),
         words.joint_inner.format(joints=", ".join(inner)),
     )
     return "; ".join(told) + "."
+
+
+def group_joints(
+    mechanism: Mechanism, group: AssurGroup, words: Words
+) -> tuple[list[Rich], list[Rich]]:
+    """Return the outer and the inner pairs of a group, each by point, kind and links."""
+    called = mechanism.called
+    outer = [_joint(lead.joint, (called(lead.to), lead.link), words) for lead in group.leads]
+    inner = [_joint(joint, _inside(joint, group), words) for joint in group.inner]
+    return outer, inner
 
 
 def _joint(joint: Joint, links: Sequence[str], words: Words) -> Rich:

@@ -6,10 +6,10 @@ from planmethod.note.narrate.given import point_name
 from planmethod.note.narrate.scales import scale_inscription
 from planmethod.note.numbers import half_up, significant, with_unit
 from planmethod.note.wording import Language
-from planmethod.problem.cycle_records import Differentiation
 from planmethod.solved.turn.construction import PRIMES, ExtremesConstruction, Locus
 from planmethod.solved.turn.diagrams import Diagrams
 from planmethod.solved.turn.output import Output
+from planmethod.solved.turn.strokes import LONGER, TOLD
 from planmethod.solved.turn.turn import TURN, NoNumber, Turn
 
 NO_ANGLE = 1e-6
@@ -54,11 +54,24 @@ def stroke_facts(turn: Turn, words: Language) -> list[str]:
 
 def ratio_facts(turn: Turn, words: Language) -> list[str]:
     """Return the angles of the crank of the working and the idle stroke, if there are such."""
-    if turn.phases is None or turn.ratio is None:
+    strokes = turn.strokes
+    if strokes is None or strokes.K_v is None:
         return []
-    working, idle = (degrees(phase, words) for phase in turn.phases)
-    ratio = words.say.found(turn.ratio)
+    working, idle = (degrees(one, words) for one in (strokes.working_deg, strokes.idle_deg))
+    ratio = words.say.found(strokes.K_v)
     return [words.cycle.ratio.format(working=working, idle=idle, ratio=ratio)]
+
+
+def working_fact(turn: Turn, words: Language) -> str:
+    """Return why a stroke is the working one; nothing where there is none, or both are equal."""
+    strokes = turn.strokes
+    if strokes is None or strokes.K_v is None:
+        return ""
+    if strokes.by in (LONGER, TOLD):
+        alike = strokes.by == LONGER and strokes.K_v < 1.0 + 1e-9
+        return "" if alike else words.cycle["working"][strokes.by]
+    _, _, names = strokes.by.partition(" ")
+    return words.cycle.by_loads.format(names=names)
 
 
 def turn_facts(turn: Turn, words: Language) -> list[str]:
@@ -78,7 +91,11 @@ def turn_facts(turn: Turn, words: Language) -> list[str]:
     if turn.range is None and turn.tightest is not None:
         closest, at = turn.tightest
         facts.append(said.tightest.format(links=", ".join(closest), phi=place(at)))
-    facts.append(said.zero.format(phi=place(float(turn.positions[0]))))
+    senses = said["senses"]
+    way = senses["against" if turn.is_against else "along"]
+    facts.append(said.zero.format(phi=place(float(turn.positions[0])), sense=way))
+    if turn.turns > 1:
+        facts.append(said.two_turns.format(count=turn.count, way=degrees(turn.way, words)))
     if turn.range is not None:
         facts.append(said.path_zero.format(phi=place(turn.zero)))
     if turn.extremes:
@@ -89,6 +106,8 @@ def turn_facts(turn: Turn, words: Language) -> list[str]:
         facts.append(_none("H" if output.slide is not None else "ψ", turn.why_no_stroke, words))
     ratio = ratio_facts(turn, words)
     facts += ratio
+    why = working_fact(turn, words) if ratio else ""
+    facts += [why] if why else []
     if not ratio and turn.why_no_ratio is not None:
         facts.append(_none("K_{v}", turn.why_no_ratio, words))
     peak = turn.pressure
@@ -137,9 +156,21 @@ def diagram_steps(diagrams: Diagrams, words: Language) -> list[str]:
     ]
 
 
-def drawn_note(way: Differentiation, words: Language) -> str:
-    """Return what the lines of the drawn diagrams are."""
-    return words.cycle.drawn.format(way=words.cycle["chords"][way.value])
+def drawn_notes(diagrams: Diagrams, words: Language) -> list[str]:
+    """Return what the lines of the drawn diagrams are, and what they leave out."""
+    way, turn = diagrams.task.differentiation, diagrams.turn
+    notes = [words.cycle.drawn.format(way=words.cycle["chords"][way.value])]
+    if turn.solution.problem.drive.acceleration:
+        even, added, symbol = acceleration_parts(turn.output)
+        notes.append(words.cycle.drawn_even.format(symbol=symbol, even=even, added=added))
+    return notes
+
+
+def acceleration_parts(output: Output) -> tuple[str, str, str]:
+    """Return the parts of the output's acceleration by omega and epsilon, and the whole."""
+    index = output_symbol(output).partition("_")[2]
+    v, a = ("ω", "ε") if output.slide is None else ("v", "a")
+    return f"{a}_{{q}}·ω^{{2}}", f"{v}_{{q}}·ε", f"{a}_{index}"
 
 
 def radius_names(made: ExtremesConstruction) -> tuple[str, str, str]:
@@ -160,24 +191,7 @@ def extreme_steps(turn: Turn, made: ExtremesConstruction | None, words: Language
     said, say = words.cycle, words.say
     if made is None:
         return [said.no_construction] if turn.ends is not None else []
-
-    def primed(name: str) -> list[str]:
-        return [point_name(name) + p for p in PRIMES]
-
-    def mm(name: str) -> str:
-        return say.number(f"{made.length(name):.1f}")
-
-    crank, total, less = radius_names(made)
-    arcs = made.locus is not Locus.TANGENTS
-    facts = {
-        "pivot": point_name(made.pivot), "end": point_name(made.end),
-        "centre": point_name(made.centre) if made.centre else "",
-        "crank": crank, "crank_mm": mm("r"), "pins": ", ".join(primed(made.pin)),
-        "ends": ", ".join(primed(made.end)),
-        "rays": ", ".join(point_name(made.pivot) + end for end in primed(made.end)),
-        "far": total, "near": less,
-        "far_mm": mm("l+r") if arcs else "", "near_mm": mm("l-r") if arcs else "",
-    }  # fmt: skip
+    facts = construction_facts(made, words)
     angles = [
         said["constructed"]["phi"].format(
             name=f"φ{p}",
@@ -202,3 +216,25 @@ def extreme_steps(turn: Turn, made: ExtremesConstruction | None, words: Language
         sigma=size(made.sigma[2], 2),
     )
     return [said["construction"][made.locus.value].format(**facts), told]
+
+
+def construction_facts(made: ExtremesConstruction, words: Language) -> dict[str, str]:
+    """Return what the sentences of the construction of extreme positions name."""
+
+    def primed(name: str) -> list[str]:
+        return [point_name(name) + p for p in PRIMES]
+
+    def mm(name: str) -> str:
+        return words.say.number(f"{made.length(name):.1f}")
+
+    crank, total, less = radius_names(made)
+    arcs = made.locus is not Locus.TANGENTS
+    return {
+        "pivot": point_name(made.pivot), "end": point_name(made.end),
+        "centre": point_name(made.centre) if made.centre else "",
+        "crank": crank, "crank_mm": mm("r"), "pins": ", ".join(primed(made.pin)),
+        "ends": ", ".join(primed(made.end)),
+        "rays": ", ".join(point_name(made.pivot) + end for end in primed(made.end)),
+        "far": total, "near": less,
+        "far_mm": mm("l+r") if arcs else "", "near_mm": mm("l-r") if arcs else "",
+    }  # fmt: skip

@@ -53,8 +53,10 @@ def machine_record(flywheel: Flywheel, profile: Profile) -> dict[str, Any]:
         "work_per_turn": plain(flywheel.work_per_cycle / flywheel.turns),
         "work_per_cycle": plain(flywheel.work_per_cycle),
         "positions": [
-            {"number": k, **{name: plain(column[k]) for name, column in columns.items()}}
-            for k in range(machine.count)
+            {"number": number, **{name: plain(column[k]) for name, column in columns.items()}}
+            for number, k in sorted(
+                (number, k) for k, number in enumerate(flywheel.turn.numbers(machine.count)[:-1])
+            )
         ],
         "J_f": _inertias(flywheel, drawing),
         "omega_max": _extreme(flywheel, highest),

@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 
+from planmethod.mechanism.model import Mechanism
 from planmethod.mechanism.structure import Structure
 from planmethod.note.columns import listed, named, pairs, sizes
 from planmethod.note.numbers import plain
@@ -54,14 +55,14 @@ def cycle_record(solution: Solution) -> dict[str, Any]:
     """
     turn, diagrams = turn_of(solution), diagrams_of(solution)
     reasons: dict[str, NoNumber | None] = {}
-    working, idle = turn.phases or (None, None)
-    if turn.phases is None:
+    strokes = turn.strokes
+    if strokes is None:
         reasons |= dict.fromkeys(
             ("working_deg", "idle_deg"), turn.why_no_stroke or NoNumber.PARTIAL
         )
     if turn.stroke is None:
         reasons["stroke"] = turn.why_no_stroke
-    if turn.ratio is None:
+    if strokes is None or strokes.K_v is None:
         reasons["K_v"] = turn.why_no_ratio
     if not turn.zero_is_asked:
         reasons["zero_deg"] = turn.why_no_stroke or NoNumber.PARTIAL
@@ -70,18 +71,25 @@ def cycle_record(solution: Solution) -> dict[str, Any]:
         reasons["pressure_angle"] = NoNumber.NO_DYAD
     if diagrams.mu_t is None:
         reasons["mu_t"] = NoNumber.NO_RATE
+    path = diagrams.shares[np.argsort(turn.numbers)]
+    velocity, acceleration, even = diagrams.speeds(path)
     return {
         "output": turn.output.name,
         "zero_deg": plain(turn.zero),
         "positions_deg": listed(turn.positions),
+        "path": listed(diagrams.path(path)),
+        "velocity": listed(velocity),
+        "acceleration": listed(acceleration),
+        "acceleration_even": listed(even),
         "extremes": [
             {"phi_deg": plain(one.phi), "value": plain(one.value), **_constructed(solution, one)}
             for one in turn.extremes
         ],
         "stroke": turn.stroke,
-        "K_v": turn.ratio,
-        "working_deg": working,
-        "idle_deg": idle,
+        "K_v": strokes.K_v if strokes else None,
+        "working_deg": strokes.working_deg if strokes else None,
+        "idle_deg": strokes.idle_deg if strokes else None,
+        "by": strokes.by if strokes else None,
         "range_deg": None if turn.range is None else listed(turn.range),
         "pressure_angle": None
         if peak is None
@@ -147,7 +155,7 @@ LONG = {QuantityKind.CORIOLIS: "a_coriolis", QuantityKind.RELATIVE: "a_rel"}
 """Names in the record of what is asked for by a shorter one."""
 
 
-def structure_record(structure: Structure) -> dict[str, Any]:
+def structure_record(structure: Structure, mechanism: Mechanism) -> dict[str, Any]:
     """Return the structural analysis as plain data."""
     return {
         "mobility": structure.mobility,
@@ -167,6 +175,7 @@ def structure_record(structure: Structure) -> dict[str, Any]:
             for group in structure.groups
         ],
         "formula": structure.formula,
+        "frame": mechanism.frame,
     }
 
 
@@ -331,7 +340,7 @@ def record_in_columns(solution: Solution, **more: Column) -> dict[str, Any]:
         "schema": SCHEMA,
         "problem": solution.problem.name,
         **({"variant": v} if (v := solution.problem.variant) is not None else {}),
-        "structure": structure_record(solution.structure),
+        "structure": structure_record(solution.structure, solution.problem.mechanism),
         **({"cycle": cycle_record(solution)} if solution.problem.cycle is not None else {}),
         "positions": rows({**columns, **more}),
         **machine,

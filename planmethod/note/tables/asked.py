@@ -22,7 +22,7 @@ def asked_document(swept: GappedSweep, words: Language) -> Document:
 def _asked(swept: GappedSweep, words: Words) -> Iterator[Node]:
     count = len(swept.positions)
     yield Paragraph(heading_of(swept.problem))
-    columns = lead_columns(swept.problem.drive.coordinate, swept.positions.tolist(), words)
+    columns = lead_columns(swept.problem, swept.positions.tolist(), words)
     values = swept.fill(np.empty((len(swept.names), count)), slice(0, count))
     for name, row in zip(swept.names, values, strict=True):
         columns.append([escape(name), *(found(float(value), words) for value in row)])

@@ -173,9 +173,9 @@ def forces_records(solution: Solution) -> Records:
 
 def forces_columns(solution: Solution, words: Words) -> list[list[str]]:
     """Return columns of many positions: the size of every reaction, then what balances."""
-    statics = statics_of(solution)
+    statics, called = statics_of(solution), solution.problem.mechanism.called
     columns = [
-        [f"{joint.joint} {joint.on}←{joint.by}", *(found(float(f), words) for f in size)]
+        [f"{joint.joint} {joint.on}←{called(joint.by)}", *(found(float(f), words) for f in size)]
         for joint in statics.reactions
         for size in [np.abs(joint.force)]
     ]
@@ -219,7 +219,7 @@ def _edge_notes(solution: Solution, words: Words, index: int) -> Iterator[Rich]:
         joint = contact.joint
         yield note.format(
             joint=joint.joint,
-            links=f"{joint.on}←{joint.by}",
+            links=f"{joint.on}←{solution.problem.mechanism.called(joint.by)}",
             length=given(contact.length, words),
             first=told[0],
             second=told[1],
@@ -240,7 +240,7 @@ def forces_tables(solution: Solution, words: Words, index: int, sigmas: Sigmas) 
         rows.append(
             [
                 joint.joint,
-                f"{joint.on}←{joint.by}",
+                f"{joint.on}←{solution.problem.mechanism.called(joint.by)}",
                 found(size, words),
                 found(float(drawn.read(size_label(joint))[index]), words),
                 *sigmas.cell(size_label(joint), index, drawn),

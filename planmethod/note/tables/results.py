@@ -26,7 +26,7 @@ from planmethod.note.tables.sigmas import Sigmas, levelled
 from planmethod.note.wording import Language, Words
 from planmethod.plans.legend import TURNING, Quantity, QuantityKind
 from planmethod.plans.model import FACTS, MOTION, PlanKind
-from planmethod.problem.model import Coordinate, Problem
+from planmethod.problem.model import Problem
 from planmethod.solved.reading import Reals
 from planmethod.solved.solution import SegmentReading, Solution
 
@@ -110,7 +110,7 @@ def scale_texts(solution: Solution, words: Language, index: int) -> list[Rich]:
 def position_line(solution: Solution, words: Words, index: int) -> Rich:
     """Return which position is meant: its number and the driver's place."""
     coordinate = solution.problem.drive.coordinate
-    value = given(float(solution.positions[index]), words)
+    value = given(solution.problem.shown(float(solution.positions[index])), words)
     count = len(solution.positions)
     return (words.position if count > 1 else words.one_position).format(
         number=index,
@@ -229,8 +229,10 @@ def _sliding(solution: Solution, words: Words, i: int, sigmas: Sigmas) -> list[l
     quantities = solution.quantities(
         QuantityKind.SLIDING, QuantityKind.CORIOLIS, QuantityKind.RELATIVE
     )
+    called = solution.problem.mechanism.called
     for relative in solution.construction.kinematics.relatives.values():
-        row = [words.sliding_row.format(point=relative.point, of=relative.of, to=relative.to)]
+        told = {"point": relative.point, "of": relative.of, "to": called(relative.to)}
+        row = [words.sliding_row.format(**told)]
         for quantity in quantities[relative.name]:
             row += _found(solution, quantity, i, sigmas)
         rows.append(row)
@@ -273,7 +275,7 @@ def _lengths(segment: SegmentReading, words: Words, i: int) -> list[str]:
 def _many(solution: Solution, words: Language, sigmas: Sigmas) -> Iterator[Node]:
     """Yield tables with a row for each position."""
     note, count = words.note, len(solution.positions)
-    lead = lead_columns(solution.problem.drive.coordinate, solution.positions.tolist(), note)
+    lead = lead_columns(solution.problem, solution.positions.tolist(), note)
 
     def table(title: Rich, columns: Sequence[Sequence[Rich]]) -> Iterator[Node]:
         if columns:
@@ -308,12 +310,11 @@ def _many(solution: Solution, words: Language, sigmas: Sigmas) -> Iterator[Node]
     yield from table(note.many_sigmas, errors)
 
 
-def lead_columns(
-    coordinate: Coordinate, positions: Sequence[float], words: Words
-) -> list[list[Rich]]:
+def lead_columns(problem: Problem, positions: Sequence[float], words: Words) -> list[list[Rich]]:
     """Return the columns that each part of a table of positions begins with: number and place."""
+    coordinate = problem.drive.coordinate
     symbol = f"{coordinate.symbol}, {words['units'][coordinate.unit]}"
     return [
         [words.number, *map(str, range(len(positions)))],
-        [symbol, *(given(float(p), words) for p in positions)],
+        [symbol, *(given(problem.shown(float(p)), words) for p in positions)],
     ]

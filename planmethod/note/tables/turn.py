@@ -16,7 +16,13 @@ from planmethod.note.document import (
     steps_of,
     table_of_quantities,
 )
-from planmethod.note.narrate.turn import diagram_steps, extreme_steps, output_symbol, turn_facts
+from planmethod.note.narrate.turn import (
+    acceleration_parts,
+    diagram_steps,
+    extreme_steps,
+    output_symbol,
+    turn_facts,
+)
 from planmethod.note.numbers import alike, in_heads, significant
 from planmethod.note.wording import Language
 from planmethod.problem.cycle_records import Differentiation
@@ -35,20 +41,24 @@ def cycle_columns(diagrams: Diagrams, words: Language) -> Columns:
     turn, say = diagrams.turn, words.say
     turns = turn.output.slide is None
     symbol = output_symbol(turn.output)
-    shares = diagrams.shares[:-1]
+    shares = diagrams.shares[np.argsort(turn.numbers)]
     one, two = diagrams.rates(shares)
-    rate = abs(turn.solution.problem.drive.rate)
+    speed, gain, even = diagrams.speeds(shares)
     index = symbol.partition("_")[2]
     v, a = ("ω", "ε") if turns else ("v", "a")
+    units = ("1/s", "1/s²") if turns else ("m/s", "m/s²")
     found: list[tuple[str, str, Reals]] = [
         (symbol, "rad" if turns else "m", diagrams.path(shares)),
         (f"{v}_{{q}}", "" if turns else "m", one),
         (f"{a}_{{q}}", "" if turns else "m", two),
-        (f"{v}_{index}", "1/s" if turns else "m/s", one * rate),
-        (f"{a}_{index}", "1/s²" if turns else "m/s²", two * rate**2),
+        (f"{v}_{index}", units[0], speed),
     ]
+    if turn.solution.problem.drive.acceleration:
+        found.append((acceleration_parts(turn.output)[0], units[1], even))
+    found.append((f"{a}_{index}", units[1], gain))
     at = turn.at(shares)
-    at = at if turn.range is not None else np.round(at % TURN, 2) % TURN
+    whole = TURN * turn.turns
+    at = at if turn.range is not None else np.round(at % whole, 2) % whole
     columns: Columns = [
         (words.note.number, "", tuple(str(k) for k in range(diagrams.count))),
         ("φ", "deg", tuple(say.number(f"{p:.2f}") for p in at)),

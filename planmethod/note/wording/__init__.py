@@ -61,6 +61,10 @@ class Language:
         Gear trains, the choice of their teeth, two wheels in mesh.
     live : Words
         The page of a moving mechanism.
+    project : Words
+        The course project.
+    document, report : Words
+        What a note puts around its figures, tables and names; the explanatory note itself.
     layouts, families, tasks : Words
         Of the shipped layouts by the places of their files, the families of ready problem files,
         the list of shipped tasks.
@@ -84,6 +88,9 @@ class Language:
     synthesis: Words
     teeth: Words
     live: Words
+    project: Words
+    document: Words
+    report: Words
     layouts: Words
     families: Words
     tasks: Words

@@ -10,8 +10,9 @@ from typing import assert_never
 
 from planmethod.note import document
 from planmethod.note.document import Document, Equation, Node, Table
-from planmethod.note.formula import Index, Letters, Overline, parse
+from planmethod.note.formula import Fraction, Index, Letters, Overline, Root, inline, parse
 from planmethod.note.formula import Node as Sign
+from planmethod.note.wording import Words, language
 
 STYLE = """
 @page{size:A4;margin:12mm}
@@ -38,6 +39,14 @@ tr{break-inside:avoid}sub,sup{line-height:0}.bar{text-decoration:overline}
 figure{margin:0}figcaption{font-size:9pt;text-align:center}
 """
 
+NOTE_STYLE = """
+.titlepage{text-align:center;break-after:page}.break{break-after:page}
+.level2{margin-left:5mm}.level3{margin-left:10mm}.formula-number{float:right}
+.fraction{display:inline-block;vertical-align:middle;text-align:center}
+.fraction span{display:block;padding:0 .3em}.fraction span+span{border-top:.2mm solid}
+"""
+"""For documents that have formulas built up, or the pages of a note."""
+
 _CONTROL = "[^\n\x20-\x7e\xa0-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]"
 
 
@@ -56,6 +65,10 @@ def html_document(written: Document, *, title: str, lang: str, style: str = "") 
     style : str
         CSS of the figures, beside that of the document.
     """
+    body = "\n".join(_body(document.referred(written), language(lang).document))
+    kinds = ("titlepage", "break", "level", "formula-number", "fraction")
+    if any(f'class="{kind}' in body for kind in kinds):
+        style = NOTE_STYLE + style
     return "\n".join(
         [
             f'<!DOCTYPE html>\n<html lang="{lang}"><head><meta charset="utf-8">',
@@ -64,16 +77,19 @@ def html_document(written: Document, *, title: str, lang: str, style: str = "") 
             '<meta http-equiv="Content-Security-Policy" '
             "content=\"default-src 'none'; style-src 'unsafe-inline'\">",
             f"<title>{html.escape(clean(title))}</title><style>{STYLE}{style}</style></head><body>",
-            *_body(written),
+            body,
             "</body></html>\n",
         ]
     )
 
 
-def _body(written: Document) -> Iterator[str]:
+def _body(written: Document, words: Words) -> Iterator[str]:
     """Yield the elements; items that follow one another are a list, figures stand side by side."""
-    for kind, run in groupby(written.nodes, type):
-        elements = map(_element, run)
+    for kind, run in groupby(document.numbers_of(written), lambda pair: type(pair[0])):
+        if kind is document.Contents:
+            yield f"<h2>{words.contents}</h2>{''.join(_contents(written))}"
+            continue
+        elements = (_element(node, number, words) for node, number in run)
         if kind is document.Item:
             yield f"<ul>{''.join(elements)}</ul>"
         elif kind is document.Step:
@@ -84,14 +100,28 @@ def _body(written: Document) -> Iterator[str]:
             yield from elements
 
 
-def _element(node: Node) -> str:
+def _contents(written: Document) -> Iterator[str]:
+    for level, number, title in document.headings_of(written):
+        yield f'<p class="level{level}">{number} {markup(title)}</p>'
+
+
+def _element(node: Node, number: str, words: Words) -> str:
     match node:
         case document.Title(text):
             return f"<h1>{markup(text)}</h1>"
-        case document.Chapter(title):
+        case document.TitlePage():
+            lines = "<br>".join(map(markup, document.lines_of(node, words)))
+            return f'<p class="titlepage">{lines}</p>'
+        case document.Contents():
+            return ""
+        case document.PageBreak():
+            return '<div class="break"></div>'
+        case document.StructuralHeading(title) | document.Chapter(title):
             return f"<h2>{markup(title)}</h2>"
         case document.Part(title):
             return f"<h3>{markup(title)}</h3>"
+        case document.Subpart(title):
+            return f"<h4>{markup(title)}</h4>"
         case document.Caption(text):
             return f'<p class="caption">{markup(text)}</p>'
         case document.Paragraph(text):
@@ -101,17 +131,26 @@ def _element(node: Node) -> str:
         case document.Step(lines):
             return f"<li>{'<br>'.join(map(markup, lines))}</li>"
         case document.Formula(text):
-            return f'<p class="formula">{markup(text)}</p>'
+            return f'<p class="formula">{markup(text, built=True)}{_numbered(number)}</p>'
         case document.Equations(equations):
-            return "".join(f'<p class="formula">{_equation(one)}</p>' for one in equations)
-        case document.Table():
-            return _table(node)
+            lines = "".join(f'<p class="formula">{_equation(one)}</p>' for one in equations)
+            return lines + _numbered(number)
+        case document.Table(name=name):
+            above = words.table.format(number=number, text=name)
+            return (f'<p class="caption">{markup(above)}</p>' if name else "") + _table(node)
         case document.Figure(view, caption):
+            caption = words.figure.format(number=number, text=caption) if number else caption
             return f"<figure>{view.svg()}<figcaption>{markup(caption)}</figcaption></figure>"
+        case document.References(entries):
+            return f"<ol>{''.join(f'<li>{markup(entry)}</li>' for entry in entries)}</ol>"
         case document.Note(text):
             return f'<p class="note">{markup(text)}</p>'
         case _:
             assert_never(node)
+
+
+def _numbered(number: str) -> str:
+    return f'<span class="formula-number">({number})</span>' if number else ""
 
 
 def _equation(equation: Equation) -> str:
@@ -143,22 +182,31 @@ def _table(table: Table) -> str:
 # Text --------------------------------------------------------------------------------------------
 
 
-def markup(rich: str, *, above: str = "sup", below: str = "sub") -> str:
-    """Return rich text with tags of indices; whatever else looks like a tag is escaped."""
-    return "".join(_sign(node, above, below) for node in parse(clean(rich)))
+def markup(rich: str, *, built: bool = False) -> str:
+    """Return rich text with tags of indices; whatever else looks like a tag is escaped.
+
+    ``built``: whether fractions are built up, as on a line of their own.
+    """
+    nodes = parse(clean(rich))
+    return "".join(map(_sign, nodes if built else inline(nodes)))
 
 
-def _sign(node: Sign, above: str, below: str) -> str:
+def _sign(node: Sign) -> str:
     def inside(nodes: tuple[Sign, ...]) -> str:
-        return "".join(_sign(one, above, below) for one in nodes)
+        return "".join(map(_sign, nodes))
 
     match node:
         case Letters(text):
             return html.escape(text)
         case Index(low, high):
-            lower = f"<{below}>{inside(low)}</{below}>" if low else ""
-            return (f"<{above}>{inside(high)}</{above}>" if high else "") + lower
+            lower = f"<sub>{inside(low)}</sub>" if low else ""
+            return (f"<sup>{inside(high)}</sup>" if high else "") + lower
         case Overline(body):
-            return f'<span class="bar">{inside(body)}</span>' if above == "sup" else inside(body)
+            return f'<span class="bar">{inside(body)}</span>'
+        case Fraction(above, below):
+            parts = f"<span>{inside(above)}</span><span>{inside(below)}</span>"
+            return f'<span class="fraction">{parts}</span>'
+        case Root(body):
+            return f'√<span class="bar">{inside(body)}</span>'
         case _:
             assert_never(node)

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+import html
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from io import BytesIO
 from itertools import groupby
 from typing import Any, assert_never
@@ -24,8 +25,11 @@ from reportlab.platypus import (
 
 from planmethod.note import document
 from planmethod.note.document import Document, Node, Table
+from planmethod.note.formula import Fraction, Index, Letters, Overline, Root, inline, parse
+from planmethod.note.formula import Node as Sign
 from planmethod.note.plaintext import plain_text
-from planmethod.note.writers.html import markup
+from planmethod.note.writers.html import clean
+from planmethod.note.writers.tokens import Token, tokens_of
 
 MM = 72.0 / 25.4
 MARGIN = 12.0 * MM
@@ -141,9 +145,13 @@ class _Setter:
         match node:
             case document.Title(text):
                 yield self._text(text, 15.0)
-            case document.Chapter(title):
+            case document.TitlePage() | document.Contents() | document.PageBreak():
+                pass
+            case document.References(entries):
+                yield from map(self._text, entries)
+            case document.Chapter(title) | document.StructuralHeading(title):
                 yield self._text(title, 12.0, before=6.0)
-            case document.Part(title):
+            case document.Part(title) | document.Subpart(title):
                 yield self._text(title, 10.5, before=5.0)
             case document.Caption(text):
                 yield self._text(text, 11.0, before=3.0)
@@ -269,10 +277,40 @@ class _Row(Flowable):  # type: ignore[misc]
 
 def pdf_markup(rich: str, size: float) -> str:
     """Return rich text as reportlab's paragraphs take it, in letters of so many points."""
-    small = f'size="{SMALL * size:.2f}"'
-    text = markup(rich, above="super", below="sub").replace("\n", "<br/>")
-    text = text.replace("<super>", f'<super {small} rise="{RISE * size:.2f}">')
-    return text.replace("<sub>", f'<sub {small} rise="{DROP * size:.2f}">')
+    return marked(inline(parse(clean(rich))), size)
+
+
+def marked(nodes: Iterable[Sign], size: float, italic: str = "") -> str:
+    """Return a formula in one line as reportlab's paragraphs take it.
+
+    ``italic``: font of its Latin and Greek letters, if they have one of their own.
+    """
+
+    def shown(token: Token) -> str:
+        text = html.escape(token.text).replace("\n", "<br/>")
+        return f'<font name="{italic}">{text}</font>' if token.kind == "letters" else text
+
+    def one(node: Sign) -> str:
+        match node:
+            case Letters():
+                return "".join(map(shown, tokens_of([node]) if italic else [Token("", node.text)]))
+            case Index(low, high, is_power):
+                parts = [_level("super", RISE, high), _level("sub", DROP, low)]
+                return "".join(reversed(parts) if is_power else parts)
+            case Overline(body):
+                return marked(body, size, italic)
+            case Fraction() | Root():
+                raise AssertionError  # the formula is in one line
+            case _:
+                assert_never(node)
+
+    def _level(tag: str, rise: float, nodes: tuple[Sign, ...]) -> str:
+        if not nodes:
+            return ""
+        look = f'size="{SMALL * size:.2f}" rise="{rise * size:.2f}"'
+        return f"<{tag} {look}>{marked(nodes, size, italic)}</{tag}>"
+
+    return "".join(map(one, nodes))
 
 
 def parts_of(table: Table, most: int) -> Iterator[Table]:

@@ -29,7 +29,7 @@ LABEL = 5
 
 _LINES = (" ", "─", "═")
 
-_HEADINGS = (document.Chapter, document.Part)
+_HEADINGS = (document.Chapter, document.Part, document.Subpart, document.StructuralHeading)
 _UNLIKE_STEPS = (document.Table, document.Item, document.Equations)
 _BODY = (document.Table, document.Step, document.Equations, document.Item, document.Note)
 
@@ -44,25 +44,47 @@ class PlainWriter:
 
     def __init__(self, words: Language) -> None:
         units = {name for unit in words.note["units"].values() for name in re.findall(_WORD, unit)}
+        self._language = words
         self._unit = rf"(?<=\d) (?=(?:{'|'.join(sorted(units))})(?![^\W\d_]))"
-        self._chapter = self._part = self._step = 0
+        self._step = 0
+        self._below = ""  # what stands before the items of a caption
 
     def lines(self, written: Document) -> list[str]:
         """Return the lines of a document."""
         lines: list[str] = []
         before: document.Node | None = None
-        for node in written.nodes:
+        written = document.referred(written)
+        for node, number in document.numbers_of(written):
             if lines and lines[-1] and self._stands_apart(node, before):
                 lines.append("")
-            lines += self._node(node)
+            if isinstance(node, document.Contents):
+                lines += self._contents(written)
+            else:
+                lines += self._node(node, number)
             before = node
+            if not isinstance(node, document.Item):
+                self._below = HANGING if isinstance(node, document.Caption) else ""
+        return lines
+
+    def _contents(self, written: Document) -> list[str]:
+        lines = heading(self._language.document.contents)
+        for level, number, title in document.headings_of(written):
+            lead = INDENT[: 2 * (level - 1)] + (f"{number} " if number else "")
+            lines += wrap(self._whole(title), first=lead, rest=" " * len(lead))
         return lines
 
     def _stands_apart(self, node: document.Node, before: document.Node | None) -> bool:
         """Tell whether a blank line stands before a node."""
         after: tuple[type, ...]
         match node:
-            case document.Chapter() | document.Part() | document.Caption():
+            case (
+                document.Chapter()
+                | document.Part()
+                | document.Subpart()
+                | document.Caption()
+                | document.StructuralHeading()
+                | document.Contents()
+            ):
                 return True
             case document.Table():
                 after = (*_HEADINGS, document.Table, document.Paragraph, document.Formula)
@@ -80,42 +102,56 @@ class PlainWriter:
                 return False
         return isinstance(before, after)
 
-    def _node(self, node: document.Node) -> list[str]:
+    def _node(self, node: document.Node, number: str) -> list[str]:
         match node:
             case document.Title(text):
                 return heading(plain_text(text), "═")
-            case document.Chapter(title, numbered):
-                self._part = 0
-                self._chapter += numbered
-                number = f"{self._chapter}. " if numbered else ""
-                return heading(number + plain_text(title))
-            case document.Part(title):
-                self._part += 1
-                return [f"{self._chapter}.{self._part}. {plain_text(title)}"]
+            case document.TitlePage():
+                texts = document.lines_of(node, self._language.document)
+                return [line for text in texts for line in wrap(self._whole(text))]
+            case document.Contents() | document.PageBreak():
+                return []
+            case document.Chapter(title) | document.StructuralHeading(title):
+                return heading((f"{number}. " if number else "") + plain_text(title))
+            case document.Part(title) | document.Subpart(title):
+                return [f"{number}. {plain_text(title)}"]
             case document.Caption(text):
                 return wrap(self._whole(text))
             case document.Paragraph(text) | document.Note(text):
                 return wrap(self._whole(text))
             case document.Item(text, label):
                 lead = f"{HANGING}{pad(plain_text(label), LABEL, right=True)}  " if label else ""
-                rest = " " * width(lead) or HANGING
+                lead = lead or self._below
+                rest = " " * width(lead) if label else lead + HANGING
                 return wrap(self._whole(text), first=lead, rest=rest)
             case document.Step(lines, continues):
                 return self._stepped(lines, continues=continues)
             case document.Formula(text):
-                return wrap(self._whole(text), first=INDENT, rest=INDENT)
+                last = f"{NO_BREAK * 4}({number})" if number else ""
+                return wrap(self._whole(text) + last, first=INDENT, rest=INDENT)
             case document.Equations(equations):
-                return self._equations(equations)
-            case document.Table():
-                return _tabulated(node)
-            case document.Figure(_, caption):
-                return wrap(self._whole(caption)) if caption else []
+                return self._equations(equations) + [f"{INDENT}({number})"] * bool(number)
+            case document.Table(name=name):
+                return (self._caption("table", number, name) if name else []) + _tabulated(node)
+            case document.Figure(caption=caption):
+                return self._caption("figure", number, caption)
+            case document.References(entries):
+                return [
+                    line
+                    for k, entry in enumerate(entries, 1)
+                    for line in wrap(self._whole(entry), first=f"{k:>3}. ", rest=INDENT)
+                ]
             case _:
                 assert_never(node)
 
     def _whole(self, rich: str) -> str:
         """Return rich text as plain, its numbers tied to their units."""
         return re.sub(self._unit, NO_BREAK, plain_text(rich))
+
+    def _caption(self, kind: str, number: str, text: str) -> list[str]:
+        # Only what has a number needs the words that stand before it.
+        text = self._language.document[kind].format(number=number, text=text) if number else text
+        return wrap(self._whole(text))
 
     def _stepped(self, lines: Sequence[str], *, continues: bool) -> list[str]:
         self._step += not continues

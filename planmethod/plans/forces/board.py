@@ -314,6 +314,10 @@ class ForceBoard:
             self.segments.value(edge.tail, edge.head, plain_name(edge.symbol))
         self.plans.append(plan)
 
+    def called(self, link: str) -> str:
+        """Return how a link is printed."""
+        return self.draft.problem.mechanism.called(link)
+
     def react(
         self,
         joint: str,
@@ -329,11 +333,11 @@ class ForceBoard:
         ``couple`` is about the place of ``force``. ``inner`` reactions act between links that are
         both done with.
         """
-        force = replace(force, symbol=reaction_symbol(on, by))
+        force = replace(force, symbol=reaction_symbol(on, self.called(by)))
         self.size(force)
         self.reactions.append(Reaction(joint, on, by, force, couple))
         if couple is not None:
-            self.symbols[couple] = reaction_symbol(on, by, letter="M")
+            self.symbols[couple] = reaction_symbol(on, self.called(by), letter="M")
         if by != FRAME and not inner:
             self.forces.setdefault(by, []).append(force.reversed(reaction_symbol(by, on)))
             if couple is not None:

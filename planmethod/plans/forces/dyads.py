@@ -133,7 +133,9 @@ def _tangent(
     lever = arm(board.draft, lead.link, outer, middle)
     moment = board.moment((lead.link,), middle)
     end = board.across(origin, lever.line, moment, lever.length)
-    return end, Components(lead, PointName(outer), (outer, str(middle)), lever.length)
+    return end, Components(
+        lead, board.called(lead.to), PointName(outer), (outer, str(middle)), lever.length
+    )
 
 
 def _unknown(board: ForceBoard, lead: Lead, through: PointName, middle: PointName) -> LineName:
@@ -173,7 +175,9 @@ def _guide_edge(board: ForceBoard, lead: Lead, tail: PointName, head: PointName)
     """Return the reaction of a guide, which is across it."""
     slide = slide_of(board.draft, lead.joint)
     direction = track_direction(slide, board.draft.problem, turned=True)
-    return reaction_edge(lead.link, lead.to, PointName(slide.pin), tail, head, direction)
+    return reaction_edge(
+        lead.link, board.called(lead.to), PointName(slide.pin), tail, head, direction
+    )
 
 
 def _of_guide(couple: CoupleOn, edges: Sequence[Edge], known: tuple[CoupleOn, ...]) -> Moments:
@@ -201,10 +205,10 @@ def _swinging(board: ForceBoard, group: AssurGroup) -> None:
         b.perpendicular(between, board.draft.direction(slide)),
     )
     loaded = board.chain(between, host.link, loads[1])
-    hinged = Components(slider, at, (str(at), str(pivot)), over)
+    hinged = Components(slider, board.called(slider.to), at, (str(at), str(pivot)), over)
     two = (hinged.normal(end, start), hinged.tangential(start, first))
     whole = hinged.whole(end, first)
-    stands = reaction_edge(host.link, host.to, pivot, loaded, end)
+    stands = reaction_edge(host.link, board.called(host.to), pivot, loaded, end)
     direction = track_direction(slide, board.draft.problem, turned=True)
     inner = reaction_edge(slider.link, host.link, at, between, end, direction)
     known = board.couples_on(*group.links)
@@ -267,7 +271,7 @@ def _sliding(board: ForceBoard, group: AssurGroup) -> None:
     pin = PointName(outer.pin)
     whole = board.moment((revolute.link, prismatic.link), pin, Force(at, end, first))
     across = _guide_edge(board, prismatic, loaded, end)
-    hinge = reaction_edge(revolute.link, revolute.to, at, end, first)
+    hinge = reaction_edge(revolute.link, board.called(revolute.to), at, end, first)
     direction = track_direction(inner, board.draft.problem, turned=True)
     between = reaction_edge(prismatic.link, revolute.link, at, end, start, direction)
     known, of_one = board.couples_on(*group.links), board.couples_on(revolute.link)
@@ -311,7 +315,7 @@ def drive_forces(board: ForceBoard) -> Driving:
         pivot = PointName(drive.pivot)
         board.react(drive.pivot, drive.link, FRAME, Force(pivot, loaded, start))
         moment = board.negative(board.moment((drive.link,), pivot))
-        stands = reaction_edge(drive.link, FRAME, pivot, loaded, start)
+        stands = reaction_edge(drive.link, board.called(FRAME), pivot, loaded, start)
         balancing = CoupleOn(drive.balancing.symbol, drive.link, moment, pivot)
         board.read_off(
             ForcePlan(
@@ -332,7 +336,7 @@ def drive_forces(board: ForceBoard) -> Driving:
     symbol, direction = drive.balancing.symbol, track_direction(slide, problem)
     drives = Edge(symbol, drive.link, pin, loaded, end, Known.ONE, direction)
     direction = track_direction(slide, problem, turned=True)
-    presses = reaction_edge(drive.link, FRAME, pin, end, start, direction)
+    presses = reaction_edge(drive.link, board.called(FRAME), pin, end, start, direction)
     balance = board.segments.read_along(loaded, end, guide, "F_dr")
     board.read_off(
         ForcePlan(

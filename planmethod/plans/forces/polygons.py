@@ -143,7 +143,10 @@ class ForcePlan(Struct, frozen=True):
 
 
 def reaction_symbol(on: str, by: str, share: Share = Share.WHOLE, letter: str = "F") -> str:
-    """Return the letter of a reaction on a link, exerted by another: ``F_{21}``, ``F^{n}_{21}``."""
+    """Return the letter of a reaction on a link, exerted by another: ``F_{21}``, ``F^{n}_{21}``.
+
+    Links are as they are printed (`Mechanism.called`).
+    """
     index = f"{on},{by}" if len(on) > 1 or len(by) > 1 else f"{on}{by}"
     above = {Share.WHOLE: "", Share.NORMAL: "^{n}", Share.TANGENTIAL: "^{τ}"}[share]
     return f"{letter}{above}_{{{index}}}"
@@ -152,17 +155,18 @@ def reaction_symbol(on: str, by: str, share: Share = Share.WHOLE, letter: str = 
 class Components(Struct, frozen=True):
     """Reaction of a revolute lead in two shares (нормальная и касательная составляющие).
 
-    ``line`` are the points of the link from the joint to the middle one, ``arm`` the
-    factors of its length, m.
+    ``by`` is what exerts it as it is printed, ``line`` are the points of the link from the joint
+    to the middle one, ``arm`` the factors of its length, m.
     """
 
     lead: Lead
+    by: str
     at: PointName
     line: tuple[str, str]
     arm: tuple[tuple[NumberName, int], ...]
 
     def _edge(self, tail: PointName, head: PointName, share: Share) -> Edge:
-        symbol = reaction_symbol(self.lead.link, self.lead.to, share)
+        symbol = reaction_symbol(self.lead.link, self.by, share)
         return Edge(symbol, self.lead.link, self.at, tail, head, share=share)
 
     def normal(self, tail: PointName, head: PointName) -> Edge:
@@ -187,7 +191,10 @@ def reaction_edge(
     head: PointName,
     direction: Direction | None = None,
 ) -> Edge:
-    """Return a reaction that a plan finds: of a known ``direction`` if there is one."""
+    """Return a reaction that a plan finds: of a known ``direction`` if there is one.
+
+    ``by`` is a link as it is printed.
+    """
     known = Known.NOTHING if direction is None else Known.ONE
     return Edge(reaction_symbol(on, by), on, at, tail, head, known, direction)
 

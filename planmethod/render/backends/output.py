@@ -5,7 +5,8 @@ from __future__ import annotations
 import contextlib
 import errno
 import os
-from collections.abc import Iterator
+import shutil
+from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 from typing import BinaryIO, NoReturn
 
@@ -40,6 +41,47 @@ def write(path: Path | str, data: bytes) -> None:
     """
     with opened(path) as file:
         file.write(data)
+
+
+def write_all(folder: Path, files: Mapping[str, bytes], *, gone: Iterable[str] = ()) -> None:
+    """Write files into a folder, all of them or none.
+
+    They are written into a folder of their own first; what else is there stays.
+
+    Parameters
+    ----------
+    files : mapping of str to bytes
+        By their names in the folder.
+    gone : iterable of str
+        Names of files of an earlier time that are removed then.
+
+    Raises
+    ------
+    OutputError
+        One of them cannot be written; the message says why and what to do.
+    """
+    made = not folder.exists()
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        modes = {name: _mode_to_keep(folder / name, folder / name) for name in files}
+        aside = folder / f".planmethod-{os.urandom(6).hex()}.tmp"
+        aside.mkdir()
+        try:
+            for name, data in files.items():
+                (aside / name).write_bytes(data)
+                if (mode := modes[name]) is not None:
+                    (aside / name).chmod(mode)
+            for name in files:
+                (aside / name).replace(folder / name)
+            for name in gone:
+                (folder / name).unlink(missing_ok=True)
+        finally:
+            shutil.rmtree(aside, ignore_errors=True)
+            if made:
+                with contextlib.suppress(OSError):
+                    folder.rmdir()  # only where nothing was written
+    except OSError as error:
+        _explain(folder, error)
 
 
 @contextlib.contextmanager

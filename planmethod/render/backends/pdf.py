@@ -47,19 +47,21 @@ class PdfCanvas(Canvas):
 
     def open(self, width: float, height: float, title: str, lettering: OutlineLettering) -> None:
         """Begin a page whose unit is the millimetre; the first one begins the file."""
-        self._font = registered(lettering)
-        self._lettering = lettering
         size = (width * _MM, height * _MM)
         if self._pdf is None:
-            self._begin(size, title)
+            self._begin(size, title, registered(lettering))
         else:
             self._pdf.showPage()
             self._pdf.setPageSize(size)
             self._pen = self._ink = None  # every page begins anew
         self._pdf.scale(_MM, _MM)
+        self._take_lettering(lettering)
+
+    def _take_lettering(self, lettering: OutlineLettering) -> None:
+        self._font, self._lettering = registered(lettering), lettering
         self._pdf.setLineJoin(1)
 
-    def _begin(self, size: tuple[float, float], title: str) -> None:
+    def _begin(self, size: tuple[float, float], title: str, font: str) -> None:
         """Begin the file with the size of its first page, points."""
         self._pdf = Pages(
             self._file,
@@ -68,7 +70,7 @@ class PdfCanvas(Canvas):
             # The same drawing gives the same bytes: no clock in the file.
             invariant=1,
             # Else a Helvetica that nobody uses stays in the file, not embedded.
-            initialFontName=self._font,
+            initialFontName=font,
         )
         self._pdf.setTitle(title)
         self._pdf.setAuthor(self._author)
@@ -148,6 +150,18 @@ class PdfCanvas(Canvas):
         self._pdf.showPage()
         self._pdf.save()
         return self._file.getvalue()
+
+
+class OnPage(PdfCanvas):
+    """Canvas that draws on a page of reportlab that is there already (на готовой странице)."""
+
+    def __init__(self, page: Any) -> None:
+        super().__init__(Options())
+        self._pdf = page
+
+    def open(self, width: float, height: float, title: str, lettering: OutlineLettering) -> None:
+        """Take the lettering."""
+        self._take_lettering(lettering)
 
 
 def _trace(path: Any, points: tuple[complex, ...]) -> None:

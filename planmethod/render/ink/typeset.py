@@ -6,12 +6,12 @@ import cmath
 import re
 from functools import lru_cache
 from math import radians
-from typing import Literal, TypeAlias
+from typing import Literal, TypeAlias, assert_never
 
 from msgspec import Struct
 from msgspec.structs import replace
 
-from planmethod.note.formula import Index, Letters, Node, Overline, parse
+from planmethod.note.formula import Fraction, Index, Letters, Node, Overline, Root, inlined, parse
 from planmethod.render.ink.drawing import Bounds, Item, Pen, Stroke, Text
 from planmethod.render.ink.lettering import OutlineLettering, in_use
 from planmethod.render.ink.style import HEIGHTS
@@ -153,8 +153,9 @@ def vector_markup(symbol: str) -> str:
 
 
 def split_words(markup: str) -> list[str]:
-    """Split markup at its spaces that are not inside braces nor unbreakable (U+00A0)."""
+    """Split markup, in one line, at spaces that are not inside braces nor unbreakable (U+00A0)."""
     words: list[str] = []
+    markup = inlined(markup)
     word, depth, escaped = "", 0, False
     for sign in markup:
         if sign.isspace() and depth == 0 and not escaped and sign != "\u00a0":
@@ -188,7 +189,7 @@ def typeset(markup: str, height: float) -> Inscription:
     LayoutError
         If braces do not pair, an index has nothing in it, or a command is unknown.
     """
-    return _typeset(markup, height, in_use())
+    return _typeset(inlined(markup), height, in_use())
 
 
 @lru_cache(maxsize=4096)
@@ -258,6 +259,10 @@ class _Setter:
                     x = self._bar(body, x, y, height)
                 case Index(below, above):
                     x = self._index(below, above, x, y, height)
+                case Fraction() | Root():
+                    raise AssertionError  # sheets have formulas in one line
+                case _:
+                    assert_never(node)
             before = node
         return x
 

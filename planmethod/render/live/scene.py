@@ -30,8 +30,7 @@ from planmethod.render.live.loads import cycle_deg, moving_loads
 from planmethod.render.live.parts import MovingPart, parts_of
 from planmethod.render.pictures.planview import COMPONENTS, similar_lines
 from planmethod.render.symbols import SIZES
-from planmethod.solved.cycle import only_in_positions
-from planmethod.solved.forces.loads import applied
+from planmethod.solved.forces.loads import applied, only_in_positions
 from planmethod.solved.forces.statics import Planned, plan_forces, statics_of
 from planmethod.solved.labelled import quantities_for
 from planmethod.solved.many.sweep import Sweep

@@ -95,7 +95,8 @@ def mechanism_chain(mechanism: Mechanism, structure: Structure) -> Chain:
     for joint in joints:
         ends = links_of(joint)
         own = tuple(link for link in ends if link != FRAME)
-        seen.append(_Seen(joint, own, Far.FRAME if FRAME in ends else Far.CHAIN))
+        far = (Far.FRAME, mechanism.frame) if FRAME in ends else (Far.CHAIN,)
+        seen.append(_Seen(joint, own, *far))
     rank = {mechanism.driver: 0.0}
     for k, group in enumerate(structure.groups):
         rank |= dict.fromkeys(group.links, k + 1.0)
@@ -107,7 +108,7 @@ def driver_chain(mechanism: Mechanism) -> Chain:
     driver = mechanism.driver
     joints: tuple[Joint, ...] = (*mechanism.revolutes, *mechanism.prismatics)
     first = next(joint for joint in joints if {FRAME, driver} <= set(links_of(joint)))
-    chain = _chain(mechanism, [_Seen(first, (driver,), Far.FRAME)], {driver: 0.0})
+    chain = _chain(mechanism, [_Seen(first, (driver,), Far.FRAME, mechanism.frame)], {driver: 0.0})
     if isinstance(first, Prismatic):
         return chain
     pin = chain.pins[0].node
@@ -119,7 +120,7 @@ def driver_chain(mechanism: Mechanism) -> Chain:
 def group_chain(mechanism: Mechanism, group: AssurGroup) -> Chain:
     """Return a group taken apart, its outer joints open (структурная группа)."""
     outer: dict[Joint, list[str]] = {}
-    to = {lead.joint: lead.to for lead in group.leads}
+    to = {lead.joint: mechanism.called(lead.to) for lead in group.leads}
     for lead in group.leads:
         outer.setdefault(lead.joint, []).append(lead.link)
     seen = [_Seen(joint, tuple(own), Far.OPEN, to[joint]) for joint, own in outer.items()]

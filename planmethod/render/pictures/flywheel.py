@@ -97,14 +97,14 @@ class _Sketch:
         count = self.drawing.count
         step = self.drawing.length / count
         every = next(n for n in (1, 2, 3, 4, 6, 12, count) if n * step >= 3.0 * self.size)
-        for k in range(count + 1):
+        for k, number in enumerate(self.drawing.flywheel.turn.numbers(count)):
             place = foot + k * step
             self.items.append(
                 Stroke((place - 1j * _TICK, place + 1j * _TICK), Pen.THIN, tag="diagram axis")
             )
             if k % every == 0:
                 side = -1j if ordinates[k] >= 0.0 else 1j
-                self._label(str(k), place, side, f"{key}: position {k}")
+                self._label(str(number), place, side, f"{key}: position {number}")
 
     def _label(
         self, text: str, at: complex, prefer: complex, name: str, *, large: bool = False
@@ -180,10 +180,12 @@ class _Sketch:
         )
         k = 2 * len(places) // 3
         self._label(self.tell.work, places[k], -side, "work", large=True)
+        numbers = self.drawing.flywheel.turn.numbers(self.drawing.count)
         for k in range(1, len(places) - 1):
-            level = self.at(PointName(f"D {k}"))
+            level, number = self.at(PointName(f"D {k}")), numbers[k]
             self._thin(level, places[k])
-            self._label(f"{k}''", places[k], 1j if places[k].imag > level.imag else -1j, f"A {k}")
+            side = 1j if places[k].imag > level.imag else -1j
+            self._label(f"{number}''", places[k], side, f"A {number}")
 
     def _energies(self, foot: complex) -> None:
         places = self.places(self.made.energies)
@@ -221,9 +223,10 @@ class _Sketch:
         self._dots(curve)
         every = max(1, self.drawing.count // 12)
         middle = sum(curve) / len(curve)
-        for k, place in enumerate(curve):
+        numbers = self.drawing.flywheel.turn.numbers(self.drawing.count)
+        for k, (place, number) in enumerate(zip(curve, numbers, strict=False)):
             if k % every == 0:
-                self._label(str(k), place, place - middle, f"E {k}")
+                self._label(str(number), place, place - middle, f"E {number}")
         tangents = ((upper, "K", "max", 0), (lower, "L", "min", 1))
         step = self.drawing.flywheel.cycle / self.drawing.count
         found = self.drawing.points.tangents

@@ -77,7 +77,8 @@ def _across(diagrams: Diagrams, *, numbered: bool) -> Abscissae:
     """Return the axis of φ; of many positions only the first diagram has the numbers."""
     # Of a range the axis ends with its last position.
     at = diagrams.x(diagrams.shares)[: None if diagrams.turn.range is None else -1]
-    numbers = [str(k % diagrams.count) if numbered else "" for k in range(len(at))]
+    names = diagrams.turn.numbers
+    numbers = [str(names[k % diagrams.count]) if numbered else "" for k in range(len(at))]
     return Abscissae("φ", tuple(at.tolist()), tuple(numbers))
 
 

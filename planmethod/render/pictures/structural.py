@@ -16,7 +16,7 @@ from math import radians
 from msgspec import Struct, field
 
 from planmethod.mechanism.groups import AssurGroup
-from planmethod.mechanism.model import FRAME, Mechanism
+from planmethod.mechanism.model import Mechanism
 from planmethod.mechanism.structure import Structure
 from planmethod.render import symbols
 from planmethod.render.ink.drawing import Item, Pen, Stroke
@@ -249,7 +249,7 @@ class _Draft(Struct):
             reach = half + 6.0
             self.grounds += symbols.guide_line(place, before=reach, after=reach)
             edge = place + reach - 1j * SIZES.slider_width / 2
-            self._number(FRAME, edge, 1 + 0j, gap=1.2)
+            self._number(slide.to, edge, 1 + 0j, gap=1.2)
         elif slide.far is Far.OPEN:
             reach = half + 9.0
             for way in (turn, -turn):
@@ -300,7 +300,7 @@ class _Draft(Struct):
             along = down * 1j
             along = along if along.real > 0 or (along.real == 0 and along.imag > 0) else -along
             foot = place + down * SIZES.support_height + along * SIZES.base / 2
-            self._number(FRAME, foot, along, gap=1.2)
+            self._number(pin.to, foot, along, gap=1.2)
         elif pin.far is Far.OPEN:
             way = _freest(busy, tuple(cmath.exp(1j * radians(15 * k)) for k in range(24)))
             if len(busy) == 1:

@@ -101,7 +101,7 @@ def _cycle() -> Mapping[str, Maker]:
 
 
 def _turn() -> Mapping[str, Maker]:
-    from planmethod.render.sheets import turn
+    from planmethod.render.sheets import measured, turn
 
     return {
         "turn-statement": turn.turn_statement,
@@ -110,6 +110,7 @@ def _turn() -> Mapping[str, Maker]:
         "hodograph": turn.hodograph_view,
         "turn-table": turn.turn_table,
         "deviations": turn.deviations_table,
+        "measured-results": measured.measured_table,
     }
 
 
@@ -183,6 +184,7 @@ BLOCKS: Mapping[str, BlockKind] = MappingProxyType(
         "kinematic-diagrams": BlockKind(_turn, _DIAGRAM),
         "chosen-plans": BlockKind(_turn, ("of", *_VIEW[:-1])),
         "hodograph": BlockKind(_turn, ("of", *_DIAGRAM)),
+        "measured-results": BlockKind(_turn, _TEXT),
         "turn-table": BlockKind(_turn, _TEXT),
         "deviations": BlockKind(_turn, _TEXT),
         "machine-statement": BlockKind(_flywheel, _TEXT),

@@ -70,7 +70,7 @@ class _Frame(Struct, frozen=True):
         inverse = solution.problem.scales.convention is Convention.MM_PER_UNIT
         per_mm = choose_scale((float(np.ptp(ends)), 0.0), (width, 1.0), mm_per_unit=inverse)
         scale = Scale(f"mu_{coordinate.symbol[0]}", per_mm, coordinate.unit)
-        falling = bool(solution.positions[1] < solution.positions[0])
+        falling = forces.course.falling
         return cls(solution, scale, float(ends[-1 if falling else 0]), -1 if falling else 1)
 
     def x(self, position: float) -> float:
@@ -81,8 +81,8 @@ class _Frame(Struct, frozen=True):
         """Return the axis with the numbers of the asked positions."""
         marks = [(self.x(float(p)), str(k)) for k, p in enumerate(self.solution.positions)]
         if forces.course.closed:
-            least = int(np.argmin(self.solution.positions))
-            marks.append((self.x(float(forces.course.drawn[-1])), str(least)))
+            end = int(np.argmin(self.sense * self.solution.positions))
+            marks.append((self.x(float(forces.course.drawn[:: self.sense][-1])), str(end)))
         name = self.solution.problem.drive.coordinate.symbol
         return Abscissae(name, tuple(x for x, _ in marks), tuple(text for _, text in marks))
 
@@ -258,7 +258,7 @@ def hodographs(solution: Solution, indices: Sequence[int], manner: Manner) -> Bl
 
 def _symbol(forces: Cycle, number: int) -> str:
     joint = forces.joints[number]
-    return reaction_symbol(joint.on, joint.by)
+    return reaction_symbol(joint.on, forces.solution.problem.mechanism.called(joint.by))
 
 
 def _whose(forces: Cycle, group: Sequence[int], words: Language) -> str:

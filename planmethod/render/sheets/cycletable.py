@@ -57,10 +57,11 @@ def _reaction_columns(
     ]
     sizes = alike([0.0 if nil else abs(v) for v, nil in zip(values, nothing, strict=True)])
     angles = ["—" if nil else angle_text(v, say) for v, nil in zip(values, nothing, strict=True)]
-    index = reaction_symbol(joint.on, joint.by, letter="")
+    by = forces.solution.problem.mechanism.called(joint.by)
+    index = reaction_symbol(joint.on, by, letter="")
     columns = [
         TableColumn(
-            reaction_symbol(joint.on, joint.by), tuple(map(say.number, sizes)), unit=say.units["N"]
+            reaction_symbol(joint.on, by), tuple(map(say.number, sizes)), unit=say.units["N"]
         ),
         TableColumn(f"φ{index}", tuple(angles), unit=say.in_head("deg")),
     ]

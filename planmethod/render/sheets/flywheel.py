@@ -128,7 +128,7 @@ def speed_diagram(solution: Solution, indices: Sequence[int], manner: Manner) ->
     marks = tuple(width * k / count for k in range(count + 1))
     unit = tell.unit("1/s")
     picture = diagram_picture(
-        Abscissae("φ", marks, tuple(map(str, range(count + 1)))),
+        Abscissae("φ", marks, tuple(map(str, flywheel.turn.numbers(count)))),
         Ordinates(f"ω − {tell.letter('mean speed')}, {unit}", per_mm, tell.say),
         [Curve("", (places,))],
         letter_height=manner.letter,

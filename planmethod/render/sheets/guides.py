@@ -44,7 +44,8 @@ def place_columns(reading: ForceReading, say: Notation) -> list[TableColumn]:
 def guided_at(reading: ForceReading, number: int) -> Guided | None:
     """Return the reaction of a guide; None of a hinge."""
     joint = reading.statics.reactions[number]
-    one = guides(reading).get(reaction_symbol(joint.on, joint.by))
+    called = reading.solution.problem.mechanism.called
+    one = guides(reading).get(reaction_symbol(joint.on, called(joint.by)))
     return one if one is not None and one.number == number else None
 
 
@@ -74,7 +75,10 @@ def edges_table(
     bearing = [one for one in found if one is not None and one.edges]
     if not bearing:
         return None
-    pairs = tuple(f"{point_name(one.contact.joint.joint)} ({one.on}–{one.by})" for one in bearing)
+    called = reading.solution.problem.mechanism.called
+    pairs = tuple(
+        f"{point_name(one.contact.joint.joint)} ({one.on}–{called(one.by)})" for one in bearing
+    )
     said, say = words.sheets, words.say
     lengths = tuple(say.short(one.contact.length or 0.0) for one in bearing)
     columns = [

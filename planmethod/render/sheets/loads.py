@@ -19,7 +19,7 @@ from planmethod.render.layout.block import Block, Column
 from planmethod.render.pictures.diagram import Abscissae, Curve, Mark, Ordinates, diagram_picture
 from planmethod.render.sheets.model import Manner
 from planmethod.render.sheets.views import named, shown_position
-from planmethod.solved.forces.loads import abscissae, closed, external, read
+from planmethod.solved.forces.loads import abscissae, acting, closed, external, read
 from planmethod.solved.solution import Solution
 
 _ACROSS, _UP = 0.5, 0.15
@@ -40,9 +40,11 @@ def load_curves(solution: Solution, indices: Sequence[int], manner: Manner) -> B
     for number, load in enumerate(dynamics.loads):
         if not isinstance(load.size, SizeTable) or load.size.over is Over.POSITION:
             continue
-        acting = [one for one in external(solution, dynamics, load.link) if one.name == load.name]
-        acts = any(one.force[index] if one.point else one.couple[index] for one in acting)
+        same = [one for one in external(solution, dynamics, load.link) if one.name == load.name]
+        acts = any(one.force[index] if one.point else one.couple[index] for one in same)
         table = _from_zero(load.size)
+        if table.over is Over.PHI and load.phase is not None:
+            table = _limited(table, acting(solution, load, 0.0, table.turn))
         at = float(abscissae(solution, load, number)[index])
         at = at % table.turn if table.over is Over.PHI else at
         blocks.append(_diagram(solution, load, table, at if acts else None, manner))
@@ -108,6 +110,20 @@ def _from_zero(table: SizeTable) -> SizeTable:
             + [cut]
         )
     return replace(table, at=tuple(at for at, _ in rows), values=tuple(value for _, value in rows))
+
+
+def _limited(table: SizeTable, spans: Sequence[tuple[float, float]]) -> SizeTable:
+    """Return a table over the turn that has nothing where its load does not act."""
+    first, last = table.at[0], table.at[-1]
+    rows = [(first, 0.0)]
+    for start, end in spans:
+        low, high = max(start, first), min(end, last)
+        ends = [(one, float(read(table, np.array(one)))) for one in (low, high)]
+        inside = [row for row in zip(table.at, table.values, strict=True) if low < row[0] < high]
+        rows += [(low, 0.0), ends[0], *inside, ends[1], (high, 0.0)]
+    rows.append((last, 0.0))
+    kept = [row for k, row in enumerate(rows) if not k or row != rows[k - 1]]
+    return replace(table, at=tuple(at for at, _ in kept), values=tuple(size for _, size in kept))
 
 
 def _over(solution: Solution, load: Load | Couple, table: SizeTable) -> tuple[str, str]:

@@ -83,7 +83,9 @@ class Composition(Struct, frozen=True):
     grow : bool
         Plans whose scale is free are drawn larger where the paper has room.
     turn : bool
-        The positions are those of ``[cycle]`` where no others are asked.
+        It is the sheet of a turn: ``cycle``, and scales of velocities and accelerations give way.
+    cycle : bool
+        The positions are the numbered ones of the cycle where no others are asked.
     sizes : mapping
         By basic format.
     arranged : mapping
@@ -98,6 +100,7 @@ class Composition(Struct, frozen=True):
     per_sheet: tuple[int, ...]
     grow: bool
     turn: bool
+    cycle: bool
     sizes: Mapping[str, Sizes]
     arranged: Mapping[tuple[str, ...], Arrange]
     titles: Mapping[int, str]

@@ -32,8 +32,8 @@ def reactions_block(solution: Solution, indices: Sequence[int], manner: Manner) 
     reading = force_reading(solution, shown_position(solution, indices, manner))
     height = manner.text(manner.sizes.text)
     width = table_width(manner, STAMP_WIDTH)
-    reactions = reading.statics.reactions
-    index = reading.index
+    reactions, index = reading.statics.reactions, reading.index
+    called = solution.problem.mechanism.called
     sizes = [abs(complex(one.force[index])) for one in reactions]
     none = [size <= FAINT_SHARE * reading.peak for size in sizes]
     shown = alike([0.0 if nil else size for size, nil in zip(sizes, none, strict=True)])
@@ -43,9 +43,10 @@ def reactions_block(solution: Solution, indices: Sequence[int], manner: Manner) 
     angles = [angle_text(complex(one.force[index]), say) for one in reactions]
     columns = [
         TableColumn(
-            said.joint, tuple(f"{point_name(one.joint)} ({one.on}–{one.by})" for one in reactions)
+            said.joint,
+            tuple(f"{point_name(one.joint)} ({one.on}–{called(one.by)})" for one in reactions),
         ),
-        TableColumn("F_{ij}", tuple(reaction_symbol(one.on, one.by) for one in reactions)),
+        TableColumn("F_{ij}", tuple(reaction_symbol(one.on, called(one.by)) for one in reactions)),
         TableColumn(f"F_{{ij}}, {say.units['N']}", tuple(map(say.number, shown))),
         *(size_columns(reading, words) if sigma else []),
         TableColumn(

@@ -28,6 +28,8 @@ def position_text(solution: Solution, index: int, say: Notation) -> str:
     value = float(solution.positions[index])
     if not solution.problem.drive.is_crank:
         return say.given(value)
+    if value in solution.problem.numbered:
+        return say.given(solution.problem.shown(value))
     if -360.0 < value < 0.0 and value in solution.problem.drive.positions:
         return say.given(value)  # as the file has it
     return say.given(round(value % 360.0, 2) % 360.0)

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from types import MappingProxyType
 
 from planmethod.note.narrate.given import point_name
 from planmethod.note.narrate.scales import scale_inscription
@@ -77,8 +78,20 @@ def plan_view(solution: Solution, indices: Sequence[int], manner: Manner) -> Blo
     if manner.entry.position is not None:
         indices = (manner.entry.position,)
     step, words = manner.entry.per_row, manner.words
-    pictures = plan_grid(solution, kind, indices, words, in_row=step, errors=manner.extras.errors)
-    return plans_viewed(solution, pictures, indices, manner)
+    alike = _alike(solution, indices)
+    shown, errors = tuple(alike), manner.extras.errors
+    pictures = plan_grid(solution, kind, shown, words, in_row=step, errors=errors, alike=alike)
+    return plans_viewed(solution, pictures, shown, manner)
+
+
+def _alike(solution: Solution, indices: Sequence[int]) -> dict[int, list[int]]:
+    """Return positions with those of the second turn of a cycle in which the crank stands alike."""
+    found: dict[float, list[int]] = {}
+    two = solution.problem.turns > 1 and solution.problem.drive.is_crank
+    for i in indices:
+        place = round(float(solution.positions[i]) % 360.0, 6) % 360.0 if two else float(i)
+        found.setdefault(place, []).append(i)
+    return {numbers[0]: numbers for numbers in found.values()}
 
 
 def plan_grid(
@@ -89,19 +102,21 @@ def plan_grid(
     *,
     in_row: int | None = None,
     errors: bool = False,
+    alike: Mapping[int, Sequence[int]] = MappingProxyType({}),
 ) -> list[Block]:
     """Return the plans of many positions in rows and columns, each with its number.
 
     There are as many ways as numbers of plans in a row, the usual one first; ``in_row`` asks for
-    one.
+    one. ``alike`` are the numbers of positions that have the plan of one.
     """
     coordinate, say = solution.problem.drive.coordinate, words.say
     cells: list[Block] = []
     common = solution.has_common(kind)
     convention = solution.problem.scales.convention
     for i in indices:
-        value = with_unit(position_text(solution, i, say), say.units[coordinate.unit])
-        said = f"{i}: {coordinate.symbol} = {value}"
+        own_numbers, unit = alike.get(i, (i,)), say.units[coordinate.unit]
+        values = ", ".join(with_unit(position_text(solution, k, say), unit) for k in own_numbers)
+        said = f"{', '.join(map(str, own_numbers))}: {coordinate.symbol} = {values}"
         own = solution.own_scale(kind, i)
         caption: Block = Line(typeset(said, CAPTION))
         if own != solution.scales[kind] or not common:

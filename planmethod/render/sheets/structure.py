@@ -201,7 +201,7 @@ def _told(
     sizes = pictures.sizes
     for row in pictures.rows:
         lines = [
-            *mobility_formulas(mechanism, structure, words),
+            *mobility_formulas(mechanism, structure, words, problem.sheet.notation),
             *order_formulas(mechanism, structure, words),
         ]
         blocks = [

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
+from msgspec import Struct
 
 from planmethod.construct.scale import Scale, choose_scale
 from planmethod.mechanism.model import FRAME
@@ -12,7 +13,7 @@ from planmethod.note.narrate.given import given, point_name
 from planmethod.note.narrate.scales import scale_inscription
 from planmethod.note.narrate.turn import (
     diagram_scales,
-    drawn_note,
+    drawn_notes,
     output_name,
     turn_facts,
 )
@@ -20,7 +21,7 @@ from planmethod.note.numbers import half_up
 from planmethod.note.tables.turn import Columns, cycle_columns, deviation_columns, deviations_title
 from planmethod.plans.model import FACTS, PlanKind
 from planmethod.problem.model import Convention
-from planmethod.render.layout.block import Block
+from planmethod.render.layout.block import Block, Picture
 from planmethod.render.layout.tables import TableColumn, table_block
 from planmethod.render.pictures.kinematic import kinematic_picture
 from planmethod.render.pictures.polar import polar_picture
@@ -65,7 +66,7 @@ def diagrams_view(solution: Solution, indices: Sequence[int], manner: Manner) ->
         f"K_{{{number}}} = {words.say.given(half_up(pole, 2))} {words.say.units['mm']}"
         for number, pole in enumerate(diagrams.poles, 1)
     ]
-    lines = ["; ".join([*scales, *k]), drawn_note(diagrams.task.differentiation, words)]
+    lines = ["; ".join([*scales, *k]), *drawn_notes(diagrams, words)]
     block = named(picture, manner.entry.title or title, lines, manner)
     return Viewed(block, "diagram", diagrams.scales[0])
 
@@ -74,7 +75,7 @@ def chosen_plans(solution: Solution, indices: Sequence[int], manner: Manner) -> 
     """Return the plans of a position of either stroke: after a sixth and two thirds of a turn."""
     kind = manner.entry.of
     assert kind is not None
-    count = len(solution.positions)
+    count = len(solution.positions) // solution.problem.turns  # the second turn is as the first
     chosen = tuple(dict.fromkeys((round(count / 6), round(2 * count / 3) % count)))
     picture, *_ = plan_grid(solution, kind, chosen, manner.words)
     title = manner.entry.title or manner.words.sheets["views"][kind.value][1]
@@ -110,14 +111,28 @@ def hodograph_point(turn: Turn) -> str | None:
     return next((p for p in wide if p.startswith("S")), wide[0] if wide else None)
 
 
-def hodograph_view(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
-    """Return the hodograph of velocities or accelerations of a point about one pole."""
-    kind = manner.entry.of
-    assert kind is not None
-    turn, words = turn_of(solution), manner.words
-    point = hodograph_point(turn)
-    if point is None:
-        point = turn.output.point
+class Hodograph(Struct, frozen=True):
+    """Hodograph of a point about one pole, in millimetres (годограф).
+
+    ``parts`` are the unbroken parts of the curve, ``ends`` those of the vectors in the positions.
+    """
+
+    kind: PlanKind
+    point: str
+    scale: Scale
+    parts: tuple[Complexes, ...]
+    ends: Complexes
+
+    def picture(self, letter: float) -> Picture:
+        """Return it with letters of a height, mm."""
+        name = f"{self.kind.value} {self.point}"
+        return polar_picture(self.parts, self.ends, letter, name, FACTS[self.kind].pole)
+
+
+def hodograph(solution: Solution, kind: PlanKind, side: float) -> Hodograph:
+    """Return the hodograph of velocities or accelerations that fills a square, its side in mm."""
+    turn = turn_of(solution)
+    point = hodograph_point(turn) or turn.output.point
     drive, kin = solution.problem.drive, turn.unit.construction.kinematics
 
     def vectors(positions: Reals) -> Complexes:
@@ -134,19 +149,24 @@ def hodograph_view(solution: Solution, indices: Sequence[int], manner: Manner) -
     last = last if turn.range is not None else first + turn.sense * TURN
     ends, curve = vectors(turn.positions), vectors(np.linspace(first, last, 361))
     there = np.concatenate([[0j], curve[np.isfinite(curve)], ends[np.isfinite(ends)]])
-    side = SIDE * manner.width(manner.sizes.column)
     size = (float(np.ptp(there.real)), float(np.ptp(there.imag)))
     inverse = solution.problem.scales.convention is Convention.MM_PER_UNIT
     facts = FACTS[kind]
     scale = Scale(facts.scale, choose_scale(size, (side, side), mm_per_unit=inverse), facts.unit)
     gaps = np.flatnonzero(~np.isfinite(curve))
-    parts = [part[np.isfinite(part)] / scale.per_mm for part in np.split(curve, gaps)]
-    drawn: Complexes = np.nan_to_num(ends) / scale.per_mm
-    picture = polar_picture(parts, drawn, manner.letter, f"{kind.value} {point}", facts.pole)
-    title = words.cycle["hodograph"][kind.value].format(of=point_name(point))
-    said = [scale_inscription(scale, solution.problem.scales.convention, words.say)]
-    block = named(picture, manner.entry.title or title, said, manner)
-    return Viewed(block, "hodograph", scale)
+    parts = tuple(part[np.isfinite(part)] / scale.per_mm for part in np.split(curve, gaps))
+    return Hodograph(kind, point, scale, parts, np.nan_to_num(ends) / scale.per_mm)
+
+
+def hodograph_view(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
+    """Return the hodograph of velocities or accelerations of a point about one pole."""
+    kind, words = manner.entry.of, manner.words
+    assert kind is not None
+    one = hodograph(solution, kind, SIDE * manner.width(manner.sizes.column))
+    title = words.cycle["hodograph"][kind.value].format(of=point_name(one.point))
+    said = [scale_inscription(one.scale, solution.problem.scales.convention, words.say)]
+    block = named(one.picture(manner.letter), manner.entry.title or title, said, manner)
+    return Viewed(block, "hodograph", one.scale)
 
 
 # Tables ------------------------------------------------------------------------------------------

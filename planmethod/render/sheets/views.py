@@ -178,10 +178,10 @@ def plan_with_knots(
 
 
 def shown_position(solution: Solution, indices: Sequence[int], manner: Manner) -> int:
-    """Return the position that stands for all: the asked one, else the clearest one."""
-    asked = manner.entry.position
-    if asked is not None and asked in indices:
-        return asked
+    """Return the position that stands for all: the asked or calculated one, else the clearest."""
+    for asked in (manner.entry.position, solution.problem.calculated):
+        if asked is not None and asked in indices:
+            return asked
     return indices[0] if len(indices) == 1 else clearest_position(solution, tuple(indices))
 
 

@@ -12,7 +12,9 @@ from msgspec.structs import replace
 
 from planmethod.errors import Fault, ProblemError
 from planmethod.languages import say
+from planmethod.mechanism.model import FRAME
 from planmethod.plans.build import Construction
+from planmethod.problem.load_records import TurningSense
 from planmethod.problem.model import Problem
 from planmethod.problem.names import told_length
 from planmethod.solved.course.curve import Piecewise, resolved
@@ -50,7 +52,7 @@ class Moved(Struct, frozen=True):
 
 
 class PointStroke(Struct, frozen=True):
-    """Course of a point between its dead positions (ход точки по прямой).
+    """Course of a point between its dead positions (ход точки): along a line or an arc.
 
     Attributes
     ----------
@@ -59,16 +61,44 @@ class PointStroke(Struct, frozen=True):
     dead : ndarray of shape (m,), rad
         Where the point stands, angles turned from position 0, rising within a cycle. The first is
         the last before position 0 or the next after it, whichever is nearer along the path.
+    centre : complex or None, m
+        Of the arc; None of a straight path.
     """
 
     start: complex
     towards: complex
     dead: Reals
+    centre: complex | None = None
+
+    @property
+    def swing(self) -> float:
+        """Angle of the arc, rad, counter-clockwise positive; a swing is less than half a turn."""
+        assert self.centre is not None
+        ray = self.start - self.centre
+        return float(np.angle((ray + self.towards) / ray))
 
     def share(self, place: Complexes) -> Reals:
         """Return how far a place is along the path, from 0 at the start to 1, shape (n,)."""
-        along = ((place - self.start) * self.towards.conjugate()).real / abs(self.towards) ** 2
+        if self.centre is None:
+            way = (place - self.start) * self.towards.conjugate()
+            along = way.real / abs(self.towards) ** 2
+        else:
+            along = np.angle((place - self.centre) / (self.start - self.centre)) / self.swing
         return np.asarray(np.clip(along, 0.0, 1.0), dtype=float)
+
+    def direction(self, share: float) -> complex:
+        """Return the unit vector across which the path is cut after a share of it."""
+        if self.centre is None:
+            return self.towards / abs(self.towards)
+        turned = self.swing * share + np.sign(self.swing) * np.pi / 2
+        ray = self.start - self.centre
+        return complex(ray / abs(ray) * np.exp(1j * turned))
+
+    def place(self, share: float) -> complex:
+        """Return the place after a share of the path, m."""
+        if self.centre is None:
+            return self.start + self.towards * share
+        return complex(self.centre + (self.start - self.centre) * np.exp(1j * self.swing * share))
 
     def progress(self, turned: Reals, place: Complexes, cycle: float) -> Reals:
         """Return how many strokes of the cycle are done, from 0 at the start, shape (n,)."""
@@ -116,10 +146,22 @@ class TurnMotion:
         self.sense = 1.0 if drive.rate > 0.0 else -1.0
         machine = problem.machine
         start = machine.start_deg if machine is not None else None
-        self.start_deg = drive.positions[0] if start is None else start
+        first = (*problem.numbered, *drive.positions)[0]
+        self.start_deg = first if start is None else start
         self.cycle = float(np.radians(360.0 if machine is None else machine.cycle_deg))
         self._solution = Solution(self.problem, positions=[self.start_deg])
         self.construction = self._solution.construction
+
+    def numbers(self, count: int) -> list[int]:
+        """Return the numbers of so many positions as the crank comes through them, and of the end.
+
+        ``[cycle] direction`` may be against the crank's rotation.
+        """
+        task = self.problem.cycle
+        direction = None if task is None else task.direction
+        if direction is None or (direction is TurningSense.CCW) == (self.sense > 0.0):
+            return list(range(count + 1))
+        return [0, *range(count - 1, -1, -1)]
 
     def phi(self, turned: Reals) -> Reals:
         """Return driver positions of the file, degrees, of angles turned."""
@@ -222,20 +264,23 @@ class TurnMotion:
         return {}
 
     def stroke(self, point: str) -> PointStroke:
-        """Return the stroke of a point that moves to and fro on a straight line.
+        """Return the stroke of a point that moves to and fro on a straight line or an arc.
 
         Raises
         ------
         ProblemError
-            The point stands, or its path is not straight.
+            The point stands, or its path is neither.
         """
         if point not in self._strokes:
             self._strokes[point] = self._stroke(point)
         return self._strokes[point]
 
     def _stroke(self, point: str) -> PointStroke:
-        way = self.course(point)
-        dead = self.column(point, way, velocity=True).roots()
+        way, rocker = self.course(point), self._rocker(point)
+        if rocker is None:
+            dead = self.column(point, way, velocity=True).roots()
+        else:
+            dead = self.omega(rocker[0]).roots()
         first = self.at(np.zeros(1)).points[point]
         speeds = np.abs(self.sampled.points[point].velocity)
         at_start = abs(first.velocity[0]) <= 1e-9 * float(np.max(speeds))
@@ -255,24 +300,42 @@ class TurnMotion:
             dead = np.append(dead[-1] - self.cycle, dead[:-1])
             places = np.roll(places, 1)
         along = (places * way.conjugate()).real
+        if rocker is not None:
+            along = np.unwrap(np.angle(places - rocker[1]))
         low, high = complex(places[np.argmin(along)]), complex(places[np.argmax(along)])
         start, end = (low, high) if abs(places[0] - low) <= abs(places[0] - high) else (high, low)
         everywhere = self.sampled.points[point].place
         towards = end - start
         off = float(np.max(np.abs(((everywhere - start) * towards.conjugate()).imag)))
-        if off > STRAIGHT * abs(towards) ** 2:
-            raise _fault(
-                self.problem,
-                "loads",
-                say(
-                    "point {} does not move on a straight line: it is {} off, the stroke is {}",
-                    point,
-                    told_length(off / abs(towards), self.problem.unit, 3),
-                    told_length(abs(towards), self.problem.unit, 4),
-                ),
-                'Give the load over the path of a slider, or over "phi".',
-            )
-        return PointStroke(start, towards, dead)
+        if off <= STRAIGHT * abs(towards) ** 2:
+            return PointStroke(start, towards, dead)
+        if rocker is not None:
+            return PointStroke(start, towards, dead, rocker[1])
+        raise _fault(
+            self.problem,
+            "loads",
+            say(
+                "point {} moves neither on a straight line nor about a fixed point: it is {} off "
+                "the line, the stroke is {}",
+                point,
+                told_length(off / abs(towards), self.problem.unit, 3),
+                told_length(abs(towards), self.problem.unit, 4),
+            ),
+            'Give the load over the path of a slider or of a rocker, or over "phi".',
+        )
+
+    def _rocker(self, point: str) -> tuple[str, complex] | None:
+        """Return the link that swings a point about a fixed one, m, less than half a turn."""
+        bodies = self.problem.bodies
+        fixed = bodies[FRAME].points
+        for link, body in bodies.items():
+            pivots = [one for one in body.points if one in fixed]
+            if link == FRAME or point not in body.points or not pivots:
+                continue
+            rays = self.sampled.points[point].place - fixed[pivots[0]]
+            if float(np.ptp(np.unwrap(np.angle(rays)))) < np.pi:
+                return link, fixed[pivots[0]]
+        return None
 
 
 def _fault(problem: Problem, path: str, message: str, hint: str) -> ProblemError:

@@ -54,7 +54,8 @@ class Guided(Struct, frozen=True, dict=True):
     def symbol(self, letter: str, primes: str = "") -> str:
         """Return a letter with the numbers of both links: ``l_{50}``, ``F^{'}_{50}``."""
         above = f"^{{{primes}}}" if primes else ""
-        return reaction_symbol(self.on, self.by, letter=letter + above)
+        called = self.reading.solution.problem.mechanism.called
+        return reaction_symbol(called(self.on), called(self.by), letter=letter + above)
 
     @cached_property
     def b(self) -> float | None:
@@ -115,10 +116,11 @@ class Guided(Struct, frozen=True, dict=True):
 def guides(reading: ForceReading) -> Mapping[str, Guided]:
     """Return the reactions of the guides by the letter of the force, each way: ``F_{50}``."""
     found = {}
+    called = reading.solution.problem.mechanism.called
     for number, contact in reading.statics.contacts.items():
         joint = contact.joint
         for on, by in ((joint.on, joint.by), (joint.by, joint.on)):
-            found[reaction_symbol(on, by)] = Guided(reading, number, on, by)
+            found[reaction_symbol(called(on), called(by))] = Guided(reading, number, on, by)
     return found
 
 

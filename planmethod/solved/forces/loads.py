@@ -32,7 +32,7 @@ from planmethod.problem.load_records import (
 from planmethod.problem.model import Problem
 from planmethod.solved.course.motion import Moved, TurnMotion
 from planmethod.solved.reading import Complexes, Reals, Remembering
-from planmethod.solved.solution import LinkMotion, PointMotion
+from planmethod.solved.solution import LinkMotion, PointMotion, Solution
 
 STILL = 1e-10
 """Share of the largest speed of a position below which a point or a link stands."""
@@ -49,6 +49,10 @@ AHEAD = {
     MovingSense.RIGHT: 1 + 0j,
 }
 """Which way a point moves."""
+
+_LOOKS, _HALVINGS = 720, 40  # positions between which a load may begin and end, and how finely
+
+Span = tuple[float, float]
 
 Mask = npt.NDArray[np.bool_]
 
@@ -117,6 +121,12 @@ def changing(solution: MotionValues) -> dict[str, Applied]:
     links = solution.problem.mechanism.links
     found = (one for link in links for one in external(solution, dynamics, link))
     return {one.name: one for one in found if one.steady is None}
+
+
+def only_in_positions(dynamics: Dynamics) -> bool:
+    """Tell whether a load is known in the positions of the file only."""
+    tables = (load.size for load in dynamics.loads if isinstance(load.size, SizeTable))
+    return any(table.over is Over.POSITION for table in tables)
 
 
 def needs_motion(load: Load | Couple) -> bool:
@@ -236,6 +246,34 @@ def _largest_speed(solution: MotionValues) -> Reals:
     """Return the largest speed of a named point in each position, m/s."""
     speeds = [np.abs(motion.velocity) for motion in solution.points.values()]
     return np.asarray(np.max(speeds, axis=0), dtype=float)
+
+
+def acting(solution: Solution, load: Load | Couple, start: float, turn: float) -> list[Span]:
+    """Return the spans of a driving crank in which a load acts, degrees, in order.
+
+    Parameters
+    ----------
+    start, turn : float, degrees
+        Where it is looked from, and how far.
+    """
+    phase = load.phase
+    if phase is None:
+        return [(start, start + turn)]
+
+    def acts(positions: Reals) -> Mask:
+        return _acts(solution.moved(positions.tolist()), load, phase)
+
+    grid = start + turn * np.arange(_LOOKS + 1) / _LOOKS
+    there = acts(grid)
+    change = np.flatnonzero(there[1:] != there[:-1])
+    low, high, after = grid[change], grid[change + 1], there[change + 1]
+    for _ in range(_HALVINGS if change.size else 0):
+        middle = (low + high) / 2.0
+        beyond = acts(middle) == after
+        low, high = np.where(beyond, low, middle), np.where(beyond, middle, high)
+    marks = ((low + high) / 2.0).tolist()
+    ends = [*([start] if there[0] else []), *marks, *([start + turn] if there[-1] else [])]
+    return list(zip(ends[::2], ends[1::2], strict=True))
 
 
 def _acts(solution: MotionValues, load: Load | Couple, phase: Phase) -> Mask:

@@ -69,7 +69,7 @@ def _reactions(board: ForceBoard) -> Iterator[Quantity]:
         if reaction.couple is not None:
             told.append((QuantityKind.MOMENT, reaction.couple, moment_row(reaction)))
         for kind, name, row in told:
-            shown = reaction_symbol(on, by, letter=kind.letter)
+            shown = reaction_symbol(on, board.called(by), letter=kind.letter)
             back = f"{kind.letter}_{reaction.joint}_{by}/{on}"
             yield Quantity(
                 kind, name, f"{reaction.joint}_{on}/{by}", row=row, shown=shown, opposite=back

@@ -232,12 +232,12 @@ class Statics(Remembering):
             return Scale(SCALE, scales.mu_F, UNIT)
         if PlanKind.FORCE in self.solution.scales:
             return self.solution.scales[PlanKind.FORCE]
-        extents = [self._extent(plan) for plan in self.board.plans]
+        extents = [self.extent(plan) for plan in self.board.plans]
         whole = (max(e[0] for e in extents), max(e[1] for e in extents))
         inverse = scales.convention is Convention.MM_PER_UNIT
         return Scale(SCALE, choose_scale(whole, COMMON_BOX, mm_per_unit=inverse), UNIT)
 
-    def _extent(self, plan: ForcePlan) -> Box:
+    def extent(self, plan: ForcePlan) -> Box:
         """Return width and height of a plan in the position where it is the widest, N."""
         width, height = self._extents(plan)
         return float(width.max()), float(height.max())

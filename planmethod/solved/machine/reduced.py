@@ -186,10 +186,11 @@ def _found_breaks(turn: TurnMotion, load: Load | Couple) -> Iterator[Reals]:
         assert isinstance(load, Load)
         stroke = turn.stroke(load.at)
         yield np.mod(stroke.dead, turn.cycle)
-        unit = stroke.towards / abs(stroke.towards) ** 2
-        place = turn.column(load.at, unit).plus(-(stroke.start * unit.conjugate()).real)
         shares = np.unique(np.append(np.mod(nodes, 1.0), np.mod(-nodes, 1.0)))
-        yield from (place.roots(share) for share in shares if 1e-9 < share < 1.0 - 1e-9)
+        for share in shares:
+            if 1e-9 < share < 1.0 - 1e-9:
+                along, there = stroke.direction(share), stroke.place(share)
+                yield turn.column(load.at, along).roots((there * along.conjugate()).real)
 
 
 def _all_turns(turn: TurnMotion, phi: Reals, period: float) -> Reals:

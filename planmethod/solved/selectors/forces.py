@@ -190,7 +190,8 @@ class ForceValues:
         force, share = self._joint(on, by).force, Share.TANGENTIAL if kind == "Ft" else Share.NORMAL
         if self._is_nothing((self._vector(force) * along.conjugate()).real):
             return self._zero
-        symbols = {reaction_symbol(on, by, share), reaction_symbol(by, on, share)}
+        one, two = (self.statics.board.called(link) for link in (on, by))
+        symbols = {reaction_symbol(one, two, share), reaction_symbol(two, one, share)}
         for edge in (edge for plan in self.statics.board.plans for edge in plan.polygon):
             vector = self._vector(edge)
             if edge.symbol in symbols and abs((vector * along.conjugate()).imag) <= 1e-9 * abs(

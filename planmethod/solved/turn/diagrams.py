@@ -148,7 +148,7 @@ class Diagrams(Remembering):
     def __init__(self, turn: Turn, count: int | None = None) -> None:
         super().__init__()
         self.turn, self.task = turn, turn.task
-        self.count = count or self.task.count
+        self.count = count or turn.count
 
     # Exact ---------------------------------------------------------------------------------------
 
@@ -177,6 +177,16 @@ class Diagrams(Remembering):
         _, sign = self._start
         return sign * self.turn.sense * one, sign * two
 
+    def speeds(self, shares: Reals) -> tuple[Reals, Reals, Reals]:
+        """Return velocity, acceleration, and its part of a crank that turns evenly, SI.
+
+        a = s''·omega² + s'·epsilon, of which the diagrams have the first.
+        """
+        drive = self.turn.solution.problem.drive
+        one, two = self.rates(shares)
+        even = two * drive.rate**2
+        return one * abs(drive.rate), even + one * self.turn.sense * drive.acceleration, even
+
     def exact(self, shares: Reals) -> tuple[Reals, Reals, Reals]:
         """Return the exact ordinates of s, v and a after shares of the way, mm."""
         one, two = self.rates(shares)
@@ -200,7 +210,7 @@ class Diagrams(Remembering):
     @cached_property
     def fine(self) -> Reals:
         """Shares of the way that the curves are drawn through, from the first to the last."""
-        return np.linspace(self.shares[0], 1 - self.shares[0], 361)
+        return np.linspace(self.shares[0], 1 - self.shares[0], 360 * self.turn.turns + 1)
 
     def x(self, shares: Reals) -> Reals:
         """Return abscissae, mm from that of position 0."""

@@ -15,7 +15,6 @@ from planmethod.construct.arithmetic import Float64
 from planmethod.construct.steps import PointName
 from planmethod.errors import AssemblyError, Fault, PlanMethodError, ProblemError
 from planmethod.languages import say
-from planmethod.problem.cycle_records import Zero
 from planmethod.problem.keys import EXTREMES, GOING
 from planmethod.problem.model import Posed, PosedBy, Problem
 from planmethod.problem.names import UNITS, split_pair, told_length
@@ -218,8 +217,7 @@ def _ends(turn: Turn) -> tuple[Extreme, Extreme]:
     if turn.ends is None:
         why = turn.why_no_stroke
         raise _unknown(turn.solution, say("the output has no stroke: {}", why.value if why else ""))
-    start, end = turn.ends
-    return (end, start) if turn.task.zero is Zero.OTHER else (start, end)
+    return turn.ends_from_zero
 
 
 def _extreme(turn: Turn, posed: Posed, index: int) -> Found:

@@ -21,11 +21,22 @@ from planmethod.errors import Fault, ProblemError
 from planmethod.languages import say
 from planmethod.plans.model import PlanKind
 from planmethod.problem.cycle_records import CycleTask, Zero
+from planmethod.problem.load_records import TurningSense
+from planmethod.problem.model import Problem
 from planmethod.solved.closings import drive_data
 from planmethod.solved.reading import Flags, Reading, Reals, Remembering, remembered
 from planmethod.solved.solution import Solution
 from planmethod.solved.turn.output import Output, find_output, pressure_on
 from planmethod.solved.turn.roots import crossings, root, top
+from planmethod.solved.turn.strokes import (
+    LONGER,
+    SENSES,
+    TOLD,
+    Strokes,
+    by_loads,
+    looked_at,
+    powers,
+)
 
 TURN = 360.0
 
@@ -96,10 +107,16 @@ class Turn(Remembering):
                 ],
             )
         self.solution = solution
-        self.task = problem.cycle or CycleTask()
+        self.task = task_of(problem)
         self.sense = -1 if problem.drive.rate < 0 else 1
         self.unit = solution.moved(problem.drive.positions).at_unit_rate()
         self.output: Output = find_output(self.unit)
+
+    @property
+    def _asked(self) -> tuple[float, ...]:
+        """Positions that are looked at first: in them the closings are judged."""
+        drive = self.solution.problem.drive
+        return drive.judged or drive.positions
 
     # Readings ------------------------------------------------------------------------------------
 
@@ -147,7 +164,7 @@ class Turn(Remembering):
     @cached_property
     def _looks(self) -> tuple[Reals, Reading, Flags]:
         """Positions that are looked at, a turn from the first asked one that exists."""
-        asked = np.asarray(self.unit.problem.drive.positions)
+        asked = np.asarray(self._asked)
         there = np.flatnonzero(self._closed(self.read(asked)))
         start = float(asked[there[0]]) if there.size else float(asked[0])
         looks = start + _ASIDE + TURN * np.arange(LOOKS) / LOOKS
@@ -311,6 +328,16 @@ class Turn(Remembering):
             pairs, key=lambda p: (round(self._ahead(p[0].phi, p[1].phi), 7), -p[0].value, p[0].phi)
         )
 
+    @property
+    def ends_from_zero(self) -> tuple[Extreme, Extreme]:
+        """Both ends of the stroke, that which ``zero`` names first; there must be a stroke."""
+        assert self.ends is not None
+        one, two = self.ends
+        is_other = self.task.zero is Zero.OTHER
+        if self.task.zero is Zero.WORKING and self.strokes is not None:
+            is_other = self.strokes.start_deg == two.phi
+        return (two, one) if is_other else (one, two)
+
     @cached_property
     def why_no_stroke(self) -> NoNumber | None:
         """Why the output has no stroke between two extremes."""
@@ -334,36 +361,73 @@ class Turn(Remembering):
         return abs(self.ends[0].value - self.ends[1].value)
 
     @cached_property
-    def phases(self) -> tuple[float, float] | None:
-        """Degrees of the crank of the quicker stroke, from ``extreme``, and of the way back."""
+    def strokes(self) -> Strokes | None:
+        """Both strokes, and which of them works; None where the output has no two.
+
+        Raises
+        ------
+        ProblemError
+            The output moves on neither stroke as ``[cycle] working`` says.
+        """
         if self.ends is None or self.range is not None:
             return None
-        working = self._ahead(self.ends[0].phi, self.ends[1].phi)
-        return working, TURN - working
+        quick = self._ahead(self.ends[0].phi, self.ends[1].phi)
+        told = self._told_stroke()
+        found = (told, TOLD) if told is not None else self._loaded_stroke(quick)
+        # Of equal strokes that from the greater value.
+        is_first, by = found or (quick >= TURN / 2 - _SAME, LONGER)
+        working, idle = (quick, TURN - quick)[:: 1 if is_first else -1]
+        ratio = max(working, idle) / min(working, idle)
+        start = self.ends[0 if is_first else 1].phi
+        return Strokes(working, idle, None if self.why_no_ratio else ratio, by, start)
+
+    def _loaded_stroke(self, quick: float) -> tuple[bool, str] | None:
+        """Return whether the loads work on the quicker stroke, and which do; None without."""
+        assert self.ends is not None
+        start = self.ends[0].phi
+        positions = looked_at(self.solution.problem, start, self.turns)
+        if not positions.size:
+            return None
+        ahead = (self.sense * (positions - start)) % TURN
+        return by_loads(powers(self.solution, start, positions), ahead < quick)
+
+    def _told_stroke(self) -> bool | None:
+        """Return whether the quicker stroke goes as ``[cycle] working`` says; None without."""
+        sense, problem = self.task.working, self.solution.problem
+        if sense is None or self.ends is None:
+            return None
+        one, two = self.ends
+        way, size = two.value - one.value, abs(two.value - one.value)
+        if sense in SENSES:
+            place = self.read([one.phi, two.phi]).point(PointName(self.output.point))
+            moved = complex(place[1] - place[0])
+            size, way = abs(moved), (moved * SENSES[sense].conjugate()).real
+        elif self.output.slide is None:
+            way = -way if sense.value == "cw" else way
+        else:
+            size = np.inf
+        if abs(way) > 1e-6 * size:
+            return way > 0.0
+        message = say("{} does not go so on either stroke", self.output.name)
+        hint = "Say how it goes: left, right, up or down, a link that turns ccw or cw."
+        raise ProblemError(problem.name, [Fault("cycle.working", message, hint)])
 
     @cached_property
     def why_no_ratio(self) -> NoNumber | None:
         """Why there is no K_v."""
-        if self.phases is None:
+        if self.ends is None or self.range is not None:
             return self.why_no_stroke or NoNumber.PARTIAL
         ends = [value for end in self.ends or () for value in (end.value,)]
         near = _SAME * abs(ends[0] - ends[1])
         at_ends = [e for e in self._turnings if min(abs(e.value - v) for v in ends) <= near]
         return NoNumber.SEVERAL if len(at_ends) > 2 else None
 
-    @cached_property
-    def ratio(self) -> float | None:
-        """Ratio of the mean speeds of both strokes K_v, 1 or more (коэффициент изменения)."""
-        if self.phases is None or self.why_no_ratio is not None:
-            return None
-        return max(self.phases) / min(self.phases)
-
     # Position zero -------------------------------------------------------------------------------
 
     @cached_property
     def zero(self) -> float:
-        """Position zero, degrees: an extreme within half a turn of 0, or the given angle."""
-        asked, first = self.task.zero, float(self.unit.problem.drive.positions[0])
+        """Position zero, degrees: an extreme from 0 to 360, or the given angle."""
+        asked, first = self.task.zero, float(self._asked[0])
         if self.range is not None:
             first = float(self.positions[0])
         if not isinstance(asked, Zero):
@@ -376,10 +440,10 @@ class Turn(Remembering):
             single = self._turnings
             found = single[0].phi if single else first
         else:
-            found = self.ends[0 if asked is Zero.EXTREME else 1].phi
+            found = self.ends_from_zero[0].phi
         if self.range is not None:
             return found
-        return TURN / 2 - (TURN / 2 - found) % TURN
+        return 0.0 if TURN - found % TURN < _SAME else found % TURN
 
     @cached_property
     def zero_is_asked(self) -> bool:
@@ -388,18 +452,45 @@ class Turn(Remembering):
             return self.ends is not None
         return not (self.zero - self.task.zero) % TURN
 
+    @property
+    def turns(self) -> int:
+        """Turns of the crank in a cycle: two of a machine of 720 degrees."""
+        return 1 if self.range else self.solution.problem.turns
+
+    @property
+    def count(self) -> int:
+        """Positions of the cycle."""
+        return self.task.count * self.turns
+
+    @property
+    def is_against(self) -> bool:
+        """Whether positions are numbered against the rotation of the crank."""
+        direction = self.task.direction
+        return direction is not None and (direction is TurningSense.CCW) != (self.sense > 0)
+
     @cached_property
     def positions(self) -> Reals:
-        """Positions of the cycle, numbered as the driver goes, ndarray of shape (count,).
+        """Positions of the cycle in the order of their numbers, ndarray of shape (count,).
 
         Of a crank that does not turn fully so many within its range, the limits left out.
         """
-        return self.at((np.arange(self.task.count) + self.first) / self.task.count)
+        numbers = np.arange(self.count)
+        if self.is_against:
+            numbers = -numbers if self.range is None else numbers[::-1]
+        return self.at((numbers + self.first) / self.count)
+
+    @property
+    def numbers(self) -> list[int]:
+        """Numbers of the positions as the crank comes through them from position 0, or a limit."""
+        numbers = list(range(self.count))
+        if not self.is_against:
+            return numbers
+        return numbers[::-1] if self.range is not None else [0, *numbers[:0:-1]]
 
     @property
     def way(self) -> float:
-        """How far the crank goes, degrees: a turn, or its range."""
-        return TURN if self.range is None else self.range[1] - self.range[0]
+        """How far the crank goes, degrees: a turn or two, or its range."""
+        return TURN * self.turns if self.range is None else self.range[1] - self.range[0]
 
     @property
     def first(self) -> float:
@@ -455,6 +546,15 @@ class Turn(Remembering):
             ways = [self._ahead(self.zero, float(at)) for at in alike[flat == flat.max()]]
             found += [sign * most, self.zero + self.sense * min(ways)]
         return PressureAnglePeak(*found)
+
+
+def task_of(problem: Problem) -> CycleTask:
+    """Return what is asked of the cycle: without ``[cycle]`` a machine tells its positions."""
+    machine = problem.machine
+    if problem.cycle is not None or machine is None:
+        return problem.cycle or CycleTask()
+    start = problem.drive.positions[0] if machine.start_deg is None else machine.start_deg
+    return CycleTask(zero=start, count=round(machine.count * TURN / machine.cycle_deg))
 
 
 def turn_of(solution: Solution) -> Turn:

@@ -15,8 +15,8 @@ from msgspec.structs import replace
 from planmethod.check.model import Diagnosis, Judged, Verdict, WrittenAnswer
 from planmethod.check.pages.listing import COLUMNS, csv_bytes, record, safe
 from planmethod.check.pages.results import results_xlsx
-from planmethod.check.pages.workbook import add_sheet, new_workbook, saved
 from planmethod.note.wording import LANGUAGES, language
+from planmethod.note.writers.workbook import add_sheet, new_workbook, saved
 
 ANSWER = ("id", "verdict", "from", "value", "exact", "tolerance", "mm", "exact_mm", "points")
 

@@ -10,6 +10,7 @@ from msgspec.structs import replace
 
 from planmethod.construct.steps import Name, Step
 from planmethod.note.document import Equation
+from planmethod.note.formula import fraction
 from planmethod.note.narrate.equations import Directed, term_of
 from planmethod.note.narrate.formulas import Formulas
 from planmethod.note.narrate.naming import Names
@@ -53,13 +54,13 @@ class ForceContext:
         return self.say.exactly(abs(value))
 
     def scaled(self, text: str, per_mm: float, *, back: bool = False) -> str:
-        """Return millimetres times the scale of their drawing, or over it: ``70,0/250``.
+        """Return millimetres times the scale of their drawing, or over it: ``70,0·250``.
 
         ``back``: what is to be millimetres there.
         """
         is_inverse = self.names.is_inverse_scale()
-        sign, scale = "·" if is_inverse is back else "/", 1.0 / per_mm if is_inverse else per_mm
-        return f"{text}{sign}{self.short(scale)}"
+        scale = self.short(1.0 / per_mm if is_inverse else per_mm)
+        return f"{text}·{scale}" if is_inverse is back else fraction(text, scale)
 
     def on_drawing(self, text: str) -> str:
         """Return millimetres of the position plan as metres."""

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 import numpy as np
 from msgspec import Struct
 
+from planmethod.note.formula import fraction
 from planmethod.note.narrate.forces.common import ForceContext, arm_symbol, signed_sum
 from planmethod.note.narrate.forces.resultants import force_symbol
 from planmethod.note.numbers import significant
@@ -86,7 +87,9 @@ class LeverNarrator:
         names = self.names
         if one.ends is None or one.joints is None or not set(one.ends) <= set(names.letters):
             omega, per_mm = one.ratio * self.lever.per_mm, self.lever.per_mm
-            letters = f"ω_{{{one.link}}}{'·' if names.is_inverse_scale() else '/'}μ_{{v}}"
+            letters, scale = f"ω_{{{one.link}}}", "μ_{v}"
+            is_inverse = names.is_inverse_scale()
+            letters = f"{letters}·{scale}" if is_inverse else fraction(letters, scale)
             return PairText(
                 letters, self.context.scaled(self.context.short(omega), per_mm, back=True)
             )
@@ -94,7 +97,7 @@ class LeverNarrator:
         segment, link = self.ruled(one.ratio * one.length), self.context.short(one.length)
         units = self.context.units
         told = f"{letters} = {segment} {units['mm']}; {length} = {link} {units['m']}"
-        return PairText(f"{letters}/{length}", f"{segment}/{link}", told, length)
+        return PairText(fraction(letters, length), fraction(segment, link), told, length)
 
     def _joints(self, one: OnLink, first: str, second: str) -> str:
         """Return two joints in the order in which their distance is given."""
@@ -103,7 +106,13 @@ class LeverNarrator:
         on_link = {first, second} <= set(problem.bodies[one.link].points)
         return first + second if on_link and second + first not in given else second + first
 
-    def _shift(self, one: LeverShift) -> str:
+    def segments(self) -> list[str]:
+        """Return the segments and lengths by which couples stand on the lever, each once."""
+        on_links = (*self.lever.couples, *self.lever.shifts)
+        told = (self._pair(one).segment for one in on_links)
+        return [text for text in dict.fromkeys(told) if text]
+
+    def shift(self, one: LeverShift) -> str:
         """Return how far the point of a shifted force is from the centre of mass on the lever."""
         told = self._pair(one)
         formula = f"{one.symbol}·{told.letters} = {self.found(one.shift)}·{told.numbers}"
@@ -117,10 +126,8 @@ class LeverNarrator:
             return [said.lever_no_work.format(symbol=self.balancing)]
         arms, lines = self.arms(), [self.equation()]
         lines += [f"{arms} {self.context.units['mm']}"] if arms else []
-        on_links = (*self.lever.couples, *self.lever.shifts)
-        segments = (self._pair(one).segment for one in on_links)
-        lines += [text.replace("; ", ";  ") for text in dict.fromkeys(segments) if text]
-        lines += [self._shift(one) for one in self.lever.shifts]
+        lines += [text.replace("; ", ";  ") for text in self.segments()]
+        lines += [self.shift(one) for one in self.lever.shifts]
         lines.append(said.lever_found.format(symbol=self.balancing, **self._both()))
         share, sigma = difference(self.reading), expected(self.reading)
         if share is not None:
@@ -172,7 +179,7 @@ class LeverNarrator:
             lines.append(self.said.hung.format(forces="; ".join(told)))
         lines += [
             self.said.shift_on_lever.format(
-                point=shift.letters[1], force=force_symbol(shift.link), formula=self._shift(shift)
+                point=shift.letters[1], force=force_symbol(shift.link), formula=self.shift(shift)
             )
             for shift in self.lever.shifts
         ]
@@ -225,8 +232,13 @@ class LeverNarrator:
         end = "."
         if self.reading.balancing.turns and value:
             end = self.said.directed.format(sense=self.context.sense(value))
-        result = f"{self.balancing} = {self._numbers()} = {self.found(abs(value))} {self.unit}"
-        return [f"{self.equation()},", f"{result}{exact}{end}"]
+        return [f"{self.equation()},", f"{self.result()}{exact}{end}"]
+
+    def result(self) -> str:
+        """Return what balances the driver, with numbers."""
+        value = both_balances(self.reading)[1]
+        assert value is not None
+        return f"{self.balancing} = {self._numbers()} = {self.found(abs(value))} {self.unit}"
 
     def _numbers(self) -> str:
         """Return the sum of the known moments over the arm of what balances them."""
@@ -246,8 +258,7 @@ class LeverNarrator:
                 text = f"{self.found(abs(couple.moment))}·{numbers}"
                 terms.append((couple.lever_moment, text))
         said = signed_sum([(turn * moment, text) for moment, text in terms])
-        over = f"({divisor})" if "/" in divisor else divisor
-        return f"({said})/{over}" if " " in said else f"{said}/{over}"
+        return fraction(said or "0", divisor)  # in an extreme position nothing may have a moment
 
     def _compared(self) -> list[str]:
         """Tell how far lever and force plans are apart, and what a drawing lets expect."""

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from planmethod.construct.steps import Compute, NumberName
+from planmethod.note.formula import fraction
 from planmethod.note.narrate.forces.common import ForceContext, closed
 from planmethod.note.narrate.forces.resultants import shift_symbol
 from planmethod.note.narrate.scales import scale_inscription
@@ -51,9 +52,9 @@ class LoadNarrator:
         """Return the couple that a shifted force of inertia stands for, and the shift."""
         size, moment = self.reading.read_load(force), self.reading.read_number(shift.couple)
         metres = self.context.say.per_mm(PlanKind.POSITION) * self.reading.read_number(shift.length)
-        letters = f"{shift_symbol(shift.link)} = {shift.moment.name}/{force.applied.name}"
+        letters = f"{shift_symbol(shift.link)} = {fraction(shift.moment.name, force.applied.name)}"
         numbers, found = (
-            f"{self.found(abs(moment))}/{self.found(abs(size))}",
+            fraction(self.found(abs(moment)), self.found(abs(size))),
             self.found(abs(metres)),
         )
         told = f"{letters} = {numbers} = {found} {self.units['m']}"
@@ -123,7 +124,7 @@ class LoadNarrator:
             formula=formula,
             length=self.short(round(length, 2)),
             centre=one.point,
-            acceleration=f"a_{one.point}",
+            acceleration=f"a_{{{one.point}}}",
             force=one.name,
             point=shift.letter,
             couple=shift.moment.name,
@@ -157,7 +158,7 @@ class LoadNarrator:
             case LoadKind.INERTIA:
                 shifted = one.link in self.reading.statics.board.shifts
                 template = said.inertia_shifted if shifted else said.inertia
-                return template.format(acceleration=f"a_{one.point}", **common)
+                return template.format(acceleration=f"a_{{{one.point}}}", **common)
             case LoadKind.INERTIA_COUPLE:
                 sense = self.context.sense(couple)
                 epsilon = f"ε_{{{one.link}}}"

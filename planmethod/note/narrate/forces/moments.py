@@ -7,6 +7,7 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 from msgspec import Struct
 
+from planmethod.note.formula import fraction
 from planmethod.note.narrate.forces.common import ForceContext, arm_symbol, closed, signed_sum
 from planmethod.note.narrate.given import point_name
 from planmethod.note.numbers import MINUS
@@ -94,7 +95,7 @@ class MomentNarrator:
         letters.append((value, "·".join(filter(None, (symbol, arm)))))
         numbers = self._numbers(forces, couples, 1.0 if value < 0 else -1.0)
         if length:
-            numbers = f"({numbers})/{length}" if " " in numbers else f"{numbers}/{length}"
+            numbers = fraction(numbers, length)
         result = f"= {self.found(abs(value))} {self.units[unit]}" if value else "≈ 0"
         return MomentText(
             f"{head} = {signed_sum(letters)} = 0",
@@ -249,9 +250,10 @@ class MomentNarrator:
 
     def _place(self, guided: Guided) -> str:
         """Return how far from its joint the reaction of a guide acts."""
-        letters = f"{guided.own.symbol('l')} = {guided.symbol('M')}/{guided.symbol('F')}"
-        numbers = f"{self.found(guided.read_moment)}/{self.found(guided.read_force)}"
-        return f"{letters} = {numbers} = {self.found(guided.read_distance)} {self.units['m']}"
+        letters = fraction(guided.symbol("M"), guided.symbol("F"))
+        numbers = fraction(self.found(guided.read_moment), self.found(guided.read_force))
+        found = f"{self.found(guided.read_distance)} {self.units['m']}"
+        return f"{guided.own.symbol('l')} = {letters} = {numbers} = {found}"
 
     def _edges(self, guided: Guided) -> list[str]:
         """Return what acts at the edges of a slider that does not reach as far as the resultant.
@@ -263,8 +265,8 @@ class MomentNarrator:
             return []
         if not guided.is_read:
             names = " = ".join(guided.own.symbol("F", primes) for primes in ("'", "''"))
-            formula = f"{guided.symbol('M')}/{guided.own.symbol('a')}"
-            numbers = f"{self.found(guided.read_moment)}/{self.short(length)}"
+            formula = fraction(guided.symbol("M"), guided.own.symbol("a"))
+            numbers = fraction(self.found(guided.read_moment), self.short(length))
             found = self.found(guided.read_moment / length)
             return [f"{names} = {formula} = {numbers} = {found} {self.units['N']}"]
         force, distance = guided.read_force, guided.read_distance
@@ -272,13 +274,14 @@ class MomentNarrator:
             return []
         arm, a, f = (guided.symbol(letter) for letter in "laF")
         half = self.short(length / 2)
-        lines = [f"{arm} > {a}/2 = {half} {self.units['m']}"]
+        lines = [f"{arm} > {fraction(a, '2')} = {half} {self.units['m']}"]
         stronger = abs(guided.edges[0].force) > abs(guided.edges[1].force)
         for primes, is_near in (("'", stronger), ("''", not stronger)):
             sign = "+" if is_near else MINUS
             size = force * (distance + (length if is_near else -length) / 2) / length
             numbers = f"{self.found(force)}·({self.found(distance)} {sign} {half})"
-            formula = f"{f}·({arm} {sign} {a}/2)/{a} = {numbers}/{self.short(length)}"
+            letters = fraction(f"{f}·({arm} {sign} {fraction(a, '2')})", a)
+            formula = f"{letters} = {fraction(numbers, self.short(length))}"
             name = guided.symbol("F", primes)
             lines.append(f"{name} = {formula} = {self.found(size)} {self.units['N']}")
         return lines

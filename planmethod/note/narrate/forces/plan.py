@@ -111,7 +111,7 @@ class ForcePlanNarrator:
         for r in self.statics.board.reactions:
             if r.by not in links or r.on in links or self._is_nothing(r):
                 continue
-            for letter in "F" if self._is_still(r) else "FM":
+            for letter in "F" if self._is_still(r) else "FM":  # between moving links
                 own = reaction_symbol(r.by, r.on, letter=letter)
                 other = reaction_symbol(r.on, r.by, letter=letter)
                 told.append(self.context.symbol(f"{own} = −{other}"))
@@ -226,7 +226,7 @@ class ForcePlanNarrator:
         motion = self.names.kin.acceleration
         head = motion.point[motion.named[one.point]]
         return self.said.way_against.format(
-            segment=self.names.segment(motion.pole, head), acceleration=f"a_{one.point}"
+            segment=self.names.segment(motion.pole, head), acceleration=f"a_{{{one.point}}}"
         )
 
     def _lay(self, edge: Edge, way: str, *, back: bool = False) -> list[str]:

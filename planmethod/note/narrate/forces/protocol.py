@@ -65,8 +65,9 @@ def _plans(context: ForceContext) -> Iterator[Node]:
     groups: list[AssurGroup | None] = [*reversed(context.solution.structure.groups), None]
     driver = words.driver.format(link=context.solution.problem.drive.link)
     titles = [driver if group is None else links_of_group(group, words) for group in groups]
+    frame = context.solution.problem.mechanism.frame
     order = ", ".join(title[:1].lower() + title[1:] for title in titles)
-    yield Step((said.order.format(order=order), said.indices))
+    yield Step((said.order.format(order=order), said.indices.format(frame=frame)))
     for number, (plan, group) in enumerate(zip(context.reading.plans, groups, strict=True)):
         yield Part(driver if group is None else group_title(group, words))
         yield from _plan(context, plan, number)

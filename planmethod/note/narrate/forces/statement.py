@@ -36,7 +36,8 @@ def statement(reading: ForceReading, words: Language) -> list[str]:
     text = As(problem, words)
     for contact in reading.statics.contacts.values():
         if contact.length is not None:
-            letter = reaction_symbol(contact.joint.on, contact.joint.by, letter="a")
+            by = problem.mechanism.called(contact.joint.by)
+            letter = reaction_symbol(contact.joint.on, by, letter="a")
             lines.append(f"{letter} = {text.metres(contact.length)}")
     paths = _paths(dynamics)
     for one in _external(reading):
@@ -79,13 +80,14 @@ def _external(reading: ForceReading) -> list[Applied]:
 
 def wanted(reading: ForceReading, say: Notation) -> str:
     """Return what is to be found, as one line of symbols."""
-    statics = reading.statics
-    symbols = [reaction_symbol(joint.on, joint.by) for joint in statics.reactions]
+    statics, called = reading.statics, reading.solution.problem.mechanism.called
+    symbols = [reaction_symbol(joint.on, called(joint.by)) for joint in statics.reactions]
     for k, contact in statics.contacts.items():
         # Of a guide that gives a couple alone nobody can ask where its force acts.
         is_none = abs(statics.reactions[k].force[reading.index]) <= FAINT_SHARE * reading.peak
         letter = "M" if is_none else "l"
-        symbols.append(reaction_symbol(contact.joint.on, contact.joint.by, letter=letter))
+        by = called(contact.joint.by)
+        symbols.append(reaction_symbol(contact.joint.on, by, letter=letter))
     return ", ".join([*symbols, say.symbol(reading.balancing_symbol)])
 
 
@@ -128,5 +130,7 @@ def _load(solution: Solution, load: Load | Couple, words: Language) -> str:
 
 def cycle_wanted(solution: Solution, say: Notation) -> str:
     """Return what is to be found in all positions, as one line of symbols."""
-    symbols = [reaction_symbol(joint.on, joint.by) for joint in statics_of(solution).reactions]
+    called = solution.problem.mechanism.called
+    joints = statics_of(solution).reactions
+    symbols = [reaction_symbol(joint.on, called(joint.by)) for joint in joints]
     return ", ".join([*symbols, say.symbol(solution.problem.drive.balancing.symbol)])

@@ -38,6 +38,7 @@ TOP = (
     "per_sheet",
     "grow",
     "turn",
+    "cycle",
     "arrange",
     "sizes",
     "groups",
@@ -100,6 +101,7 @@ def read_composition(text: str, *, name: str) -> Composition:
     per_sheet = _read_per_sheet(faults, given.get("per_sheet", [12, 6, 4, 2, 1]))
     grow = read_switch(faults, "grow", given.get("grow", False))
     turn = read_switch(faults, "turn", given.get("turn", False))
+    cycle = read_switch(faults, "cycle", given.get("cycle", turn))
     sizes = _read_sizes(faults, given.get("sizes", {}), whole=name == SHIPPED[0])
     blocks = read_entries(faults, given.get("blocks"))
     made = Composition(
@@ -109,6 +111,7 @@ def read_composition(text: str, *, name: str) -> Composition:
         per_sheet=per_sheet,
         grow=grow,
         turn=turn,
+        cycle=cycle,
         sizes=sizes,
         arranged=_read_groups(faults, given, blocks),
         titles=_read_sheets(faults, given.get("sheets", {}), {entry.sheet for entry in blocks}),

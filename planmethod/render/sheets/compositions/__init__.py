@@ -25,6 +25,8 @@ SHIPPED = (
     "flywheel",
     "run-up",
     "balancing",
+    "project-kinematics",
+    "project-forces",
 )
 """Compositions that come with the program; the first three are taken when none is asked for."""
 

@@ -1,0 +1,67 @@
+"""What is decided of a project that a command is given: read, settled, looked over."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, TypeVar
+
+import click
+from msgspec.structs import replace
+
+from planmethod.commands.problems import load_unsettled, solution_of
+from planmethod.options import UsageError, drawn_by
+
+if TYPE_CHECKING:
+    from planmethod.commands.asked import Settled
+    from planmethod.project.model import Project
+
+F = TypeVar("F", bound=Callable[..., Any])
+
+
+def note_options(command: F) -> F:
+    """Add the template of the department, and the frames of the note's pages."""
+    command = click.option(
+        "--frame", is_flag=True, help="Frames and title blocks on the note's pages (forms 2, 2a)."
+    )(command)
+    return click.option(
+        "--template",
+        type=click.Path(path_type=Path, dir_okay=False),
+        metavar="FILE.docx",
+        help="File of Word whose page and styles the note takes.",
+    )(command)
+
+
+def decided(path: Path, variant: str | None, position: int | None, settled: Settled) -> Project:
+    """Return the project of a file, with what the command line asks of its sheets.
+
+    Parameters
+    ----------
+    position : int or None
+        Number of the calculated position, where the command line tells it.
+
+    Raises
+    ------
+    PlanMethodError
+        The file is faulty, or the mechanism cannot be assembled in a position.
+    click.UsageError
+        It is no linkage.
+    """
+    from planmethod.kinds import kind_of
+    from planmethod.problem.cycle_records import ProjectTask
+    from planmethod.project.settle import settle
+
+    kind = kind_of(path)
+    if kind is not None:
+        raise UsageError(
+            "{}: a project is that of a linkage; [{}] alone: planmethod sheet",
+            path.name,
+            kind.table,
+        )
+    problem = settled.over(load_unsettled(path, variant))
+    if position is not None:
+        task = replace(problem.project or ProjectTask(), calculated=position)
+        problem = replace(problem, project=task)
+    project = settle(problem, path)
+    solution_of(project.problem, None, drawn_by(None, None), forces=True)
+    return project

@@ -1,0 +1,305 @@
+"""Command ``project``: all sheets of a course project, its note, its numbers."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from functools import partial
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Literal
+
+import click
+import msgspec
+from msgspec import Struct
+
+from planmethod.commands.asked import PaperRequest, sheet_options
+from planmethod.commands.decided import decided, note_options
+from planmethod.commands.helptext import Spoken
+from planmethod.commands.output import bar, json_text, show
+from planmethod.commands.problems import guarded, stem, tell_wheel
+from planmethod.errors import ExitCode, PlanMethodError
+from planmethod.options import (
+    BadParameter,
+    UsageError,
+    dxf_text_option,
+    format_option,
+    jobs_option,
+    open_option,
+    out_option,
+    position_option,
+)
+from planmethod.problem.cycle_records import PROJECT_PARTS
+
+if TYPE_CHECKING:
+    from planmethod.project.model import Project, ProjectPart
+    from planmethod.project.notes import NoteOptions
+    from planmethod.project.record import PartFiles
+    from planmethod.render.ink.drawing import Drawing
+
+Files = dict[str, bytes]
+
+RECORD = "project.json"
+NUMBERS = "numbers.xlsx"
+WHOLE = "project.pdf"
+
+
+class MadePart(Struct, frozen=True):
+    """Files of one task of the work, and its sheets."""
+
+    files: Files
+    drawings: tuple[Drawing, ...] = ()
+
+
+class Task(Struct, frozen=True):
+    """What is written: the sheets of a part, all sheets, the note or the numbers."""
+
+    name: str
+    stem: str = ""
+    drawings: tuple[Drawing, ...] = ()
+
+
+class SheetFormats(Struct, frozen=True):
+    """How sheets are written: formats, author, resolution."""
+
+    formats: tuple[str, ...]
+    author: str | None
+    dxf_text: Literal["text", "strokes"]
+
+
+def read_parts(
+    ctx: click.Context, param: click.Parameter, value: str | None
+) -> tuple[str, ...] | None:
+    """Return the names of parts of a comma-separated list."""
+    if value is None:
+        return None
+    names = tuple(dict.fromkeys(n.strip().lower() for n in value.split(",") if n.strip()))
+    for name in names:
+        if name not in PROJECT_PARTS:
+            raise BadParameter("{!r} is not one of {}", name, ", ".join(PROJECT_PARTS))
+    if not names:
+        raise BadParameter("no part is named; choose from {}", ", ".join(PROJECT_PARTS))
+    return names
+
+
+@click.command(cls=Spoken)
+@click.argument("problem", metavar="PROBLEM", type=click.Path(path_type=Path, readable=False))
+@click.option("--variant", metavar="NAME", help="Variant of the problem file.")
+@click.option(
+    "--parts",
+    callback=read_parts,
+    metavar="LIST",
+    help="Only these parts: kinematics,forces,flywheel,gears,meshing,note.",
+)
+@position_option
+@format_option("pdf")
+@out_option
+@click.option("--json", "as_json", is_flag=True, help="Print what project.json has.")
+@note_options
+@sheet_options
+@dxf_text_option
+@jobs_option
+@open_option
+@guarded
+def project(
+    problem: Path,
+    variant: str | None,
+    parts: tuple[str, ...] | None,
+    position: int | None,
+    formats: tuple[str, ...],
+    out: Path,
+    as_json: bool,
+    template: Path | None,
+    frame: bool,
+    asked: PaperRequest,
+    dxf_text: Literal["text", "strokes"],
+    jobs: int,
+    shown: bool,
+) -> None:
+    """Make a course project: all sheets, the note and the numbers, decided once.
+
+    Writes into OUT/<name of the file>: 1-kinematics.pdf, 2-forces.pdf ... as many as the file has
+    parts, project.pdf with all sheets, note.docx and note.pdf, numbers.xlsx, project.json; all of
+    them or none.
+    """
+    from planmethod.project.notes import NoteOptions
+    from planmethod.project.record import project_record
+    from planmethod.render.backends.output import write_all
+
+    settled = asked.settle()
+    chosen = decided(problem, variant, position, settled)
+    wanted = _wanted(chosen, parts)
+    written = SheetFormats(formats, settled.author(chosen.problem), dxf_text)
+    if "flywheel" in wanted:
+        from planmethod.solved.machine.flywheel import Flywheel
+
+        tell_wheel(Flywheel(chosen.problem))
+    options = NoteOptions(settled.fields, template, frame)
+    made, files = _made(chosen, wanted, options, written, jobs)
+    name = stem(chosen.problem)
+    record = project_record(chosen, made, name)
+    files[RECORD] = msgspec.json.format(msgspec.json.encode(record), indent=2) + b"\n"
+    folder = out / name
+    write_all(folder, files, gone=_stale(folder, name, made) - files.keys())
+    if as_json:
+        click.echo(json_text(record))
+    else:
+        for file in files:
+            click.echo(str(folder / file))
+    if shown:
+        pages = (WHOLE, *(file for file in files if file.endswith(".pdf")), *files)
+        show(folder / next(file for file in pages if file in files))
+
+
+# What is asked -----------------------------------------------------------------------------------
+
+
+def _wanted(chosen: Project, parts: Sequence[str] | None) -> tuple[str, ...]:
+    """Return the names of the parts to be made."""
+    there = [part.name.value for part in chosen.parts]
+    task = chosen.problem.project
+    if task is None or not task.parts or "note" in task.parts:
+        there.append("note")
+    for name in parts or ():
+        if name not in there:
+            raise UsageError(
+                "--parts: {} has no part {!r}. It has {}.",
+                chosen.problem.name,
+                name,
+                ", ".join(there),
+            )
+    return tuple(name for name in there if parts is None or name in parts)
+
+
+# Work --------------------------------------------------------------------------------------------
+
+
+def _made(
+    chosen: Project,
+    wanted: Sequence[str],
+    options: NoteOptions,
+    written: SheetFormats,
+    jobs: int,
+) -> tuple[list[PartFiles], Files]:
+    """Make the parts, and return their files and all files by name.
+
+    All sheets are drawn, whichever are wanted: they are numbered as one set.
+    """
+    from planmethod.project.model import PartName
+    from planmethod.project.record import PartFiles
+    from planmethod.project.sheets import numbered_set
+
+    parts = chosen.parts
+    texts = ["note", NUMBERS] if "note" in wanted else [NUMBERS]
+    sheets = [part.name.value for part in parts]
+    files: Files = {}
+    named: list[PartFiles] = []
+    names = {name: f"{number}-{name}" for number, name in enumerate(sheets, 1)}
+    whole = set(sheets) <= set(wanted) and "pdf" in written.formats
+    shown = [name for name in sheets if name in wanted]
+    with bar(len(sheets) + len(texts) + len(shown) + whole, long=True) as done:
+        drawn: dict[str, MadePart] = {}
+        for name, one in _shared(partial(draw, project=chosen, options=options), sheets, jobs):
+            drawn[name] = one
+            done(1)
+        numbered = numbered_set(chosen, [drawn[name].drawings for name in sheets])
+        sets = {name: tuple(some) for name, some in zip(sheets, numbered, strict=True)}
+        # The note takes the longest: with it first, all processes end alike.
+        tasks: list[Task] = [Task(name) for name in texts]
+        tasks += [Task(name, names[name], sets[name]) for name in shown]
+        if whole:
+            tasks.append(Task(WHOLE, "project", tuple(d for some in numbered for d in some)))
+        work = partial(write, project=chosen, options=options, formats=written)
+        for name, one in _shared(work, tasks, jobs):
+            files |= one.files
+            done(1)
+            if name in sets or name == "note":
+                count = len(sets.get(name, ()))
+                named.append(PartFiles(PartName(name), tuple(one.files), count))
+    order = [*PROJECT_PARTS]
+    named.sort(key=lambda part: order.index(part.name.value))
+    return named, _ordered(named, files)
+
+
+def draw(task: str, *, project: Project, options: NoteOptions) -> tuple[str, MadePart]:
+    """Draw the sheets of a part."""
+    from planmethod.project.sheets import part_drawings
+
+    part: ProjectPart = next(part for part in project.parts if part.name.value == task)
+    return task, MadePart({}, tuple(part_drawings(project, part, options.fields)))
+
+
+def write(
+    task: Task, *, project: Project, options: NoteOptions, formats: SheetFormats
+) -> tuple[str, MadePart]:
+    """Write the sheets of a part in all formats, all sheets together as PDF, the note, numbers."""
+    if task.name == NUMBERS:
+        from planmethod.project.numbers import numbers_workbook
+
+        return task.name, MadePart({NUMBERS: numbers_workbook(project)})
+    if task.name == "note":
+        from planmethod.project.notes import note_files
+
+        return task.name, MadePart(note_files(project, "note", options))
+    from planmethod.commands.output import drawing_files
+
+    kinds = ("pdf",) if task.name == WHOLE else formats.formats
+    return task.name, MadePart(
+        drawing_files(
+            task.drawings, task.stem, kinds, author=formats.author, dxf_text=formats.dxf_text
+        )
+    )
+
+
+def _ordered(named: Sequence[PartFiles], files: Files) -> Files:
+    """Return files in the order of their parts, those of all of them behind."""
+    first = [file for part in named if part.sheets for file in part.files]
+    rest = [file for file in (WHOLE, *files) if file in files and file not in first]
+    return {file: files[file] for file in dict.fromkeys([*first, *rest])}
+
+
+def _shared(
+    act: Callable[[Any], tuple[str, MadePart]], tasks: Sequence[Any], jobs: int
+) -> Iterator[tuple[str, MadePart]]:
+    """Yield what comes of every task, done in so many processes; a failure names its part."""
+    from planmethod.commands.processes import in_processes
+
+    several = jobs > 1 and len(tasks) > 1
+    outcomes = in_processes(act, tasks, jobs) if several else iter([None] * len(tasks))
+    for task, outcome in zip(tasks, outcomes, strict=True):
+        name = task if isinstance(task, str) else task.name
+        try:
+            if not several:
+                yield act(task)
+                continue
+            if outcome is None:
+                raise PlanMethodError(
+                    "the process at work on it was killed, twice; perhaps it needs more memory "
+                    "than there is"
+                )
+            value = outcome.result()
+            assert value is not None
+            yield value
+        except PlanMethodError as error:
+            raise _named(name, error) from error
+
+
+def _named(name: str, error: PlanMethodError) -> PlanMethodError:
+    """Return an error that names the part that it is of."""
+    told = PlanMethodError("{} is not made, nothing is written: {}", name, error)
+    told.exit_code = ExitCode(error.exit_code)
+    return told
+
+
+# Files -------------------------------------------------------------------------------------------
+
+
+def _stale(folder: Path, name: str, made: Sequence[PartFiles]) -> set[str]:
+    """Return the files that an earlier project of the name has of the parts that are made anew."""
+    try:
+        before = msgspec.json.decode((folder / RECORD).read_bytes())
+        if before["problem"] != name:
+            return set()
+        anew = {part.name.value for part in made}
+        files = {f for part in before["parts"] if part["name"] in anew for f in part["files"]}
+    except (OSError, ValueError, KeyError, TypeError):
+        return set()
+    return {file for file in files if isinstance(file, str) and Path(file).name == file}

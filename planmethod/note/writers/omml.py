@@ -1,0 +1,211 @@
+"""Formulas as equations of Word: Office Math made of the tree (формулы Word).
+
+What a run of letters is follows from its letters: Latin and Greek ones are symbols, italic; digits,
+names of functions, units and Russian are upright. Brackets that have their pair are delimiters,
+which grow with what is in them. A sign that lacks a side, as where a formula is cut, is text: a
+program that sets it as a sign would show a box for the side. An index without a letter before it
+stands at a letter without width, for the same reason.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+from typing import Any, TypeAlias, assert_never
+
+from lxml.builder import ElementMaker
+
+from planmethod.note.document import Equation, Term
+from planmethod.note.formula import Fraction, Index, Letters, Node, Overline, Root, parse
+from planmethod.note.writers.tokens import PAIRS, Token, closing, tokens_of
+
+MATH = "http://schemas.openxmlformats.org/officeDocument/2006/math"
+WORD = "http://schemas.openxmlformats.org/wordprocessingml/2006/main"
+FONT, TEXT_FONT = "Cambria Math", "Times New Roman"
+NOTHING = "\N{ZERO WIDTH SPACE}"
+
+Element: TypeAlias = Any
+
+M = ElementMaker(namespace=MATH, nsmap={"m": MATH, "w": WORD})
+W = ElementMaker(namespace=WORD, nsmap={"m": MATH, "w": WORD})
+_SPACE = "{http://www.w3.org/XML/1998/namespace}space"
+
+_UNARY = "+−-±"
+
+
+# Formulas -----------------------------------------------------------------------------------------
+
+
+def equation(nodes: Iterable[Node]) -> Element:
+    """Return a formula as an ``m:oMath``."""
+    return M.oMath(*elements(nodes))
+
+
+def paragraph(*formulas: Element, side: str = "center") -> Element:
+    """Return formulas that stand on a line of their own, an ``m:oMathPara``."""
+    return M.oMathPara(M.oMathParaPr(M.jc({f"{{{MATH}}}val": side})), *formulas)
+
+
+def elements(nodes: Iterable[Node]) -> list[Element]:
+    """Return what stands in an equation, in order."""
+    return _sequence(list(tokens_of(nodes)))
+
+
+def _sequence(tokens: Sequence[Token]) -> list[Element]:
+    found: list[Element] = []
+    operand, k = False, 0
+    while k < len(tokens):
+        token, kind = tokens[k], tokens[k].kind
+        k += 1
+        if kind == "brackets":
+            end = closing(tokens, k - 1)
+            if end is None:
+                found.append(_text(token.text))
+            else:
+                inside = _sequence(tokens[k:end])
+                k = end + 1
+                if (
+                    token.text == "|"
+                    or _is_tall(inside)
+                    or (k < len(tokens) and isinstance(tokens[k].node, Index))
+                ):
+                    inside = inside or [_text(NOTHING)]
+                    found.append(delimited(token.text, PAIRS[token.text], inside))
+                else:
+                    found += [_run(token.text, "p"), *inside, _run(PAIRS[token.text], "p")]
+            operand = True
+        elif kind == "sign":
+            has_next = k < len(tokens) and tokens[k].kind != "sign"
+            sign = token.text.strip(" \u00a0")
+            if has_next and (operand or sign in _UNARY):
+                found.append(_run(sign, "p"))
+            else:
+                found.append(_text(token.text))
+            operand = False
+        elif kind == "node":
+            assert token.node is not None
+            if isinstance(token.node, Index):
+                base, rest = _base(found[-1]) if operand and found else (_text(NOTHING), None)
+                if operand and found:
+                    found.pop()
+                found += [*([rest] if rest is not None else []), _indexed(base, token.node)]
+            else:
+                found.append(_element(token.node))
+            operand = True
+        elif kind == "blank":
+            beside = k < len(tokens) and tokens[k].kind in ("unit", "text", "letters", "name")
+            if operand and (beside or k < len(tokens)):
+                found.append(_text("\u00a0"))
+        else:
+            style = {"letters": "i", "number": "p"}.get(kind)
+            found.append(_run(token.text, style) if style else _text(token.text))
+            operand = True
+    return found
+
+
+def _element(node: Node) -> Element:
+    match node:
+        case Letters():
+            return M.box(M.e(*elements([node])))
+        case Index():
+            return _indexed(_text(NOTHING), node)
+        case Overline(body):
+            return bar(elements(body), "top")
+        case Fraction(above, below):
+            return M.f(M.num(*elements(above)), M.den(*elements(below)))
+        case Root(body):
+            hidden = M.radPr(M.degHide({f"{{{MATH}}}val": "1"}))
+            return M.rad(hidden, M.deg(), M.e(*elements(body)))
+        case _:
+            assert_never(node)
+
+
+def _indexed(base: Element, index: Index) -> Element:
+    e, sub, sup = M.e(base), M.sub(*elements(index.below)), M.sup(*elements(index.above))
+    if not index.above:
+        return M.sSub(e, sub)
+    return M.sSubSup(e, sub, sup) if index.below else M.sSup(e, sup)
+
+
+def _base(last: Element) -> tuple[Element, Element | None]:
+    """Return the letter that an index stands at, and what of its run is before it."""
+    text = last.find(f"{{{MATH}}}t")
+    style = last.find(f"{{{MATH}}}rPr/{{{MATH}}}sty")
+    is_symbol = style is not None and style.get(f"{{{MATH}}}val") == "i"
+    if last.tag != f"{{{MATH}}}r" or not is_symbol or len(text.text) == 1:
+        return last, None
+    return _run(text.text[-1], "i"), _run(text.text[:-1], "i")
+
+
+def bar(body: Sequence[Element], place: str) -> Element:
+    """Return what has a line above or below it (``place`` is ``top`` or ``bot``)."""
+    return M.bar(M.barPr(M.pos({f"{{{MATH}}}val": place})), M.e(*body))
+
+
+def _is_tall(inside: Sequence[Element]) -> bool:
+    """Tell whether something is higher than brackets of one line; bars are always delimiters."""
+    return not inside or any(
+        element.tag == f"{{{MATH}}}f" or element.find(f".//{{{MATH}}}f") is not None
+        for element in inside
+    )
+
+
+def delimited(opened: str, closed: str, inside: Sequence[Element]) -> Element:
+    """Return what stands between two delimiters that grow with it."""
+    value = f"{{{MATH}}}val"
+    return M.d(M.dPr(M.begChr({value: opened}), M.endChr({value: closed})), M.e(*inside))
+
+
+def _run(text: str, style: str) -> Element:
+    fonts = _fonts(FONT)
+    return M.r(M.rPr(M.sty({f"{{{MATH}}}val": style})), fonts, M.t(text))
+
+
+def _text(text: str) -> Element:
+    return M.r(M.rPr(M.nor()), _fonts(TEXT_FONT), M.t({_SPACE: "preserve"}, text))
+
+
+def _fonts(name: str) -> Element:
+    return W.rPr(W.rFonts({f"{{{WORD}}}{key}": name for key in ("ascii", "hAnsi", "cs")}))
+
+
+# Vector equations ---------------------------------------------------------------------------------
+
+
+def vector_equations(equations: Sequence[Equation]) -> Element:
+    """Return vector equations as one formula: a system where there are several."""
+    lines = [list(_vector_equation(one)) for one in equations]
+    if len(lines) == 1:
+        return M.oMath(*lines[0])
+    return M.oMath(delimited("{", "", [M.eqArr(*(M.e(*line) for line in lines))]))
+
+
+def _vector_equation(one: Equation) -> Iterator[Element]:
+    if one.name and not one.right:
+        yield from elements(parse(one.name))
+        yield _run("=", "p")
+    yield from _sum(one.left)
+    yield _run("=", "p")
+    yield from _sum(one.right) if one.right else [_run("0", "p")]
+
+
+def _sum(terms: Sequence[Term]) -> Iterator[Element]:
+    for number, term in enumerate(terms):
+        if number:
+            yield _run("+", "p")
+        body = vector(term.symbol)
+        for _ in range(term.underlines):
+            body = [bar(body, "bot")]
+        if term.direction:
+            below = elements(parse(term.direction))
+            # Without delimiters LibreOffice draws the lines below the direction, too.
+            body = [M.limLow(M.e(delimited("", "", body)), M.lim(*below))]
+        yield from body
+
+
+def vector(symbol: str) -> list[Element]:
+    """Return the symbol of a vector: its letter has a line above it, its indices have none."""
+    nodes = parse(symbol)
+    first, rest = nodes[:1], nodes[1:]
+    if first and isinstance(first[0], Letters):
+        return elements((Overline(first), *rest))
+    return elements(nodes)

@@ -1,0 +1,313 @@
+"""Formulas set on the pages of PDF: fractions built up, lines above and below (формулы в PDF)."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from typing import Any, TypeAlias, assert_never
+
+from msgspec import Struct
+from reportlab.pdfbase.pdfmetrics import stringWidth
+from reportlab.platypus import Flowable
+
+from planmethod.note.document import Equation, Term
+from planmethod.note.formula import Fraction, Index, Letters, Node, Overline, Root, parse
+from planmethod.note.writers.tokens import PAIRS, Token, closing, tokens_of
+
+ASCENT, DESCENT, AXIS = 0.68, 0.22, 0.25
+"""Of letters, and where the line of a fraction is, in parts of the size of the font."""
+
+SMALL, RISE, DROP = 0.7, 0.42, 0.18
+RULE = 0.045
+"""Width of a line, in parts of the size of the font."""
+
+Place: TypeAlias = tuple[float, float]
+
+
+class Fonts(Struct, frozen=True):
+    """Names of fonts that reportlab knows: upright, bold, italic (шрифты)."""
+
+    upright: str
+    bold: str
+    italic: str
+
+
+class Letter(Struct, frozen=True):
+    """Letters of one font at a place, points (буквы)."""
+
+    x: float
+    y: float
+    text: str
+    font: str
+    size: float
+
+
+class SetFormula(Struct, frozen=True):
+    """What is set, from the left end of its base line, points (набор)."""
+
+    width: float
+    ascent: float
+    descent: float
+    letters: tuple[Letter, ...] = ()
+    lines: tuple[tuple[Place, ...], ...] = ()
+    rule: float = 0.5
+
+    def at(self, x: float, y: float) -> tuple[tuple[Letter, ...], tuple[tuple[Place, ...], ...]]:
+        """Return letters and lines moved."""
+        letters = (
+            Letter(one.x + x, one.y + y, one.text, one.font, one.size) for one in self.letters
+        )
+        lines = (tuple((px + x, py + y) for px, py in line) for line in self.lines)
+        return tuple(letters), tuple(lines)
+
+
+def together(
+    parts: Iterable[tuple[float, float, SetFormula]], width: float, rule: float
+) -> SetFormula:
+    """Return inks at their places as one of a width."""
+    letters: list[Letter] = []
+    lines: list[tuple[Place, ...]] = []
+    ascent = descent = 0.0
+    for x, y, ink in parts:
+        moved = ink.at(x, y)
+        letters += moved[0]
+        lines += moved[1]
+        ascent, descent = max(ascent, ink.ascent + y), max(descent, ink.descent - y)
+    return SetFormula(width, ascent, descent, tuple(letters), tuple(lines), rule)
+
+
+class FormulaSetter:
+    """Sets formulas in letters of one size, points."""
+
+    def __init__(self, fonts: Fonts, size: float) -> None:
+        self._fonts, self._size, self._rule = fonts, size, RULE * size
+
+    def set(self, nodes: Iterable[Node]) -> SetFormula:
+        """Return a formula."""
+        return self._tokens(list(tokens_of(nodes)))
+
+    def row(self, parts: Sequence[SetFormula]) -> SetFormula:
+        """Return inks one after another."""
+        placed, x = [], 0.0
+        for part in parts:
+            placed.append((x, 0.0, part))
+            x += part.width
+        return together(placed, x, self._rule)
+
+    def text(self, text: str, font: str = "", size: float = 0.0) -> SetFormula:
+        """Return letters on the base line."""
+        font, size = font or self._fonts.upright, size or self._size
+        width = stringWidth(text, font, size)
+        return SetFormula(
+            width, ASCENT * size, DESCENT * size, (Letter(0.0, 0.0, text, font, size),)
+        )
+
+    def _tokens(self, tokens: Sequence[Token]) -> SetFormula:
+        parts: list[SetFormula] = []
+        k = 0
+        while k < len(tokens):
+            token, k = tokens[k], k + 1
+            if token.kind == "brackets" and (end := closing(tokens, k - 1)) is not None:
+                inside = self._tokens(tokens[k:end])
+                parts += [
+                    self._tall(token.text, inside),
+                    inside,
+                    self._tall(PAIRS[token.text], inside),
+                ]
+                k = end + 1
+            elif token.kind == "sign":
+                sign = token.text.strip(" \u00a0")
+                beside = sign in "·×/" or (not parts and sign in "+−-±")
+                parts.append(self.text(sign if beside else f"\u00a0{sign}\u00a0"))
+            elif token.node is not None:
+                parts.append(self._node(token.node))
+            else:
+                font = self._fonts.italic if token.kind == "letters" else self._fonts.upright
+                parts.append(self.text(token.text.replace("\n", " "), font))
+        return self.row(parts)
+
+    def _tall(self, bracket: str, inside: SetFormula) -> SetFormula:
+        """Return a bracket as high as what is in it."""
+        need = max(inside.ascent - AXIS * self._size, inside.descent + AXIS * self._size)
+        share = max(1.0, need / (0.5 * self._size))
+        if share < 1.25:
+            return self.text(bracket)
+        large = self.text(bracket, size=share * self._size)
+        drop = AXIS * self._size * (1.0 - share)
+        return together([(0.0, drop, large)], large.width, self._rule)
+
+    def _smaller(self) -> FormulaSetter:
+        return FormulaSetter(self._fonts, SMALL * self._size)
+
+    def _node(self, node: Node) -> SetFormula:
+        match node:
+            case Letters():
+                return self.set([node])
+            case Index(below, above):
+                small = self._smaller()
+                low, high = small.set(below), small.set(above)
+                drop, rise = -DROP * self._size, RISE * self._size
+                return together(
+                    [(0.0, drop, low), (0.0, rise, high)], max(low.width, high.width), self._rule
+                )
+            case Overline(body):
+                return self._barred(self.set(body))
+            case Fraction(above, below):
+                return self._fraction(self.set(above), self.set(below))
+            case Root(body):
+                return self._root(self.set(body))
+            case _:
+                assert_never(node)
+
+    def _barred(self, body: SetFormula) -> SetFormula:
+        level = body.ascent + 0.06 * self._size
+        line = ((0.04 * self._size, level), (body.width, level))
+        return SetFormula(
+            body.width,
+            level + self._rule,
+            body.descent,
+            body.letters,
+            (*body.lines, line),
+            self._rule,
+        )
+
+    def _fraction(self, above: SetFormula, below: SetFormula) -> SetFormula:
+        axis, gap, pad = AXIS * self._size, 0.12 * self._size, 0.15 * self._size
+        width = max(above.width, below.width) + 2 * pad
+        up, down = axis + gap + above.descent, axis - gap - below.ascent
+        placed = [((width - above.width) / 2, up, above), ((width - below.width) / 2, down, below)]
+        whole = together(placed, width, self._rule)
+        line = ((0.03 * self._size, axis), (width - 0.03 * self._size, axis))
+        return SetFormula(
+            width, whole.ascent, whole.descent, whole.letters, (*whole.lines, line), self._rule
+        )
+
+    def _root(self, body: SetFormula) -> SetFormula:
+        size, top = self._size, body.ascent + 0.1 * self._size
+        lead = 0.55 * size
+        whole = together([(lead, 0.0, body)], lead + body.width + 0.08 * size, self._rule)
+        sign = (
+            (0.05 * size, 0.22 * size),
+            (0.15 * size, 0.28 * size),
+            (0.32 * size, -body.descent),
+            (0.5 * size, top),
+            (whole.width, top),
+        )
+        return SetFormula(
+            whole.width,
+            top + self._rule,
+            whole.descent,
+            whole.letters,
+            (*whole.lines, sign),
+            self._rule,
+        )
+
+    # Vector equations -----------------------------------------------------------------------------
+
+    def equations(self, equations: Sequence[Equation]) -> SetFormula:
+        """Return vector equations, several as a system behind a brace."""
+        rows = [self._equation(one) for one in equations]
+        if len(rows) == 1:
+            return self.row(rows[0])
+        lead = max(row[0].width for row in rows)
+        inks = [self.row(row) for row in rows]
+        gap, y, placed = 0.35 * self._size, 0.0, list[tuple[float, float, SetFormula]]()
+        brace = 0.8 * self._size
+        for row, ink in zip(rows, inks, strict=True):
+            y -= ink.ascent
+            placed.append((brace + lead - row[0].width, y, ink))
+            y -= ink.descent + gap
+        middle = (y + gap) / 2 - AXIS * self._size
+        width = max(x + ink.width for x, _, ink in placed)
+        lines = together([(x, v - middle, ink) for x, v, ink in placed], width, self._rule)
+        tip = 0.5 * brace
+        high, low, axis = lines.ascent, -lines.descent, AXIS * self._size
+        bend = 0.25 * self._size
+        sign = (
+            (tip + 0.15 * brace, high), (tip, high - bend / 2), (tip, axis + bend),
+            (tip - 0.2 * brace, axis), (tip, axis - bend), (tip, low + bend / 2),
+            (tip + 0.15 * brace, low),
+        )  # fmt: skip
+        return SetFormula(
+            width, lines.ascent, lines.descent, lines.letters, (*lines.lines, sign), self._rule
+        )
+
+    def _equation(self, one: Equation) -> list[SetFormula]:
+        left, equal = self._sum(one.left), self.text("\u00a0=\u00a0")
+        if one.right:
+            return [left, equal, self._sum(one.right)]
+        head = [self.set(parse(one.name)), equal] if one.name else []
+        return [*head, left, equal, self.text("0")]
+
+    def _sum(self, terms: Sequence[Term]) -> SetFormula:
+        parts: list[SetFormula] = []
+        for number, term in enumerate(terms):
+            parts += [self.text("\u00a0+\u00a0")] if number else []
+            parts.append(self._term(term))
+        return self.row(parts)
+
+    def _term(self, term: Term) -> SetFormula:
+        nodes = parse(term.symbol)
+        barred = (Overline(nodes[:1]), *nodes[1:]) if isinstance(nodes[0], Letters) else nodes
+        symbol = self.set(barred)
+        below = self._smaller().set(parse(term.direction))
+        width = max(symbol.width, below.width + 0.2 * self._size * bool(term.direction))
+        at, gap = (width - symbol.width) / 2, 0.12 * self._size
+        levels = [-symbol.descent - gap * (1 + k) for k in range(term.underlines)]
+        lines = tuple(((at, level), (at + symbol.width, level)) for level in levels)
+        placed = [(at, 0.0, symbol)]
+        if term.direction:
+            low = min([-symbol.descent, *levels]) - gap - below.ascent
+            placed.append(((width - below.width) / 2, low, below))
+        whole = together(placed, width, self._rule)
+        depth = max([whole.descent, *(-level for level in levels)])
+        return SetFormula(
+            width, whole.ascent, depth, whole.letters, (*whole.lines, *lines), self._rule
+        )
+
+
+class FormulaLines(Flowable):  # type: ignore[misc]
+    """Formulas one under another in the middle of a page, the number beside the last (формула)."""
+
+    def __init__(self, rows: Sequence[SetFormula], number: str, font: str, size: float) -> None:
+        super().__init__()
+        self._rows, self._number, self._font, self._size = rows, number, font, size
+        self._gap = 0.45 * size
+        self._width = 0.0
+
+    def wrap(self, width: float, height: float) -> tuple[float, float]:
+        """Return the room that the formulas take, points."""
+        self._width = width
+        return width, sum(row.ascent + row.descent + self._gap for row in self._rows) + self._gap
+
+    def draw(self) -> None:
+        """Draw the formulas on the canvas; one that is too wide is drawn smaller."""
+        _, y = self.wrap(self._width, 0.0)
+        y -= self._gap
+        side = 4.0 * self._size if self._number else 0.0
+        for k, row in enumerate(self._rows):
+            y -= row.ascent
+            room = self._width - 2 * side
+            share = min(1.0, room / row.width) if row.width else 1.0
+            self.canv.saveState()
+            self.canv.translate(side + (room - share * row.width) / 2, y)
+            self.canv.scale(share, share)
+            draw_ink(self.canv, row)
+            self.canv.restoreState()
+            if self._number and k == len(self._rows) - 1:
+                self.canv.setFont(self._font, self._size)
+                self.canv.drawRightString(self._width, y, f"({self._number})")
+            y -= row.descent + self._gap
+
+
+def draw_ink(canvas: Any, ink: SetFormula) -> None:
+    """Draw what is set, from the origin of the canvas on."""
+    for one in ink.letters:
+        canvas.setFont(one.font, one.size)
+        canvas.drawString(one.x, one.y, one.text)
+    canvas.setLineWidth(ink.rule)
+    for line in ink.lines:
+        path = canvas.beginPath()
+        path.moveTo(*line[0])
+        for place in line[1:]:
+            path.lineTo(*place)
+        canvas.drawPath(path, stroke=1, fill=0)

@@ -1,0 +1,404 @@
+"""A document as a note in PDF: pages of GOST 7.32, contents, formulas built up (записка в PDF)."""
+
+from __future__ import annotations
+
+import html
+from collections.abc import Iterator, Sequence
+from functools import cache
+from io import BytesIO
+from pathlib import Path
+from typing import Any, assert_never
+
+import matplotlib
+from reportlab.lib import colors
+from reportlab.lib.enums import TA_CENTER, TA_JUSTIFY, TA_LEFT, TA_RIGHT
+from reportlab.lib.pagesizes import A4
+from reportlab.lib.styles import ParagraphStyle
+from reportlab.lib.units import mm
+from reportlab.pdfbase import pdfmetrics
+from reportlab.pdfbase.pdfmetrics import stringWidth
+from reportlab.pdfbase.ttfonts import TTFont
+from reportlab.platypus import (
+    BaseDocTemplate,
+    Flowable,
+    Frame,
+    KeepTogether,
+    LongTable,
+    PageBreak,
+    PageTemplate,
+    Paragraph,
+    Spacer,
+    TableStyle,
+)
+from reportlab.platypus.tableofcontents import TableOfContents
+
+from planmethod.note import document
+from planmethod.note.document import Document, Node, Table
+from planmethod.note.formula import Rich, inline, parse
+from planmethod.note.plaintext import plain_text
+from planmethod.note.wording import Language
+from planmethod.note.writers.broken import ems, lines_of
+from planmethod.note.writers.html import clean
+from planmethod.note.writers.pdf import marked, parts_of
+from planmethod.note.writers.pdfformula import Fonts, FormulaLines, FormulaSetter
+from planmethod.note.writers.sentences import formula_alone, pieces, units_of, with_levels
+
+LEFT, RIGHT, TOP, BOTTOM = 30 * mm, 15 * mm, 20 * mm, 20 * mm
+SIZE, TABLE_SIZE = 14.0, 11.0
+LEADING = 1.5 * 1.15
+INDENT = 12.5 * mm
+PAD = 3.0
+LONG = 8.0
+"""Width, in heights of the font, from which on a formula in a sentence may be cut."""
+
+LEAST = 22 * mm
+"""Least width of a column of a table that may be cut into several."""
+
+
+CLOSE = [(f"{side}PADDING", (0, 0), (-1, -1), 0) for side in ("LEFT", "RIGHT", "TOP", "BOTTOM")]
+"""Cells without white around what is in them."""
+
+
+@cache
+def note_fonts() -> Fonts:
+    """Return letters like Times that have Russian, Greek and signs; matplotlib brings them."""
+    folder = Path(matplotlib.get_data_path()) / "fonts" / "ttf"
+    for name in ("STIXGeneral", "STIXGeneralBol", "STIXGeneralItalic"):
+        pdfmetrics.registerFont(TTFont(name, str(folder / f"{name}.ttf")))
+    return Fonts("STIXGeneral", "STIXGeneralBol", "STIXGeneralItalic")
+
+
+def pdf_note(written: Document, words: Language, *, author: str = "") -> bytes:
+    """Return a document as the pages of a note; the same document gives the same bytes.
+
+    Parameters
+    ----------
+    written : Document
+    words : Language
+    author : str
+        For the properties of the file.
+
+    Raises
+    ------
+    LayoutError
+        A formula is not written properly, or a text refers to what is not there.
+    """
+    written = document.referred(written)
+    setter = _Setter(words)
+    file = BytesIO()
+    pages = _Pages(file, _title(written), author or "planmethod", written)
+    pages.multiBuild(list(setter.story(written)))
+    return file.getvalue()
+
+
+def _title(written: Document) -> str:
+    for node in written.nodes:
+        match node:
+            case document.TitlePage(title=title, work=work):
+                return plain_text(clean(title or work))
+            case document.Title(text):
+                return plain_text(clean(text))
+    return ""
+
+
+class _Pages(BaseDocTemplate):  # type: ignore[misc]
+    """Pages with their numbers; headings tell the contents where they stand."""
+
+    def __init__(self, file: BytesIO, title: str, author: str, written: Document) -> None:
+        fonts = note_fonts()
+        super().__init__(
+            file,
+            pagesize=A4,
+            title=title,
+            author=author,
+            creator="planmethod",
+            subject="",
+            invariant=1,
+            initialFontName=fonts.upright,
+        )
+        width, height = A4
+        frame = Frame(
+            LEFT, BOTTOM, width - LEFT - RIGHT, height - TOP - BOTTOM, 0, 0, 0, 0, id="text"
+        )
+        first = next((n for n in written.nodes if isinstance(n, document.TitlePage)), None)
+        foot = "" if first is None else plain_text(f"{first.place} {first.year}").strip()
+
+        def close_page(canvas: Any, _: Any) -> None:
+            number = canvas.getPageNumber()
+            canvas.setFont(fonts.upright, 12.0)
+            text = foot if first is not None and number == 1 else str(number)
+            canvas.drawCentredString(LEFT + (width - LEFT - RIGHT) / 2, BOTTOM / 2, text)
+
+        self.addPageTemplates([PageTemplate("text", [frame], onPage=close_page)])
+
+    def afterFlowable(self, flowable: Flowable) -> None:  # noqa: N802
+        """Note where a heading stands."""
+        level = getattr(flowable, "level", None)
+        if level is not None:
+            key = f"heading{flowable.number}"
+            self.canv.bookmarkPage(key)
+            self.canv.addOutlineEntry(flowable.plain, key, level, closed=False)
+            self.notify("TOCEntry", (level, flowable.shown, self.page, key))
+
+
+class _Heading(Paragraph):  # type: ignore[misc]
+    """A heading that the contents list."""
+
+    def __init__(self, shown: str, plain: str, style: ParagraphStyle, level: int, number: int):
+        super().__init__(shown, style)
+        self.shown, self.plain, self.level, self.number = shown, plain, level, number
+
+
+class _Picture(Flowable):  # type: ignore[misc]
+    """A picture in the middle, smaller where there is no room."""
+
+    def __init__(self, view: document.DrawableView, tallest: float) -> None:
+        super().__init__()
+        self._view, self._tallest = view, tallest
+        self._share, self._width = 1.0, 0.0
+
+    def wrap(self, width: float, height: float) -> tuple[float, float]:
+        """Return the room that the picture takes, points."""
+        wide, high = (side * mm for side in self._view.size)
+        self._share, self._width = min(1.0, width / wide, self._tallest / high), width
+        return width, high * self._share
+
+    def draw(self) -> None:
+        """Draw the picture on the canvas."""
+        wide = self._view.size[0] * mm * self._share
+        self.canv.saveState()
+        self.canv.translate((self._width - wide) / 2, 0.0)
+        self.canv.scale(mm * self._share, mm * self._share)
+        self._view.draw(self.canv)
+        self.canv.restoreState()
+
+
+class _Setter:
+    """Makes flowables of nodes."""
+
+    def __init__(self, words: Language) -> None:
+        self._say, self._fonts = words.document, note_fonts()
+        self._units = units_of(words.note["units"])
+        self._formulas = FormulaSetter(self._fonts, SIZE)
+        self._width = A4[0] - LEFT - RIGHT
+        self._tallest = A4[1] - TOP - BOTTOM - 20 * mm
+        self._step = self._count = 0
+        self._is_note = False
+
+    def _style(
+        self,
+        size: float = SIZE,
+        *,
+        align: int = TA_JUSTIFY,
+        indent: float = INDENT,
+        left: float = 0.0,
+        around: float = 0.0,
+        bold: bool = False,
+        keep: bool = False,
+        leading: float = LEADING,
+    ) -> ParagraphStyle:
+        return ParagraphStyle(
+            "text",
+            fontName=self._fonts.bold if bold else self._fonts.upright,
+            fontSize=size,
+            leading=leading * size,
+            alignment=align,
+            firstLineIndent=indent,
+            leftIndent=left,
+            spaceBefore=around,
+            spaceAfter=around,
+            keepWithNext=keep,
+        )
+
+    def _markup(self, rich: Rich, size: float = SIZE) -> str:
+        """Return a sentence as reportlab takes it, the letters of its formulas italic."""
+        found = ""
+        for piece in pieces(parse(clean(rich)), self._units):
+            if not piece.is_formula:
+                found += html.escape(piece.text).replace("\n", "<br/>")
+                continue
+            shown = marked(inline(piece.nodes), size, self._fonts.italic)
+            # A long formula is cut at its signs, whatever a terminal does.
+            found += shown.replace("\u00a0=\u00a0", " = ") if ems(piece.nodes) > LONG else shown
+        return found
+
+    def _text(self, rich: Rich, style: ParagraphStyle) -> Paragraph:
+        return Paragraph(self._markup(rich, style.fontSize), style)
+
+    def story(self, written: Document) -> Iterator[Flowable]:
+        """Yield the flowables of a document."""
+        kinds = {type(node) for node in written.nodes}
+        self._is_note = bool(kinds & {document.TitlePage, document.Contents})
+        fresh = True  # a page that has nothing yet needs no break
+        for node, number in document.numbers_of(written):
+            for flowable in self._flowables(node, number):
+                is_break = isinstance(flowable, PageBreak)
+                if not (is_break and fresh):
+                    yield flowable
+                fresh = is_break
+
+    def _flowables(self, node: Node, number: str) -> Iterator[Flowable]:
+        match node:
+            case document.Title(text):
+                style = self._style(16.0, align=TA_CENTER, indent=0.0, around=6.0, bold=True)
+                yield self._text(text, style)
+            case document.TitlePage():
+                yield from self._title_page(node)
+            case document.Contents():
+                yield from self._contents()
+            case document.PageBreak():
+                yield PageBreak()
+            case document.StructuralHeading(title):
+                self._step = 0
+                yield PageBreak()
+                yield self._heading(title, 0, "", middle=True)
+            case document.Chapter(title):
+                self._step = 0 if self._is_note else self._step
+                yield self._heading(title, 0, number)
+            case document.Part(title):
+                yield self._heading(title, 1, number)
+            case document.Subpart(title):
+                yield self._heading(title, 2, number)
+            case document.Caption(text):
+                yield self._text(text, self._style(align=TA_LEFT, keep=True))
+            case document.Paragraph(text):
+                yield self._text(text, self._style())
+            case document.Item(text, label):
+                shown = f"{label}\u2002{text}" if label else f"–\u00a0{text}"
+                yield self._text(shown, self._style())
+            case document.Step(lines, continues):
+                yield from self._stepped(lines, continues=continues)
+            case document.Formula(text):
+                yield self._displayed(tuple(with_levels(parse(clean(text)))), number)
+            case document.Equations(equations):
+                yield self._lines([self._formulas.equations(equations)], number)
+            case document.Table():
+                yield from self._tables(node, number)
+            case document.Figure(view, caption):
+                shown = self._say.figure.format(number=number, text=caption) if number else caption
+                style = self._style(align=TA_CENTER, indent=0.0, around=6.0, leading=1.2)
+                below = [self._text(shown, style)] if shown else []
+                yield KeepTogether([Spacer(0, 6), _Picture(view, self._tallest), *below])
+            case document.References(entries):
+                for k, entry in enumerate(entries, 1):
+                    yield self._text(f"{k}.\u00a0{entry}", self._style())
+            case document.Note(text):
+                yield self._text(text, self._style(12.0, leading=1.2, around=2.0))
+            case _:
+                assert_never(node)
+
+    def _heading(self, title: Rich, level: int, number: str, *, middle: bool = False) -> _Heading:
+        align, indent = (TA_CENTER, 0.0) if middle else (TA_LEFT, INDENT)
+        style = self._style(align=align, indent=indent, around=8.0, bold=True, keep=True)
+        self._count += 1
+        text = f"{number} {title}" if number else title
+        shown = marked(inline(parse(clean(text))), SIZE)
+        return _Heading(shown, plain_text(clean(text)), style, level, self._count)
+
+    def _stepped(self, lines: Sequence[Rich], *, continues: bool) -> Iterator[Flowable]:
+        self._step += not continues
+        for k, line in enumerate(lines):
+            formula = formula_alone(pieces(parse(clean(line)), self._units)) if k else ()
+            if formula:
+                yield self._displayed(formula, "")
+            else:
+                lead = "" if k or continues else f"{self._step})\u00a0"
+                yield self._text(f"{lead}{line}", self._style())
+
+    def _displayed(self, nodes: Sequence[Any], number: str) -> Flowable:
+        whole = self._formulas.set(nodes)
+        if whole.width <= self._width - 8.0 * SIZE * bool(number):
+            return self._lines([whole], number)
+        room = 0.85 * self._width / SIZE
+        return self._lines([self._formulas.set(line) for line in lines_of(nodes, room)], number)
+
+    def _lines(self, rows: Sequence[Any], number: str) -> Flowable:
+        return FormulaLines(rows, number, self._fonts.upright, SIZE)
+
+    # Tables ---------------------------------------------------------------------------------------
+
+    def _tables(self, table: Table, number: str) -> Iterator[Flowable]:
+        style = self._style(align=TA_LEFT, indent=0.0, around=3.0, keep=True, leading=1.2)
+        name = self._say.table.format(number=number, text=table.name) if number else ""
+        for part in parts_of(table, int(self._width // LEAST)):
+            if name:
+                yield self._text(name, style)
+            yield self._table(part)
+            yield Spacer(0.0, 8.0)
+            name = self._say.continued.format(number=number) if number else ""
+
+    def _table(self, table: Table) -> Flowable:
+        size = TABLE_SIZE
+        aligned = {
+            align: self._style(size, align=align, indent=0.0, leading=1.2)
+            for align in (TA_LEFT, TA_CENTER, TA_RIGHT)
+        }
+        lines = [[self._text(cell, aligned[TA_CENTER]) for cell in table.head]]
+        lines += [
+            [
+                self._text(cell, aligned[TA_RIGHT if k in table.numbers else TA_LEFT])
+                for k, cell in enumerate(row)
+            ]
+            for row in table.rows
+        ]
+        look = [
+            ("FONTNAME", (0, 0), (-1, -1), self._fonts.upright),
+            ("GRID", (0, 0), (-1, -1), 0.5, colors.black),
+            ("VALIGN", (0, 0), (-1, -1), "TOP"),
+            ("LEFTPADDING", (0, 0), (-1, -1), PAD),
+            ("RIGHTPADDING", (0, 0), (-1, -1), PAD),
+            ("TOPPADDING", (0, 0), (-1, -1), 0.5),
+            ("BOTTOMPADDING", (0, 0), (-1, -1), 3.0),
+        ]
+        columns = zip(table.head, *table.rows, strict=True)
+        needed = [
+            max(stringWidth(w, self._fonts.upright, size) for cell in column for w in _words(cell))
+            + 2 * PAD
+            + 2.0
+            for column in columns
+        ]
+        share = self._width / sum(needed)
+        return LongTable(lines, colWidths=[w * share for w in needed], repeatRows=1, style=look)
+
+    # Title page and contents ----------------------------------------------------------------------
+
+    def _title_page(self, page: document.TitlePage) -> Iterator[Flowable]:
+        middle = self._style(align=TA_CENTER, indent=0.0, around=2.0, leading=1.3)
+        large = self._style(16.0, align=TA_CENTER, indent=0.0, around=4.0, bold=True)
+        yield from (self._text(text, middle) for text in page.organisation)
+        yield Spacer(0.0, 110.0)
+        theme = self._say.theme.format(title=page.title) if page.title else ""
+        for text, style in (
+            (page.work, large),
+            (page.subject, middle),
+            (theme, middle),
+            (page.designation, middle),
+        ):
+            if text:
+                yield self._text(text, style)
+        yield Spacer(0.0, 110.0)
+        aside = self._style(align=TA_LEFT, indent=0.0, left=85 * mm, around=3.0)
+        for key in ("author", "group", "checker"):
+            if text := getattr(page, key):
+                yield self._text(self._say[key].format(**{key: text}), aside)
+        yield PageBreak()
+
+    def _contents(self) -> Iterator[Flowable]:
+        yield self._text(
+            self._say.contents, self._style(align=TA_CENTER, indent=0.0, around=8.0, bold=True)
+        )
+        contents = TableOfContents()
+        contents.dotsMinLevel = 0
+        contents.tableStyle = TableStyle(
+            [*CLOSE, ("FONTNAME", (0, 0), (-1, -1), self._fonts.upright)]
+        )
+        contents.levelStyles = [
+            self._style(align=TA_LEFT, indent=0.0, left=7 * mm * level, leading=1.4)
+            for level in range(3)
+        ]
+        yield contents
+        yield PageBreak()
+
+
+def _words(cell: Rich) -> list[str]:
+    return plain_text(clean(cell)).split() or [""]

@@ -1,0 +1,230 @@
+"""What of a sentence is a formula: for writers that set formulas apart from words (формулы текста).
+
+A word with an index, a bar, a fraction or a root, and a sign of equality, belong to a formula;
+numbers, units, signs and short Latin or Greek names beside them belong to the same one, as long as
+a sign stands between, or a number before a unit. Russian words and stops end it.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from itertools import chain, groupby
+
+from msgspec import Struct
+
+from planmethod.note.formula import Index, Letters, Node
+
+_RAISED = dict(zip("⁰¹²³⁴⁵⁶⁷⁸⁹⁻ⁿᵗᵏʳ", "0123456789−nτkr", strict=True))
+_LOWERED = dict(zip("₀₁₂₃₄₅₆₇₈₉", "0123456789", strict=True))
+_LEVELS = re.compile(f"([{''.join(_RAISED)}]+|[{''.join(_LOWERED)}]+)")
+_BLANKS = re.compile("([ \u00a0\n]+)")
+_STOPS, _LEADS = ".,;:!?»", "«"
+_EQUAL, _SIGNS = "=≈≠≡<>≤≥", "=≈≠≡<>≤≥+−±·×∥⊥-"
+_PLAIN = re.compile(
+    r"(?:\d[\d.,]*|arccos|const|(?<![A-Za-z\u0370-\u03ff])[A-Za-z\u0370-\u03ff]{1,4}\d{0,2}[′']{0,2}"
+    r"|[·×/+−±%°()\[\]|-])+"
+)
+"""Numbers and short names with the signs between them."""
+
+_FUNCTIONS = frozenset({"sin", "cos", "tg", "ctg", "tan", "inv", "arccos"})
+
+Word = tuple[Node, ...]
+
+
+class SentencePart(Struct, frozen=True):
+    """A part of a sentence (часть предложения): words, or a formula."""
+
+    nodes: tuple[Node, ...]
+    is_formula: bool
+
+    @property
+    def text(self) -> str:
+        """Letters of a part that is no formula."""
+        return "".join(node.text for node in self.nodes if isinstance(node, Letters))
+
+
+def units_of(units: Mapping[str, str]) -> frozenset[str]:
+    """Return the letters that units of a language are made of: ``м``, ``рад``."""
+    return frozenset(name for unit in units.values() for name in re.findall(r"[^\W\d_]+", unit))
+
+
+def pieces(nodes: Iterable[Node], units: frozenset[str]) -> list[SentencePart]:
+    """Return a sentence as texts and formulas in turn.
+
+    Parameters
+    ----------
+    nodes : iterable of Node
+    units : frozenset of str
+        Letters of units.
+    """
+    found: list[SentencePart] = []
+    run: list[Word] = []
+
+    def close() -> None:
+        """Put the words that may be a formula where they belong."""
+        blanks: list[Word] = []
+        while run and _is_blank(run[-1]):
+            blanks.insert(0, run.pop())
+        whole = tuple(chain.from_iterable(run))
+        found.extend(
+            _balanced(whole) if any(map(_is_certain, run)) else [SentencePart(whole, False)]
+        )
+        found.extend(SentencePart(word, False) for word in blanks)
+        run.clear()
+
+    for word in _words(with_levels(nodes)):
+        if _is_blank(word):
+            if run:
+                run.append(word)
+            else:
+                found.append(SentencePart(word, False))
+            continue
+        lead, core, tail = _stripped(word)
+        is_part = _is_part(core, units)
+        if lead or not is_part or not _joins(run, core, units):
+            close()
+            found.append(SentencePart(lead, False))
+        if is_part:
+            run.append(core)
+        else:
+            found.append(SentencePart(core, False))
+        if tail:
+            close()
+            found.append(SentencePart(tail, False))
+    close()
+    gathered = groupby((piece for piece in found if piece.nodes), lambda piece: piece.is_formula)
+    return [
+        SentencePart(tuple(chain.from_iterable(piece.nodes for piece in group)), is_formula)
+        for is_formula, group in gathered
+    ]
+
+
+def formula_alone(found: Sequence[SentencePart]) -> tuple[Node, ...]:
+    """Return the formula of a line that has nothing else but a stop; none of another line."""
+    ending = found[1].text.strip() if len(found) == 2 else ""
+    if found and found[0].is_formula and (len(found) == 1 or ending in (".", ",", ";")):
+        return (*found[0].nodes, *((Letters(ending),) if ending else ()))
+    return ()
+
+
+def with_stops(found: Sequence[SentencePart]) -> Iterator[SentencePart]:
+    """Yield the parts of a sentence, a stop in the formula before it: no line begins with one."""
+    stop = ""
+    for piece, after in zip(found, [*found[1:], None], strict=True):
+        if not piece.is_formula:
+            text = piece.text.removeprefix(stop)
+            stop = ""
+            if text:
+                yield SentencePart((Letters(text),), False)
+            continue
+        text = after.text if after is not None else ""
+        stop = text[:1] if text[:1] in (*_STOPS, ")") else ""
+        yield SentencePart((*piece.nodes, *_some(stop)), True)
+
+
+def with_levels(nodes: Iterable[Node]) -> Iterator[Node]:
+    """Yield the nodes with indices for letters that are raised or lowered themselves: ``м/с²``."""
+    for node in nodes:
+        if not isinstance(node, Letters):
+            yield node
+            continue
+        for part in filter(None, _LEVELS.split(node.text)):
+            if part[0] in _RAISED:
+                yield Index((), (Letters("".join(_RAISED[c] for c in part)),))
+            elif part[0] in _LOWERED:
+                yield Index((Letters("".join(_LOWERED[c] for c in part)),), ())
+            else:
+                yield Letters(part)
+
+
+def _words(nodes: Iterable[Node]) -> Iterator[Word]:
+    """Yield words and the blanks between them."""
+    word: list[Node] = []
+    for node in nodes:
+        if not isinstance(node, Letters):
+            word.append(node)
+            continue
+        for part in filter(None, _BLANKS.split(node.text)):
+            if _BLANKS.fullmatch(part):
+                if word:
+                    yield tuple(word)
+                yield (Letters(part),)
+                word = []
+            else:
+                word.append(Letters(part))
+    if word:
+        yield tuple(word)
+
+
+def _is_blank(word: Word) -> bool:
+    return len(word) == 1 and isinstance(word[0], Letters) and bool(_BLANKS.fullmatch(word[0].text))
+
+
+def _letters(word: Word) -> str:
+    return "".join(node.text if isinstance(node, Letters) else "\0" for node in word)
+
+
+def _stripped(word: Word) -> tuple[Word, Word, Word]:
+    """Return the quotation mark before a word, the word, and the stops after it."""
+    lead, tail = "", ""
+    core = list(word)
+    if isinstance(first := core[0], Letters):
+        rest = first.text.lstrip(_LEADS)
+        lead, core[0] = first.text[: len(first.text) - len(rest)], Letters(rest)
+    if isinstance(last := core[-1], Letters):
+        rest = last.text.rstrip(_STOPS)
+        tail, core[-1] = last.text[len(rest) :], Letters(rest)
+    kept = tuple(node for node in core if node != Letters(""))
+    return _some(lead), kept, _some(tail)
+
+
+def _some(text: str) -> Word:
+    return (Letters(text),) if text else ()
+
+
+def _is_certain(word: Word) -> bool:
+    """Tell whether a word is part of a formula, whatever stands beside it."""
+    return any(not isinstance(node, Letters) for node in word) or any(
+        sign in _EQUAL for sign in _letters(word)
+    )
+
+
+def _is_part(word: Word, units: frozenset[str]) -> bool:
+    """Tell whether a word may stand in a formula."""
+    text = _letters(word)
+    return bool(word) and (
+        _is_certain(word)
+        or bool(_PLAIN.fullmatch(text))
+        or all(sign in _SIGNS for sign in text)
+        or _is_unit(text, units)
+    )
+
+
+def _is_unit(text: str, units: frozenset[str]) -> bool:
+    names = re.findall(r"[^\W\d_]+", text)
+    return bool(names) and set(names) <= units and not re.search(r"[^\w/·()\0]", text)
+
+
+def _joins(run: Sequence[Word], word: Word, units: frozenset[str]) -> bool:
+    """Tell whether a word goes on with what may be a formula before it."""
+    before = next((_letters(one) for one in reversed(run) if not _is_blank(one)), "")
+    text = _letters(word)
+    if not before or before[-1] in _SIGNS or text[0] in _SIGNS:
+        return True
+    is_number = before[-1].isdigit() or before[-1] in "\0)"
+    return before in _FUNCTIONS or (is_number and _is_unit(text, units))
+
+
+def _balanced(nodes: tuple[Node, ...]) -> Iterator[SentencePart]:
+    """Yield a formula without the brackets of the sentence that it begins or ends with."""
+    inside = list(nodes)
+    opened = sum((s == "(") - (s == ")") for s in _letters(nodes))
+    lead = tail = ""
+    while opened > 0 and isinstance(first := inside[0], Letters) and first.text.startswith("("):
+        lead, inside[0], opened = lead + "(", Letters(first.text[1:]), opened - 1
+    while opened < 0 and isinstance(last := inside[-1], Letters) and last.text.endswith(")"):
+        tail, inside[-1], opened = tail + ")", Letters(last.text[:-1]), opened + 1
+    yield SentencePart(_some(lead), False)
+    yield SentencePart(tuple(node for node in inside if node != Letters("")), True)
+    yield SentencePart(_some(tail), False)

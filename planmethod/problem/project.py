@@ -1,0 +1,59 @@
+"""What is decided of a course project (курсовой проект): ``[project]``."""
+
+from __future__ import annotations
+
+from pathlib import PurePath
+
+from planmethod.languages import say
+from planmethod.problem import fields
+from planmethod.problem.cycle_records import PROJECT_PARTS, ProjectTask
+from planmethod.problem.fields import Faults
+from planmethod.problem.flat import OwnReader, read_flat
+from planmethod.problem.names import near_hint, short
+
+_EXAMPLE = '[project] calculated = 4, gears = "train.toml"'
+
+
+def read_project(faults: Faults, table: object) -> ProjectTask | None:
+    """Read ``[project]``; None after a fault."""
+    before = len(faults)
+    entries = fields.read_table(faults, "project", table, _EXAMPLE)
+    if entries is None:
+        return None
+    own: dict[str, OwnReader] = {
+        "gears": _read_beside,
+        "meshing": _read_beside,
+        "parts": _read_parts,
+    }
+    found = read_flat(faults, "project", entries, ProjectTask, own)
+    return None if len(faults) > before else ProjectTask(**found)
+
+
+def _read_beside(faults: Faults, path: str, value: object) -> str | None:
+    """Read the name of a problem file that lies beside this one."""
+    if isinstance(value, str) and PurePath(value).name == value and value.endswith(".toml"):
+        return value
+    told = short(value) if isinstance(value, str) else value
+    key = path.rpartition(".")[2]
+    faults.add(
+        path,
+        say("expected the name of a problem file, got '{}'", told),
+        say('For example: {} = "train.toml", beside this file.', key),
+    )
+    return None
+
+
+def _read_parts(faults: Faults, path: str, value: object) -> tuple[str, ...] | None:
+    if not isinstance(value, list) or not value or not all(isinstance(v, str) for v in value):
+        faults.expected(path, "a list of parts", value, 'For example: ["kinematics", "note"].')
+        return None
+    for name in value:
+        if name not in PROJECT_PARTS:
+            listed = ", ".join(PROJECT_PARTS)
+            faults.add(
+                path,
+                say("unknown part '{}'", short(name)),
+                near_hint(name, PROJECT_PARTS, say("There are {}.", listed)),
+            )
+            return None
+    return tuple(dict.fromkeys(value))

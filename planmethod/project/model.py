@@ -1,0 +1,93 @@
+"""What is decided of a project, as plain records (решения проекта)."""
+
+from __future__ import annotations
+
+from enum import Enum
+from functools import cached_property
+from typing import Any
+
+from msgspec import Struct
+
+from planmethod.kind import ProblemKind
+from planmethod.problem.head import KindProblem
+from planmethod.problem.model import Problem, Scales
+from planmethod.solved.solution import Solution
+from planmethod.solved.turn.strokes import Strokes
+
+
+class PartName(Enum):
+    """Parts of a project in the order of their sheets, as options and records name them."""
+
+    KINEMATICS = "kinematics"
+    FORCES = "forces"
+    FLYWHEEL = "flywheel"
+    GEARS = "gears"
+    MESHING = "meshing"
+    NOTE = "note"
+
+
+class ProjectPart(Struct, frozen=True):
+    """A part of a project that the file has (часть проекта).
+
+    Attributes
+    ----------
+    name : PartName
+    problem : KindProblem
+        What it is drawn and told of: the settled linkage, the train, the meshing.
+    kind : ProblemKind or None
+        Kind of the problem; None for the linkage.
+    """
+
+    name: PartName
+    problem: KindProblem
+    kind: ProblemKind[Any] | None = None
+
+
+class Project(Struct, frozen=True, dict=True):
+    """Decisions of a project (решения курсового проекта): every output takes them from here.
+
+    Attributes
+    ----------
+    problem : Problem
+        The linkage with the decisions written in: positions in `drive`, scales in `scales`, the
+        cycle that they are positions of, language and paper in `sheet`.
+    positions : tuple of float
+        Driver positions by their numbers, from 0: degrees, or m of a slider.
+    calculated : int
+        Number of the calculated position (расчётное положение): drawn bold, loaded, told in full.
+    strokes : Strokes or None
+        Phases of the strokes; None where the output has none.
+    scales : Scales
+        One scale for each kind of plan, unit per mm; ``mu_F`` is None without forces.
+    frame : str
+        Number of the frame (номер стойки).
+    language : str
+    paper : str or None
+        Format that is asked for.
+    parts : tuple of ProjectPart
+        Those that the file has, in the order of `PartName`; the note is none of them.
+    """
+
+    problem: Problem
+    positions: tuple[float, ...]
+    calculated: int
+    strokes: Strokes | None
+    scales: Scales
+    frame: str
+    language: str
+    paper: str | None
+    parts: tuple[ProjectPart, ...]
+
+    def part(self, name: PartName) -> ProjectPart | None:
+        """Return a part; None where the file has it not."""
+        return next((part for part in self.parts if part.name is name), None)
+
+    @cached_property
+    def solution(self) -> Solution:
+        """The linkage in all positions, at the scales of the project."""
+        return Solution(self.problem)
+
+    @cached_property
+    def loaded(self) -> Solution:
+        """The linkage in the calculated position alone, at the same scales."""
+        return self.solution.moved([self.positions[self.calculated]])

@@ -1,0 +1,66 @@
+"""What a project decided, and which files it has, as plain data: ``project.json``."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+from msgspec import Struct
+
+from planmethod.problem.model import Problem
+from planmethod.project.model import PartName, Project
+
+SCHEMA = 1
+
+STROKES = ("working_deg", "idle_deg", "K_v", "by")
+
+
+class PartFiles(Struct, frozen=True):
+    """Files of a part in the order of its sheets, and how many sheets it has."""
+
+    name: PartName
+    files: tuple[str, ...]
+    sheets: int
+
+
+def project_record(project: Project, parts: Sequence[PartFiles], stem: str) -> dict[str, Any]:
+    """Return the decisions of a project and its files.
+
+    Parameters
+    ----------
+    parts : sequence of PartFiles
+        Those that were made.
+    stem : str
+        What its files are called.
+    """
+    column, scales = project.problem.drive.coordinate.column, project.scales
+    strokes = project.strokes
+    return {
+        "schema": SCHEMA,
+        "problem": stem,
+        "positions": [
+            {"number": number, column: _shown(project.problem, at)}
+            for number, at in enumerate(project.positions)
+        ],
+        "calculated": project.calculated,
+        "strokes": None if strokes is None else {key: getattr(strokes, key) for key in STROKES},
+        "scales": {
+            "mu_l": scales.mu_l,
+            "mu_v": scales.mu_v,
+            "mu_a": scales.mu_a,
+            "mu_F": scales.mu_F,
+        },
+        "frame": project.frame,
+        "parts": [
+            {"name": part.name.value, "files": list(part.files), "sheets": part.sheets}
+            if part.name is not PartName.NOTE
+            else {"name": part.name.value, "files": list(part.files)}
+            for part in parts
+        ],
+    }
+
+
+def _shown(problem: Problem, at: float) -> float:
+    """Return a position as sheets write it, an angle of a full crank within its cycle."""
+    whole = 360.0 * problem.turns
+    return at if problem.shown(at) == at else round(at % whole, 9) % whole

@@ -1,0 +1,160 @@
+"""What the work has found, sources, sheets (заключение, источники, перечень листов)."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from planmethod.gears.model import GearProblem
+from planmethod.mechanism.structure import roman
+from planmethod.note.document import Item, Node, References, StructuralHeading, Table
+from planmethod.note.formula import Rich, escape, inlined
+from planmethod.note.narrate.forces.lever import both_balances, difference, expected
+from planmethod.note.wording import Words
+from planmethod.project.model import PartName
+from planmethod.project.report.context import Report, sentences
+from planmethod.project.report.flywheel import machine_of
+from planmethod.project.report.gears import ratio_of
+from planmethod.project.report.results import (
+    ACCELERATIONS,
+    VELOCITIES,
+    compared,
+    worst,
+)
+from planmethod.project.report.turn import has_turn
+from planmethod.solved.forces.reading import force_reading
+from planmethod.solved.turn.turn import turn_of
+
+MUCH = 10.0
+"""Per cent of a difference of the lever from which on it is told why."""
+
+
+def conclusion(report: Report) -> Iterator[Node]:
+    """Yield what the work has found, with numbers."""
+    said: Words = report.said["conclusion"]
+    yield StructuralHeading(said.title.format())
+    yield sentences(said.intro.format())
+    found = [
+        _structure(report, said),
+        _motion(report, said),
+        *_turn(report, said),
+        *(_forces(report, said) if report.has(PartName.FORCES) else ()),
+        *(_flywheel(report, said) if report.has(PartName.FLYWHEEL) else ()),
+        *_gears(report, said),
+    ]
+    for number, text in enumerate(filter(None, found), 1):
+        yield Item(inlined(text), f"{number})")
+
+
+def _structure(report: Report, said: Words) -> Rich:
+    structure = report.one.structure
+    template = said.structure if structure.mobility == 1 else said.structure_many
+    return template.format(
+        w=structure.mobility, roman=roman(structure.class_number), formula=structure.formula
+    )
+
+
+def _motion(report: Report, said: Words) -> Rich:
+    say, facts = report.say, {}
+    for name, kinds in (("velocity", VELOCITIES), ("acceleration", ACCELERATIONS)):
+        most = worst(compared(report.one, 0, *kinds))
+        if most is None:
+            return ""
+        facts[name] = most.quantity.symbol
+        facts[f"{name}_percent"] = say.number(f"{most.percent:.1f}")
+        facts[f"{name}_sigmas"] = say.number(f"{most.sigmas:.1f}")
+    later = float(facts["acceleration_percent"].replace(say.decimal, "."))
+    earlier = float(facts["velocity_percent"].replace(say.decimal, "."))
+    text = said.motion.format(position=report.in_position, **facts)
+    return f"{text} {said.why.format()}" if later > earlier else text
+
+
+def _turn(report: Report, said: Words) -> Iterator[Rich]:
+    if not has_turn(report):
+        return
+    turn, strokes = turn_of(report.every), report.project.strokes
+    told = []
+    if turn.stroke:
+        slides = turn.output.slide is not None
+        size = report.quantity(turn.stroke, "m") if slides else report.degrees(turn.stroke)
+        told.append(str(said["stroke"][turn.output.unit]).format(stroke=size))
+    if strokes is not None and strokes.K_v is not None:
+        told.append(
+            said.ratio.format(
+                working=report.degrees(strokes.working_deg),
+                idle=report.degrees(strokes.idle_deg),
+                ratio=report.say.found(strokes.K_v),
+            )
+        )
+    yield " ".join(told)
+
+
+def _forces(report: Report, said: Words) -> Iterator[Rich]:
+    reading, say = force_reading(report.one, 0), report.say
+    joints = reading.statics.reactions
+    most = max(joints, key=lambda joint: abs(complex(joint.force[0])))
+    plans, lever = both_balances(reading)
+    balancing = reading.balancing
+    yield said.forces.format(
+        position=report.in_position,
+        symbol=report.reaction(most),
+        value=report.quantity(abs(complex(most.force[0])), "N"),
+        name=said["balancing"][balancing.quantity],
+        balancing=say.symbol(reading.balancing_symbol),
+        balance=report.quantity(abs(plans), balancing.unit),
+    )
+    share, sigma = difference(reading), expected(reading)
+    if lever is None or share is None or sigma is None or not plans:
+        return
+    part = 100.0 * sigma / abs(plans)
+    template = said.lever_far if share > MUCH and share < 3.0 * part else said.lever
+    yield template.format(share=say.number(f"{share:.1f}"), sigma=say.number(f"{part:.1f}"))
+
+
+def _flywheel(report: Report, said: Words) -> Iterator[Rich]:
+    tell, say = machine_of(report), report.say
+    flywheel, sizes = tell.flywheel, tell.sizes
+    exact, read = flywheel.exact.inertia, tell.drawing.read_inertia
+    if exact <= 0.0 or sizes is None:
+        yield said.no_flywheel.format(delta=say.number(f"{flywheel.delta_reached:.4f}"))
+        return
+    main = said.flywheel.format(
+        delta=say.given(flywheel.machine.delta),
+        symbol=tell.letter("flywheel"),
+        value=report.quantity(read, "kg·m²"),
+        whole=say.number(f"{100.0 * abs(read / exact - 1.0):.1f}"),
+    )
+    size = said.flywheel_sizes.format(
+        diameter=report.quantity(sizes.diameter, "m"),
+        width=report.quantity(sizes.width, "m"),
+        mass=report.quantity(sizes.mass, "kg"),
+    )
+    yield f"{main} {size}"
+
+
+def _gears(report: Report, said: Words) -> Iterator[Rich]:
+    part = report.project.part(PartName.GEARS)
+    if part is None or not isinstance(part.problem, GearProblem):
+        return
+    ratio = ratio_of(part.problem, report)
+    if ratio is not None:
+        yield said.gears.format(ratio=ratio)
+
+
+def back(report: Report) -> Iterator[Node]:
+    """Yield the sources and the list of sheets."""
+    said: Words = report.said["back"]
+    source = report.project.problem.source
+    yield StructuralHeading(said.sources.format())
+    yield References((*([escape(source)] if source else []), *said["standards"]))
+    yield StructuralHeading(said.sheets.format())
+    yield sentences(said.sheets_text.format())
+    names: Words = said["names"]
+    rows = []
+    for number, part in enumerate(report.project.parts, 1):
+        key = part.name.value
+        if part.name is PartName.KINEMATICS and not has_turn(report):
+            key = "kinematics_one"
+        rows.append((str(number), str(names[key]).format()))
+    yield Table(
+        tuple(said["columns_sheets"]), tuple(rows), 2, name=said.sheets_table.format(), key="sheets"
+    )

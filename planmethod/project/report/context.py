@@ -1,0 +1,231 @@
+"""What the chapters of a note share: the project, its words, the calculated position (записка)."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Sequence
+
+from planmethod.construct.steps import Compute, NumberName
+from planmethod.mechanism.describe import LinkKind, kind_of_motion
+from planmethod.note.document import Formula, Paragraph
+from planmethod.note.formula import Rich, inlined
+from planmethod.note.narrate.formulas import Formulas
+from planmethod.note.narrate.naming import Names
+from planmethod.note.narrate.scales import scale_inscription
+from planmethod.note.narrate.steps import Narrator
+from planmethod.note.numbers import Notation, with_unit
+from planmethod.note.plaintext import given
+from planmethod.note.wording import Language, Words
+from planmethod.plans.forces.polygons import reaction_symbol
+from planmethod.plans.model import FACTS, PlanKind, Vector
+from planmethod.project.model import PartName, Project
+from planmethod.solved.forces.contact import JointForce
+from planmethod.solved.solution import Solution
+
+NBSP = "\u00a0"
+
+_POINTS = re.compile(r"(?<![_{\w\\])((?:[A-Z]\d*)*[A-Z]\d+(?:[A-Z]\d*)*)(?![\w}])")
+"""Names of points with numbers, which are no part of an index."""
+
+
+def lettered(text: Rich) -> Rich:
+    """Return rich text in which the number of a point is an index: ``O1A`` gives ``O_{1}A``."""
+    return _POINTS.sub(lambda found: re.sub(r"\d+", r"_{\g<0>}", found[0]), text)
+
+
+class NoteFormulas(Formulas):
+    """Formulas as a note displays them: each on a line of its own, without exact values."""
+
+    shown_angle: float | None = None
+    """Angle of the driver as the positions are numbered, degrees."""
+
+    def number(self, name: NumberName) -> float:
+        """Return a number as the hand has it; the driver's angle as it is told."""
+        if name == "phi" and self.shown_angle is not None:
+            return self.shown_angle
+        return super().number(name)
+
+    def laid(self, step: Compute, segment: str, kind: PlanKind, vector: Vector | None) -> list[str]:
+        """Return the formulas of a length to be laid off: of the quantity, and of the length."""
+        (value, _), (scale, _) = step.powers
+        length, mu = abs(self.number(step.out)), self.per_mm(kind)
+        symbol = vector.symbol if vector else self.names.symbol(value)
+        made, lines = self.names.step[value], []
+        size = float(f"{length * mu:.4g}")
+        if isinstance(made, Compute):
+            sides = self.product(made.powers, made.factor)
+            lines.append(self.formula(symbol, sides, length * mu, FACTS[kind].unit))
+        sides = self.fraction([(symbol, size, 1, False), (self.names.symbol(scale), mu, -1, True)])
+        lines.append(self.formula(segment, sides, length, "mm"))
+        return lines
+
+
+def as_told(words: Language) -> Language:
+    """Return a language in which narrators and statements speak as a note does."""
+    own = Language(words.lang)
+    own.note = Words({**words.note, **words.report["voice"]})
+    own.forces = Words({**words.forces, **words.report["force_voice"]})
+    vars(own)["say"] = words.say  # pictures are kept by it
+    return own
+
+
+class Report:
+    """What the chapters of a note share (общее для глав записки).
+
+    Attributes
+    ----------
+    project : Project
+    words : Language
+        With the sentences of the narrators as a note has them.
+    said : Words
+        The sentences of notes.
+    every, one : Solution
+        All positions, and the calculated one alone.
+    names : Names
+        As sheets letter them.
+    formulas : NoteFormulas
+        Of the calculated position.
+    narrator : Narrator
+    described : set of str
+        Letters that were explained.
+    """
+
+    def __init__(self, project: Project, words: Language) -> None:
+        self.project, self.words, self.said = project, as_told(words), words.report
+        self.every: Solution = project.solution
+        self.one: Solution = project.loaded
+        self.described: set[str] = set()
+        self.names = Names(self.one, self.words.note, on_sheet=True)
+        self.formulas = NoteFormulas(self.one, self.names, 0)
+        if self.one.problem.drive.is_crank:
+            self.formulas.shown_angle = round(self.shown_places[project.calculated], 2)
+        self.narrator = Narrator(self.one, self.names, 0, self.formulas)
+
+    @property
+    def say(self) -> Notation:
+        """Numbers, units and symbols."""
+        return self.words.say
+
+    @property
+    def is_series(self) -> bool:
+        """Whether there are several positions."""
+        return len(self.project.positions) > 1
+
+    def has(self, name: PartName) -> bool:
+        """Tell whether the project has a part."""
+        return self.project.part(name) is not None
+
+    # Texts ---------------------------------------------------------------------------------------
+
+    def unit(self, name: str) -> str:
+        """Return the letters of a unit."""
+        return self.say.units[name]
+
+    def quantity(self, value: float, unit: str) -> Rich:
+        """Return a computed number with its unit."""
+        return with_unit(self.say.found(value), self.unit(unit))
+
+    def degrees(self, value: float) -> Rich:
+        """Return an angle, two decimals at the most."""
+        return with_unit(given(round(value, 2) + 0.0, self.words.note), "°")
+
+    def mm(self, value: float) -> Rich:
+        """Return a length that is measured on paper, with its unit."""
+        return with_unit(self.say.ruled(value), self.unit("mm"))
+
+    def parts(self, count: int) -> Rich:
+        """Return so many equal parts, as the language counts them."""
+        last, teens = count % 10, 10 < count % 100 < 20
+        form = "many" if teens or not 0 < last < 5 else "one" if last == 1 else "few"
+        return str(self.said["counts"]["parts"][form]).format(count=count)
+
+    def listed(self, parts: Sequence[Rich]) -> Rich:
+        """Return a list in a sentence: ``a, b и c``."""
+        *first, last = parts
+        return f"{', '.join(first)}{self.said['and']}{last}" if first else last
+
+    def scale(self, kind: PlanKind) -> Rich:
+        """Return the scale of a plan of the calculated position as it is inscribed."""
+        convention = self.one.problem.scales.convention
+        return scale_inscription(self.one.own_scale(kind, 0), convention, self.say)
+
+    # Positions -----------------------------------------------------------------------------------
+
+    @property
+    def place(self) -> Rich:
+        """Where the driver stands in the calculated position."""
+        return self.place_of(self.project.calculated)
+
+    def place_of(self, number: int) -> Rich:
+        """Return where the driver stands in a position."""
+        value = self.shown_places[number]
+        if self.one.problem.drive.coordinate.unit == "m":
+            return with_unit(self.say.given(value), self.unit("m"))
+        return self.degrees(value)
+
+    @property
+    def shown_places(self) -> list[float]:
+        """Where the driver stands in each position, as tables have it."""
+        return [round(self.one.problem.shown(value), 4) for value in self.project.positions]
+
+    @property
+    def of_position(self) -> Rich:
+        """Of the calculated position, after a blank; nothing where it is the only one."""
+        return self._told(self.said.of_position)
+
+    @property
+    def in_position(self) -> Rich:
+        """In the calculated position, after a blank; nothing where it is the only one."""
+        return self._told(self.said.in_position)
+
+    @property
+    def for_position(self) -> Rich:
+        """For the calculated position, after a blank."""
+        return self._told(self.said.for_position) or self.said.for_only.format()
+
+    def _told(self, template: str) -> Rich:
+        return template.format(number=self.project.calculated) if self.is_series else ""
+
+    @property
+    def coordinate(self) -> Rich:
+        """Letter of the driver's coordinate, with its link."""
+        drive = self.one.problem.drive
+        return f"φ_{{{drive.link}}}" if drive.is_crank else drive.coordinate.symbol
+
+    def reaction(self, joint: JointForce) -> Rich:
+        """Return the letter of a reaction, the frame by its number."""
+        return reaction_symbol(joint.on, self.one.problem.mechanism.called(joint.by))
+
+    # Links ---------------------------------------------------------------------------------------
+
+    @property
+    def kinds(self) -> list[LinkKind]:
+        """Roles of the links, the frame first."""
+        return kind_of_motion(self.one.problem.mechanism)
+
+    def link(self, link: str, case: str = "who") -> Rich:
+        """Return what a link is called with its number, in a case of the language."""
+        return self.said.of_link.format(role=self.role(link, case), link=link)
+
+    def role(self, link: str, case: str = "who") -> Rich:
+        """Return what a link is called, in a case of the language."""
+        kind = next(kind for kind in self.kinds if kind.link == link)
+        roles: Words = self.said["roles"][case]
+        return str(roles[kind.role.value])
+
+
+def displayed(text: Rich, key: str = "") -> Formula:
+    """Return a formula with a number."""
+    return Formula(text, numbered=True, key=key)
+
+
+def chain(lines: Iterable[Rich]) -> list[Formula]:
+    """Return formulas one after another: semicolons between them, a full stop at the end."""
+    texts = list(lines)
+    return [Formula(f"{text}{'.' if k == len(texts) else ';'}") for k, text in enumerate(texts, 1)]
+
+
+def sentences(*texts: Rich) -> Paragraph:
+    """Return a paragraph of some sentences, those that there are."""
+    # In a line of text a built-up fraction would push the lines apart.
+    return Paragraph(lettered(" ".join(inlined(text) for text in texts if text)))

@@ -1,0 +1,151 @@
+"""Pictures of the sheets as figures of a note, lettered so that they are legible (рисунки)."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+from functools import cached_property
+from typing import Any, TypeAlias
+
+from msgspec import Struct
+
+from planmethod.note.document import Figure
+from planmethod.note.formula import Rich
+from planmethod.note.plaintext import plain_text
+from planmethod.note.wording import Language
+from planmethod.render.backends.view import DrawingView
+from planmethod.render.ink.drawing import Drawing
+from planmethod.render.layout.block import Block, Column, Row
+from planmethod.render.sheets.blocks import maker_of
+from planmethod.render.sheets.composer import Sizes, Viewed
+from planmethod.render.sheets.model import Entry, Extras, Manner
+from planmethod.solved.solution import Solution
+
+Made: TypeAlias = Callable[[float], Block]
+"""Makes a picture with letters of a height, mm."""
+
+WIDTH = 165.0
+"""Greatest width of a figure in a note, mm."""
+
+LETTER, ON_SHEETS = 3.2, 3.5
+"""Heights of the letters of a figure as it is shown, and as it is drawn at first, mm."""
+
+WISHED, MOST = 120.0, 1.35
+"""How large a small picture shall be, mm, and how many times at the most it is enlarged."""
+
+MARGIN = 2.0
+"""White around the ink, mm."""
+
+ALIKE = 0.05
+"""Share by which a picture may be shrunk before its letters are drawn larger."""
+
+
+class FittedView(Struct, frozen=True, dict=True):
+    """A picture of the sheets that fits a room, made when a writer asks for it (вид по ширине).
+
+    Attributes
+    ----------
+    made : callable
+        Makes the picture with letters of a height, mm.
+    name : Rich
+    room : tuple of float, mm
+        Greatest width and height.
+    grows : bool
+        A small picture is enlarged.
+    """
+
+    made: Made
+    name: Rich
+    room: tuple[float, float]
+    grows: bool = True
+
+    @cached_property
+    def fitted(self) -> tuple[DrawingView, float]:
+        """The picture, and how many times larger it is shown than it is drawn."""
+        block = self.made(ON_SHEETS)
+        factor = self._factor(block)
+        if abs(factor - 1.0) > ALIKE:
+            block = self.made(round(LETTER / factor, 1))
+            factor = self._factor(block)
+        drawing = Drawing(*_room(block), plain_text(self.name))
+        drawing.extend(block.place(complex(MARGIN, drawing.height - MARGIN)))
+        return DrawingView(drawing), factor
+
+    def _factor(self, block: Block) -> float:
+        wide, high = _room(block)
+        most = min(self.room[0] / wide, self.room[1] / high)
+        return min(most, max(1.0, min(WISHED / max(wide, high), MOST)) if self.grows else 1.0)
+
+    @property
+    def size(self) -> tuple[float, float]:
+        """Width and height, mm."""
+        view, factor = self.fitted
+        width, height = view.size
+        return width * factor, height * factor
+
+    def svg(self) -> str:
+        """Return an SVG element."""
+        width, height = self.size
+        head, end, rest = self.fitted[0].svg().partition(">")
+        head = re.sub(r'\bwidth="[^"]*"', f'width="{width:.2f}mm"', head, count=1)
+        head = re.sub(r'\bheight="[^"]*"', f'height="{height:.2f}mm"', head, count=1)
+        return head + end + rest
+
+    def draw(self, canvas: Any) -> None:
+        """Draw on a canvas of reportlab whose unit is the millimetre, the lower left at zero."""
+        view, factor = self.fitted
+        canvas.scale(factor, factor)
+        view.draw(canvas)
+
+    def png(self, dpi: float) -> bytes:
+        """Return a PNG file with so many dots to the inch."""
+        view, factor = self.fitted
+        return view.png(dpi * factor)
+
+
+def _room(block: Block) -> tuple[float, float]:
+    """Return width and height of a picture with its margin, mm."""
+    return block.width + 2 * MARGIN, block.height + 2 * MARGIN
+
+
+def figure(
+    made: Made, caption: Rich, key: str, *, height: float = 120.0, grows: bool = True
+) -> Figure:
+    """Return a picture of the sheets as a figure with a number.
+
+    Parameters
+    ----------
+    made : callable
+        Makes the picture with letters of a height, mm; they are the larger the more it is shrunk.
+    caption : Rich
+    key : str
+        By which texts refer to it.
+    height : float, mm
+        Greatest height.
+    grows : bool
+        A small picture is enlarged.
+    """
+    view = FittedView(made, caption, (WIDTH, height), grows)
+    return Figure(view, caption, numbered=True, key=key)
+
+
+def bare(view: Block) -> Block:
+    """Return a view of a sheet without its name and scale: in a note the caption has them."""
+    column = view.block if isinstance(view, Viewed) else view
+    if isinstance(column, Row) and len(column.blocks) == 1:
+        return bare(column.blocks[0])
+    return column.blocks[-1] if isinstance(column, Column) else column
+
+
+def of_sheet(kind: str, solution: Solution, words: Language, *, column: float) -> Made:
+    """Return what makes a block of the sheets by its kind, without its name, mm.
+
+    ``column`` is the width of the texts of the sheet, which diagrams are measured by.
+    """
+
+    def made(letter: float) -> Block:
+        entry, sizes = Entry(kind, letter=letter), Sizes(letter, letter, letter, column)
+        indices = tuple(range(len(solution.positions)))
+        return bare(maker_of(kind)(solution, indices, Manner(entry, sizes, column, Extras(words))))
+
+    return made

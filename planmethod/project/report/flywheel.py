@@ -1,0 +1,217 @@
+"""The chapter on the flywheel: what is reduced, diagrams, moment of inertia, sizes (маховик)."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from itertools import takewhile
+from math import degrees
+
+from planmethod.note.document import Chapter, Node, Part, Table
+from planmethod.note.formula import Rich, fraction
+from planmethod.note.narrate.machine import MachineTeller
+from planmethod.note.numbers import half_up, with_unit
+from planmethod.note.wording import Words
+from planmethod.problem.load_records import Load, SizeTable
+from planmethod.problem.machine_records import Quadrature, WheelShape
+from planmethod.project.report.context import NBSP, Report, displayed, sentences
+from planmethod.project.report.figures import figure, of_sheet
+from planmethod.render.pictures.flywheel import construction_picture
+from planmethod.solved.machine.drawing import drawing_of, split
+from planmethod.solved.machine.flywheel import flywheel_of
+
+COLUMN = 240.0
+"""Width of the texts of the sheet, which its diagrams are measured by, mm."""
+
+SMALL = 5e-4
+"""Share of the moment of inertia below which a cause of a difference is not named."""
+
+
+def machine_of(report: Report) -> MachineTeller:
+    """Return who tells the machine of a project."""
+    flywheel = flywheel_of(report.every)
+    return MachineTeller(drawing_of(flywheel, report.every.profile), report.words)
+
+
+def flywheel_chapter(report: Report) -> Iterator[Node]:
+    """Yield the chapter."""
+    said: Words = report.said["flywheel"]
+    tell = machine_of(report)
+    yield Chapter(said.title.format())
+    yield Part(said.reduced.format())
+    yield from _reduced(report, tell, said)
+    yield Part(said.diagrams.format())
+    yield from _diagrams(report, tell, said)
+    yield Part(said.sizes_title.format())
+    yield from _inertia(report, tell, said)
+
+
+def _reduced(report: Report, tell: MachineTeller, said: Words) -> Iterator[Node]:
+    J = tell.letter("reduced inertia")  # noqa: N806 - the letter of the textbook
+    yield sentences(said.about.format())
+    omega = f"ω_{{{report.one.problem.drive.link}}}"
+    yield displayed(said.moment_formula.format(M=tell.moment, omega=omega))
+    yield displayed(said.inertia_formula.format(J=J, omega=omega))
+    yield sentences(said.where.format())
+    flywheel = tell.flywheel
+    cycle = with_unit(report.say.given(flywheel.machine.cycle_deg), "°")
+    lever, count = tell.letter("moment by lever"), flywheel.machine.count
+    yield sentences(said.cycle.format(cycle=cycle, count=count, lever=lever))
+    columns = tell.columns()
+    head = tuple(f"{name}, {unit}" if unit else name for name, unit, _ in columns)
+    rows = tuple(zip(*(cells for _, _, cells in columns), strict=True))
+    yield Table(head, rows, 1, 2, name=said.table.format(), key="machine")
+    dynamics = report.one.problem.dynamics
+    changing = dynamics is not None and any(
+        isinstance(load, Load) and isinstance(load.size, SizeTable) for load in dynamics.loads
+    )
+    if changing:
+        made = of_sheet("load-diagram", report.every, report.words, column=COLUMN)
+        yield sentences(said.load_text.format())
+        yield figure(made, said.load_figure.format(), "load", height=90.0)
+
+
+def _diagrams(report: Report, tell: MachineTeller, said: Words) -> Iterator[Node]:
+    drawing, machine, say = tell.drawing, tell.flywheel.machine, report.say
+    scales = drawing.scales
+    middle = machine.ordinates is Quadrature.MIDDLE
+    letters = {
+        "M": tell.moment,
+        "A": tell.work,
+        "J": tell.letter("reduced inertia"),
+        "A_const": tell.letter(f"{tell.keeps} work"),
+        "M_const": tell.letter(f"{tell.keeps} moment"),
+    }
+    yield sentences(
+        said.moment.format(
+            M=letters["M"],
+            A=letters["A"],
+            mu_M=tell.scale("M", scales.moment, "N·m"),
+            way=str(said["ways"]["middle" if middle else "trapezoid"]).format(),
+            pole=with_unit(say.given(half_up(drawing.pole, 2)), report.unit("mm")),
+        )
+    )
+    scaled = list(takewhile(_is_no_angle, tell.formulas()))
+    for k, text in enumerate(scaled, 1):
+        yield displayed(f"{text}{'.' if k == len(scaled) else ','}")
+    constant = float(drawing.points.work[-1]) / tell.flywheel.cycle
+    yield sentences(
+        said.constant.format(
+            value=report.quantity(constant, "N·m"),
+            **{key: letters[key] for key in ("A", "A_const", "M_const")},
+        ),
+        said.energy.format(mu_J=tell.scale("J", scales.inertia, "kg·m²"), J=letters["J"]),
+    )
+    yield figure(
+        lambda letter: construction_picture(drawing, tell, letter),
+        said.figure.format(),
+        "machine_diagrams",
+        height=190.0,
+    )
+
+
+def _is_no_angle(formula: Rich) -> bool:
+    return not formula.startswith("tg")
+
+
+def _inertia(report: Report, tell: MachineTeller, said: Words) -> Iterator[Node]:
+    drawing, flywheel, say = tell.drawing, tell.flywheel, report.say
+    points, step = drawing.points.tangents, flywheel.cycle / drawing.count
+    slopes = flywheel.usual_slopes
+    yield sentences((said.tangents_one if slopes[0] == slopes[1] else said.tangents).format())
+    tangents = dict.fromkeys(text for text in tell.formulas() if not _is_no_angle(text))
+    for k, text in enumerate(tangents, 1):
+        yield displayed(f"{text}{'.' if k == len(tangents) else ','}")
+    exact = float(drawing.exact.number(drawing.made.KL)[0])
+    yield sentences(
+        said.cut.format(
+            top=round(points.at_max / step),
+            bottom=round(points.at_min / step),
+            KL=report.mm(tell.KL),
+            exact=f"{say.number(f'{exact:.2f}')} {report.unit('mm')}",
+        )
+    )
+    symbol, omega = tell.letter("flywheel"), tell.letter("mean speed")
+    speed = say.found(flywheel.middle_speed)
+    letters = fraction("μ_{T}·KL", f"{omega}^{{2}}·δ")
+    numbers = fraction(
+        f"{say.found(drawing.scales.work)}·{say.ruled(tell.KL)}",
+        f"{speed}^{{2}}·{say.given(flywheel.machine.delta)}",
+    )
+    value = report.quantity(drawing.read_inertia, "kg·m²")
+    yield displayed(f"{symbol} = {letters} = {numbers} = {value}.", "flywheel")
+    sigma = f"{say.short(drawing.sigma, 2)} {report.unit('kg·m²')}"
+    yield sentences(said.sigma.format(sigma=sigma), *_checked(report, tell, said))
+    sizes = tell.sizes
+    if sizes is not None:
+        yield from _sizes(report, tell, said)
+    made = of_sheet("speed-diagram", report.every, report.words, column=COLUMN)
+    yield sentences(said.speed.format())
+    yield figure(made, said.speed_figure.format(), "speed", height=90.0)
+
+
+def _checked(report: Report, tell: MachineTeller, said: Words) -> Iterator[Rich]:
+    """Yield how far the construction is from the exact flywheel, and the check of the motion."""
+    flywheel, say = tell.flywheel, report.say
+    exact, unit = flywheel.exact.inertia, report.unit("kg·m²")
+    delta = say.number(f"{flywheel.delta_reached:.4f}")
+    if exact <= 0.0:
+        yield said.not_needed.format(delta=delta)
+        return
+    parts = split(tell.drawing)
+
+    def percent(value: float) -> str:
+        return say.number(f"{100.0 * value / exact:+.1f}")
+
+    causes = {name: getattr(parts, name) for name in ("slopes", "method", "positions", "pencil")}
+    told = [
+        str(said["parts"][name]).format(value=percent(value), count=tell.drawing.count)
+        for name, value in causes.items()
+        if abs(value) > SMALL * exact
+    ]
+    yield said.exact.format(
+        symbol=tell.letter("flywheel"),
+        value=f"{say.found(exact)} {unit}",
+        whole=percent(tell.drawing.read_inertia - exact),
+    )
+    if told:
+        yield said.why.format(parts=", ".join(told))
+    high, low = flywheel.integrated
+    turn = flywheel.machine.cycle_deg
+
+    def at(turned: float) -> str:
+        phi = flywheel.turn.sense * degrees(turned) + flywheel.turn.start_deg
+        return say.number(f"{phi % turn:.1f}")
+
+    per_second = report.unit("1/s")
+    yield said.reached.format(
+        delta=delta,
+        high=f"{say.found(high.value)} {per_second}",
+        low=f"{say.found(low.value)} {per_second}",
+        at_high=at(high.turned),
+        at_low=at(low.turned),
+    )
+
+
+def _sizes(report: Report, tell: MachineTeller, said: Words) -> Iterator[Node]:
+    sizes, say = tell.sizes, report.say
+    assert sizes is not None
+    disc = sizes.shape is WheelShape.DISC
+    found = [("D", sizes.diameter, "m"), ("D1", sizes.bore, "m"), ("b", sizes.width, "m"),
+             ("m", sizes.mass, "kg"), ("v", sizes.speed, "m/s")]  # fmt: skip
+    facts = [
+        str(said["size"][key]).format(value=report.quantity(value, unit))
+        for key, value, unit in found
+        if value
+    ]
+    held = ""
+    if sizes.held:
+        limit = say.given(tell.flywheel.machine.wheel.greatest_speed)
+        held = said.held.format(speed=f"{limit}{NBSP}{report.unit('m/s')}")
+    yield sentences(
+        (said.disc if disc else said.rim).format(),
+        f"{', '.join(facts)}.",
+        held,
+        said.wheel_text.format(),
+    )
+    made = of_sheet("flywheel", report.every, report.words, column=130.0)
+    yield figure(made, said.wheel_figure.format(), "wheel", height=90.0)

@@ -1,0 +1,401 @@
+"""The chapter on forces: loads, groups, lever, reactions of all positions (силовой расчёт)."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from planmethod.construct.steps import Name
+from planmethod.note.document import Chapter, Equations, Node, Part, Table, table_of_columns
+from planmethod.note.formula import Rich, fraction
+from planmethod.note.narrate.forces.common import ForceContext, balance_equation
+from planmethod.note.narrate.forces.lever import (
+    LeverNarrator,
+    both_balances,
+    difference,
+    expected,
+)
+from planmethod.note.narrate.forces.loads import LoadNarrator
+from planmethod.note.narrate.forces.moments import MomentNarrator, MomentText
+from planmethod.note.narrate.forces.plan import ForcePlanNarrator
+from planmethod.note.narrate.letters import direction_text, mark
+from planmethod.note.narrate.scales import scale_inscription
+from planmethod.note.numbers import alike
+from planmethod.note.rounding import sigma_text
+from planmethod.note.tables.results import lead_columns
+from planmethod.note.wording import Words
+from planmethod.plans.forces.board import GivenLoad
+from planmethod.plans.forces.loads import LoadKind
+from planmethod.plans.forces.polygons import ForcePlan, Moments
+from planmethod.plans.model import PlanKind
+from planmethod.project.report.context import Report, chain, displayed, sentences
+from planmethod.project.report.figures import figure
+from planmethod.render.forces.cut import cut_picture, inner_picture, loads_picture
+from planmethod.render.forces.leverpicture import lever_picture
+from planmethod.render.forces.polygon import drawn_edges, polygon_picture
+from planmethod.render.layout.block import Block, Row
+from planmethod.solved.errors.forces import drawn_forces, size_label
+from planmethod.solved.forces.contact import VANISHING
+from planmethod.solved.forces.reading import force_reading
+from planmethod.solved.forces.statics import statics_of
+
+GAP = 10.0
+"""Between two pictures in a row, mm."""
+
+
+class ForceChapter:
+    """Tells the forces of the calculated position."""
+
+    def __init__(self, report: Report) -> None:
+        self.report, self.said = report, report.said["forces"]
+        self.reading = force_reading(report.one, 0)
+        self.context = ForceContext(self.reading, report.formulas)
+        self.context.said = report.words.forces
+        self.drive = report.one.problem.drive.link
+        self.find = report.say.found
+
+    def nodes(self) -> Iterator[Node]:
+        """Yield the chapter."""
+        self.reading.statics.si  # noqa: B018 - what cannot be drawn is told before anything else
+        said: Words = self.said
+        yield Chapter(said.title.format())
+        yield Part(said.loads.format())
+        yield from self._loads()
+        yield from self._plans()
+        yield from self._reactions()
+        yield Part(said.lever.format())
+        yield from self._lever()
+        if self.report.is_series:
+            yield from self._every()
+
+    # Loads ---------------------------------------------------------------------------------------
+
+    def _loads(self) -> Iterator[Node]:
+        said: Words = self.said
+        reading, report = self.reading, self.report
+        own = report.one.problem.scales.mu_F is None
+        scale = scale_inscription(reading.scale, report.one.problem.scales.convention, report.say)
+        template = said.about_own if own else said.about
+        yield sentences(template.format(position=report.for_position, scale=scale))
+        yield figure(
+            lambda letter: loads_picture(reading, letter, report.say),
+            said.loads_figure.format(),
+            "loads",
+        )
+        voice = LoadNarrator(self.context)
+        given = [one for one in reading.statics.board.given if self._acts(one)]
+        by_kind = {kind: [one for one in given if one.applied.kind is kind] for kind in LoadKind}
+        if by_kind[LoadKind.WEIGHT]:
+            yield sentences(said.weights.format())
+            yield from chain(map(voice.formula, by_kind[LoadKind.WEIGHT]))
+        yield from self._inertia(voice, by_kind[LoadKind.INERTIA])
+        couples = by_kind[LoadKind.INERTIA_COUPLE]
+        if couples:
+            yield sentences(said.couples.format())
+            yield from chain(map(voice.formula, couples))
+            yield sentences(self._senses(couples))
+        for one in reading.statics.board.given:
+            if one.applied.kind is LoadKind.EXTERNAL:
+                yield sentences(self._external(one))
+        dynamics = report.one.problem.dynamics
+        links = report.one.problem.mechanism.links
+        massless = [link for link in links if dynamics and link not in dynamics.masses]
+        if massless and dynamics and dynamics.masses:
+            form = said["massless"]["one" if len(massless) == 1 else "many"]
+            yield sentences(form.format(links=report.listed(massless)))
+
+    def _senses(self, couples: list[GivenLoad]) -> Rich:
+        """Return which way the couples of inertia turn."""
+        said: Words = self.said
+        senses = {
+            one.applied.name: self.context.sense(float(one.applied.couple[0])) for one in couples
+        }
+        if len({*senses.values()}) == 1:
+            form = said["couple_alike"]["one" if len(couples) == 1 else "many"]
+            return str(form).format(sense=next(iter(senses.values())))
+        told = [said.couple_sense.format(symbol=a, sense=b) for a, b in senses.items()]
+        return f"{', '.join(told)}."
+
+    def _inertia(self, voice: LoadNarrator, forces: list[GivenLoad]) -> Iterator[Node]:
+        said: Words = self.said
+        shifts = self.reading.statics.board.shifts
+        if not forces:
+            return
+        shifted = any(one.applied.link in shifts for one in forces)
+        yield sentences((said.inertia_shifted if shifted else said.inertia).format())
+        lines = []
+        for one in forces:
+            lines.append(voice.formula(one))
+            shift = shifts.get(one.applied.link)
+            if shift is not None and shift.moment.couple[0]:
+                lines += voice.shifted(one, shift)
+        yield from chain(lines)
+
+    def _acts(self, one: GivenLoad) -> bool:
+        return bool(one.applied.force[0] or one.applied.couple[0])
+
+    def _external(self, one: GivenLoad) -> Rich:
+        said: Words = self.said
+        applied, units = one.applied, self.context.units
+        if applied.point is None:
+            couple = float(applied.couple[0])
+            if not couple:
+                return said.absent_couple.format(symbol=applied.name)
+            size = f"{self.find(abs(couple))} {units['N·m']}"
+            return said.couple.format(
+                link=self.report.link(applied.link, "on"),
+                symbol=applied.name,
+                size=size,
+                sense=self.context.sense(couple),
+            )
+        force = complex(applied.force[0])
+        if not force:
+            return said.absent.format(symbol=applied.name)
+        return said.force.format(
+            link=self.report.link(applied.link, "on"),
+            point=applied.point,
+            symbol=applied.name,
+            size=f"{self.find(abs(force))} {units['N']}",
+            way=self.context.way(force),
+        )
+
+    # Groups --------------------------------------------------------------------------------------
+
+    def _plans(self) -> Iterator[Node]:
+        for number, plan in enumerate(self.reading.plans):
+            yield from self._plan(plan, number)
+
+    def _plan(self, plan: ForcePlan, number: int) -> Iterator[Node]:
+        said: Words = self.said
+        voice = ForcePlanNarrator(self.context, plan, number)
+        moments = MomentNarrator(self.context, plan)
+        links = "–".join(plan.links)
+        driver = plan.links == (self.drive,)
+        yield Part(said.driver.format(link=links) if driver else said.group.format(links=links))
+        if not number:
+            yield sentences(said.order.format())
+        yield sentences(*voice.freed())
+        if voice.is_nothing:
+            yield sentences(said.nothing.format())
+            return
+        drawn = bool(drawn_edges(self.reading, number))
+        keys = {"cut": f"cut_{number}", "plan": f"force_plan_{number}"}
+        yield sentences((said.see if drawn else said.see_cut).format(**keys))
+        yield self._cut(number, links, keys["cut"], driver=driver)
+        if not self._readable(*(end for edge in plan.polygon for end in edge.ends)):
+            yield sentences(said.unreadable.format())
+            return
+        for equation in plan.moments:
+            couple = equation.couple
+            before = equation.force is not None or (
+                couple is not None and couple.moment == self.reading.statics.driving.balance
+            )
+            if before:
+                yield from self._moments(moments, equation)
+        for balance in plan.balances:
+            template = said["balance"]["one" if len(balance.links) == 1 else "many"]
+            yield sentences(template.format(links="–".join(balance.links)))
+            summed = balance_equation(balance, self.context, direction_text)
+            yield Equations((summed,), numbered=True)
+        *steps, _ = voice.steps()
+        form = said["plan"]["one" if len(plan.balances) == 1 else "many"]
+        yield sentences(form.format(), *(line for step in steps for line in step))
+        inverse = self.report.names.is_inverse_scale()
+        yield sentences((said.found_inverse if inverse else said.found).format())
+        yield from chain(voice.closing(edge) for edge in plan.reactions)
+        for lines in moments.guides():
+            yield sentences(*self._of_guide(lines))
+        if drawn:
+            yield self._polygon(number, links, keys["plan"], driver=driver)
+
+    def _readable(self, *names: Name) -> bool:
+        hand = self.reading.statics.by_hand
+        return all(hand.has(name)[0] for name in names)
+
+    @staticmethod
+    def _of_guide(lines: list[Rich]) -> list[Rich]:
+        """Return the sentences of where a guide's force acts, each ended."""
+        return [line if line.endswith((".", ":", ",", ";")) else f"{line}." for line in lines]
+
+    def _moments(self, voice: MomentNarrator, equation: Moments) -> Iterator[Node]:
+        said: Words = self.said
+        told: MomentText | None = voice.told(equation)
+        if told is None:
+            return
+        template = said.moments if len(equation.links) == 1 else said.moments_links
+        yield sentences(template.format(point=equation.about, links=", ".join(equation.links)))
+        whose = f"Σ_{{{','.join(equation.links)}}}M"  # the sentence before says it
+        summed, _, zero = told.equation.replace(whose, "ΣM", 1).partition(": ")
+        yield displayed(f"{summed}.")
+        if zero:  # it is nothing for want of moments
+            yield sentences(said.no_moments.format(point=equation.about))
+            yield from chain([zero])
+        lead = said.hence.format()
+        if told.arms:
+            arms = said.arms if len(told.arms) > 1 else said.arms_one
+            lead = arms.format(arms="; ".join(told.arms))
+        if told.length:
+            yield sentences(said.length.format(length=told.length))
+        if told.result:
+            yield sentences(lead)
+            yield from chain([told.result])
+
+    def _cut(self, number: int, links: Rich, key: str, *, driver: bool) -> Node:
+        reading, say = self.reading, self.report.say
+
+        def picture(letter: float) -> Block:
+            whole = cut_picture(reading, number, letter, say)
+            inner = inner_picture(reading, number, letter, say)
+            return whole if inner is None else Row([whole, inner[1]], GAP, "centre")
+
+        caption = self.said["figure_cut_driver" if driver else "figure_cut"]
+        return figure(picture, caption.format(links=links, link=links), key, height=150.0)
+
+    def _polygon(self, number: int, links: Rich, key: str, *, driver: bool) -> Node:
+        reading, say = self.reading, self.report.say
+        scale = scale_inscription(
+            reading.own_scale(number), self.report.one.problem.scales.convention, say
+        )
+        caption = self.said["figure_plan_driver" if driver else "figure_plan"]
+        return figure(
+            lambda letter: polygon_picture(reading, number, letter, say),
+            caption.format(links=links, link=links, scale=scale),
+            key,
+            height=120.0,
+        )
+
+    # Results -------------------------------------------------------------------------------------
+
+    def _reactions(self) -> Iterator[Node]:
+        said: Words = self.said
+        report, statics = self.report, self.reading.statics
+        drawn, largest, rows = drawn_forces(statics), statics.largest(0), []
+        for joint in statics.reactions:
+            exact = abs(complex(joint.force[0]))
+            exact = 0.0 if exact <= VANISHING * largest else exact
+            read = float(drawn.read(size_label(joint))[0])
+            off = report.say.number(f"{100.0 * abs(read - exact) / exact:.2f}") if exact else "—"
+            sigma = float(drawn.spreads[size_label(joint)].sigma[0])
+            rows.append(
+                (
+                    mark(joint.joint),
+                    report.reaction(joint),
+                    self.find(read),
+                    self.find(exact),
+                    off,
+                    report.say.number(sigma_text(sigma)),
+                )
+            )
+        yield Part(said.table_part.format())
+        yield sentences(said.reactions.format())
+        yield Table(
+            tuple(text.format() for text in said["columns_reactions"]),
+            tuple(rows),
+            2,
+            name=said.reactions_table.format(position=report.in_position),
+            key="reactions",
+        )
+        balancing, unit = self.reading.balancing, report.unit(self.reading.balancing.unit)
+        plans, _ = both_balances(self.reading)
+        yield sentences(
+            str(said["balancing"][balancing.quantity]).format(
+                symbol=self.context.symbol(self.reading.balancing_symbol),
+                value=f"{self.find(abs(plans))} {unit}",
+                exact=f"{self.find(abs(float(statics.balance[0])))} {unit}",
+            )
+        )
+
+    # Lever ---------------------------------------------------------------------------------------
+
+    def _lever(self) -> Iterator[Node]:
+        said: Words = self.said
+        report, reading, statics = self.report, self.reading, self.reading.statics
+        if statics.lever_plan is None:
+            yield sentences(said.lever_stands.format())
+            return
+        if not self._readable(statics.lever_plan.balance):
+            yield sentences(said.unreadable.format())
+            return
+        voice = LeverNarrator(self.context)
+        template = said.lever_about if reading.balancing.turns else said.lever_about_force
+        yield sentences(template.format(pole=report.names.pole(PlanKind.VELOCITY)))
+        yield figure(
+            lambda letter: lever_picture(reading, letter, report.say),
+            said.lever_figure.format(position=report.in_position),
+            "lever",
+        )
+        if not voice.lever.forces and not voice.lever.couples:
+            symbol = self.context.symbol(reading.balancing_symbol)
+            yield sentences(said.lever_no_work.format(symbol=symbol))
+            return
+        segments = voice.segments()
+        yield sentences(
+            said.lever_pairs.format(segments="; ".join(segments)) if segments else "",
+            said.lever_equation.format(),
+        )
+        yield displayed(f"{voice.equation()}.")
+        for shift in voice.lever.shifts:
+            yield from chain([voice.shift(shift)])
+        arms = voice.arms()
+        yield sentences(said.lever_arms.format(arms=arms) if arms else said.hence.format())
+        yield from chain([voice.result()])
+        yield from self._compared(voice)
+
+    def _compared(self, voice: LeverNarrator) -> Iterator[Node]:
+        said: Words = self.said
+        say, reading = self.report.say, self.reading
+        plans, lever = both_balances(reading)
+        assert lever is not None
+        symbol, unit = voice.balancing, voice.unit
+        share, sigma = difference(reading), expected(reading)
+        yield sentences(
+            said.lever_found.format(
+                symbol=symbol,
+                plans=f"{self.find(abs(plans))} {unit}",
+                lever=f"{self.find(abs(lever))} {unit}",
+            )
+        )
+        if share is not None:
+            one, two = self.find(abs(lever)), self.find(abs(plans))
+            share_of = fraction(f"|{one} − {two}|", two)
+            sides = f"{share_of}·100 % = {say.number(f'{share:.1f}')} %"
+            yield displayed(f"Δ = {sides}.")
+        if sigma is not None:
+            told = f"{say.number(sigma_text(sigma))} {unit}"
+            if plans:
+                part = say.number(f"{100.0 * sigma / abs(plans):.1f}")
+                yield sentences(said.lever_expected.format(sigma=told, share=part))
+            else:
+                yield sentences(said.lever_expected_alone.format(sigma=told))
+
+    # All positions -------------------------------------------------------------------------------
+
+    def _every(self) -> Iterator[Node]:
+        said: Words = self.said
+        report, every = self.report, self.report.every
+        statics = statics_of(every)
+        if not statics.closes.all():
+            return
+        lead = lead_columns(every.problem, report.project.positions, report.words.note)
+        columns: list[list[Rich]] = []
+        sizes = {}
+        for joint in statics.reactions:
+            size = np.abs(joint.force)
+            symbol = report.reaction(joint)
+            sizes[symbol] = size
+            columns.append([symbol, *(report.say.number(t) for t in alike(size.tolist()))])
+        drive = every.problem.drive
+        symbol = self.context.symbol(drive.balancing.symbol)
+        balance = [report.say.number(text) for text in alike(statics.balance.tolist())]
+        columns.append([f"{symbol}, {report.unit(drive.balancing.unit)}", *balance])
+        yield Part(said.all.format())
+        quantity = drive.balancing.quantity
+        yield sentences(str(said["all_text"][quantity]).format())
+        table = table_of_columns([*lead, *columns], repeated=len(lead))
+        name = str(said["all_table"][quantity]).format()
+        yield Table(table.head, table.rows, 0, len(lead), name=name, key="all_reactions")
+        peak = max(sizes, key=lambda one: float(sizes[one].max()))
+        k = int(sizes[peak].argmax())
+        value = f"{self.find(float(sizes[peak][k]))} {report.unit('N')}"
+        yield sentences(said.all_peaks.format(symbol=peak, value=value, number=k))

@@ -1,0 +1,242 @@
+"""The chapters on gears: a train with its pictures, two wheels in mesh (зубчатые механизмы)."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from itertools import groupby
+
+from msgspec.structs import replace
+
+from planmethod.gears.conditions import conditions, sentence
+from planmethod.gears.construction import construct, read
+from planmethod.gears.involute.meshpicture import meshing_picture, view_for
+from planmethod.gears.involute.quantities import SolvedMeshing
+from planmethod.gears.involute.sizes import MeshingProblem
+from planmethod.gears.involute.text import quality, table
+from planmethod.gears.model import GearProblem, Mesh, MeshKind
+from planmethod.gears.motion import TrainMotion, mesh_row, solve_motion
+from planmethod.gears.picture import draw
+from planmethod.gears.sheet import pictures
+from planmethod.gears.text import equation_of, fraction_text
+from planmethod.gears.told import given, indexed, ratios, results
+from planmethod.note.document import Chapter, Formula, Item, Node, Part, Table
+from planmethod.note.formula import Rich, fraction
+from planmethod.note.narrate.structure import pair_classes
+from planmethod.note.numbers import MINUS, raised
+from planmethod.note.wording import Words
+from planmethod.project.report.context import Report, chain, displayed, sentences
+from planmethod.project.report.figures import bare, figure
+from planmethod.render.layout.block import Block
+from planmethod.render.sheets.composer import Sizes
+
+COLUMN = 185.0
+"""Width of the texts of the sheet, mm."""
+
+
+def train_chapter(report: Report, problem: GearProblem) -> Iterator[Node]:
+    """Yield the chapter on a gear train."""
+    said: Words = report.said["gears"]
+    motion, words = solve_motion(problem), report.words
+    yield Chapter(said.title.format())
+    labels = sorted(motion.train.fixed)
+    form = said["fixed"]["one" if len(labels) == 1 else "many"]
+    facts = given(motion, words)[: -1 if labels else None]
+    yield sentences(
+        said.about.format(facts="; ".join(facts)),
+        str(form).format(labels=", ".join(labels)) if labels else "",
+    )
+    yield from _figures(report, problem, motion, "train")
+    yield from _structure(report, problem, motion, said)
+    yield Part(said.analysis.format())
+    yield from _ratios(report, motion, said)
+    yield Part(said.pictures.format())
+    yield from _pictures(report, problem, motion, said)
+
+
+def _structure(
+    report: Report, problem: GearProblem, motion: TrainMotion, said: Words
+) -> Iterator[Node]:
+    found, roles = motion.structure, motion.roles
+    yield sentences(said.kind.format(kind=str(said["kinds"][found.kind.value]).format()))
+    w = str(found.formula).replace("-", MINUS)
+    classes = pair_classes(problem.sheet.notation, report.words)
+    counts = {"n": found.moving, "low": found.lower, "high": found.higher}
+    yield displayed(said.mobility.format(w=w, **counts, **classes))
+    carriers = [
+        said.carrier.format(
+            carrier=carrier,
+            satellites=", ".join(roles.satellites[carrier]),
+            central=", ".join(roles.central[carrier]),
+        )
+        for carrier in motion.train.carriers
+        if roles.central[carrier]
+    ]
+    yield sentences(said.where.format(**classes), *carriers)
+
+
+def _ratios(report: Report, motion: TrainMotion, said: Words) -> Iterator[Node]:
+    train = motion.train
+    yield sentences((said.willis if train.carriers else said.plain).format())
+    for text in (willis(motion, mesh, report) for mesh in train.meshes):
+        yield displayed(f"{text}.")
+    yield sentences((said.solved if train.fixed else said.solved_plain).format())
+    yield from chain([*_speeds(motion, report), *asked_ratios(motion, report)])
+    judged = conditions(motion)
+    if judged:
+        yield sentences(said.conditions.format())
+    for number, one in enumerate(judged, 1):
+        told = str(said["condition"]["yes" if one.holds else "no"]).format(
+            sentence=indexed(sentence(one, report.words))
+        )
+        yield Item(f"{told}{'.' if number == len(judged) else ';'}", f"{number})")
+
+
+def willis(motion: TrainMotion, mesh: Mesh, report: Report) -> Rich:
+    """Return the ratio of a mesh seen from its carrier, by speeds and by teeth."""
+    train = motion.train
+    row = mesh_row(train, motion.roles, motion.axes, mesh)
+    one, other = train.ends(mesh)
+    if mesh.kind is MeshKind.RACK:
+        return ", ".join(equation_of(motion, mesh))
+
+    def speed(label: str, body: str) -> Rich:
+        if mesh.carrier is None or body in motion.roles.across:
+            return f"{train.letter}_{{{label}}}"
+        return f"{train.letter}_{{{label}}} − {train.letter}_{{{mesh.carrier}}}"
+
+    letters = [f"{'z' if train.counted(x) else 'r'}_{{{x}}}" for x in (mesh.second, mesh.first)]
+    sizes = [fraction_text(abs(row[x])) for x in (other, one)]
+    sign = MINUS if row[other] / row[one] > 0 else ""
+    hat = "" if mesh.carrier is None else f"^{{({mesh.carrier})}}"
+    ratio = fraction_text(-row[other] / row[one])
+    speeds = fraction(speed(mesh.first, one), speed(mesh.second, other))
+    found = f"{sign}{fraction(*letters)} = {sign}{fraction(*sizes)}"
+    return f"U{hat}_{{{mesh.first}{mesh.second}}} = {speeds} = {found} = {ratio}"
+
+
+def asked_ratios(motion: TrainMotion, report: Report) -> list[Rich]:
+    """Return the ratios that the file asks for; else that of the input to the output."""
+    found = list(ratios(motion, report.words))
+    if found or len(motion.train.inputs) != 1:
+        return found
+    (source,) = motion.train.inputs
+    moving = [b for b in motion.train.bodies if motion.speeds.get(b) and b != source]
+    ends = [*motion.train.carriers, *reversed(moving)]
+    end = next((body for body in ends if body in moving), None)
+    if end is None:
+        return []
+    asked = replace(motion, train=replace(motion.train, ask=(f"U_{source}_{end}",)))
+    return list(ratios(asked, report.words))
+
+
+def _speeds(motion: TrainMotion, report: Report) -> Iterator[Rich]:
+    """Yield the speeds of the bodies that are not given."""
+    train, unit = motion.train, raised(report.words.gears["units"][motion.train.units[0]])
+    for label in train.numbers:
+        body = train.body_of[label]
+        if body in train.inputs or body in train.fixed or body in train.racks:
+            continue
+        if label != body and label in train.body_of and train.body_of[label] != label:
+            continue
+        value = fraction_text(motion.speeds[body])
+        yield f"{train.letter}_{{{label}}} = {value} {unit}"
+
+
+def _pictures(
+    report: Report, problem: GearProblem, motion: TrainMotion, said: Words
+) -> Iterator[Node]:
+    picture, say = draw(motion), report.say
+    if picture is None:
+        drawn = seen = None
+    else:
+        drawn = construct(motion, picture)
+        seen = read(drawn, report.one.profile)
+        inscriptions: Words = report.words.gears["sheet"]["inscriptions"]
+        yield sentences(
+            said.picture.format(
+                mu_l=inscriptions.mu_l.format(value=say.short(float(picture.mu_l), 4)),
+                mu_v=inscriptions.mu_v.format(value=say.short(picture.mu_v, 4)),
+            ),
+            said.angular.format(
+                pole=f"{say.given(float(picture.pole_mm))} {report.unit('mm')}",
+                scale=inscriptions.mu_omega.format(
+                    value=say.short(picture.mu_omega, 4),
+                    pole=say.given(float(picture.pole_mm)),
+                ).partition(", ")[0],
+            ),
+        )
+        yield from _figures(report, problem, motion, "angular")
+    rows = [
+        (symbol, fraction, exact, shown, sigma, off)
+        for symbol, fraction, exact, shown, sigma, off in results(motion, drawn, seen, report.words)
+    ]
+    yield sentences(said.speeds.format())
+    columns = said["columns"] if drawn is not None else said["columns"][:3]
+    yield Table(
+        tuple(columns),
+        tuple(row[: len(columns)] for row in rows),
+        name=said.results.format(),
+        key="train_results",
+    )
+    if drawn is not None and seen is not None:
+        offs = [
+            100.0 * abs(float(seen.read.value[one.read]) / float(one.exact) - 1.0)
+            for one in drawn.found
+            if one.exact
+        ]
+        if offs:
+            yield sentences(said.agree.format(most=say.number(f"{max(offs):.1f}")))
+
+
+def _figures(
+    report: Report, problem: GearProblem, motion: TrainMotion, which: str
+) -> Iterator[Node]:
+    said: Words = report.said["gears"]
+    has_picture = draw(motion) is not None
+
+    def made(letter: float) -> Block:
+        sizes = Sizes(letter, letter, letter, COLUMN)
+        found = pictures(motion, report.one.profile, report.words, sizes)
+        return found[0] if which == "train" or found[1] is None else bare(found[1])
+
+    captions = {
+        "train": said.figure if has_picture else said.figure_scheme,
+        "angular": said.angular_figure,
+    }
+    yield figure(made, captions[which].format(), which, height=160.0)
+
+
+def meshing_chapter(report: Report, problem: MeshingProblem) -> Iterator[Node]:
+    """Yield the chapter on two wheels in mesh."""
+    said: Words = report.said["meshing"]
+    solved, words = SolvedMeshing(problem), report.words
+    say: Words = words.meshing
+    fields = solved.fields(words.say)
+    yield Chapter(said.title.format())
+    yield sentences(said.about.format())
+    for key, formulas in groupby(solved.formulas(words), lambda one: one[0]):
+        if key in say["steps"]:
+            yield Part(say["steps"][key])
+        if key in say["beside"]:
+            yield sentences(say["beside"][key].format(**fields))
+        yield from (Formula(formula) for _, formula in formulas)
+    yield Part(said.table.format())
+    yield sentences(said.table_text.format())
+    pair, wheels, contact = solved.told()
+    heads: tuple[str, ...] = say["columns"]
+    whole = table([*pair, *contact], words, (*heads[:2], say.pair))
+    yield Table(whole.head, whole.rows, 2, name=said.table_pair.format(), key="meshing")
+    own = table(wheels, words, heads)
+    yield Table(own.head, own.rows, 2, name=said.table.format(), key="wheels")
+    yield sentences(said.quality.format(facts="; ".join(quality(solved, words))))
+    yield figure(
+        lambda letter: meshing_picture(view_for(solved, 300.0, 240.0), words, letter),
+        said.figure.format(),
+        "meshing_picture",
+    )
+
+
+def ratio_of(problem: GearProblem, report: Report) -> str | None:
+    """Return the first ratio that is asked for, with its symbol; None where none is."""
+    found = asked_ratios(solve_motion(problem), report)
+    return found[0] if found else None

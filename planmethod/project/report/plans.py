@@ -1,0 +1,375 @@
+"""The velocity and the acceleration plan of the calculated position (планы скоростей, ускорений).
+
+The steps of the construction are told group by group: the equations, what is laid off with its
+formulas, the lines that meet, what is measured, and what follows from it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from planmethod.construct import steps
+from planmethod.construct.steps import Compute, LineName, PointName, Step
+from planmethod.mechanism.model import FRAME
+from planmethod.note.document import Equations, Formula, Node, Paragraph, Part
+from planmethod.note.formula import Rich
+from planmethod.note.narrate.equations import equation_of
+from planmethod.note.narrate.formulas import knot_letter, view_name
+from planmethod.note.narrate.letters import direction_text
+from planmethod.note.plaintext import given
+from planmethod.note.wording import Words
+from planmethod.plans.build import Section
+from planmethod.plans.dimensions import DimensionKind
+from planmethod.plans.model import RATES, PlanKind, Relation
+from planmethod.plans.motion.leads import Relative
+from planmethod.project.report.context import Report, chain, displayed, lettered, sentences
+from planmethod.project.report.figures import figure
+from planmethod.render.layout.block import Block
+from planmethod.render.pictures.planview import knot_pictures, plan_picture
+
+
+class PlanChapter:
+    """Tells one plan of the calculated position."""
+
+    def __init__(self, report: Report, kind: PlanKind) -> None:
+        self.report, self.kind = report, kind
+        self.said: Words = report.said["plan"]
+        self.names, self.narrator, self.say = report.names, report.narrator, report.formulas
+        self.plan = report.one.construction.plan(kind)
+        self._drawing: list[Rich] = []
+        self._measured: list[Rich] = []
+        self._formulas: list[Rich] = []
+        self._senses: list[Rich] = []
+
+    def nodes(self) -> Iterator[Node]:
+        """Yield the part."""
+        said, kind, position = self.said, self.kind.value, self.report.of_position
+        scale = self.report.scale(self.kind)
+        yield Part(str(said["part"][kind]).format())
+        assert self.plan.pole is not None
+        fixed = self.names.others(self.plan.pole)
+        pole = self.names.pole(self.kind)
+        form = said["pole_one" if len(fixed) == 1 else "pole"][kind]
+        told = str(form).format(pole=pole, points=self.report.listed(fixed or [""]))
+        yield sentences(
+            str(said["scale"][kind]).format(position=position, scale=scale),
+            told if fixed else said.bare_pole.format(pole=pole),
+        )
+        yield from self._figures()
+        sections = [s for s in self.report.one.construction.sections if s.kind is self.kind]
+        for section in sections:
+            yield from self._section(section)
+
+    def _section(self, section: Section) -> Iterator[Node]:
+        said, drive = self.said, self.report.one.problem.drive
+        made = {PointName(step.out) for step in section.steps}
+        if section.group is None:
+            template = said.driver if drive.is_crank else said.driver_slider
+            lead = [template.format(link=drive.link)]
+            if self.kind is PlanKind.ACCELERATION and drive.is_crank and not drive.acceleration:
+                lead.append(said.constant.format())
+            yield sentences(*lead)
+        else:
+            lead = [said.group.format(links="–".join(section.group.links))]
+            yield sentences(*lead, *self._known_turning(section), *self._coincident(section))
+            yield from self._equations(made)
+            if self.kind is PlanKind.ACCELERATION:
+                without = self.narrator.motion.without_coriolis(made)
+                if without:
+                    yield sentences(*without)
+        for step in section.steps:
+            yield from self._step(step)
+        yield from self._flush()
+        undrawn = self.narrator.undrawn(section.steps)
+        if undrawn:
+            yield sentences(*undrawn)
+
+    # Before the drawing --------------------------------------------------------------------------
+
+    def _known_turning(self, section: Section) -> Iterator[Rich]:
+        """Yield how links of a group turn, where that is known before; told with velocities."""
+        assert section.group is not None
+        if self.kind is not PlanKind.VELOCITY:
+            return
+        omega = self.names.kin.omega
+        own = {step.out for step in section.steps}
+        for link in section.group.links:
+            if link not in omega:
+                yield self.said.translating.format(link=link)
+                continue
+            other = self.names.owner(omega[link])
+            if other != link and (omega[link] not in own or other in section.group.links):
+                symbols = {"symbol": f"ω_{{{link}}}", "same": f"ω_{{{other}}}"}
+                yield self.said.shared.format(link=link, other=other, **symbols)
+
+    def _coincident(self, section: Section) -> Iterator[Rich]:
+        """Yield which points of two links are in one place."""
+        assert section.group is not None
+        if self.kind is not PlanKind.VELOCITY:
+            return
+        for relative in self.names.kin.relatives.values():
+            inside = {relative.of, relative.to} & {*section.group.links}
+            if not inside:
+                continue
+            if relative.to == FRAME:
+                yield from self._on_frame(relative)
+                continue
+            head, tail = (self._capital(point) for point in (relative.head, relative.start))
+            if head and tail and head != tail:
+                yield self.said.coincident.format(
+                    head=head, of=relative.of, tail=tail, to=relative.to
+                )
+
+    def _on_frame(self, relative: Relative) -> Iterator[Rich]:
+        """Yield that a point goes along a fixed guide, and what the point under it is called."""
+        for equation in self.plan.equations:
+            for term in equation.right:
+                ends = (term.tail, term.head)
+                if ends == (relative.start, relative.head) and term.direction is not None:
+                    index = term.symbol.partition("_{")[2].removesuffix("}")
+                    tail = index.removeprefix(relative.point)
+                    yield self.said.on_frame.format(
+                        head=relative.point,
+                        of=relative.of,
+                        guide=self.names.base(term.direction),
+                        tail=lettered(tail),
+                    )
+                    return
+
+    def _capital(self, point: PointName) -> Rich:
+        """Return a point of the mechanism by its letter on the plan: ``a_{3}`` stands for A3."""
+        if self.names.point(point) == self.names.pole(self.kind):
+            return ""
+        letter = self.names.point(point)
+        return letter[:1].upper() + letter[1:]
+
+    def _equations(self, made: set[PointName]) -> Iterator[Node]:
+        found = [e for e in self.plan.equations if e.left.head in made]
+        if not found:
+            return
+        heads = list(dict.fromkeys(self._capital(e.left.head) for e in found))
+        form = "one" if len(found) == 1 else "pair" if len(heads) == 1 else "many"
+        template = str(self.said["equations"][self.kind.value][form])
+        yield sentences(template.format(points=self.report.listed(heads)))
+        equations = tuple(equation_of(equation, direction_text) for equation in found)
+        yield Equations(equations, numbered=True)
+        if self.kind is PlanKind.VELOCITY and found[0] is self._first:
+            yield sentences(self.said.legend.format())
+
+    @property
+    def _first(self) -> object:
+        """The equation after which the underlines are explained."""
+        groups = {e.left.head for e in self.plan.equations}
+        sections = self.report.one.construction.sections
+        own = {
+            PointName(step.out)
+            for section in sections
+            if section.kind is self.kind and section.group is not None
+            for step in section.steps
+        }
+        return next((e for e in self.plan.equations if e.left.head in groups & own), None)
+
+    # Steps ---------------------------------------------------------------------------------------
+
+    def _step(self, step: Step) -> Iterator[Node]:
+        names = self.names
+        if not self.say.readable(step.out) and not self.narrator.is_reading(step):
+            lines = self.narrator.tell(step)
+            if lines:
+                yield from self._flush()
+                yield sentences(*lines)
+            return
+        match step:
+            case steps.LayOff():
+                yield from self._flush()
+                yield from self._laid(step)
+            case steps.MeetLines():
+                yield from self._flush()
+                yield sentences(self._meet(step))
+            case steps.Similar():
+                yield from self._flush()
+                yield from self._similar(step)
+            case steps.Measure() | steps.MeasureAlong():
+                segment = names.segment(step.tail, step.head)
+                on_plan = step.tail in names.letters
+                read = given(abs(self.say.number(step.out)), self.report.words.note, 5)
+                told = f"{segment} = {read}"
+                told = f"{told} {self.report.unit('mm')}"
+                (self._measured if on_plan else self._drawing).append(told)
+            case Compute():
+                yield from self._computed(step)
+            case _:
+                pass
+
+    def _computed(self, step: Compute) -> Iterator[Node]:
+        """Keep what is computed of what was measured."""
+        found = self.narrator.motion.found(step)
+        kind = next((k for k in RATES if step.out in self.names.kin.rates(k).values()), None)
+        if kind is None:
+            self._formulas += found
+            return
+        # The sense stands in a sentence of its own.
+        self._formulas.append(found[0].rpartition(", ")[0] if self.say.number(step.out) else "")
+        self._formulas = [text for text in self._formulas if text]
+        read = self.names.kin.turnings[kind, self.names.owner(step.out)]
+        segment, symbol = self.names.segment(read.start, read.head), self.names.symbol(step.out)
+        value = self.say.number(step.out)
+        if not value:
+            self._senses.append(self.said.zero.format(segment=segment, symbol=symbol))
+            return
+        note = self.report.words.note
+        self._senses.append(
+            str(self.said["turning"][self.kind.value]).format(
+                link=self.names.owner(step.out),
+                segment=segment,
+                place=read.place,
+                joint=read.joint,
+                sense=note.ccw if value > 0 else note.cw,
+                symbol=symbol,
+            )
+        )
+        yield from ()
+
+    def _flush(self) -> Iterator[Node]:
+        """Yield what was measured and what follows from it, and keep nothing."""
+        said = self.said
+        if self._drawing:
+            yield sentences(said.on_drawing.format(segments=self.report.listed(self._drawing)))
+        if self._measured:
+            template = str(said["on_plan"][self.kind.value])
+            yield sentences(template.format(segments=self.report.listed(self._measured)))
+        elif self._formulas:
+            yield sentences(said.computed.format())
+        yield from chain(self._formulas)
+        if self._senses:
+            yield sentences(*self._senses)
+        for kept in (self._drawing, self._measured, self._formulas, self._senses):
+            kept.clear()
+
+    def _laid(self, step: steps.LayOff) -> Iterator[Node]:
+        *formulas, sentence = self.narrator.motion.lay_off(step)
+        vector = self.names.vector(step.origin, step.out)
+        if formulas and vector is not None:
+            kinds: Words = self.said["kinds"][self.kind.value]
+            template = kinds.get(vector.kind.value, kinds.usual)
+            towards = vector.direction
+            ends = ("", "")
+            if towards is not None and towards.relation is Relation.TOWARDS:
+                ends = (towards.points[0], towards.points[1])
+            yield sentences(template.format(symbol=vector.symbol, tail=ends[0], head=ends[1]))
+        elif formulas:
+            yield sentences(self.said.computed.format())
+        where = self._where(step)
+        for k, text in enumerate(formulas, 1):
+            last = k == len(formulas)
+            end = "," if last and where else "." if last else ","
+            yield displayed(f"{text}{end}") if k == 1 else Formula(f"{text}{end}")
+        if where:
+            yield sentences(self.report.said.where.format(facts="; ".join(where)))
+        yield sentences(sentence)
+
+    def _where(self, step: steps.LayOff) -> list[Rich]:
+        """Return what the letters of a product are that were not explained yet."""
+        length = self.names.step[step.length]
+        assert isinstance(length, Compute)
+        made = self.names.step[length.powers[0][0]]
+        if not isinstance(made, Compute):
+            return []
+        found, kin = [], self.names.kin
+        dimensions = self.names.construction.draft.dimensions
+        describe: Words = self.said["describe"]
+        for name, _ in made.powers:
+            symbol = self.names.symbol(name)
+            if symbol in self.report.described:
+                continue
+            self.report.described.add(symbol)
+            told = dimensions.get(name)
+            if name in kin.omega.values():
+                found.append(describe.omega.format(symbol=symbol, of=self.names.owner(name)))
+            elif name in kin.epsilon.values():
+                found.append(describe.epsilon.format(symbol=symbol, of=self.names.owner(name)))
+            elif told is not None and told.kind is DimensionKind.LENGTH:
+                of = symbol.partition("_{")[2].removesuffix("}")
+                found.append(describe.length.format(symbol=symbol, of=lettered(of)))
+            elif any(name == relative.speed for relative in kin.relatives.values()):
+                found.append(describe.sliding.format(symbol=symbol))
+        return found
+
+    def _meet(self, step: steps.MeetLines) -> Rich:
+        first, second = (self._ray(line) for line in (step.first, step.second))
+        return self.said.rays.format(
+            first=first,
+            second=second,
+            point=self.names.point(step.out),
+            coincide=self.narrator.coincide(step.out),
+        )
+
+    def _ray(self, name: LineName) -> Rich:
+        """Return a line that is drawn on the plan, and what it carries."""
+        step, said = self.names.step[name], self.said
+        ray = self.names.ray(name)
+        carried = "" if ray is None else said.carried.format(symbol=ray.symbol)
+        if isinstance(step, steps.Join):
+            base = self.names.direction(name).base
+            return said.ray_join.format(base=base, carried=carried)
+        assert isinstance(step, steps.Parallel | steps.Perpendicular | steps.AtAngle)
+        base, angle = self.narrator.motion.direction(name, ray)
+        line = said["from"].format(of=self.names.of(step.through))
+        if angle in (0.0, 180.0):
+            return said.ray.format(line=line, base=base, carried=carried)
+        if abs(angle) == 90.0:
+            return said.ray_across.format(line=line, base=base, carried=carried)
+        told = given(abs(angle), self.report.words.note)
+        return said.ray_angled.format(line=line, base=base, angle=told, carried=carried)
+
+    def _similar(self, step: steps.Similar) -> Iterator[Node]:
+        *formulas, sentence = self.narrator.motion.similar(step)
+        point = self.names.point(step.out)
+        if formulas:
+            parts = [text.rstrip(".,") for text in formulas]
+            if len(parts) > 1:
+                figures = " ∼ ".join(f"△{c}" for c in self.narrator.motion.triangles(step))
+                yield sentences(self.said.similar_triangle.format(point=point, figures=figures))
+            else:
+                yield sentences(self.said.similar.format(point=point))
+            yield from chain(parts)
+        yield sentences(sentence)
+
+    # Figures -------------------------------------------------------------------------------------
+
+    def _figures(self) -> Iterator[Node]:
+        solution, kind, words = self.report.one, self.kind, self.report.words
+        knots = solution.knots_of(kind, 0)
+        letters = tuple(knot_letter(knot, words) for knot in knots)
+        by_hand = True
+
+        def plan(letter: float) -> Block:
+            return plan_picture(
+                solution, kind, 0, letter_height=letter, by_hand=by_hand, knots=letters
+            )
+
+        scale, position = self.report.scale(kind), self.report.of_position
+        caption = str(self.said["figure"][kind.value]).format(position=position, scale=scale)
+        yield figure(plan, caption, kind.value)
+        if not knots:
+            return
+        views = [view_name(knot, words) for knot in knots]
+        keys = [f"{kind.value}_{number}" for number in range(len(views))]
+        told = [
+            self.said.enlarged_at.format(view=view, key=key)
+            for view, key in zip(views, keys, strict=True)
+        ]
+        yield Paragraph(self.said.enlarged_note.format(views=self.report.listed(told)))
+        for number, view in enumerate(views):
+
+            def enlarged(letter: float, number: int = number) -> Block:
+                pictures = knot_pictures(solution, kind, 0, letter_height=letter, by_hand=by_hand)
+                return pictures[number]
+
+            yield figure(
+                enlarged,
+                str(self.said["enlarged"][kind.value]).format(view=view),
+                keys[number],
+                height=80.0,
+                grows=False,
+            )

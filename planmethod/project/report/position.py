@@ -1,0 +1,230 @@
+"""The position plan and the extreme positions (план положений, крайние положения)."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from planmethod.construct.steps import AtAngle, Step
+from planmethod.mechanism.model import FRAME
+from planmethod.note.document import Chapter, Node, Part, Table
+from planmethod.note.formula import Rich, fraction
+from planmethod.note.narrate.turn import construction_facts
+from planmethod.note.plaintext import given
+from planmethod.note.wording import Words
+from planmethod.plans.model import PlanKind
+from planmethod.problem.cycle_records import Zero
+from planmethod.project.report.context import Report, displayed, lettered, sentences
+from planmethod.project.report.figures import figure
+from planmethod.render.pictures.seriesview import series_picture
+from planmethod.solved.turn.construction import PRIMES, extreme_construction
+from planmethod.solved.turn.strokes import LONGER, TOLD
+from planmethod.solved.turn.turn import TURN, Turn, turn_of
+
+
+def position_part(report: Report) -> Iterator[Node]:
+    """Yield the heading of kinematics and the position plan."""
+    said: Words = report.said["position"]
+    yield Chapter(said.title.format())
+    yield Part(said.part.format())
+    yield from _scale(report, said)
+    if report.is_series:
+        yield from _series(report, said)
+    yield from _building(report, said)
+    if report.is_series:
+        yield _shown(report, said)
+    if report.every.problem.cycle is not None and report.every.problem.drive.is_crank:
+        yield from _extremes(report, said)
+
+
+def _scale(report: Report, said: Words) -> Iterator[Node]:
+    """Yield the scale and the lengths in it."""
+    problem, say = report.one.problem, report.say
+    told = {name: metres for _, name, metres in problem.lengths}
+    for body in problem.bodies.values():
+        for point, form in body.forms.items():
+            start = form.point or form.line[0]
+            straight = form.kind not in ("side", "vertex") and not form.across
+            if straight and not {start + point, point + start} & told.keys():
+                told[start + point] = abs(form.at)
+    per_mm = report.one.own_scale(PlanKind.POSITION, 0).per_mm
+    inverse = report.names.is_inverse_scale()
+    template = said.scale_inverse if inverse else said.scale
+    yield sentences(template.format(scale=report.scale(PlanKind.POSITION)))
+    name, metres = next(iter(told.items()))
+    sides = report.formulas.fraction(
+        [(f"l_{{{name}}}", metres, 1, False), ("μ_{l}", per_mm, -1, True)]
+    )
+    drawn = f"{given(metres / per_mm, report.words.note, 5)} {report.unit('mm')}"
+    yield displayed(" = ".join([lettered(name), *sides, f"{drawn}."]))
+    rows = [
+        (lettered(name), say.given(metres), given(metres / per_mm, report.words.note, 5))
+        for name, metres in told.items()
+    ]
+    yield Table(
+        tuple(said["columns_drawn"]), tuple(rows), name=said.drawn_table.format(), key="drawn"
+    )
+
+
+def _series(report: Report, said: Words) -> Iterator[Node]:
+    """Yield how the positions are numbered, and the picture of all of them."""
+    problem, every = report.every.problem, report.every
+    count = len(every.positions)
+    if problem.cycle is not None and problem.drive.is_crank and turn_of(every).range is None:
+        turn = turn_of(every)
+        named = isinstance(turn.task.zero, Zero) and turn.zero_is_asked
+        zero = str(said["zeros"]["extreme" if named else "given"])
+        crank = problem.bodies[problem.drive.link]
+        pin = next((p for p in crank.points if p not in problem.bodies[FRAME].points), "")
+        note, turns = report.words.note, problem.turns
+        against = turn.is_against
+        yield sentences(
+            said.divided.format(
+                zero=zero.format(symbol=report.coordinate, value=report.place_of(0)),
+                pin=pin,
+                parts=report.parts(count // turns),
+                way=said["turning"]["against" if against else "along"],
+                sense=note.cw if turn.sense < 0 else note.ccw,
+                turns=said.twice.format(count=count) if turns > 1 else "",
+            )
+        )
+    else:
+        places = ", ".join(report.place_of(k) for k in range(count))
+        yield sentences(said.turned.format(count=count, positions=places))
+
+
+def _shown(report: Report, said: Words) -> Node:
+    """Return the picture of all positions."""
+    every = report.every
+    indices = tuple(range(len(every.positions)))
+    return figure(
+        lambda letter: series_picture(
+            every, report.project.calculated, indices, letter_height=letter
+        ),
+        said.series.format(scale=report.scale(PlanKind.POSITION)),
+        "series",
+        height=190.0,
+    )
+
+
+def _building(report: Report, said: Words) -> Iterator[Node]:
+    """Yield how the calculated position is drawn, group by group."""
+    narrator, problem = report.narrator, report.one.problem
+    sections = [s for s in report.one.construction.sections if s.kind is PlanKind.POSITION]
+    for section in sections:
+        for step in section.steps:
+            narrator.tell(step)  # lengths are computed once: here the table has them
+    if report.is_series:
+        number, symbol = report.project.calculated, report.coordinate
+        yield sentences(said.building.format(number=number, symbol=symbol, value=report.place))
+    for section in sections:
+        if section.frame:
+            lines = [_fixed(report)] if problem.bodies[FRAME].points else []
+            lead = ""
+        else:
+            lines = [line for step in section.steps for line in _told(step, report, said)]
+            links = () if section.group is None else section.group.links
+            lead = (
+                said.group.format(links="–".join(links))
+                if links
+                else said.driver.format(link=problem.drive.link)
+            )
+        if any(lines):
+            yield sentences(lead, *lines)
+
+
+def _told(step: Step, report: Report, said: Words) -> list[Rich]:
+    """Return the sentences of a step; a guide that is level or upright is told to be so."""
+    names = report.names
+    guide = names.guide(step.out) if isinstance(step, AtAngle) else None
+    if guide is None:
+        return report.narrator.tell(step)
+    assert isinstance(step, AtAngle)
+    angle = names.value_of(step.angle)
+    way = "slanted" if angle % 90.0 else "upright" if angle % 180.0 else "level"
+    told = str(said["ways"][way]).format(angle=given(angle, report.words.note))
+    if step.through not in names.guides:
+        return [said.guide.format(point=names.point(step.through), guide=guide, way=told)]
+    place = report.formulas.place(step.through)
+    x, y = (given(value, report.words.note, 5) for value in (place.real, place.imag))
+    return [said.guide_at.format(x=x, y=y, guide=guide, way=told)]
+
+
+def _fixed(report: Report) -> Rich:
+    """Return where the fixed points are on the drawing."""
+    points = []
+    for name in report.one.problem.bodies[FRAME].points:
+        place = report.formulas.place(name)  # type: ignore[arg-type]
+        x, y = (given(value, report.words.note, 5) for value in (place.real, place.imag))
+        points.append(f"{lettered(name)} ({x}; {y})")
+    return report.words.note.fixed_points.format(points=", ".join(points))
+
+
+def _extremes(report: Report, said: Words) -> Iterator[Node]:
+    """Yield extreme positions, stroke and the ratio of the strokes."""
+    turn = turn_of(report.every)
+    yield Part(said.extremes.format())
+    if turn.range is None:
+        lead = said.full.format()
+    else:
+        low, high = (report.degrees(limit) for limit in turn.range)
+        lead = said.range.format(symbol=report.coordinate, low=low, high=high)
+    angles = [report.degrees(round(one.phi % TURN, 2) % TURN) for one in turn.extremes]
+    found = ""
+    if angles:
+        told = [f"{report.coordinate} = {angle}" for angle in angles]
+        found = said.extreme_at.format(angles=report.listed(told))
+    yield sentences(lead, found)
+    if turn.ends is not None:
+        yield sentences(*_constructed(report, said))
+    if turn.stroke:
+        yield from _stroke(report, said, turn)
+    yield from _ratio(report, said)
+
+
+def _constructed(report: Report, said: Words) -> Iterator[Rich]:
+    """Yield how the extreme positions are constructed, and the angles that are measured."""
+    made = extreme_construction(report.every)
+    if made is None:
+        yield said.no_construction.format()
+        return
+    facts = construction_facts(made, report.words)
+    yield str(said["construction"][made.locus.value]).format(**facts)
+    read = [
+        f"φ{prime} = {report.degrees((phi + made.off(k)) % TURN)}"
+        for k, (prime, phi) in enumerate(zip(PRIMES, made.phi, strict=True))
+    ]
+    exact = [report.degrees(round(phi % TURN, 2) % TURN) for phi in made.phi]
+    yield said.measured.format(angles=report.listed(read), exact=report.listed(exact))
+
+
+def _stroke(report: Report, said: Words, turn: Turn) -> Iterator[Node]:
+    output = turn.output
+    assert turn.stroke is not None
+    yield sentences(str(said["stroke"][output.unit]).format())
+    size = report.quantity(turn.stroke, "m") if output.slide else report.degrees(turn.stroke)
+    yield displayed(f"{'H' if output.slide else 'ψ'} = {size}.")
+
+
+def _ratio(report: Report, said: Words) -> Iterator[Node]:
+    strokes = report.project.strokes
+    if strokes is None:
+        return
+    why = {LONGER: said["by"]["longer"], TOLD: said["by"]["told"]}.get(
+        strokes.by, said["by"]["load"]
+    )
+    working, idle = report.degrees(strokes.working_deg), report.degrees(strokes.idle_deg)
+    yield sentences(
+        said.phases.format(working=working, idle=idle),
+        why.format(names=strokes.by.partition(" ")[2]),
+    )
+    if strokes.K_v is None:
+        return
+    yield sentences(said.ratio.format())
+    sides = [
+        (str(said["phase"]["working"]).format(), working),
+        (str(said["phase"]["idle"]).format(), idle),
+    ]
+    if strokes.working_deg < strokes.idle_deg:
+        sides.reverse()
+    letters, numbers = (fraction(*pair) for pair in zip(*sides, strict=True))
+    yield displayed(f"K_{{v}} = {letters} = {numbers} = {report.say.found(strokes.K_v)}.")

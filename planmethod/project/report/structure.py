@@ -1,0 +1,109 @@
+"""The chapter on structure: links, pairs, mobility, groups, class (структурный анализ)."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from msgspec.structs import replace
+
+from planmethod.mechanism.describe import PairKind, pairs
+from planmethod.mechanism.groups import AssurGroup
+from planmethod.mechanism.model import FRAME
+from planmethod.mechanism.structure import roman
+from planmethod.note.document import Chapter, Item, Node, Part
+from planmethod.note.formula import Rich
+from planmethod.note.narrate.structure import (
+    group_joints,
+    link_table,
+    local_letters,
+    pair_classes,
+    pair_table,
+    signed,
+)
+from planmethod.note.wording import Words
+from planmethod.project.report.context import NBSP, Report, displayed, lettered, sentences
+
+
+def structure_chapter(report: Report) -> Iterator[Node]:
+    """Yield the chapter."""
+    said: Words = report.said["structure"]
+    mechanism = report.one.problem.mechanism
+    yield Chapter(said.title.format())
+    yield Part(said.mobility.format())
+    named = [report.link(link, "of") for link in mechanism.links]
+    counts = report.said["counts"]
+    many = len(mechanism.links)
+    count = counts["links"][many] if many < len(counts["links"]) else counts.many.format(count=many)
+    yield sentences(
+        said.links.format(frame=report.project.frame, count=count, links=report.listed(named))
+    )
+    words = report.words
+    yield replace(link_table(mechanism, words), name=said.links_table.format(), key="links")
+    yield replace(pair_table(mechanism, words), name=said.pairs_table.format(), key="pairs")
+    yield from _mobility(report, said)
+    yield Part(said.groups.format())
+    yield from _groups(report, said)
+
+
+def _mobility(report: Report, said: Words) -> Iterator[Node]:
+    structure, mechanism = report.one.structure, report.one.problem.mechanism
+    low, spatial = structure.lower_pairs, structure.spatial_mobility
+    revolute = sum(pair.kind is PairKind.REVOLUTE for pair in pairs(mechanism))
+    classes = pair_classes(report.one.problem.sheet.notation, report.words)
+    counts = {"n": structure.moving_links, "low": low, "high": structure.higher_pairs, **classes}
+    yield sentences(said.chebyshev.format())
+    yield displayed(said.chebyshev_formula.format(w=signed(structure.mobility), **counts))
+    yield sentences(
+        said.chebyshev_where.format(revolute=revolute, prismatic=low - revolute, **counts),
+        said.one_driver.format(role=report.role(mechanism.driver), link=mechanism.driver)
+        if structure.mobility == 1
+        else said.drivers.format(w=structure.mobility),
+    )
+    yield sentences(said.redundant.format())
+    yield displayed(said.redundant_formula.format(w=signed(spatial), **counts))
+    bracketed = f"({signed(spatial)})" if spatial < 0 else str(spatial)
+    yield sentences(
+        said.redundant_found.format(
+            plane=structure.mobility, bracketed=bracketed, q=signed(structure.redundant)
+        )
+    )
+
+
+def _groups(report: Report, said: Words) -> Iterator[Node]:
+    structure, mechanism = report.one.structure, report.one.problem.mechanism
+    yield sentences(said.first.format())
+    groups = list(reversed(structure.groups))
+    for k, group in enumerate(groups, 1):
+        yield Item(f"{_group(group, report, said)}{'.' if k == len(groups) else ';'}", f"{k})")
+    letters = report.words.note["letters"]
+    yield sentences(said.letters.format(revolute=letters["R"], prismatic=letters["P"]))
+    ends = {FRAME, mechanism.driver}
+    kind = next(pair.kind for pair in pairs(mechanism) if set(pair.links) == ends)
+    yield sentences(
+        said.rest.format(
+            role=report.role(mechanism.driver),
+            link=mechanism.driver,
+            frame=report.project.frame,
+            pair=said["pair"][kind.value],
+        )
+    )
+    yield displayed(f"{structure.formula}.", "structure")
+    yield sentences(said.mechanism_class.format(roman=roman(structure.class_number)))
+
+
+def _group(group: AssurGroup, report: Report, said: Words) -> Rich:
+    kind = ""
+    if group.kind is not None:
+        letters = local_letters(group.signature, report.words.note)
+        kind = said.group_kind.format(kind=group.kind, letters=letters)
+    outer, inner = group_joints(report.every.problem.mechanism, group, report.words.note)
+    joints = said.joints if len(inner) == 1 else said.joints_many
+    return lettered(
+        said.group.format(
+            links="–".join(group.links),
+            roman=roman(group.class_number),
+            order=group.order,
+            kind=kind,
+            joints=joints.format(outer=", ".join(outer), inner=", ".join(inner)),
+        ).replace(f"{NBSP} ", NBSP)
+    )

@@ -1,0 +1,161 @@
+"""Kinematic diagrams, hodographs, transfer functions (диаграммы, годографы, аналоги)."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from itertools import pairwise
+from math import degrees
+
+from planmethod.note.document import Chapter, Node, Part, Table
+from planmethod.note.formula import Rich, fraction
+from planmethod.note.narrate.given import point_name
+from planmethod.note.narrate.turn import NO_ANGLE, diagram_scales, output_name, output_symbol
+from planmethod.note.numbers import half_up, in_heads, with_unit
+from planmethod.note.tables.turn import Columns, cycle_columns, deviation_columns
+from planmethod.note.wording import Words
+from planmethod.plans.model import RATES
+from planmethod.project.report.context import Report, displayed, sentences
+from planmethod.project.report.figures import figure
+from planmethod.render.pictures.kinematic import kinematic_picture
+from planmethod.render.sheets.turn import hodograph
+from planmethod.solved.turn.diagrams import diagrams_of
+from planmethod.solved.turn.turn import TURN, turn_of
+
+SIDE = 100.0
+"""Side of the square that a hodograph fills, mm."""
+
+
+def has_turn(report: Report) -> bool:
+    """Tell whether the file asks for a cycle."""
+    problem = report.every.problem
+    return problem.cycle is not None and problem.drive.is_crank
+
+
+def diagrams_part(report: Report) -> Iterator[Node]:
+    """Yield how the kinematic diagrams are made."""
+    said: Words = report.said["turn"]
+    diagrams, words = diagrams_of(report.every), report.words
+    turn, task, say = diagrams.turn, diagrams.task, report.say
+    output, drive = turn.output, report.every.problem.drive
+    symbol, of = output_symbol(output), output_name(output)
+    yield Part(said.part.format())
+    shown = said["whose"][output.unit].format(name=of)
+    yield sentences(
+        said.shown.format(of=shown),
+        str(said["path"][output.unit]).format(symbol=symbol, of=of),
+        said.axes.format(
+            whole=str(said["whole"]["turn" if turn.way == TURN else "cycle"]).format(
+                way=report.degrees(turn.way)
+            ),
+            length=_mm(report, half_up(diagrams.length, 2)),
+            parts=report.parts(diagrams.count),
+        ),
+    )
+    yield displayed(_axis(report))
+    scales = diagram_scales(diagrams, words)[:3]
+    v, a = (_mm(report, half_up(pole, 2)) for pole in diagrams.poles)
+    yield sentences(
+        said.ordinates.format(scale=scales[0]),
+        str(said["ways"][task.differentiation.value]).format(pole=v),
+    )
+    yield sentences(said.again.format(pole=a), said.poles.format() if diagrams.rate else "")
+    for text in _poles(report):
+        yield displayed(text)
+    if drive.acceleration:
+        yield sentences(said.even.format(link=drive.link))
+    yield figure(
+        lambda letter: kinematic_picture(diagrams, letter, say),
+        said.figure.format(of=shown, scales="; ".join(scales)),
+        "diagrams",
+        height=190.0,
+    )
+    ruler = report.say.given(report.every.profile.ruler)
+    yield sentences(said.deviations.format(ruler=f"{ruler} {report.unit('mm')}"))
+    name = said.deviations_table.format()
+    (way, _, ways), (_, _, letters), *others = deviation_columns(diagrams, words)
+    columns = [(way, "", ways), (said.diagram.format(), "", letters), *others]
+    yield _table(columns, report, name, "deviations", names=2)
+    yield from _hodographs(report, said)
+
+
+def _mm(report: Report, value: float) -> Rich:
+    return with_unit(report.say.given(value), report.unit("mm"))
+
+
+def _axis(report: Report) -> Rich:
+    """Return the scale of the angles with numbers, by degrees and by radians."""
+    diagrams, say = diagrams_of(report.every), report.say
+    length = say.given(half_up(diagrams.length, 2))
+    way, per_mm = diagrams.turn.way, degrees(diagrams.mu_phi)
+    side = fraction(say.given(round(way, 2)), length)
+    rad, mm = (report.unit(name) for name in ("rad", "mm"))
+    found = f"{say.found(diagrams.mu_phi)} {rad}/{mm}"
+    return f"μ_{{φ}} = {side} = {say.short(per_mm, 4)} {say.in_head('deg')}/{mm} = {found}."
+
+
+def _poles(report: Report) -> Iterator[Rich]:
+    """Yield the pole distances by the scales, with numbers."""
+    diagrams, say = diagrams_of(report.every), report.say
+    if not diagrams.rate:
+        return
+    omega = f"ω_{{{report.every.problem.drive.link}}}"
+    speed, phi = say.found(diagrams.rate), say.found(diagrams.mu_phi)
+    scales = diagrams.scales[:3]
+    for number, ((one, two), pole) in enumerate(
+        zip(pairwise(scales), diagrams.poles, strict=True), 1
+    ):
+        first, second = (f"μ_{{{x.symbol.removeprefix('mu_')}}}" for x in (one, two))
+        letters = fraction(f"{omega}·{first}", f"μ_{{φ}}·{second}")
+        above, below = (say.given(float(f"{x.per_mm:.6g}")) for x in (one, two))
+        numbers = fraction(f"{speed}·{above}", f"{phi}·{below}")
+        sides = "" if report.names.is_inverse_scale() else f"{letters} = {numbers} = "
+        end = "." if number == 2 else ","
+        yield f"K_{{{number}}} = {sides}{_mm(report, half_up(pole, 2))}{end}"
+
+
+def _hodographs(report: Report, said: Words) -> Iterator[Node]:
+    made = {kind: hodograph(report.every, kind, SIDE) for kind in RATES}
+    yield Part(said.hodographs.format())
+    point = point_name(next(iter(made.values())).point)
+    yield sentences(said.hodograph_text.format(of=point))
+    for kind, one in made.items():
+        caption = str(said["hodograph"][kind.value]).format(of=point)
+        yield figure(one.picture, caption, f"hodograph_{kind.value}", height=75.0)
+
+
+def transfer_chapter(report: Report) -> Iterator[Node]:
+    """Yield the chapter on transfer functions."""
+    said: Words = report.said["turn"]
+    diagrams = diagrams_of(report.every)
+    turn, drive = turn_of(report.every), report.every.problem.drive
+    symbol = output_symbol(turn.output)
+    index, link = symbol.partition("_")[2], drive.link
+    v, a = ("v", "a") if turn.output.slide is not None else ("ω", "ε")
+    yield Chapter(said.transfer.format())
+    yield sentences(said.transfer_text.format(symbol=symbol))
+    first = fraction(f"d{symbol}", f"dφ_{{{link}}}")
+    second = fraction(f"d^{{2}}{symbol}", f"dφ_{{{link}}}^{{2}}")
+    yield displayed(f"{v}_{{q}} = {first},  {a}_{{q}} = {second}.")
+    yield sentences(said.transfer_true.format())
+    yield displayed(
+        f"{v}_{index} = {v}_{{q}}·ω_{{{link}}},  "
+        f"{a}_{index} = {a}_{{q}}·ω_{{{link}}}^{{2}} + {v}_{{q}}·ε_{{{link}}}."
+    )
+    even = said.transfer_table_even if drive.acceleration else said.transfer_table_text
+    yield sentences(even.format())
+    columns = cycle_columns(diagrams, report.words)
+    yield _table(columns, report, said.transfer_table.format(), "transfer", names=1)
+    peak = turn.pressure
+    if peak is not None and abs(peak.most) > NO_ANGLE:
+        place = f"{report.coordinate} = {report.degrees(round(peak.most_at % 360.0, 2) % 360.0)}"
+        yield sentences(said.pressure.format(most=report.degrees(peak.most), most_at=place))
+
+
+def _table(columns: Columns, report: Report, name: Rich, key: str, *, names: int) -> Table:
+    """Return columns as a table with a name."""
+    told = [
+        (f"{head}, {unit}" if unit else head, cells)
+        for head, unit, cells in in_heads(columns, report.say)
+    ]
+    rows = zip(*(cells for _, cells in told), strict=True)
+    return Table(tuple(head for head, _ in told), tuple(rows), names, names, name=name, key=key)

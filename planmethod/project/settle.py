@@ -1,0 +1,190 @@
+"""Settle a project (решения проекта): all that is decided, decided once.
+
+Positions are those of the cycle, scales those of sheet 1 at these positions; both are written into
+the problem, so that every output has them without knowing of projects.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+
+import numpy as np
+from msgspec.structs import replace
+
+from planmethod.errors import Fault, ProblemError
+from planmethod.kinds import KINDS
+from planmethod.languages import LANGUAGES, say
+from planmethod.problem.cycle_records import CycleTask, ProjectTask
+from planmethod.problem.load_records import TurningSense
+from planmethod.problem.model import SAME_DEG, Problem
+from planmethod.project.decided import (
+    clear_position,
+    force_scale,
+    loaded_positions,
+)
+from planmethod.project.first import first_scales
+from planmethod.project.model import PartName, Project, ProjectPart
+from planmethod.render.frame.titleblock import merged
+from planmethod.solved.forces.loads import only_in_positions
+from planmethod.solved.scaling import MOST_DRAWN
+from planmethod.solved.solution import Solution
+from planmethod.solved.turn.numbering import number, strokes_of
+from planmethod.solved.turn.turn import TURN
+
+MOST_COUNT = 72
+"""Most positions of the construction of a flywheel."""
+
+
+def settle(problem: Problem, path: Path | None = None) -> Project:
+    """Return all that is decided of a project.
+
+    Parameters
+    ----------
+    problem : Problem
+        As it is read, with what the command line asks of its sheets.
+    path : Path, optional
+        Its file, where `[gears]` and what lies beside it are read; without it there are no such
+        parts.
+
+    Raises
+    ------
+    ProblemError
+        ``[project]`` names a position that there is not, or a part is faulty.
+    StructureError, AssemblyError, LayoutError
+        As of a sheet.
+    """
+    asked = problem.drive.positions
+    problem = _in_positions(problem)
+    calculated = _calculated(problem, Solution(problem), asked)
+    task = replace(problem.project or ProjectTask(), calculated=calculated)
+    problem = replace(problem, calculated=calculated, project=task)
+    scales = replace(problem.scales, decided=True)
+    if None in (scales.mu_l, scales.mu_v, scales.mu_a):
+        scales = first_scales(problem)
+    problem = replace(problem, scales=scales)
+    if problem.dynamics is not None:
+        loaded = Solution(problem, positions=[problem.drive.positions[calculated]])
+        scales = replace(scales, mu_F=force_scale(loaded))
+        problem = replace(problem, scales=scales)
+    return Project(
+        problem=problem,
+        positions=problem.drive.positions,
+        calculated=calculated,
+        strokes=None if problem.cycle is None else strokes_of(Solution(problem)),
+        scales=scales,
+        frame=problem.mechanism.frame,
+        language=problem.sheet.lang or LANGUAGES[0],
+        paper=problem.sheet.paper,
+        parts=tuple(_parts(problem, path)),
+    )
+
+
+def settled(problem: Problem) -> Problem:
+    """Return a problem with the decisions of its project; without ``[project]`` as it is."""
+    if problem.project is None or problem.calculated is not None:
+        return problem
+    return settle(problem).problem
+
+
+# Positions ---------------------------------------------------------------------------------------
+
+
+def _in_positions(problem: Problem) -> Problem:
+    """Return a problem whose positions, cycle and flywheel are numbered alike."""
+    if problem.drive.is_crank and problem.cycle is None:
+        cycle = _default_cycle(problem)
+        problem = problem if cycle is None else number(replace(problem, cycle=cycle))
+    positions, drive, machine = problem.numbered, problem.drive, problem.machine
+    if not positions:
+        return problem
+    if len(positions) > MOST_DRAWN:
+        told = say("{} positions, a project is drawn of at most {}", len(positions), MOST_DRAWN)
+        raise ProblemError(problem.name, [Fault("cycle.count", told, "Ask fewer: count = 12.")])
+    if machine is not None and len(positions) <= MOST_COUNT:
+        machine = replace(machine, start_deg=positions[0], count=len(positions))
+    judged = drive.judged or drive.positions  # the way in which it is assembled stays
+    drive = replace(drive, positions=positions, judged=judged, posed=None)
+    return replace(problem, drive=drive, machine=machine)
+
+
+def _default_cycle(problem: Problem) -> CycleTask | None:
+    """Return the cycle of a file without one; None where its positions are all there are.
+
+    It has the positions of the file where these go round; else a machine has a cycle, from where
+    it begins.
+    """
+    positions, machine = problem.drive.positions, problem.machine
+    if problem.dynamics is not None and only_in_positions(problem.dynamics):
+        return None
+    if len(positions) > 2:
+        for way, sense in ((TURN, TurningSense.CCW), (-TURN, TurningSense.CW)):
+            if np.ptp(np.diff([*positions, positions[0] + way])) < SAME_DEG:
+                return CycleTask(zero=positions[0], count=len(positions), direction=sense)
+        return None
+    if machine is None:
+        return None
+    count = round(machine.count * TURN / machine.cycle_deg)
+    return (
+        CycleTask(count=count)
+        if machine.start_deg is None
+        else CycleTask(zero=machine.start_deg, count=count)
+    )
+
+
+def _calculated(problem: Problem, solution: Solution, asked: tuple[float, ...]) -> int:
+    """Return the number of the calculated position: the asked one, that of phi, the clearest."""
+    count, task = len(solution.positions), problem.project or ProjectTask()
+    if task.calculated is not None:
+        if task.calculated >= count:
+            raise ProblemError(
+                problem.name,
+                [
+                    Fault(
+                        "project.calculated",
+                        say("there is no position {}", task.calculated),
+                        say("Of {} positions the last is {}.", count, count - 1),
+                    )
+                ],
+            )
+        return task.calculated
+    if len(asked) == 1:
+        turn = problem.drive.coordinate.turn
+        off = [abs((p - asked[0] + turn / 2) % turn - turn / 2) for p in problem.drive.positions]
+        if count == 1 or min(off) < SAME_DEG:
+            return int(np.argmin(off))
+    return clear_position(solution, loaded_positions(solution))
+
+
+# Parts -------------------------------------------------------------------------------------------
+
+
+def _parts(problem: Problem, path: Path | None) -> Iterator[ProjectPart]:
+    """Yield the parts that the file has, of those that it asks for."""
+    task = problem.project or ProjectTask()
+    linkage = {
+        PartName.KINEMATICS: True,
+        PartName.FORCES: problem.dynamics is not None,
+        PartName.FLYWHEEL: problem.dynamics is not None and problem.machine is not None,
+    }
+    for name in PartName:
+        if task.parts and name.value not in task.parts:
+            continue
+        if linkage.get(name):
+            yield ProjectPart(name, problem)
+        elif name in (PartName.GEARS, PartName.MESHING) and path is not None:
+            yield from _of_kind(problem, name, path, str(getattr(task, name.value)))
+
+
+def _of_kind(problem: Problem, name: PartName, path: Path, beside: str) -> Iterator[ProjectPart]:
+    """Yield the part of another kind of problem, if the file has it or names its file."""
+    if not (beside or name.value in problem.tables):
+        return
+    kind = next(kind for kind in KINDS if kind.table == name.value)
+    file, variant = (path.with_name(beside), None) if beside else (path, problem.variant)
+    found = kind.load(file, variant)
+    stamp = merged(problem.stamp, found.stamp) if beside else dict(problem.stamp)
+    stamp.pop("title", None)
+    title = found.title if beside else ""
+    sheet = problem.sheet.over(found.sheet)
+    yield ProjectPart(name, replace(found, sheet=sheet, stamp=stamp, title=title), kind)

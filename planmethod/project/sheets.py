@@ -1,0 +1,115 @@
+"""Sheets of a project (листы проекта): those of every part, numbered as one set."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from typing import assert_never
+
+from msgspec.structs import replace
+
+from planmethod.construct.drafting import PROFILES
+from planmethod.note.wording import Language, language
+from planmethod.project.first import PAPER, first_sheet
+from planmethod.project.model import PartName, Project, ProjectPart
+from planmethod.render.frame.furniture import Furniture
+from planmethod.render.frame.numbered import numbered
+from planmethod.render.ink.drawing import Drawing
+from planmethod.render.sheets.composition.reader import composition
+from planmethod.render.sheets.kinematics import kinematics_sheets
+from planmethod.render.sheets.model import Composition
+
+
+def part_drawings(project: Project, part: ProjectPart, fields: Mapping[str, str]) -> list[Drawing]:
+    """Return the sheets of a part, not numbered yet (`numbered_set`).
+
+    Parameters
+    ----------
+    fields : mapping
+        Texts of the title block that outrank the file's.
+
+    Raises
+    ------
+    LayoutError
+        The sheets have no room.
+    """
+    problem, words = project.problem, language(project.language)
+    # Which form of the title block a sheet has depends on whether it is the first of the set.
+    before = 0 if part is project.parts[0] else 1
+    around = Furniture.of(problem.sheet, before=before)
+    match part.name:
+        case PartName.KINEMATICS:
+            return first_sheet(problem, fields=fields, furniture=around)
+        case PartName.FORCES:
+            found = kinematics_sheets(
+                problem,
+                layout=_of_position(composition("project-forces", words.lang), project, words),
+                paper=project.paper or PAPER,
+                fields=fields,
+                furniture=around,
+            )
+            if problem.cycle is not None:
+                found += kinematics_sheets(
+                    problem, layout="forces-cycle", fields=fields, furniture=around
+                )
+            return found
+        case PartName.FLYWHEEL:
+            machine = problem.machine
+            layouts = ["flywheel"]
+            if machine is not None and (machine.motor or machine.brake) is not None:
+                layouts.append("run-up")
+            return [
+                drawing
+                for layout in layouts
+                for drawing in kinematics_sheets(
+                    problem, layout=layout, fields=fields, furniture=around
+                )
+            ]
+        case PartName.GEARS | PartName.MESHING:
+            assert part.kind is not None
+            titled = replace(part.problem, title=words.project["titles"][part.name.value])
+            drawn: list[Drawing] = part.kind.drawings(
+                part.problem if part.problem.title else titled,
+                fields=fields,
+                profile=PROFILES["board"],
+                before=before,
+            )
+            return drawn
+        case PartName.NOTE:
+            return []
+        case _:
+            assert_never(part.name)
+
+
+def _of_position(layout: Composition, project: Project, words: Language) -> Composition:
+    """Return a composition whose views say of which position they are."""
+    if len(project.positions) == 1:
+        return layout
+
+    def titled(title: str) -> str:
+        return words.sheets.of_position.format(title=title, number=project.calculated)
+
+    views = words.sheets["views"]
+    names = {"loads": words.sheets.loads, "lever": words.sheets.lever}
+    blocks = []
+    for entry in layout.blocks:
+        name = names.get(entry.kind)
+        if entry.kind == "plan" and entry.of is not None:
+            name, _ = views[entry.of.value]
+        blocks.append(replace(entry, title=titled(name)) if name else entry)
+    return replace(layout, blocks=tuple(blocks))
+
+
+def numbered_set(project: Project, sheets: Sequence[Sequence[Drawing]]) -> list[list[Drawing]]:
+    """Return the sheets of all parts with their numbers in one set (Лист, Листов)."""
+    total, before = sum(map(len, sheets)), 0
+    found: list[list[Drawing]] = []
+    for some in sheets:
+        around = Furniture.of(project.problem.sheet, before=before, total=total)
+        found.append([numbered(one, around, k) for k, one in enumerate(some, 1)])
+        before += len(some)
+    return found
+
+
+def flat(sheets: Iterable[Iterable[Drawing]]) -> list[Drawing]:
+    """Return the sheets of all parts in a row."""
+    return [drawing for some in sheets for drawing in some]

@@ -1,0 +1,55 @@
+"""Table of what the plans of all positions give, beside the exact values (измеренное и точное)."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from planmethod.note.narrate.given import MOTION_KINDS, told
+from planmethod.note.numbers import alike, is_noise
+from planmethod.plans.legend import Quantity
+from planmethod.render.layout.block import Block
+from planmethod.render.layout.tables import TableCell, TableColumn, table_block
+from planmethod.render.sheets.model import Manner
+from planmethod.render.sheets.results import position_columns, table_width
+from planmethod.solved.reading import Reals
+from planmethod.solved.solution import Solution
+
+
+def measured_table(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
+    """Return of every quantity what is measured on the plans and what is exact, by positions."""
+    words = manner.words
+    columns = position_columns(solution, indices, words)
+    for quantity in told(solution, *MOTION_KINDS):
+        exact, read = solution.exact(quantity), solution.read_off(quantity.label)
+        columns.append(_column(quantity, quantity.symbol, exact, exact, indices, manner))
+        symbol = words.sheets.read_symbol.format(symbol=quantity.symbol)
+        columns.append(_column(quantity, symbol, read, exact, indices, manner))
+    height = manner.text(min(manner.sizes.text, 3.5))
+    title = manner.entry.title or words.sheets.measured
+    return table_block(
+        columns,
+        height,
+        max_width=table_width(manner),
+        leading=2,
+        title=title.format(ruler=words.say.given(solution.profile.ruler)),
+    )
+
+
+def _column(
+    quantity: Quantity,
+    symbol: str,
+    values: Reals,
+    exact: Reals,
+    indices: Sequence[int],
+    manner: Manner,
+) -> TableColumn:
+    """Return the values of a quantity with as many decimals as its exact ones have."""
+    say, peak = manner.words.say, max(abs(float(value)) for value in exact)
+    shown = [float(values[i]) for i in indices]
+    shown = [0.0 if is_noise(value, peak) else value for value in shown]
+    turns = quantity.kind.is_number
+    cells = tuple(
+        TableCell(say.number(text), ((value > 0) - (value < 0)) if turns else None)
+        for text, value in zip(alike([abs(value) for value in shown]), shown, strict=True)
+    )
+    return TableColumn(symbol, cells, unit=say.units[quantity.kind.unit])

@@ -1,0 +1,299 @@
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from functools import cache
+from itertools import pairwise
+from pathlib import Path
+
+import numpy as np
+import pytest
+from worked import ROOT, path_of
+
+from planmethod.kinds import load
+from planmethod.note import document
+from planmethod.note.document import Document, numbers_of
+from planmethod.note.formula import inlined
+from planmethod.note.narrate.given import told
+from planmethod.note.narrate.steps import calculation
+from planmethod.note.plaintext import plain_text
+from planmethod.note.wording import LANGUAGES, language
+from planmethod.note.writers.plain import plain_document
+from planmethod.plans.legend import QuantityKind
+from planmethod.plans.model import RATES
+from planmethod.project.model import PartName, Project
+from planmethod.project.report import note_document
+from planmethod.project.report.figures import LETTER, WIDTH, FittedView
+from planmethod.project.settle import settle
+from planmethod.render.ink.drawing import Text
+from planmethod.solved.machine.drawing import drawing_of
+from planmethod.solved.machine.flywheel import flywheel_of
+
+FILES = {
+    "shaper": ROOT / "tests/data/projects/shaper.toml",
+    "engine": ROOT / "tests/data/projects/engine.toml",
+    "homework": path_of("linkages/ex3"),
+    "forces": path_of("press/press"),
+    "slider": path_of("levers/task-33"),
+}
+
+HEADINGS = (document.StructuralHeading, document.Chapter, document.Part)
+
+SHAPER = (
+    "Структурный анализ механизма",
+    "Кинематический анализ механизма",
+    "Аналоги скоростей и ускорений",
+    "Силовой расчёт механизма",
+    "Расчёт маховика",
+    "Зубчатый механизм",
+)
+
+
+@cache
+def project_of(name: str) -> Project:
+    path: Path = FILES[name]
+    return settle(load(path), path)
+
+
+@cache
+def note_of(name: str, lang: str = "ru") -> Document:
+    return note_document(project_of(name), language(lang))
+
+
+@cache
+def text_of(name: str, lang: str = "ru") -> str:
+    return plain_document(note_of(name, lang), language(lang))
+
+
+def chapters(written: Document) -> tuple[str, ...]:
+    return tuple(node.title for node in written.nodes if isinstance(node, document.Chapter))
+
+
+def tables_of(name: str) -> dict[str, document.Table]:
+    return {n.key: n for n in note_of(name).nodes if isinstance(n, document.Table)}
+
+
+def texts(written: Document) -> Iterator[str]:
+    """Yield every rich text of a note."""
+    for node in written.nodes:
+        for name in ("text", "title", "caption", "name"):
+            yield str(getattr(node, name, ""))
+        if isinstance(node, document.Table):
+            yield from (cell for row in (node.head, *node.rows) for cell in row)
+
+
+# Chapters ----------------------------------------------------------------------------------------
+
+
+def test_a_note_has_the_chapters_that_the_file_has_something_for() -> None:
+    assert chapters(note_of("shaper")) == SHAPER
+    assert chapters(note_of("homework")) == SHAPER[:2]
+    assert chapters(note_of("forces")) == (*SHAPER[:2], SHAPER[3])
+
+
+def test_a_note_begins_with_the_title_page_and_ends_with_the_list_of_sheets() -> None:
+    nodes = note_of("shaper").nodes
+    assert isinstance(nodes[0], document.TitlePage)
+    titles = [node.title for node in nodes if isinstance(node, document.StructuralHeading)]
+    assert titles[:2] == ["Задание", "Введение"]
+    assert titles[-3:-1] == ["Заключение", "Список использованных источников"]
+    assert sum(isinstance(node, document.Contents) for node in nodes) == 1
+    *_, sheets = (node for node in nodes if isinstance(node, document.Table))
+    assert len(sheets.rows) == len(project_of("shaper").parts)
+
+
+def test_the_subject_tells_a_project_from_a_homework() -> None:
+    page, other = (note_of(name).nodes[0] for name in ("shaper", "homework"))
+    assert isinstance(page, document.TitlePage)
+    assert isinstance(other, document.TitlePage)
+    assert "курсовому проекту" in page.subject
+    assert "домашнему заданию" in other.subject
+
+
+@pytest.mark.parametrize("name", FILES)
+def test_no_chapter_and_no_part_is_empty(name: str) -> None:
+    nodes = [n for n in note_of(name).nodes if not isinstance(n, document.PageBreak)]
+    for before, after in zip(nodes, [*nodes[1:], None], strict=True):
+        if isinstance(before, HEADINGS):
+            inside = not isinstance(after, HEADINGS) or (
+                isinstance(before, document.Chapter) and isinstance(after, document.Part)
+            )
+            assert after is not None and inside, before
+
+
+@pytest.mark.parametrize("name", FILES)
+def test_both_languages_say_the_same_in_the_same_order(name: str) -> None:
+    kinds = [[type(node) for node in note_of(name, lang).nodes] for lang in LANGUAGES]
+    assert kinds[0] == kinds[1]
+
+
+@pytest.mark.parametrize("name", FILES)
+@pytest.mark.parametrize("lang", LANGUAGES)
+def test_nothing_of_the_markup_is_left(name: str, lang: str) -> None:
+    text = text_of(name, lang)
+    assert not re.findall(r"[\\{}]|\bNone\b|\bnan\b| ,|\. \.", text)
+    title = plain_text(project_of(name).problem.title)
+    if lang == "en":
+        own = text.replace(title, "").replace(project_of(name).problem.source, "")
+        stamp = project_of(name).problem.stamp.values()
+        for word in stamp:
+            own = own.replace(word, "")
+        assert not re.search("[\u0400-\u04ff]", own)
+
+
+@pytest.mark.parametrize("name", FILES)
+def test_every_figure_and_table_is_told_of_and_has_a_number(name: str) -> None:
+    written = note_of(name)
+    referred = set(re.findall(r"\\ref\{([^}]*)\}", " ".join(texts(written))))
+    shown = [n for n in written.nodes if isinstance(n, document.Figure | document.Table)]
+    keys = [node.key for node in shown]
+    assert len(keys) == len(set(keys))
+    assert set(keys) == referred
+    assert all(found for node, found in numbers_of(written) if node in shown)
+
+
+@pytest.mark.parametrize("name", ("shaper", "homework"))
+def test_numbers_and_their_units_are_not_parted(name: str) -> None:
+    lines = [n.text for n in note_of(name).nodes if isinstance(n, document.Paragraph)]
+    apart = re.compile(r"\d (?:мм|м/с|м|кг|Н·м|Н|с\^|рад|Дж|%)(?![а-я])")
+    assert not [line for line in lines if apart.search(line)]
+
+
+# Numbers -----------------------------------------------------------------------------------------
+
+RESULT = re.compile(r"= ([0-9−][0-9,·^{}−]* (?:м/с(?:\^\{2\})?|мм|с\^\{−[12]\}))")
+NUMERIC = re.compile(r"[0-9.()+\-*/ ]+")
+
+
+def value_of(side: str) -> float | None:
+    """Return what a side of a formula comes to; None where there are letters in it."""
+    plain = re.sub(r"\^\{([0-9]+)\}", r"**\1", side.replace("·10^{−", "*10^{-"))
+    plain = plain.replace("·", "*").replace("−", "-").replace(",", ".").replace("°", "")
+    plain = (
+        re.sub(r"\s*(?:мм|м/с|м|кг|Н|с|рад|Дж|\(|%).*$", "", plain) if "*" not in plain else plain
+    )
+    if not NUMERIC.fullmatch(plain) or not re.search(r"\d", plain):
+        return None
+    return float(eval(plain, {"__builtins__": {}}))
+
+
+@pytest.mark.parametrize("name", FILES)
+def test_the_numbers_of_every_formula_come_to_its_result(name: str) -> None:
+    checked = 0
+    for node in note_of(name).nodes:
+        if not isinstance(node, document.Formula) or " рад/мм" in node.text.replace("\u00a0", " "):
+            continue  # a scale of angles has degrees, and radians after them
+        sides = inlined(node.text.rstrip(".,;")).split(" = ")
+        values = [value for side in sides if (value := value_of(side)) is not None]
+        for one, other in pairwise(values):
+            assert one == pytest.approx(other, rel=3e-3, abs=1e-9), node.text
+            checked += 1
+    assert checked > 15
+
+
+@pytest.mark.parametrize("name", FILES)
+def test_the_calculation_has_the_results_of_the_sheet(name: str) -> None:
+    words, solution = language("ru"), project_of(name).loaded
+    own = " ".join(n.text for n in note_of(name).nodes if isinstance(n, document.Formula))
+    for kind in RATES:
+        for line in calculation(solution, kind, 0, words):
+            for result in re.findall(
+                r"= ([0-9−][0-9,·^{}−]* (?:м/с(?:\^\{2\})?|мм|с\^\{−[12]\}))", line
+            ):
+                assert result in own.replace("\u00a0", " "), line
+
+
+@pytest.mark.parametrize("name", FILES)
+def test_the_comparison_has_the_values_of_solve(name: str) -> None:
+    project = project_of(name)
+    solution, say = project.loaded, language("ru").say
+    (table,) = (
+        n for n in note_of(name).nodes if isinstance(n, document.Table) and n.key == "compared"
+    )
+    rows = {row[0].partition(",")[0]: row for row in table.rows}
+    kinds = (QuantityKind.VELOCITY, QuantityKind.OMEGA, QuantityKind.ACCELERATION)
+    seen = 0
+    for quantity in told(solution, *kinds):
+        if quantity.symbol in rows:
+            read, exact = rows[quantity.symbol][1:3]
+            assert exact == say.found(float(solution.exact(quantity)[0]))
+            assert read == say.found(float(solution.read_off(quantity.label)[0]))
+            seen += 1
+    assert seen > 2
+
+
+def test_the_tables_of_all_positions_have_what_the_plans_give() -> None:
+    project = project_of("shaper")
+    tables = {n.key: n for n in note_of("shaper").nodes if isinstance(n, document.Table)}
+    every = project.solution
+    for key, kind in (
+        ("velocities", QuantityKind.VELOCITY),
+        ("accelerations", QuantityKind.ACCELERATION),
+    ):
+        table = tables[key]
+        assert len(table.rows) == len(project.positions)
+        for quantity in told(every, kind):
+            column = [row[table.head.index(quantity.symbol)] for row in table.rows]
+            values = [float(cell.replace(",", ".").replace("−", "-")) for cell in column]
+            read = every.read_off(quantity.label)
+            assert values == pytest.approx(read.tolist(), rel=1e-3, abs=6e-3)
+
+
+def test_strokes_and_scales_are_those_of_the_project() -> None:
+    project, text = project_of("shaper"), text_of("shaper")
+    strokes = project.strokes
+    assert strokes is not None and strokes.K_v is not None
+    angles = [round(one, 2) for one in (strokes.working_deg, strokes.idle_deg)]
+    ratio = "K_v = φ_р/φ_х = {:g}°/{:g}° = {:.3f}".format(*angles, strokes.K_v)
+    assert ratio.replace(".", ",") in text
+    say = language("ru").say
+    for letter in "lvaF":
+        scale = say.given(getattr(project.scales, f"mu_{letter}"))
+        assert set(re.findall(rf"μ_{letter} = ([0-9,]+) (?:м|\(|Н)", text)) >= {scale}
+    plans = re.findall(
+        r"План (?:скоростей|ускорений).* строим в масштабе μ_([va]) = ([0-9,]+)", text
+    )
+    assert dict(plans) == {x: say.given(getattr(project.scales, f"mu_{x}")) for x in "va"}
+
+
+def test_the_flywheel_is_that_of_the_diagrams_in_the_formula_and_in_the_conclusion() -> None:
+    solution = project_of("shaper").solution
+    found = drawing_of(flywheel_of(solution), solution.profile).read_inertia
+    told = f"{language('ru').say.found(found)}\u00a0кг·м^{{2}}"
+    nodes = note_of("shaper").nodes
+    (formula,) = (n for n in nodes if isinstance(n, document.Formula) and n.key == "flywheel")
+    assert formula.text.endswith(f"= {told}.")
+    assert any(told in n.text for n in nodes if isinstance(n, document.Item))
+
+
+# Figures -----------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("name", ("homework", "forces"))
+def test_figures_are_legible_at_the_width_of_a_page(name: str) -> None:
+    for node in note_of(name).nodes:
+        if isinstance(node, document.Figure):
+            assert isinstance(node.view, FittedView)
+            view, factor = node.view.fitted
+            assert node.view.size[0] <= WIDTH + 1e-6
+            heights = [item.height for item in view.drawing.items if isinstance(item, Text)]
+            assert min(heights) * factor > 0.4 * LETTER  # of an index of an index
+            assert np.median(heights) * factor > 0.6 * LETTER
+
+
+def test_a_figure_is_drawn_when_a_writer_asks_for_it() -> None:
+    made: list[float] = []
+
+    def picture(letter: float) -> None:
+        made.append(letter)
+
+    view = FittedView(picture, "", (WIDTH, 100.0))  # type: ignore[arg-type]
+    assert not made
+    with pytest.raises(AttributeError):
+        _ = view.size
+    assert made
+
+
+def test_the_parts_of_a_project_are_named() -> None:
+    names = set(language("ru").report["back"]["names"])
+    assert {name.value for name in PartName} - {"note"} <= names

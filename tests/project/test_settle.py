@@ -1,0 +1,214 @@
+"""What is decided of a project, once: positions, the calculated one, scales, strokes."""
+
+from __future__ import annotations
+
+from functools import cache
+from pathlib import Path
+
+import pytest
+from msgspec.structs import replace
+
+from planmethod.errors import ProblemError
+from planmethod.kinds import load
+from planmethod.problem import loads
+from planmethod.problem.cycle_records import ProjectTask
+from planmethod.problem.model import Problem
+from planmethod.project.decided import loaded_positions
+from planmethod.project.model import PartName, Project
+from planmethod.project.settle import settle, settled
+from planmethod.project.sheets import numbered_set, part_drawings
+from planmethod.render.ink.drawing import Drawing, Text
+from planmethod.solved.solution import Solution
+from planmethod.solved.turn.turn import turn_of
+
+FILES = Path(__file__).parents[1] / "data" / "projects"
+
+
+def file_of(name: str) -> Path:
+    return FILES / f"{name}.toml"
+
+
+def problem_of(name: str) -> Problem:
+    return load(file_of(name))
+
+
+@cache
+def project_of(name: str) -> Project:
+    return settle(problem_of(name), file_of(name))
+
+
+@cache
+def sheets_of(name: str) -> list[list[Drawing]]:
+    project = project_of(name)
+    return [part_drawings(project, part, {}) for part in project.parts]
+
+
+# Positions ---------------------------------------------------------------------------------------
+
+
+def test_positions_are_those_of_the_cycle_numbered_from_0() -> None:
+    project = project_of("shaper")
+    turn = turn_of(project.solution)
+    assert project.positions == pytest.approx(tuple(turn.positions))
+    assert project.problem.drive.positions == project.positions
+    assert len(project.positions) == 6
+    assert turn.ends is not None
+    starts = {round(end.phi % 360.0, 6) for end in turn.ends}
+    assert round(project.positions[0] % 360.0, 6) in starts
+
+
+def test_the_flywheel_begins_where_position_0_is() -> None:
+    machine = project_of("shaper").problem.machine
+    assert machine is not None
+    assert (machine.start_deg, machine.count) == (project_of("shaper").positions[0], 6)
+
+
+def test_a_cycle_of_two_turns_has_the_positions_of_both() -> None:
+    project = project_of("engine")
+    assert len(project.positions) == 8
+    ends = project.positions[0], project.positions[4]
+    assert abs(ends[1] - ends[0]) == pytest.approx(360.0)
+
+
+def test_positions_of_the_file_that_go_round_are_the_cycle() -> None:
+    project = project_of("crusher")
+    assert [at % 360.0 for at in project.positions] == pytest.approx([0.0, 90.0, 180.0, 270.0])
+    assert project.problem.cycle is not None
+
+
+def test_a_homework_of_one_position_is_a_project_of_that_position() -> None:
+    project = project_of("homework")
+    assert (project.positions, project.calculated) == ((60.0,), 0)
+    assert project.strokes is None
+    assert [part.name for part in project.parts] == [PartName.KINEMATICS]
+
+
+def test_the_way_of_assembly_is_that_of_the_file() -> None:
+    """The rules of the file are true of its own positions, not of the first one of the cycle."""
+    asked = problem_of("crusher")
+    one, two = Solution(asked, positions=[30.0]), project_of("crusher").solution.moved([30.0])
+    assert one.place("D")[0] == pytest.approx(two.place("D")[0])  # type: ignore[arg-type]
+
+
+# The calculated position -------------------------------------------------------------------------
+
+
+def test_the_calculated_position_is_the_asked_one() -> None:
+    assert project_of("shaper").calculated == 4
+
+
+def test_phi_is_the_calculated_position_if_it_is_one_of_them() -> None:
+    problem = problem_of("shaper")
+    at = project_of("shaper").positions[2]
+    drive = replace(problem.drive, positions=(at - 360.0,), judged=problem.drive.positions)
+    found = settle(replace(problem, drive=drive, project=None))
+    assert found.calculated == 2
+
+
+def test_else_a_load_acts_in_the_calculated_position() -> None:
+    found = settle(replace(problem_of("shaper"), project=None))
+    acting = loaded_positions(found.solution)
+    assert found.calculated in acting
+    assert len(acting) < len(found.positions)
+
+
+def test_a_position_that_there_is_not_is_a_fault_of_the_file() -> None:
+    task = ProjectTask(calculated=6)
+    with pytest.raises(ProblemError, match=r"project\.calculated: .* 6\. Of 6 positions .* 5\."):
+        settle(replace(problem_of("shaper"), project=task))
+
+
+# Scales and strokes ------------------------------------------------------------------------------
+
+
+def test_every_sheet_has_the_scales_of_the_project() -> None:
+    project = project_of("shaper")
+    keys = {"position": "mu_l", "velocity": "mu_v", "acceleration": "mu_a", "forces": "mu_F"}
+    found: dict[str, set[float]] = {key: set() for key in keys.values()}
+    for part, drawings in zip(project.parts, sheets_of("shaper"), strict=True):
+        for view in [view for one in drawings for view in one.views if part.kind is None]:
+            if view.kind in keys:
+                found[keys[view.kind]].add(view.per_mm)
+    assert found == {key: {getattr(project.scales, key)} for key in found}
+
+
+def test_the_calculated_position_is_read_alike_alone_and_among_all() -> None:
+    project = project_of("shaper")
+    for label in project.solution.legend:
+        among, alone = project.solution.read_off(label), project.loaded.read_off(label)
+        assert among[project.calculated] == pytest.approx(alone[0], nan_ok=True)
+
+
+def test_scales_of_the_file_are_kept() -> None:
+    problem = problem_of("homework")
+    asked = replace(problem, scales=replace(problem.scales, mu_l=0.0025, mu_v=0.02, mu_a=0.4))
+    assert settle(asked).scales == replace(asked.scales, decided=True)
+
+
+def test_the_working_stroke_is_that_of_the_load() -> None:
+    strokes = project_of("shaper").strokes
+    assert strokes is not None
+    assert strokes.by == "load P"
+    assert strokes.working_deg > strokes.idle_deg  # the load acts on the slow stroke
+    assert strokes.K_v == pytest.approx(strokes.working_deg / strokes.idle_deg)
+
+
+# Outputs -----------------------------------------------------------------------------------------
+
+
+def test_a_settled_problem_stays_as_it_is() -> None:
+    problem = project_of("shaper").problem
+    assert settled(problem) is problem
+    assert settled(problem_of("homework")).calculated is None  # it has no [project]
+
+
+def test_sheets_are_numbered_as_one_set() -> None:
+    sheets = [
+        one for some in numbered_set(project_of("shaper"), sheets_of("shaper")) for one in some
+    ]
+    numbers = [
+        [
+            item.text
+            for item in sheet.items
+            if isinstance(item, Text) and item.text.isdigit() and item.tag.startswith("stamp")
+        ]
+        for sheet in sheets
+    ]
+    first, *later = numbers
+    assert first == ["1", str(len(sheets))]
+    assert later == [[str(k)] for k in range(2, len(sheets) + 1)]
+
+
+def test_parts_are_those_that_project_asks_for() -> None:
+    problem = problem_of("shaper")
+    some = replace(problem, project=ProjectTask(parts=("kinematics", "gears")))
+    found = settle(some, file_of("shaper"))
+    assert [part.name for part in found.parts] == [PartName.KINEMATICS, PartName.GEARS]
+
+
+def test_a_train_lies_beside_the_file(tmp_path: Path) -> None:
+    text = file_of("homework").read_text("utf-8")
+    train = file_of("shaper").read_text("utf-8")
+    gears = train[train.index("[gears]") : train.index("[stamp]")]
+    (tmp_path / "my.toml").write_text(text + '\n[project]\ngears = "train.toml"\n', "utf-8")
+    (tmp_path / "train.toml").write_text('title = "Редуктор"\n' + gears, "utf-8")
+    path = tmp_path / "my.toml"
+    found = settle(load(path), path).part(PartName.GEARS)
+    assert found is not None
+    assert found.problem.title == "Редуктор"
+
+
+@pytest.mark.parametrize(
+    ("line", "said"),
+    [
+        ('gears = "../train.toml"', "project.gears: expected the name of a problem file"),
+        ('parts = ["sheets"]', "project.parts: unknown part 'sheets'"),
+        ("calculated = -1", "project.calculated"),
+        ("position = 4", "project.position"),
+    ],
+)
+def test_faults_of_the_table_are_told(line: str, said: str) -> None:
+    text = file_of("homework").read_text("utf-8") + f"\n[project]\n{line}\n"
+    with pytest.raises(ProblemError) as error:
+        loads(text, name="my")
+    assert said in str(error.value)
