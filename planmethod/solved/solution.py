@@ -343,8 +343,8 @@ class Solution(Remembering):
     def hand(self) -> Hand:
         """Draughtsman with a ruler: short segments he reads where they are enlarged."""
         if len(self.positions) == 1:
-            alone: dict[str, Number] = {n: knot.times for n, knot in self.read_on(0).items()}
-            return Hand(self.profile.ruler, alone)
+            shown: dict[str, Number] = {n: knot.times for n, knot in self.read_on(0).items()}
+            return Hand(self.profile.ruler, shown)
         enlarged: dict[str, Number] = {}
         for index in sorted({k for small in self.small_plans.values() for k in small}):
             for name, knot in self.read_on(index).items():
@@ -354,9 +354,10 @@ class Solution(Remembering):
         if calculated is not None and self.positions.tolist() == list(self.problem.drive.positions):
             # Of the calculated position there is a plan alone: it is read as there.
             one = self.moved([float(self.positions[calculated])])
-            for name in {*enlarged, *one.hand.enlarged}:
-                times = enlarged.setdefault(name, np.ones(len(self.positions)))
-                times[calculated] = one.hand.enlarged.get(name, 1.0)
+            alone = dict(one.hand.enlarged)
+            for own in {*enlarged, *alone}:
+                times = enlarged.setdefault(own, np.ones(len(self.positions)))
+                times[calculated] = alone.get(own, 1.0)
         return Hand(self.profile.ruler, enlarged)
 
     @cached_property
