@@ -14,8 +14,8 @@ from msgspec import Struct
 from planmethod.commands.asked import PaperRequest, sheet_options
 from planmethod.commands.decided import decided, note_options
 from planmethod.commands.helptext import Spoken
-from planmethod.commands.output import bar, json_text
-from planmethod.commands.problems import guarded, stem
+from planmethod.commands.output import bar, json_text, show
+from planmethod.commands.problems import guarded, stem, tell_wheel
 from planmethod.errors import ExitCode, PlanMethodError
 from planmethod.options import (
     BadParameter,
@@ -23,6 +23,7 @@ from planmethod.options import (
     dxf_text_option,
     format_option,
     jobs_option,
+    open_option,
     out_option,
     position_option,
 )
@@ -96,6 +97,7 @@ def read_parts(
 @sheet_options
 @dxf_text_option
 @jobs_option
+@open_option
 @guarded
 def project(
     problem: Path,
@@ -110,6 +112,7 @@ def project(
     asked: PaperRequest,
     dxf_text: Literal["text", "strokes"],
     jobs: int,
+    shown: bool,
 ) -> None:
     """Make a course project: all sheets, the note and the numbers, decided once.
 
@@ -125,6 +128,10 @@ def project(
     chosen = decided(problem, variant, position, settled)
     wanted = _wanted(chosen, parts)
     written = SheetFormats(formats, settled.author(chosen.problem), dxf_text)
+    if "flywheel" in wanted:
+        from planmethod.solved.machine.flywheel import Flywheel
+
+        tell_wheel(Flywheel(chosen.problem))
     options = NoteOptions(settled.fields, template, frame)
     made, files = _made(chosen, wanted, options, written, jobs)
     name = stem(chosen.problem)
@@ -137,6 +144,9 @@ def project(
     else:
         for file in files:
             click.echo(str(folder / file))
+    if shown:
+        pages = (WHOLE, *(file for file in files if file.endswith(".pdf")), *files)
+        show(folder / next(file for file in pages if file in files))
 
 
 # What is asked -----------------------------------------------------------------------------------

@@ -12,7 +12,7 @@ from msgspec.structs import replace
 
 from planmethod.commands.asked import PaperRequest, Settled, sheet_options
 from planmethod.commands.helptext import Spoken
-from planmethod.commands.output import write_drawings, write_set
+from planmethod.commands.output import show, write_drawings, write_set
 from planmethod.commands.problems import (
     Todo,
     each,
@@ -21,6 +21,7 @@ from planmethod.commands.problems import (
     refuse_plans,
     stem,
     tell_changes,
+    tell_wheel,
     warn,
 )
 from planmethod.commands.watch import watch_option
@@ -35,6 +36,7 @@ from planmethod.options import (
     format_option,
     jobs_option,
     layout_option,
+    open_option,
     out_option,
     position_option,
     problem_options,
@@ -65,6 +67,11 @@ class SheetOptions(Struct, frozen=True, kw_only=True):
     formats: tuple[str, ...]
     dpi: int
     dxf_text: Literal["text", "strokes"]
+    all_positions: bool = False
+
+
+MOST_SHEETS = 6
+"""Sheets of one problem that nobody is asked about."""
 
 
 def read_name(ctx: click.Context, param: click.Parameter, value: str | None) -> str | None:
@@ -120,6 +127,7 @@ def compacted(problem: Problem, positions: Sequence[float] | None) -> Problem:
 )
 @drawing_options
 @jobs_option
+@open_option
 @watch_option(draws=True)
 @guarded
 def sheet(
@@ -140,7 +148,9 @@ def sheet(
     sigma: bool | None,
     dpi: int,
     dxf_text: Literal["text", "strokes"],
+    all_positions: bool,
     jobs: int,
+    shown: bool,
 ) -> None:
     """Draw the framed sheet: scheme, velocity and acceleration plans, equations, tables."""
     from planmethod.render.sheets.composition.reader import composition
@@ -165,10 +175,15 @@ def sheet(
         formats=formats,
         dpi=dpi,
         dxf_text=dxf_text,
+        all_positions=all_positions,
     )
     if one_file is None:
         act = partial(draw, options=options)
-        finish(each(problems, variant, all_variants, act, jobs=jobs))
+        files: list[Path] = []
+        code = each(problems, variant, all_variants, act, jobs=jobs, take=files.append)
+        if shown and files:
+            show(files[0])
+        finish(code)
         return
     whole: list[tuple[Todo, int, list[Drawing]]] = []
 
@@ -189,13 +204,16 @@ def sheet(
             _write(todo, options, apart, drawings, before=before, total=named)
         pages = [drawing for *_, drawings in whole for drawing in drawings]
         write_set(pages, out / one_file, author=options.settled.author(first.problem))
+        if shown:
+            show(out / one_file)
     finish(code)
 
 
-def draw(todo: Todo, options: SheetOptions) -> None:
-    """Draw and write the sheets of a problem."""
+def draw(todo: Todo, options: SheetOptions) -> Path:
+    """Draw and write the sheets of a problem; return the file to look at, a PDF if there is one."""
     todo = _settled(todo, options)
-    _write(todo, options, options.formats, None)
+    files = _write(todo, options, options.formats, None)
+    return next((file for file in files if file.suffix == ".pdf"), files[0])
 
 
 def _settled(todo: Todo, options: SheetOptions) -> Todo:
@@ -209,6 +227,10 @@ def _settled(todo: Todo, options: SheetOptions) -> Todo:
     tell_changes(todo.linkage, options.phi)
     if options.layout is not None and options.phi is None:
         _tell_positions(todo.linkage, options.layout)
+    if todo.linkage.machine is not None and _has_flywheel(options.layout):
+        from planmethod.solved.machine.flywheel import Flywheel
+
+        tell_wheel(Flywheel(todo.linkage))
     return todo
 
 
@@ -242,6 +264,15 @@ def _tell_positions(problem: Problem, layout: str) -> None:
             len(drive.positions),
         )
         warn(problem, told)
+
+
+def _has_flywheel(layout: str | None) -> bool:
+    """Whether the sheets show the sizes of a flywheel."""
+    from planmethod.render.sheets.composition.reader import composition
+
+    return layout is not None and any(
+        entry.kind == "flywheel" for entry in composition(layout).blocks
+    )
 
 
 def _drawn(
@@ -280,6 +311,7 @@ def _drawn(
         errors=errors,
         sigma=sigma,
         layout=layout,
+        most=None if options.all_positions or options.compact else MOST_SHEETS,
     )
 
 
@@ -291,8 +323,8 @@ def _write(
     *,
     before: int = 0,
     total: int | None = None,
-) -> None:
-    """Write the sheets of a problem, drawn now if they are not drawn yet."""
+) -> list[Path]:
+    """Write the sheets of a problem, drawn now if they are not drawn yet; return the files."""
     formats = list(formats)
     # What a CAD program measures is drawn as such programs draw, if nobody wants another hand.
     cad = None
@@ -307,7 +339,12 @@ def _write(
         author=options.settled.author(todo.problem),
         dxf_text=options.dxf_text,
     )
+    files: list[Path] = []
     if formats:
-        write(drawings or _drawn(todo, options, before=before, total=total), formats=formats)
+        files += write(
+            drawings or _drawn(todo, options, before=before, total=total), formats=formats
+        )
     if cad is not None:
-        write(_drawn(todo, options, before=before, total=total, hand=cad), formats=["dxf"])
+        drawings = _drawn(todo, options, before=before, total=total, hand=cad)
+        files += write(drawings, formats=["dxf"])
+    return files
