@@ -343,8 +343,8 @@ class Solution(Remembering):
     def hand(self) -> Hand:
         """Draughtsman with a ruler: short segments he reads where they are enlarged."""
         if len(self.positions) == 1:
-            shown: dict[str, Number] = {n: knot.times for n, knot in self.read_on(0).items()}
-            return Hand(self.profile.ruler, shown)
+            alone: dict[str, Number] = {n: knot.times for n, knot in self.read_on(0).items()}
+            return Hand(self.profile.ruler, alone)
         enlarged: dict[str, Number] = {}
         for index in sorted({k for small in self.small_plans.values() for k in small}):
             for name, knot in self.read_on(index).items():
