@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator, Mapping
 
 from planmethod.construct import steps
@@ -46,7 +45,7 @@ def protocol_document(problem: GearProblem, words: Language, profile: Profile) -
     yield Chapter(say.given)
     yield Paragraph("; ".join(given(motion, words)) + ".")
     yield Chapter(say.calculation)
-    yield from (Item(_carried(line)) for line in calculation(motion, words, notation))
+    yield from (Item(line) for line in calculation(motion, words, notation))
     picture = draw(motion)
     if picture is None:
         yield Chapter(words.gears.picture)
@@ -55,11 +54,6 @@ def protocol_document(problem: GearProblem, words: Language, profile: Profile) -
         drawn = construct(motion, picture)
         yield from _pictures(drawn, words)
         yield from _readings(drawn, read(drawn, profile), profile, words)
-
-
-def _carried(rich: Rich) -> Rich:
-    """Return rich text with carriers behind a sign, which plain letters need: ``U^H_1-2``."""
-    return re.sub(r"\^\{([^}−]+)\}", r"\\^\1", rich)
 
 
 def _pictures(drawn: GearDrawing, words: Language) -> Iterator[Node]:
@@ -200,7 +194,7 @@ def _found(one: Found, drawn: GearDrawing, seen: GearReading, words: Language) -
     unit = unit_of(answer(drawn.motion, one.name), words)
     found: str = words.gears["sheet"]["steps"]["found"]
     return found.format(
-        formula=_carried(f"{symbol(one.name, tuple(train.body_of))} = {formula}"),
+        formula=f"{symbol(one.name, tuple(train.body_of))} = {formula}",
         read=f"{notation.number(rounded_to(value, sigma))} {unit}".rstrip(),
         exact=notation.found(float(one.exact)),
         sigma=notation.number(sigma_text(sigma)),

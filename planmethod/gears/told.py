@@ -99,7 +99,8 @@ def ratios(motion: TrainMotion, words: Language) -> Iterator[str]:
         letters = fraction(*(f"{letter}{hat}_{{{label}}}" for label in asked.labels))
         value = fraction_text(one.exact)
         decimal = f" = {words.say.found(one.value)}" if "/" in value else ""
-        yield f"{symbol(name, known)} = {letters} = {value}{decimal}"
+        shown = re.sub(r"(\d+)/(\d+)", r"\\frac{\1}{\2}", value)
+        yield f"{symbol(name, known)} = {letters} = {shown}{decimal}"
 
 
 def _plain(name: str, motion: TrainMotion, words: Language) -> Iterator[str]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import TYPE_CHECKING, assert_never
 
 from planmethod.note.formula import (
@@ -26,24 +27,35 @@ NO_BREAK = "\N{NO-BREAK SPACE}"
 
 _SUPER = dict(zip("0123456789-−ntτkr", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻⁻ⁿᵗᵗᵏʳ", strict=True))
 _SUB = dict(zip("0123456789", "₀₁₂₃₄₅₆₇₈₉", strict=True))
+_RATIO = "U"
+"""Above it stands the carrier that a ratio is seen from, ``U^{H}_{13}``: no power of it."""
 
 
 def plain_text(rich: str) -> str:
     """Return rich text as plain: ``ω_{2}`` gives ``ω₂``, ``a^{n}_{CB}`` gives ``aⁿ_CB``."""
-    return "".join(map(_plain, inline(parse(rich)))) if any(c in SPECIAL for c in rich) else rich
+    return _plain_of(inline(parse(rich))) if any(c in SPECIAL for c in rich) else rich
 
 
-def _plain(node: Node) -> str:
+def _plain_of(nodes: Iterable[Node]) -> str:
+    text = ""
+    for node in nodes:
+        text += _plain(node, is_ratio=text.endswith(_RATIO))
+    return text
+
+
+def _plain(node: Node, *, is_ratio: bool = False) -> str:
     match node:
         case Letters(text):
             return text
         case Index(below, above, is_power):
-            low = "".join(map(_plain, below))
+            low = _plain_of(below)
             lowered = "".join(_SUB[c] for c in low) if set(low) <= set(_SUB) else f"_{low}"
-            raised = "".join(_SUPER.get(c, c) for c in "".join(map(_plain, above)))
+            high = _plain_of(above)
+            is_carrier = high.startswith("(") or (is_ratio and high.isalnum())
+            raised = f"^{high}" if is_carrier else "".join(_SUPER.get(c, c) for c in high)
             return lowered + raised if is_power else raised + lowered
         case Overline(body):
-            return "".join(map(_plain, body))
+            return _plain_of(body)
         case Fraction() | Root():
             raise AssertionError  # the formula is in one line
         case _:

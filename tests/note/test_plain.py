@@ -11,6 +11,7 @@ from worked import ROOT
 from planmethod.note.document import (
     Caption,
     Chapter,
+    Contents,
     Document,
     DrawableView,
     Equation,
@@ -20,12 +21,17 @@ from planmethod.note.document import (
     Item,
     Node,
     Note,
+    PageBreak,
     Paragraph,
     Part,
+    References,
     Step,
+    StructuralHeading,
+    Subpart,
     Table,
     Term,
     Title,
+    TitlePage,
     step_of,
     table_of,
     table_of_columns,
@@ -39,19 +45,30 @@ LONG = " ".join(["word"] * 30)
 
 ALONE: dict[type, tuple[Node, str]] = {
     Title: (Title("v_{2}"), "v₂\n══"),
+    TitlePage: (
+        TitlePage(
+            ("University",), "Note", title="Press", author="Ivanov", place="Omsk", year="2026"
+        ),
+        "University\nNote\nSubject: Press\nDone by: Ivanov\nOmsk 2026",
+    ),
+    Contents: (Contents(), "Contents\n────────"),
+    PageBreak: (PageBreak(), ""),
+    StructuralHeading: (StructuralHeading("Conclusion"), "Conclusion\n──────────"),
     Chapter: (Chapter("Plans"), "1. Plans\n────────"),
     Part: (Part("Frame"), "0.1. Frame"),
+    Subpart: (Subpart("Link"), "0.0.1. Link"),
     Caption: (Caption("Links"), "Links"),
     Paragraph: (Paragraph("a^{n}_{CB}"), "aⁿ_CB"),
     Item: (Item(LONG), f"{LONG[:99]}\n  {LONG[100:]}"),
     Step: (Step(("One.", "Two.")), "  1) One.\n     Two."),
-    Formula: (Formula("W = 1"), "     W = 1"),
+    Formula: (Formula("W = \\frac{a}{b·c}", numbered=True), "     W = a/(b·c)    (1)"),
     Equations: (
         Equations((Equation((Term("v_{C}"),), (Term("v_{B}", 2, "⊥ AB"), Term("v_{CB}", 1))),)),
         "     v_C = v_B  + v_CB\n           ═══    ────\n           ⊥ AB",
     ),
     Table: (table_of(("link", "ω"), [("1", "20,00")]), "link      ω\n───────────\n1     20,00"),
     Figure: (Figure(cast("DrawableView", None), "Scheme"), "Scheme"),
+    References: (References(("Book", "Paper")), "  1. Book\n  2. Paper"),
     Note: (Note("read"), "read"),
 }
 
@@ -174,3 +191,15 @@ def test_only_writers_lay_text_out() -> None:
         for path in sorted((ROOT / "planmethod" / "note").rglob("*.py"))
         if path.parent.name != "writers" and "textwrap" in path.read_text("utf-8")
     ]
+
+
+def test_items_below_a_caption_are_indented_and_others_are_not() -> None:
+    text = written(
+        Caption("Checks"), Item("one"), Item(LONG), table_of(("a",), [("1",)]), Item("a note")
+    )
+    lines = text.splitlines()
+    assert lines[1] == "  one"
+    assert lines[2].startswith("  word")
+    assert lines[3].startswith("    word")
+    assert lines[-1] == "a note"
+    assert written(Item("one"), Caption("Checks"), Item("two")).splitlines()[-1] == "  two"

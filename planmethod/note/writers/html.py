@@ -32,16 +32,20 @@ tr{break-inside:avoid}sub,sup{line-height:0}.bar{text-decoration:overline}
 .near td.tone,.inconsistent td.tone,.unseen td.tone{background:#fdf3d3}
 .wrong td.tone{background:#fbe3e0;font-weight:600}
 .blank td.tone,.unreadable td.tone{background:#ececec}
-.titlepage{text-align:center;break-after:page}.break{break-after:page}
-.level2{margin-left:5mm}.level3{margin-left:10mm}.number{float:right}
-.fraction{display:inline-block;vertical-align:middle;text-align:center}
-.fraction span{display:block;padding:0 .3em}.fraction span+span{border-top:.2mm solid}
 .note{color:#555;font-size:9pt}.formula{margin-left:8mm}
 .term{display:inline-block;text-align:center;vertical-align:top}
 .term small{display:block;font-size:8pt}.u1{border-bottom:.3mm solid}.u2{border-bottom:1mm double}
 .figures{display:flex;flex-wrap:wrap;gap:4mm;align-items:flex-end;break-inside:avoid}
 figure{margin:0}figcaption{font-size:9pt;text-align:center}
 """
+
+NOTE_STYLE = """
+.titlepage{text-align:center;break-after:page}.break{break-after:page}
+.level2{margin-left:5mm}.level3{margin-left:10mm}.formula-number{float:right}
+.fraction{display:inline-block;vertical-align:middle;text-align:center}
+.fraction span{display:block;padding:0 .3em}.fraction span+span{border-top:.2mm solid}
+"""
+"""For documents that have formulas built up, or the pages of a note."""
 
 _CONTROL = "[^\n\x20-\x7e\xa0-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]"
 
@@ -61,6 +65,10 @@ def html_document(written: Document, *, title: str, lang: str, style: str = "") 
     style : str
         CSS of the figures, beside that of the document.
     """
+    body = "\n".join(_body(document.referred(written), language(lang).document))
+    kinds = ("titlepage", "break", "level", "formula-number", "fraction")
+    if any(f'class="{kind}' in body for kind in kinds):
+        style = NOTE_STYLE + style
     return "\n".join(
         [
             f'<!DOCTYPE html>\n<html lang="{lang}"><head><meta charset="utf-8">',
@@ -69,7 +77,7 @@ def html_document(written: Document, *, title: str, lang: str, style: str = "") 
             '<meta http-equiv="Content-Security-Policy" '
             "content=\"default-src 'none'; style-src 'unsafe-inline'\">",
             f"<title>{html.escape(clean(title))}</title><style>{STYLE}{style}</style></head><body>",
-            *_body(document.referred(written), language(lang).document),
+            body,
             "</body></html>\n",
         ]
     )
@@ -142,7 +150,7 @@ def _element(node: Node, number: str, words: Words) -> str:
 
 
 def _numbered(number: str) -> str:
-    return f'<span class="number">({number})</span>' if number else ""
+    return f'<span class="formula-number">({number})</span>' if number else ""
 
 
 def _equation(equation: Equation) -> str:

@@ -41,7 +41,7 @@ class Letter(Struct, frozen=True):
     size: float
 
 
-class Ink(Struct, frozen=True):
+class SetFormula(Struct, frozen=True):
     """What is set, from the left end of its base line, points (набор)."""
 
     width: float
@@ -60,7 +60,9 @@ class Ink(Struct, frozen=True):
         return tuple(letters), tuple(lines)
 
 
-def together(parts: Iterable[tuple[float, float, Ink]], width: float, rule: float) -> Ink:
+def together(
+    parts: Iterable[tuple[float, float, SetFormula]], width: float, rule: float
+) -> SetFormula:
     """Return inks at their places as one of a width."""
     letters: list[Letter] = []
     lines: list[tuple[Place, ...]] = []
@@ -70,7 +72,7 @@ def together(parts: Iterable[tuple[float, float, Ink]], width: float, rule: floa
         letters += moved[0]
         lines += moved[1]
         ascent, descent = max(ascent, ink.ascent + y), max(descent, ink.descent - y)
-    return Ink(width, ascent, descent, tuple(letters), tuple(lines), rule)
+    return SetFormula(width, ascent, descent, tuple(letters), tuple(lines), rule)
 
 
 class FormulaSetter:
@@ -79,11 +81,11 @@ class FormulaSetter:
     def __init__(self, fonts: Fonts, size: float) -> None:
         self._fonts, self._size, self._rule = fonts, size, RULE * size
 
-    def set(self, nodes: Iterable[Node]) -> Ink:
+    def set(self, nodes: Iterable[Node]) -> SetFormula:
         """Return a formula."""
         return self._tokens(list(tokens_of(nodes)))
 
-    def row(self, parts: Sequence[Ink]) -> Ink:
+    def row(self, parts: Sequence[SetFormula]) -> SetFormula:
         """Return inks one after another."""
         placed, x = [], 0.0
         for part in parts:
@@ -91,14 +93,16 @@ class FormulaSetter:
             x += part.width
         return together(placed, x, self._rule)
 
-    def text(self, text: str, font: str = "", size: float = 0.0) -> Ink:
+    def text(self, text: str, font: str = "", size: float = 0.0) -> SetFormula:
         """Return letters on the base line."""
         font, size = font or self._fonts.upright, size or self._size
         width = stringWidth(text, font, size)
-        return Ink(width, ASCENT * size, DESCENT * size, (Letter(0.0, 0.0, text, font, size),))
+        return SetFormula(
+            width, ASCENT * size, DESCENT * size, (Letter(0.0, 0.0, text, font, size),)
+        )
 
-    def _tokens(self, tokens: Sequence[Token]) -> Ink:
-        parts: list[Ink] = []
+    def _tokens(self, tokens: Sequence[Token]) -> SetFormula:
+        parts: list[SetFormula] = []
         k = 0
         while k < len(tokens):
             token, k = tokens[k], k + 1
@@ -121,7 +125,7 @@ class FormulaSetter:
                 parts.append(self.text(token.text.replace("\n", " "), font))
         return self.row(parts)
 
-    def _tall(self, bracket: str, inside: Ink) -> Ink:
+    def _tall(self, bracket: str, inside: SetFormula) -> SetFormula:
         """Return a bracket as high as what is in it."""
         need = max(inside.ascent - AXIS * self._size, inside.descent + AXIS * self._size)
         share = max(1.0, need / (0.5 * self._size))
@@ -134,7 +138,7 @@ class FormulaSetter:
     def _smaller(self) -> FormulaSetter:
         return FormulaSetter(self._fonts, SMALL * self._size)
 
-    def _node(self, node: Node) -> Ink:
+    def _node(self, node: Node) -> SetFormula:
         match node:
             case Letters():
                 return self.set([node])
@@ -154,10 +158,10 @@ class FormulaSetter:
             case _:
                 assert_never(node)
 
-    def _barred(self, body: Ink) -> Ink:
+    def _barred(self, body: SetFormula) -> SetFormula:
         level = body.ascent + 0.06 * self._size
         line = ((0.04 * self._size, level), (body.width, level))
-        return Ink(
+        return SetFormula(
             body.width,
             level + self._rule,
             body.descent,
@@ -166,18 +170,18 @@ class FormulaSetter:
             self._rule,
         )
 
-    def _fraction(self, above: Ink, below: Ink) -> Ink:
+    def _fraction(self, above: SetFormula, below: SetFormula) -> SetFormula:
         axis, gap, pad = AXIS * self._size, 0.12 * self._size, 0.15 * self._size
         width = max(above.width, below.width) + 2 * pad
         up, down = axis + gap + above.descent, axis - gap - below.ascent
         placed = [((width - above.width) / 2, up, above), ((width - below.width) / 2, down, below)]
         whole = together(placed, width, self._rule)
         line = ((0.03 * self._size, axis), (width - 0.03 * self._size, axis))
-        return Ink(
+        return SetFormula(
             width, whole.ascent, whole.descent, whole.letters, (*whole.lines, line), self._rule
         )
 
-    def _root(self, body: Ink) -> Ink:
+    def _root(self, body: SetFormula) -> SetFormula:
         size, top = self._size, body.ascent + 0.1 * self._size
         lead = 0.55 * size
         whole = together([(lead, 0.0, body)], lead + body.width + 0.08 * size, self._rule)
@@ -188,7 +192,7 @@ class FormulaSetter:
             (0.5 * size, top),
             (whole.width, top),
         )
-        return Ink(
+        return SetFormula(
             whole.width,
             top + self._rule,
             whole.descent,
@@ -199,14 +203,14 @@ class FormulaSetter:
 
     # Vector equations -----------------------------------------------------------------------------
 
-    def equations(self, equations: Sequence[Equation]) -> Ink:
+    def equations(self, equations: Sequence[Equation]) -> SetFormula:
         """Return vector equations, several as a system behind a brace."""
         rows = [self._equation(one) for one in equations]
         if len(rows) == 1:
             return self.row(rows[0])
         lead = max(row[0].width for row in rows)
         inks = [self.row(row) for row in rows]
-        gap, y, placed = 0.35 * self._size, 0.0, list[tuple[float, float, Ink]]()
+        gap, y, placed = 0.35 * self._size, 0.0, list[tuple[float, float, SetFormula]]()
         brace = 0.8 * self._size
         for row, ink in zip(rows, inks, strict=True):
             y -= ink.ascent
@@ -223,25 +227,25 @@ class FormulaSetter:
             (tip - 0.2 * brace, axis), (tip, axis - bend), (tip, low + bend / 2),
             (tip + 0.15 * brace, low),
         )  # fmt: skip
-        return Ink(
+        return SetFormula(
             width, lines.ascent, lines.descent, lines.letters, (*lines.lines, sign), self._rule
         )
 
-    def _equation(self, one: Equation) -> list[Ink]:
+    def _equation(self, one: Equation) -> list[SetFormula]:
         left, equal = self._sum(one.left), self.text("\u00a0=\u00a0")
         if one.right:
             return [left, equal, self._sum(one.right)]
         head = [self.set(parse(one.name)), equal] if one.name else []
         return [*head, left, equal, self.text("0")]
 
-    def _sum(self, terms: Sequence[Term]) -> Ink:
-        parts: list[Ink] = []
+    def _sum(self, terms: Sequence[Term]) -> SetFormula:
+        parts: list[SetFormula] = []
         for number, term in enumerate(terms):
             parts += [self.text("\u00a0+\u00a0")] if number else []
             parts.append(self._term(term))
         return self.row(parts)
 
-    def _term(self, term: Term) -> Ink:
+    def _term(self, term: Term) -> SetFormula:
         nodes = parse(term.symbol)
         barred = (Overline(nodes[:1]), *nodes[1:]) if isinstance(nodes[0], Letters) else nodes
         symbol = self.set(barred)
@@ -256,13 +260,15 @@ class FormulaSetter:
             placed.append(((width - below.width) / 2, low, below))
         whole = together(placed, width, self._rule)
         depth = max([whole.descent, *(-level for level in levels)])
-        return Ink(width, whole.ascent, depth, whole.letters, (*whole.lines, *lines), self._rule)
+        return SetFormula(
+            width, whole.ascent, depth, whole.letters, (*whole.lines, *lines), self._rule
+        )
 
 
 class FormulaLines(Flowable):  # type: ignore[misc]
     """Formulas one under another in the middle of a page, the number beside the last (формула)."""
 
-    def __init__(self, rows: Sequence[Ink], number: str, font: str, size: float) -> None:
+    def __init__(self, rows: Sequence[SetFormula], number: str, font: str, size: float) -> None:
         super().__init__()
         self._rows, self._number, self._font, self._size = rows, number, font, size
         self._gap = 0.45 * size
@@ -293,7 +299,7 @@ class FormulaLines(Flowable):  # type: ignore[misc]
             y -= row.descent + self._gap
 
 
-def draw_ink(canvas: Any, ink: Ink) -> None:
+def draw_ink(canvas: Any, ink: SetFormula) -> None:
     """Draw what is set, from the origin of the canvas on."""
     for one in ink.letters:
         canvas.setFont(one.font, one.size)

@@ -9,6 +9,7 @@ from io import BytesIO
 from pathlib import Path
 from typing import Any, assert_never
 
+import matplotlib
 from reportlab.lib import colors
 from reportlab.lib.enums import TA_CENTER, TA_JUSTIFY, TA_LEFT, TA_RIGHT
 from reportlab.lib.pagesizes import A4
@@ -36,7 +37,7 @@ from planmethod.note.document import Document, Node, Table
 from planmethod.note.formula import Rich, inline, parse
 from planmethod.note.plaintext import plain_text
 from planmethod.note.wording import Language
-from planmethod.note.writers.broken import lines_of
+from planmethod.note.writers.broken import ems, lines_of
 from planmethod.note.writers.html import clean
 from planmethod.note.writers.pdf import marked, parts_of
 from planmethod.note.writers.pdfformula import Fonts, FormulaLines, FormulaSetter
@@ -47,6 +48,9 @@ SIZE, TABLE_SIZE = 14.0, 11.0
 LEADING = 1.5 * 1.15
 INDENT = 12.5 * mm
 PAD = 3.0
+LONG = 8.0
+"""Width, in heights of the font, from which on a formula in a sentence may be cut."""
+
 LEAST = 22 * mm
 """Least width of a column of a table that may be cut into several."""
 
@@ -58,8 +62,6 @@ CLOSE = [(f"{side}PADDING", (0, 0), (-1, -1), 0) for side in ("LEFT", "RIGHT", "
 @cache
 def note_fonts() -> Fonts:
     """Return letters like Times that have Russian, Greek and signs; matplotlib brings them."""
-    import matplotlib
-
     folder = Path(matplotlib.get_data_path()) / "fonts" / "ttf"
     for name in ("STIXGeneral", "STIXGeneralBol", "STIXGeneralItalic"):
         pdfmetrics.registerFont(TTFont(name, str(folder / f"{name}.ttf")))
@@ -210,12 +212,15 @@ class _Setter:
 
     def _markup(self, rich: Rich, size: float = SIZE) -> str:
         """Return a sentence as reportlab takes it, the letters of its formulas italic."""
-        return "".join(
-            marked(inline(piece.nodes), size, self._fonts.italic)
-            if piece.is_formula
-            else html.escape(piece.text).replace("\n", "<br/>")
-            for piece in pieces(parse(clean(rich)), self._units)
-        )
+        found = ""
+        for piece in pieces(parse(clean(rich)), self._units):
+            if not piece.is_formula:
+                found += html.escape(piece.text).replace("\n", "<br/>")
+                continue
+            shown = marked(inline(piece.nodes), size, self._fonts.italic)
+            # A long formula is cut at its signs, whatever a terminal does.
+            found += shown.replace("\u00a0=\u00a0", " = ") if ems(piece.nodes) > LONG else shown
+        return found
 
     def _text(self, rich: Rich, style: ParagraphStyle) -> Paragraph:
         return Paragraph(self._markup(rich, style.fontSize), style)
@@ -301,6 +306,9 @@ class _Setter:
                 yield self._text(f"{lead}{line}", self._style())
 
     def _displayed(self, nodes: Sequence[Any], number: str) -> Flowable:
+        whole = self._formulas.set(nodes)
+        if whole.width <= self._width - 8.0 * SIZE * bool(number):
+            return self._lines([whole], number)
         room = 0.85 * self._width / SIZE
         return self._lines([self._formulas.set(line) for line in lines_of(nodes, room)], number)
 

@@ -32,7 +32,7 @@ _FUNCTIONS = frozenset({"sin", "cos", "tg", "ctg", "tan", "inv", "arccos"})
 Word = tuple[Node, ...]
 
 
-class Piece(Struct, frozen=True):
+class SentencePart(Struct, frozen=True):
     """A part of a sentence (часть предложения): words, or a formula."""
 
     nodes: tuple[Node, ...]
@@ -49,7 +49,7 @@ def units_of(units: Mapping[str, str]) -> frozenset[str]:
     return frozenset(name for unit in units.values() for name in re.findall(r"[^\W\d_]+", unit))
 
 
-def pieces(nodes: Iterable[Node], units: frozenset[str]) -> list[Piece]:
+def pieces(nodes: Iterable[Node], units: frozenset[str]) -> list[SentencePart]:
     """Return a sentence as texts and formulas in turn.
 
     Parameters
@@ -58,7 +58,7 @@ def pieces(nodes: Iterable[Node], units: frozenset[str]) -> list[Piece]:
     units : frozenset of str
         Letters of units.
     """
-    found: list[Piece] = []
+    found: list[SentencePart] = []
     run: list[Word] = []
 
     def close() -> None:
@@ -67,8 +67,10 @@ def pieces(nodes: Iterable[Node], units: frozenset[str]) -> list[Piece]:
         while run and _is_blank(run[-1]):
             blanks.insert(0, run.pop())
         whole = tuple(chain.from_iterable(run))
-        found.extend(_balanced(whole) if any(map(_is_certain, run)) else [Piece(whole, False)])
-        found.extend(Piece(word, False) for word in blanks)
+        found.extend(
+            _balanced(whole) if any(map(_is_certain, run)) else [SentencePart(whole, False)]
+        )
+        found.extend(SentencePart(word, False) for word in blanks)
         run.clear()
 
     for word in _words(with_levels(nodes)):
@@ -76,34 +78,49 @@ def pieces(nodes: Iterable[Node], units: frozenset[str]) -> list[Piece]:
             if run:
                 run.append(word)
             else:
-                found.append(Piece(word, False))
+                found.append(SentencePart(word, False))
             continue
         lead, core, tail = _stripped(word)
         is_part = _is_part(core, units)
         if lead or not is_part or not _joins(run, core, units):
             close()
-            found.append(Piece(lead, False))
+            found.append(SentencePart(lead, False))
         if is_part:
             run.append(core)
         else:
-            found.append(Piece(core, False))
+            found.append(SentencePart(core, False))
         if tail:
             close()
-            found.append(Piece(tail, False))
+            found.append(SentencePart(tail, False))
     close()
     gathered = groupby((piece for piece in found if piece.nodes), lambda piece: piece.is_formula)
     return [
-        Piece(tuple(chain.from_iterable(piece.nodes for piece in group)), is_formula)
+        SentencePart(tuple(chain.from_iterable(piece.nodes for piece in group)), is_formula)
         for is_formula, group in gathered
     ]
 
 
-def formula_alone(found: Sequence[Piece]) -> tuple[Node, ...]:
+def formula_alone(found: Sequence[SentencePart]) -> tuple[Node, ...]:
     """Return the formula of a line that has nothing else but a stop; none of another line."""
     ending = found[1].text.strip() if len(found) == 2 else ""
     if found and found[0].is_formula and (len(found) == 1 or ending in (".", ",", ";")):
         return (*found[0].nodes, *((Letters(ending),) if ending else ()))
     return ()
+
+
+def with_stops(found: Sequence[SentencePart]) -> Iterator[SentencePart]:
+    """Yield the parts of a sentence, a stop in the formula before it: no line begins with one."""
+    stop = ""
+    for piece, after in zip(found, [*found[1:], None], strict=True):
+        if not piece.is_formula:
+            text = piece.text.removeprefix(stop)
+            stop = ""
+            if text:
+                yield SentencePart((Letters(text),), False)
+            continue
+        text = after.text if after is not None else ""
+        stop = text[:1] if text[:1] in (*_STOPS, ")") else ""
+        yield SentencePart((*piece.nodes, *_some(stop)), True)
 
 
 def with_levels(nodes: Iterable[Node]) -> Iterator[Node]:
@@ -199,7 +216,7 @@ def _joins(run: Sequence[Word], word: Word, units: frozenset[str]) -> bool:
     return before in _FUNCTIONS or (is_number and _is_unit(text, units))
 
 
-def _balanced(nodes: tuple[Node, ...]) -> Iterator[Piece]:
+def _balanced(nodes: tuple[Node, ...]) -> Iterator[SentencePart]:
     """Yield a formula without the brackets of the sentence that it begins or ends with."""
     inside = list(nodes)
     opened = sum((s == "(") - (s == ")") for s in _letters(nodes))
@@ -208,6 +225,6 @@ def _balanced(nodes: tuple[Node, ...]) -> Iterator[Piece]:
         lead, inside[0], opened = lead + "(", Letters(first.text[1:]), opened - 1
     while opened < 0 and isinstance(last := inside[-1], Letters) and last.text.endswith(")"):
         tail, inside[-1], opened = tail + ")", Letters(last.text[:-1]), opened + 1
-    yield Piece(_some(lead), False)
-    yield Piece(tuple(node for node in inside if node != Letters("")), True)
-    yield Piece(_some(tail), False)
+    yield SentencePart(_some(lead), False)
+    yield SentencePart(tuple(node for node in inside if node != Letters("")), True)
+    yield SentencePart(_some(tail), False)

@@ -124,7 +124,7 @@ class LoadNarrator:
             formula=formula,
             length=self.short(round(length, 2)),
             centre=one.point,
-            acceleration=f"a_{one.point}",
+            acceleration=f"a_{{{one.point}}}",
             force=one.name,
             point=shift.letter,
             couple=shift.moment.name,
@@ -158,7 +158,7 @@ class LoadNarrator:
             case LoadKind.INERTIA:
                 shifted = one.link in self.reading.statics.board.shifts
                 template = said.inertia_shifted if shifted else said.inertia
-                return template.format(acceleration=f"a_{one.point}", **common)
+                return template.format(acceleration=f"a_{{{one.point}}}", **common)
             case LoadKind.INERTIA_COUPLE:
                 sense = self.context.sense(couple)
                 epsilon = f"ε_{{{one.link}}}"

@@ -226,7 +226,7 @@ class ForcePlanNarrator:
         motion = self.names.kin.acceleration
         head = motion.point[motion.named[one.point]]
         return self.said.way_against.format(
-            segment=self.names.segment(motion.pole, head), acceleration=f"a_{one.point}"
+            segment=self.names.segment(motion.pole, head), acceleration=f"a_{{{one.point}}}"
         )
 
     def _lay(self, edge: Edge, way: str, *, back: bool = False) -> list[str]:

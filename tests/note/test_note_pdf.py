@@ -1,0 +1,58 @@
+"""A note in PDF: contents with pages, formulas built up, the same bytes each time."""
+
+from __future__ import annotations
+
+import shutil
+import subprocess
+from pathlib import Path
+
+import pytest
+from noted import SYSTEM, note
+
+from planmethod.note.formula import parse
+from planmethod.note.wording import language
+from planmethod.note.writers.html import html_document
+from planmethod.note.writers.pdfformula import FormulaSetter
+from planmethod.note.writers.pdfnote import note_fonts, pdf_note
+from planmethod.note.writers.plain import plain_document
+
+RU = language("ru")
+
+
+def test_the_note_is_the_same_each_time_and_embeds_its_letters() -> None:
+    data = pdf_note(note(), RU, author="И. Иванов")
+    assert data == pdf_note(note(), RU, author="И. Иванов") and data.startswith(b"%PDF")
+    assert b"Helvetica" not in data
+
+
+@pytest.mark.skipif(not shutil.which("pdftotext"), reason="poppler is absent")
+def test_every_node_is_on_its_pages(tmp_path: Path) -> None:
+    (tmp_path / "n.pdf").write_bytes(pdf_note(note(), RU))
+    order = ["pdftotext", "-layout", str(tmp_path / "n.pdf"), "-"]
+    pages = subprocess.run(order, capture_output=True, timeout=60).stdout.decode().split("\f")
+    assert "Пояснительная записка" in pages[0] and "Омск 2026" in pages[0]
+    contents = [" ".join(line.replace(".", " ").split()) for line in pages[1].splitlines()]
+    assert "1 Кинематика 3" in contents or "1 Кинематика 4" in contents
+    whole = "\n".join(pages)
+    for part in ("1.1 Скорости", "(1.1)", "(1.2)", "Таблица 1 – Скорости", "Рисунок 1 – План",
+                 "2. Попов", "Примечание", "На рисунке 1"):  # fmt: skip
+        assert part in " ".join(whole.replace("\u00a0", " ").split())
+    assert not any(sign in whole for sign in "_^{}\\")
+
+
+def test_fractions_are_built_up_and_terms_underlined() -> None:
+    setter = FormulaSetter(note_fonts(), 14.0)
+    line, built = setter.set(parse("ab")), setter.set(parse(r"\frac{a}{b}"))
+    assert built.ascent + built.descent > 1.5 * (line.ascent + line.descent)
+    assert len(built.lines) == 1 and len(setter.set(parse(r"\sqrt{\bar{a}}")).lines) == 2
+    system = setter.equations(SYSTEM)
+    assert len(system.lines) == 6 + 6 + 1  # bars above, lines below, the brace
+    assert system.descent > 14.0
+
+
+def test_every_node_goes_through_the_other_writers() -> None:
+    page = html_document(note(), title="Note", lang="ru")
+    assert 'class="fraction"' in page and "<svg" in page and "Рисунок 1 – План" in page
+    assert "\\" not in page.partition("<body>")[2].replace("\\n", "")
+    text = plain_document(note(), RU)
+    assert "1.1.1. Группа 2–3" in text and "(1.2)" in text and "Таблица 1 – Скорости" in text

@@ -1,0 +1,221 @@
+"""The writer of Word: native equations, numbers, styles, bytes that no clock changes."""
+
+from __future__ import annotations
+
+import re
+import shutil
+import subprocess
+from io import BytesIO
+from pathlib import Path
+from typing import Any, get_args
+from zipfile import ZipFile
+
+import docx
+import pytest
+from noted import SYSTEM, nodes, note
+from told import worked
+from worked import SIX
+
+from planmethod.errors import LayoutError, OutputError
+from planmethod.note.document import Document, Formula, Node, Paragraph
+from planmethod.note.formula import parse
+from planmethod.note.protocol import protocol_document
+from planmethod.note.wording import language
+from planmethod.note.writers import omml
+from planmethod.note.writers.word import word_document
+
+RU = language("ru")
+M, W = f"{{{omml.MATH}}}", f"{{{omml.WORD}}}"
+
+
+def shape(element: Any) -> str:
+    """Return the structure of an equation: ``sSub(v,B)``, quotation marks about plain text."""
+    tag = element.tag.removeprefix(M)
+    if tag == "r":
+        text = element.find(f"{M}t").text
+        return f'"{text}"' if element.find(f"{M}rPr/{M}nor") is not None else str(text)
+    inside = [child for child in element if not child.tag.endswith("Pr")]
+    if tag in ("e", "num", "den", "sub", "sup", "lim", "deg", "oMath"):
+        return "".join(map(shape, inside))
+    if tag == "bar":
+        tag += element.find(f"{M}barPr/{M}pos").get(f"{M}val")
+    return f"{tag}({','.join(shape(child) for child in inside if child.tag != f'{M}deg')})"
+
+
+def shape_of(markup: str) -> str:
+    return shape(omml.equation(parse(markup)))
+
+
+@pytest.mark.parametrize(
+    ("markup", "structure"),
+    [
+        ("v_{B}", "sSub(v,B)"),
+        ("a^{n}_{CB}", "sSubSup(a,CB,n)"),
+        ("ω_{2}^{2}·l", "sSubSup(ω,2,2)·l"),
+        ("l_{AB}·15,5^{2}", "sSub(l,AB)·sSup(15,5,2)"),
+        (r"ω = \frac{v_{B}}{l}", "ω=f(sSub(v,B),l)"),
+        (r"\sqrt{x^{2} + 1}", "rad(sSup(x,2)+1)"),
+        (r"\bar{v}_{B}", "sSub(bartop(v),B)"),
+        ("= 5", '"= "5'),
+        ("a =", 'a" ="'),
+        ("(pb) = −3 мм", '(pb)=−3"\u00a0""мм"'),
+        (r"(\frac{a}{b})", "d(f(a,b))"),
+        ("(1 + δ)^{2}", "sSup(d(1+δ),2)"),
+        ("_{2}", f'sSub("{omml.NOTHING}",2)'),
+        ("2M_{max}", '2sSub(M,"max")'),
+        ("AB_{1} (x", 'AsSub(B,1)"\u00a0""("x'),
+        ("tg ψ", '"tg""\u00a0"ψ'),
+        ("5 N·m", '5"\u00a0""N·m"'),
+    ],
+)
+def test_formulas_are_native_structures(markup: str, structure: str) -> None:
+    assert shape_of(markup) == structure
+
+
+def test_vector_equations_have_bars_underlines_and_directions() -> None:
+    system = shape(omml.vector_equations(SYSTEM))
+    assert system.startswith("d(eqArr(") and system.count("bartop(v)") == 6
+    assert "barbot(barbot(sSub(bartop(v),B)))" in system.replace(",B3B", ",X")
+    assert 'limLow(d(barbot(sSub(bartop(v),B3B))),"∥""\u00a0"CB)' in system
+
+
+def opened(data: bytes) -> Any:
+    return docx.Document(BytesIO(data))
+
+
+@pytest.fixture(scope="module")
+def data() -> bytes:
+    return word_document(note(), RU, author="И. Иванов")
+
+
+def texts_of(file: Any) -> list[str]:
+    return [text.text or "" for text in file.element.body.iter(f"{W}t")]
+
+
+def test_the_document_of_the_tests_has_every_node() -> None:
+    assert {type(node) for node in nodes()} == set(get_args(Node))
+
+
+def test_every_node_is_written(data: bytes) -> None:
+    file = opened(data)
+    styles = {p.style.name for p in file.paragraphs}
+    assert {"Heading 1", "Heading 2", "Heading 3", "Caption", "Table Name", "toc 1"} <= styles
+    text = "\n".join(p.text for p in file.paragraphs)
+    for part in ("Пояснительная записка", "1 Кинематика", "1.1 Скорости", "1.1.1 Группа 2–3",
+                 "Таблица 1 – Скорости", "Рисунок 1 – План", "2.\u00a0Попов",
+                 "На рисунке 1"):  # fmt: skip
+        assert part in text
+    numbers = [cell.text for table in file.tables for row in table.rows for cell in row.cells]
+    assert {"(1.1)", "(1.2)"} <= set(numbers)
+    first = file.sections[0]
+    assert [round(side.mm) for side in (first.left_margin, first.right_margin)] == [30, 15]
+    assert any(s.page_width > s.page_height for s in file.sections)
+    assert len(file.inline_shapes) == 2
+
+
+def test_no_markup_is_left_as_text_and_no_base_is_empty(data: bytes) -> None:
+    body = opened(data).element.body
+    left = [t for t in body.iter(f"{W}t", f"{M}t") if re.search(r"[_^{}\\]", t.text or "")]
+    assert not left
+    bases = [*body.iter(f"{M}e", f"{M}num", f"{M}den", f"{M}sub", f"{M}sup", f"{M}lim")]
+    assert bases and all(len(base) for base in bases)
+
+
+@pytest.mark.parametrize("name", [SIX[0], SIX[-1]])
+def test_no_formula_of_a_protocol_is_lost_as_text(name: str) -> None:
+    written = word_document(protocol_document(worked(name), RU), RU)
+    body = opened(written).element.body
+    assert not re.search(r"[_^{}\\]", "".join(texts_of(opened(written))))
+    assert len(list(body.iter(f"{M}oMath"))) > 60 and len(list(body.iter(f"{M}f"))) > 5
+
+
+ORDER = ("tblStyle", "tblW", "jc", "tblInd", "tblBorders", "tblLayout", "tblCellMar", "tblLook")
+"""Of the properties of a table, as the schema has them: Word takes no other."""
+
+
+def test_properties_stand_in_the_order_of_the_schema() -> None:
+    file = opened(word_document(note(), RU, frame=True))
+    feet = [section.first_page_footer for section in file.sections[1:2]]
+    for table in (*file.tables, *(foot.tables[0] for foot in feet)):
+        names = [child.tag.removeprefix(W) for child in table._tbl.tblPr]
+        assert names == sorted(names, key=ORDER.index)
+    settings = [child.tag.removeprefix(W) for child in file.settings.element]
+    assert settings.index("updateFields") < settings.index("compat")
+    assert settings.index("zoom") < settings.index("updateFields")
+
+
+def test_the_contents_are_there_before_they_are_brought_up_to_date(data: bytes) -> None:
+    file = opened(data)
+    entries = [p for p in file.paragraphs if p.style.name.lower().startswith("toc ")]
+    assert len(entries) == 5
+    codes = [code.text for code in file.element.body.iter(f"{W}instrText")]
+    assert (
+        any("TOC" in str(code) for code in codes) and sum("PAGEREF" in str(c) for c in codes) == 5
+    )
+    marks = {mark.get(f"{W}name") for mark in file.element.body.iter(f"{W}bookmarkStart")}
+    assert {link.get(f"{W}anchor") for link in file.element.body.iter(f"{W}hyperlink")} == marks
+
+
+def test_the_file_does_not_depend_on_the_clock(data: bytes) -> None:
+    assert word_document(note(), RU, author="И. Иванов") == data
+    with ZipFile(BytesIO(data)) as parts:
+        assert {entry.date_time[0] for entry in parts.infolist()} == {1980}
+        assert any(name.endswith(".svg") for name in parts.namelist())
+    assert opened(data).core_properties.author == "И. Иванов"
+
+
+def test_pages_in_frames_have_title_blocks_with_the_fields_of_the_stamp() -> None:
+    stamp = {"designation": "ТММ.01 ПЗ", "author": "Иванов", "title": "Пресс"}
+    file = opened(word_document(note(), RU, frame=True, stamp=stamp))
+    section = file.sections[1]
+    first = section.first_page_footer.tables[0]
+    cells = {cell.text for row in first.rows for cell in row.cells}
+    assert {"ТММ.01 ПЗ", "Иванов", "Пресс", "Разраб.", "Листов"} <= cells
+    later = {cell.text for row in section.footer.tables[0].rows for cell in row.cells}
+    assert {"ТММ.01 ПЗ", "Лист"} <= later and "Разраб." not in later
+    codes = [c.text for c in first._tbl.iter(f"{W}instrText")]
+    assert [str(code).strip() for code in codes] == ["PAGE", "NUMPAGES"]
+    assert file.core_properties.author == "Иванов"
+
+
+def test_a_template_gives_its_page_and_styles(tmp_path: Path) -> None:
+    template = docx.Document()
+    template.add_paragraph("Образец")
+    template.sections[0].left_margin = 719455
+    template.styles["Normal"].font.name = "Arial"
+    template.save(str(tmp_path / "own.docx"))
+    file = opened(word_document(note(), RU, template=tmp_path / "own.docx"))
+    assert file.sections[0].left_margin == 719455 and file.styles["Normal"].font.name == "Arial"
+    assert all("Образец" not in p.text for p in file.paragraphs)
+
+
+def test_a_template_that_is_none_is_a_fault(tmp_path: Path) -> None:
+    (tmp_path / "own.docx").write_text("no file of Word")
+    for path in (tmp_path / "own.docx", tmp_path / "absent.docx"):
+        with pytest.raises(OutputError, match=r"own\.docx|absent\.docx"):
+            word_document(note(), RU, template=path)
+
+
+def test_what_is_referred_to_must_be_there() -> None:
+    with pytest.raises(LayoutError, match="speed"):
+        word_document(Document.of([Paragraph(r"По формуле (\ref{speed})")]), RU)
+
+
+def test_a_long_formula_is_cut_into_lines() -> None:
+    sides = " = ".join(f"v_{{{k}}} + 12345,678" for k in range(12))
+    file = opened(word_document(Document.of([Formula(sides)]), RU))
+    assert len(list(file.element.body.iter(f"{M}oMathPara"))) > 2
+
+
+@pytest.mark.skipif(not shutil.which("soffice"), reason="LibreOffice is absent")
+@pytest.mark.skipif(not shutil.which("pdftotext"), reason="poppler is absent")
+def test_libreoffice_opens_it(data: bytes, tmp_path: Path) -> None:
+    (tmp_path / "note.docx").write_bytes(data)
+    home = f"-env:UserInstallation={(tmp_path / 'home').as_uri()}"
+    order = ["soffice", home, "--headless", "--convert-to", "pdf", "note.docx"]
+    subprocess.run(order, cwd=tmp_path, capture_output=True, timeout=120, check=True)
+    shown = subprocess.run(
+        ["pdftotext", "-layout", "note.pdf", "-"], cwd=tmp_path, capture_output=True, timeout=60
+    ).stdout.decode()
+    assert "Содержание" in shown and "Рисунок 1 – План" in shown and "(1.2)" in shown
+    assert not re.search(r"[_^\\]", shown)  # the brace is that of the system
