@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import re
 from typing import cast
 
 import pytest
+from noted import note
 
 from planmethod.note import document
 from planmethod.note.document import Document, Equation, Node, Term, table_of
@@ -77,3 +79,12 @@ def test_figures_are_captions_and_a_title_page_is_lines() -> None:
         "Вуз\\\nКафедра\\\nЗаписка\\\nОмск 2026\n\n"
         "*Рисунок 1 – План $v_{B}$*\n\n1. Попов\n2. Юдин\n"
     )
+
+
+def test_every_node_is_written_and_each_brace_and_dollar_has_its_pair() -> None:
+    text = markdown_document(note(), language("ru"))
+    assert text.count("{") == text.count("}")
+    assert len(re.findall(r"(?<!\\)\$", text)) % 2 == 0
+    for shown in ("## Содержание", "- 1 Кинематика", "#### 1.1.1. Группа 2–3", "- 1 $n_{1}"):
+        assert shown in text
+    assert "см. ($1.2$)" in text or "см. (1.2)" in text
