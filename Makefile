@@ -11,7 +11,7 @@ LINKAGES = $(sort $(filter-out $(TASKS) problems/point/% problems/gears/% proble
 # tree, also where the environment forbids it: to compile anew in every process is a tenth of the time.
 TESTS := PYTHONDONTWRITEBYTECODE= PYTHONPYCACHEPREFIX=$(CURDIR)/$(VENV)/bytecode $(BIN)/python -m pytest -n 2 --dist loadfile
 
-.PHONY: demo test test-every test-thorough outputs lint size format tables schema messages tasks gallery group bench clean
+.PHONY: demo test test-every test-thorough outputs lint size format tables schema messages tasks gallery group bench dist clean
 
 # The compat mode is a plain path entry: the default finder costs every command a tenth of a second.
 $(VENV)/.ready: pyproject.toml
@@ -92,5 +92,11 @@ bench: $(VENV)/.ready
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --config-settings editable_mode=compat -e '.[bench]'
 	$(BIN)/python -m benchmarks $(LINKAGES)
 
+# Source distribution and wheel in dist/, and the wheel tried in a clean environment.
+dist: $(VENV)/.ready
+	rm -rf dist build
+	$(BIN)/python -m build --outdir dist
+	$(BIN)/python scripts/wheel.py dist
+
 clean:
-	rm -rf $(VENV) build *.egg-info out/*.svg out/*.pdf out/*.png
+	rm -rf $(VENV) build dist *.egg-info out/*.svg out/*.pdf out/*.png

@@ -69,7 +69,7 @@ def protocol(
             refuse_plans(kind, phi=phi is not None, position=position is not None)
             told = kind.protocol_document(problem, words, hand)
         else:
-            solution = solution_of(todo.linkage, phi, hand)
+            solution = solution_of(todo.linkage, phi, hand, machine=True)
             count = len(solution.positions)
             chosen = position
             if chosen is None:

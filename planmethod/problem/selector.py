@@ -15,7 +15,7 @@ from planmethod.problem import fields, keys
 from planmethod.problem.fields import Faults
 from planmethod.problem.flat import read_flat
 from planmethod.problem.head import Published
-from planmethod.problem.names import listed, near, near_hint, segment, short
+from planmethod.problem.names import indexed, listed, near, near_hint, segment, short
 
 if TYPE_CHECKING:
     from planmethod.problem.load_records import Dynamics
@@ -181,6 +181,9 @@ def _parse_one(text: str) -> Selector:
         told = "'{0}' takes {1} name{2:||s}, got {3}"
         raise SelectorError(say(told, kind, wanted, 1 if wanted == "1" else 2, len(names)))
     selector = Selector(kind, tuple(names))
+    if kind in FORCES:
+        indices = (indexed(n) if role is NameRole.LOAD else n for n, role in roles(selector))
+        selector = Selector(kind, tuple(indices))
     for pair in _must_differ(selector):
         if len(set(pair)) != len(pair):
             raise SelectorError(say("'{}' needs two different names", kind))

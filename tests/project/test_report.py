@@ -8,6 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from worked import ROOT, path_of
 
 from planmethod.kinds import load
 from planmethod.note import document
@@ -27,7 +28,6 @@ from planmethod.project.settle import settle
 from planmethod.render.ink.drawing import Text
 from planmethod.solved.machine.drawing import drawing_of
 from planmethod.solved.machine.flywheel import flywheel_of
-from tests.worked import ROOT, path_of
 
 FILES = {
     "shaper": ROOT / "tests/data/projects/shaper.toml",

@@ -49,27 +49,45 @@ def chain_of(nodes: Iterable[Node], room: float) -> Iterator[tuple[str, tuple[No
     """Yield the parts of a formula that may stand on lines of their own, each with its sign.
 
     The parts are the sides of its equalities. A side that is wider than ``room`` (in heights of the
-    font) is written in one line, without fractions, and cut into the terms of its sums.
+    font) is cut into the terms of its sums; a term that still is, is written in one line, without
+    fractions, and cut at every sum.
     """
     for sign, side in sides(nodes):
         if ems(side) <= room:
             yield sign, side
-        else:
-            yield from _terms(sign, inline(side))
+            continue
+        for plus, term in _terms(sign, side, outside=True):
+            if ems(term) <= room:
+                yield plus, term
+            else:
+                yield from _terms(plus, inline(term), outside=False)
 
 
-def _terms(sign: str, nodes: Iterable[Node]) -> Iterator[tuple[str, tuple[Node, ...]]]:
+def _terms(
+    sign: str, nodes: Iterable[Node], *, outside: bool
+) -> Iterator[tuple[str, tuple[Node, ...]]]:
+    """Yield the terms of sums, each with its sign; of those ``outside`` of brackets alone."""
     term: list[Node] = []
+    depth = 0
     for node in nodes:
         if not isinstance(node, Letters):
             term.append(node)
             continue
-        first, *rest = _SUMS.split(node.text)
-        term += [Letters(first)] if first else []
-        for plus, text in zip(rest[::2], rest[1::2], strict=True):
-            yield sign, tuple(term)
-            sign, term = plus, [Letters(text)] if text else []
+        start = 0
+        for found in _SUMS.finditer(node.text):
+            before = node.text[: found.start()]
+            opened = depth + sum((s in "([") - (s in ")]") for s in before)
+            if outside and opened:
+                continue
+            yield sign, (*term, *_some(node.text[start : found.start()]))
+            sign, term, start = found[1], [], found.end()
+        depth += sum((s in "([") - (s in ")]") for s in node.text)
+        term += _some(node.text[start:])
     yield sign, tuple(term)
+
+
+def _some(text: str) -> tuple[Letters, ...]:
+    return (Letters(text),) if text else ()
 
 
 def lines_of(nodes: Sequence[Node], room: float) -> list[tuple[Node, ...]]:

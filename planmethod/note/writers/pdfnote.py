@@ -306,6 +306,9 @@ class _Setter:
                 yield self._text(f"{lead}{line}", self._style())
 
     def _displayed(self, nodes: Sequence[Any], number: str) -> Flowable:
+        whole = self._formulas.set(nodes)
+        if whole.width <= self._width - 8.0 * SIZE * bool(number):
+            return self._lines([whole], number)
         room = 0.85 * self._width / SIZE
         return self._lines([self._formulas.set(line) for line in lines_of(nodes, room)], number)
 

@@ -60,6 +60,11 @@ DPI = 300
 _WHEN = datetime(2000, 1, 1)
 _MM_PER_POINT = 25.4 / 72.0
 _PAD = 4.0
+_AFTER_FIELDS = ("w:hdrShapeDefaults", "w:footnotePr", "w:endnotePr", "w:compat", "w:docVars",
+                 "w:rsids", "m:mathPr", "w:themeFontLang", "w:clrSchemeMapping", "w:shapeDefaults",
+                 "w:decimalSymbol", "w:listSeparator")  # fmt: skip
+"""What of the settings stands after the wish that fields be computed: Word minds the order."""
+
 _HEADINGS = ("Heading 1", "Heading 2", "Heading 3")
 _LANGUAGES = {"ru": "ru-RU", "en": "en-US"}
 _SVG = "http://schemas.microsoft.com/office/drawing/2016/SVG/main"
@@ -171,7 +176,12 @@ class _Writer:
         if self._is_note and settings.find(qn("w:updateFields")) is None:
             update = OxmlElement("w:updateFields")
             update.set(qn("w:val"), "true")
-            settings.insert(0, update)
+            after = (child for child in settings if child.tag in map(qn, _AFTER_FIELDS))
+            place = next(after, None)
+            if place is None:
+                settings.append(update)
+            else:
+                place.addprevious(update)
         made, found = BytesIO(), BytesIO()
         self._file.save(made)
         with ZipFile(made) as parts, ZipFile(found, "w", ZIP_DEFLATED) as timeless:
@@ -326,6 +336,7 @@ class _Writer:
         self._styles.put(beside, "Formula")
         beside.alignment = WD_ALIGN_PARAGRAPH.RIGHT
         beside.add_run(f"({number})")
+        small_paragraph(self._file.add_paragraph())  # tables one after another would be one
 
     def _grid(self, rows: int, widths: Sequence[float], *, lines: bool = True) -> Any:
         """Return an empty table whose columns are so many mm wide."""
@@ -470,13 +481,13 @@ class _Writer:
     def _contents(self) -> None:
         """Put the field of the contents, with what it will show until it is brought up to date."""
         self._text(self._say.contents, "Contents Heading")
-        fields = self._paragraph("TOC 1")
+        fields = self._paragraph("toc 1")
         for kind in ("begin", 'TOC \\o "1-3" \\h \\z \\u', "separate"):
             field_part(fields, kind)
         place = fields
         for mark, (level, number, title) in enumerate(self._headings, 1):
-            place = place if mark == 1 else self._paragraph(f"TOC {level}")
-            self._styles.put(place, f"TOC {level}")
+            place = place if mark == 1 else self._paragraph(f"toc {level}")
+            self._styles.put(place, f"toc {level}")
             self._flow.put(7.1)
             link = OxmlElement("w:hyperlink")
             link.set(qn("w:anchor"), _mark_name(mark))
@@ -593,7 +604,7 @@ class _Styles:
         self._made("Title Block", 1.0, 0.0, middle, size=8.0)
         self._made("Page Number Line", 1.0, 0.0, middle, size=TABLE_SIZE)
         for level in (1, 2, 3):
-            style = self._made(f"TOC {level}", 1.25, 0.0, left)
+            style = self._made(f"toc {level}", 1.25, 0.0, left)
             if style is not None:
                 form = style.paragraph_format
                 form.left_indent, form.right_indent = Mm(7.0 * (level - 1)), Mm(10.0)
@@ -632,7 +643,11 @@ class _Styles:
         if name in known and not self._new:
             return None
         styles = self._file.styles
-        style = self[name] if name in known else styles.add_style(name, WD_STYLE_TYPE.PARAGRAPH)
+        if name in known:
+            style = self[name]
+        else:
+            is_own = not name.startswith("toc ")
+            style = styles.add_style(name, WD_STYLE_TYPE.PARAGRAPH, builtin=not is_own)
         if name not in known:
             style.base_style = self["Normal"]
         self._format(style, spacing, indent, alignment)

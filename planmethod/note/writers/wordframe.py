@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from docx.enum.table import WD_ROW_HEIGHT_RULE
+from docx.enum.table import WD_CELL_VERTICAL_ALIGNMENT, WD_ROW_HEIGHT_RULE
 from docx.enum.text import WD_ALIGN_PARAGRAPH, WD_LINE_SPACING
 from docx.oxml import OxmlElement, parse_xml
 from docx.oxml.ns import qn
@@ -178,21 +178,16 @@ def _table(footer: Any, widths: tuple[float, ...], heights: tuple[float, ...]) -
     indent = OxmlElement("w:tblInd")
     indent.set(qn("w:w"), str(int(Mm(BINDING - 30.0).twips)))
     indent.set(qn("w:type"), "dxa")
-    properties.append(indent)
-    properties.append(
-        _borders("w:tblBorders", ("top", "left", "bottom", "right", "insideV"), _THICK)
-    )
-    inside = OxmlElement("w:insideH")
-    for key, value in (("val", "single"), ("sz", str(_THIN)), ("color", "000000")):
-        inside.set(qn(f"w:{key}"), value)
-    properties[-1].append(inside)
     margins = OxmlElement("w:tblCellMar")
     for side in ("left", "right"):
         margin = OxmlElement(f"w:{side}")
         margin.set(qn("w:w"), "0")
         margin.set(qn("w:type"), "dxa")
         margins.append(margin)
-    properties.append(margins)
+    layout = properties.find(qn("w:tblLayout"))  # Word minds the order
+    layout.addprevious(indent)
+    layout.addprevious(_borders())
+    layout.addnext(margins)
     for column, width in zip(table.columns, widths, strict=True):
         column.width = Mm(width)
     for row, height in zip(table.rows, heights, strict=True):
@@ -205,10 +200,12 @@ def _table(footer: Any, widths: tuple[float, ...], heights: tuple[float, ...]) -
     return table
 
 
-def _borders(name: str, sides: tuple[str, ...], size: int) -> Any:
-    borders = OxmlElement(name)
-    for side in sides:
+def _borders() -> Any:
+    """Return the lines of a title block: thin between its rows, thick elsewhere."""
+    borders = OxmlElement("w:tblBorders")
+    for side in ("top", "left", "bottom", "right", "insideH", "insideV"):
         line = OxmlElement(f"w:{side}")
+        size = _THIN if side == "insideH" else _THICK
         for key, value in (("val", "single"), ("sz", str(size)), ("color", "000000")):
             line.set(qn(f"w:{key}"), value)
         borders.append(line)
@@ -231,7 +228,7 @@ def _write(
 ) -> None:
     """Write into a cell, in the middle or at its left side."""
     cell = table.cell(row, column)
-    cell.vertical_alignment = 1
+    cell.vertical_alignment = WD_CELL_VERTICAL_ALIGNMENT.CENTER
     for extra in cell.paragraphs[1:]:
         extra._p.getparent().remove(extra._p)
     place = cell.paragraphs[0]
