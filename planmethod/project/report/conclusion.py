@@ -21,6 +21,7 @@ from planmethod.project.report.results import (
     worst,
 )
 from planmethod.project.report.turn import has_turn
+from planmethod.solved.errors.forces import drawn_forces, size_label
 from planmethod.solved.forces.reading import force_reading
 from planmethod.solved.turn.turn import turn_of
 
@@ -92,12 +93,13 @@ def _forces(report: Report, said: Words) -> Iterator[Rich]:
     reading, say = force_reading(report.one, 0), report.say
     joints = reading.statics.reactions
     most = max(joints, key=lambda joint: abs(complex(joint.force[0])))
+    read = float(drawn_forces(reading.statics).read(size_label(most))[0])
     plans, lever = both_balances(reading)
     balancing = reading.balancing
     yield said.forces.format(
         position=report.in_position,
         symbol=report.reaction(most),
-        value=report.quantity(abs(complex(most.force[0])), "N"),
+        value=report.quantity(read, "N"),
         name=said["balancing"][balancing.quantity],
         balancing=say.symbol(reading.balancing_symbol),
         balance=report.quantity(abs(plans), balancing.unit),
@@ -147,7 +149,6 @@ def back(report: Report) -> Iterator[Node]:
     yield StructuralHeading(said.sources.format())
     yield References((*([escape(source)] if source else []), *said["standards"]))
     yield StructuralHeading(said.sheets.format())
-    yield sentences(said.sheets_text.format())
     names: Words = said["names"]
     rows = []
     for number, part in enumerate(report.project.parts, 1):
@@ -155,6 +156,11 @@ def back(report: Report) -> Iterator[Node]:
         if part.name is PartName.KINEMATICS and not has_turn(report):
             key = "kinematics_one"
         rows.append((str(number), str(names[key]).format()))
+    if len(rows) == 1:
+        ((_, only),) = rows
+        yield sentences(said.sheet_text.format(sheet=f"{only[0].lower()}{only[1:]}"))
+        return
+    yield sentences(said.sheets_text.format())
     yield Table(
         tuple(said["columns_sheets"]), tuple(rows), 2, name=said.sheets_table.format(), key="sheets"
     )
