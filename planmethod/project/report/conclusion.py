@@ -10,16 +10,13 @@ from planmethod.note.document import Item, Node, References, StructuralHeading, 
 from planmethod.note.formula import Rich, escape, inlined
 from planmethod.note.narrate.forces.lever import both_balances, difference, expected
 from planmethod.note.wording import Words
+from planmethod.plans.legend import kinds_on
+from planmethod.plans.model import RATES
 from planmethod.project.model import PartName
 from planmethod.project.report.context import Report, sentences
 from planmethod.project.report.flywheel import machine_of
 from planmethod.project.report.gears import ratio_of
-from planmethod.project.report.results import (
-    ACCELERATIONS,
-    VELOCITIES,
-    compared,
-    worst,
-)
+from planmethod.project.report.results import compared, worst
 from planmethod.project.report.turn import has_turn
 from planmethod.solved.errors.forces import drawn_forces, size_label
 from planmethod.solved.forces.reading import force_reading
@@ -56,8 +53,8 @@ def _structure(report: Report, said: Words) -> Rich:
 
 def _motion(report: Report, said: Words) -> Rich:
     say, facts = report.say, {}
-    for name, kinds in (("velocity", VELOCITIES), ("acceleration", ACCELERATIONS)):
-        most = worst(compared(report.one, 0, *kinds))
+    for plan in RATES:
+        name, most = plan.value, worst(compared(report.one, 0, *kinds_on(plan)))
         if most is None:
             return ""
         facts[name] = most.quantity.symbol
