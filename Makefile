@@ -11,7 +11,7 @@ LINKAGES = $(sort $(filter-out $(TASKS) problems/point/% problems/gears/% proble
 # tree, also where the environment forbids it: to compile anew in every process is a tenth of the time.
 TESTS := PYTHONDONTWRITEBYTECODE= PYTHONPYCACHEPREFIX=$(CURDIR)/$(VENV)/bytecode $(BIN)/python -m pytest -n 2 --dist loadfile
 
-.PHONY: demo test test-every test-thorough outputs lint size format tables schema messages tasks gallery group bench clean
+.PHONY: demo test test-every test-thorough outputs lint size format tables schema examples messages tasks gallery group bench dist clean
 
 # The compat mode is a plain path entry: the default finder costs every command a tenth of a second.
 $(VENV)/.ready: pyproject.toml
@@ -63,6 +63,10 @@ tables: $(VENV)/.ready
 schema: $(VENV)/.ready
 	$(BIN)/python -m scripts.reference
 
+# What commands print, in the pages of docs/ that show it.
+examples: $(VENV)/.ready
+	$(BIN)/python -m scripts.examples
+
 # The sentences of click in the other languages, as gettext reads them.
 messages: $(VENV)/.ready
 	for text in planmethod/note/wording/*/LC_MESSAGES/click.po; do \
@@ -92,5 +96,11 @@ bench: $(VENV)/.ready
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --config-settings editable_mode=compat -e '.[bench]'
 	$(BIN)/python -m benchmarks $(LINKAGES)
 
+# Source distribution and wheel in dist/, and the wheel tried in a clean environment.
+dist: $(VENV)/.ready
+	rm -rf dist build
+	$(BIN)/python -m build --outdir dist
+	$(BIN)/python scripts/wheel.py dist
+
 clean:
-	rm -rf $(VENV) build *.egg-info out/*.svg out/*.pdf out/*.png
+	rm -rf $(VENV) build dist *.egg-info out/*.svg out/*.pdf out/*.png

@@ -225,7 +225,7 @@ def _lost(count: int, folder: Path) -> tuple[str, list[Bound]]:
     try:
         import distributed  # noqa: F401
     except ImportError:
-        return "; no batch, dask is missing: pip install 'planmethod[batch]'", []
+        return "; no batch, dask is missing: pip install 'dask[distributed]'", []
     sent = min(count, SENT)
     said = killed([*variants(sent, folder), "--format", "pdf"], folder)
     _run(

@@ -39,12 +39,14 @@ class Fault(Struct, frozen=True):
     """One fault of a problem file (ошибка в файле задачи).
 
     ``path`` is where, as ``links.2.slides.on``; ``expected`` and ``got`` say what stands there;
-    ``hint`` is the next action, for instance the nearest name.
+    ``hint`` is the next action, for instance the nearest name. ``choices`` are values that may
+    stand there, where the file has to take one of them.
     """
 
     path: str
     message: str
     hint: str = ""
+    choices: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
         force_setattr(self, "message", say(self.message))

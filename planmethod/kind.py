@@ -72,6 +72,16 @@ class ProblemKind(ABC, Generic[P]):
     ) -> list[Drawing]:
         """Return the sheets; ``before`` of the set of ``total`` go before them."""
 
+    def live_page(self, problem: P, lang: str) -> str:
+        """Return the page that ``live`` writes.
+
+        Raises
+        ------
+        ProblemError
+            Such problems have no page that moves.
+        """
+        raise self._without(problem, "live page")
+
     def audited(self, problem: P, ruler: float) -> list[Audited]:
         """Return printed values beside the exact ones and those read with a ruler.
 

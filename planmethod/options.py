@@ -242,6 +242,13 @@ def out_option(command: F) -> F:
     )(command)
 
 
+def open_option(command: F) -> F:
+    """Add the showing of what is written."""
+    return click.option(
+        "--open", "shown", is_flag=True, help="Show what is written in the system's viewer."
+    )(command)
+
+
 def position_option(command: F) -> F:
     """Add the number of the calculated position."""
     return click.option(
@@ -289,6 +296,11 @@ def drawing_options(command: F) -> F:
             "--sigma/--no-sigma",
             default=None,
             help="Show the drafting errors in the table of results.",
+        ),
+        click.option(
+            "--all-positions",
+            is_flag=True,
+            help="However many sheets they take: more than six of a file are refused without it.",
         ),
         click.option(
             "--errors", is_flag=True, help="Draw the error ellipses of the drafting, 2 sigma."

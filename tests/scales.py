@@ -27,6 +27,8 @@ def uneven_scales(sheet: Drawing) -> Iterator[str]:
         if view.scale and not is_round(view.per_mm):
             yield f"{view.kind}: {view.scale} = {view.per_mm}"
     for item in sheet.items:
-        found = _INSCRIBED.match(item.text) if isinstance(item, Text) else None
-        if found and "рад" not in item.text and not is_round(float(found[1].replace(",", "."))):
+        if not isinstance(item, Text):
+            continue
+        found = _INSCRIBED.match(item.text)
+        if found and " рад" not in item.text and not is_round(float(found[1].replace(",", "."))):
             yield item.text

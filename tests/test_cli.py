@@ -5,7 +5,9 @@ from __future__ import annotations
 import csv
 import io
 import json
+import math
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -17,7 +19,11 @@ from click.testing import CliRunner, Result
 from worked import ROOT, path_of
 
 from planmethod.cli import cli
+from planmethod.commands.problems import load_unsettled
 from planmethod.problem import FAMILIES, OTHER_FAMILIES, load
+from planmethod.problem.cycle_records import PROJECT_PARTS
+from planmethod.problem.families import MACHINES
+from planmethod.project.settle import settle
 from planmethod.render.backends.output import write
 
 EX1, EX2, EX3 = (str(path_of(f"linkages/ex{n}")) for n in (1, 2, 3))
@@ -154,8 +160,8 @@ def test_a_problem_is_done_with_code_0(command: str) -> None:
         ("solve", EX1, "--ruler", "fine"),
         ("solve", EX1, "--lang", "de"),
         ("solve", VARIANTS, "--variant", "А", "--all-variants"),
-        ("protocol", EX1, "--position", "0"),
-        ("protocol", EX1, "--position", "2"),
+        ("protocol", EX1, "--position", "-1"),
+        ("protocol", EX1, "--position", "1"),
         ("sheet", EX1, "--format", "dwg"),
         ("sheet", EX1, "--format", ""),
         ("sheet", EX1, "--paper", "A9"),
@@ -417,9 +423,9 @@ def test_structure_in_english() -> None:
 
 
 def test_a_protocol_of_a_position() -> None:
-    told = run("protocol", EX1, "--phi", "60,90", "--position", "2").output
+    told = run("protocol", EX1, "--phi", "60,90", "--position", "1").output
     assert "90°" in told
-    assert told != run("protocol", EX1, "--phi", "60,90", "--position", "1").output
+    assert told != run("protocol", EX1, "--phi", "60,90", "--position", "0").output
 
 
 def test_a_protocol_in_a_file() -> None:
@@ -427,6 +433,11 @@ def test_a_protocol_in_a_file() -> None:
     assert done.exit_code == 0
     assert files("notes") == ["ex1-protocol.txt"]
     assert Path("notes/ex1-protocol.txt").read_text("utf-8") == run("protocol", EX1).output
+
+
+def test_a_protocol_as_markdown() -> None:
+    assert run("protocol", EX1, "--format", "md", "-o", "notes").exit_code == 0
+    assert Path("notes/ex1-protocol.md").read_text("utf-8").startswith("# Протокол")
 
 
 # New ----------------------------------------------------------------------------------------------
@@ -462,6 +473,42 @@ def test_a_new_problem_is_ready_to_solve(family: str) -> None:
     assert run("sheet", "mine.toml", "--format", "svg").exit_code == 0
 
 
+@pytest.mark.parametrize("family", MACHINES)
+def test_a_new_machine_is_one_from_the_loads_to_the_flywheel(family: str) -> None:
+    """Its loads work against the machine (an engine's for it), its flywheel is one that is made."""
+    assert run("new", family, "mine.toml").exit_code == 0
+    text = Path("mine.toml").read_text("utf-8")
+    done = run("solve", "mine.toml", "--json")
+    assert done.exit_code == 0
+    assert not done.stderr
+    told = json.loads(done.stdout)["machine"]
+    assert told["work_per_cycle"] > 0
+    wheel = told["flywheel"]
+    assert 0.1 < wheel["b"] / wheel["D"] < 0.3
+    assert 0.2 < wheel["D"] < 1.2
+    assert wheel["m"] < 500
+    for layout in ("forces", "coursework"):
+        drawn = run("sheet", "mine.toml", "--layout", layout, "--format", "svg")
+        assert drawn.exit_code == 0, drawn.output
+    varied = re.sub(r"# (\[variants|driver\.|loads\.)", r"\1", text)
+    Path("mine.toml").write_text(varied, "utf-8")
+    assert run("solve", "mine.toml", "--variant", "Б").exit_code == 0
+
+
+def test_a_new_project_has_all_parts_and_its_train_drives_the_crank() -> None:
+    assert run("new", "project", "mine.toml").exit_code == 0
+    path = Path("mine.toml")
+    made = settle(load_unsettled(path, None), path)
+    assert [part.name.value for part in made.parts] == list(PROJECT_PARTS[:-1])
+    assert made.problem.drive.rate == pytest.approx(80 * math.pi / 30)
+    wheels = path.read_text("utf-8")
+    z = [int(found) for found in re.findall(r"\b[45] = (\d+)", wheels)]
+    assert f"z = {z}" in wheels  # the meshing is that of the last pair
+    done = run("project", "mine.toml", "--parts", "meshing", "--json")
+    assert done.exit_code == 0, done.output
+    assert json.loads(done.stdout)["strokes"]["K_v"] > 1
+
+
 def test_a_new_problem_has_the_familys_name_and_spares_what_is_there() -> None:
     assert run("new", "four-bar").exit_code == 0
     assert files(".") == ["four-bar.toml"]
@@ -478,6 +525,7 @@ def test_a_mistyped_family_comes_with_the_nearest() -> None:
     refused = run("new", "fourbar")
     assert refused.exit_code == 2
     assert "no family 'fourbar'; did you mean 'four-bar'?" in refused.output
+    assert "did you mean 'linkages-2.1.45'?" in run("new", "2.1.45").output
 
 
 # Files --------------------------------------------------------------------------------------------

@@ -40,7 +40,7 @@ if TYPE_CHECKING:
     from planmethod.check.marks import Settings
     from planmethod.commands.processes import Outcome
 
-NEEDS = "batch needs dask: pip install 'planmethod[batch]'"
+NEEDS = "batch needs dask: pip install 'dask[distributed]'"
 
 MANIFEST = "batch.jsonl"
 """What was made and of what, in the folder of the files: a line for each variant."""
@@ -155,6 +155,7 @@ def batch(
     sigma: bool | None,
     dpi: int,
     dxf_text: Literal["text", "strokes"],
+    all_positions: bool,
     sheets: bool,
     keys: bool,
     settings: Path | None,
@@ -196,6 +197,7 @@ def batch(
         formats=formats,
         dpi=dpi,
         dxf_text=dxf_text,
+        all_positions=all_positions,
     )
     ordered = partial(
         VariantOrder,
@@ -345,8 +347,8 @@ def _cluster(scheduler: str | None, jobs: int) -> Iterator[Client]:
             ) from None
         except ImportError as error:
             raise UsageError(
-                "--scheduler {}: a worker cannot begin: {}. Install there: pip install "
-                "'planmethod[batch]'",
+                "--scheduler {}: a worker cannot begin: {}. Install planmethod and "
+                "'dask[distributed]' there.",
                 scheduler,
                 error,
             ) from None

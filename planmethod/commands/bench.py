@@ -47,7 +47,7 @@ def bench(
             import mpmath  # noqa: F401  the judge
         except ImportError:
             raise UsageError(
-                "bench needs mpmath: pip install 'planmethod[referee]'; --only drafting, "
+                "bench needs mpmath: pip install mpmath; --only drafting, "
                 "cycle, machine and checking do not"
             ) from None
     todo: list[Todo] = []

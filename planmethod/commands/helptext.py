@@ -16,7 +16,7 @@ from contextlib import contextmanager
 
 import click
 
-from planmethod.languages import WORDING, speaking, translated
+from planmethod.languages import WORDING, say, speaking, translated
 
 DOMAIN = "click"
 """Domain of `gettext` in which the sentences of click stand."""
@@ -52,7 +52,38 @@ class Spoken(click.Command):
         options = [param.opts for param in self.params if isinstance(param, click.Option)]
         long = {name: max(names, key=len) for names in options for name in names}
         end = args.index("--") if "--" in args else len(args)
-        return super().parse_args(ctx, [*(long.get(a, a) for a in args[:end]), *args[end:]])
+        words = [*(long.get(a, a) for a in args[:end]), *args[end:]]
+        if not ctx.resilient_parsing:
+            self._refuse_repeated(ctx, words)
+        return super().parse_args(ctx, words)
+
+    def _refuse_repeated(self, ctx: click.Context, words: list[str]) -> None:
+        """Refuse an option of one value that is given twice; click takes the last silently."""
+        single = {
+            param.name: param
+            for param in self.params
+            if isinstance(param, click.Option) and not param.multiple and not param.count
+        }
+        told = copy.copy(self)
+        told.params = [_repeatable(param) for param in self.params]
+        given, _, _ = told.make_parser(ctx).parse_args(args=list(words))
+        for name, values in given.items():
+            option = single.get(name)
+            if option is None or len(values) < 2 or (option.is_flag and len({*values}) < 2):
+                continue  # a flag that is given twice says nothing else
+            if option.is_flag:
+                said = say("give {} or {}, not both", max(option.opts), max(option.secondary_opts))
+            else:
+                listed = ", ".join(
+                    " ".join(one) if isinstance(one, tuple) else one for one in values
+                )
+                said = say(
+                    "{0} is given {1} time{1:||s}: {2}. Give it once.",
+                    max(option.opts, key=len),
+                    len(values),
+                    listed,
+                )
+            raise click.UsageError(said, ctx)
 
     def get_help(self, ctx: click.Context) -> str:
         """Return the help, of the options as well."""
@@ -69,6 +100,14 @@ class Spoken(click.Command):
         told = copy.copy(self)
         told.help = translated(inspect.cleandoc(self.help or ""))
         return told
+
+
+def _repeatable(param: click.Parameter) -> click.Parameter:
+    """Return a parameter that keeps all values it is given."""
+    kept = copy.copy(param)
+    if isinstance(kept, click.Option) and not kept.count:
+        kept.multiple = True
+    return kept
 
 
 def _translated(param: click.Parameter, ctx: click.Context) -> click.Parameter:

@@ -1,4 +1,4 @@
-"""Command ``live``: the mechanism and its plans moving, one HTML file."""
+"""Command ``live``: a mechanism and its plans, or a gear train, moving: one HTML file."""
 
 from __future__ import annotations
 
@@ -7,24 +7,39 @@ from pathlib import Path
 import click
 
 from planmethod.commands.helptext import Spoken
-from planmethod.commands.output import put
+from planmethod.commands.output import put, show
 from planmethod.commands.problems import Todo, each, finish, guarded, stem
-from planmethod.options import lang_option, out_option, problem_options
+from planmethod.options import lang_option, open_option, out_option, problem_options
 
 
 @click.command(cls=Spoken)
 @problem_options
 @out_option
 @lang_option
+@open_option
 @guarded
 def live(
-    problems: tuple[Path, ...], variant: str | None, all_variants: bool, out: Path, lang: str
+    problems: tuple[Path, ...],
+    variant: str | None,
+    all_variants: bool,
+    out: Path,
+    lang: str,
+    shown: bool,
 ) -> None:
-    """Write a page where the mechanism and its plans move: one HTML file for any browser."""
+    """Write a page where a mechanism and its plans, or a gear train, move, for any browser."""
     from planmethod.render.live.page import live_page
 
-    def write(todo: Todo) -> None:
-        problem = todo.linkage
-        put(live_page(problem, lang), str(out / f"{stem(problem)}-live.html"))
+    written: list[Path] = []
 
-    finish(each(problems, variant, all_variants, write, kinds=False))
+    def write(todo: Todo) -> None:
+        page = out / f"{stem(todo.problem)}-live.html"
+        if todo.kind is None:
+            put(live_page(todo.linkage, lang), str(page))
+        else:
+            put(todo.kind.live_page(todo.problem, lang), str(page))
+        written.append(page)
+
+    code = each(problems, variant, all_variants, write)
+    if shown and written:
+        show(written[0])
+    finish(code)

@@ -9,8 +9,9 @@ import click
 from planmethod.commands.asked import PaperRequest, sheet_options
 from planmethod.commands.decided import decided, note_options
 from planmethod.commands.helptext import Spoken
+from planmethod.commands.output import show
 from planmethod.commands.problems import guarded, stem
-from planmethod.options import BadParameter, out_option, position_option
+from planmethod.options import BadParameter, open_option, out_option, position_option
 
 FORMATS = ("docx", "pdf")
 
@@ -41,6 +42,7 @@ def read_formats(ctx: click.Context, param: click.Parameter, value: str) -> tupl
 @note_options
 @out_option
 @sheet_options
+@open_option
 @guarded
 def note(
     problem: Path,
@@ -51,6 +53,7 @@ def note(
     frame: bool,
     out: Path,
     asked: PaperRequest,
+    shown: bool,
 ) -> None:
     """Write the explanatory note of a project, or of one homework, for Word and as PDF."""
     from planmethod.project.notes import NoteOptions, note_files
@@ -63,3 +66,5 @@ def note(
     write_all(out, files)
     for name in files:
         click.echo(str(out / name))
+    if shown:
+        show(out / next(iter(files)))

@@ -50,6 +50,7 @@ def refuse_unknown(said: str, name: str, known: Sequence[str], told: str = "") -
         from difflib import get_close_matches
 
         near = get_close_matches(name, known, 1)
+        near = near or [one for one in known if one.endswith(f"-{name}")]
         hint = say("; did you mean {!r}?", near[0]) if near else "."
         listed = told or ", ".join(known)
         raise UsageError("{}{} Known: {}.", say(said, name), hint, listed)
@@ -74,15 +75,17 @@ def write_drawings(
     dpi: int = 100,
     author: str | None = None,
     dxf_text: Literal["text", "strokes"] = "strokes",
-) -> None:
-    """Write the sheets of a problem; files appear only when all are made (`drawing_files`)."""
+) -> list[Path]:
+    """Write the sheets of a problem and return the files; all or none appear (`drawing_files`)."""
     from planmethod.render.backends.output import write
 
     files = drawing_files(drawings, stem, formats, dpi=dpi, author=author, dxf_text=dxf_text)
     for name, data in files.items():
         write(out / name, data)
-    for name in files:
-        click.echo(str(out / name))
+    paths = [out / name for name in files]
+    for path in paths:
+        click.echo(str(path))
+    return paths
 
 
 def drawing_files(
@@ -114,6 +117,17 @@ def drawing_files(
             name = f"{stem}.{fmt}" if number == 1 else f"{stem}-{number}.{fmt}"
             files[name] = render(drawing, fmt, options=options)
     return files
+
+
+def show(path: Path) -> None:
+    """Open a written file in the system's program for it, once in a run; say so where none does."""
+    opened = click.get_current_context().meta.setdefault("planmethod.opened", set())
+    if path in opened:
+        return
+    opened.add(path)
+    if click.launch(str(path)):
+        told = "Note: no program of this system opens {}; open the file yourself."
+        click.echo(say(told, path), err=True)
 
 
 def write_set(drawings: Sequence[Drawing], path: Path, *, author: str | None = None) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import functools
+import re
 import sys
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from functools import partial
@@ -23,6 +24,7 @@ if TYPE_CHECKING:
     from planmethod.options import Positions
     from planmethod.problem.head import KindProblem
     from planmethod.problem.model import Problem
+    from planmethod.solved.machine.flywheel import Flywheel
     from planmethod.solved.solution import Solution
 
 F = TypeVar("F", bound=Callable[..., Any])
@@ -46,9 +48,22 @@ MANY = 6
 """Number of problems from which a command shows its progress."""
 
 
-def fail(error: PlanMethodError) -> None:
-    """Say what went wrong."""
-    click.echo(say("Error: {}", error), err=True)
+def fail(error: PlanMethodError, names: Sequence[str] = ()) -> None:
+    """Say what went wrong, and with which of several problems: see `named`."""
+    click.echo(say("Error: {}", named(str(error), names)), err=True)
+
+
+def named(told: str, names: Sequence[str]) -> str:
+    """Return a message with the first of some names of its problem before it, if it has none."""
+    whole = (rf"(?<![\w-]){re.escape(name)}(?![\w-])" for name in names)
+    if not names or any(re.search(name, told) for name in whole):
+        return told
+    return f"{names[0]}: {told}"
+
+
+def names_of(path: Path, name: str, variant: str | None) -> Sequence[str]:
+    """Return what a problem may be called in a message; a variant is not called as its file."""
+    return (str(path), name) if variant is None else (f"{name}-{variant}",)
 
 
 def guarded(command: F) -> F:
@@ -198,14 +213,18 @@ def through(
             fail(error)
     done = 0
     try:
-        for step in watched(steps(todo), len(todo)):
+        for one, step in zip(todo, watched(steps(todo), len(todo)), strict=True):
+            problem, is_one = one.problem, len(paths) + len(todo) == 2
+            names = () if is_one else names_of(one.path, problem.name, problem.variant)
             try:
                 value = step()
                 if take is not None and value is not None:
                     take(value)
             except PlanMethodError as error:
                 codes.append(error.exit_code)
-                fail(error)
+                fail(error, names)
+            except click.UsageError as error:
+                raise click.UsageError(named(error.message, names), error.ctx) from error
             done += 1
     except KeyboardInterrupt:
         if len(todo) > 1:
@@ -279,6 +298,15 @@ def warn(problem: Problem, said: object) -> None:
     click.echo(say("Warning: {}: {}", problem.name, said), err=True)
 
 
+def tell_wheel(wheel: Flywheel) -> None:
+    """Warn of a flywheel that is wide for its diameter."""
+    from planmethod.solved.machine.sizes import too_wide
+
+    said = too_wide(wheel.machine.wheel, wheel.exact.inertia, wheel.middle_speed)
+    if said is not None:
+        warn(wheel.problem, said)
+
+
 def tell_changes(problem: Problem, phi: Positions | None) -> None:
     """Tell of change points between the positions of a problem that is solved elsewhere."""
     from planmethod.solved.selfcheck import changed_branches
@@ -296,6 +324,7 @@ def solution_of(
     *,
     hint: str = "",
     forces: bool = False,
+    machine: bool = False,
 ) -> Solution:
     """Solve a problem, check the solution, and report the doubts about it.
 
@@ -307,6 +336,8 @@ def solution_of(
         What else can be asked where one of several positions is refused.
     forces : bool
         The forces must exist, too, where there are loads.
+    machine : bool
+        The flywheel is looked at as well.
     """
     from planmethod.solved.selfcheck import changed_branches, verify, warnings
     from planmethod.solved.solution import Solution
@@ -326,4 +357,8 @@ def solution_of(
         raise AssemblyError(f"{error}{say(hint)}") from error
     for doubt in warnings(solution):
         warn(problem, doubt)
+    if machine and problem.machine is not None:
+        from planmethod.solved.machine.flywheel import flywheel_of
+
+        tell_wheel(flywheel_of(solution))
     return solution

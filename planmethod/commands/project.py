@@ -14,8 +14,8 @@ from msgspec import Struct
 from planmethod.commands.asked import PaperRequest, sheet_options
 from planmethod.commands.decided import decided, note_options
 from planmethod.commands.helptext import Spoken
-from planmethod.commands.output import bar, json_text
-from planmethod.commands.problems import guarded, stem
+from planmethod.commands.output import bar, json_text, show
+from planmethod.commands.problems import guarded, stem, tell_wheel
 from planmethod.errors import ExitCode, PlanMethodError
 from planmethod.options import (
     BadParameter,
@@ -23,6 +23,7 @@ from planmethod.options import (
     dxf_text_option,
     format_option,
     jobs_option,
+    open_option,
     out_option,
     position_option,
 )
@@ -45,6 +46,14 @@ class MadePart(Struct, frozen=True):
     """Files of one task of the work, and its sheets."""
 
     files: Files
+    drawings: tuple[Drawing, ...] = ()
+
+
+class WritingTask(Struct, frozen=True):
+    """What is written: the sheets of a part, all sheets, the note or the numbers."""
+
+    name: str
+    stem: str = ""
     drawings: tuple[Drawing, ...] = ()
 
 
@@ -88,6 +97,7 @@ def read_parts(
 @sheet_options
 @dxf_text_option
 @jobs_option
+@open_option
 @guarded
 def project(
     problem: Path,
@@ -102,6 +112,7 @@ def project(
     asked: PaperRequest,
     dxf_text: Literal["text", "strokes"],
     jobs: int,
+    shown: bool,
 ) -> None:
     """Make a course project: all sheets, the note and the numbers, decided once.
 
@@ -117,6 +128,10 @@ def project(
     chosen = decided(problem, variant, position, settled)
     wanted = _wanted(chosen, parts)
     written = SheetFormats(formats, settled.author(chosen.problem), dxf_text)
+    if "flywheel" in wanted:
+        from planmethod.solved.machine.flywheel import Flywheel
+
+        tell_wheel(Flywheel(chosen.problem))
     options = NoteOptions(settled.fields, template, frame)
     made, files = _made(chosen, wanted, options, written, jobs)
     name = stem(chosen.problem)
@@ -129,6 +144,9 @@ def project(
     else:
         for file in files:
             click.echo(str(folder / file))
+    if shown:
+        pages = (WHOLE, *(file for file in files if file.endswith(".pdf")), *files)
+        show(folder / next(file for file in pages if file in files))
 
 
 # What is asked -----------------------------------------------------------------------------------
@@ -179,55 +197,63 @@ def _made(
     shown = [name for name in sheets if name in wanted]
     with bar(len(sheets) + len(texts) + len(shown) + whole, long=True) as done:
         drawn: dict[str, MadePart] = {}
-        # The longest first, so that processes end alike.
-        tasks = [*texts[:-1], *sheets, texts[-1]]
-        for name, one in _shared(partial(draw, project=chosen, options=options), tasks, jobs):
+        for name, one in _shared(partial(draw, project=chosen, options=options), sheets, jobs):
             drawn[name] = one
             done(1)
         numbered = numbered_set(chosen, [drawn[name].drawings for name in sheets])
         sets = {name: tuple(some) for name, some in zip(sheets, numbered, strict=True)}
-        files_of = [(name, names[name], sets[name]) for name in shown]
+        # The note takes the longest: with it first, all processes end alike.
+        tasks: list[WritingTask] = [WritingTask(name) for name in texts]
+        tasks += [WritingTask(name, names[name], sets[name]) for name in shown]
         if whole:
-            files_of.append((WHOLE, "project", tuple(d for some in numbered for d in some)))
-        for name, one in _shared(partial(render, written=written), files_of, jobs):
+            tasks.append(WritingTask(WHOLE, "project", tuple(d for some in numbered for d in some)))
+        work = partial(write, project=chosen, options=options, formats=written)
+        for name, one in _shared(work, tasks, jobs):
             files |= one.files
             done(1)
-            if name != WHOLE:
-                named.append(PartFiles(PartName(name), tuple(one.files), len(sets[name])))
-    for name in texts:
-        files |= drawn[name].files
-        if name == "note":
-            named.append(PartFiles(PartName.NOTE, tuple(drawn[name].files), 0))
-    return named, files
+            if name in sets or name == "note":
+                count = len(sets.get(name, ()))
+                named.append(PartFiles(PartName(name), tuple(one.files), count))
+    order = [*PROJECT_PARTS]
+    named.sort(key=lambda part: order.index(part.name.value))
+    return named, _ordered(named, files)
 
 
 def draw(task: str, *, project: Project, options: NoteOptions) -> tuple[str, MadePart]:
-    """Draw the sheets of a part, or make the note or the numbers."""
+    """Draw the sheets of a part."""
     from planmethod.project.sheets import part_drawings
 
-    if task == NUMBERS:
-        from planmethod.project.numbers import numbers_workbook
-
-        return task, MadePart({NUMBERS: numbers_workbook(project)})
-    if task == "note":
-        from planmethod.project.notes import note_files
-
-        return task, MadePart(note_files(project, "note", options))
     part: ProjectPart = next(part for part in project.parts if part.name.value == task)
     return task, MadePart({}, tuple(part_drawings(project, part, options.fields)))
 
 
-def render(
-    task: tuple[str, str, tuple[Drawing, ...]], *, written: SheetFormats
+def write(
+    task: WritingTask, *, project: Project, options: NoteOptions, formats: SheetFormats
 ) -> tuple[str, MadePart]:
-    """Write the sheets of a part in all formats; all sheets together as one PDF."""
+    """Write the sheets of a part in all formats, all sheets together as PDF, the note, numbers."""
+    if task.name == NUMBERS:
+        from planmethod.project.numbers import numbers_workbook
+
+        return task.name, MadePart({NUMBERS: numbers_workbook(project)})
+    if task.name == "note":
+        from planmethod.project.notes import note_files
+
+        return task.name, MadePart(note_files(project, "note", options))
     from planmethod.commands.output import drawing_files
 
-    name, stem, drawings = task
-    formats = ("pdf",) if name == WHOLE else written.formats
-    return name, MadePart(
-        drawing_files(drawings, stem, formats, author=written.author, dxf_text=written.dxf_text)
+    kinds = ("pdf",) if task.name == WHOLE else formats.formats
+    return task.name, MadePart(
+        drawing_files(
+            task.drawings, task.stem, kinds, author=formats.author, dxf_text=formats.dxf_text
+        )
     )
+
+
+def _ordered(named: Sequence[PartFiles], files: Files) -> Files:
+    """Return files in the order of their parts, those of all of them behind."""
+    first = [file for part in named if part.sheets for file in part.files]
+    rest = [file for file in (WHOLE, *files) if file in files and file not in first]
+    return {file: files[file] for file in dict.fromkeys([*first, *rest])}
 
 
 def _shared(
@@ -239,7 +265,7 @@ def _shared(
     several = jobs > 1 and len(tasks) > 1
     outcomes = in_processes(act, tasks, jobs) if several else iter([None] * len(tasks))
     for task, outcome in zip(tasks, outcomes, strict=True):
-        name = task if isinstance(task, str) else task[0]
+        name = task if isinstance(task, str) else task.name
         try:
             if not several:
                 yield act(task)

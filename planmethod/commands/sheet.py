@@ -12,7 +12,7 @@ from msgspec.structs import replace
 
 from planmethod.commands.asked import PaperRequest, Settled, sheet_options
 from planmethod.commands.helptext import Spoken
-from planmethod.commands.output import write_drawings, write_set
+from planmethod.commands.output import show, write_drawings, write_set
 from planmethod.commands.problems import (
     Todo,
     each,
@@ -21,9 +21,12 @@ from planmethod.commands.problems import (
     refuse_plans,
     stem,
     tell_changes,
+    tell_wheel,
+    warn,
 )
 from planmethod.commands.watch import watch_option
 from planmethod.errors import LayoutError
+from planmethod.languages import say
 from planmethod.options import (
     BadParameter,
     Positions,
@@ -33,6 +36,7 @@ from planmethod.options import (
     format_option,
     jobs_option,
     layout_option,
+    open_option,
     out_option,
     position_option,
     problem_options,
@@ -63,6 +67,11 @@ class SheetOptions(Struct, frozen=True, kw_only=True):
     formats: tuple[str, ...]
     dpi: int
     dxf_text: Literal["text", "strokes"]
+    all_positions: bool = False
+
+
+MOST_SHEETS = 6
+"""Sheets of one problem that nobody is asked about."""
 
 
 def read_name(ctx: click.Context, param: click.Parameter, value: str | None) -> str | None:
@@ -118,6 +127,7 @@ def compacted(problem: Problem, positions: Sequence[float] | None) -> Problem:
 )
 @drawing_options
 @jobs_option
+@open_option
 @watch_option(draws=True)
 @guarded
 def sheet(
@@ -138,7 +148,9 @@ def sheet(
     sigma: bool | None,
     dpi: int,
     dxf_text: Literal["text", "strokes"],
+    all_positions: bool,
     jobs: int,
+    shown: bool,
 ) -> None:
     """Draw the framed sheet: scheme, velocity and acceleration plans, equations, tables."""
     from planmethod.render.sheets.composition.reader import composition
@@ -163,10 +175,15 @@ def sheet(
         formats=formats,
         dpi=dpi,
         dxf_text=dxf_text,
+        all_positions=all_positions,
     )
     if one_file is None:
         act = partial(draw, options=options)
-        finish(each(problems, variant, all_variants, act, jobs=jobs))
+        files: list[Path] = []
+        code = each(problems, variant, all_variants, act, jobs=jobs, take=files.append)
+        if shown and files:
+            show(files[0])
+        finish(code)
         return
     whole: list[tuple[Todo, int, list[Drawing]]] = []
 
@@ -187,13 +204,16 @@ def sheet(
             _write(todo, options, apart, drawings, before=before, total=named)
         pages = [drawing for *_, drawings in whole for drawing in drawings]
         write_set(pages, out / one_file, author=options.settled.author(first.problem))
+        if shown:
+            show(out / one_file)
     finish(code)
 
 
-def draw(todo: Todo, options: SheetOptions) -> None:
-    """Draw and write the sheets of a problem."""
+def draw(todo: Todo, options: SheetOptions) -> Path:
+    """Draw and write the sheets of a problem; return the file to look at, a PDF if there is one."""
     todo = _settled(todo, options)
-    _write(todo, options, options.formats, None)
+    files = _write(todo, options, options.formats, None)
+    return next((file for file in files if file.suffix == ".pdf"), files[0])
 
 
 def _settled(todo: Todo, options: SheetOptions) -> Todo:
@@ -205,7 +225,54 @@ def _settled(todo: Todo, options: SheetOptions) -> Todo:
         # What a project decided is of its own positions.
         todo = replace(todo, problem=replace(todo.linkage, calculated=options.position))
     tell_changes(todo.linkage, options.phi)
+    if options.layout is not None and options.phi is None:
+        _tell_positions(todo.linkage, options.layout)
+    if todo.linkage.machine is not None and _has_flywheel(options.layout):
+        from planmethod.solved.machine.flywheel import Flywheel
+
+        tell_wheel(Flywheel(todo.linkage))
     return todo
+
+
+def _tell_positions(problem: Problem, layout: str) -> None:
+    """Warn that the sheets of the cycle leave the positions of a file without [cycle] out."""
+    from planmethod.render.sheets.composition.reader import composition
+
+    drive = problem.drive
+    if problem.cycle is not None or not drive.is_crank or len(drive.positions) < 2:
+        return
+    if not composition(layout).cycle:
+        return
+    from planmethod.problem.model import SAME_DEG
+    from planmethod.solved.solution import Solution
+    from planmethod.solved.turn.numbering import numbered_positions
+
+    positions = numbered_positions(Solution(problem)).tolist()
+    apart = [abs((a - b + 180.0) % 360.0 - 180.0)
+             for a, b in zip(positions, drive.positions, strict=False)]  # fmt: skip
+    if len(positions) != len(drive.positions) or max(apart) > SAME_DEG:
+        told = say(
+            "layout {} has the positions of the cycle, {} from {:.5g}° on, not the {} of "
+            "driver.phi from {:.5g}° on. With [cycle] zero = {:g}, count = {} in place of phi all "
+            "outputs have the same; --phi asks others.",
+            layout,
+            len(positions),
+            positions[0],
+            len(drive.positions),
+            drive.positions[0],
+            drive.positions[0],
+            len(drive.positions),
+        )
+        warn(problem, told)
+
+
+def _has_flywheel(layout: str | None) -> bool:
+    """Whether the sheets show the sizes of a flywheel."""
+    from planmethod.render.sheets.composition.reader import composition
+
+    return layout is not None and any(
+        entry.kind == "flywheel" for entry in composition(layout).blocks
+    )
 
 
 def _drawn(
@@ -244,6 +311,7 @@ def _drawn(
         errors=errors,
         sigma=sigma,
         layout=layout,
+        most=None if options.all_positions or options.compact else MOST_SHEETS,
     )
 
 
@@ -255,8 +323,8 @@ def _write(
     *,
     before: int = 0,
     total: int | None = None,
-) -> None:
-    """Write the sheets of a problem, drawn now if they are not drawn yet."""
+) -> list[Path]:
+    """Write the sheets of a problem, drawn now if they are not drawn yet; return the files."""
     formats = list(formats)
     # What a CAD program measures is drawn as such programs draw, if nobody wants another hand.
     cad = None
@@ -271,7 +339,12 @@ def _write(
         author=options.settled.author(todo.problem),
         dxf_text=options.dxf_text,
     )
+    files: list[Path] = []
     if formats:
-        write(drawings or _drawn(todo, options, before=before, total=total), formats=formats)
+        files += write(
+            drawings or _drawn(todo, options, before=before, total=total), formats=formats
+        )
     if cad is not None:
-        write(_drawn(todo, options, before=before, total=total, hand=cad), formats=["dxf"])
+        drawings = _drawn(todo, options, before=before, total=total, hand=cad)
+        files += write(drawings, formats=["dxf"])
+    return files

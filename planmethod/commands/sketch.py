@@ -7,12 +7,12 @@ from pathlib import Path
 import click
 
 from planmethod.commands.helptext import Spoken
-from planmethod.commands.output import write_drawings
-from planmethod.commands.problems import fail, finish, guarded, variants_of
+from planmethod.commands.output import show, write_drawings
+from planmethod.commands.problems import fail, finish, guarded, names_of, variants_of
 from planmethod.commands.watch import watch_option
 from planmethod.errors import ExitCode, Fault, PlanMethodError, ProblemError
 from planmethod.languages import say
-from planmethod.options import format_option, lang_option, out_option, problem_options
+from planmethod.options import format_option, lang_option, open_option, out_option, problem_options
 
 PAGE = (
     '<!DOCTYPE html><meta charset="utf-8"><meta http-equiv="refresh" content="1">'
@@ -26,7 +26,7 @@ PAGE = (
 @out_option
 @format_option("svg")
 @lang_option
-@click.option("--open", "shown", is_flag=True, help="Show it in the browser.")
+@open_option
 @watch_option()
 @guarded
 def sketch(
@@ -42,11 +42,13 @@ def sketch(
     codes: list[ExitCode] = []
     for path in problems:
         try:
-            for name in variants_of(path, variant, all_variants):
+            variants = variants_of(path, variant, all_variants)
+            for name in variants:
                 error = _draw(path, name, out, formats, lang)
                 if error is not None:
                     codes.append(error.exit_code)
-                    fail(error)
+                    is_one = len(problems) + len(variants) == 2
+                    fail(error, () if is_one else names_of(path, path.stem, name))
                 if shown:
                     _show(out / f"{_stem(path, name)}.{formats[0]}")
         except PlanMethodError as error:
@@ -95,9 +97,5 @@ def _show(picture: Path) -> None:
     from planmethod.render.backends.output import write
 
     page = picture.with_suffix(".html")
-    opened = click.get_current_context().meta.setdefault("planmethod.opened", set())
-    if page in opened:
-        return
-    opened.add(page)
     write(page, PAGE.format(picture=picture.name).encode())
-    click.launch(str(page))
+    show(page)

@@ -42,6 +42,7 @@ from planmethod.options import (
 )
 
 if TYPE_CHECKING:
+    from planmethod.construct.drafting import Profile
     from planmethod.note.records.spreadsheet import SpreadsheetRows
     from planmethod.problem.model import Problem
     from planmethod.solved.many.gaps import GappedSweep
@@ -288,7 +289,7 @@ def _computed(
     elif options.as_json:
         from planmethod.note.records.solution import record_in_columns
 
-        solution, more = solution_of(problem, phi, hand, hint=HINT, forces=True), {}
+        solution, more = _whole(problem, phi, hand), {}
         if referee is not None:
             from planmethod.note.tables.referee import referee_record
 
@@ -302,7 +303,7 @@ def _computed(
         from planmethod.note.writers.plain import plain_document
 
         words = language(options.lang)
-        solution = solution_of(problem, phi, hand, hint=HINT, forces=True)
+        solution = _whole(problem, phi, hand)
         click.echo(plain_document(results_document(solution, words, sigma=options.sigma), words))
         if referee is not None:
             from planmethod.note.tables.referee import referee_document
@@ -312,11 +313,15 @@ def _computed(
     return None
 
 
+def _whole(problem: Problem, phi: Positions | None, hand: Profile) -> Solution:
+    return solution_of(problem, phi, hand, hint=HINT, forces=True, machine=True)
+
+
 def _need_mpmath() -> None:
     try:
         import mpmath  # noqa: F401
     except ImportError:
-        raise UsageError("--referee needs mpmath: pip install 'planmethod[referee]'") from None
+        raise UsageError("--referee needs mpmath: pip install mpmath") from None
 
 
 def _refuse_contradictions(

@@ -76,6 +76,12 @@ class GearTrains(ProblemKind["GearProblem"]):
 
         return drawings(problem, fields=fields, profile=profile, before=before, total=total)
 
+    def live_page(self, problem: GearProblem, lang: str) -> str:
+        """Return the page that ``live`` writes."""
+        from planmethod.gears.live import live_page
+
+        return live_page(problem, lang)
+
     def audited(self, problem: GearProblem, ruler: float) -> list[Audited]:
         """Return printed values beside the exact ones and those read with a ruler."""
         from planmethod.gears.audit import audited

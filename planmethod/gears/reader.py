@@ -156,6 +156,14 @@ def _read_groups(
     if not isinstance(value, list) or len(value) > GROUP_LIMIT:
         faults.expected(path, "a list of lists", value, '[["3", "H"]]')
         return []
+    if value and not any(isinstance(group, list) for group in value):
+        written = ", ".join(f'"{label}"' for label in value)
+        faults.add(
+            path,
+            "expected a list of lists, got one list of labels",
+            say("Write {} = [[{}]].", path.partition(".")[2], written),
+        )
+        return []
     return [_known(faults, f"{path}[{i}]", group, known) for i, group in enumerate(value)]
 
 

@@ -259,7 +259,7 @@ def _published(problem: GearProblem, motion: TrainMotion, words: Language) -> It
     say, rows, notes = words.say, [], []
     for one in problem.published:
         exact, name = answer(motion, one.what).value, escape(one.name)
-        off = "" if not exact else say.found(100 * (one.value / exact - 1))
+        off = "" if not exact else say.found(100 * (one.value - exact) / abs(exact))
         printed = say.number(f"{one.value:g}")
         rows.append([name, printed, "—" if exact is None else say.found(exact), off])
         if one.note:

@@ -2,15 +2,24 @@
 
 from __future__ import annotations
 
+MACHINES = ("shaper", "press", "crusher", "conveyor", "engine")
+"""Names of those that have loads, a cycle and a flywheel, too."""
+
 FAMILIES = (
     "slider-crank", "four-bar", "slotted-link", "swinging-block", "sine", "six-link",
     "driving-slider", "RRR+RRP", "RRP+RPR", "RRP+PRP", "RPR+RPP", "RRR+RPR", "RRR+RRR",
-    "moving-guide", "shaper", "whitworth", "toggle-press", "v-engine", "oscillating-cylinder",
-    "pantograph", "watt", "stephenson",
+    "moving-guide", "whitworth", "toggle-press", "v-engine", "oscillating-cylinder",
+    "pantograph", "watt", "stephenson", *MACHINES, "project",
 )  # fmt: skip
 """Names of those of linkages; what they are stands in `planmethod.note.wording`."""
 
-OTHER_FAMILIES = ("ordinary-train", "planetary-train", "differential-train", "moving-point")
+OTHER_FAMILIES = (
+    "ordinary-train",
+    "planetary-train",
+    "differential-train",
+    "meshing",
+    "moving-point",
+)
 """Names of those of the other kinds of problem."""
 
 

@@ -15,7 +15,7 @@ from planmethod.problem.fields import Faults, Table
 from planmethod.problem.links import LinkText
 from planmethod.problem.load_records import Against, Couple, Fixed, Load
 from planmethod.problem.model import Drive
-from planmethod.problem.names import listed, near_hint
+from planmethod.problem.names import indexed, listed, near_hint
 from planmethod.problem.sizes import TURN, read_phase, read_size
 
 NAME_LIMIT = 40
@@ -107,6 +107,8 @@ def _read_names(faults: Faults, bodies: Iterable[Table]) -> list[str | None]:
                 path, "a letter with its indices", name, "For example: F_{5}, P, M_{1}^{c}."
             )
             name = None
+        if name is not None:
+            name = indexed(name)
         if name is not None and name in names:
             twin = names.index(name)
             faults.add(

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Mapping
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from itertools import permutations
 
 from msgspec import Struct, field
@@ -304,12 +304,32 @@ def _read_angles(faults: Faults, path: str, value: object, link: LinkText) -> No
             continue
         strangers = [point for point in dict.fromkeys(names) if point not in link.points]
         if strangers and link.whole:
-            hint = say("Its points are {}.", listed(link.points))
+            hint = _hint_for_slot(link, lines, item) or say(
+                "Its points are {}.", listed(link.points)
+            )
             faults.add(where, say("link {} has no point '{}'", link.name, strangers[0]), hint)
         angle = fields.read_angle(faults, where, item)
         if angle is not None and not strangers:
             one, two = ((line[0], line[1]) for line in lines)
             link.angles.append(Angle(key, one, two, angle))
+
+
+def _hint_for_slot(link: LinkText, lines: Sequence[tuple[str, ...]], value: object) -> str | None:
+    """Return how a slot's line is told that the file names by the pin of the stone in it."""
+    own = link.points[:2]
+    for (slot, arm), sign in (((lines[0], lines[1]), -1), ((lines[1], lines[0]), 1)):
+        ends = [point for point in slot if point in link.points]
+        if len(ends) != 1 or {*arm} != {*own} or not fields.is_number(value):
+            continue
+        (pin,) = {*slot} - {*ends}
+        turned = sign * float(value) + 180 * ((arm != own) + (slot[1] != pin))
+        return say(
+            "Its points are {0}. Where {1} is the pin of a stone on the line {2}{1}, leave this "
+            'key out and write on the stone slides = {{ on = "{3}", through = "{2}", angle = '
+            "{4:g} }}, the angle from {5} to {2}{1}.",
+            listed(link.points), pin, ends[0], link.name, (turned + 180) % 360 - 180, "".join(own),
+        )  # fmt: skip
+    return None
 
 
 def _report_odd_key(faults: Faults, path: str, key: str, value: object, link: LinkText) -> None:

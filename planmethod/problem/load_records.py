@@ -147,7 +147,8 @@ class LoadEntry(Struct, frozen=True):
     name: Annotated[
         str,
         TextKey(
-            "letter for the sheets, with indices in braces: `F_{5}`, `M_{1}^{c}`, `P`",
+            "letter for the sheets, with indices in braces: `F_{5}`, `M_{1}^{c}`, `P`; `F5` is "
+            "`F_{5}`",
             40,
             more=", each load its own. When absent: `F_{5}`, `F_{5}'`, ... for forces on link 5, "
             "`M_{5}`, ... for couples",

@@ -66,9 +66,17 @@ class FlywheelTask(Struct, frozen=True):
     density: Annotated[
         float | None, NumberKey("density", "a density", "kg/m³", 100.0, 3e4, absent="steel")
     ] = None
-    speed: Annotated[float, NumberKey("greatest speed of the rim", "a speed", "m/s", 0.1, 1e3)] = (
-        30.0
-    )
+    speed: Annotated[
+        float | None,
+        NumberKey(
+            "greatest speed of the rim",
+            "a speed",
+            "m/s",
+            0.1,
+            1e3,
+            absent="50 of steel, 30 where the density is below 7500 (cast iron)",
+        ),
+    ] = None
     ratio: Annotated[
         float,
         NumberKey(
@@ -76,6 +84,17 @@ class FlywheelTask(Struct, frozen=True):
             "a ratio of speeds", low=1e-3, high=1e3,
         ),
     ] = 1.0  # fmt: skip
+
+    @property
+    def greatest_speed(self) -> float:
+        """Speed that the rim may have, m/s: the file's, else what its material stands."""
+        if self.speed is not None:
+            return self.speed
+        return 30.0 if self.density is not None and self.density < CAST_IRON else 50.0
+
+
+CAST_IRON = 7500.0
+"""Density below which a flywheel is of cast iron, not of steel, kg/m³."""
 
 
 class KlossTable(Struct, frozen=True):

@@ -151,6 +151,11 @@ def listed(names: Iterable[str], *, limit: int = 12) -> str:
     return say("{}, ... ({} in all)", text, len(every)) if len(every) > limit else text
 
 
+def indexed(name: str) -> str:
+    """Return the letter of a load with its number as its index: ``F3`` is ``F_{3}``."""
+    return re.sub(r"\A([^\W\d_]+)(\d+)(?='*\Z)", r"\1_{\2}", name)
+
+
 def short(text: str, limit: int = 40) -> str:
     """Cut a stranger's text to a length that a message can carry."""
     return text if len(text) <= limit else text[: limit - 3] + "..."

@@ -15,7 +15,7 @@ from planmethod.problem import fields, keys
 from planmethod.problem.fields import Faults
 from planmethod.problem.flat import read_flat
 from planmethod.problem.head import Published
-from planmethod.problem.names import listed, near, near_hint, segment, short
+from planmethod.problem.names import indexed, listed, near, near_hint, segment, short
 
 if TYPE_CHECKING:
     from planmethod.problem.load_records import Dynamics
@@ -181,6 +181,9 @@ def _parse_one(text: str) -> Selector:
         told = "'{0}' takes {1} name{2:||s}, got {3}"
         raise SelectorError(say(told, kind, wanted, 1 if wanted == "1" else 2, len(names)))
     selector = Selector(kind, tuple(names))
+    if kind in FORCES:
+        indices = (indexed(n) if role is NameRole.LOAD else n for n, role in roles(selector))
+        selector = Selector(kind, tuple(indices))
     for pair in _must_differ(selector):
         if len(set(pair)) != len(pair):
             raise SelectorError(say("'{}' needs two different names", kind))
@@ -256,9 +259,6 @@ def unknown_names(
         extra = {POLE} if selector.kind.startswith("segment") else set()
         found = [name for name in selector.names if name not in points and name not in extra]
     return found + (unknown_names(selector.over, points, links, loads) if selector.over else [])
-
-
-TABLE_KEYS = ("gears", "point", "meshing")
 
 
 def read_published(
@@ -358,7 +358,7 @@ def check_what(
 def read_tables(faults: Faults, table: Mapping[str, Any]) -> dict[str, Any]:
     """Take over the tables that later parts read, checking no more than their TOML type."""
     found: dict[str, Any] = {}
-    for key in TABLE_KEYS:
+    for key in keys.OF_KINDS:
         if key not in table:
             continue
         value = fields.read_table(faults, key, table[key])

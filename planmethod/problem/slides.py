@@ -13,7 +13,7 @@ from planmethod.problem.bodies import heading
 from planmethod.problem.fields import Faults, Table
 from planmethod.problem.links import LinkText, read_label
 from planmethod.problem.model import Body, Slide
-from planmethod.problem.names import looks_latin, segment
+from planmethod.problem.names import looks_latin, segment, split_pair
 
 Guide = tuple[str | None, complex, float]
 """Name of the fixed point (or None), base in m, angle in degrees."""
@@ -200,7 +200,7 @@ def read_slide(
             if key in given:
                 hint = "The line is given by along, or by through and angle."
                 faults.add(f"{path}.{key}", "does not go with 'along'", hint)
-        line = fields.read_line_name(faults, f"{path}.along", given["along"], body.points, of=owner)
+        line = _read_along(faults, f"{path}.along", given["along"], pin, body, owner)
         if line is None or len(faults) != before:
             return None
         start, end = body.points[line[0]], body.points[line[1]]
@@ -219,6 +219,33 @@ def read_slide(
         return None
     base = body.points[through]
     return Slide(link.name, host, pin, base, angle, offset, through, through, length=length)
+
+
+def _read_along(
+    faults: Faults,
+    path: str,
+    value: object,
+    pin: str,
+    body: Body,
+    owner: Callable[[], str],
+) -> tuple[str, str] | None:
+    """Read the two points of a line; the pin of the stone itself is told to be none of them."""
+    pair = split_pair(value) if isinstance(value, str) else None
+    points = list(body.points)
+    if pair is None or pin not in pair or pin in points or len(points) < 2:
+        return fields.read_line_name(faults, path, value, points, of=owner)
+    start = next((point for point in pair if point in points), points[0])
+    faults.add(
+        path,
+        say("{} is the pin of the stone, no point of {}", pin, owner()),
+        say(
+            'A line needs no second point: through = "{0}", angle = 0 is a slot along {1}, angle = '
+            "90 one across it.",
+            start,
+            "".join(points[:2]),
+        ),
+    )
+    return None
 
 
 def _read_through(

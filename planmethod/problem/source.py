@@ -14,7 +14,7 @@ from typing import Any
 from planmethod.errors import Fault, ProblemError
 from planmethod.languages import say
 from planmethod.problem.mistyped import line_hint
-from planmethod.problem.names import near
+from planmethod.problem.names import listed, near
 
 SIZE_LIMIT = 256 * 1024
 LINE_LIMIT = 8192
@@ -145,14 +145,22 @@ def _too_large(name: str) -> ProblemError:
 
 
 def _nearby(path: Path) -> str:
-    """Hint for a missing file: the nearest name in its folder."""
+    """Hint for a missing file: the nearest names in its folder, or those that are there."""
     try:
+        if not path.parent.is_dir():
+            return say("There is no folder '{}' either. Check the path.", path.parent)
         found = zip(range(1000), path.parent.glob("*.toml"), strict=False)
-        names = [p.name for _, p in found if p.name != path.name]  # a link that leads nowhere
+        names = sorted(p.name for _, p in found if p.is_file())  # no link that leads nowhere
     except (OSError, ValueError):
         names = []
-    guess = near(path.name, names)
-    return say("Did you mean '{}'?", path.with_name(guess)) if guess else "Check the path."
+    # What is typed may lack the ending, and what all names end in makes none of them alike.
+    of_stem = {Path(name).stem: name for name in names}
+    guess = of_stem.get(path.name) or of_stem.get(near(path.stem, of_stem) or "")
+    if guess:
+        return say("Did you mean '{}'?", path.with_name(guess))
+    if names:
+        return say("In '{}' there are {}.", path.parent, listed(names, limit=6))
+    return "Check the path."
 
 
 def _depth_exceeds(table: Mapping[str, Any], limit: int) -> bool:

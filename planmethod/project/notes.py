@@ -9,6 +9,8 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from planmethod.note.wording import language
+from planmethod.note.writers.pdfnote import pdf_note
+from planmethod.note.writers.word import word_document
 from planmethod.project.model import Project
 from planmethod.project.report import note_document
 from planmethod.render.frame.titleblock import merged
@@ -52,8 +54,6 @@ def note_files(
     files: dict[str, bytes] = {}
     for fmt in formats:
         if fmt == "docx":
-            from planmethod.note.writers.word import word_document
-
             files[f"{stem}.{fmt}"] = word_document(
                 written,
                 words,
@@ -63,7 +63,5 @@ def note_files(
                 stamp=stamp,
             )
         else:
-            from planmethod.note.writers.pdfnote import pdf_note
-
             files[f"{stem}.{fmt}"] = pdf_note(written, words, author=author)
     return files

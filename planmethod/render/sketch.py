@@ -6,6 +6,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from math import radians
 
 from msgspec import Struct, field
+from msgspec.structs import replace
 
 from planmethod.construct.scale import Scale, choose_scale
 from planmethod.construct.steps import PointName
@@ -23,7 +24,7 @@ from planmethod.render.forces.arrows import Acting, CoupleArc, couple_items, for
 from planmethod.render.ink.drawing import Arc, Drawing, Item, Pen, Stroke
 from planmethod.render.ink.typeset import typeset
 from planmethod.render.labels import Label
-from planmethod.render.layout.block import Block, Column, Picture, paragraph
+from planmethod.render.layout.block import Block, Column, Picture, Row, paragraph
 from planmethod.render.pictures.lettered import lettered
 from planmethod.render.pictures.schemeview import scheme_picture
 from planmethod.render.pictures.seriesview import series_picture
@@ -40,6 +41,11 @@ BOX = (180.0, 130.0)
 
 VIEWS = Views.alone(BOX)
 """The same for whoever chooses the scale."""
+
+WAYS_BOX = (110.0, 85.0)
+"""Room of one of several assemblies, mm."""
+
+WAYS = Views.alone(WAYS_BOX)
 
 HEIGHT, SMALL, WIDTH, EDGE = 5.0, 3.5, 190.0, 6.0
 """Heights of letters, width of the text and white round all, mm."""
@@ -66,11 +72,15 @@ def sketch(part: MechanismPart, title: str, words: Language, said: Sequence[str]
     said : sequence of str
         Text about the file under the scheme, plain text, a paragraph each.
     """
-    picture, facts = _scheme(part, words) if part.solution else _pivots(part, words)
+    ways = part.assemblies if len(part.assemblies) > 1 else ()
+    if ways:
+        picture, facts = _ways(part, words)
+    else:
+        picture, facts = _scheme(part, words) if part.solution else _pivots(part, words)
     if part.links:
         facts.append(words.sheets.not_drawn.format(links=", ".join(part.links)))
     texts = [escape(line) for line in said]
-    blocks: list[Block] = [picture] if picture.items else []
+    blocks: list[Block] = [picture] if not isinstance(picture, Picture) or picture.items else []
     return _set(title, [*blocks, *(paragraph(text, SMALL, WIDTH) for text in (*facts, *texts))])
 
 
@@ -111,6 +121,20 @@ def _scheme(part: MechanismPart, words: Language) -> tuple[Picture, list[str]]:
     if not marks.items and not marks.labels:
         return shown, facts
     return lettered([*shown.items, *marks.items], marks.labels), facts
+
+
+def _ways(part: MechanismPart, words: Language) -> tuple[Block, list[str]]:
+    """Return the assemblies side by side, each under the rules that choose it."""
+    shown: list[Block] = []
+    facts: list[str] = []
+    for way in part.assemblies:
+        one = replace(part, solution=way.solution.filling(WAYS), unsure=())
+        picture, facts = _scheme(one, words)
+        rules = (f'{point} = "{rule}"' for point, rule in way.rules.items())
+        told = words.sheets.assembled.format(rules="; ".join(map(escape, rules)))
+        shown.append(Column([paragraph(told, HEIGHT, WAYS_BOX[0]), picture], gap=3.0))
+    rows = [Row(shown[k : k + 2], gap=10.0) for k in range(0, len(shown), 2)]
+    return Column(rows, gap=8.0), facts
 
 
 def _scale(scale: Scale, convention: Convention, words: Language) -> str:

@@ -291,4 +291,5 @@ def _missing(group: AssurGroup, both: list[Tried], positions: Reals, untold: Rul
             say(both[0][0].problem.unit),
         ),
         hint,
+        tuple(words),
     )

@@ -30,7 +30,7 @@ _WANTED = 10.0  # mm that the shortest segment of a knot has on its view
 _WIDEST = 60.0  # mm that such a view may be across
 
 
-SMALL, SHOWN = 18.0, 28.0
+SMALL, SHOWN = 15.0, 28.0
 """A plan of several positions whose larger side is less than the first is shown enlarged beside
 itself, so that it is the second at least, mm."""
 

@@ -35,6 +35,17 @@ _ASIDE = 1e-4  # of a dead position, degrees
 _FAR = [1.0e3, 1.7e3]  # nearest to it one of two closings is: which one does not matter
 
 
+class PartAssembly(Struct, frozen=True):
+    """One way in which a part closes (сборка), and the rules of ``[assembly]`` that choose it."""
+
+    rules: Mapping[str, str]
+    solution: Solution
+
+
+MOST_WAYS = 4
+"""Assemblies of one part that are shown."""
+
+
 class MechanismPart(Struct, frozen=True):
     """What can be drawn of a file, and what is missing (часть механизма).
 
@@ -54,6 +65,8 @@ class MechanismPart(Struct, frozen=True):
         Fixed points.
     unsure : tuple of str
         Points whose closing is not given: one of two is shown.
+    assemblies : tuple of PartAssembly
+        The ways in which such a part closes, where rules can tell them apart.
     """
 
     solution: Solution | None
@@ -63,6 +76,7 @@ class MechanismPart(Struct, frozen=True):
     links: Mapping[str, tuple[str, ...]] | None = None
     fixed: Mapping[str, complex] | None = None
     unsure: tuple[str, ...] = ()
+    assemblies: tuple[PartAssembly, ...] = ()
 
 
 def largest_part(
@@ -166,7 +180,10 @@ class _Growth:
                     found, kept, grows = bigger, (*kept, *more), True
                     break
         left = {link: self.points(link) for link in self.links if link not in kept}
-        return MechanismPart(found, links=left, fixed=self._fixed(), unsure=tuple(self.unsure))
+        ways = tuple(self._assemblies(kept)) if self.unsure else ()
+        return MechanismPart(
+            found, links=left, fixed=self._fixed(), unsure=tuple(self.unsure), assemblies=ways
+        )
 
     def _drivers(self) -> Iterator[str]:
         """Yield the driver that the file names, and then links that may be one."""
@@ -204,8 +221,8 @@ class _Growth:
         common = set(self.points(one)) & set(self.points(two))
         return bool(common) or host(one) == two or host(two) == one
 
-    def _solved(self, links: tuple[str, ...]) -> Solution | None:
-        """Return the mechanism of some links in the asked positions that exist, if there is one."""
+    def _table(self, links: tuple[str, ...]) -> dict[str, Any]:
+        """Return the file of some links alone."""
         points = {point for link in links for point in self.points(link)}
         rules = self.table.get("assembly")
         rules = rules if isinstance(rules, Mapping) else {}
@@ -216,6 +233,36 @@ class _Growth:
             "assembly": {point: rules[point] for point in rules if point in points},
             "driver": self._driver(links[0]),
         }
+        return table
+
+    def _assemblies(self, links: tuple[str, ...]) -> Iterator[PartAssembly]:
+        """Yield the ways in which some links close, each with the rules that choose it."""
+        table, count = self._table(links), 0
+        given = table["assembly"]
+        todo: list[dict[str, str]] = [{}]
+        while todo and count < MOST_WAYS:
+            rules = todo.pop(0)
+            table["assembly"] = given | rules
+            try:
+                problem = read_parsed(table, source=self.source, name=self.name, train=self.train)
+                solution = Solution(problem, views=self.views)
+                there, _ = _existing(solution)
+            except ProblemError as error:
+                fault = next((one for one in error.faults if one.choices), None)
+                point = "" if fault is None else fault.path.partition(".")[2]
+                if fault is not None and point not in rules:
+                    todo[:0] = [{**rules, point: choice} for choice in fault.choices]
+                continue
+            except PlanMethodError:  # it closes in another way only
+                continue
+            if there.size and rules:
+                count += 1
+                yield PartAssembly(rules, solution.moved(there.tolist()))
+
+    def _solved(self, links: tuple[str, ...]) -> Solution | None:
+        """Return the mechanism of some links in the asked positions that exist, if there is one."""
+        points = {point for link in links for point in self.points(link)}
+        table = self._table(links)
         unsure: list[str] = []
         for _ in range(len(links)):  # every group may want one rule more
             try:

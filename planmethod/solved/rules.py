@@ -141,9 +141,8 @@ def ambiguous_fault(rule: Rule, both: list[Tried], index: int, where: str) -> Fa
         told_place(complex(reading.point(PointName(rule.point))[index]) + draft.origin, unit)
         for _, _, reading in both
     ]
-    words = telling_rules(rule.point, both, slice(index, index + 1)) or [
-        f"{{ near = [{place}] }}" for place in places
-    ]
+    told = telling_rules(rule.point, both, slice(index, index + 1))
+    words = told or [f"{{ near = [{place}] }}" for place in places]
     return Fault(
         f"assembly.{rule.point}",
         say(
@@ -155,6 +154,7 @@ def ambiguous_fault(rule: Rule, both: list[Tried], index: int, where: str) -> Fa
             say(unit),
         ),
         say("Say '{}' for the first or '{}' for the second", words[0], words[1]),
+        tuple(told),
     )
 
 

@@ -463,8 +463,8 @@ class _Drawn(Struct, frozen=True, dict=True):
         scheme = self.kind is PlanKind.POSITION
         several = ALL if self.si.count > 1 and scheme else 0.0
         stroke = STROKE if self.si.count > FEW and scheme else 0.0
-        wide, high = self.size[0] / per_mm, self.size[1] / per_mm
-        return wide + BESIDE + several, high + name + several + stroke
+        width, height = self.size[0] / per_mm, self.size[1] / per_mm
+        return width + BESIDE + several, height + name + several + stroke
 
     def ways(self, per_mm: float) -> Ways:
         """Return the sizes of the view at a scale, mm: of plans in rows with so many in a row."""

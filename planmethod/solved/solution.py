@@ -354,9 +354,10 @@ class Solution(Remembering):
         if calculated is not None and self.positions.tolist() == list(self.problem.drive.positions):
             # Of the calculated position there is a plan alone: it is read as there.
             one = self.moved([float(self.positions[calculated])])
-            for name in {*enlarged, *one.hand.enlarged}:
-                times = enlarged.setdefault(name, np.ones(len(self.positions)))
-                times[calculated] = one.hand.enlarged.get(name, 1.0)
+            others: set[str] = {*enlarged, *one.hand.enlarged}
+            for other in sorted(others):
+                times = enlarged.setdefault(other, np.ones(len(self.positions)))
+                times[calculated] = one.hand.enlarged.get(other, 1.0)
         return Hand(self.profile.ruler, enlarged)
 
     @cached_property

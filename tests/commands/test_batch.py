@@ -46,7 +46,7 @@ class Here:
 @pytest.fixture
 def desk(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """A linkage with variants, and a folder with what the commands make of it and of a point."""
-    pytest.importorskip("distributed", reason="dask is absent: pip install 'planmethod[batch]'")
+    pytest.importorskip("distributed", reason="dask is absent: pip install 'dask[distributed]'")
     monkeypatch.chdir(tmp_path)
     Path("ex3.toml").write_text(path_of("linkages/ex3").read_text("utf-8") + VARIANTS, "utf-8")
     run("sheet", "ex3.toml", "--all-variants", "--format", "pdf", "-o", "own")
@@ -99,4 +99,4 @@ def test_without_dask_the_extra_is_named(monkeypatch: pytest.MonkeyPatch) -> Non
     monkeypatch.setitem(sys.modules, "distributed", None)
     result = CliRunner().invoke(cli, ["batch", POINT])
     assert result.exit_code == 2
-    assert "pip install 'planmethod[batch]'" in result.output
+    assert "pip install 'dask[distributed]'" in result.output

@@ -101,7 +101,7 @@ def test_one_position_that_cannot_be_read_leaves_the_others_as_they_are() -> Non
         assert (hand is None) == (number == 0)
         if number:
             assert hand == pytest.approx(entry["links"]["3"]["omega"], rel=0.05)
-    text = done("protocol", CYCLE, "--position", "1")
+    text = done("protocol", CYCLE, "--position", "0")
     assert "ω₃ на этом плане не читается" in text
     assert "не читается" not in done("protocol", CYCLE, "--position", "2")
     assert done("sheet", CYCLE, "-o", "out")

@@ -9,13 +9,17 @@ from pathlib import Path
 
 import pytest
 from click.testing import CliRunner, Result
+from msgspec.structs import replace
 from worked import path_of, problem_of
 
 from planmethod.cli import cli
 from planmethod.commands.sheet import compacted
+from planmethod.errors import LayoutError
 from planmethod.paper import FORMATS
+from planmethod.render.sheets.kinematics import kinematics_sheets
 
 EX1, EX2 = str(path_of("linkages/ex1")), str(path_of("linkages/ex2"))
+SIX_LINK = str(path_of("levers/six-link"))
 VARIANTS = str(path_of("levers/task12-variants"))
 
 
@@ -38,6 +42,41 @@ def drawn(*args: str) -> str:
     done = run("sheet", EX1, "--format", "svg", *args)
     assert done.exit_code == 0, done.output
     return Path("out/ex1.svg").read_text("utf-8")
+
+
+# How many ----------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("formats", ["svg", "dxf"])
+def test_more_than_six_sheets_of_a_file_are_not_drawn_unasked(formats: str, desk: Path) -> None:
+    args = ("sheet", SIX_LINK, "--layout", "forces", "--phi", "0:360:45", "--format", formats)
+    done = run(*args, "--lang", "en")
+    assert done.exit_code == 2
+    assert "six-link: 8 positions take 8 sheets." in done.output
+    assert "(--phi 150)" in done.output
+    assert "--all-positions" in done.output
+    assert not list(desk.glob("out/*"))
+
+
+def test_a_plan_that_takes_more_sheets_than_it_should_is_not_written() -> None:
+    """The least number is known before the work, the true one after it."""
+    problem = problem_of("linkages/ex1")
+    many = [float(phi) for phi in range(0, 360, 10)]
+    with pytest.raises(LayoutError, match="36 positions take 3 sheets"):
+        kinematics_sheets(problem, positions=many, most=2)
+    small = replace(problem, sheet=replace(problem.sheet, paper="A3"))
+    with pytest.raises(LayoutError, match=r"6 positions take \d sheets"):
+        kinematics_sheets(small, positions=many[::6], most=1)
+    assert kinematics_sheets(problem, positions=[20.0], most=0)
+
+
+def test_all_positions_are_drawn_when_they_are_asked_for(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("planmethod.commands.sheet.MOST_SHEETS", 1)
+    args = ("sheet", EX2, "--phi", "0:360:20", "--format", "svg")
+    assert run(*args).exit_code == 2
+    done = run(*args, "--all-positions")
+    assert done.exit_code == 0, done.output
+    assert len(done.stdout.split()) == 2
 
 
 # Small paper -------------------------------------------------------------------------------------

@@ -92,6 +92,54 @@ def test_of_an_unfinished_file_what_can_be_drawn_is_and_the_rest_is_marked(
     assert drawing.items
 
 
+DYAD = """
+[links.4]
+points = ["C", "E"]
+CE = 0.3
+[links.5]
+points = ["F", "E"]
+FE = 0.3
+"""
+
+
+def ways(text: str) -> list[dict[str, str]]:
+    part = largest_part(tomllib.loads(text), source="x", name="x", views=VIEWS)
+    return [dict(way.rules) for way in part.assemblies]
+
+
+def test_both_assemblies_are_drawn_with_the_rules_that_choose_them() -> None:
+    whole = FOUR_BAR.format(rod=0.4, rocker=0.3, phi=60, rule="above A")
+    text = without(without(whole, "C ="), "[assembly]")
+    rules = ways(text)
+    assert len(rules) == 2
+    drawing, _ = drawn(text)
+    places = set()
+    for one in rules:
+        assert f'C = "{one["C"]}"' in written(drawing)
+        solution = largest_part(
+            tomllib.loads(text + f'\n[assembly]\nC = "{one["C"]}"\n'),
+            source="x",
+            name="x",
+            views=VIEWS,
+        ).solution
+        assert solution is not None
+        places.add(round(float(solution.points["C"].place[0].imag), 6))
+    assert len(places) == 2
+    assert not ways(whole)
+
+
+def test_assemblies_of_a_second_group_follow_those_of_the_first() -> None:
+    """With C above, the dyad closes in two ways; with C below, it does not reach F."""
+    text = FOUR_BAR.format(rod=0.4, rocker=0.3, phi=60, rule="above A")
+    text = (
+        without(without(text, "C ="), "[assembly]").replace("\nD =", "\nF = [0.6, 0.7]\nD =") + DYAD
+    )
+    rules = ways(text)
+    assert [sorted(one) for one in rules] == [["C", "E"], ["C", "E"]]
+    assert len({one["C"] for one in rules}) == 1
+    assert len({one["E"] for one in rules}) == 2
+
+
 def test_arcs_that_do_not_meet_are_drawn_and_the_miss_is_told_for_the_turn() -> None:
     text = FOUR_BAR.format(rod=0.1, rocker=0.25, phi=90, rule="above D")
     drawing, links = drawn(text)

@@ -148,6 +148,7 @@ def test_structure_of_the_third_example() -> None:
             {"signature": "RRP", "class": 2, "order": 2, "kind": 2, "links": ["4", "5"]},
         ],
         "formula": "I(0,1) → II(2,3) → II(4,5)",
+        "frame": "0",
     }
 
 

@@ -143,6 +143,13 @@ def test_the_audit_compares_what_the_sources_print() -> None:
     ]
 
 
+def test_the_difference_has_the_sign_that_the_audit_gives_it() -> None:
+    """Printed less exact, in percent of the size of the exact value: -384.6 is below -375."""
+    lines = run("solve", str(PROBLEMS / "gears/gears-ex2.toml"), "--lang", "en").stdout
+    row = next(line.split() for line in lines.splitlines() if line.split()[:2] == ["n_5", "−384.6"])
+    assert row[-1] == "−2.560"
+
+
 def test_a_ratio_to_what_stands_is_null_with_a_reason(tmp_path: Path) -> None:
     text = FILES[1].read_text("utf-8").replace('"U_1_5"', '"U_1_5", "U_1_3"')
     path = tmp_path / "zero.toml"
@@ -200,6 +207,7 @@ ROW = "wheels = { 1 = 20, 2 = 36 }\nmeshes = [{ of = [1, 2] }]\nn = { 1 = 1 }\n"
         (ROW + 'unknown = ["2"]', "wheel 2 has a size, and is listed in unknown"),
         (ROW.replace(", 2 = 36", "") + 'unknown = ["2"]', "does not tell the teeth of 2"),
         (ROW + "coaxial = [[1, 2]]", "1 and 2 mesh, and would turn about one axis"),
+        (ROW + 'coaxial = ["1", "2"]', 'list of labels. Write coaxial = [["1", "2"]].'),
         (ROW + 'output = "1"', "gears.output: 1 is an input"),
         (SET + 'output = "3"', "gears.output: 3 is fixed"),
         (ROW.replace("] }", '], kind = "rack", carrier = "H" }'), "a rack is guided in the frame"),

@@ -191,3 +191,15 @@ def test_only_writers_lay_text_out() -> None:
         for path in sorted((ROOT / "planmethod" / "note").rglob("*.py"))
         if path.parent.name != "writers" and "textwrap" in path.read_text("utf-8")
     ]
+
+
+def test_items_below_a_caption_are_indented_and_others_are_not() -> None:
+    text = written(
+        Caption("Checks"), Item("one"), Item(LONG), table_of(("a",), [("1",)]), Item("a note")
+    )
+    lines = text.splitlines()
+    assert lines[1] == "  one"
+    assert lines[2].startswith("  word")
+    assert lines[3].startswith("    word")
+    assert lines[-1] == "a note"
+    assert written(Item("one"), Caption("Checks"), Item("two")).splitlines()[-1] == "  two"

@@ -15,11 +15,13 @@ from worked import SIX, every_task, problem_of
 from benchmarks.generator import random_problem
 from planmethod.mechanism.model import FRAME
 from planmethod.note.narrate.equations import direction_note, equation_of
+from planmethod.note.narrate.given import given
 from planmethod.note.narrate.letters import direction_text
 from planmethod.note.narrate.naming import Names
-from planmethod.note.wording import wording
+from planmethod.note.wording import language, wording
 from planmethod.note.writers.plain import equation_lines
 from planmethod.plans.model import RATES, Direction, Relation, Vector, VectorKind
+from planmethod.plans.motion.leads import slot_name
 from planmethod.problem import load, loads
 from planmethod.problem.model import Problem
 from planmethod.solved.solution import Solution
@@ -75,6 +77,10 @@ def line_of(solution: Solution, term: Vector, direction: Direction, i: int) -> c
     if direction.points:
         tail, head = direction.points
         return way(solution, tail, head, i)
+    for slide in solution.problem.slides.values():
+        if direction.guide == slot_name(slide):  # the angle of a link without points
+            turned = float(solution.links[slide.host].phi_deg[i]) + slide.angle
+            return cmath.rect(1.0, math.radians(turned))
     slides = [s for s in solution.problem.slides.values() if s.label == direction.guide]
     (angle,) = {slide.angle for slide in slides if slide.host == FRAME}
     return cmath.rect(1.0, math.radians(angle))
@@ -84,20 +90,6 @@ def terms(solution: Solution) -> Iterator[Vector]:
     for kind in RATES:
         for equation in solution.construction.plan(kind).equations:
             yield from (equation.left, *equation.right)
-
-
-def is_nameless(problem: Problem, direction: Direction) -> bool:
-    """Whether a slot beside its pin is on a link that has no axis to call its line by.
-
-    A known fault: it is told by the points that it lies beside (``∥ AB``), which it does not join.
-    """
-    return any(
-        {slide.through, slide.pin} == {*direction.points}
-        and slide.towards is None
-        and slide.offset
-        and problem.bodies[slide.host].axis is None
-        for slide in problem.slides.values()
-    )
 
 
 def assert_directions(solution: Solution) -> set[Relation]:
@@ -117,14 +109,13 @@ def _compared(solution: Solution, terms: list[Vector]) -> set[Relation]:
         direction = term.direction
         if direction is None or direction.relation is Relation.STILL:
             continue
-        if is_nameless(solution.problem, direction):
-            continue
         vectors = solution.si.vector(term.tail, term.head)
         for i, vector in enumerate(map(complex, vectors)):
             if not abs(vector) > 1e-6 * peak > 0:
                 continue
+            slides = solution.problem.slides.values()
             if direction.guide and direction.guide not in {
-                s.label for s in solution.problem.slides.values() if s.host == FRAME
+                s.label if s.host == FRAME else slot_name(s) for s in slides
             }:
                 continue  # a line without a second point: slots of that kind are looked at below
             line = line_of(solution, term, direction, i)
@@ -201,6 +192,18 @@ def test_a_slot_through_the_pin_is_told_by_the_points_on_it(angle: float) -> Non
             assert set(term.direction.points) == {"C", "B"}
             is_along = term.kind is VectorKind.SLIDING
             assert term.direction.relation is (Relation.ALONG if is_along else Relation.ACROSS)
+
+
+def test_a_slot_that_joins_no_two_letters_has_a_name_that_the_statement_gives() -> None:
+    text = SLOT.format(angle=0, offset=0.02, where="above C", through="C")
+    text = text.replace('points = ["C", "D"]\nCD = 0.3', 'points = ["C"]')
+    solution = Solution(loads(text.partition("[assembly]")[0], name="slot"))
+    assert_directions(solution)
+    told = {term.direction for term in terms(solution) if term.kind in TAGS}
+    assert {direction_text(one) for one in told} == {"∥ n_{2}–n_{2}", "⊥ n_{2}–n_{2}"}
+    assert "n_{2}–n_{2} — направляющая звена 3 для звена 2" in given(
+        solution.problem, language("ru")
+    )
 
 
 def test_a_direction_stands_under_its_own_term() -> None:

@@ -22,6 +22,7 @@ from planmethod.problem.load_records import (
     SizeTable,
     TurningSense,
 )
+from planmethod.problem.selector import parse_selector
 
 DOCS = Path(__file__).parents[2] / "docs" / "problem-file.md"
 
@@ -253,3 +254,19 @@ def test_a_variant_replaces_all_loads() -> None:
 )  # fmt: skip
 def test_faulty_overrides(override: str, wanted: str) -> None:
     assert messages(LOADED + f"v = {{ {override} }}") == [wanted]
+
+
+@pytest.mark.parametrize(
+    ("written", "letter"),
+    [("P12", "P_{12}"), ("P3'", "P_{3}'"), ("Pс", "Pс"), ("P_3", "P_3"), ("2P", "2P")],
+)
+def test_a_number_after_the_letter_of_a_load_is_its_index(written: str, letter: str) -> None:
+    assert force(f'name = "{written}"\nangle = 0\nforce = 1').name == letter
+    if letter != written:
+        assert parse_selector(f"arm load {written} about O").names == (letter, "O")
+
+
+def test_a_load_with_its_index_written_in_two_ways_is_called_alike() -> None:
+    load = '[[loads]]\nname = "{}"\nlink = "2"\nat = "S2"\nangle = 0\nforce = 1\n'
+    text = load.replace("{}", "P_{3}") + load.replace("{}", "P3")
+    assert "loads[0] is called P_{3} too" in messages(text)[0]

@@ -56,13 +56,23 @@ def test_missing_file_names_the_nearest(tmp_path: Path) -> None:
         f"  there is no such file. Did you mean '{tmp_path / 'press.toml'}'?"
     )
     (tmp_path / "link.toml").symlink_to("nowhere.toml")
-    assert message_of(tmp_path / "link.toml").endswith("no such file. Check the path.")
+    there = f"no such file. In '{tmp_path}' there are press.toml."
+    assert message_of(tmp_path / "link.toml").endswith(there)
+    assert message_of(tmp_path / "else.toml").endswith(there)
+
+
+@pytest.mark.parametrize("typed", ["t40", "t40.tom", "T40", "t4o.toml"])
+def test_a_name_without_its_ending_is_told_with_it(typed: str, tmp_path: Path) -> None:
+    for name in ("t40.toml", "t41.toml", "t400.toml"):
+        (tmp_path / name).write_text("", encoding="utf-8")
+    assert message_of(tmp_path / typed).endswith(f"Did you mean '{tmp_path / 't40.toml'}'?")
 
 
 def test_missing_folder(tmp_path: Path) -> None:
     assert message_of(tmp_path / "no" / "ex.toml").endswith(
-        "there is no such file. Check the path."
+        f"there is no such file. There is no folder '{tmp_path / 'no'}' either. Check the path."
     )
+    assert message_of(tmp_path / "ex.toml").endswith("there is no such file. Check the path.")
 
 
 def test_directory(tmp_path: Path) -> None:

@@ -8,6 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from worked import ROOT, path_of
 
 from planmethod.kinds import load
 from planmethod.note import document
@@ -27,7 +28,6 @@ from planmethod.project.settle import settle
 from planmethod.render.ink.drawing import Text
 from planmethod.solved.machine.drawing import drawing_of
 from planmethod.solved.machine.flywheel import flywheel_of
-from tests.worked import ROOT, path_of
 
 FILES = {
     "shaper": ROOT / "tests/data/projects/shaper.toml",
@@ -83,6 +83,13 @@ def texts(written: Document) -> Iterator[str]:
 
 
 # Chapters ----------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("name", FILES)
+def test_no_paragraph_is_empty(name: str) -> None:
+    """Of weights and inertia alone there is nothing to be said of loads."""
+    texts = [node.text for node in note_of(name).nodes if isinstance(node, document.Paragraph)]
+    assert all(texts)
 
 
 def test_a_note_has_the_chapters_that_the_file_has_something_for() -> None:

@@ -247,11 +247,11 @@ def test_the_page_asks_for_nothing_and_runs_nothing_of_strangers() -> None:
 @pytest.mark.parametrize(
     ("name", "code", "said"),
     [
-        ("gears/gears-ex1.toml", ExitCode.PROBLEM, "links"),
+        ("point/k11-01.toml", ExitCode.PROBLEM, "planmethod solve"),
         ("no-such.toml", ExitCode.PROBLEM, "no-such"),
     ],
 )
-def test_what_is_no_linkage_is_refused(
+def test_what_does_not_move_on_a_page_is_refused(
     name: str, code: ExitCode, said: str, tmp_path: Path
 ) -> None:
     run = CliRunner().invoke(cli, ["live", str(PROBLEMS / name), "-o", str(tmp_path)])

@@ -54,9 +54,7 @@ LENGTHS = 'zero = "extreme"\nlength = 288\npole = { v = 36, a = 36 }\n'
 
 def test_what_the_file_gives_in_millimetres_is_kept_and_its_scale_is_inscribed() -> None:
     text = (PROBLEMS / "press/press.toml").read_text("utf-8")
-    head, _, tail = text.partition("[cycle]\n")
-    rest = tail.partition("\n[")
-    problem = loads(f"{head}[cycle]\n{LENGTHS}{rest[1]}{rest[2]}", name="press")
+    problem = loads(f"{text}\n[cycle]\n{LENGTHS}", name="press")
     (sheet,) = kinematics_sheets(problem, layout="coursework")
     assert any("1,25 град/мм" in text for text in uneven_scales(sheet))
 

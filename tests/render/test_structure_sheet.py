@@ -270,7 +270,7 @@ def test_formulas_of_ex3() -> None:
     problem, structure = _case("ex3")
     lines = list(mobility_formulas(problem.mechanism, structure, RU))
     assert lines[1] == "По Чебышеву: W = 3n − 2p_{н} − p_{в} = 3·5 − 2·7 − 0 = 1"
-    assert lines[2] == "Пространственная схема: W_{пр} = 6n − 5p_{1} = 6·5 − 5·7 = −5"
+    assert lines[2] == "Пространственная схема: W_{пр} = 6n − 5p_{н} = 6·5 − 5·7 = −5"
     assert lines[3] == "Избыточные связи: q = W_{0} + W_{м} − W_{пр} = 1 + 0 − (−5) = 6"
 
 

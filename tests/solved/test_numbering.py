@@ -23,6 +23,7 @@ from planmethod.solved.course.motion import TurnMotion
 from planmethod.solved.cycle import cycle
 from planmethod.solved.machine.flywheel import Flywheel
 from planmethod.solved.solution import Solution
+from planmethod.solved.turn.diagrams import diagrams_of
 from planmethod.solved.turn.numbering import numbered_positions, strokes_of
 from planmethod.solved.turn.turn import turn_of
 
@@ -165,7 +166,8 @@ def test_a_cycle_of_two_turns_has_the_positions_and_the_forces_of_both() -> None
     told = cycle_record(Solution(problem))
     assert len(told["positions_deg"]) == len(told["velocity"]) == 24
     assert told["velocity"][12:] == pytest.approx(told["velocity"][:12], abs=1e-9)
-    assert told["diagrams"]["mu_phi"] == pytest.approx(radians(720) / 288)
+    diagrams = diagrams_of(Solution(problem))
+    assert diagrams.x(diagrams.shares)[-1] * diagrams.mu_phi == pytest.approx(radians(720))
 
 
 # Strokes -----------------------------------------------------------------------------------------
@@ -214,9 +216,8 @@ def test_a_driving_load_works_where_it_gives_the_most() -> None:
 def test_a_sense_that_the_output_has_not_is_a_fault() -> None:
     with pytest.raises(ProblemError, match=r"cycle.working: C slides: it does not turn"):
         read(SHAPER, ('zero = "extreme"', 'working = "ccw"'))
-    solution = Solution(read(SHAPER, ('zero = "extreme"', 'working = "up"')))
     with pytest.raises(ProblemError, match=r"C does not go so on either stroke"):
-        strokes_of(solution)
+        read(SHAPER, ('zero = "extreme"', 'working = "up"'))
 
 
 # Accelerations -----------------------------------------------------------------------------------

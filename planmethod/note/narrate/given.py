@@ -11,7 +11,8 @@ from planmethod.mechanism.model import FRAME
 from planmethod.note.formula import fraction
 from planmethod.note.numbers import MINUS, Notation, trimmed, with_unit
 from planmethod.note.wording import Language
-from planmethod.plans.legend import Quantity, QuantityKind
+from planmethod.plans.legend import MOTION_KINDS, TURNINGS, Quantity, QuantityKind
+from planmethod.plans.motion.leads import slot_name
 from planmethod.problem.model import Body, Geared, Posed, PosedBy, Problem, Slide
 from planmethod.problem.names import UNITS, split_names
 from planmethod.solved.solution import Solution
@@ -100,9 +101,11 @@ class As:
         self.problem, self.words, self.say = problem, words, words.say
 
     def plain(self, value: float, path: str = "") -> str:
-        """Return a number without its unit."""
+        """Return a number without its unit; its arithmetic where digits would not be exact."""
         stated = self.problem.stated.get(path)
-        return self.say.given(value) if stated is None else arithmetic(stated, self.say)
+        if stated is None or abs(float(trimmed(value, 6)) - value) <= 1e-12 * abs(value):
+            return self.say.given(value)
+        return arithmetic(stated, self.say)
 
     def number(self, value: float, unit: str, path: str = "") -> str:
         """Return a number with its unit."""
@@ -124,6 +127,9 @@ def arithmetic(text: str, say: Notation) -> str:
 def _path(link: str, key: str) -> str:
     return f"links.{link}.{key}"
 
+
+DRAWN = 5
+"""Digits of a coordinate that was computed: a hundredth of a millimetre of a link."""
 
 MOST_LISTED = 6
 """Most positions that are given one by one."""
@@ -269,6 +275,9 @@ def _line(start: str, end: str) -> str:
 def _carried(problem: Problem, slide: Slide, text: As) -> list[str]:
     """Return how the line of a moving link lies on it, where two letters do not tell it."""
     axis, note = problem.bodies[slide.host].axis, text.words.note
+    if slide.host != FRAME and slide.through and axis is None and slide.offset:
+        guide = slot_name(slide)
+        return [note.given_slot.format(guide=guide, link=slide.host, slider=slide.slider)]
     if slide.host == FRAME or slide.through is None or slide.towards is not None or axis is None:
         return []
     angle = text.number(slide.angle, "deg", _path(slide.slider, "slides.angle"))
@@ -282,15 +291,13 @@ def _carried(problem: Problem, slide: Slide, text: As) -> list[str]:
 
 
 def _coordinates(name: str, place: complex, text: As, path: str) -> list[str]:
-    size = max((length for _, _, length in text.problem.lengths), default=abs(place))
-    size *= UNITS[text.problem.unit]
     lines = []
     for index, (letter, metres) in enumerate((("x", place.real), ("y", place.imag))):
         value, stated = metres * UNITS[text.problem.unit], f"{path}[{index}]"
         said = text.plain(value, stated)
-        # Digits that the mechanism needs, though the number has more.
-        if stated not in text.problem.stated and abs(float(trimmed(value)) - value) > 1e-6 * size:
-            said = text.say.number(trimmed(value, 15))
+        # A coordinate that was computed has more digits than anybody draws.
+        if stated not in text.problem.stated and trimmed(value) != trimmed(value, 6):
+            said = text.say.number(trimmed(value, DRAWN))
         lines.append(f"{letter}_{{{name}}} = {said} {text.say.units[text.problem.unit]}")
     return lines
 
@@ -327,18 +334,6 @@ def asked_links(solution: Solution) -> list[str]:
     return [
         link for link in solution.problem.mechanism.links if link in kin.omega and link != drive
     ]
-
-
-MOTION_KINDS = (
-    QuantityKind.VELOCITY,
-    QuantityKind.OMEGA,
-    QuantityKind.ACCELERATION,
-    QuantityKind.EPSILON,
-)
-"""Kinds of quantities that a sheet tells, in their order."""
-
-TURNINGS = (QuantityKind.OMEGA, QuantityKind.EPSILON)
-"""Kinds of quantities of links; the others are of points."""
 
 
 def told(solution: Solution, *kinds: QuantityKind) -> list[Quantity]:

@@ -277,7 +277,7 @@ class MachineTeller:
         lines.append(f"m = {say.found(sizes.mass)} {self.unit('kg')}")
         lines.append(f"v = {say.found(sizes.speed)} {self.unit('m/s')}")
         if sizes.held:
-            limit = f"{say.given(self.flywheel.machine.wheel.speed)} {self.unit('m/s')}"
+            limit = f"{say.given(self.flywheel.machine.wheel.greatest_speed)} {self.unit('m/s')}"
             lines.append(self.said.held.format(speed=limit))
         return lines
 

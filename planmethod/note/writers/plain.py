@@ -47,6 +47,7 @@ class PlainWriter:
         self._language = words
         self._unit = rf"(?<=\d) (?=(?:{'|'.join(sorted(units))})(?![^\W\d_]))"
         self._step = 0
+        self._below = ""  # what stands before the items of a caption
 
     def lines(self, written: Document) -> list[str]:
         """Return the lines of a document."""
@@ -61,6 +62,8 @@ class PlainWriter:
             else:
                 lines += self._node(node, number)
             before = node
+            if not isinstance(node, document.Item):
+                self._below = HANGING if isinstance(node, document.Caption) else ""
         return lines
 
     def _contents(self, written: Document) -> list[str]:
@@ -118,7 +121,8 @@ class PlainWriter:
                 return wrap(self._whole(text))
             case document.Item(text, label):
                 lead = f"{HANGING}{pad(plain_text(label), LABEL, right=True)}  " if label else ""
-                rest = " " * width(lead) or HANGING
+                lead = lead or self._below
+                rest = " " * width(lead) if label else lead + HANGING
                 return wrap(self._whole(text), first=lead, rest=rest)
             case document.Step(lines, continues):
                 return self._stepped(lines, continues=continues)

@@ -169,12 +169,17 @@ def _normal(
     return motion.segments.lay_off(n, start, inward, value)
 
 
+def slot_name(slide: Slide) -> str:
+    """Return what a guide is called that joins no two letters, by its slider: ``n_{2}–n_{2}``."""
+    return f"n_{{{slide.slider}}}–n_{{{slide.slider}}}"
+
+
 def track_direction(slide: Slide, problem: Problem, *, turned: bool = False) -> Direction:
     """Return the direction of a slide line: ``∥ x-x``, ``∥ CB``, or ``⊥ BC``.
 
     ``turned`` asks for the direction across the line. A line on a moving link is named by its
     point and the pin when the pin is on it, else by the link's own axis where it runs along or
-    across that, else by its angle to the axis.
+    across that, else by its angle to the axis; on a link without an axis it has a name of its own.
     """
     along, beside = Relation.ALONG, Relation.ACROSS
     if turned:
@@ -184,6 +189,8 @@ def track_direction(slide: Slide, problem: Problem, *, turned: bool = False) -> 
         return Direction(along, guide=slide.label)
     if slide.towards is not None and slide.offset:
         return Direction(along, (slide.through, slide.towards))
+    if slide.offset and axis is None:  # pin and point lie beside it: it joins no two letters
+        return Direction(along, guide=slot_name(slide))
     if not slide.offset or axis is None:
         return Direction(along, (slide.through, slide.pin))
     if slide.angle % 180 in (0, 90):

@@ -205,7 +205,7 @@ def _sizes(report: Report, tell: MachineTeller, said: Words) -> Iterator[Node]:
     ]
     held = ""
     if sizes.held:
-        limit = say.given(tell.flywheel.machine.wheel.speed)
+        limit = say.given(tell.flywheel.machine.wheel.greatest_speed)
         held = said.held.format(speed=f"{limit}{NBSP}{report.unit('m/s')}")
     yield sentences(
         (said.disc if disc else said.rim).format(),

@@ -180,7 +180,7 @@ class ForceChapter:
             yield sentences(said.nothing.format())
             return
         drawn = bool(drawn_edges(self.reading, number))
-        keys = {"cut": f"cut {number}", "plan": f"force plan {number}"}
+        keys = {"cut": f"cut_{number}", "plan": f"force_plan_{number}"}
         yield sentences((said.see if drawn else said.see_cut).format(**keys))
         yield self._cut(number, links, keys["cut"], driver=driver)
         if not self._readable(*(end for edge in plan.polygon for end in edge.ends)):
@@ -250,7 +250,7 @@ class ForceChapter:
             return whole if inner is None else Row([whole, inner[1]], GAP, "centre")
 
         caption = self.said["figure_cut_driver" if driver else "figure_cut"]
-        return figure(picture, caption.format(links=links, link=links), key, height=120.0)
+        return figure(picture, caption.format(links=links, link=links), key, height=150.0)
 
     def _polygon(self, number: int, links: Rich, key: str, *, driver: bool) -> Node:
         reading, say = self.reading, self.report.say

@@ -102,7 +102,7 @@ def _shown(report: Report, said: Words) -> Node:
         ),
         said.series.format(scale=report.scale(PlanKind.POSITION)),
         "series",
-        height=140.0,
+        height=190.0,
     )
 
 

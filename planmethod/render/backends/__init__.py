@@ -12,7 +12,7 @@ from planmethod.render.ink.drawing import Drawing
 __all__ = ["BACKENDS", "PAGED", "Canvas", "Options", "render", "render_pages"]
 
 
-DXF_NEEDS = "DXF needs ezdxf: pip install 'planmethod[dxf]'"
+DXF_NEEDS = "DXF needs ezdxf: pip install ezdxf"
 
 
 def is_absent(fmt: str) -> bool:

@@ -17,12 +17,14 @@ class Options(Struct, frozen=True, kw_only=True):
     """Wishes that only some formats can grant.
 
     ``dpi`` is the resolution of a raster picture, dots to the inch; ``author`` goes into the
-    properties of the file. ``dxf_text`` says whether the letters of a DXF are text or outlines.
+    properties of the file. ``dxf_text`` says whether the letters of a DXF are text or outlines;
+    ``packed``, whether a raster picture is made as small as can be, which takes three times longer.
     """
 
     dpi: float = 100.0
     author: str = "planmethod"
     dxf_text: Literal["text", "strokes"] = "strokes"
+    packed: bool = True
 
 
 class Canvas(Protocol):

@@ -30,7 +30,7 @@ class PngCanvas(Canvas):
     """Canvas that paints pixels."""
 
     def __init__(self, options: Options) -> None:
-        self._dpi = options.dpi
+        self._dpi, self._packed = options.dpi, options.packed
         self._author = options.author
         self._title = ""
         self._agg: Any = None
@@ -124,7 +124,7 @@ class PngCanvas(Canvas):
         grey = np.ascontiguousarray(np.asarray(self._agg.buffer_rgba())[..., 0])
         file = BytesIO()
         dots = (self._dpi, self._dpi)
-        Image.fromarray(grey).save(file, "png", dpi=dots, pnginfo=properties, optimize=True)
+        Image.fromarray(grey).save(file, "png", dpi=dots, pnginfo=properties, optimize=self._packed)
         return file.getvalue()
 
 

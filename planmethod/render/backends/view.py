@@ -60,4 +60,4 @@ class DrawingView(Struct, frozen=True):
 
     def png(self, dpi: float) -> bytes:
         """Return a PNG file with so many dots to the inch."""
-        return backends.render(self.shown(), "png", options=Options(dpi=dpi))
+        return backends.render(self.shown(), "png", options=Options(dpi=dpi, packed=False))

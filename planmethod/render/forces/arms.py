@@ -13,6 +13,7 @@ from planmethod.plans.forces.polygons import Moments
 from planmethod.render.forces.arrows import MANNER, Acting, Segment
 from planmethod.render.ink.drawing import Item, Pen, Stroke
 from planmethod.render.labels import Label, segment_label
+from planmethod.render.pictures.senses import small
 from planmethod.render.symbols import unit
 from planmethod.solved.forces.reading import ForceReading
 
@@ -24,7 +25,6 @@ _SAME = 0.3  # mm: arms so near one another are one line
 _CORNER = 2.0  # mm: sides of the sign of a right angle
 _BEYOND = 3.0  # mm that a line of action goes on beyond its foot
 _MOST = 24  # arms on a picture: of more nobody finds one, and the equations tell them
-_HEIGHT = 3.5  # of the letters, mm, where others are larger
 
 
 class ForceArm(Struct, frozen=True):
@@ -98,7 +98,7 @@ def arm_items(
         for arm in line:
             items += _action(arm, placed)
         text = f"{' = '.join(names)} = {say.ruled(first.read)}"
-        label = segment_label(text, about, foot, min(height, _HEIGHT))
+        label = segment_label(text, about, foot, min(height, small(height)))
         labels.append(replace(label, name=f"{prefix} arm: {' '.join(names)}", manner=MANNER))
     return items, labels
 

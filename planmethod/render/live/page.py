@@ -1,15 +1,11 @@
 """The page of a moving mechanism: one HTML file without a server, a network or a library.
 
-What a problem file says comes in as escaped text or as data, never as source: a policy in the head
-lets the page's own script and style run, by their hashes, and nothing else.
+What a problem file says comes in as escaped text or as data, never as source.
 """
 
 from __future__ import annotations
 
-import json
-from base64 import b64encode
 from collections.abc import Iterator
-from hashlib import sha256
 from html import escape
 from importlib.resources import files
 from typing import Any
@@ -24,10 +20,8 @@ from planmethod.render.backends.canvas import Options
 from planmethod.render.backends.svg import SvgCanvas
 from planmethod.render.ink.lettering import in_use
 from planmethod.render.ink.typeset import typeset
+from planmethod.render.live.document import html_document, rich, runs, speed_choice
 from planmethod.render.live.scene import LETTER, LiveScene, LiveView
-
-POLICY = "default-src 'none'; script-src '{script}'; style-src '{style}'; base-uri 'none'"
-"""What the page may do: run its own script and style."""
 
 
 def live_page(problem: Problem, lang: str) -> str:
@@ -45,31 +39,6 @@ def live_page(problem: Problem, lang: str) -> str:
     return _Page(problem, lang).html()
 
 
-def _runs(markup: str) -> list[list[str]]:
-    """Return rich text as letters with the element that they stand in: ``sub``, ``sup`` or none."""
-    height = 10.0
-    level = {True: "sub", False: "sup"}
-    runs = typeset(markup, height).runs
-    return [[run.text, level[run.y < 0] if abs(run.y) > 0.1 * height else ""] for run in runs]
-
-
-def _rich(markup: str) -> str:
-    """Return rich text as HTML."""
-    return "".join(
-        f"<{tag}>{escape(text)}</{tag}>" if tag else escape(text) for text, tag in _runs(markup)
-    )
-
-
-def _data(value: Any) -> str:
-    """Return a value as JSON that no element of a page ends in."""
-    text = json.dumps(value, ensure_ascii=False, separators=(",", ":"), allow_nan=False)
-    return text.replace("<", "\\u003c").replace("\u2028", "\\u2028").replace("\u2029", "\\u2029")
-
-
-def _hash(source: str) -> str:
-    return "sha256-" + b64encode(sha256(source.encode()).digest()).decode()
-
-
 class _Page:
     def __init__(self, problem: Problem, lang: str) -> None:
         self.problem, self.words = problem, language(lang)
@@ -79,43 +48,31 @@ class _Page:
 
     def html(self) -> str:
         """Return the document."""
-        here = files("planmethod.render.live")
-        style = here.joinpath("page.css").read_text("utf-8")
-        script = self.scene.sweep.javascript() + here.joinpath("page.js").read_text("utf-8")
-        said, problem = self.words.live, self.problem
-        policy = POLICY.format(script=_hash(script), style=_hash(style))
-        body = "\n".join((self._views(), self._numbers()))
-        return (
-            f'<!DOCTYPE html>\n<html lang="{self.words.lang}">\n<head>\n<meta charset="utf-8">\n'
-            f'<meta http-equiv="Content-Security-Policy" content="{policy}">\n'
-            '<meta name="viewport" content="width=device-width, initial-scale=1">\n'
-            f"<title>{escape(problem.title or problem.name)}</title>\n<style>{style}</style>\n"
-            f"</head>\n<body>\n<header><h1>{escape(problem.title or problem.name)}</h1>"
-            f"<p>{escape(problem.source)}</p></header>\n{self._bar()}\n{body}\n"
-            f"<footer>{escape(said.made)}</footer>\n"
-            f'<svg width="0" height="0" aria-hidden="true"><defs>{self.canvas.letters()}</defs>'
-            f'</svg>\n<script type="application/json" id="scene">{_data(self._scene())}</script>\n'
-            f"<script>{script}</script>\n</body>\n</html>\n"
+        script = files("planmethod.render.live").joinpath("page.js").read_text("utf-8")
+        return html_document(
+            self.problem,
+            lang=self.words.lang,
+            body="\n".join((self._bar(), self._views(), self._numbers())),
+            made=self.words.live.made,
+            letters=self.canvas.letters(),
+            scene=self._scene(),
+            script=self.scene.sweep.javascript() + script,
         )
 
     def _bar(self) -> str:
         said, drive, low, high = self.words.live, self.problem.drive, *self.scene.way
-        label = _rich(drive.coordinate.symbol)
-        unit = _rich(self.words.say.units[drive.coordinate.unit])
-        speeds = "".join(
-            f'<option value="{v}"{" selected" if v == 1 else ""}>×{v:g}</option>'
-            for v in (0.25, 0.5, 1, 2)
-        )
+        label = rich(drive.coordinate.symbol)
+        unit = rich(self.words.say.units[drive.coordinate.unit])
         follows = ""
         if self.scene.flywheel is not None:
-            told = _rich(said.follows.format(speed=f"ω_{{{drive.link}}}(φ)"))
+            told = rich(said.follows.format(speed=f"ω_{{{drive.link}}}(φ)"))
             follows = f'<label><input id="follows" type="checkbox"> {told}</label>'
         return (
             f'<div id="bar"><section><button id="play" aria-label="{escape(said.play)}">▶</button>'
             f'<input id="slider" type="range" min="{low!r}" max="{high!r}" step="any" '
             f'aria-label="{escape(said.driver)}"><label>{label} = <input id="exact" type="number" '
-            f'step="any"> {unit}</label><select id="speed" aria-label="{escape(said.speed)}">'
-            f'{speeds}</select><label><input id="trace" type="checkbox" checked> '
+            f'step="any"> {unit}</label>{speed_choice(said.speed)}'
+            '<label><input id="trace" type="checkbox" checked> '
             f"{escape(said.traces)}</label>{follows}</section>"
             '<section id="why" role="status" hidden></section></div>'
         )
@@ -136,8 +93,8 @@ class _Page:
             for number, one in enumerate(view.labels)
         )
         return (
-            f"<figure><figcaption>{_rich(view.title)} "
-            f"<span>{_rich(scale_inscription(view.scale, convention, say))}</span> {zoom}"
+            f"<figure><figcaption>{rich(view.title)} "
+            f"<span>{rich(scale_inscription(view.scale, convention, say))}</span> {zoom}"
             f'</figcaption><svg id="svg-{view.id}" viewBox="{box}">'
             f'<g class="traces"></g>{"".join(self._parts()) if scheme else ""}'
             f'<g class="lines"></g>{labels}</svg><output id="told-{view.id}"></output></figure>'
@@ -193,16 +150,16 @@ class _Page:
     def _steady_row(self) -> str:
         """Return the row of the crank's speed in the steady motion, after all quantities."""
         number, row = len(self.scene.quantities), len(self.scene.sweep.rows) + 1
-        symbol = _rich(f"ω_{{{self.problem.drive.link}}}(φ)")
+        symbol = rich(f"ω_{{{self.problem.drive.link}}}(φ)")
         return (
             f'<tr><th><button id="choose-{number}" aria-pressed="false">{symbol}</button></th>'
             f'<td><span id="cell-{row}" data-row="{row}"></span></td>'
-            f"<td>{_rich(self.words.say.units['1/s'])}</td></tr>"
+            f"<td>{rich(self.words.say.units['1/s'])}</td></tr>"
         )
 
     def _row(self, number: int, quantity: Quantity) -> str:
-        unit = _rich(self.words.say.units[quantity.kind.unit])
-        symbol = _rich(self._symbol(quantity))
+        unit = rich(self.words.say.units[quantity.kind.unit])
+        symbol = rich(self._symbol(quantity))
         first = self.scene.row(quantity.columns[0])
         cells = [f'<span id="cell-{first + k}" data-row="{first + k}"></span>' for k in (0, 1)]
         pair = f"<span>x = {cells[0]};</span> <span>y = {cells[1]}</span>"
@@ -236,7 +193,7 @@ class _Page:
             "start": scene.start,
             "crank": drive.is_crank,
             "sense": -1 if drive.rate < 0 else 1,
-            "symbol": _runs(drive.coordinate.symbol),
+            "symbol": runs(drive.coordinate.symbol),
             "unit": ("" if drive.is_crank else " ") + _plain(say.units[drive.coordinate.unit]),
             "branches": [
                 {"changes": list(one.changes), "start": one.start, "turn": one.turn}
@@ -245,7 +202,7 @@ class _Page:
             "loads": scene.loads(),
             "places": scene.rows_of(lambda kind: kind is QuantityKind.PLACE),
             "forces": forces,
-            "reasons": [_runs(text) for text in scene.reasons()],
+            "reasons": [runs(text) for text in scene.reasons()],
             "parts": [
                 {"id": f"part-{k}", "at": scene.place(scene.foot(part.link)),
                  "turn": scene.row(f"{part.link}.phi_deg")}
@@ -256,8 +213,8 @@ class _Page:
                 {
                     "rows": [scene.row(column) for column in one.columns],
                     "vector": len(one.columns) > 1,
-                    "symbol": _runs(self._symbol(one)),
-                    "unit": _runs(say.units[one.kind.unit]),
+                    "symbol": runs(self._symbol(one)),
+                    "unit": runs(say.units[one.kind.unit]),
                     "chosen": one.label in chosen,
                 }
                 for one in scene.quantities
@@ -277,8 +234,8 @@ class _Page:
             {
                 "rows": [len(self.scene.sweep.rows) + 1],
                 "vector": False,
-                "symbol": _runs(f"ω_{{{self.problem.drive.link}}}(φ)"),
-                "unit": _runs(self.words.say.units["1/s"]),
+                "symbol": runs(f"ω_{{{self.problem.drive.link}}}(φ)"),
+                "unit": runs(self.words.say.units["1/s"]),
                 "chosen": True,
                 "steady": True,
             }
@@ -286,14 +243,14 @@ class _Page:
 
     def _told(self, view: LiveView) -> dict[str, Any]:
         segments = [
-            {k: _runs(v) if k in ("name", "symbol") else v for k, v in one.items()}
+            {k: runs(v) if k in ("name", "symbol") else v for k, v in one.items()}
             for one in view.segments
         ]
         told: dict[str, Any] = {
             "id": view.id,
             "per_mm": view.per_mm,
             "mu": view.scale.per_mm,
-            "unit": _runs(self.words.say.units[view.scale.unit]),
+            "unit": runs(self.words.say.units[view.scale.unit]),
             "box": list(view.box),
             "segments": segments,
             "labels": view.labels,
@@ -310,4 +267,4 @@ class _Page:
 
 
 def _plain(markup: str) -> str:
-    return "".join(text for text, _ in _runs(markup))
+    return "".join(text for text, _ in runs(markup))

@@ -21,8 +21,11 @@ from planmethod.render.pictures.scheme import Scheme
 from planmethod.render.symbols import SIZES, angle_of, turn_arrow
 from planmethod.solved.reading import Complexes, Reals
 
-SMALL = 3.5
-"""Height of the smaller letters of a scheme, mm."""
+
+def small(height: float) -> float:
+    """Return the height of the smaller letters of a scheme, mm, beside the usual ones."""
+    return max(3.5, 0.7 * height)
+
 
 SWEEP, ARC = 70.0, 24.0
 """Most that an arrow of ω or ε turns by, degrees, and its length before ``factor``, mm."""
@@ -63,7 +66,7 @@ class Senses(Struct):
 
     @property
     def _height(self) -> float:
-        return SMALL if self.others else self.scheme.letter_height
+        return small(self.scheme.letter_height) if self.others else self.scheme.letter_height
 
     def of(self, link: str) -> None:
         """Draw the arrows of a link: none where it has no length, or turns as its guide does."""
@@ -223,12 +226,13 @@ class Senses(Struct):
         # Over the line and under it letters would read as a fraction.
         offs = [-1j * off * (1 if phi < 180.0 else -1) for off in _OFF_BAR]
         bars: list[Item] = [Stroke((centre + off, end + _BAR + off), Pen.THIN) for off in offs]
-        reach = radius + 1.0 + 1.4 * SMALL
+        size = small(scheme.letter_height)
+        reach = radius + 1.0 + 1.4 * size
         letter = Stroke((centre + (radius + 1.0) * cis(phi / 2), centre + reach * cis(phi / 2)))
         self.clear += [*drawn, *bars, letter]
         self.labels.append(
             Label(
-                typeset(f"φ_{{{drive.link}}}", SMALL),
+                typeset(f"φ_{{{drive.link}}}", size),
                 centre + radius * cis(phi / 2),
                 prefer=cis(phi / 2),
                 gap=1.0,

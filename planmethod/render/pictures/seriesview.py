@@ -21,14 +21,14 @@ from planmethod.render.pictures.schemeview import (
     letter_links,
     letter_points,
 )
-from planmethod.render.pictures.senses import SMALL
+from planmethod.render.pictures.senses import small
 from planmethod.render.pictures.traces import Shown
 from planmethod.solved.reading import remembered
 from planmethod.solved.solution import Solution
 from planmethod.solved.turn.construction import extreme_construction
 
-HEIGHTS = (SMALL, 2.5)
-"""Heights of the letters of many positions, mm: the smaller ones where the larger find no room."""
+LEAST = 2.5
+"""Height of the letters of many positions where larger ones find no room, mm."""
 
 UNTIDY = 0.03
 """More `untidiness` for each label is a reason to take the smaller letters."""
@@ -61,7 +61,7 @@ def series_picture(
     view = SchemeView.drawn(solution, index, letter_height, traces)
     ellipses = error_ellipses(solution, PlanKind.POSITION, index) if errors else Ellipses()
     positions = Positions(solution, index, overlay, letter_height)
-    scheme = view.scheme
+    scheme, size = view.scheme, small(letter_height)
     fixed = solution.problem.bodies[FRAME].points
     letter_points(view, [point for point in scheme.named if point in fixed])
     letter_axes(view, positions.places())
@@ -70,19 +70,20 @@ def series_picture(
     own = [replace(label, manner=BUSY) for label in view.labels]
     construction = extreme_construction(solution) if turn else None
     if construction is not None:
-        lines, radii = construction_items(construction, SMALL)
+        lines, radii = construction_items(construction, size)
         others, own = [*others, *lines], [*own, *radii]
     if positions.ends is not None:
         before = [*others, *view.items()]
-        lines, letters = stroke_items(positions.paths, positions.ends, before, SMALL)
+        lines, letters = stroke_items(positions.paths, positions.ends, before, size)
         others, own = [*others, *lines], [*own, *letters]
     items = [*others, *view.items(marks=positions.marks()), *ellipses.strokes]
     left, low, right, high = ink_bounds(items)
     bounds = (left - ROOM, low - ROOM, right + ROOM, high + ROOM)
     tries: list[list[Placed]] = []
-    for height in HEIGHTS:
+    heights = (size, max(LEAST, 0.5 * letter_height))
+    for height in heights:
         labels = [*own, *positions.labels(height, every=ceil(len(positions.overlay) / MOST))]
-        last = height == HEIGHTS[-1]
+        last = height == heights[-1]
         tries.append(place_labels(labels, [*items, *ellipses.grounds], bounds, breaking=last))
         if untidiness(tries[-1]) <= UNTIDY * len(labels):
             break

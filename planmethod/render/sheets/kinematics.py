@@ -56,6 +56,7 @@ def kinematics_sheets(
     errors: bool = False,
     sigma: bool | None = None,
     layout: str | Path | Composition | None = None,
+    most: int | None = None,
 ) -> list[Drawing]:
     """Draw the kinematic analysis in the language of ``problem.sheet``, a dozen positions a sheet.
 
@@ -80,19 +81,24 @@ def kinematics_sheets(
     layout : str, Path or Composition, optional
         What is on the sheets: the name of a shipped composition or a file of one's own. When
         absent, ``one-position`` or ``many-positions``.
+    most : int, optional
+        Sheets that may be made; any number when absent.
 
     Raises
     ------
     LayoutError
-        When the blocks fit no format, or not the asked one.
+        When the blocks fit no format, or not the asked one, or when more sheets than that follow.
     CompositionError
         When the composition is faulty.
     """
     if paper:
         problem = replace(problem, sheet=replace(problem.sheet, paper=paper_format(paper).name))
     solution = Solution(problem, positions=positions, ruler=ruler, profile=profile)
-    strategy = _strategy(solution, layout, errors=errors, sigma=sigma, moved=positions is not None)
-    return compose(problem, strategy, _misfit(problem), fields=fields, furniture=furniture)
+    moved = positions is not None
+    strategy = _strategy(solution, layout, errors=errors, sigma=sigma, moved=moved, most=most)
+    drawings = compose(problem, strategy, _misfit(problem), fields=fields, furniture=furniture)
+    _refuse_many(strategy.solution, len(drawings), most)
+    return drawings
 
 
 def sheet_scales(
@@ -120,6 +126,7 @@ def _strategy(
     errors: bool = False,
     sigma: bool | None = None,
     moved: bool,
+    most: int | None = None,
 ) -> Linkage:
     """Return how sheets of a layout are searched for; ``moved``: positions were asked for."""
     words = language(solution.problem.sheet.lang or LANGUAGES[0])
@@ -131,6 +138,9 @@ def _strategy(
     calculated = solution.problem.calculated
     if calculated is not None and made.per_sheet == (1,):
         solution = solution.moved([float(solution.positions[calculated])])
+    count = len(solution.positions)
+    least = len(made.sheets) * -(-count // made.at_most(count)[0])
+    _refuse_many(solution, least, most)  # before the work, where it is known
     verify(solution)
     return Linkage(made, solution, Extras(words, errors, sigma, made.turn))
 
@@ -143,6 +153,20 @@ def _misfit(problem: Problem) -> Misfit:
         say("Ask fewer positions (--phi), or leave out blocks of the layout."),
         problem.scales,
     )
+
+
+def _refuse_many(solution: Solution, sheets: int, most: int | None) -> None:
+    """Refuse more sheets than are probably meant; those of one position are always made."""
+    count = len(solution.positions)
+    if most is not None and sheets > most and count > 1:
+        raise LayoutError(
+            "{0}: {1} position{1:||s} take {2} sheet{2:||s}. Name the positions that are to be "
+            "drawn (--phi {3:g}), or give --all-positions for all of them.",
+            solution.problem.name,
+            count,
+            sheets,
+            solution.problem.drive.positions[0],
+        )
 
 
 def _over_the_cycle(solution: Solution) -> Solution:

@@ -75,7 +75,7 @@ def chosen_plans(solution: Solution, indices: Sequence[int], manner: Manner) -> 
     """Return the plans of a position of either stroke: after a sixth and two thirds of a turn."""
     kind = manner.entry.of
     assert kind is not None
-    count = len(solution.positions)
+    count = len(solution.positions) // solution.problem.turns  # the second turn is as the first
     chosen = tuple(dict.fromkeys((round(count / 6), round(2 * count / 3) % count)))
     picture, *_ = plan_grid(solution, kind, chosen, manner.words)
     title = manner.entry.title or manner.words.sheets["views"][kind.value][1]

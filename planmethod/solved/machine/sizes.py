@@ -3,15 +3,18 @@
 A disc of width 0.165·D has J = m·D²/8, so D = 0.38·J^(1/5) of steel: the formulas of the press
 coursework; with another density D = (32·J/(0.165·pi·rho))^(1/5). A rim D_1 = 0.8·D, b = 0.2·D has
 J = pi·rho·b·(D⁴ - D_1⁴)/32, spokes and hub left out. Where the rim would run quicker than it may, D
-is what its greatest speed allows, and the width grows.
+is what its greatest speed allows, and the width grows; one that is wide for its diameter is warned
+of.
 """
 
 from __future__ import annotations
 
-from math import pi
+from math import ceil, inf, pi
 
 from msgspec import Struct
+from msgspec.structs import replace
 
+from planmethod.languages import say
 from planmethod.problem.machine_records import FlywheelTask, WheelShape
 
 STEEL_FACTOR, STEEL = 0.38, 7800.0
@@ -19,6 +22,9 @@ STEEL_FACTOR, STEEL = 0.38, 7800.0
 
 DISC_WIDTH, RIM_WIDTH, RIM_BORE = 0.165, 0.2, 0.8
 """Width over diameter, and inner diameter of a rim over the outer one."""
+
+WIDEST = 0.4
+"""Width over diameter beyond which a flywheel is not made."""
 
 
 class FlywheelSizes(Struct, frozen=True):
@@ -68,7 +74,7 @@ def size_of(wheel: FlywheelTask, inertia: float, omega: float) -> FlywheelSizes 
         diameter = STEEL_FACTOR * own**0.2
     else:
         diameter = (32.0 * own / (pi * density * width * (1.0 - bore**4))) ** 0.2
-    most = 2.0 * wheel.speed / turning
+    most = 2.0 * wheel.greatest_speed / turning
     held = diameter > most
     diameter = min(diameter, most)
     mass = 8.0 * own / (diameter**2 * (1.0 + bore**2))
@@ -77,3 +83,28 @@ def size_of(wheel: FlywheelTask, inertia: float, omega: float) -> FlywheelSizes 
         breadth = 4.0 * mass / (pi * density * diameter**2 * (1.0 - bore**2))
     speed = turning * diameter / 2.0
     return FlywheelSizes(wheel.shape, own, diameter, bore * diameter, breadth, mass, speed, held)
+
+
+def too_wide(wheel: FlywheelTask, inertia: float, omega: float) -> str | None:
+    """Return what is told of a flywheel that is wide for its diameter; None of a usual one.
+
+    Parameters
+    ----------
+    inertia, omega : float
+        As of `size_of`.
+    """
+    sizes = size_of(wheel, inertia, omega)
+    if sizes is None or sizes.width <= WIDEST * sizes.diameter:
+        return None
+    free = size_of(replace(wheel, speed=inf), inertia, omega)
+    assert free is not None, "it has the same inertia"
+    # of a shaft that turns r times as quickly J is r² times less, D = r^(-2/5), v = r^(3/5)
+    slower = wheel.ratio * (wheel.greatest_speed / free.speed) ** (5.0 / 3.0)
+    return say(
+        "the flywheel is {0:.3g} m wide and {1:.3g} m across, b/D = {2:.2g} for the usual {3:.3g}: "
+        "its rim may run at {4:.3g} m/s. In [machine.flywheel] allow speed = {5} (D = {6:.3g} m, "
+        "b = {7:.3g} m; cast iron stands 30 m/s, steel 50), or set it on a slower shaft, "
+        "ratio = {8:.2g}.",
+        sizes.width, sizes.diameter, sizes.width / sizes.diameter, free.width / free.diameter,
+        wheel.greatest_speed, ceil(free.speed), free.diameter, free.width, slower,
+    )  # fmt: skip

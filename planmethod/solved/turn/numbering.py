@@ -37,6 +37,7 @@ def number(problem: Problem) -> Problem:
     try:
         turn = Turn(Solution(problem))
         positions = tuple(turn.positions.tolist())
+        _ = turn.strokes if problem.cycle.working is not None else None  # may be a fault
     except ProblemError:
         raise
     except PlanMethodError:  # said where the positions of the file are solved

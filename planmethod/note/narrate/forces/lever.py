@@ -258,7 +258,7 @@ class LeverNarrator:
                 text = f"{self.found(abs(couple.moment))}·{numbers}"
                 terms.append((couple.lever_moment, text))
         said = signed_sum([(turn * moment, text) for moment, text in terms])
-        return fraction(said, divisor)
+        return fraction(said or "0", divisor)  # in an extreme position nothing may have a moment
 
     def _compared(self) -> list[str]:
         """Tell how far lever and force plans are apart, and what a drawing lets expect."""

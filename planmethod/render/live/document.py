@@ -1,0 +1,97 @@
+"""The HTML document of a page that moves: what stands in it is data or escaped text, never source.
+
+A policy in the head lets the page's own script and style run, by their hashes, and nothing else.
+"""
+
+from __future__ import annotations
+
+import json
+from base64 import b64encode
+from hashlib import sha256
+from html import escape
+from importlib.resources import files
+from typing import Any
+
+from planmethod.problem.head import KindProblem
+from planmethod.render.ink.typeset import typeset
+
+POLICY = "default-src 'none'; script-src '{script}'; style-src '{style}'; base-uri 'none'"
+"""What the page may do: run its own script and style."""
+
+SPEEDS = (0.25, 0.5, 1, 2)
+"""How many times quicker than usual a page may move."""
+
+
+def html_document(
+    problem: KindProblem,
+    *,
+    lang: str,
+    body: str,
+    made: str,
+    letters: str,
+    scene: Any,
+    script: str,
+) -> str:
+    """Return the page of a problem.
+
+    Parameters
+    ----------
+    body : str
+        What stands under the title, as HTML.
+    made : str
+        Who made the page, plain text.
+    letters : str
+        Letters of the drawn texts, as SVG.
+    scene : plain data
+        What the script reads.
+    script : str
+        The page's own source.
+    """
+    style = files("planmethod.render.live").joinpath("page.css").read_text("utf-8")
+    policy = POLICY.format(script=_hash(script), style=_hash(style))
+    title = escape(problem.title or problem.name)
+    return (
+        f'<!DOCTYPE html>\n<html lang="{lang}">\n<head>\n<meta charset="utf-8">\n'
+        f'<meta http-equiv="Content-Security-Policy" content="{policy}">\n'
+        '<meta name="viewport" content="width=device-width, initial-scale=1">\n'
+        f"<title>{title}</title>\n<style>{style}</style>\n"
+        f"</head>\n<body>\n<header><h1>{title}</h1>"
+        f"<p>{escape(problem.source)}</p></header>\n{body}\n"
+        f"<footer>{escape(made)}</footer>\n"
+        f'<svg width="0" height="0" aria-hidden="true"><defs>{letters}</defs>'
+        f'</svg>\n<script type="application/json" id="scene">{_data(scene)}</script>\n'
+        f"<script>{script}</script>\n</body>\n</html>\n"
+    )
+
+
+def speed_choice(label: str) -> str:
+    """Return the element that chooses how quickly the page moves."""
+    options = "".join(
+        f'<option value="{v}"{" selected" if v == 1 else ""}>×{v:g}</option>' for v in SPEEDS
+    )
+    return f'<select id="speed" aria-label="{escape(label)}">{options}</select>'
+
+
+def runs(markup: str) -> list[list[str]]:
+    """Return rich text as letters with the element that they stand in: ``sub``, ``sup`` or none."""
+    height = 10.0
+    level = {True: "sub", False: "sup"}
+    found = typeset(markup, height).runs
+    return [[run.text, level[run.y < 0] if abs(run.y) > 0.1 * height else ""] for run in found]
+
+
+def rich(markup: str) -> str:
+    """Return rich text as HTML."""
+    return "".join(
+        f"<{tag}>{escape(text)}</{tag}>" if tag else escape(text) for text, tag in runs(markup)
+    )
+
+
+def _data(value: Any) -> str:
+    """Return a value as JSON that no element of a page ends in."""
+    text = json.dumps(value, ensure_ascii=False, separators=(",", ":"), allow_nan=False)
+    return text.replace("<", "\\u003c").replace("\u2028", "\\u2028").replace("\u2029", "\\u2029")
+
+
+def _hash(source: str) -> str:
+    return "sha256-" + b64encode(sha256(source.encode()).digest()).decode()

@@ -1,0 +1,60 @@
+"""Try a built wheel as a user has it: in a clean environment, away from the repository.
+
+``make dist`` builds the source distribution and the wheel and runs this: the wheel is installed
+from its file, and the program is asked for its version, for a template and a shipped task, for
+their numbers and for a sheet.
+"""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+import venv
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+COMMANDS = (
+    "--version",
+    "new shaper mine.toml",
+    "solve mine.toml",
+    "new linkages-2.1.45 task.toml",
+    "solve task.toml --json",
+    "sheet task.toml --format svg,pdf",
+)
+"""What must work of an installed program; each begins where the one before ended."""
+
+
+def tried(wheel: Path, folder: Path) -> None:
+    """Install a wheel into a clean environment in a folder, and run the commands there.
+
+    Raises
+    ------
+    subprocess.CalledProcessError
+        Something ends with another exit code than 0.
+    """
+    home = folder / "environment"
+    venv.create(home, with_pip=True)
+    programs = home / ("Scripts" if os.name == "nt" else "bin")
+    # The repository, and what is set for work on it, must not be found there.
+    clean = {key: value for key, value in os.environ.items() if not key.startswith("PYTHON")}
+    pip = [programs / "python", "-m", "pip", "install", "--quiet", wheel.resolve()]
+    for words in (pip, *([programs / "planmethod", *line.split()] for line in COMMANDS)):
+        done = subprocess.run(words, cwd=folder, env=clean, capture_output=True, text=True)
+        if done.returncode:
+            sys.stderr.write(done.stdout + done.stderr)
+            done.check_returncode()
+        last = (done.stdout.splitlines() or [""])[-1][:70]
+        print(" ".join(Path(str(word)).name for word in words), "→", last)
+
+
+def main(folder: str) -> None:
+    """Try the only wheel of a folder."""
+    (wheel,) = Path(folder).glob("*.whl")
+    with TemporaryDirectory(prefix="planmethod-") as name:
+        tried(wheel, Path(name))
+    print(f"{wheel.name} works")
+
+
+if __name__ == "__main__":
+    main(sys.argv[1])

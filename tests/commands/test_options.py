@@ -1,0 +1,118 @@
+"""What holds for the options of every command."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import click
+import pytest
+from click.testing import CliRunner
+from worked import path_of
+
+from planmethod.cli import COMMANDS, cli, command_of
+
+EX1, EX3 = str(path_of("linkages/ex1")), str(path_of("linkages/ex3"))
+
+
+def single(name: str) -> list[click.Option]:
+    """Return the options of a command that take one value."""
+    return [
+        param
+        for param in command_of(name).params
+        if isinstance(param, click.Option)
+        and not param.is_flag
+        and not param.multiple
+        and param.nargs == 1
+    ]
+
+
+@pytest.mark.parametrize("name", COMMANDS)
+def test_an_option_that_is_given_twice_is_refused_with_both_values(name: str) -> None:
+    for option in single(name):
+        long = max(option.opts, key=len)
+        first, second = ["ru", "en"] if long == "--lang" else ["17", "29"]
+        done = CliRunner().invoke(cli, [name, f"{option.opts[0]}", first, f"{long}={second}"])
+        assert done.exit_code == 2, (name, long, done.output)
+        told = " ".join(done.output.split())
+        assert f"{long} is given 2 times: {first}, {second}. Give it once." in told or (
+            f"ключ {long} дан 2 раза: {first}, {second}. Дайте его один раз." in told
+        )
+
+
+def test_a_switch_is_not_on_and_off_and_twice_on_says_nothing_else() -> None:
+    done = CliRunner().invoke(cli, ["sheet", EX3, "--sigma", "--no-sigma"])
+    assert done.exit_code == 2
+    assert "--sigma" in done.output
+    assert "--no-sigma" in done.output
+    command_of("sheet").make_context("sheet", [EX3, "--compact", "--compact"])
+
+
+def test_fields_of_the_title_block_are_given_one_by_one() -> None:
+    words = [EX3, "--stamp", "author=Иванов", "--stamp", "group=М-31"]
+    context = command_of("sheet").make_context("sheet", words)
+    assert context.params["stamp"] == {"author": "Иванов", "group": "М-31"}
+
+
+def test_what_stands_after_two_dashes_is_no_option() -> None:
+    context = command_of("solve").make_context("solve", ["--phi", "20", "--", "--phi", "30"])
+    assert [str(path) for path in context.params["problems"]] == ["--phi", "30"]
+
+
+# --open ------------------------------------------------------------------------------------------
+
+
+def launches(monkeypatch: pytest.MonkeyPatch) -> list[str]:
+    """Return what is opened by the system, as it is."""
+    launched: list[str] = []
+
+    def launch(url: str) -> int:
+        launched.append(url)
+        return 0
+
+    monkeypatch.setattr("click.launch", launch)
+    return launched
+
+
+@pytest.mark.parametrize(
+    ("words", "shown"),
+    [
+        (["sheet", EX1, EX3, "--format", "svg"], "ex1.svg"),
+        (["sheet", EX1, "--format", "svg,pdf"], "ex1.pdf"),
+        (["sheet", EX1, EX3, "--format", "svg", "--jobs", "2"], "ex1.svg"),
+        (["sheet", EX1, "--format", "dxf"], "ex1.dxf"),
+        (["sheet", EX1, "--format", "pdf", "--one-file", "all.pdf"], "all.pdf"),
+        (["live", EX1, EX3], "ex1-live.html"),
+        (["sketch", EX1], "ex1-sketch.html"),
+        (["project", EX1, "--parts", "kinematics"], "ex1/project.pdf"),
+        (["note", EX1], "ex1-note.docx"),
+    ],
+)
+def test_one_written_file_is_shown(
+    words: list[str], shown: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    launched = launches(monkeypatch)
+    done = CliRunner().invoke(cli, [*words, "-o", str(tmp_path), "--open"])
+    assert done.exit_code == 0, done.output
+    assert launched == [str(tmp_path / shown)]
+    assert (tmp_path / shown).exists()
+
+
+def test_a_file_that_nothing_opens_is_written_and_named(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("click.launch", lambda url: 1)
+    words = ["live", EX1, "-o", str(tmp_path), "--open", "--lang", "en"]
+    done = CliRunner().invoke(cli, words)
+    assert done.exit_code == 0
+    page = tmp_path / "ex1-live.html"
+    assert page.exists()
+    assert f"no program of this system opens {page}" in done.stderr
+
+
+def test_nothing_is_shown_of_a_problem_that_fails(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    launched = launches(monkeypatch)
+    done = CliRunner().invoke(cli, ["sheet", "none.toml", "-o", str(tmp_path), "--open"])
+    assert done.exit_code == 3
+    assert not launched
