@@ -41,7 +41,9 @@ def tried(wheel: Path, folder: Path) -> None:
     # The repository, and what is set for work on it, must not be found there.
     clean = {key: value for key, value in os.environ.items() if not key.startswith("PYTHON")}
     pip: list[str | Path] = [programs / "python", *_INSTALL, wheel.resolve()]
-    for words in (pip, *([programs / "planmethod", *line.split()] for line in COMMANDS)):
+    calls: list[list[str | Path]] = [pip]
+    calls += [[programs / "planmethod", *line.split()] for line in COMMANDS]
+    for words in calls:
         done = subprocess.run(words, cwd=folder, env=clean, capture_output=True, text=True)
         if done.returncode:
             sys.stderr.write(done.stdout + done.stderr)
