@@ -61,6 +61,5 @@ def project_record(project: Project, parts: Sequence[PartFiles], stem: str) -> d
 
 
 def _shown(problem: Problem, at: float) -> float:
-    """Return a position as sheets write it, an angle of a full crank within its cycle."""
-    whole = 360.0 * problem.turns
-    return at if problem.shown(at) == at else round(at % whole, 9) % whole
+    """Return a position as sheets write it, an angle of a full crank within its turn."""
+    return at if problem.shown(at) == at else round(at % 360.0, 9) % 360.0

@@ -333,9 +333,10 @@ class Turn(Remembering):
         """Both ends of the stroke, that which ``zero`` names first; there must be a stroke."""
         assert self.ends is not None
         one, two = self.ends
-        is_other = self.task.zero is Zero.OTHER
-        if self.task.zero is Zero.WORKING and self.strokes is not None:
-            is_other = self.strokes.start_deg == two.phi
+        is_other, zero = self.task.zero is Zero.OTHER, self.task.zero
+        if zero in (Zero.WORKING, Zero.USUAL) and (strokes := self.strokes) is not None:
+            is_told = zero is Zero.WORKING or strokes.by != LONGER
+            is_other = is_told and strokes.start_deg == two.phi
         return (two, one) if is_other else (one, two)
 
     @cached_property
