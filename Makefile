@@ -11,7 +11,7 @@ LINKAGES = $(sort $(filter-out $(TASKS) problems/point/% problems/gears/% proble
 # tree, also where the environment forbids it: to compile anew in every process is a tenth of the time.
 TESTS := PYTHONDONTWRITEBYTECODE= PYTHONPYCACHEPREFIX=$(CURDIR)/$(VENV)/bytecode $(BIN)/python -m pytest -n 2 --dist loadfile
 
-.PHONY: demo test test-every test-thorough outputs lint size format tables schema messages tasks gallery group bench dist clean
+.PHONY: demo test test-every test-thorough outputs lint size format tables schema examples messages tasks gallery group bench dist clean
 
 # The compat mode is a plain path entry: the default finder costs every command a tenth of a second.
 $(VENV)/.ready: pyproject.toml
@@ -62,6 +62,10 @@ tables: $(VENV)/.ready
 # What follows from the declared keys of flat tables: the schema, the references of keys in both languages.
 schema: $(VENV)/.ready
 	$(BIN)/python -m scripts.reference
+
+# What commands print, in the pages of docs/ that show it.
+examples: $(VENV)/.ready
+	$(BIN)/python -m scripts.examples
 
 # The sentences of click in the other languages, as gettext reads them.
 messages: $(VENV)/.ready

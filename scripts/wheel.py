@@ -38,7 +38,7 @@ def tried(wheel: Path, folder: Path) -> None:
     programs = home / ("Scripts" if os.name == "nt" else "bin")
     # The repository, and what is set for work on it, must not be found there.
     clean = {key: value for key, value in os.environ.items() if not key.startswith("PYTHON")}
-    install = [programs / "python", "-m", "pip", "install", "--quiet", wheel.resolve()]
+    install: list[str | Path] = [programs / "python", "-m", "pip", "install", "--quiet", wheel.resolve()]
     for words in (install, *([programs / "planmethod", *line.split()] for line in COMMANDS)):
         done = subprocess.run(words, cwd=folder, env=clean, capture_output=True, text=True)
         if done.returncode:

@@ -435,6 +435,11 @@ def test_a_protocol_in_a_file() -> None:
     assert Path("notes/ex1-protocol.txt").read_text("utf-8") == run("protocol", EX1).output
 
 
+def test_a_protocol_as_markdown() -> None:
+    assert run("protocol", EX1, "--format", "md", "-o", "notes").exit_code == 0
+    assert Path("notes/ex1-protocol.md").read_text("utf-8").startswith("# Протокол")
+
+
 # New ----------------------------------------------------------------------------------------------
 
 
@@ -520,6 +525,7 @@ def test_a_mistyped_family_comes_with_the_nearest() -> None:
     refused = run("new", "fourbar")
     assert refused.exit_code == 2
     assert "no family 'fourbar'; did you mean 'four-bar'?" in refused.output
+    assert "did you mean 'linkages-2.1.45'?" in run("new", "2.1.45").output
 
 
 # Files --------------------------------------------------------------------------------------------

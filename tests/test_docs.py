@@ -21,6 +21,7 @@ from planmethod.errors import ExitCode
 from planmethod.problem import loads
 from planmethod.solved.selfcheck import verify
 from planmethod.solved.solution import Solution
+from scripts import examples
 
 READMES = ("README.md", "README.ru.md")
 COMMANDS = ("docs/commands.md", "docs/ru/commands.md")
@@ -134,6 +135,12 @@ def test_python_examples_run(name: str, desk: Path, capsys: pytest.CaptureFixtur
     assert isinstance(pdf, bytes)
     assert pdf.startswith(b"%PDF-")
     assert "275°: 16.021" in capsys.readouterr().out
+
+
+@each("page", examples.pages())
+def test_printed_examples_are_those_of_today(page: Path) -> None:
+    """Otherwise ``make examples`` writes them anew."""
+    assert examples.filled(page.read_text("utf-8")) == page.read_text("utf-8")
 
 
 @pytest.mark.parametrize("name", READMES)

@@ -49,9 +49,8 @@ def refuse_unknown(said: str, name: str, known: Sequence[str], told: str = "") -
     if name not in known:
         from difflib import get_close_matches
 
-        near = [one for one in known if one.endswith(f"-{name}")] or get_close_matches(
-            name, known, 1
-        )
+        near = get_close_matches(name, known, 1)
+        near = near or [one for one in known if one.endswith(f"-{name}")]
         hint = say("; did you mean {!r}?", near[0]) if near else "."
         listed = told or ", ".join(known)
         raise UsageError("{}{} Known: {}.", say(said, name), hint, listed)

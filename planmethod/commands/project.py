@@ -49,7 +49,7 @@ class MadePart(Struct, frozen=True):
     drawings: tuple[Drawing, ...] = ()
 
 
-class Task(Struct, frozen=True):
+class WritingTask(Struct, frozen=True):
     """What is written: the sheets of a part, all sheets, the note or the numbers."""
 
     name: str
@@ -203,10 +203,10 @@ def _made(
         numbered = numbered_set(chosen, [drawn[name].drawings for name in sheets])
         sets = {name: tuple(some) for name, some in zip(sheets, numbered, strict=True)}
         # The note takes the longest: with it first, all processes end alike.
-        tasks: list[Task] = [Task(name) for name in texts]
-        tasks += [Task(name, names[name], sets[name]) for name in shown]
+        tasks: list[WritingTask] = [WritingTask(name) for name in texts]
+        tasks += [WritingTask(name, names[name], sets[name]) for name in shown]
         if whole:
-            tasks.append(Task(WHOLE, "project", tuple(d for some in numbered for d in some)))
+            tasks.append(WritingTask(WHOLE, "project", tuple(d for some in numbered for d in some)))
         work = partial(write, project=chosen, options=options, formats=written)
         for name, one in _shared(work, tasks, jobs):
             files |= one.files
@@ -228,7 +228,7 @@ def draw(task: str, *, project: Project, options: NoteOptions) -> tuple[str, Mad
 
 
 def write(
-    task: Task, *, project: Project, options: NoteOptions, formats: SheetFormats
+    task: WritingTask, *, project: Project, options: NoteOptions, formats: SheetFormats
 ) -> tuple[str, MadePart]:
     """Write the sheets of a part in all formats, all sheets together as PDF, the note, numbers."""
     if task.name == NUMBERS:

@@ -43,6 +43,14 @@ from planmethod.options import (
     metavar="NUMBER",
     help="Number of the position, from 0; else the calculated one of a project, or 0.",
 )
+@click.option(
+    "--format",
+    "form",
+    type=click.Choice(["text", "md"]),
+    default="text",
+    show_default=True,
+    help="Plain text, or Markdown with formulas in LaTeX.",
+)
 @lang_option
 @guarded
 def protocol(
@@ -54,11 +62,13 @@ def protocol(
     profile: str | None,
     out: Path | None,
     position: int | None,
+    form: str,
     lang: str,
 ) -> None:
     """Tell the construction step by step, as the explanatory note does."""
     from planmethod.note.protocol import protocol_document
     from planmethod.note.wording import language
+    from planmethod.note.writers.markdown import markdown_document
     from planmethod.note.writers.plain import plain_document
 
     hand, words = drawn_by(profile, ruler), language(lang)
@@ -79,7 +89,9 @@ def protocol(
                     "--position {}: the last of {} is {}", chosen, problem.name, count - 1
                 )
             told = protocol_document(solution, words, chosen)
-        text = plain_document(told, words) + "\n"
-        put(text, None if out is None else str(out / f"{stem(problem)}-protocol.txt"))
+        is_plain = form == "text"
+        text = plain_document(told, words) + "\n" if is_plain else markdown_document(told, words)
+        suffix = "txt" if is_plain else "md"
+        put(text, None if out is None else str(out / f"{stem(problem)}-protocol.{suffix}"))
 
     finish(each(problems, variant, all_variants, tell))

@@ -13,7 +13,7 @@ from msgspec import Struct
 
 from planmethod.construct.steps import Compute, LayOff, Name, NumberName, PointName
 from planmethod.plans.draft import Draft
-from planmethod.plans.model import PlanKind
+from planmethod.plans.model import RATES, PlanKind
 from planmethod.plans.motion.board import MotionBoard, plain_letter
 from planmethod.plans.motion.leads import Kinematics
 
@@ -87,6 +87,23 @@ PLAN_OF = {kind.letter: kind.plan for kind in QuantityKind}
 
 TURNING = (QuantityKind.DIRECTION, QuantityKind.OMEGA, QuantityKind.EPSILON)
 """Kinds of quantities of links."""
+
+TURNINGS = tuple(kind for kind in TURNING if kind.is_number)
+"""Those of them that the plans give."""
+
+MOTION_KINDS = tuple(
+    kind
+    for plan in RATES
+    for kind in (QuantityKind.VELOCITY, QuantityKind.ACCELERATION, *TURNINGS)
+    if kind.plan is plan
+)
+"""Kinds of quantities of points and links that the plans give, in the order in which tables have
+them."""
+
+
+def kinds_on(plan: PlanKind) -> tuple[QuantityKind, ...]:
+    """Return those of them that a plan gives."""
+    return tuple(kind for kind in MOTION_KINDS if kind.plan is plan)
 
 
 class Quantity(Struct, frozen=True):

@@ -32,10 +32,13 @@ from planmethod.problem.machine_records import (
 )
 from planmethod.problem.model import Scales
 
+OF_KINDS = ("gears", "point", "meshing")
+"""Tables by which a file is of another kind than linkages; those kinds read them."""
+
 TOP = (
     "title", "source", "units", "frame", "links", "driver", "assembly", "scales", "stamp",
     "sheet", "published", "answers", "compare", "variants", "dynamics", "loads", "machine",
-    "balancing", "gears", "point", "cycle", "meshing", "project",
+    "balancing", "cycle", "project", *OF_KINDS,
 )  # fmt: skip
 FRAME = ("guides", "number")
 GUIDE = ("through", "angle")

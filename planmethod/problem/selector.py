@@ -261,9 +261,6 @@ def unknown_names(
     return found + (unknown_names(selector.over, points, links, loads) if selector.over else [])
 
 
-TABLE_KEYS = ("gears", "point", "meshing")
-
-
 def read_published(
     faults: Faults,
     table: object,
@@ -361,7 +358,7 @@ def check_what(
 def read_tables(faults: Faults, table: Mapping[str, Any]) -> dict[str, Any]:
     """Take over the tables that later parts read, checking no more than their TOML type."""
     found: dict[str, Any] = {}
-    for key in TABLE_KEYS:
+    for key in keys.OF_KINDS:
         if key not in table:
             continue
         value = fields.read_table(faults, key, table[key])

@@ -35,13 +35,10 @@ from planmethod.problem.source import SIZE_LIMIT, table_text
 
 KeyPath = tuple[str, ...]
 
-_FREE = ("gears", "point", "meshing")
-"""Tables whose keys later parts check."""
-
 _HOLDERS = (Mapping, list)
 """What a path may lead through: a table, the loads or the answers."""
 
-_MOTION = ("frame", "links", "driver", "assembly", "gears", "point", "meshing")
+_MOTION = ("frame", "links", "driver", "assembly", *keys.OF_KINDS)
 """Tables on which all published values depend."""
 
 TURNING = ("omega", "n", "train")
@@ -183,7 +180,7 @@ def _check_path(faults: Faults, path: str, base: Mapping[str, Any], where: KeyPa
     if where[0] == "variants":
         faults.add(shown, "a variant cannot hold variants")
         return False
-    if where[0] in _FREE:
+    if where[0] in keys.OF_KINDS:
         return True
     for depth in range(1, len(where) + 1):
         part, parent = where[:depth], where[: depth - 1]

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from typing import Any
 
-from planmethod.note.narrate.given import MOTION_KINDS, told
+from planmethod.note.narrate.given import told
 from planmethod.note.plaintext import plain_text
 from planmethod.note.records.spreadsheet import csv_rows
 from planmethod.note.wording import language
 from planmethod.note.writers.workbook import add_sheet, new_workbook, saved
+from planmethod.plans.legend import MOTION_KINDS
 from planmethod.project.model import Project
 
 

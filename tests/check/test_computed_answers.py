@@ -145,7 +145,7 @@ gears.n = { 1 = 90 }
     one, two = json.loads(said[: said.rindex("]") + 1])
     by_id: dict[str, Any] = {answer["id"]: answer for answer in one["answers"]}
     assert [by_id[name]["verdict"] for name in ("n5", "omega_5")] == ["ok", "ok"]
-    assert by_id["n_4"]["exact_mm"] == pytest.approx(40.0)
+    assert by_id["n_4"]["exact_mm"] == pytest.approx(30.0)
     assert by_id["n_4"]["tolerance"] > 0.05 * 150  # of drawing, not of calculation
     assert [answer["verdict"] for answer in two["answers"]] == ["wrong", "unreadable", "blank"]
     assert [diagnosis["codes"] for diagnosis in two["diagnosis"]] == [["P2"]]

@@ -92,6 +92,10 @@ def texts_of(file: Any) -> list[str]:
     return [text.text or "" for text in file.element.body.iter(f"{W}t")]
 
 
+def test_a_text_of_nothing_is_written() -> None:
+    assert word_document(Document.of([Paragraph("")]), RU)
+
+
 def test_the_document_of_the_tests_has_every_node() -> None:
     assert {type(node) for node in nodes()} == set(get_args(Node))
 

@@ -85,6 +85,13 @@ def texts(written: Document) -> Iterator[str]:
 # Chapters ----------------------------------------------------------------------------------------
 
 
+@pytest.mark.parametrize("name", FILES)
+def test_no_paragraph_is_empty(name: str) -> None:
+    """Of weights and inertia alone there is nothing to be said of loads."""
+    texts = [node.text for node in note_of(name).nodes if isinstance(node, document.Paragraph)]
+    assert all(texts)
+
+
 def test_a_note_has_the_chapters_that_the_file_has_something_for() -> None:
     assert chapters(note_of("shaper")) == SHAPER
     assert chapters(note_of("homework")) == SHAPER[:2]

@@ -117,7 +117,7 @@ def test_a_segment_stands_for_its_velocity_at_its_own_share_of_the_scale(
                 true = span.length * solution.scales[kind].per_mm / span.share
                 assert any(abs(true - size) < 1e-9 * (1 + size) for size in sizes), span.name
                 shares.add(round(span.share, 6))
-    assert shares >= ({1.0, 0.2} if name.endswith("49") else {1.0})
+    assert shares == {1.0}
 
 
 def test_an_enlarged_segment_stands_for_its_vector_at_its_share() -> None:

@@ -8,6 +8,7 @@ from math import exp
 import numpy as np
 import pytest
 from loaded import loaded_problem
+from msgspec.structs import replace
 from worked import path_of, problem_of
 
 from planmethod import loads
@@ -42,6 +43,8 @@ def statics_with(
     name: str | int, profile: str = "board", positions: tuple[float, ...] | None = None
 ) -> Statics:
     problem = loaded_problem(name)[0] if isinstance(name, int) else problem_of(name)
+    # The scales of the file for all positions, however many.
+    problem = replace(problem, scales=replace(problem.scales, decided=True))
     return statics_of(Solution(problem, positions=positions, profile=PROFILES[profile]))
 
 

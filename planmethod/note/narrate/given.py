@@ -11,7 +11,7 @@ from planmethod.mechanism.model import FRAME
 from planmethod.note.formula import fraction
 from planmethod.note.numbers import MINUS, Notation, trimmed, with_unit
 from planmethod.note.wording import Language
-from planmethod.plans.legend import Quantity, QuantityKind
+from planmethod.plans.legend import MOTION_KINDS, TURNINGS, Quantity, QuantityKind
 from planmethod.plans.motion.leads import slot_name
 from planmethod.problem.model import Body, Geared, Posed, PosedBy, Problem, Slide
 from planmethod.problem.names import UNITS, split_names
@@ -357,18 +357,6 @@ def asked_links(solution: Solution) -> list[str]:
     return [
         link for link in solution.problem.mechanism.links if link in kin.omega and link != drive
     ]
-
-
-MOTION_KINDS = (
-    QuantityKind.VELOCITY,
-    QuantityKind.OMEGA,
-    QuantityKind.ACCELERATION,
-    QuantityKind.EPSILON,
-)
-"""Kinds of quantities that a sheet tells, in their order."""
-
-TURNINGS = (QuantityKind.OMEGA, QuantityKind.EPSILON)
-"""Kinds of quantities of links; the others are of points."""
 
 
 def told(solution: Solution, *kinds: QuantityKind) -> list[Quantity]:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import cached_property
+
 from planmethod.construct.steps import (
     Compute,
     LayOff,
@@ -17,6 +19,7 @@ from planmethod.note.narrate.formulas import SHORTEST_MM, Formulas
 from planmethod.note.narrate.letters import SIGN
 from planmethod.note.narrate.naming import SCALE_KIND, Names
 from planmethod.note.plaintext import given
+from planmethod.plans.legend import Quantity
 from planmethod.plans.model import RATES, PlanKind, Relation, Vector, VectorKind
 from planmethod.plans.motion.leads import Relative
 from planmethod.solved.solution import Solution
@@ -140,6 +143,21 @@ class MotionNarrator:
             return False
         return not isinstance(self.names.step[step.powers[1][0]], MeasureAlong)
 
+    @cached_property
+    def _results(self) -> dict[NumberName, Quantity]:
+        """Quantities that follow from others and are no segments, by their numbers."""
+        drawn = {*self._values, *self._epsilons, *self.kin.omega.values()}
+        steps = self.solution.construction.program.steps
+        drawn |= {step.length for step in steps if isinstance(step, LayOff)}
+        every = self.solution.legend.values()
+        return {q.size: q for q in every if q.size is not None and q.size not in drawn}
+
+    def _result(self, step: Compute, quantity: Quantity) -> str:
+        """Return how such a quantity follows from the others."""
+        value, sides = self.say.number(step.out), self.say.product(step.powers, step.factor)
+        more = self.say.exactly(self.say.exact(step.out))
+        return self.say.formula(quantity.symbol, sides, value, quantity.kind.unit, more)
+
     def _turned(self, step: Compute) -> PlanKind | None:
         """Return the plan by which a step is how a link turns; None of other steps."""
         return next((kind for kind in RATES if step.out in self.kin.rates(kind).values()), None)
@@ -154,7 +172,12 @@ class MotionNarrator:
         return [self._turning_formula(step), *alike]
 
     def value(self, step: Compute) -> list[str]:
-        """Return the formula of what a segment stands for by its length; none of other steps."""
+        """Return the formula of what a segment stands for by its length, or of what follows.
+
+        None of other steps.
+        """
+        if step.out in self._results:
+            return [self._result(step, self._results[step.out])]
         if not self.is_value(step):
             return []
         plan = self._values[step.out]

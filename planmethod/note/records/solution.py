@@ -11,7 +11,7 @@ from planmethod.mechanism.structure import Structure
 from planmethod.note.columns import listed, named, pairs, sizes
 from planmethod.note.numbers import plain
 from planmethod.note.written import Column, Records, plain_of, rows, together
-from planmethod.plans.legend import TURNING, Quantity, QuantityKind
+from planmethod.plans.legend import TURNING, TURNINGS, Quantity, QuantityKind
 from planmethod.plans.model import FACTS, MOTION, PlanKind, pole_letter
 from planmethod.plans.motion.leads import Relative
 from planmethod.problem.cycle_records import Differentiation
@@ -228,7 +228,7 @@ def _hand(solution: Solution) -> Records:
             QuantityKind.VELOCITY, QuantityKind.ACCELERATION
         ).items()
     }
-    turning = solution.quantities(QuantityKind.OMEGA, QuantityKind.EPSILON)
+    turning = solution.quantities(*TURNINGS)
     links = {name: rows(told(quantities), count) for name, quantities in turning.items()}
     sliding = solution.quantities(
         QuantityKind.SLIDING, QuantityKind.CORIOLIS, QuantityKind.RELATIVE

@@ -9,12 +9,12 @@ from planmethod.construct import steps
 from planmethod.construct.steps import PointName, Step
 from planmethod.note.document import Caption, Item, Node, Paragraph
 from planmethod.note.formula import Rich
-from planmethod.note.narrate.given import MOTION_KINDS, told
+from planmethod.note.narrate.given import told
 from planmethod.note.narrate.naming import Names
 from planmethod.note.plaintext import fixed, spoken
 from planmethod.note.rounding import rounded_to, sigma_text
 from planmethod.note.tables.sigmas import marked
-from planmethod.plans.legend import Quantity
+from planmethod.plans.legend import MOTION_KINDS, Quantity
 from planmethod.solved.errors.motion import drafting_of
 from planmethod.solved.errors.spread import SHORT
 

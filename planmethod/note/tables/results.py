@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
+from itertools import chain
 
 from planmethod.note.document import (
     Caption,
@@ -24,7 +25,7 @@ from planmethod.note.numbers import with_unit
 from planmethod.note.plaintext import fixed, found, given, spoken
 from planmethod.note.tables.sigmas import Sigmas, levelled
 from planmethod.note.wording import Language, Words
-from planmethod.plans.legend import TURNING, Quantity, QuantityKind
+from planmethod.plans.legend import TURNING, TURNINGS, Quantity, QuantityKind, kinds_on
 from planmethod.plans.model import FACTS, MOTION, PlanKind
 from planmethod.problem.model import Problem
 from planmethod.solved.reading import Reals
@@ -191,13 +192,16 @@ def _place(solution: Solution, metres: float, words: Words) -> str:
 
 
 def _link_tables(solution: Solution, words: Words, i: int, sigmas: Sigmas) -> Iterator[Table]:
-    """Yield the table of the links; with errors it is one of ω and one of ε: both are wide."""
-    rows, head = _links(solution, words, i, sigmas), words["columns_links"]
+    """Yield the table of the links; with errors it is one of each of ω and ε: they are wide."""
+    rows, (link, direction, *read) = _links(solution, words, i, sigmas), words["columns_links"]
+    heads = [[f"{kind.sign}, {words['units'][kind.unit]}", *read] for kind in TURNINGS]
     if not sigmas.asked:
-        yield sigmas.table(head, (), rows)
+        yield sigmas.table((link, direction, *chain(*heads)), (), rows)
         return
-    yield sigmas.table(head[:5], (3,), [row[:6] for row in rows])
-    yield sigmas.table((head[0], *head[5:]), (2,), [[row[0], *row[6:]] for row in rows])
+    for k, head in enumerate(heads):
+        lead, start = (2 if k == 0 else 1), 2 + 4 * k
+        cells = [[*row[:lead], *row[start : start + 4]] for row in rows]
+        yield sigmas.table((*(link, direction)[:lead], *head), (lead + 1,), cells)
 
 
 def _links(solution: Solution, words: Words, i: int, sigmas: Sigmas) -> list[list[str]]:
@@ -208,7 +212,7 @@ def _links(solution: Solution, words: Words, i: int, sigmas: Sigmas) -> list[lis
         row = [name, "—"]
         if direction is not None:
             row[1] = fixed(float(solution.exact(direction)[i]), words)
-        for kind in (QuantityKind.OMEGA, QuantityKind.EPSILON):
+        for kind in TURNINGS:
             if kind in known:
                 row += _found(solution, known[kind], i, sigmas)
                 row.append(_sense(solution.exact(known[kind])[i], words))
@@ -291,8 +295,8 @@ def _many(solution: Solution, words: Language, sigmas: Sigmas) -> Iterator[Node]
         for axis, values in (("x", place.real), ("y", place.imag)):
             cells = [_place(solution, float(value), note) for value in values]
             places.append([f"{axis}_{{{name}}}", *cells])
-    speeds = told(solution, QuantityKind.VELOCITY, QuantityKind.OMEGA)
-    changes = told(solution, QuantityKind.ACCELERATION, QuantityKind.EPSILON)
+    speeds = told(solution, *kinds_on(PlanKind.VELOCITY))
+    changes = told(solution, *kinds_on(PlanKind.ACCELERATION))
     yield from table(note.many_places, places)
     for title, some in ((note.many_velocities, speeds), (note.many_accelerations, changes)):
         yield from table(title, [column(q, solution.exact(q)) for q in some])

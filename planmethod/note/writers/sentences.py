@@ -111,7 +111,7 @@ def formula_alone(found: Sequence[SentencePart]) -> tuple[Node, ...]:
 def with_stops(found: Sequence[SentencePart]) -> Iterator[SentencePart]:
     """Yield the parts of a sentence, a stop in the formula before it: no line begins with one."""
     stop = ""
-    for piece, after in zip(found, [*found[1:], None], strict=True):
+    for piece, after in zip(found, [*found[1:], None], strict=False):  # there may be none
         if not piece.is_formula:
             text = piece.text.removeprefix(stop)
             stop = ""

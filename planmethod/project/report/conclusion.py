@@ -10,17 +10,15 @@ from planmethod.note.document import Item, Node, References, StructuralHeading, 
 from planmethod.note.formula import Rich, escape, inlined
 from planmethod.note.narrate.forces.lever import both_balances, difference, expected
 from planmethod.note.wording import Words
+from planmethod.plans.legend import kinds_on
+from planmethod.plans.model import RATES
 from planmethod.project.model import PartName
 from planmethod.project.report.context import Report, sentences
 from planmethod.project.report.flywheel import machine_of
 from planmethod.project.report.gears import ratio_of
-from planmethod.project.report.results import (
-    ACCELERATIONS,
-    VELOCITIES,
-    compared,
-    worst,
-)
+from planmethod.project.report.results import compared, worst
 from planmethod.project.report.turn import has_turn
+from planmethod.solved.errors.forces import drawn_forces, size_label
 from planmethod.solved.forces.reading import force_reading
 from planmethod.solved.turn.turn import turn_of
 
@@ -55,8 +53,8 @@ def _structure(report: Report, said: Words) -> Rich:
 
 def _motion(report: Report, said: Words) -> Rich:
     say, facts = report.say, {}
-    for name, kinds in (("velocity", VELOCITIES), ("acceleration", ACCELERATIONS)):
-        most = worst(compared(report.one, 0, *kinds))
+    for plan in RATES:
+        name, most = plan.value, worst(compared(report.one, 0, *kinds_on(plan)))
         if most is None:
             return ""
         facts[name] = most.quantity.symbol
@@ -92,12 +90,13 @@ def _forces(report: Report, said: Words) -> Iterator[Rich]:
     reading, say = force_reading(report.one, 0), report.say
     joints = reading.statics.reactions
     most = max(joints, key=lambda joint: abs(complex(joint.force[0])))
+    read = float(drawn_forces(reading.statics).read(size_label(most))[0])
     plans, lever = both_balances(reading)
     balancing = reading.balancing
     yield said.forces.format(
         position=report.in_position,
         symbol=report.reaction(most),
-        value=report.quantity(abs(complex(most.force[0])), "N"),
+        value=report.quantity(read, "N"),
         name=said["balancing"][balancing.quantity],
         balancing=say.symbol(reading.balancing_symbol),
         balance=report.quantity(abs(plans), balancing.unit),
@@ -147,7 +146,6 @@ def back(report: Report) -> Iterator[Node]:
     yield StructuralHeading(said.sources.format())
     yield References((*([escape(source)] if source else []), *said["standards"]))
     yield StructuralHeading(said.sheets.format())
-    yield sentences(said.sheets_text.format())
     names: Words = said["names"]
     rows = []
     for number, part in enumerate(report.project.parts, 1):
@@ -155,6 +153,11 @@ def back(report: Report) -> Iterator[Node]:
         if part.name is PartName.KINEMATICS and not has_turn(report):
             key = "kinematics_one"
         rows.append((str(number), str(names[key]).format()))
+    if len(rows) == 1:
+        ((_, only),) = rows
+        yield sentences(said.sheet_text.format(sheet=f"{only[0].lower()}{only[1:]}"))
+        return
+    yield sentences(said.sheets_text.format())
     yield Table(
         tuple(said["columns_sheets"]), tuple(rows), 2, name=said.sheets_table.format(), key="sheets"
     )

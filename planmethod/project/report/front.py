@@ -85,8 +85,7 @@ def _assignment(report: Report) -> Iterator[Node]:
     )
     if further:
         yield sentences(said.further.format(facts="; ".join(further)))
-    if report.has(PartName.FORCES):
-        loads = _loads(report)
+    if report.has(PartName.FORCES) and (loads := _loads(report)):
         yield sentences(*loads)
     caption = said.scheme.format(position=report.in_position)
     yield figure(

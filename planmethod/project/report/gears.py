@@ -32,6 +32,9 @@ from planmethod.render.sheets.composer import Sizes
 COLUMN = 185.0
 """Width of the texts of the sheet, mm."""
 
+SEEN = 0.05
+"""Least difference of construction and calculation that is told, per cent."""
+
 
 def train_chapter(report: Report, problem: GearProblem) -> Iterator[Node]:
     """Yield the chapter on a gear train."""
@@ -184,7 +187,9 @@ def _pictures(
             for one in drawn.found
             if one.exact
         ]
-        if offs:
+        if offs and max(offs) < SEEN:
+            yield sentences(said.same)
+        elif offs:
             yield sentences(said.agree.format(most=say.number(f"{max(offs):.1f}")))
 
 

@@ -15,13 +15,11 @@ from planmethod.note.rounding import sigma_text
 from planmethod.note.tables.results import lead_columns
 from planmethod.note.tables.sigmas import marked
 from planmethod.note.wording import Words
-from planmethod.plans.legend import Quantity, QuantityKind
+from planmethod.plans.legend import MOTION_KINDS, Quantity, QuantityKind, kinds_on
+from planmethod.plans.model import PlanKind
 from planmethod.project.report.context import Report, sentences
 from planmethod.solved.errors.motion import drafting_of
 from planmethod.solved.solution import Solution
-
-VELOCITIES = (QuantityKind.VELOCITY, QuantityKind.OMEGA)
-ACCELERATIONS = (QuantityKind.ACCELERATION, QuantityKind.EPSILON)
 
 MANY_SIGMAS = 3.0
 """Sigmas beyond which a difference is named."""
@@ -81,7 +79,10 @@ def results_parts(report: Report) -> Iterator[Node]:
     if report.is_series:
         yield Part(said.part.format())
         yield sentences(said.intro.format())
-        for kinds, key in ((VELOCITIES, "velocities"), (ACCELERATIONS, "accelerations")):
+        for kinds, key in (
+            (kinds_on(PlanKind.VELOCITY), "velocities"),
+            (kinds_on(PlanKind.ACCELERATION), "accelerations"),
+        ):
             yield _by_positions(report, kinds, str(said[key]).format(), key)
     yield Part(said.compared.format())
     yield from _compared(report, said)
@@ -102,7 +103,7 @@ def _by_positions(report: Report, kinds: Sequence[QuantityKind], name: Rich, key
 
 def _compared(report: Report, said: Words) -> Iterator[Node]:
     say = report.say
-    found = compared(report.one, 0, *VELOCITIES, *ACCELERATIONS)
+    found = compared(report.one, 0, *MOTION_KINDS)
     yield sentences(said.intro_compared.format(position=report.of_position))
     rows = [
         (
@@ -140,7 +141,7 @@ def _largest(report: Report, said: Words) -> Iterator[Node]:
     """Yield the largest difference of each quantity in all positions."""
     every, say = report.every, report.say
     errors, rows = drafting_of(every), []
-    for quantity in told(every, *VELOCITIES, *ACCELERATIONS):
+    for quantity in told(every, *MOTION_KINDS):
         exact, read = every.exact(quantity), every.read_off(quantity.label)
         off = np.abs(read - exact)
         peak = float(np.nanmax(np.abs(exact)))

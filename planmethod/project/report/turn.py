@@ -72,8 +72,8 @@ def diagrams_part(report: Report) -> Iterator[Node]:
     ruler = report.say.given(report.every.profile.ruler)
     yield sentences(said.deviations.format(ruler=f"{ruler} {report.unit('mm')}"))
     name = said.deviations_table.format()
-    (way, _, ways), (_, _, letters), *others = deviation_columns(diagrams, words)
-    columns = [(way, "", ways), (said.diagram.format(), "", letters), *others]
+    (_, _, ways), (_, _, letters), *others = deviation_columns(diagrams, words)
+    columns = [(said.way.format(), "", ways), (said.diagram.format(), "", letters), *others]
     yield _table(columns, report, name, "deviations", names=2)
     yield from _hodographs(report, said)
 

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from planmethod.note.narrate.given import MOTION_KINDS, told
+from planmethod.note.narrate.given import told
 from planmethod.note.numbers import alike, is_noise
-from planmethod.plans.legend import Quantity
+from planmethod.plans.legend import MOTION_KINDS, Quantity
 from planmethod.render.layout.block import Block
 from planmethod.render.layout.tables import TableCell, TableColumn, table_block
 from planmethod.render.sheets.model import Manner

@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Collection, Sequence
 from math import inf
 
-from planmethod.note.narrate.given import MOTION_KINDS, solution_peak, told
+from planmethod.note.narrate.given import solution_peak, told
 from planmethod.note.numbers import Notation, alike, is_noise, to_decimals
 from planmethod.note.rounding import as_long, rounded_to, sigma_text
 from planmethod.note.tables.sigmas import DRAWN, marked
 from planmethod.note.wording import Language
-from planmethod.plans.legend import Quantity
+from planmethod.plans.legend import MOTION_KINDS, Quantity
 from planmethod.render.frame.frame import STAMP_WIDTH
 from planmethod.render.layout.block import Block, Column, paragraph
 from planmethod.render.layout.pack import EDGE
