@@ -19,14 +19,24 @@ FORCES_BOX: Box = (170.0, 130.0)
 """What the largest force plan of a project fills at the scale of all of them, mm."""
 
 
+CONSIDERABLE = 1.0 / 3.0
+"""Share of its largest size from which a load is considerable in a position."""
+
+
 def loaded_positions(solution: Solution) -> tuple[int, ...]:
-    """Return the positions in which a load acts; all of them where none does anywhere."""
+    """Return the positions in which a load that changes is considerable; all where none changes.
+
+    A load is considerable from `CONSIDERABLE` of its largest size on: what a position is loaded
+    for would be lost beside weights and inertia in others.
+    """
     count, dynamics = len(solution.positions), solution.problem.dynamics
     acts: Flags = np.zeros(count, dtype=bool)
     if dynamics is not None:
         for link in (FRAME, *solution.problem.mechanism.links):
             for one in external(solution, dynamics, link):
-                acts |= np.broadcast_to(one.force if one.point else one.couple, acts.shape) != 0.0
+                size = np.abs(np.broadcast_to(one.force if one.point else one.couple, acts.shape))
+                large = size >= CONSIDERABLE * max(float(size.max()), 1e-300)
+                acts |= large & (not large.all())  # one that is there always says nothing
     return tuple(np.flatnonzero(acts).tolist()) if acts.any() else tuple(range(count))
 
 

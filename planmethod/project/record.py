@@ -39,7 +39,7 @@ def project_record(project: Project, parts: Sequence[PartFiles], stem: str) -> d
         "schema": SCHEMA,
         "problem": stem,
         "positions": [
-            {"number": number, column: _shown(project.problem, at)}
+            {"number": number, column: shown_place(project.problem, at)}
             for number, at in enumerate(project.positions)
         ],
         "calculated": project.calculated,
@@ -60,6 +60,6 @@ def project_record(project: Project, parts: Sequence[PartFiles], stem: str) -> d
     }
 
 
-def _shown(problem: Problem, at: float) -> float:
+def shown_place(problem: Problem, at: float) -> float:
     """Return a position as sheets write it, an angle of a full crank within its turn."""
     return at if problem.shown(at) == at else round(at % 360.0, 9) % 360.0
