@@ -8,6 +8,7 @@ import numpy as np
 
 from planmethod.construct.scale import choose_scale
 from planmethod.mechanism.model import FRAME
+from planmethod.problem.load_records import SizeTable
 from planmethod.solved.clearest import clearest_position
 from planmethod.solved.forces.loads import external
 from planmethod.solved.forces.statics import statics_of
@@ -32,10 +33,13 @@ def loaded_positions(solution: Solution) -> tuple[int, ...]:
     count, dynamics = len(solution.positions), solution.problem.dynamics
     acts: Flags = np.zeros(count, dtype=bool)
     if dynamics is not None:
+        tables = {load.name: load.size.values for load in dynamics.loads
+                  if isinstance(load.size, SizeTable)}  # fmt: skip
         for link in (FRAME, *solution.problem.mechanism.links):
             for one in external(solution, dynamics, link):
                 size = np.abs(np.broadcast_to(one.force if one.point else one.couple, acts.shape))
-                large = size >= CONSIDERABLE * max(float(size.max()), 1e-300)
+                largest = max(float(size.max()), *map(abs, tables.get(one.name, ())), 1e-300)
+                large = size >= CONSIDERABLE * largest
                 acts |= large & (not large.all())  # one that is there always says nothing
     return tuple(np.flatnonzero(acts).tolist()) if acts.any() else tuple(range(count))
 

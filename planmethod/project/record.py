@@ -7,6 +7,7 @@ from typing import Any
 
 from msgspec import Struct
 
+from planmethod.note.plaintext import plain_text
 from planmethod.problem.model import Problem
 from planmethod.project.model import PartName, Project
 
@@ -43,7 +44,9 @@ def project_record(project: Project, parts: Sequence[PartFiles], stem: str) -> d
             for number, at in enumerate(project.positions)
         ],
         "calculated": project.calculated,
-        "strokes": None if strokes is None else {key: getattr(strokes, key) for key in STROKES},
+        "strokes": None
+        if strokes is None
+        else {key: _plain(getattr(strokes, key)) for key in STROKES},
         "scales": {
             "mu_l": scales.mu_l,
             "mu_v": scales.mu_v,
@@ -63,3 +66,8 @@ def project_record(project: Project, parts: Sequence[PartFiles], stem: str) -> d
 def shown_place(problem: Problem, at: float) -> float:
     """Return a position as sheets write it, an angle of a full crank within its turn."""
     return at if problem.shown(at) == at else round(at % 360.0, 9) % 360.0
+
+
+def _plain(value: float | str | None) -> float | str | None:
+    """Return a number without its last bits, a text without markup."""
+    return plain_text(value) if isinstance(value, str) else value and round(value, 9)

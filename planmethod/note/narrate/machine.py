@@ -73,11 +73,10 @@ class MachineTeller:
     # Given and wanted ------------------------------------------------------------------------
 
     def given(self) -> list[str]:
-        """Return what is given."""
+        """Return what is given; the machine goes through all positions, none is."""
         machine, problem = self.flywheel.machine, self.flywheel.problem
         assert problem.dynamics is not None
-        start = self.flywheel.turn.start_deg
-        lines = given(problem, self.words, [start])
+        _, *lines = given(problem, self.words, [self.flywheel.turn.start_deg])
         lines += mass_lines(problem, self.words)
         if machine.crank_inertia:
             inertia = self.say.given(machine.crank_inertia)
