@@ -35,6 +35,7 @@ from planmethod.solved.turn.strokes import (
     Strokes,
     by_loads,
     looked_at,
+    over_strokes,
     powers,
 )
 
@@ -335,8 +336,10 @@ class Turn(Remembering):
         one, two = self.ends
         is_other, zero = self.task.zero is Zero.OTHER, self.task.zero
         if zero in (Zero.WORKING, Zero.USUAL) and (strokes := self.strokes) is not None:
-            is_told = zero is Zero.WORKING or strokes.by != LONGER
-            is_other = is_told and strokes.start_deg == two.phi
+            # Strokes of an indicator count from position 0: they cannot tell where that is.
+            circular = strokes.by != TOLD and over_strokes(self.solution.problem)
+            is_known = strokes.by != LONGER and not circular
+            is_other = (zero is Zero.WORKING or is_known) and strokes.start_deg == two.phi
         return (two, one) if is_other else (one, two)
 
     @cached_property
