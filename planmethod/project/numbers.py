@@ -14,7 +14,6 @@ from planmethod.note.wording import Words, language
 from planmethod.note.writers.workbook import add_sheet, new_workbook, saved
 from planmethod.plans.legend import MOTION_KINDS
 from planmethod.project.model import Project
-from planmethod.project.record import shown_place
 from planmethod.solved.reading import Reals
 
 KINDS = (
@@ -68,7 +67,7 @@ def numbers_workbook(project: Project) -> bytes:
     header = [said.number, _headed(coordinate.symbol, units[coordinate.unit])]
     columns: list[list[Any]] = [
         list(range(len(project.positions))),
-        [shown_place(project.problem, float(position)) for position in solution.positions],
+        list(project.places),
     ]
     for quantity in told(solution, *MOTION_KINDS):
         unit, peak = units[quantity.kind.unit], solution_peak(solution, quantity.kind)

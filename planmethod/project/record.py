@@ -8,7 +8,6 @@ from typing import Any
 from msgspec import Struct
 
 from planmethod.note.plaintext import plain_text
-from planmethod.problem.model import Problem
 from planmethod.project.model import PartName, Project
 
 SCHEMA = 1
@@ -39,10 +38,7 @@ def project_record(project: Project, parts: Sequence[PartFiles], stem: str) -> d
     return {
         "schema": SCHEMA,
         "problem": stem,
-        "positions": [
-            {"number": number, column: shown_place(project.problem, at)}
-            for number, at in enumerate(project.positions)
-        ],
+        "positions": [{"number": number, column: at} for number, at in enumerate(project.places)],
         "calculated": project.calculated,
         "strokes": None
         if strokes is None
@@ -61,11 +57,6 @@ def project_record(project: Project, parts: Sequence[PartFiles], stem: str) -> d
             for part in parts
         ],
     }
-
-
-def shown_place(problem: Problem, at: float) -> float:
-    """Return a position as sheets write it, an angle of a full crank within its turn."""
-    return at if problem.shown(at) == at else round(at % 360.0, 9) % 360.0
 
 
 def _plain(value: float | str | None) -> float | str | None:
