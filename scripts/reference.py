@@ -214,6 +214,8 @@ def _russian(kind: str) -> Iterator[tuple[str, str]]:
         return
     defaults = defaults_of(kind)
     for one in declared(keys.FLAT[kind]):
+        if one.name not in sentences:
+            raise SystemExit(f"{SENTENCES}: [{kind}] has no sentence for '{one.name}'; add it.")
         facts = [sentences[one.name] + _bounds(one, _RUSSIAN)]
         usual = "" if one.key.absent else _written(one, defaults.get(one.field))
         if one.key.required:

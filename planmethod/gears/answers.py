@@ -61,6 +61,15 @@ def answer(motion: TrainMotion, name: str) -> Answer:
     return _size(motion, name, asked)
 
 
+def named(motion: TrainMotion) -> list[str]:
+    """Return the names of the speeds of all bodies, and of what is asked."""
+    train = motion.train
+    racks = (train.body_of[x] in train.racks for x in train.numbers)
+    letters = ("v" if is_rack else train.unit for is_rack in racks)
+    speeds = (f"{letter}_{x}" for letter, x in zip(letters, train.numbers, strict=True))
+    return list(dict.fromkeys([*speeds, *train.ask]))
+
+
 def _exact(name: str, value: Fraction, unit: str = "") -> Answer:
     return Answer(name, float(value), value, unit)
 

@@ -7,6 +7,7 @@ from collections.abc import Collection
 from msgspec import Struct
 
 from planmethod.languages import say
+from planmethod.note.formula import Rich
 from planmethod.problem.names import fold, listed, looks_latin, near, short
 
 PLAIN = ("W", "q")
@@ -19,6 +20,9 @@ RELATIVE = ("U", "n", "omega")
 """Those that can be taken relative to a carrier."""
 
 
+_GREEK = {"omega": "ω", "eta": "η"}
+
+
 class SoughtQuantityError(ValueError):
     """What is asked cannot be understood; the message says why."""
 
@@ -29,6 +33,16 @@ class SoughtQuantity(Struct, frozen=True):
     kind: str
     labels: tuple[str, ...] = ()
     carrier: str | None = None
+
+    @property
+    def symbol(self) -> Rich:
+        """Its symbol: ``U^{(H)}_{14}``, ``n_{5}``, ``ω_{2}``."""
+        letter = _GREEK.get(self.kind, self.kind)
+        if not self.labels:
+            return letter
+        index = ("" if all(len(label) == 1 for label in self.labels) else "-").join(self.labels)
+        hat = f"^{{({self.carrier})}}" if self.carrier else ""
+        return f"a_{{w{index}}}" if self.kind == "a_w" else f"{letter}{hat}_{{{index}}}"
 
 
 def parse(text: str, known: Collection[str]) -> SoughtQuantity:

@@ -19,7 +19,6 @@ from planmethod.gears.construction import construct, read
 from planmethod.gears.model import GearProblem
 from planmethod.gears.motion import TrainMotion, rows_of, solve_motion, speeds_by
 from planmethod.gears.picture import draw
-from planmethod.gears.told import symbol
 from planmethod.problem.figures import AnswerValue, Mistaken
 
 if TYPE_CHECKING:
@@ -58,7 +57,7 @@ class TrainFigures:
             return None
         if found.value is None:
             return None
-        own = symbol(name, tuple(self.motion.train.body_of))
+        own = parse(name, tuple(self.motion.train.body_of)).symbol
         return AnswerValue(own, found.unit, found.value, turns=kind in SPEEDS, whole=kind in COUNTS)
 
     def read_off(self, name: str, position: int, profile: Profile) -> tuple[float, float] | None:

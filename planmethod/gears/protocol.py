@@ -20,7 +20,7 @@ from planmethod.gears.construction import (
 from planmethod.gears.model import GearProblem
 from planmethod.gears.motion import solve_motion
 from planmethod.gears.picture import ContactKind, draw
-from planmethod.gears.told import calculation, given, symbol, unit_of
+from planmethod.gears.told import calculation, given, unit_of
 from planmethod.note.document import Chapter, Item, Node, Paragraph, Step, Title
 from planmethod.note.formula import Rich, escape, fraction
 from planmethod.note.narrate.narrator import Line, StepNarrator
@@ -194,7 +194,7 @@ def _found(one: Found, drawn: GearDrawing, seen: GearReading, words: Language) -
     unit = unit_of(answer(drawn.motion, one.name), words)
     found: str = words.gears["sheet"]["steps"]["found"]
     return found.format(
-        formula=f"{symbol(one.name, tuple(train.body_of))} = {formula}",
+        formula=f"{parse(one.name, tuple(train.body_of)).symbol} = {formula}",
         read=f"{notation.number(rounded_to(value, sigma))} {unit}".rstrip(),
         exact=notation.found(float(one.exact)),
         sigma=notation.number(sigma_text(sigma)),

@@ -7,11 +7,13 @@ from collections.abc import Mapping
 from fractions import Fraction
 from typing import Any
 
-from planmethod.gears.answers import Answer, answer, rack_speed
+from planmethod.gears.answers import Answer, answer, named, rack_speed
+from planmethod.gears.asked import parse
 from planmethod.gears.conditions import conditions, sentence
 from planmethod.gears.model import GearProblem
 from planmethod.gears.motion import TrainMotion, analyse, solve_motion
 from planmethod.gears.picture import draw
+from planmethod.note.records.legend import legend_record
 from planmethod.note.wording import language
 from planmethod.problem.head import KindProblem
 
@@ -55,7 +57,9 @@ def record(problem: GearProblem, lang: str) -> dict[str, Any]:
         | _answer(answer(motion, one.what), words["reasons"])
         for one in problem.published
     ]
-    return {**head(problem), "gears": told}
+    known = tuple(train.body_of)
+    legend = ((x, parse(x, known).symbol, answer(motion, x).unit) for x in named(motion))
+    return {**head(problem), "gears": told, "legend": legend_record(legend)}
 
 
 def structure_record(problem: GearProblem) -> dict[str, Any]:

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Collection, Iterator
+from collections.abc import Iterator
 
-from planmethod.gears.answers import Answer, answer
+from planmethod.gears.answers import Answer, answer, named
 from planmethod.gears.asked import parse
 from planmethod.gears.conditions import conditions, sentence
 from planmethod.gears.construction import GearDrawing, GearReading
@@ -15,24 +15,6 @@ from planmethod.note.formula import fraction
 from planmethod.note.numbers import raised
 from planmethod.note.rounding import sigma_text
 from planmethod.note.wording import Language
-
-_GREEK = {"omega": "ω", "eta": "η"}
-
-
-def symbol(name: str, known: Collection[str]) -> str:
-    """Return the symbol of a quantity: ``U^{(H)}_{14}``, ``n_{5}``, ``ω_{2}``.
-
-    Raises
-    ------
-    SoughtQuantityError
-    """
-    asked = parse(name, known)
-    letter = _GREEK.get(asked.kind, asked.kind)
-    if not asked.labels:
-        return letter
-    index = ("" if all(len(label) == 1 for label in asked.labels) else "-").join(asked.labels)
-    hat = f"^{{({asked.carrier})}}" if asked.carrier else ""
-    return f"a_{{w{index}}}" if asked.kind == "a_w" else f"{letter}{hat}_{{{index}}}"
 
 
 def unit_of(one: Answer, words: Language) -> str:
@@ -93,27 +75,27 @@ def ratios(motion: TrainMotion, words: Language) -> Iterator[str]:
             continue
         if one.value is None:
             told = say["reasons"][one.reason].format(label=one.label)
-            yield f"{symbol(name, known)}: {told}"
+            yield f"{asked.symbol}: {told}"
             continue
         hat = f"^{{({asked.carrier})}}" if asked.carrier else ""
         letters = fraction(*(f"{letter}{hat}_{{{label}}}" for label in asked.labels))
         value = fraction_text(one.exact)
         decimal = f" = {words.say.found(one.value)}" if "/" in value else ""
         shown = re.sub(r"(\d+)/(\d+)", r"\\frac{\1}{\2}", value)
-        yield f"{symbol(name, known)} = {letters} = {shown}{decimal}"
+        yield f"{asked.symbol} = {letters} = {shown}{decimal}"
 
 
 def _plain(name: str, motion: TrainMotion, words: Language) -> Iterator[str]:
     """Yield a quantity that is neither a ratio nor a speed, with its value."""
-    known = tuple(motion.train.body_of)
-    if parse(name, known).kind in ("U", "n", "omega"):
+    asked = parse(name, tuple(motion.train.body_of))
+    if asked.kind in ("U", "n", "omega"):
         return
     one = answer(motion, name)
     if one.value is None:
-        yield f"{symbol(name, known)}: {words.gears['reasons'][one.reason].format(label=one.label)}"
+        yield f"{asked.symbol}: {words.gears['reasons'][one.reason].format(label=one.label)}"
         return
     value = words.say.short(one.value, 4)
-    yield f"{symbol(name, known)} = {value} {unit_of(one, words)}".rstrip()
+    yield f"{asked.symbol} = {value} {unit_of(one, words)}".rstrip()
 
 
 def results(
@@ -125,15 +107,13 @@ def results(
     """Yield rows: symbol with unit, fraction, decimal, read off, sigma, difference in per cent."""
     train, say = motion.train, words.say
     known = tuple(train.body_of)
-    racks = [train.body_of[x] in train.racks for x in train.numbers]
-    speeds = [f"{'v' if r else train.unit}_{x}" for r, x in zip(racks, train.numbers, strict=True)]
     found = {} if drawn is None else {one.name: one for one in drawn.found}
-    for name in dict.fromkeys([*speeds, *train.ask]):
+    for name in named(motion):
         if drawn is not None and name not in found:
             continue
         one: Answer = answer(motion, name)
         unit = unit_of(one, words)
-        head = symbol(name, known) + (f", {unit}" if unit else "")
+        head = parse(name, known).symbol + (f", {unit}" if unit else "")
         if one.value is None:
             yield head, "—", "—", "—", "—", "—"
             continue

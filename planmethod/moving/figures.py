@@ -12,10 +12,9 @@ from msgspec.structs import replace
 from planmethod.moving.construction import construct
 from planmethod.moving.course import course_of
 from planmethod.moving.model import PointProblem
-from planmethod.moving.motion import Motion, move
+from planmethod.moving.motion import LEGEND, Motion, move
 from planmethod.moving.reader import WHAT, column_of
 from planmethod.moving.sheet import sheet_scales
-from planmethod.moving.text import LEGEND
 from planmethod.problem.figures import AnswerValue, Mistaken, Taken
 
 if TYPE_CHECKING:

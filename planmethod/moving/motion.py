@@ -10,6 +10,7 @@ from msgspec import Struct
 from planmethod.construct.jet import Jet
 from planmethod.moving.model import Law, PointProblem, Wheel
 from planmethod.moving.series import CALLS, ROUNDOFF, Bounded, Reals, bounded, evaluate, length
+from planmethod.note.formula import Rich
 
 
 class Undefined(Enum):
@@ -42,6 +43,46 @@ ROLLED = ("phi", "omega", "epsilon", "xC", "yC", "xP", "yP", "omega_H", "epsilon
 """Further columns of a point on a wheel: phi in radians; its centre C; the instantaneous centre of
 velocities P (мгновенный центр скоростей), where it touches what it rolls on; of a centre that goes
 round the origin, how fast the arm to it does."""
+
+
+class PointQuantity(Struct, frozen=True):
+    """Quantity of a moving point (величина): its symbol, and its unit of SI."""
+
+    symbol: Rich
+    unit: str
+
+
+LEGEND = {
+    "t": PointQuantity("t", "s"),
+    "x": PointQuantity("x", "m"),
+    "y": PointQuantity("y", "m"),
+    "vx": PointQuantity("v_{x}", "m/s"),
+    "vy": PointQuantity("v_{y}", "m/s"),
+    "v": PointQuantity("v", "m/s"),
+    "ax": PointQuantity("a_{x}", "m/s²"),
+    "ay": PointQuantity("a_{y}", "m/s²"),
+    "a": PointQuantity("a", "m/s²"),
+    "a_tangential": PointQuantity("a_{τ}", "m/s²"),
+    "a_normal": PointQuantity("a_{n}", "m/s²"),
+    "rho": PointQuantity("ρ", "m"),
+    "s": PointQuantity("s", "m"),
+    "r": PointQuantity("r", "m"),
+    "phi": PointQuantity("φ", "rad"),
+    "v_r": PointQuantity("v_{r}", "m/s"),
+    "v_phi": PointQuantity("v_{φ}", "m/s"),
+    "a_r": PointQuantity("a_{r}", "m/s²"),
+    "a_phi": PointQuantity("a_{φ}", "m/s²"),
+    "omega": PointQuantity("ω", "1/s"),
+    "epsilon": PointQuantity("ε", "1/s²"),
+    "xC": PointQuantity("x_{C}", "m"),
+    "yC": PointQuantity("y_{C}", "m"),
+    "xP": PointQuantity("x_{P}", "m"),
+    "yP": PointQuantity("y_{P}", "m"),
+    "omega_H": PointQuantity("ω_{H}", "1/s"),
+    "epsilon_H": PointQuantity("ε_{H}", "1/s²"),
+    "theta": PointQuantity("θ", "rad"),
+}
+"""Columns of the record and of tables, and formulas of the file."""
 
 
 class Motion(Struct, frozen=True, eq=False):

@@ -21,8 +21,9 @@ from planmethod.moving.construction import (
 )
 from planmethod.moving.course import Course, course_of
 from planmethod.moving.model import PointProblem
+from planmethod.moving.motion import LEGEND
 from planmethod.moving.sheet import read_rows, sheet_scales
-from planmethod.moving.text import LEGEND, law, moment, title
+from planmethod.moving.text import law, moment, title
 from planmethod.note.document import Caption, Chapter, Node, Paragraph, steps_of, table_of
 from planmethod.note.formula import Rich, escape, fraction
 from planmethod.note.narrate.narrator import Line, Reading, StepNarrator

@@ -5,8 +5,9 @@ from __future__ import annotations
 from typing import Any
 
 from planmethod.moving.model import PointProblem
-from planmethod.moving.motion import move
+from planmethod.moving.motion import LEGEND, move
 from planmethod.note.numbers import finite_or_none
+from planmethod.note.records.legend import legend_record
 
 SCHEMA = 1
 """Version of the record's shape."""
@@ -26,4 +27,5 @@ def record(problem: PointProblem, lang: str = "ru") -> dict[str, Any]:
     found: dict[str, Any] = {"schema": SCHEMA, "problem": problem.name}
     if problem.variant is not None:
         found["variant"] = problem.variant
-    return {**found, "point": rows}
+    legend = ((name, LEGEND[name].symbol, LEGEND[name].unit) for name in motion.columns)
+    return {**found, "point": rows, "legend": legend_record(legend)}

@@ -16,7 +16,7 @@ from planmethod.languages import LANGUAGES, say
 from planmethod.moving.construction import MomentConstruction, construct, read_hodograph
 from planmethod.moving.course import Course, course_of
 from planmethod.moving.model import PointProblem
-from planmethod.moving.motion import COLUMNS, Motion
+from planmethod.moving.motion import COLUMNS, LEGEND, Motion
 from planmethod.moving.pictures import (
     hodograph_picture,
     length_scale,
@@ -24,7 +24,7 @@ from planmethod.moving.pictures import (
     trajectory_picture,
     vector_scales,
 )
-from planmethod.moving.text import LEGEND, head_of, law, moment, textbook
+from planmethod.moving.text import head_of, law, moment, textbook
 from planmethod.note.document import Formula, Note
 from planmethod.note.narrate.given import unbroken
 from planmethod.note.narrate.scales import scale_inscription

@@ -5,10 +5,8 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Iterator, Sequence
 
-from msgspec import Struct
-
 from planmethod.moving.model import Law, PointProblem
-from planmethod.moving.motion import COLUMNS, POLAR, ROLLED, Motion, Undefined, move
+from planmethod.moving.motion import COLUMNS, LEGEND, POLAR, ROLLED, Motion, Undefined, move
 from planmethod.note.document import (
     Caption,
     Chapter,
@@ -88,46 +86,6 @@ def _printed(problem: PointProblem, motion: Motion, say: Notation) -> Iterator[t
             say.number(significant(exact)),
             say.number(significant(item.value - exact, 2)),
         )
-
-
-class PointQuantity(Struct, frozen=True):
-    """Quantity of a moving point (величина): its symbol, and its unit of SI."""
-
-    symbol: Rich
-    unit: str
-
-
-LEGEND = {
-    "t": PointQuantity("t", "s"),
-    "x": PointQuantity("x", "m"),
-    "y": PointQuantity("y", "m"),
-    "vx": PointQuantity("v_{x}", "m/s"),
-    "vy": PointQuantity("v_{y}", "m/s"),
-    "v": PointQuantity("v", "m/s"),
-    "ax": PointQuantity("a_{x}", "m/s²"),
-    "ay": PointQuantity("a_{y}", "m/s²"),
-    "a": PointQuantity("a", "m/s²"),
-    "a_tangential": PointQuantity("a_{τ}", "m/s²"),
-    "a_normal": PointQuantity("a_{n}", "m/s²"),
-    "rho": PointQuantity("ρ", "m"),
-    "s": PointQuantity("s", "m"),
-    "r": PointQuantity("r", "m"),
-    "phi": PointQuantity("φ", "rad"),
-    "v_r": PointQuantity("v_{r}", "m/s"),
-    "v_phi": PointQuantity("v_{φ}", "m/s"),
-    "a_r": PointQuantity("a_{r}", "m/s²"),
-    "a_phi": PointQuantity("a_{φ}", "m/s²"),
-    "omega": PointQuantity("ω", "1/s"),
-    "epsilon": PointQuantity("ε", "1/s²"),
-    "xC": PointQuantity("x_{C}", "m"),
-    "yC": PointQuantity("y_{C}", "m"),
-    "xP": PointQuantity("x_{P}", "m"),
-    "yP": PointQuantity("y_{P}", "m"),
-    "omega_H": PointQuantity("ω_{H}", "1/s"),
-    "epsilon_H": PointQuantity("ε_{H}", "1/s²"),
-    "theta": PointQuantity("θ", "rad"),
-}
-"""Columns of the record and formulas of the file."""
 
 
 def textbook(text: str, decimal: str) -> str:

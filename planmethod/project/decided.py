@@ -1,15 +1,12 @@
-"""What a mechanism decides of a project (выбор по механизму): the position, the scales."""
+"""What a mechanism decides of a project (выбор по механизму): loaded positions, force scale."""
 
 from __future__ import annotations
-
-from collections.abc import Sequence
 
 import numpy as np
 
 from planmethod.construct.scale import choose_scale
 from planmethod.mechanism.model import FRAME
 from planmethod.problem.load_records import SizeTable
-from planmethod.solved.clearest import clearest_position
 from planmethod.solved.forces.loads import external
 from planmethod.solved.forces.statics import statics_of
 from planmethod.solved.reading import Flags
@@ -42,11 +39,6 @@ def loaded_positions(solution: Solution) -> tuple[int, ...]:
                 large = size >= CONSIDERABLE * largest
                 acts |= large & (not large.all())  # one that is there always says nothing
     return tuple(np.flatnonzero(acts).tolist()) if acts.any() else tuple(range(count))
-
-
-def clear_position(solution: Solution, indices: Sequence[int]) -> int:
-    """Return the one of some positions that shows the mechanism best."""
-    return clearest_position(solution, tuple(indices))
 
 
 def force_scale(solution: Solution) -> float:

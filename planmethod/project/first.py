@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 from functools import partial
 from typing import Any
 
@@ -26,7 +27,9 @@ FEW = 6
 
 
 def first_sheet(problem: Problem, **more: Any) -> list[Drawing]:
-    """Return sheet 1 of a project, on two sheets where one has no room.
+    """Return sheet 1 of a project: plans on one, diagrams and tables on the next.
+
+    Of a few positions all are on one, if it has room; small paper takes more.
 
     Parameters
     ----------
@@ -38,7 +41,7 @@ def first_sheet(problem: Problem, **more: Any) -> list[Drawing]:
     Raises
     ------
     LayoutError
-        There is no room on two sheets either.
+        There is no room on any number of sheets.
     """
     positions = problem.drive.positions
     if problem.cycle is None:
@@ -47,10 +50,10 @@ def first_sheet(problem: Problem, **more: Any) -> list[Drawing]:
     draw = partial(kinematics_sheets, problem, paper=paper, positions=positions, **more)
     if len(positions) <= FEW:
         blocks = tuple(replace(entry, sheet=1) for entry in made.blocks)
-        try:
-            return draw(layout=replace(made, blocks=blocks))
-        except LayoutError:
-            pass
+        with contextlib.suppress(LayoutError):
+            one = draw(layout=replace(made, blocks=blocks))
+            if len(one) == 1:
+                return one
     return draw(layout=made)
 
 

@@ -21,13 +21,13 @@ from planmethod.problem.load_records import TurningSense
 from planmethod.problem.model import SAME_DEG, Problem
 from planmethod.problem.source import parse, read_source
 from planmethod.project.decided import (
-    clear_position,
     force_scale,
     loaded_positions,
 )
 from planmethod.project.first import first_scales
 from planmethod.project.model import PartName, Project, ProjectPart
 from planmethod.render.frame.titleblock import merged
+from planmethod.solved.clearest import clearest_position
 from planmethod.solved.forces.loads import only_in_positions
 from planmethod.solved.scaling import MOST_DRAWN
 from planmethod.solved.solution import Solution
@@ -58,13 +58,14 @@ def settle(problem: Problem, path: Path | None = None) -> Project:
     """
     asked = problem.drive.positions
     problem = _in_positions(problem)
-    calculated = _calculated(problem, Solution(problem), asked)
-    task = replace(problem.project or ProjectTask(), calculated=calculated)
-    problem = replace(problem, calculated=calculated, project=task)
     scales = replace(problem.scales, decided=True)
     if None in (scales.mu_l, scales.mu_v, scales.mu_a):
         scales = first_scales(problem)
     problem = replace(problem, scales=scales)
+    # What is clear is a matter of millimetres on the paper.
+    calculated = _calculated(problem, Solution(problem), asked)
+    task = replace(problem.project or ProjectTask(), calculated=calculated)
+    problem = replace(problem, calculated=calculated, project=task)
     if problem.dynamics is not None:
         loaded = Solution(problem, positions=[problem.drive.positions[calculated]])
         scales = replace(scales, mu_F=force_scale(loaded))
@@ -155,7 +156,7 @@ def _calculated(problem: Problem, solution: Solution, asked: tuple[float, ...]) 
         off = [abs((p - asked[0] + turn / 2) % turn - turn / 2) for p in problem.drive.positions]
         if count == 1 or min(off) < SAME_DEG:
             return int(np.argmin(off))
-    return clear_position(solution, loaded_positions(solution))
+    return clearest_position(solution, loaded_positions(solution))
 
 
 # Parts -------------------------------------------------------------------------------------------

@@ -17,11 +17,11 @@ from planmethod.construct.drafting import PROFILES
 from planmethod.moving.construction import construct
 from planmethod.moving.course import course_of
 from planmethod.moving.model import PointProblem
-from planmethod.moving.motion import COLUMNS, POLAR, ROLLED, Motion, move
+from planmethod.moving.motion import COLUMNS, LEGEND, POLAR, ROLLED, Motion, move
 from planmethod.moving.pictures import hodograph_picture, trajectory_picture
 from planmethod.moving.reader import loads
 from planmethod.moving.sheet import drawings, sheet_scales
-from planmethod.moving.text import LEGEND, moment
+from planmethod.moving.text import moment
 from planmethod.note.formula import inlined
 from planmethod.note.wording import LANGUAGES, language
 from planmethod.render.ink.drawing import Arc, Disc, Drawing, Fill, Pen, Stroke, Text, View

@@ -214,6 +214,16 @@ def test_sheets_are_numbered_as_one_set() -> None:
     assert later == [[str(k)] for k in range(2, len(sheets) + 1)]
 
 
+def test_small_paper_takes_more_sheets_at_the_same_scales() -> None:
+    problem = problem_of("crusher")
+    project = settle(replace(problem, sheet=replace(problem.sheet, paper="A2")))
+    sheets = part_drawings(project, project.parts[0], {})
+    assert len(sheets) > 1
+    assert {(sheet.width, sheet.height) for sheet in sheets} == {(594.0, 420.0)}
+    plans = [view for sheet in sheets for view in sheet.views if view.kind == "velocity"]
+    assert {view.per_mm for view in plans} == {project.scales.mu_v}
+
+
 def test_parts_are_those_that_project_asks_for() -> None:
     problem = problem_of("shaper")
     some = replace(problem, project=ProjectTask(parts=("kinematics", "gears")))

@@ -13,6 +13,7 @@ from planmethod.gears.angles import involute
 from planmethod.gears.involute.blocking import BlockingLimit, LimitKind, limits
 from planmethod.gears.involute.profile import LineOfAction, Tooth
 from planmethod.gears.involute.sizes import MeshingProblem, Pair, Reals
+from planmethod.note.formula import Rich
 from planmethod.note.numbers import Notation, trimmed
 from planmethod.note.wording import Language
 
@@ -30,6 +31,11 @@ class Unit(Enum):
     def places(self) -> int:
         """Decimals that are shown."""
         return self.value[1]
+
+    @property
+    def in_record(self) -> str:
+        """What a record calls it; empty of a number without a unit."""
+        return "deg" if self is Unit.DEGREE else self.value[0]
 
 
 class GearSize(Struct, frozen=True):
@@ -54,6 +60,12 @@ class GearSize(Struct, frozen=True):
     formula: str = ""
     numbers: str = ""
     in_table: bool = True
+
+    @property
+    def symbols(self) -> Rich | list[Rich]:
+        """Its symbol; those of both wheels where each has its own."""
+        both = [self.symbol.replace("#", wheel) for wheel in ("1", "2")]
+        return both if "#" in self.symbol else self.symbol
 
 
 _OF_PAIR = (

@@ -9,6 +9,7 @@ from planmethod.gears.involute.sizes import MeshingProblem
 from planmethod.gears.record import head
 from planmethod.note.numbers import finite_or_none
 from planmethod.note.plaintext import plain_text
+from planmethod.note.records.legend import legend_record
 from planmethod.note.wording import language
 
 
@@ -43,4 +44,6 @@ def record(problem: MeshingProblem, lang: str) -> dict[str, Any]:
     missing = [k for k, value in enumerate(told["theta_p"]) if value is None]
     if missing:
         told["theta_reason"] = words.meshing.missing.format(wheel=missing[0] + 1)
-    return {**head(problem), "meshing": told}
+    sizes = [one.quantity for group in solved.told() for one in group]
+    legend = ((one.key, one.symbols, one.unit.in_record) for one in sizes)
+    return {**head(problem), "meshing": told, "legend": legend_record(legend)}

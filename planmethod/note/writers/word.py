@@ -688,7 +688,7 @@ def _needed(table: Table, size: float) -> list[float]:
 
 
 def _widest(rich: Rich, em: float) -> float:
-    return max((0.55 * em * len(word) for word in plain(rich).split()), default=0.0)
+    return max((0.58 * em * len(word) for word in plain(rich).split()), default=0.0)
 
 
 def _whole(rich: Rich, em: float) -> float:

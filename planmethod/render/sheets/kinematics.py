@@ -151,7 +151,7 @@ def _misfit(problem: Problem) -> Misfit:
             "{}: the views do not fit {}. {}", problem.name, paper, advice
         ),
         say("Ask fewer positions (--phi), or leave out blocks of the layout."),
-        problem.scales,
+        None if problem.scales.decided else problem.scales,
     )
 
 

@@ -94,11 +94,11 @@ def _sheet(
     """
     entries = spread([entry for entry in composition.blocks if entry.sheet == number], solution)
     sizes = composition.sizes_for(paper.name, share)
-    stock = _Stock(solution, indices, {})
+    stock, alone = _Stock(solution, indices, {}), len(solution.positions) == 1
     for count, level, dropped, taken_apart in _tries(
         composition.levels,
         droppable=any(entry.droppable for entry in entries),
-        most=MOST_EXTRA if paper.is_asked and len(solution.positions) == 1 else 1,
+        most=MOST_EXTRA if paper.is_asked and (alone or solution.problem.scales.decided) else 1,
     ):
         rooms = [paper.room(first + k) for k in range(count)]
         inside = rooms[0].inner[2] - rooms[0].inner[0]

@@ -8,11 +8,14 @@ import string
 import subprocess
 from collections.abc import Iterator
 from html.parser import HTMLParser
+from io import BytesIO
 from pathlib import Path
 
 import ex3_work
+import numpy as np
 import pytest
 from msgspec.structs import replace
+from PIL import Image
 
 from planmethod.check.model import (
     CheckedWork,
@@ -26,7 +29,14 @@ from planmethod.check.model import (
 from planmethod.check.pages.overlay import overlays
 from planmethod.check.pages.remarks import Remarks
 from planmethod.check.pages.speech import Speech
-from planmethod.check.pages.student import Page, student_html, student_page, student_pdf
+from planmethod.check.pages.student import (
+    Page,
+    student_document,
+    student_html,
+    student_page,
+    student_pdf,
+)
+from planmethod.note.document import Figure
 from planmethod.note.wording import LANGUAGES, language
 from planmethod.note.writers.html import markup
 
@@ -265,6 +275,23 @@ def test_nothing_is_told_by_colour_alone() -> None:
         row = re.search(rf'<tr class="{judged.verdict.value}">.*?</tr>', text)
         assert row and re.search("верно|следует|чертёж|нет|не прочитано", row[0])
     assert "stroke-dasharray" in text
+
+
+def test_plans_are_figures_in_pixels_too() -> None:
+    written = student_document(page_of(ex3_work.work()), ex3_work.solution(), RU)
+    views = [node.view for node in written.nodes if isinstance(node, Figure)]
+    assert views
+    for view in views:
+        pixels = np.asarray(Image.open(BytesIO(view.png(50.8))))
+        width, height = view.size
+        assert pixels.shape[:2] == pytest.approx((2 * height, 2 * width), abs=1.0)
+        assert pixels.min() < 100
+
+
+def test_what_a_student_wrote_is_shown_as_it_stands() -> None:
+    for name in ("Иванов_", "a_{b", "x^", "\\frac"):
+        text = student_html(page_of(ex3_work.work(name)), ex3_work.solution(), RU)
+        assert f">{name}" in text or f" {name}" in text
 
 
 def test_indices_become_tags_and_nothing_else_does() -> None:
