@@ -1,9 +1,9 @@
 """What every command says of every shipped problem: outputs by name, as texts to compare.
 
 The name of an output is its command line. A sheet is told by its display list, to 0.01 mm, a
-workbook by its cells, a note in Word by its texts, a PDF by its name alone; numbers of JSON, CSV and pages have nine
-digits, so that no output depends on the last bit of a machine. What does is left out:
-``--referee``, which tells of that bit, and where a number stands beside a diagram.
+workbook by its cells, a note in Word by its texts, a PDF by its name alone; numbers of JSON, CSV
+and pages have nine digits, so that no output depends on the last bit of a machine. What does is
+left out: ``--referee``, which tells of that bit, and where a number stands beside a diagram.
 """
 
 from __future__ import annotations
