@@ -213,13 +213,13 @@ class MachineTeller:
                 delta=delta,
                 high=f"{say.found(high.value)} {per_second}",
                 low=f"{say.found(low.value)} {per_second}",
-                at_high=self._at(high),
-                at_low=self._at(low),
+                at_high=self.speed_extreme(high),
+                at_low=self.speed_extreme(low),
             )
         )
         return lines
 
-    def _at(self, extreme: SpeedExtreme) -> str:
+    def speed_extreme(self, extreme: SpeedExtreme) -> str:
         """Return the angle of the crank of an extreme speed."""
         phi = self.flywheel.turn.sense * degrees(extreme.turned) + self.flywheel.turn.start_deg
         angle = self.said.extreme.format(angle=self.say.number(f"{phi % 360.0:.1f}"))

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from itertools import takewhile
-from math import degrees
 
 from planmethod.note.document import Chapter, Node, Part, Table
 from planmethod.note.formula import Rich, fraction
@@ -176,19 +175,13 @@ def _checked(report: Report, tell: MachineTeller, said: Words) -> Iterator[Rich]
     if told:
         yield said.why.format(parts=", ".join(told))
     high, low = flywheel.integrated
-    turn = flywheel.machine.cycle_deg
-
-    def at(turned: float) -> str:
-        phi = flywheel.turn.sense * degrees(turned) + flywheel.turn.start_deg
-        return say.number(f"{phi % turn:.1f}")
-
     per_second = report.unit("1/s")
     yield said.reached.format(
         delta=delta,
         high=f"{say.found(high.value)} {per_second}",
         low=f"{say.found(low.value)} {per_second}",
-        at_high=at(high.turned),
-        at_low=at(low.turned),
+        at_high=tell.speed_extreme(high),
+        at_low=tell.speed_extreme(low),
     )
 
 
