@@ -14,7 +14,7 @@ from typing import Any, TypeAlias, assert_never
 
 from lxml.builder import ElementMaker
 
-from planmethod.note.document import Equation, Term
+from planmethod.note.document import Equation
 from planmethod.note.formula import Fraction, Index, Letters, Node, Overline, Root, parse
 from planmethod.note.writers.tokens import PAIRS, Token, closing, tokens_of
 
@@ -179,27 +179,66 @@ def vector_equations(equations: Sequence[Equation]) -> Element:
     return M.oMath(delimited("{", "", [M.eqArr(*(M.e(*line) for line in lines))]))
 
 
-def _vector_equation(one: Equation) -> Iterator[Element]:
-    if one.name and not one.right:
-        yield from elements(parse(one.name))
-        yield _run("=", "p")
-    yield from _sum(one.left)
-    yield _run("=", "p")
-    yield from _sum(one.right) if one.right else [_run("0", "p")]
+def _vector_equation(one: Equation) -> list[Element]:
+    name = elements(parse(one.name)) if one.name and not one.right else []
+    cells = list(_cells(one, name))
+    if len(cells) == 1:
+        return cells[0][0]
+    return [_two_rows(cells)]
 
 
-def _sum(terms: Sequence[Term]) -> Iterator[Element]:
+def _cells(one: Equation, name: list[Element]) -> Iterator[tuple[list[Element], list[Element]]]:
+    """Yield what stands side by side, each with what stands below it: a direction or nothing.
+
+    A term that has a direction stands alone, so that it is in the middle above it.
+    """
+    terms, last = (*one.left, *one.right), len(one.left) + len(one.right) - 1
+    found: list[Element] = [*name, *([_sign("=")] if name else [])]
     for number, term in enumerate(terms):
         if number:
-            yield _run("+", "p")
+            found.append(_sign("=" if number == len(one.left) else "+"))
         body = vector(term.symbol)
         for _ in range(term.underlines):
             body = [bar(body, "bot")]
         if term.direction:
-            below = elements(parse(term.direction))
-            # Without delimiters LibreOffice draws the lines below the direction, too.
-            body = [M.limLow(M.e(delimited("", "", body)), M.lim(*below))]
-        yield from body
+            if found:
+                yield found, []
+            yield body, elements(parse(term.direction))
+            found = []
+        else:
+            found += body
+        if number == last and not one.right:
+            found += [_sign("="), _run("0", "p")]
+    if found:
+        yield found, []
+
+
+def _sign(sign: str) -> Element:
+    """Return a sign as text: at the edge of a cell LibreOffice would show a box for its side."""
+    return _text(f"\u00a0{sign}\u00a0")
+
+
+def _two_rows(cells: Sequence[tuple[list[Element], list[Element]]]) -> Element:
+    """Return a matrix of two rows, the lower one in smaller letters.
+
+    A limit below a term would do, but LibreOffice sets it in letters of an index.
+    """
+    value = f"{{{MATH}}}val"
+    looks = M.mPr(
+        M.baseJc({value: "top"}),
+        M.plcHide({value: "1"}),
+        M.rSpRule({value: "0"}),
+        M.cGpRule({value: "3"}),
+        M.rSp({value: "0"}),
+        M.cSp({value: "0"}),
+        M.cGp({value: "0"}),
+        M.mcs(M.mc(M.mcPr(M.count({value: str(len(cells))}), M.mcJc({value: "center"})))),
+    )
+    smaller = (M.argPr(M.argSz({value: "-1"})) for _ in cells)
+    below = (
+        M.e(size, *(low or [_text(NOTHING)])) for size, (_, low) in zip(smaller, cells, strict=True)
+    )
+    return M.m(looks, M.mr(*(M.e(*high) for high, _ in cells)), M.mr(*below))
 
 
 def vector(symbol: str) -> list[Element]:
