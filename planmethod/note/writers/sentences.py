@@ -104,7 +104,7 @@ def pieces(
                 found.append(SentencePart(word, False))
             continue
         lead, core, tail = _stripped(word)
-        is_part = _is_part(core, units)
+        is_part = _is_part(core, units) or (bool(core) and is_formula(core))
         if lead or not is_part or not _joins(run, core, units):
             close()
             found.append(SentencePart(lead, False))

@@ -177,7 +177,9 @@ def _table(footer: Any, widths: tuple[float, ...], heights: tuple[float, ...]) -
     layout.addnext(margins)
     for column, width in zip(table.columns, widths, strict=True):
         column.width = Mm(width)
-    style = table.part.document.styles["Title Block"].style_id
+    first = footer.tables[0].cell(0, 0).paragraphs[0]
+    first.style = "Title Block"
+    style = first._p.style
     for row, height in zip(table.rows, heights, strict=True):
         row.height, row.height_rule = Mm(height), WD_ROW_HEIGHT_RULE.EXACTLY
     for cells in rows_of(table):
