@@ -68,8 +68,11 @@ def protocol(
     """Tell the construction step by step, as the explanatory note does."""
     from planmethod.note.protocol import protocol_document
     from planmethod.note.wording import language
-    from planmethod.note.writers.markdown import markdown_document
-    from planmethod.note.writers.plain import plain_document
+
+    if form == "md":
+        from planmethod.note.writers.markdown import markdown_document as write
+    else:
+        from planmethod.note.writers.plain import plain_document as write
 
     hand, words = drawn_by(profile, ruler), language(lang)
 
@@ -89,9 +92,8 @@ def protocol(
                     "--position {}: the last of {} is {}", chosen, problem.name, count - 1
                 )
             told = protocol_document(solution, words, chosen)
-        is_plain = form == "text"
-        text = plain_document(told, words) + "\n" if is_plain else markdown_document(told, words)
-        suffix = "txt" if is_plain else "md"
+        suffix = "txt" if form == "text" else form
+        text = write(told, words) + "\n"
         put(text, None if out is None else str(out / f"{stem(problem)}-protocol.{suffix}"))
 
     finish(each(problems, variant, all_variants, tell))

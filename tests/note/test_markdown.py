@@ -16,7 +16,7 @@ from planmethod.note.writers.markdown import latex, markdown_document
 
 
 def written(*nodes: Node, lang: str = "ru") -> str:
-    return markdown_document(Document.of(nodes), language(lang))
+    return markdown_document(Document.of(nodes), language(lang)) + "\n"
 
 
 @pytest.mark.parametrize(
@@ -38,6 +38,12 @@ def test_a_formula_is_latex(rich: str, tex: str) -> None:
 def test_of_a_sentence_the_formulas_stand_between_dollars() -> None:
     text = written(document.Paragraph("Скорость v_{B} = 3,2 м/с, по рисунку *точно* $5 [1]."))
     assert text == "Скорость $v_{B} = 3{,}2\\ \\text{м/с}$, по рисунку \\*точно\\* \\$5 \\[1\\].\n"
+
+
+def test_a_paragraph_is_no_entry_of_a_list() -> None:
+    assert written(document.Paragraph("1. Вал"), document.Paragraph("- нет")) == (
+        "1\\. Вал\n\n\\- нет\n"
+    )
 
 
 def test_steps_are_numbered_through_and_what_continues_belongs_to_the_last() -> None:

@@ -21,7 +21,9 @@ from planmethod.note.wording import Language
 from planmethod.note.writers.sentences import pieces, units_of, with_levels
 from planmethod.note.writers.tokens import PAIRS, Token, closing, tokens_of
 
-_SPECIAL = r"[\\`*_$<>|\[\]]|^[#+-](?=\s)|^\d+(?=[.)]\s)"
+_SPECIAL = r"[\\`*_$<>|\[\]]|^[#+-](?=\s)|^\d+[.)](?=\s)"
+"""What a text would be something else by, its last sign: emphasis, a link, an entry of a list."""
+
 _SIGNS = {
     "−": "-", "·": r"\cdot ", "×": r"\times ", "±": r"\pm ", "≤": r"\le ", "≥": r"\ge ",
     "≈": r"\approx ", "≠": r"\ne ", "≡": r"\equiv ", "→": r"\to ", "∥": r"\parallel ",
@@ -51,7 +53,7 @@ def markdown_document(written: Document, words: Language) -> str:
     LayoutError
         A formula is not written properly, or a text refers to what is not there.
     """
-    return "\n".join(_Writer(words).lines(document.referred(written))) + "\n"
+    return "\n".join(_Writer(words).lines(document.referred(written)))
 
 
 class _Writer:
@@ -65,8 +67,8 @@ class _Writer:
         """Yield the lines of a document; entries of one list have no blank line between them."""
         before: document.Node | None = None
         for node, number in document.numbers_of(Document.of(_joined(written.nodes))):
-            lines = self._contents(written) if isinstance(node, document.Contents) else None
-            lines = self._node(node, number) if lines is None else lines
+            is_contents = isinstance(node, document.Contents)
+            lines = self._contents(written) if is_contents else self._node(node, number)
             is_list = isinstance(node, document.Item | document.Step) and type(before) is type(node)
             if lines and before is not None and not is_list:
                 yield ""
@@ -139,12 +141,7 @@ class _Writer:
 
 
 def _escaped(text: str) -> str:
-    return re.sub(_SPECIAL, lambda found: _before(found[0]), text)
-
-
-def _before(found: str) -> str:
-    """Return a sign with a backslash before it; of the number of a list it is the point's."""
-    return found if found.isdigit() else f"\\{found}"
+    return re.sub(_SPECIAL, lambda found: f"{found[0][:-1]}\\{found[0][-1]}", text)
 
 
 def _joined(nodes: Iterable[document.Node]) -> Iterator[document.Node]:
