@@ -40,7 +40,7 @@ JOINER = "\N{ZERO WIDTH JOINER}"
 
 _RANGE = re.compile(r"(?<=\d)–(?=\d)")
 _PAIR = re.compile(r"(?<=;) (?=[−-]?[\d.,]+\))|(?<=\d\)) (?=[^\W\d_]{1,3}\b)")
-_RUSSIAN = re.compile("[\u0400-\u04ff]")
+_RUSSIAN = re.compile(r"[\u0400-\u04ff]")
 
 Word = tuple[Node, ...]
 
