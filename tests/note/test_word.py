@@ -97,6 +97,16 @@ def test_an_equation_without_directions_is_one_line() -> None:
     assert "mr(" not in text and text.endswith('"\u00a0=\u00a0"0') and text.startswith("Σbartop(F)")
 
 
+def test_a_long_sum_is_cut_at_a_sign_that_stands_again() -> None:
+    forces = tuple(Term(f"F_{{{k}{k + 1}}}", 1, "∥ x-x") for k in range(12))
+    equation = omml.vector_equations([Equation(forces)], 27.0)
+    lines = equation.findall(f"{M}eqArr/{M}e")
+    ends = [shape(line.find(f"{M}m/{M}mr/{M}e[last()]")).strip('"\u00a0') for line in lines]
+    starts = [shape(line.find(f"{M}m/{M}mr/{M}e")).strip('"\u00a0') for line in lines]
+    assert len(lines) > 1 and set(ends[:-1]) == set(starts[1:]) == {"+"}
+    assert ends[-1].endswith("0") and shape(equation).count("bartop(F)") == 12
+
+
 def test_a_direction_below_a_term_is_one_size_smaller_at_the_most() -> None:
     system = omml.vector_equations(SYSTEM)
     rows = list(system.iter(f"{M}mr"))

@@ -71,6 +71,9 @@ from planmethod.note.writers.wordtext import (
     small_paragraph,
 )
 
+SIDE = 16.0
+"""Room beside a formula for its number, and as much on the other side, mm."""
+
 _LANGUAGES = {"ru": "ru-RU", "en": "en-US"}
 
 
@@ -213,7 +216,8 @@ class _Writer:
                 nodes = tuple(with_levels(parse(clean(text))))
                 self._displayed([omml.equation(line) for line in self._lines(nodes)], number)
             case document.Equations(equations):
-                self._displayed([omml.vector_equations(equations)], number)
+                room = self._room * (1.0 - 2.0 * SIDE / self._width * bool(number))
+                self._displayed([omml.vector_equations(equations, room)], number)
             case document.Table():
                 self._table(node, number)
             case document.Figure():
@@ -294,8 +298,7 @@ class _Writer:
             for formula in formulas:
                 self._paragraph("Formula")._p.append(omml.paragraph(formula))
             return
-        side = 16.0
-        widths = (side, self._width - 2 * side, side)
+        widths = (SIDE, self._width - 2 * SIDE, SIDE)
         _, middle, right = rows_of(self._grid(1, widths))[0]
         for k, formula in enumerate(formulas):
             place = middle.paragraphs[0] if not k else middle.add_paragraph()
