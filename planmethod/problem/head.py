@@ -55,6 +55,8 @@ TITLE_BLOCK: Mapping[str, str] = MappingProxyType(
         "inventory_copy": "side column Инв. № дубл.",
         "reference": "side column Справ. №",
         "first_use": "side column Перв. примен.",
+        "city": "city on the title page of the note",
+        "year": "year on the title page of the note; by default that of `author_date`",
     }
 )
 """Fields of ``[stamp]``, all of them optional texts; more of them: docs/title-block.md."""

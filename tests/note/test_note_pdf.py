@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import shutil
 import subprocess
 from pathlib import Path
@@ -9,6 +10,7 @@ from pathlib import Path
 import pytest
 from noted import SYSTEM, note
 
+from planmethod.note.document import Chapter, Contents, Document, Paragraph, Part, Table
 from planmethod.note.formula import parse
 from planmethod.note.wording import language
 from planmethod.note.writers.html import html_document
@@ -50,9 +52,27 @@ def test_fractions_are_built_up_and_terms_underlined() -> None:
     assert system.descent > 14.0
 
 
+@pytest.mark.skipif(not shutil.which("pdftotext"), reason="poppler is absent")
+def test_text_goes_before_a_table_that_has_no_room_and_long_titles_have_dots(
+    tmp_path: Path,
+) -> None:
+    table = Table(("N", "v"), tuple((f"строка{k}", "1") for k in range(14)), name="Значения")
+    long = Part("Крайние положения, ход и коэффициент изменения средней скорости слова")
+    written = Document.of(
+        (Contents(), Chapter("Глава"), long, *(Paragraph(f"Абзац {k}.") for k in range(21)), table,
+         Paragraph("После таблицы."), Part("Дальше"))
+    )  # fmt: skip
+    (tmp_path / "n.pdf").write_bytes(pdf_note(written, RU))
+    order = ["pdftotext", "-layout", str(tmp_path / "n.pdf"), "-"]
+    pages = subprocess.run(order, capture_output=True, timeout=60).stdout.decode().split("\f")
+    assert "слова" in pages[0] and re.search(r"слова( \.)+ *\d", pages[0])
+    assert "После таблицы." in pages[1] and "Значения" not in pages[1] and "строка0" in pages[2]
+    assert pages[2].index("строка13") < pages[2].index("Дальше")
+
+
 def test_every_node_goes_through_the_other_writers() -> None:
     page = html_document(note(), title="Note", lang="ru")
     assert 'class="fraction"' in page and "<svg" in page and "Рисунок 1 – План" in page
     assert "\\" not in page.partition("<body>")[2].replace("\\n", "")
     text = plain_document(note(), RU)
-    assert "1.1.1. Группа 2–3" in text and "(1.2)" in text and "Таблица 1 – Скорости" in text
+    assert "\n1.1.1 Группа 2–3" in text and "(1.2)" in text and "Таблица 1 – Скорости" in text

@@ -290,3 +290,9 @@ def test_an_unknown_language_is_an_error_of_usage() -> None:
     with pytest.raises(UnknownLanguageError, match=r"'de'.*Choose one of: ru, en") as error:
         language("de")
     assert error.value.exit_code is ExitCode.USAGE
+
+
+def test_an_index_of_several_signs_is_in_braces() -> None:
+    for lang in LANGUAGES:
+        for template in (language(lang).forces.against, language(lang).forces.along):
+            assert template.format(point="S4").endswith("v_{S4}")

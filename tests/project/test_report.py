@@ -8,6 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from msgspec.structs import replace
 from worked import ROOT, path_of
 
 from planmethod.kinds import load
@@ -304,3 +305,20 @@ def test_a_figure_is_drawn_when_a_writer_asks_for_it() -> None:
 def test_the_parts_of_a_project_are_named() -> None:
     names = set(language("ru").report["back"]["names"])
     assert {name.value for name in PartName} - {"note"} <= names
+
+
+@pytest.mark.parametrize(
+    ("stamp", "foot"),
+    [
+        ({"city": "Омск", "date": "01.12.2025"}, ("Омск", "2025")),
+        ({"year": "2024", "author_date": "01.12.2025"}, ("", "2024")),
+        ({"date": "01.12"}, ("", "")),
+    ],
+)
+def test_the_title_page_has_the_city_and_the_year_of_the_stamp(
+    stamp: dict[str, str], foot: tuple[str, str]
+) -> None:
+    project = project_of("homework")
+    problem = replace(project.problem, stamp=stamp)
+    page = note_document(replace(project, problem=problem), language("ru")).nodes[0]
+    assert isinstance(page, document.TitlePage) and (page.place, page.year) == foot

@@ -10,12 +10,16 @@ stands at a letter without width, for the same reason.
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
+from itertools import zip_longest
+from math import inf
 from typing import Any, TypeAlias, assert_never
 
 from lxml.builder import ElementMaker
+from msgspec import Struct
 
-from planmethod.note.document import Equation, Term
+from planmethod.note.document import Equation
 from planmethod.note.formula import Fraction, Index, Letters, Node, Overline, Root, parse
+from planmethod.note.writers.broken import ems
 from planmethod.note.writers.tokens import PAIRS, Token, closing, tokens_of
 
 MATH = "http://schemas.openxmlformats.org/officeDocument/2006/math"
@@ -30,6 +34,8 @@ W = ElementMaker(namespace=WORD, nsmap={"m": MATH, "w": WORD})
 _SPACE = "{http://www.w3.org/XML/1998/namespace}space"
 
 _UNARY = "+−-±"
+_SIGN = 2.0
+"""Width of a sign between vectors with its blanks, heights of the font."""
 
 
 # Formulas -----------------------------------------------------------------------------------------
@@ -171,35 +177,108 @@ def _fonts(name: str) -> Element:
 # Vector equations ---------------------------------------------------------------------------------
 
 
-def vector_equations(equations: Sequence[Equation]) -> Element:
-    """Return vector equations as one formula: a system where there are several."""
-    lines = [list(_vector_equation(one)) for one in equations]
+class Addend(Struct, frozen=True):
+    """What stands between two signs of a vector equation, the first of them before it (слагаемое).
+
+    ``low`` stands below it: a direction, or nothing; ``width`` in heights of the font.
+    """
+
+    sign: str
+    high: list[Element]
+    low: list[Element]
+    width: float
+
+
+def vector_equations(equations: Sequence[Equation], room: float = inf) -> Element:
+    """Return vector equations as one formula: a system where there are several.
+
+    One that is wider than ``room`` (in heights of the font) is cut at its signs, and the sign
+    stands again on the next line.
+    """
+    lines = [list(line) for one in equations for line in _lines(list(_addends(one)), room)]
     if len(lines) == 1:
         return M.oMath(*lines[0])
-    return M.oMath(delimited("{", "", [M.eqArr(*(M.e(*line) for line in lines))]))
+    array = M.eqArr(*(M.e(*line) for line in lines))
+    return M.oMath(array if len(equations) == 1 else delimited("{", "", [array]))
 
 
-def _vector_equation(one: Equation) -> Iterator[Element]:
-    if one.name and not one.right:
-        yield from elements(parse(one.name))
-        yield _run("=", "p")
-    yield from _sum(one.left)
-    yield _run("=", "p")
-    yield from _sum(one.right) if one.right else [_run("0", "p")]
-
-
-def _sum(terms: Sequence[Term]) -> Iterator[Element]:
-    for number, term in enumerate(terms):
-        if number:
-            yield _run("+", "p")
+def _addends(one: Equation) -> Iterator[Addend]:
+    named = bool(one.name) and not one.right
+    if named:
+        name = parse(one.name)
+        yield Addend("", elements(name), [], ems(name))
+    for number, term in enumerate((*one.left, *one.right)):
+        sign = "=" if number == len(one.left) or (named and not number) else "+" if number else ""
+        symbol, direction = parse(term.symbol), parse(term.direction)
         body = vector(term.symbol)
         for _ in range(term.underlines):
             body = [bar(body, "bot")]
-        if term.direction:
-            below = elements(parse(term.direction))
-            # Without delimiters LibreOffice draws the lines below the direction, too.
-            body = [M.limLow(M.e(delimited("", "", body)), M.lim(*below))]
-        yield from body
+        yield Addend(sign, body, elements(direction), max(ems(symbol), ems(direction)))
+    if not one.right:
+        yield Addend("=", [_run("0", "p")], [], 0.5)
+
+
+def _lines(addends: Sequence[Addend], room: float) -> Iterator[list[Element]]:
+    lines: list[list[Addend]] = [[]]
+    width = 0.0
+    for addend in addends:
+        own = addend.width + _SIGN * bool(addend.sign)
+        if lines[-1] and width + own > room - _SIGN:
+            lines.append([])
+            width = 0.0
+        lines[-1].append(addend)
+        width += own
+    for line, after in zip_longest(lines, lines[1:]):
+        cells = list(_cells(line, after[0].sign if after else ""))
+        yield cells[0][0] if len(cells) == 1 else [_two_rows(cells)]
+
+
+def _cells(line: Sequence[Addend], end: str) -> Iterator[tuple[list[Element], list[Element]]]:
+    """Yield what stands side by side, each with what stands below it: a direction or nothing.
+
+    A term that has a direction stands alone, so that it is in the middle above it.
+    """
+    found: list[Element] = []
+    for addend in line:
+        found += [_sign(addend.sign)] if addend.sign else []
+        if not addend.low:
+            found += addend.high
+            continue
+        if found:
+            yield found, []
+        yield addend.high, addend.low
+        found = []
+    found += [_sign(end)] if end else []
+    if found:
+        yield found, []
+
+
+def _sign(sign: str) -> Element:
+    """Return a sign as text: at the edge of a cell LibreOffice would show a box for its side."""
+    return _text(f"\u00a0{sign}\u00a0")
+
+
+def _two_rows(cells: Sequence[tuple[list[Element], list[Element]]]) -> Element:
+    """Return a matrix of two rows, the lower one in smaller letters.
+
+    A limit below a term would do, but LibreOffice sets it in letters of an index.
+    """
+    value = f"{{{MATH}}}val"
+    looks = M.mPr(
+        M.baseJc({value: "top"}),
+        M.plcHide({value: "1"}),
+        M.rSpRule({value: "0"}),
+        M.cGpRule({value: "3"}),
+        M.rSp({value: "0"}),
+        M.cSp({value: "0"}),
+        M.cGp({value: "0"}),
+        M.mcs(M.mc(M.mcPr(M.count({value: str(len(cells))}), M.mcJc({value: "center"})))),
+    )
+    smaller = (M.argPr(M.argSz({value: "-1"})) for _ in cells)
+    below = (
+        M.e(size, *(low or [_text(NOTHING)])) for size, (_, low) in zip(smaller, cells, strict=True)
+    )
+    return M.m(looks, M.mr(*(M.e(*high) for high, _ in cells)), M.mr(*below))
 
 
 def vector(symbol: str) -> list[Element]:

@@ -6,6 +6,7 @@ import html
 from collections.abc import Iterator, Sequence
 from functools import cache
 from io import BytesIO
+from itertools import zip_longest
 from pathlib import Path
 from typing import Any, assert_never
 
@@ -19,10 +20,9 @@ from reportlab.pdfbase import pdfmetrics
 from reportlab.pdfbase.pdfmetrics import stringWidth
 from reportlab.pdfbase.ttfonts import TTFont
 from reportlab.platypus import (
-    BaseDocTemplate,
+    CondPageBreak,
     Flowable,
     Frame,
-    KeepTogether,
     LongTable,
     PageBreak,
     PageTemplate,
@@ -41,7 +41,16 @@ from planmethod.note.writers.broken import ems, lines_of
 from planmethod.note.writers.html import clean
 from planmethod.note.writers.pdf import marked, parts_of
 from planmethod.note.writers.pdfformula import Fonts, FormulaLines, FormulaSetter
-from planmethod.note.writers.sentences import formula_alone, pieces, units_of, with_levels
+from planmethod.note.writers.pdfpages import Floating, FloatingPages
+from planmethod.note.writers.sentences import (
+    JOINER,
+    formula_alone,
+    leads,
+    pieces,
+    tied,
+    units_of,
+    with_levels,
+)
 
 LEFT, RIGHT, TOP, BOTTOM = 30 * mm, 15 * mm, 20 * mm, 20 * mm
 SIZE, TABLE_SIZE = 14.0, 11.0
@@ -50,6 +59,12 @@ INDENT = 12.5 * mm
 PAD = 3.0
 LONG = 8.0
 """Width, in heights of the font, from which on a formula in a sentence may be cut."""
+
+ASIDE = 15 * mm
+"""Room of the pages beside the titles that contents list, and of some dots before them."""
+
+LOW = 0.45
+"""Share of a page up to which a table is not cut."""
 
 LEAST = 22 * mm
 """Least width of a column of a table that may be cut into several."""
@@ -101,7 +116,7 @@ def _title(written: Document) -> str:
     return ""
 
 
-class _Pages(BaseDocTemplate):  # type: ignore[misc]
+class _Pages(FloatingPages):
     """Pages with their numbers; headings tell the contents where they stand."""
 
     def __init__(self, file: BytesIO, title: str, author: str, written: Document) -> None:
@@ -183,7 +198,7 @@ class _Setter:
         self._width = A4[0] - LEFT - RIGHT
         self._tallest = A4[1] - TOP - BOTTOM - 20 * mm
         self._step = self._count = 0
-        self._is_note = False
+        self._is_note = self._leads = False
 
     def _style(
         self,
@@ -192,6 +207,7 @@ class _Setter:
         align: int = TA_JUSTIFY,
         indent: float = INDENT,
         left: float = 0.0,
+        right: float = 0.0,
         around: float = 0.0,
         bold: bool = False,
         keep: bool = False,
@@ -205,6 +221,7 @@ class _Setter:
             alignment=align,
             firstLineIndent=indent,
             leftIndent=left,
+            rightIndent=right,
             spaceBefore=around,
             spaceAfter=around,
             keepWithNext=keep,
@@ -213,9 +230,9 @@ class _Setter:
     def _markup(self, rich: Rich, size: float = SIZE) -> str:
         """Return a sentence as reportlab takes it, the letters of its formulas italic."""
         found = ""
-        for piece in pieces(parse(clean(rich)), self._units):
+        for piece in pieces(parse(clean(rich)), self._units, symbols=True):
             if not piece.is_formula:
-                found += html.escape(piece.text).replace("\n", "<br/>")
+                found += html.escape(tied(piece.text).replace(JOINER, "")).replace("\n", "<br/>")
                 continue
             shown = marked(inline(piece.nodes), size, self._fonts.italic)
             # A long formula is cut at its signs, whatever a terminal does.
@@ -230,7 +247,9 @@ class _Setter:
         kinds = {type(node) for node in written.nodes}
         self._is_note = bool(kinds & {document.TitlePage, document.Contents})
         fresh = True  # a page that has nothing yet needs no break
-        for node, number in document.numbers_of(written):
+        numbered = list(document.numbers_of(written))
+        for (node, number), after in zip_longest(numbered, written.nodes[1:]):
+            self._leads = leads(node, after)
             for flowable in self._flowables(node, number):
                 is_break = isinstance(flowable, PageBreak)
                 if not (is_break and fresh):
@@ -262,10 +281,10 @@ class _Setter:
             case document.Caption(text):
                 yield self._text(text, self._style(align=TA_LEFT, keep=True))
             case document.Paragraph(text):
-                yield self._text(text, self._style())
+                yield self._text(text, self._style(keep=self._leads))
             case document.Item(text, label):
                 shown = f"{label}\u2002{text}" if label else f"–\u00a0{text}"
-                yield self._text(shown, self._style())
+                yield self._text(shown, self._style(keep=self._leads))
             case document.Step(lines, continues):
                 yield from self._stepped(lines, continues=continues)
             case document.Formula(text):
@@ -278,7 +297,7 @@ class _Setter:
                 shown = self._say.figure.format(number=number, text=caption) if number else caption
                 style = self._style(align=TA_CENTER, indent=0.0, around=6.0, leading=1.2)
                 below = [self._text(shown, style)] if shown else []
-                yield KeepTogether([Spacer(0, 6), _Picture(view, self._tallest), *below])
+                yield Floating([Spacer(0, 6), _Picture(view, self._tallest), *below])
             case document.References(entries):
                 for k, entry in enumerate(entries, 1):
                     yield self._text(f"{k}.\u00a0{entry}", self._style())
@@ -297,13 +316,15 @@ class _Setter:
 
     def _stepped(self, lines: Sequence[Rich], *, continues: bool) -> Iterator[Flowable]:
         self._step += not continues
+        alone = [formula_alone(pieces(parse(clean(line)), self._units)) for line in lines]
         for k, line in enumerate(lines):
-            formula = formula_alone(pieces(parse(clean(line)), self._units)) if k else ()
-            if formula:
-                yield self._displayed(formula, "")
-            else:
-                lead = "" if k or continues else f"{self._step})\u00a0"
-                yield self._text(f"{lead}{line}", self._style())
+            if k and alone[k]:
+                yield self._displayed(alone[k], "")
+                continue
+            lead = "" if k or continues else f"{self._step})\u00a0"
+            is_last = k + 1 == len(lines)
+            keep = self._leads if is_last else bool(alone[k + 1]) or line.endswith(":")
+            yield self._text(f"{lead}{line}", self._style(keep=keep))
 
     def _displayed(self, nodes: Sequence[Any], number: str) -> Flowable:
         whole = self._formulas.set(nodes)
@@ -318,13 +339,20 @@ class _Setter:
     # Tables ---------------------------------------------------------------------------------------
 
     def _tables(self, table: Table, number: str) -> Iterator[Flowable]:
-        style = self._style(align=TA_LEFT, indent=0.0, around=3.0, keep=True, leading=1.2)
+        """Yield a table: a low one with its name on one page, a high one cut between its rows."""
+        style = self._style(align=TA_LEFT, indent=0.0, around=3.0, leading=1.2)
         name = self._say.table.format(number=number, text=table.name) if number else ""
         for part in parts_of(table, int(self._width // LEAST)):
-            if name:
-                yield self._text(name, style)
-            yield self._table(part)
-            yield Spacer(0.0, 8.0)
+            above = [self._text(name, style)] if name else []
+            made = self._table(part)
+            high = made.wrap(self._width, self._tallest)[1]
+            if high < LOW * self._tallest:
+                yield Floating([*above, made, Spacer(0.0, 8.0)])
+            else:
+                yield CondPageBreak(sum(made._rowHeights[:4]) + 3.0 * SIZE * bool(name))
+                yield from above
+                yield made
+                yield Spacer(0.0, 8.0)
             name = self._say.continued.format(number=number) if number else ""
 
     def _table(self, table: Table) -> Flowable:
@@ -349,6 +377,8 @@ class _Setter:
             ("RIGHTPADDING", (0, 0), (-1, -1), PAD),
             ("TOPPADDING", (0, 0), (-1, -1), 0.5),
             ("BOTTOMPADDING", (0, 0), (-1, -1), 3.0),
+            ("NOSPLIT", (0, 0), (0, min(2, len(table.rows)))),  # no page has a row alone
+            ("NOSPLIT", (0, -min(2, len(table.rows))), (0, -1)),
         ]
         columns = zip(table.head, *table.rows, strict=True)
         needed = [
@@ -393,7 +423,7 @@ class _Setter:
             [*CLOSE, ("FONTNAME", (0, 0), (-1, -1), self._fonts.upright)]
         )
         contents.levelStyles = [
-            self._style(align=TA_LEFT, indent=0.0, left=7 * mm * level, leading=1.4)
+            self._style(align=TA_LEFT, indent=0.0, left=7 * mm * level, right=ASIDE, leading=1.4)
             for level in range(3)
         ]
         yield contents

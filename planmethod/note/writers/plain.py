@@ -47,6 +47,7 @@ class PlainWriter:
         self._language = words
         self._unit = rf"(?<=\d) (?=(?:{'|'.join(sorted(units))})(?![^\W\d_]))"
         self._step = 0
+        self._dot = "."  # after the number of a heading; the headings of a note have none
         self._below = ""  # what stands before the items of a caption
 
     def lines(self, written: Document) -> list[str]:
@@ -54,6 +55,8 @@ class PlainWriter:
         lines: list[str] = []
         before: document.Node | None = None
         written = document.referred(written)
+        if any(isinstance(n, document.TitlePage | document.Contents) for n in written.nodes):
+            self._dot = ""
         for node, number in document.numbers_of(written):
             if lines and lines[-1] and self._stands_apart(node, before):
                 lines.append("")
@@ -112,9 +115,9 @@ class PlainWriter:
             case document.Contents() | document.PageBreak():
                 return []
             case document.Chapter(title) | document.StructuralHeading(title):
-                return heading((f"{number}. " if number else "") + plain_text(title))
+                return heading((f"{number}{self._dot} " if number else "") + plain_text(title))
             case document.Part(title) | document.Subpart(title):
-                return [f"{number}. {plain_text(title)}"]
+                return [f"{number}{self._dot} {plain_text(title)}"]
             case document.Caption(text):
                 return wrap(self._whole(text))
             case document.Paragraph(text) | document.Note(text):

@@ -13,6 +13,7 @@ from itertools import chain, groupby
 
 from msgspec import Struct
 
+from planmethod.note import document
 from planmethod.note.formula import Index, Letters, Node
 
 _RAISED = dict(zip("⁰¹²³⁴⁵⁶⁷⁸⁹⁻ⁿᵗᵏʳ", "0123456789−nτkr", strict=True))
@@ -28,6 +29,18 @@ _PLAIN = re.compile(
 """Numbers and short names with the signs between them."""
 
 _FUNCTIONS = frozenset({"sin", "cos", "tg", "ctg", "tan", "inv", "arccos"})
+
+_SYMBOL = re.compile(
+    r"\(?(?![IVX]+\b)(?:[A-Z]{1,3}|[a-z\u0370-\u03ff]{1,2}|x[-–]x|y[-–]y)\d?[′″']*\)?"
+)
+"""Letters of points and segments; Latin numerals are none."""
+
+JOINER = "\N{ZERO WIDTH JOINER}"
+"""What Word calls a break without width that is none."""
+
+_RANGE = re.compile(r"(?<=\d)–(?=\d)")
+_PAIR = re.compile(r"(?<=;) (?=[−-]?[\d.,]+\))|(?<=\d\)) (?=[^\W\d_]{1,3}\b)")
+_RUSSIAN = re.compile(r"[\u0400-\u04ff]")
 
 Word = tuple[Node, ...]
 
@@ -49,7 +62,9 @@ def units_of(units: Mapping[str, str]) -> frozenset[str]:
     return frozenset(name for unit in units.values() for name in re.findall(r"[^\W\d_]+", unit))
 
 
-def pieces(nodes: Iterable[Node], units: frozenset[str]) -> list[SentencePart]:
+def pieces(
+    nodes: Iterable[Node], units: frozenset[str], *, symbols: bool = False
+) -> list[SentencePart]:
     """Return a sentence as texts and formulas in turn.
 
     Parameters
@@ -57,9 +72,17 @@ def pieces(nodes: Iterable[Node], units: frozenset[str]) -> list[SentencePart]:
     nodes : iterable of Node
     units : frozenset of str
         Letters of units.
+    symbols : bool
+        In a Russian sentence a Latin letter is a formula even where it stands alone, so that the
+        points ``B`` and ``O_{1}`` are set alike.
     """
+    nodes = tuple(nodes)
+    symbols = symbols and any(_RUSSIAN.search(n.text) for n in nodes if isinstance(n, Letters))
     found: list[SentencePart] = []
     run: list[Word] = []
+
+    def is_formula(word: Word) -> bool:
+        return _is_certain(word) or (symbols and bool(_SYMBOL.fullmatch(_letters(word))))
 
     def close() -> None:
         """Put the words that may be a formula where they belong."""
@@ -68,7 +91,7 @@ def pieces(nodes: Iterable[Node], units: frozenset[str]) -> list[SentencePart]:
             blanks.insert(0, run.pop())
         whole = tuple(chain.from_iterable(run))
         found.extend(
-            _balanced(whole) if any(map(_is_certain, run)) else [SentencePart(whole, False)]
+            _balanced(whole) if any(map(is_formula, run)) else [SentencePart(whole, False)]
         )
         found.extend(SentencePart(word, False) for word in blanks)
         run.clear()
@@ -81,7 +104,7 @@ def pieces(nodes: Iterable[Node], units: frozenset[str]) -> list[SentencePart]:
                 found.append(SentencePart(word, False))
             continue
         lead, core, tail = _stripped(word)
-        is_part = _is_part(core, units)
+        is_part = _is_part(core, units) or (bool(core) and is_formula(core))
         if lead or not is_part or not _joins(run, core, units):
             close()
             found.append(SentencePart(lead, False))
@@ -121,6 +144,25 @@ def with_stops(found: Sequence[SentencePart]) -> Iterator[SentencePart]:
         text = after.text if after is not None else ""
         stop = text[:1] if text[:1] in (*_STOPS, ")") else ""
         yield SentencePart((*piece.nodes, *_some(stop)), True)
+
+
+def leads(node: document.Node, after: document.Node | None) -> bool:
+    """Tell whether the text of a node leads to what follows it, and shall not be left behind."""
+    match node:
+        case document.Paragraph(text) | document.Item(text):
+            last = text
+        case document.Step(lines):
+            last = lines[-1]
+        case _:
+            return False
+    if after is None:
+        return False
+    return isinstance(after, document.Formula | document.Equations) or last.endswith(":")
+
+
+def tied(text: str) -> str:
+    """Return a text whose lines do not end within a range of numbers or a pair of coordinates."""
+    return _RANGE.sub(f"–{JOINER}", _PAIR.sub("\u00a0", text))
 
 
 def with_levels(nodes: Iterable[Node]) -> Iterator[Node]:

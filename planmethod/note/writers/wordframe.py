@@ -15,7 +15,12 @@ from docx.oxml import OxmlElement, parse_xml
 from docx.oxml.ns import qn
 from docx.shared import Mm, Pt
 
+from planmethod.note import document
+from planmethod.note.document import Document
 from planmethod.note.wording import Words
+from planmethod.note.writers.wordpages import plain
+from planmethod.note.writers.wordtable import rows_of
+from planmethod.note.writers.wordtext import put_field, small_paragraph
 
 EDGE, BINDING = 5.0, 20.0
 """From the edge of the paper to the frame, mm; on the left there is room for the binding."""
@@ -47,6 +52,17 @@ _SHAPE = """<w:r xmlns:w="http://schemas.openxmlformats.org/wordprocessingml/200
 <a:ln w="19050"><a:solidFill><a:srgbClr val="000000"/></a:solidFill></a:ln></wps:spPr>
 <wps:bodyPr/></wps:wsp></a:graphicData></a:graphic></wp:anchor></w:drawing></mc:Choice>
 </mc:AlternateContent></w:r>"""
+
+
+def fields_of_note(fields: Mapping[str, str], written: Document) -> dict[str, str]:
+    """Return the fields of the title block of a note: its designation, its own name below."""
+    page = next((n for n in written.nodes if isinstance(n, document.TitlePage)), None)
+    if page is None:
+        return dict(fields)
+    title = fields.get("title", "") or plain(page.title)
+    name = "\n".join(filter(None, (title, plain(page.work))))
+    designation = plain(page.designation) or fields.get("designation", "")
+    return {**fields, "title": name, "designation": designation}
 
 
 class PageFrame:
@@ -138,35 +154,6 @@ class PageFrame:
             _write(table, row, column, self._captions[key], 7.0)
 
 
-def put_field(paragraph: Any, code: str, shown: str) -> Any:
-    """Put a field at the end of a paragraph; return the run of what it shows until computed."""
-    for kind in ("begin", code, "separate"):
-        field_part(paragraph, kind)
-    run = paragraph.add_run(shown)
-    field_part(paragraph, "end")
-    return run
-
-
-def field_part(paragraph: Any, kind: str) -> None:
-    """Put a part of a field: ``begin``, ``separate``, ``end``, or its code."""
-    run = paragraph.add_run()._r
-    if kind in ("begin", "separate", "end"):
-        part = OxmlElement("w:fldChar")
-        part.set(qn("w:fldCharType"), kind)
-    else:
-        part = OxmlElement("w:instrText")
-        part.set(qn("xml:space"), "preserve")
-        part.text = f" {kind} "
-    run.append(part)
-
-
-def small_paragraph(paragraph: Any, *, space: float = 0.0) -> None:
-    """Make a paragraph that has to be there as low as can be; ``space``: points after it."""
-    form = paragraph.paragraph_format
-    form.line_spacing_rule, form.line_spacing = WD_LINE_SPACING.EXACTLY, Pt(1)
-    form.first_line_indent, form.space_before, form.space_after = 0, Pt(0), Pt(space)
-
-
 def _table(footer: Any, widths: tuple[float, ...], heights: tuple[float, ...]) -> Any:
     """Return an empty table at the foot of a page, from the left side of the frame on."""
     gap = footer.paragraphs[0]
@@ -190,11 +177,15 @@ def _table(footer: Any, widths: tuple[float, ...], heights: tuple[float, ...]) -
     layout.addnext(margins)
     for column, width in zip(table.columns, widths, strict=True):
         column.width = Mm(width)
+    first = footer.tables[0].cell(0, 0).paragraphs[0]
+    first.style = "Title Block"
+    style = first._p.style
     for row, height in zip(table.rows, heights, strict=True):
         row.height, row.height_rule = Mm(height), WD_ROW_HEIGHT_RULE.EXACTLY
-        for cell, width in zip(row.cells, widths, strict=True):
+    for cells in rows_of(table):
+        for cell, width in zip(cells, widths, strict=True):
             cell.width = Mm(width)
-            cell.paragraphs[0].style = "Title Block"
+            cell.paragraphs[0]._p.style = style
             small_paragraph(cell.paragraphs[0])
     small_paragraph(footer.add_paragraph())
     return table

@@ -44,6 +44,7 @@ def title_page(report: Report) -> TitlePage:
     kind = said.project if len(report.project.parts) > 1 else said.homework
     designation = stamp.get("designation", "")
     year = re.search(r"\d{4}", stamp.get("author_date") or stamp.get("date", ""))
+    # Never the year of the clock: the same problem gives the same note.
     return TitlePage(
         organisation=tuple(stamp[k] for k in ("organisation", "department") if stamp.get(k)),
         work=said.note.format(),
@@ -53,7 +54,8 @@ def title_page(report: Report) -> TitlePage:
         author=stamp.get("author", ""),
         group=stamp.get("group", ""),
         checker=stamp.get("checker", ""),
-        year=year[0] if year else "",
+        place=stamp.get("city", ""),
+        year=stamp.get("year") or (year[0] if year else ""),
     )
 
 

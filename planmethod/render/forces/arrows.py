@@ -181,18 +181,26 @@ def couple_items(
 
 _SWEEP = 100.0  # of a circular arrow, degrees
 _RADII = (9.0, 12.0, 15.0, 18.0, 22.0)
+_MATTERS = 4.0  # lines farther from the arrow do not matter, mm
 
 
 def _room(centre: complex, lines: Sequence[Segment]) -> tuple[float, float]:
     """Return the radius and the middle of a circular arrow that crosses least, mm, degrees."""
     best = (-1e9, 0.0, 0.0)
     for radius in _RADII:
-        near = [line for line in lines if distance(centre, line) < radius + 6.0]
+        near = [
+            line
+            for line in lines
+            if distance(centre, line) < radius + _MATTERS
+            and max(abs(end - centre) for end in line) > radius - _MATTERS
+        ]
         for middle in range(0, 360, 15):
             turns = [middle + _SWEEP * (k / 8 - 0.5) for k in range(9)]
             places = [centre + radius * cis(turn) for turn in turns]
             gaps = [min((distance(p, line) for line in near), default=5.0) for p in places]
-            worth = sum(min(gap, 4.0) for gap in gaps) / 9 + 0.5 * min(*gaps, 3.0) - 0.1 * radius
+            worth = (
+                sum(min(gap, _MATTERS) for gap in gaps) / 9 + 0.5 * min(*gaps, 3.0) - 0.1 * radius
+            )
             if worth > best[0] + 1e-9:
                 best = (worth, radius, float(middle))
     return best[1], best[2]

@@ -1,0 +1,95 @@
+"""Tables of a document of Word: grids, widths of columns, rows together (таблицы Word)."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from typing import Any
+
+from docx.enum.table import WD_TABLE_ALIGNMENT
+from docx.oxml import OxmlElement
+from docx.shared import Mm
+from docx.table import _Cell
+
+from planmethod.note.document import Table
+from planmethod.note.formula import Rich
+from planmethod.note.writers.wordpages import plain
+from planmethod.note.writers.wordstyles import MM_PER_POINT
+
+PAD = 4.0
+"""White at the sides of a cell, mm."""
+
+TOGETHER = 5
+"""Rows, with the head, up to which a table is not cut between pages."""
+
+
+def grid(file: Any, rows: int, widths: Sequence[float], style: Any = None) -> Any:
+    """Return an empty table whose columns are so many mm wide."""
+    table = file.add_table(rows, len(widths))
+    if style is not None:
+        table.style = style
+    table.autofit = False
+    table.alignment = WD_TABLE_ALIGNMENT.CENTER
+    for column, width in zip(table._tbl.tblGrid.gridCol_lst, widths, strict=True):
+        column.w = Mm(width)
+    for row in table._tbl.tr_lst:
+        for cell, width in zip(row.tc_lst, widths, strict=True):
+            cell.width = Mm(width)
+    return table
+
+
+def rows_of(table: Any) -> list[list[Any]]:
+    """Return the cells of a table, row by row, none of them merged."""
+    return [[_Cell(cell, table) for cell in row.tc_lst] for row in table._tbl.tr_lst]
+
+
+def head_repeats(table: Any) -> None:
+    """Let the head of a table stand again on each page, and no row be cut."""
+    for k, row in enumerate(table._tbl.tr_lst):
+        properties = row.get_or_add_trPr()
+        properties.append(OxmlElement("w:cantSplit"))
+        if not k:
+            properties.append(OxmlElement("w:tblHeader"))
+
+
+def stays(row: int, rows: int) -> bool:
+    """Tell whether a row stays with the next: no page has the head or a last row alone."""
+    return row + 1 < rows and (rows <= TOGETHER or row < 2 or row == rows - 2)
+
+
+# Widths of columns --------------------------------------------------------------------------------
+
+
+def needed_widths(table: Table, size: float) -> list[float]:
+    """Return how wide columns must be at least, mm: words are not cut."""
+    em, columns = size * MM_PER_POINT, zip(table.head, *table.rows, strict=True)
+    return [max(_widest(text, em) for text in column) + PAD for column in columns]
+
+
+def _widest(rich: Rich, em: float) -> float:
+    return max((0.58 * em * len(word) for word in plain(rich).split()), default=0.0)
+
+
+def whole_width(rich: Rich, em: float) -> float:
+    """Return about how wide a text is on one line, mm."""
+    return 0.55 * em * len(plain(rich))
+
+
+def shared(needed: Sequence[float], room: float) -> list[float]:
+    """Return widths that fill the room: what is left over is given in proportion."""
+    total = sum(needed)
+    return [width * room / total for width in needed]
+
+
+def parts_of_width(table: Table, size: float, room: float) -> Iterator[Table]:
+    """Yield a table cut between its columns, each part with the leading ones."""
+    needed, lead = needed_widths(table, size), table.repeated
+    start = lead
+    while start < len(needed):
+        end, width = start, sum(needed[:lead])
+        while end < len(needed) and (end == start or width + needed[end] <= room):
+            width += needed[end]
+            end += 1
+        rows = (row[:lead] + row[start:end] for row in (table.head, *table.rows))
+        head, *others = rows
+        yield Table(head, tuple(others), table.names, lead)
+        start = end
