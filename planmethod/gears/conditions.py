@@ -56,7 +56,7 @@ def sentence(condition: Condition, words: Language) -> str:
 
 
 def judgement(condition: Condition, words: Language) -> str:
-    """Return a condition in words and whether it holds; how many satellites there may be says it."""
+    """Return a condition in words, and whether it holds where the words do not say so."""
     told = sentence(condition, words)
     if condition.holds and condition.name == "satellites":
         return told

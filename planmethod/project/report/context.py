@@ -230,8 +230,9 @@ def items(texts: Iterable[Rich]) -> list[Item | Paragraph]:
     told = list(texts)
     if len(told) == 1:
         return [sentences(f"{told[0][:1].upper()}{told[0][1:]}.")]
-    ends = [*([";"] * (len(told) - 1)), "."]
-    return [Item(f"{text}{end}", f"{k})") for k, (text, end) in enumerate(zip(told, ends), 1)]
+    return [
+        Item(f"{text}{'.' if k == len(told) else ';'}", f"{k})") for k, text in enumerate(told, 1)
+    ]
 
 
 def sentences(*texts: Rich) -> Paragraph:
