@@ -24,6 +24,8 @@ COMMANDS = (
 )
 """What must work of an installed program; each begins where the one before ended."""
 
+_INSTALL = ("-m", "pip", "install", "--quiet")
+
 
 def tried(wheel: Path, folder: Path) -> None:
     """Install a wheel into a clean environment in a folder, and run the commands there.
@@ -38,8 +40,10 @@ def tried(wheel: Path, folder: Path) -> None:
     programs = home / ("Scripts" if os.name == "nt" else "bin")
     # The repository, and what is set for work on it, must not be found there.
     clean = {key: value for key, value in os.environ.items() if not key.startswith("PYTHON")}
-    pip = [programs / "python", "-m", "pip", "install", "--quiet", wheel.resolve()]
-    for words in (pip, *([programs / "planmethod", *line.split()] for line in COMMANDS)):
+    pip: list[str | Path] = [programs / "python", *_INSTALL, wheel.resolve()]
+    calls: list[list[str | Path]] = [pip]
+    calls += [[programs / "planmethod", *line.split()] for line in COMMANDS]
+    for words in calls:
         done = subprocess.run(words, cwd=folder, env=clean, capture_output=True, text=True)
         if done.returncode:
             sys.stderr.write(done.stdout + done.stderr)

@@ -1,9 +1,10 @@
-"""What the sheets of the forces letter, by the parts of the analysis."""
+"""What the sheets of the forces letter, by the parts of the analysis, in one line."""
 
 from __future__ import annotations
 
 import re
 
+from planmethod.note.formula import inlined
 from planmethod.note.narrate.forces.common import lettered
 from planmethod.note.narrate.forces.lever import LeverNarrator
 from planmethod.note.narrate.forces.loads import LoadNarrator
@@ -15,26 +16,26 @@ from planmethod.solved.forces.reading import ForceReading
 
 
 def load_lines(reading: ForceReading, lang: str = "ru") -> list[str]:
-    return LoadNarrator(lettered(reading, language(lang))).formulas()
+    return [*map(inlined, LoadNarrator(lettered(reading, language(lang))).formulas())]
 
 
 def moment_lines(reading: ForceReading, plan: ForcePlan, lang: str = "ru") -> list[str]:
     voice = MomentNarrator(lettered(reading, language(lang)), plan)
-    return [line for equation in plan.moments for line in voice.lines(equation)]
+    return [inlined(line) for equation in plan.moments for line in voice.lines(equation)]
 
 
 def place_lines(reading: ForceReading, plan: ForcePlan, lang: str = "ru") -> list[str]:
-    return MomentNarrator(lettered(reading, language(lang)), plan).places()
+    return [*map(inlined, MomentNarrator(lettered(reading, language(lang)), plan).places())]
 
 
 def closing_lines(reading: ForceReading, number: int, lang: str = "ru") -> list[str]:
     plan = reading.plans[number]
     voice = ForcePlanNarrator(lettered(reading, language(lang)), plan, number)
-    return [voice.closing(edge) for edge in plan.reactions]
+    return [inlined(voice.closing(edge)) for edge in plan.reactions]
 
 
 def lever_lines(reading: ForceReading, lang: str = "ru") -> list[str]:
-    return LeverNarrator(lettered(reading, language(lang))).lines()
+    return [*map(inlined, LeverNarrator(lettered(reading, language(lang))).lines())]
 
 
 def force_lines(reading: ForceReading, lang: str) -> list[str]:

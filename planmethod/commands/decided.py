@@ -10,6 +10,7 @@ import click
 from msgspec.structs import replace
 
 from planmethod.commands.problems import load_unsettled, solution_of, warn
+from planmethod.errors import ProblemError
 from planmethod.options import UsageError, drawn_by
 
 if TYPE_CHECKING:
@@ -63,7 +64,14 @@ def decided(path: Path, variant: str | None, position: int | None, settled: Sett
     if position is not None:
         task = replace(problem.project or ProjectTask(), calculated=position)
         problem = replace(problem, project=task)
-    project = settle(problem, path)
+    try:
+        project = settle(problem, path)
+    except ProblemError as error:
+        if position is None or error.faults[0].path != "project.calculated":
+            raise
+        raise UsageError(
+            "--position: {}. {}", error.faults[0].message, error.faults[0].hint
+        ) from None
     solution_of(project.problem, None, drawn_by(None, None), forces=True)
     apart = train_apart(project)
     if apart is not None:

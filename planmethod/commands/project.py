@@ -119,7 +119,7 @@ def project(
 
     Writes into OUT/<name of the file>: 1-kinematics.pdf, 2-forces.pdf ... as many as the file has
     parts, project.pdf with all sheets, note.docx and note.pdf, numbers.xlsx, project.json; all of
-    them or none.
+    them or none. Files of an earlier project of that name that are not made anew are removed.
     """
     from planmethod.project.notes import NoteOptions
     from planmethod.project.record import project_record
@@ -139,7 +139,7 @@ def project(
     record = project_record(chosen, made, name)
     files[RECORD] = msgspec.json.format(msgspec.json.encode(record), indent=2) + b"\n"
     folder = out / name
-    write_all(folder, files, gone=_stale(folder, name, made) - files.keys())
+    write_all(folder, files, gone=_stale(folder, name) - files.keys())
     if as_json:
         click.echo(json_text(record))
     else:
@@ -182,7 +182,8 @@ def _made(
 ) -> tuple[list[PartFiles], Files]:
     """Make the parts, and return their files and all files by name.
 
-    All sheets are drawn, whichever are wanted: they are numbered as one set.
+    All sheets are drawn, whichever are wanted: they are numbered as one set. One that is not wanted
+    and cannot be drawn stops no other, and is not counted.
     """
     from planmethod.project.model import PartName
     from planmethod.project.record import PartFiles
@@ -198,7 +199,8 @@ def _made(
     shown = [name for name in sheets if name in wanted]
     with bar(len(sheets) + len(texts) + len(shown) + whole, long=True) as done:
         drawn: dict[str, MadePart] = {}
-        for name, one in _shared(partial(draw, project=chosen, options=options), sheets, jobs):
+        drawing = partial(draw, project=chosen, options=options, wanted=tuple(wanted))
+        for name, one in _shared(drawing, sheets, jobs):
             drawn[name] = one
             done(1)
         numbered = numbered_set(chosen, [drawn[name].drawings for name in sheets])
@@ -221,12 +223,19 @@ def _made(
     return named, _ordered(named, files)
 
 
-def draw(task: str, *, project: Project, options: NoteOptions) -> tuple[str, MadePart]:
-    """Draw the sheets of a part."""
+def draw(
+    task: str, *, project: Project, options: NoteOptions, wanted: tuple[str, ...]
+) -> tuple[str, MadePart]:
+    """Draw the sheets of a part; none of one that is not wanted and cannot be drawn."""
     from planmethod.project.sheets import part_drawings
 
     part: ProjectPart = next(part for part in project.parts if part.name.value == task)
-    return task, MadePart({}, tuple(part_drawings(project, part, options.fields)))
+    try:
+        return task, MadePart({}, tuple(part_drawings(project, part, options.fields)))
+    except PlanMethodError:
+        if task in wanted:
+            raise
+        return task, MadePart({})
 
 
 def write(
@@ -294,14 +303,13 @@ def _named(name: str, error: PlanMethodError) -> PlanMethodError:
 # Files -------------------------------------------------------------------------------------------
 
 
-def _stale(folder: Path, name: str, made: Sequence[PartFiles]) -> set[str]:
-    """Return the files that an earlier project of the name has of the parts that are made anew."""
+def _stale(folder: Path, name: str) -> set[str]:
+    """Return the files of an earlier project of the name: what is of other decisions goes."""
     try:
         before = msgspec.json.decode((folder / RECORD).read_bytes())
         if before["problem"] != name:
             return set()
-        anew = {part.name.value for part in made}
-        files = {f for part in before["parts"] if part["name"] in anew for f in part["files"]}
+        files = {WHOLE, *(file for part in before["parts"] for file in part["files"])}
     except (OSError, ValueError, KeyError, TypeError):
         return set()
     return {file for file in files if isinstance(file, str) and Path(file).name == file}

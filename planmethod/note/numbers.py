@@ -116,6 +116,10 @@ class Notation(Struct, frozen=True, eq=False):
         """Return a given number, as the problem writes it."""
         return self.number(trimmed(value))
 
+    def turned(self, degrees: float) -> str:
+        """Return an angle of a crank within a turn, two decimals at most: everywhere alike."""
+        return self.given(round(degrees % 360.0, 2) % 360.0)
+
     def found(self, value: float) -> str:
         """Return a computed number, four digits of it."""
         return self.number(significant(value))

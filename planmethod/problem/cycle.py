@@ -18,8 +18,11 @@ from planmethod.problem.machine_records import Machine
 from planmethod.problem.model import SAME_DEG, Body, Drive, Slide
 
 _EXAMPLE = '[cycle] output = "B", zero = "extreme", count = 12'
-_NAMED = {zero.value: zero for zero in Zero}
+_NAMED = {zero.value: zero for zero in Zero if zero is not Zero.USUAL}
 _COUNTS, _OF_MACHINE = range(3, 361), range(4, 73)
+
+MOST_LISTED = 36
+"""Most positions of a turn that a cycle without a count takes from the driver."""
 
 
 def cycle_count(given: Mapping[str, Any]) -> int:
@@ -40,7 +43,17 @@ def cycle_count(given: Mapping[str, Any]) -> int:
         return own * turns
     if isinstance(other, int) and other % turns == 0 and other // turns in _COUNTS:
         return other
-    return 12 * turns
+    return (_driver_count(given) or 12) * turns
+
+
+def _driver_count(given: Mapping[str, Any]) -> int | None:
+    """Return how many positions of a full turn the driver of a file lists; None of others."""
+    driver = given.get("driver")
+    phi = driver.get("phi") if isinstance(driver, Mapping) else None
+    if not isinstance(phi, Mapping) or phi.keys() != {"from", "count"}:
+        return None
+    count = phi["count"]
+    return count if isinstance(count, int) and _COUNTS[0] <= count <= MOST_LISTED else None
 
 
 def read_cycle(
@@ -50,6 +63,7 @@ def read_cycle(
     slides: Mapping[str, Slide],
     drive: Drive | None,
     machine: Machine | None,
+    count: int,
 ) -> CycleTask | None:
     """Read ``[cycle]``; None after a fault.
 
@@ -59,6 +73,8 @@ def read_cycle(
         As far as the file has them.
     drive, machine : Drive or None, Machine or None
         None where it has a fault of its own; what a machine tells alone holds for the cycle.
+    count : int
+        Positions of the cycle (`cycle_count`).
     """
     before = len(faults)
     entries = fields.read_table(faults, "cycle", table, _EXAMPLE)
@@ -78,6 +94,8 @@ def read_cycle(
     _check_working(faults, found, slides)
     if machine is not None:
         found |= _of_machine(faults, found, machine)
+        count //= round(machine.cycle_deg / 360.0)
+    found.setdefault("count", count)
     return None if len(faults) > before else CycleTask(**found)
 
 

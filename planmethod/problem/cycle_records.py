@@ -14,8 +14,13 @@ DIAGRAM_HINT = "Millimetres of the diagrams."
 
 
 class Zero(Enum):
-    """Position zero by name: where the quicker, the slower or the working stroke starts."""
+    """Position zero by name: where the quicker, the slower or the working stroke starts.
 
+    The usual one, without a name in files, is that of the working stroke where loads or the file
+    say which one works, else that of the quicker stroke.
+    """
+
+    USUAL = ""
     EXTREME = "extreme"
     OTHER = "other extreme"
     WORKING = "working"
@@ -74,10 +79,11 @@ class CycleTask(Struct, frozen=True):
     zero: Annotated[
         Zero | float,
         OwnKey(
-            'position zero: `"extreme"` (the default), `"other extreme"`, `"working"`, or the '
-            "angle of the crank, degrees; `phi_0` of `[machine]` where that stands alone"
+            'position zero: `"extreme"`, `"other extreme"`, `"working"`, or the angle of the '
+            "crank, degrees; when absent `phi_0` of `[machine]`, else where the working stroke "
+            'starts if loads or `working` tell it, else `"extreme"`'
         ),
-    ] = Zero.EXTREME
+    ] = Zero.USUAL
     direction: Annotated[
         TurningSense | None,
         WordKey(
@@ -89,7 +95,8 @@ class CycleTask(Struct, frozen=True):
         int,
         WholeKey(
             "positions of a turn", 3, 360,
-            more="; `count` of `[machine]` where that stands alone",
+            more="; `count` of `[machine]` where that stands alone, else that of a full turn of "
+            "`[driver] phi`",
         ),
     ] = 12  # fmt: skip
     working: Annotated[

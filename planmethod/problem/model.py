@@ -435,12 +435,26 @@ class Problem(KindProblem, frozen=True, kw_only=True):
         return 1 if self.machine is None else round(self.machine.cycle_deg / 360.0)
 
     def shown(self, position: float) -> float:
-        """Return a driver position as documents write it: a numbered one is within its cycle."""
-        whole, count = 360.0 * self.turns, len(self.numbered)
-        step = abs(self.numbered[1] - self.numbered[0]) if self.numbered else 0.0
-        if abs(step * count - whole) > SAME_DEG:  # over a range angles are as its limits are
+        """Return a driver position as documents write it: a numbered one is within a turn.
+
+        Which turn of two it is, the number of the position tells.
+        """
+        if not self.goes_round:  # over a range angles are as its limits are
             return position
-        return round(position % whole, 2) % whole
+        return round(position % 360.0, 2) % 360.0
+
+    @property
+    def goes_round(self) -> bool:
+        """Whether the numbered positions go all round the cycle."""
+        step = abs(self.numbered[1] - self.numbered[0]) if self.numbered else 0.0
+        return abs(step * len(self.numbered) - 360.0 * self.turns) <= SAME_DEG
+
+    def counted(self, position: float) -> float | None:
+        """Return how many positions after position 0 a place of two turns is; None of one turn."""
+        if self.turns == 1 or not self.goes_round:
+            return None
+        whole = (position - self.numbered[0]) / (self.numbered[1] - self.numbered[0])
+        return whole % len(self.numbered)
 
     def is_block(self, slide: Slide) -> bool:
         """Tell whether the host of a slide is a block through which the slider, a bar, passes."""

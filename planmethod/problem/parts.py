@@ -107,7 +107,8 @@ def read_parts(
         balancing = read_balancing(faults, given, tuple(links), drive, dynamics)
     cycle = None
     if "cycle" in given:
-        cycle = read_cycle(faults, given["cycle"], bodies, slides, drive, machine)
+        count = cycle_count(given)
+        cycle = read_cycle(faults, given["cycle"], bodies, slides, drive, machine, count)
         if cycle is not None and machine is not None:
             machine = followed(faults, machine, cycle)
     project = read_project(faults, given["project"]) if "project" in given else None

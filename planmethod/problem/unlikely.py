@@ -50,7 +50,8 @@ def _outranked(problem: Problem) -> Iterator[str]:
         "driver.phi lists {} positions from {} to {}, [cycle] numbers {} from {} to {}, and these "
         "are taken. Delete phi of [driver], or [cycle]; with --phi others are asked."
     )
-    ends = ([f"{one:.5g}°" for one in (way[0], way[-1])] for way in (listed, numbered))
+    ends = ([f"{one:.5g}°" for one in (way[0], way[-1])]
+            for way in (listed, [*map(problem.shown, numbered)]))  # fmt: skip
     (one, two), (first, last) = ends
     yield say(told, len(listed), one, two, len(numbered), first, last)
 

@@ -6,6 +6,7 @@ import numpy as np
 
 from planmethod.construct.scale import choose_scale
 from planmethod.mechanism.model import FRAME
+from planmethod.problem.load_records import SizeTable
 from planmethod.solved.forces.loads import external
 from planmethod.solved.forces.statics import statics_of
 from planmethod.solved.reading import Flags
@@ -16,14 +17,27 @@ FORCES_BOX: Box = (170.0, 130.0)
 """What the largest force plan of a project fills at the scale of all of them, mm."""
 
 
+CONSIDERABLE = 1.0 / 3.0
+"""Share of its largest size from which a load is considerable in a position."""
+
+
 def loaded_positions(solution: Solution) -> tuple[int, ...]:
-    """Return the positions in which a load acts; all of them where none does anywhere."""
+    """Return the positions in which a load that changes is considerable; all where none changes.
+
+    A load is considerable from `CONSIDERABLE` of its largest size on: what a position is loaded
+    for would be lost beside weights and inertia in others.
+    """
     count, dynamics = len(solution.positions), solution.problem.dynamics
     acts: Flags = np.zeros(count, dtype=bool)
     if dynamics is not None:
+        tables = {load.name: load.size.values for load in dynamics.loads
+                  if isinstance(load.size, SizeTable)}  # fmt: skip
         for link in (FRAME, *solution.problem.mechanism.links):
             for one in external(solution, dynamics, link):
-                acts |= np.broadcast_to(one.force if one.point else one.couple, acts.shape) != 0.0
+                size = np.abs(np.broadcast_to(one.force if one.point else one.couple, acts.shape))
+                largest = max(float(size.max()), *map(abs, tables.get(one.name, ())), 1e-300)
+                large = size >= CONSIDERABLE * largest
+                acts |= large & (not large.all())  # one that is there always says nothing
     return tuple(np.flatnonzero(acts).tolist()) if acts.any() else tuple(range(count))
 
 

@@ -102,6 +102,13 @@ class Project(Struct, frozen=True, dict=True):
         """Return a part; None where the file has it not."""
         return next((part for part in self.parts if part.name is name), None)
 
+    @property
+    def places(self) -> tuple[float, ...]:
+        """Driver positions as sheets write them: an angle of a full crank within its turn."""
+        if not self.problem.goes_round:
+            return self.positions
+        return tuple(round(position % 360.0, 9) % 360.0 for position in self.positions)
+
     @cached_property
     def solution(self) -> Solution:
         """The linkage in all positions, at the scales of the project."""

@@ -7,7 +7,7 @@ from typing import Any
 
 from msgspec import Struct
 
-from planmethod.problem.model import Problem
+from planmethod.note.plaintext import plain_text
 from planmethod.project.model import PartName, Project
 
 SCHEMA = 1
@@ -38,12 +38,11 @@ def project_record(project: Project, parts: Sequence[PartFiles], stem: str) -> d
     return {
         "schema": SCHEMA,
         "problem": stem,
-        "positions": [
-            {"number": number, column: _shown(project.problem, at)}
-            for number, at in enumerate(project.positions)
-        ],
+        "positions": [{"number": number, column: at} for number, at in enumerate(project.places)],
         "calculated": project.calculated,
-        "strokes": None if strokes is None else {key: getattr(strokes, key) for key in STROKES},
+        "strokes": None
+        if strokes is None
+        else {key: _plain(getattr(strokes, key)) for key in STROKES},
         "scales": {
             "mu_l": scales.mu_l,
             "mu_v": scales.mu_v,
@@ -60,7 +59,6 @@ def project_record(project: Project, parts: Sequence[PartFiles], stem: str) -> d
     }
 
 
-def _shown(problem: Problem, at: float) -> float:
-    """Return a position as sheets write it, an angle of a full crank within its cycle."""
-    whole = 360.0 * problem.turns
-    return at if problem.shown(at) == at else round(at % whole, 9) % whole
+def _plain(value: float | str | None) -> float | str | None:
+    """Return a number without its last bits, a text without markup."""
+    return plain_text(value) if isinstance(value, str) else value and round(value, 9)

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from pathlib import Path
+from typing import assert_never
 
 import numpy as np
 from msgspec.structs import replace
@@ -18,6 +19,7 @@ from planmethod.languages import LANGUAGES, say
 from planmethod.problem.cycle_records import CycleTask, ProjectTask
 from planmethod.problem.load_records import TurningSense
 from planmethod.problem.model import SAME_DEG, Problem
+from planmethod.problem.source import parse, read_source
 from planmethod.project.decided import (
     force_scale,
     loaded_positions,
@@ -161,31 +163,67 @@ def _calculated(problem: Problem, solution: Solution, asked: tuple[float, ...]) 
 
 
 def _parts(problem: Problem, path: Path | None) -> Iterator[ProjectPart]:
-    """Yield the parts that the file has, of those that it asks for."""
+    """Yield the parts that the file has, of those that it asks for.
+
+    Raises
+    ------
+    ProblemError
+        It asks for one that it has not; without its path those beside it are not known.
+    """
     task = problem.project or ProjectTask()
-    linkage = {
-        PartName.KINEMATICS: True,
-        PartName.FORCES: problem.dynamics is not None,
-        PartName.FLYWHEEL: problem.dynamics is not None and problem.machine is not None,
-    }
+    there = {name: _has(problem, task, name) for name in PartName}
+    asked = [PartName(name) for name in task.parts] or [*PartName]
+    missing = [name.value for name in asked if not there[name]] if task.parts else []
+    if missing and path is not None:
+        told = say("the file has no part {!r}", missing[0])
+        hint = say("It has {}.", ", ".join(name.value for name in PartName if there[name]))
+        raise ProblemError(problem.name, [Fault("project.parts", told, hint)])
     for name in PartName:
-        if task.parts and name.value not in task.parts:
+        if name is PartName.NOTE or name not in asked or not there[name]:
             continue
-        if linkage.get(name):
+        if name not in (PartName.GEARS, PartName.MESHING):
             yield ProjectPart(name, problem)
-        elif name in (PartName.GEARS, PartName.MESHING) and path is not None:
-            yield from _of_kind(problem, name, path, str(getattr(task, name.value)))
+        elif path is not None:
+            yield _of_kind(problem, name, path, str(getattr(task, name.value)))
 
 
-def _of_kind(problem: Problem, name: PartName, path: Path, beside: str) -> Iterator[ProjectPart]:
-    """Yield the part of another kind of problem, if the file has it or names its file."""
-    if not (beside or name.value in problem.tables):
-        return
+def _has(problem: Problem, task: ProjectTask, name: PartName) -> bool:
+    """Tell whether the file has a part, or names the file of one."""
+    match name:
+        case PartName.KINEMATICS | PartName.NOTE:
+            return True
+        case PartName.FORCES:
+            return problem.dynamics is not None
+        case PartName.FLYWHEEL:
+            return problem.dynamics is not None and problem.machine is not None
+        case PartName.GEARS | PartName.MESHING:
+            return bool(getattr(task, name.value)) or name.value in problem.tables
+        case _:
+            assert_never(name)
+
+
+def _of_kind(problem: Problem, name: PartName, path: Path, beside: str) -> ProjectPart:
+    """Return the part of another kind of problem, of this file or of the file that it names."""
     kind = next(kind for kind in KINDS if kind.table == name.value)
     file, variant = (path.with_name(beside), None) if beside else (path, problem.variant)
+    if beside:
+        _check_beside(problem, kind.table, file)
     found = kind.load(file, variant)
     stamp = merged(problem.stamp, found.stamp) if beside else dict(problem.stamp)
     stamp.pop("title", None)
     title = found.title if beside else ""
     sheet = problem.sheet.over(found.sheet)
-    yield ProjectPart(name, replace(found, sheet=sheet, stamp=stamp, title=title), kind)
+    return ProjectPart(name, replace(found, sheet=sheet, stamp=stamp, title=title), kind)
+
+
+def _check_beside(problem: Problem, table: str, file: Path) -> None:
+    """Refuse a file beside that there is not, or that is no problem of its kind."""
+    if not file.is_file():
+        told = say("there is no file {} beside this one", file.name)
+        hint = say("Write its name, or put the table [{}] into this file.", table)
+    elif table not in parse(read_source(file), name=str(file)):
+        told = say("{} has no table [{}]", file.name, table)
+        hint = "Name a file that has it."
+    else:
+        return
+    raise ProblemError(problem.name, [Fault(f"project.{table}", told, hint)])

@@ -10,6 +10,7 @@ from collections.abc import Iterator
 
 import numpy as np
 from msgspec import Struct
+from msgspec.structs import replace
 
 from planmethod.construct.steps import Measure, MeasureAlong, NumberName, PointName
 from planmethod.plans.build import Construction
@@ -51,12 +52,15 @@ class Knot(Struct, frozen=True):
         How many times larger than the plan it is drawn.
     ends : tuple of pairs of PointName
         The segments that are measured there, as the plan has them.
+    initials : frozenset of str
+        First letters of the points of the mechanism, which name no view.
     """
 
     number: int
     centre: complex
     times: float
     ends: tuple[tuple[PointName, PointName], ...]
+    initials: frozenset[str] = frozenset()
 
 
 def least_shown(ruler: float) -> float:
@@ -106,7 +110,8 @@ def small_plans(construction: Construction, paper: Reading) -> dict[PlanKind, di
         times = times_beside(size)
         for k in np.flatnonzero(times > 1.0).tolist():
             number = sum(map(len, found.values()))
-            found[kind][k] = Knot(number, complex(middle[k]), float(times[k]), pairs)
+            initials = _initials(construction)
+            found[kind][k] = Knot(number, complex(middle[k]), float(times[k]), pairs, initials)
     return found
 
 
@@ -129,16 +134,22 @@ def find_knots(
         if least <= abs(at[head] - at[tail]) < SHORT
     )
     found: list[Knot] = []
+    initials = _initials(construction)
     for length, tail, head in short:
         middle = (at[tail] + at[head]) / 2
         for k, knot in enumerate(found):
             reach = max(abs(at[end] - knot.centre) for end in (tail, head))
             if reach * knot.times <= _WIDEST / 2:
-                found[k] = Knot(knot.number, knot.centre, knot.times, (*knot.ends, (tail, head)))
+                found[k] = replace(knot, ends=(*knot.ends, (tail, head)))
                 break
         else:
-            found.append(Knot(first + len(found), middle, ratio_for(length), ((tail, head),)))
+            number, pair = first + len(found), (tail, head)
+            found.append(Knot(number, middle, ratio_for(length), (pair,), initials))
     return tuple(found)
+
+
+def _initials(construction: Construction) -> frozenset[str]:
+    return frozenset(point[:1] for point in construction.draft.points())
 
 
 def short_readings(construction: Construction, paper: Reading) -> Reals:

@@ -233,6 +233,52 @@ def test_parts_position_and_formats_are_asked_for(tmp_path: Path) -> None:
     assert names == {"1-kinematics.svg", "numbers.xlsx", "project.json"}
 
 
+def test_what_an_earlier_project_has_more_is_removed(tmp_path: Path) -> None:
+    """Sheets of other decisions do not stay beside those that are made anew."""
+    folder = tmp_path / "crusher"
+    folder.mkdir()
+    parts = [{"name": "kinematics", "files": ["1-kinematics.pdf"]},
+             {"name": "forces", "files": ["2-forces.pdf", "../mine.txt"]}]  # fmt: skip
+    (folder / "project.json").write_text(json.dumps({"problem": "crusher", "parts": parts}))
+    for name in ("1-kinematics.pdf", "2-forces.pdf", "project.pdf", "mine.txt", "../mine.txt"):
+        (folder / name).write_text("earlier")
+    done = run(str(FILES / "crusher.toml"), "-o", str(tmp_path), "--parts", "kinematics")
+    assert done.exit_code == 0, done.output
+    assert {path.name for path in folder.iterdir()} == {
+        "1-kinematics.pdf", "numbers.xlsx", "project.json", "mine.txt",
+    }  # fmt: skip
+    assert (tmp_path / "mine.txt").exists()
+
+
+def test_a_part_that_is_not_wanted_stops_no_other(tmp_path: Path) -> None:
+    """A crank that rocks has a sheet of its kinematics, and no flywheel."""
+    text = (FILES / "shaper.toml").read_text("utf-8")
+    assert "O3B = 0.67\n" in text
+    for old, new in ((r"BC = 0\.33\n", "BC = 0.015\n"), (r"force = \{.*", "force = 500"),
+                     (r"(?s)\[project\].*", "")):  # fmt: skip
+        text, changed = re.subn(old, new, text)
+        assert changed == 1
+    file = tmp_path / "my.toml"
+    file.write_text(text, "utf-8")
+    whole = run(str(file), "-o", str(tmp_path), "--lang", "en", "--parts", "flywheel")
+    assert whole.exit_code == ExitCode.ASSEMBLY
+    assert "a flywheel needs a crank that turns all round" in whole.stderr
+    one = run(str(file), "-o", str(tmp_path), "--lang", "en", "--parts", "kinematics")
+    assert one.exit_code == 0, one.output
+
+
+def test_numbers_have_heads_in_the_language_and_no_rounding(made: Callable[[str], Path]) -> None:
+    book = openpyxl.load_workbook(made("engine") / "numbers.xlsx")
+    places, every = (list(sheet.iter_rows(values_only=True)) for sheet in book.worksheets)
+    heads = [str(head) for head in every[0]]
+    assert {"№", "угол кривошипа, град", "v точки B, м/с", "F B.2-3, Н"} <= {*heads}
+    assert not any(re.search(r"margin|_deg|\.v[xy]?$|position|exact|read", head) for head in heads)
+    for head, rows in ((places[0], places[1:]), (every[0], every[1:])):
+        for name, *values in zip(head, *rows, strict=True):
+            assert all(not v or abs(v) > 1e-12 for v in values if isinstance(v, float)), name
+    assert places[1][places[0].index("v_B, м/с")] == 0
+
+
 def test_an_earlier_project_is_replaced_and_other_files_stay(tmp_path: Path) -> None:
     folder = tmp_path / "homework"
     args = (str(FILES / "homework.toml"), "-o", str(tmp_path), "--parts", "kinematics")
@@ -249,7 +295,11 @@ def test_an_earlier_project_is_replaced_and_other_files_stay(tmp_path: Path) -> 
     [
         (("homework.toml", "--parts", "forces"), ExitCode.USAGE, "has no part 'forces'"),
         (("homework.toml", "--parts", "sheets"), ExitCode.USAGE, "'sheets' is not one of"),
-        (("homework.toml", "--position", "3"), ExitCode.PROBLEM, "there is no position 3"),
+        (
+            ("homework.toml", "--position", "3"),
+            ExitCode.USAGE,
+            "--position: there is no position 3",
+        ),
         (("none.toml",), ExitCode.PROBLEM, "none.toml"),
     ],
 )

@@ -177,9 +177,9 @@ def test_undercutting_names_the_teeth_there_are_and_those_that_are_needed(
 ) -> None:
     motion = solved(tmp_path, told({"1": z, "2": 40}, [mesh("1", "2")], "n = { 1 = 1 }"))
     (one,) = found(motion, "undercutting")
-    said = f"No undercutting: z_1 = {z} must be at least {least}"
+    said = f"No undercutting: z_1 = {z}, at least {least} needed"
     assert sentence(one, language("en")) == said
-    assert judgement(one, language("en")) == f"{said} – the condition is not met"
+    assert judgement(one, language("en")) == f"{said} – not met"
     motion = solved(tmp_path, told({"1": 17, "2": 40}, [mesh("1", "2")], "n = { 1 = 1 }"))
     assert not found(motion, "undercutting")
 
@@ -190,7 +190,7 @@ def test_interference_is_judged_by_what_is_told(tmp_path: Path) -> None:
         text = told({"1": 40, "3": ring}, [mesh("1", "3", "internal")], "n = { 1 = 1 }")
         (one,) = found(solved(tmp_path, text), "interference")
         said = sentence(one, language("en"))
-        numbers = re.search(r"z_3 − z_1 = (\d+) must be at least (\d+)$", said)
+        numbers = re.search(r"z_3 − z_1 = (\d+), at least (\d+) needed", said)
         assert numbers is not None, said
         assert int(numbers[1]) == ring - 40
         assert one.holds == holds == (int(numbers[1]) >= int(numbers[2]))

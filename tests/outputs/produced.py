@@ -1,9 +1,9 @@
 """What every command says of every shipped problem: outputs by name, as texts to compare.
 
 The name of an output is its command line. A sheet is told by its display list, to 0.01 mm, a
-workbook by its cells, a PDF by its name alone; numbers of JSON, CSV and pages have nine digits, so
-that no output depends on the last bit of a machine. What does is left out: ``--referee``, which
-tells of that bit, and where a number stands beside a diagram.
+workbook by its cells, a note in Word by its texts, a PDF by its name alone; numbers of JSON, CSV
+and pages have nine digits, so that no output depends on the last bit of a machine. What does is
+left out: ``--referee``, which tells of that bit, and where a number stands beside a diagram.
 """
 
 from __future__ import annotations
@@ -14,12 +14,14 @@ import shlex
 import shutil
 import tempfile
 import tomllib
+from base64 import b64decode
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from functools import partial
 from pathlib import Path
 from typing import Any
 from unittest.mock import patch
+from zipfile import ZipFile
 from zlib import crc32
 
 from click.testing import CliRunner
@@ -71,6 +73,9 @@ REFUSING = ("gears/gears-ex1", "meshing/z12-30", "point/k10-satellite")
 
 WHOLE = ("linkages/ex3.", "machines/", "press/")
 """Problems that have every layout, or its refusal."""
+
+PROJECTS = ("linkages/ex3.", "machines/engine.", "press/flywheel.")
+"""Problems that are made projects of."""
 
 SYNTHESES = (
     "slotted --K_v 1.22 --centres 1.08",
@@ -175,9 +180,14 @@ def _of_linkage(name: str, text: str, every: str) -> Iterator[str]:
         ("animate --format svg --frames 8 --plans --lang ru", 8),
         ("sheet --errors --sigma --lang en", 4),
         ("sheet --paper A4 --lang ru", 8),
+        ("note --format docx --lang ru", 8),
+        ("note --format docx --lang en", 16),
     ):
         if is_taken(f"{name} {line}", some):
             yield line
+    if f"{name}.".startswith(PROJECTS):
+        yield "project --format svg --lang ru"
+        yield "project --json --lang en"
     for layout, count, some, needed in LAYOUTS:
         is_whole = f"{name}.".startswith(WHOLE)
         if is_whole or (needed in text and is_taken(f"{name} {layout}", some)):
@@ -246,6 +256,12 @@ ENV = {
 }
 
 
+POINT = b64decode(
+    "iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAAAAAA6fptVAAAACklEQVR4nGP4DwABAQEAG7buVgAAAABJRU5ErkJggg=="
+)
+"""A picture of one pixel."""
+
+
 @contextmanager
 def workplace() -> Iterator[None]:
     """Work in an empty folder where the problems are, formats being texts of display lists."""
@@ -301,10 +317,22 @@ def _run(*words: str) -> Any:
 def _content(path: Path) -> str:
     if path.suffix == ".xlsx":
         return "".join(_cells(path))
+    if path.suffix == ".docx":
+        return "".join(_texts(path))
     if path.suffix == ".pdf" or path.name == "run.json":  # with the versions and sums of files
         return ""
     text = re.sub(SCRIPT, "", path.read_text("utf-8"), flags=re.DOTALL)
     return _rounded(text, DIGITS, FORMATTED)
+
+
+def _texts(path: Path) -> Iterator[str]:
+    """Yield the texts of a file of Word, those of a paragraph or a formula in a line."""
+    with ZipFile(path) as parts:
+        body = parts.read("word/document.xml").decode()
+    for paragraph in body.split("</w:p>"):
+        found = re.findall(r"<[wm]:t(?: [^>]*)?>([^<]*)</[wm]:t>", paragraph)
+        if found:
+            yield f"{''.join(found)}\n"
 
 
 def _cells(path: Path) -> Iterator[str]:
@@ -335,6 +363,8 @@ def _rounded(text: str, digits: int, least: int = 0) -> str:
 
 def _rendered(drawing: Drawing, fmt: str, **_options: object) -> bytes:
     assert fmt in BACKENDS
+    if fmt == "png":  # the pictures of a note: Word's writer wants some
+        return POINT
     return "".join(_listed(drawing)).encode()
 
 

@@ -5,19 +5,25 @@ from __future__ import annotations
 from functools import cache
 from pathlib import Path
 
+import numpy as np
 import pytest
 from msgspec.structs import replace
 
 from planmethod.errors import ProblemError
 from planmethod.kinds import load
+from planmethod.plans.model import PlanKind
 from planmethod.problem import loads
 from planmethod.problem.cycle_records import ProjectTask
+from planmethod.problem.load_records import SizeTable
 from planmethod.problem.model import Problem
 from planmethod.project.decided import loaded_positions
 from planmethod.project.model import PartName, Project
+from planmethod.project.record import project_record
 from planmethod.project.settle import settle, settled
 from planmethod.project.sheets import numbered_set, part_drawings
 from planmethod.render.ink.drawing import Drawing, Text
+from planmethod.render.sheets.turn import hodograph
+from planmethod.solved.forces.loads import external
 from planmethod.solved.solution import Solution
 from planmethod.solved.turn.turn import turn_of
 
@@ -112,6 +118,21 @@ def test_else_a_load_acts_in_the_calculated_position() -> None:
     assert len(acting) < len(found.positions)
 
 
+def test_the_load_of_the_calculated_position_is_considerable() -> None:
+    """Of an engine the gas force falls to a hundredth of its largest on the way."""
+    found = settle(replace(problem_of("engine"), project=None))
+    (gas,) = (
+        np.abs(one.force)
+        for one in external(found.solution, found.problem.dynamics, "3")  # type: ignore[arg-type]
+        if one.name == "P"
+    )
+    (load,) = found.problem.dynamics.loads  # type: ignore[union-attr]
+    assert isinstance(load.size, SizeTable)
+    largest = max(map(abs, load.size.values))
+    assert gas[[*loaded_positions(found.solution)]].min() >= largest / 3.0
+    assert gas.min() < largest / 3.0
+
+
 def test_a_position_that_there_is_not_is_a_fault_of_the_file() -> None:
     task = ProjectTask(calculated=6)
     with pytest.raises(ProblemError, match=r"project\.calculated: .* 6\. Of 6 positions .* 5\."):
@@ -162,6 +183,20 @@ def test_a_settled_problem_stays_as_it_is() -> None:
     assert settled(problem_of("homework")).calculated is None  # it has no [project]
 
 
+def test_hodographs_have_the_scale_of_the_plans() -> None:
+    project = project_of("shaper")
+    for kind in (PlanKind.VELOCITY, PlanKind.ACCELERATION):
+        made = hodograph(project.solution, kind, 60.0)
+        assert made.scale == project.solution.scales[kind]
+
+
+def test_places_are_written_within_a_turn() -> None:
+    told = project_record(project_of("engine"), (), "engine")
+    places = [one["phi_deg"] for one in told["positions"]]
+    assert all(0.0 <= place < 360.0 for place in places)
+    assert places[4:] == places[:4]
+
+
 def test_sheets_are_numbered_as_one_set() -> None:
     sheets = [
         one for some in numbered_set(project_of("shaper"), sheets_of("shaper")) for one in some
@@ -206,6 +241,29 @@ def test_a_train_lies_beside_the_file(tmp_path: Path) -> None:
     found = settle(load(path), path).part(PartName.GEARS)
     assert found is not None
     assert found.problem.title == "Редуктор"
+
+
+@pytest.mark.parametrize(
+    ("line", "said"),
+    [
+        (
+            'parts = ["gears"]',
+            "project.parts: the file has no part 'gears'. It has kinematics, note.",
+        ),
+        ('gears = "none.toml"', "project.gears: there is no file none.toml beside this one"),
+        ('gears = "my.toml"', "project.gears: my.toml has no table [gears]"),
+        ('meshing = "my.toml"', "project.meshing: my.toml has no table [meshing]"),
+    ],
+)
+def test_a_part_that_there_is_not_is_a_fault_of_the_file(
+    line: str, said: str, tmp_path: Path
+) -> None:
+    path = tmp_path / "my.toml"
+    text = file_of("homework").read_text("utf-8") + f"\n[project]\n{line}\n"
+    path.write_text(text, "utf-8")
+    with pytest.raises(ProblemError) as error:
+        settle(load(path), path)
+    assert said in str(error.value) and len(error.value.faults) == 1
 
 
 @pytest.mark.parametrize(

@@ -37,6 +37,8 @@ CASES = [
     ("compact", "linkages/ex1", (60.0,)),
     ("forces-cycle", "levers/task12", TURN),
     ("forces-cycle", "press/press", TURN),
+    ("project-kinematics", "press/press", TURN),
+    ("project-forces", "press/press", None),
     ("flywheel", "press/flywheel", None),
     ("run-up", "machines/compressor", None),
     ("balancing", "machines/balanced-fourbar", None),

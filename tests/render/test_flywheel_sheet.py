@@ -11,8 +11,15 @@ from click.testing import CliRunner
 from worked import ROOT, drawn_sheets, path_of
 
 from planmethod.cli import cli
+from planmethod.construct.drafting import PROFILES
 from planmethod.errors import ExitCode
-from planmethod.render.ink.drawing import Disc, Drawing, Text
+from planmethod.kinds import load
+from planmethod.note.narrate.machine import MachineTeller
+from planmethod.note.wording import language
+from planmethod.render.ink.drawing import Disc, Drawing, Pen, Stroke, Text
+from planmethod.render.pictures.flywheel import construction_picture
+from planmethod.solved.machine.drawing import drawing_of
+from planmethod.solved.machine.flywheel import Flywheel
 
 WANTED = json.loads((ROOT / "tests/data/flywheel.json").read_text("utf-8"))
 FILES = ("press/flywheel", "machines/compressor", "machines/engine")
@@ -58,3 +65,24 @@ def test_a_file_without_a_machine_is_told() -> None:
     run = CliRunner().invoke(cli, ["sheet", str(path_of("press/press")), "--layout", "flywheel"])
     assert run.exit_code == ExitCode.USAGE or run.exit_code == ExitCode.PROBLEM, run.output
     assert "needs [machine]" in run.output
+
+
+def test_a_moment_that_jumps_is_drawn_upright() -> None:
+    problem = load(ROOT / "tests/data/turn/shaper.toml")
+    drawing = drawing_of(Flywheel(problem), PROFILES["board"])
+    picture = construction_picture(drawing, MachineTeller(drawing, language("ru")), 5.0)
+    curve = [item for item in picture.items
+             if isinstance(item, Stroke) and item.tag == "diagram curve M"]  # fmt: skip
+    uprights = [one for one in curve if one.pen is Pen.THIN]
+    assert len(uprights) == 2
+    assert all(abs((one.points[1] - one.points[0]).real) < 0.1 for one in uprights)
+    given = MachineTeller(drawing, language("ru")).given()
+    assert not any(line.startswith("φ") for line in given)  # of no single position
+
+
+def test_a_narrow_energy_mass_curve_takes_the_room_that_there_is() -> None:
+    drawing = drawing_of(Flywheel(load(ROOT / "tests/data/turn/engine.toml")), PROFILES["board"])
+    inertia = drawing.points.inertia / drawing.scales.inertia
+    assert 100.0 < inertia.max() <= 130.0 and drawing.height <= 500.0
+    wide = drawing_of(Flywheel(load(ROOT / "tests/data/turn/shaper.toml")), PROFILES["board"])
+    assert np.max(wide.points.inertia) / wide.scales.inertia <= 70.0

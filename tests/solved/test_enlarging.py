@@ -8,9 +8,11 @@ import numpy as np
 import pytest
 from worked import problem_of
 
+from planmethod.note.narrate.formulas import knot_letter
 from planmethod.note.narrate.steps import calculation
 from planmethod.note.wording import language
 from planmethod.plans.model import PlanKind
+from planmethod.problem.names import fold
 from planmethod.render.ink.drawing import Arc
 from planmethod.render.pictures.enlarged import ENLARGED
 from planmethod.render.sheets.kinematics import kinematics_sheets
@@ -27,6 +29,17 @@ NAMES = (
 def solutions() -> Iterator[Solution]:
     for name in NAMES:
         yield Solution(problem_of(name))
+
+
+def test_no_view_has_the_letter_of_a_point() -> None:
+    """А, В and С of a sheet in Russian look like the points A, B and C."""
+    knots = [knot for solution in solutions() for each in solution.knots.values() for knot in each]
+    assert any("A" in knot.initials for knot in knots)
+    for knot in knots:
+        assert {"O", "A"} & knot.initials
+        for lang in ("ru", "en"):
+            assert fold(knot_letter(knot, language(lang))) not in knot.initials
+    assert {knot_letter(knot, language("ru")) for knot in knots} >= {"Б"}
 
 
 def test_every_short_segment_is_in_one_knot_and_long_enough_there() -> None:

@@ -12,15 +12,20 @@ from msgspec.structs import replace
 from worked import ROOT
 
 from planmethod.cli import cli
+from planmethod.construct.drafting import PROFILES
 from planmethod.errors import ProblemError
 from planmethod.kinds import loads
+from planmethod.note.narrate.given import of_turn
+from planmethod.note.narrate.machine import MachineTeller
 from planmethod.note.records.solution import cycle_record
+from planmethod.note.wording import language
 from planmethod.problem.model import ANYWHERE, Problem
 from planmethod.problem.unlikely import unlikely
 from planmethod.render.ink.drawing import Drawing, Text
 from planmethod.render.sheets.kinematics import kinematics_sheets
 from planmethod.solved.course.motion import TurnMotion
 from planmethod.solved.cycle import cycle
+from planmethod.solved.machine.drawing import drawing_of
 from planmethod.solved.machine.flywheel import Flywheel
 from planmethod.solved.solution import Solution
 from planmethod.solved.turn.diagrams import diagrams_of
@@ -67,7 +72,7 @@ def test_positions_that_the_driver_lists_are_outranked_with_one_warning() -> Non
     problem, alone = read(SHAPER), read(without_phi(SHAPER))
     assert problem.drive.positions == pytest.approx(alone.numbered, abs=1e-9)
     (said,) = unlikely(problem)
-    for part in ("12 positions from 0° to 330°", "12 from 198° to 528°", "Delete phi"):
+    for part in ("12 positions from 0° to 330°", "12 from 198° to 168°", "Delete phi"):
         assert part in said
     same = read(SHAPER, ("phi = { from = 0,", "phi = { from = 198.0,"))
     assert not list(unlikely(same)) and same.drive.positions == pytest.approx(alone.numbered)
@@ -127,7 +132,7 @@ def test_a_machine_and_its_cycle_cannot_contradict_each_other() -> None:
 
 
 def test_positions_are_numbered_against_the_crank_where_the_file_says_so() -> None:
-    problem = read(without_phi(SHAPER), ('zero = "extreme"', 'direction = "cw"'))
+    problem = read(without_phi(SHAPER), ('zero = "extreme"', 'zero = "extreme"\ndirection = "cw"'))
     assert np.diff(problem.numbered) == pytest.approx([-30.0] * 11)
     told = cycle_record(Solution(problem))
     ahead = cycle_record(Solution(read(without_phi(SHAPER))))
@@ -170,6 +175,47 @@ def test_a_cycle_of_two_turns_has_the_positions_and_the_forces_of_both() -> None
     assert diagrams.x(diagrams.shares)[-1] * diagrams.mu_phi == pytest.approx(radians(720))
 
 
+def test_angles_of_two_turns_are_written_within_one_and_the_number_tells_the_turn() -> None:
+    problem = read(without_phi(ENGINE))
+    shown = [problem.shown(position) for position in problem.numbered]
+    assert shown[:6] == [90.0, 60.0, 30.0, 0.0, 330.0, 300.0]
+    assert shown[12:] == shown[:12]
+    words = language("en")
+    places = [
+        (-270.0, "(position 12)"),
+        (90.0, "(position 0)"),
+        (67.0, "between positions 0 and 1"),
+    ]
+    for position, said in places:
+        assert said in of_turn(problem, position, "φ = 90°", words)
+    (sheet,) = kinematics_sheets(problem, layout="forces-cycle")
+    assert {"= 90° (положение 12)", "= 67° (между положениями 0 и 1)"} <= {*sheet_texts(sheet)}
+    assert of_turn(read(without_phi(SHAPER)), 228.0, "φ = 228°", words) == "φ = 228°"
+
+
+def test_a_warning_of_outranked_positions_has_angles_within_a_turn() -> None:
+    (said,) = unlikely(read(ENGINE))
+    assert "from 90° to 120°" in said and "-600" not in said
+
+
+def test_the_cycle_of_a_machine_ends_with_position_0() -> None:
+    wheel = Flywheel(read(without_phi(SHAPER)))
+    assert wheel.turn.numbers(12) == [*range(12), 0]
+    (sheet,) = kinematics_sheets(read(without_phi(SHAPER)), layout="flywheel")
+    labels = [item.tag for item in sheet.items if isinstance(item, Text)]
+    assert not any("position 12" in label for label in labels)
+
+
+def test_the_table_of_a_driving_machine_has_its_letter_and_sign() -> None:
+    flywheel = Flywheel(read(without_phi(ENGINE)))
+    tell = MachineTeller(drawing_of(flywheel, PROFILES["board"]), language("ru"))
+    heads = [head for head, _, _ in tell.columns()]
+    assert tell.moment in heads and heads[3] == "M^{Ж}"
+    cells = dict(zip(heads, (cells for _, _, cells in tell.columns()), strict=True))
+    assert cells[tell.moment][1].startswith("389") and cells["M^{Ж}"] == cells[tell.moment]
+    assert cells[heads[1]][:4] == ["90", "60", "30", "0"]
+
+
 # Strokes -----------------------------------------------------------------------------------------
 
 
@@ -205,6 +251,24 @@ def test_zero_may_be_where_the_working_stroke_starts() -> None:
     found = strokes_of(Solution(problem))
     assert found is not None and problem.numbered[0] == pytest.approx(found.start_deg)
     assert problem.numbered[0] == pytest.approx(342.0, abs=0.01)
+
+
+def test_without_zero_position_0_starts_the_working_stroke_where_it_is_known() -> None:
+    line = 'zero = "extreme"\n'
+    assert read(without_phi(SHAPER), (line, "")).numbered[0] == pytest.approx(342.0, abs=0.01)
+    right = read(without_phi(SHAPER), (line, 'working = "right"\n'))
+    assert right.numbered[0] == pytest.approx(198.0, abs=0.01)
+    alone = without_phi(SHAPER)[: without_phi(SHAPER).index("[dynamics.links.1]")]
+    assert read(alone, (line, "")).numbered[0] == pytest.approx(198.0, abs=0.01)
+    assert read(without_phi(SHAPER)).numbered[0] == pytest.approx(198.0, abs=0.01)
+
+
+def test_a_cycle_without_a_count_has_as_many_positions_as_the_driver() -> None:
+    six = ("count = 12 }", "count = 6 }")
+    assert len(read(SHAPER, six, ('constant = "driving"\ncount = 12', "")).numbered) == 6
+    assert len(read(SHAPER, six, ('constant = "driving"\ncount = 12', "count = 8")).numbered) == 8
+    half = ("phi = { from = 0, count = 12 }", "phi = { from = 0, to = 150, step = 30 }")
+    assert len(read(SHAPER, half).numbered) == 12
 
 
 def test_a_driving_load_works_where_it_gives_the_most() -> None:

@@ -9,6 +9,7 @@ from planmethod.note.formula import fraction
 from planmethod.note.narrate.naming import SCALE_KIND, Names
 from planmethod.note.wording import Language, language
 from planmethod.plans.model import FACTS, PlanKind, Vector
+from planmethod.problem.names import fold
 from planmethod.solved.enlarging import Knot
 from planmethod.solved.solution import Solution
 
@@ -168,8 +169,9 @@ def view_name(knot: Knot, words: Language) -> str:
 
 
 def knot_letter(knot: Knot, words: Language) -> str:
-    """Return the letter of an enlarged view."""
-    letters: tuple[str, ...] = words.sheets["knots"]
+    """Return the letter of an enlarged view, none that looks like that of a point."""
+    every: tuple[str, ...] = words.sheets["knots"]
+    letters = [one for one in every if fold(one) not in knot.initials] or every
     return letters[knot.number % len(letters)]
 
 

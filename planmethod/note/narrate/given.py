@@ -131,6 +131,9 @@ def _path(link: str, key: str) -> str:
 DRAWN = 5
 """Digits of a coordinate that was computed: a hundredth of a millimetre of a link."""
 
+NEAR_DEG = 0.5
+"""Degrees within which an angle is that of a position."""
+
 MOST_LISTED = 6
 """Most positions that are given one by one."""
 
@@ -178,6 +181,26 @@ def _numbered(text: As, asked: Sequence[float]) -> str:
         sense=text.words.cycle["senses"]["against" if against else "along"],
         count=len(asked),
     )
+
+
+def of_turn(problem: Problem, position: float, angle: str, words: Language) -> str:
+    """Return an angle of the crank with the positions it is at, which tell the turn of two.
+
+    Parameters
+    ----------
+    position : float, degrees
+        Of the driver, as it goes on over both turns.
+    angle : str
+        How it is written.
+    """
+    place, count = problem.counted(position), len(problem.numbered)
+    if place is None:
+        return angle
+    number, note = round(place), words.note
+    if abs(place - number) * 360.0 * problem.turns / count < NEAR_DEG:
+        return note.at_position.format(at=angle, number=number % count)
+    before = int(place)
+    return note.between_positions.format(at=angle, one=before, other=(before + 1) % count)
 
 
 def _posed(posed: Posed, of: Sequence[int], text: As) -> str:

@@ -10,7 +10,7 @@ import numpy as np
 from planmethod.construct.scale import Scale
 from planmethod.note import formula
 from planmethod.note.narrate.forces.statement import mass_lines
-from planmethod.note.narrate.given import given
+from planmethod.note.narrate.given import given, of_turn
 from planmethod.note.narrate.scales import scale_inscription
 from planmethod.note.numbers import alike, half_up
 from planmethod.note.wording import Language, Words
@@ -73,11 +73,10 @@ class MachineTeller:
     # Given and wanted ------------------------------------------------------------------------
 
     def given(self) -> list[str]:
-        """Return what is given."""
+        """Return what is given; the machine goes through all positions, none is."""
         machine, problem = self.flywheel.machine, self.flywheel.problem
         assert problem.dynamics is not None
-        start = self.flywheel.turn.start_deg
-        lines = given(problem, self.words, [start])
+        _, *lines = given(problem, self.words, [self.flywheel.turn.start_deg])
         lines += mass_lines(problem, self.words)
         if machine.crank_inertia:
             inertia = self.say.given(machine.crank_inertia)
@@ -222,18 +221,17 @@ class MachineTeller:
 
     def _at(self, extreme: SpeedExtreme) -> str:
         """Return the angle of the crank of an extreme speed."""
-        turn = self.flywheel.machine.cycle_deg
         phi = self.flywheel.turn.sense * degrees(extreme.turned) + self.flywheel.turn.start_deg
-        return self.said.extreme.format(angle=self.say.number(f"{phi % turn:.1f}"))
+        angle = self.said.extreme.format(angle=self.say.number(f"{phi % 360.0:.1f}"))
+        return of_turn(self.flywheel.problem, phi, angle, self.words)
 
     # Table -----------------------------------------------------------------------------------
 
     def columns(self) -> list[_Column]:
         """Return the table by positions: heads, units and cells of its columns, rich text."""
         flywheel, say = self.flywheel, self.say
-        rows, turn = flywheel.rows, flywheel.machine.cycle_deg
+        rows, lever = flywheel.rows, flywheel.lever(flywheel.machine.count)
         order = np.argsort(flywheel.turn.numbers(flywheel.machine.count)[:-1])
-        angles = [f"{round(phi % turn, 1) % turn:.1f}" for phi in rows.phi_deg[order].tolist()]
 
         def column(head: str, values: Reals, unit: str, digits: int = 4) -> _Column:
             values = values[order]
@@ -243,14 +241,14 @@ class MachineTeller:
             return head, say.in_head(unit), told
 
         return [
-            (self.words.note.number, "", [str(k) for k in range(len(angles))]),
+            (self.words.note.number, "", [str(k) for k in range(len(order))]),
             (
                 f"φ_{{{flywheel.problem.drive.link}}}",
                 say.in_head("deg"),
-                [say.number(a) for a in angles],
+                [*map(say.turned, rows.phi_deg[order].tolist())],
             ),
-            column(self.letter("resisting moment"), rows.moment, "N·m"),
-            column(self.letter("moment by lever"), flywheel.lever(flywheel.machine.count), "N·m"),
+            column(self.moment, flywheel.sign * rows.moment, "N·m"),
+            column(self.letter("moment by lever"), flywheel.sign * lever, "N·m"),
             column(self.work, rows.work, "J"),
             column(self.letter("energy gain"), rows.gain, "J"),
             column(self.letter("reduced inertia"), rows.inertia, "kg·m²"),

@@ -30,7 +30,7 @@ from planmethod.solved.reading import Reals
 from planmethod.solved.solution import Solution
 from planmethod.solved.turn.construction import extreme_construction
 from planmethod.solved.turn.diagrams import Deviation, Diagrams, deviations, diagrams_of, sigmas
-from planmethod.solved.turn.turn import TURN, turn_of
+from planmethod.solved.turn.turn import turn_of
 
 Columns = list[tuple[str, str, tuple[str, ...]]]
 """Columns of a table: head (rich text), unit of SI or none, cells (rich text)."""
@@ -56,12 +56,11 @@ def cycle_columns(diagrams: Diagrams, words: Language) -> Columns:
     if turn.solution.problem.drive.acceleration:
         found.append((acceleration_parts(turn.output)[0], units[1], even))
     found.append((f"{a}_{index}", units[1], gain))
-    at = turn.at(shares)
-    whole = TURN * turn.turns
-    at = at if turn.range is not None else np.round(at % whole, 2) % whole
+    at = turn.at(shares).tolist()
+    places = map(say.turned, at) if turn.range is None else (say.number(f"{p:.2f}") for p in at)
     columns: Columns = [
         (words.note.number, "", tuple(str(k) for k in range(diagrams.count))),
-        ("φ", "deg", tuple(say.number(f"{p:.2f}") for p in at)),
+        ("φ", "deg", tuple(places)),
     ]
     for head, unit, values in found:
         peak = float(np.nanmax(np.abs(values), initial=0.0))

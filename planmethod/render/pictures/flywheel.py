@@ -136,6 +136,9 @@ class _Sketch:
             else:
                 pieces.append(piece)
         self._curve(pieces, "M")
+        for before, after in pairwise(pieces):
+            if abs(after[0].real - before[-1].real) < 0.1:
+                self.items.append(Stroke((before[-1], after[0]), Pen.THIN, tag="diagram curve M"))
         self._dots(self.places(made.moments))
         pole = self.at(made.pole)
         length = drawing.length
@@ -224,8 +227,11 @@ class _Sketch:
         every = max(1, self.drawing.count // 12)
         middle = sum(curve) / len(curve)
         numbers = self.drawing.flywheel.turn.numbers(self.drawing.count)
+        told: list[complex] = []
         for k, (place, number) in enumerate(zip(curve, numbers, strict=False)):
-            if k % every == 0:
+            clear = all(abs(place - other) > self.size for other in told)
+            if k % every == 0 and clear:  # of points that lie together the first one has its number
+                told.append(place)
                 self._label(str(number), place, place - middle, f"E {number}")
         tangents = ((upper, "K", "max", 0), (lower, "L", "min", 1))
         step = self.drawing.flywheel.cycle / self.drawing.count

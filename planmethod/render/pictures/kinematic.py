@@ -49,7 +49,7 @@ def kinematic_picture(diagrams: Diagrams, letter_height: float, say: Notation) -
             letter_height=letter_height,
             name=f"diagram {'sva'[number]}",
             construction=_construction(graph, trace, number),
-            labels=_letters(graph, trace, number, letter_height) if number else (),
+            labels=_letters(diagrams, graph, trace, number, letter_height) if number else (),
         )
         for number, (symbol, unit, scale) in enumerate(_axes(diagrams))
     ]
@@ -133,8 +133,13 @@ def _construction(graph: Graph, trace: Trace, number: int) -> list[Item]:
     return [*items, *dots]
 
 
-def _letters(graph: Graph, trace: Trace, number: int, height: float) -> list[Label]:
-    """Return the letter of the pole, and the numbers of the rays where they have room."""
+def _letters(
+    diagrams: Diagrams, graph: Graph, trace: Trace, number: int, height: float
+) -> list[Label]:
+    """Return the letter of the pole, and the numbers of the rays where they have room.
+
+    A ray has the number of its position; one of an interval that of the position where it ends.
+    """
     axes, letter = graph.axes[number], "sva"[number]
     origin = complex(trace.value[axes.origin])
     pole = complex(trace.value[graph.poles[number - 1]]) - origin
@@ -151,13 +156,16 @@ def _letters(graph: Graph, trace: Trace, number: int, height: float) -> list[Lab
     if len(graph.points[number]) > _NUMBERED:
         return labels
     size, taken = max(2.5, 0.5 * height), [0.0]
+    names, first = diagrams.turn.numbers, float(diagrams.x(diagrams.shares)[0])
+    ends = int(graph.at[number][0] - first > 1e-6 * diagrams.length)
     for k in range(len(graph.points[number])):
+        name = names[(k + ends) % diagrams.count]
         cut = complex(trace.value[PointName(f"{axes.name} cut {k}")]) - origin
         if np.isfinite(cut) and min(abs(cut.imag - y) for y in taken) > _CLEAR:
             taken.append(cut.imag)
             ray = pole + (cut - pole) * 0.86
             labels.append(
-                Label(typeset(str(k + 1), size), ray, prefer=1j * (cut - pole), gap=0.4,
-                      name=f"diagram {letter}: ray {k + 1}", manner=BUSY)
+                Label(typeset(str(name), size), ray, prefer=1j * (cut - pole), gap=0.4,
+                      name=f"diagram {letter}: ray {name}", manner=BUSY)
             )  # fmt: skip
     return labels

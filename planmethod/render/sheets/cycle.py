@@ -9,7 +9,7 @@ from msgspec import Struct
 
 from planmethod.construct.scale import Scale, choose_scale
 from planmethod.note.narrate.forces.statement import cycle_statement, cycle_wanted, link_names
-from planmethod.note.narrate.given import point_name
+from planmethod.note.narrate.given import of_turn, point_name
 from planmethod.note.narrate.scales import scale_inscription
 from planmethod.note.numbers import MINUS, Notation, half_up, with_unit
 from planmethod.note.wording import Language
@@ -281,6 +281,7 @@ def _largest(solution: Solution, symbol: str, peak: ReactionPeak, words: Languag
     if drive.is_crank:
         at = say.number(f"{half_up(peak.position % 360.0, 0) % 360.0:.0f}")
     at = f"{drive.coordinate.symbol} {sign} {with_unit(at, say.units[drive.coordinate.unit])}"
+    at = of_turn(solution.problem, peak.position, at, words)
     return words.sheets.largest_at.format(largest=head, at=at)
 
 

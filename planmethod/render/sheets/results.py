@@ -32,7 +32,7 @@ def position_text(solution: Solution, index: int, say: Notation) -> str:
         return say.given(solution.problem.shown(value))
     if -360.0 < value < 0.0 and value in solution.problem.drive.positions:
         return say.given(value)  # as the file has it
-    return say.given(round(value % 360.0, 2) % 360.0)
+    return say.turned(value)
 
 
 def _sense(value: float) -> int:

@@ -115,7 +115,8 @@ def plan_grid(
     convention = solution.problem.scales.convention
     for i in indices:
         own_numbers, unit = alike.get(i, (i,)), say.units[coordinate.unit]
-        values = ", ".join(with_unit(position_text(solution, k, say), unit) for k in own_numbers)
+        places = dict.fromkeys(position_text(solution, k, say) for k in own_numbers)
+        values = ", ".join(with_unit(place, unit) for place in places)
         said = f"{', '.join(map(str, own_numbers))}: {coordinate.symbol} = {values}"
         own = solution.own_scale(kind, i)
         caption: Block = Line(typeset(said, CAPTION))

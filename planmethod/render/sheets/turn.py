@@ -39,6 +39,9 @@ from planmethod.solved.turn.turn import TURN, Turn, turn_of
 SIDE = 0.4
 """Side of a hodograph as a part of the width of a text."""
 
+MOST = 150.0
+"""Side up to which a hodograph of a project keeps the scale of its plans, mm."""
+
 _NARROW = 0.05  # a hodograph that is narrower than so much of its length is a straight line
 
 
@@ -130,7 +133,11 @@ class Hodograph(Struct, frozen=True):
 
 
 def hodograph(solution: Solution, kind: PlanKind, side: float) -> Hodograph:
-    """Return the hodograph of velocities or accelerations that fills a square, its side in mm."""
+    """Return the hodograph of velocities or accelerations that fills a square, its side in mm.
+
+    One of a project has the scale of the plans, as a plan of all positions about one pole, unless
+    it is larger than `MOST` then.
+    """
     turn = turn_of(solution)
     point = hodograph_point(turn) or turn.output.point
     drive, kin = solution.problem.drive, turn.unit.construction.kinematics
@@ -152,7 +159,10 @@ def hodograph(solution: Solution, kind: PlanKind, side: float) -> Hodograph:
     size = (float(np.ptp(there.real)), float(np.ptp(there.imag)))
     inverse = solution.problem.scales.convention is Convention.MM_PER_UNIT
     facts = FACTS[kind]
-    scale = Scale(facts.scale, choose_scale(size, (side, side), mm_per_unit=inverse), facts.unit)
+    own = Scale(facts.scale, choose_scale(size, (side, side), mm_per_unit=inverse), facts.unit)
+    common = solution.scales[kind]
+    keeps = solution.problem.scales.decided and max(size) <= MOST * common.per_mm
+    scale = common if keeps else own
     gaps = np.flatnonzero(~np.isfinite(curve))
     parts = tuple(part[np.isfinite(part)] / scale.per_mm for part in np.split(curve, gaps))
     return Hodograph(kind, point, scale, parts, np.nan_to_num(ends) / scale.per_mm)

@@ -153,14 +153,14 @@ class TurnMotion:
         self.construction = self._solution.construction
 
     def numbers(self, count: int) -> list[int]:
-        """Return the numbers of so many positions as the crank comes through them, and of the end.
+        """Return the numbers of so many positions as the crank comes through them, and 0 again.
 
         ``[cycle] direction`` may be against the crank's rotation.
         """
         task = self.problem.cycle
         direction = None if task is None else task.direction
         if direction is None or (direction is TurningSense.CCW) == (self.sense > 0.0):
-            return list(range(count + 1))
+            return [*range(count), 0]
         return [0, *range(count - 1, -1, -1)]
 
     def phi(self, turned: Reals) -> Reals:

@@ -7,6 +7,7 @@ from math import atan, degrees
 
 import numpy as np
 from msgspec import Struct
+from msgspec.structs import replace
 
 from planmethod.construct.arithmetic import Float64
 from planmethod.construct.drafting import Profile
@@ -23,6 +24,10 @@ from planmethod.solved.reading import Reading, remembered
 
 MOST_M, MOST_J = 85.0, 70.0
 """Longest ordinates of the moment and of the inertia where the program chooses a scale, mm."""
+
+WIDE, TALLEST_J, TALLEST = 40.0, (130.0, 105.0), 500.0
+"""Width of an energy-mass curve that needs no more, the longest ordinates of the inertia that a
+narrower one is tried with, and the height of all diagrams that it may take then, mm."""
 
 MOST_HIGH = 460.0
 """Height of all diagrams above one another up to which the program enlarges their scales, mm."""
@@ -72,9 +77,22 @@ class FlywheelDrawing:
         while machine.mu_M is None and self.height > MOST_HIGH:
             moment = series_near(1.1 * moment, up=True)
             self.scales = self._scales(phi, moment, inertia)
+        if machine.mu_J is None:
+            self._widen()
         self.pole = machine.pole_mm or self.scales.work / (moment * phi)
         half = self.scales.inertia * flywheel.middle_speed**2 / (2.0 * self.scales.work)
         self.psi = degrees(atan(half * slopes[0])), degrees(atan(half * slopes[1]))
+
+    def _widen(self) -> None:
+        """Enlarge the inertia where its curve is narrow, as far as there is room."""
+        first, inertia = self.scales, self.points.inertia
+        for most in TALLEST_J:
+            if float(np.ptp(inertia)) / first.inertia >= WIDE:
+                return
+            self.scales = replace(first, inertia=_fitting(inertia, most))
+            if self.height <= TALLEST:
+                return
+        self.scales = first
 
     def _scales(self, phi: float, moment: float, inertia: float) -> MachineScales:
         """Return the scales: that of the work round, its pole distance as usual as can be."""

@@ -19,7 +19,7 @@ from msgspec.structs import replace
 
 from planmethod.construct.arithmetic import Float64
 from planmethod.construct.evaluate import evaluate
-from planmethod.errors import Fault, ProblemError
+from planmethod.errors import AssemblyError, Fault, ProblemError
 from planmethod.languages import say
 from planmethod.plans.forces.board import SCALE
 from planmethod.problem.load_records import Dynamics, Fixed, Load
@@ -132,7 +132,11 @@ class Flywheel(Remembering):
         self.problem, self.machine = problem, problem.machine
         self.turn = TurnMotion(problem)
         self.cycle = self.turn.cycle
-        found = reduced_curves(self.turn, self.machine)
+        try:
+            found = reduced_curves(self.turn, self.machine)
+        except AssemblyError as error:
+            told = "a flywheel needs a crank that turns all round: {}"
+            raise AssemblyError(told, error) from error
         self.moment, self.inertia, self.slope = (
             Piecewise(found.edges, found.terms[:, :, k : k + 1]) for k in range(3)
         )

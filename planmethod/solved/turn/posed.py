@@ -15,6 +15,7 @@ from planmethod.construct.arithmetic import Float64
 from planmethod.construct.steps import PointName
 from planmethod.errors import AssemblyError, Fault, PlanMethodError, ProblemError
 from planmethod.languages import say
+from planmethod.problem.cycle_records import Zero
 from planmethod.problem.keys import EXTREMES, GOING
 from planmethod.problem.model import Posed, PosedBy, Problem
 from planmethod.problem.names import UNITS, split_pair, told_length
@@ -213,11 +214,11 @@ def _roots(solution: Solution, posed: Posed, index: int) -> Found:
 
 
 def _ends(turn: Turn) -> tuple[Extreme, Extreme]:
-    """Return the extreme of position zero and the other one."""
+    """Return the extreme that ``zero`` names, the usual one without it, and the other one."""
     if turn.ends is None:
         why = turn.why_no_stroke
         raise _unknown(turn.solution, say("the output has no stroke: {}", why.value if why else ""))
-    return turn.ends_from_zero
+    return turn.ends if turn.task.zero is Zero.USUAL else turn.ends_from_zero
 
 
 def _extreme(turn: Turn, posed: Posed, index: int) -> Found:

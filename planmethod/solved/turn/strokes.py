@@ -12,6 +12,7 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from planmethod.problem.cycle_records import StrokeSense
+from planmethod.problem.load_records import Over, SizeTable
 from planmethod.problem.model import Problem
 from planmethod.solved.forces.loads import external, only_in_positions
 from planmethod.solved.reading import Flags, Reals
@@ -101,6 +102,13 @@ def looked_at(problem: Problem, start: float, turns: int) -> Reals:
         own = problem.numbered if problem.numbered == problem.drive.positions else ()
         return np.asarray(own, dtype=float)
     return start + 360.0 * turns * (np.arange(LOOKS * turns) + 0.5) / (LOOKS * turns)
+
+
+def over_strokes(problem: Problem) -> bool:
+    """Tell whether a load is given over the strokes of the cycle, as an indicator diagram."""
+    loads = () if problem.dynamics is None else problem.dynamics.loads
+    sizes = (load.size for load in loads)
+    return any(isinstance(size, SizeTable) and size.over is Over.STROKES for size in sizes)
 
 
 def by_loads(found: dict[str, Reals], first: Flags) -> tuple[bool, str] | None:

@@ -35,6 +35,7 @@ from planmethod.solved.turn.strokes import (
     Strokes,
     by_loads,
     looked_at,
+    over_strokes,
     powers,
 )
 
@@ -333,9 +334,12 @@ class Turn(Remembering):
         """Both ends of the stroke, that which ``zero`` names first; there must be a stroke."""
         assert self.ends is not None
         one, two = self.ends
-        is_other = self.task.zero is Zero.OTHER
-        if self.task.zero is Zero.WORKING and self.strokes is not None:
-            is_other = self.strokes.start_deg == two.phi
+        is_other, zero = self.task.zero is Zero.OTHER, self.task.zero
+        if zero in (Zero.WORKING, Zero.USUAL) and (strokes := self.strokes) is not None:
+            # Strokes of an indicator count from position 0: they cannot tell where that is.
+            circular = strokes.by != TOLD and over_strokes(self.solution.problem)
+            is_known = strokes.by != LONGER and not circular
+            is_other = (zero is Zero.WORKING or is_known) and strokes.start_deg == two.phi
         return (two, one) if is_other else (one, two)
 
     @cached_property

@@ -47,7 +47,7 @@ def statement(reading: ForceReading, words: Language) -> list[str]:
             if one.name in paths:
                 said = text.number(size, unit, paths[one.name])
             else:
-                said = f"{words.say.short(size)} {words.say.units[unit]}"
+                said = f"{words.say.found(size)} {words.say.units[unit]}"
             lines.append(f"{one.name} = {said}")
     return lines
 
