@@ -154,7 +154,7 @@ def back(report: Report, sheets: Sequence[SheetEntry]) -> Iterator[Node]:
     yield References((*([escape(source)] if source else []), *said["standards"]))
     yield StructuralHeading(said.sheets.format())
     parts = _parts(report, said["names"])
-    rows = [
+    rows: list[tuple[Rich, ...]] = [
         (str(one.number), escape(one.title), one.paper.written(report.words.frame.paper))
         for one in sheets
     ] or [(str(number), name) for number, name in enumerate(parts, 1)]

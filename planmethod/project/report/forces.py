@@ -118,7 +118,7 @@ class ForceChapter:
         if len(senses) == 1:
             form = said["couple_alike"]["one" if len(couples) == 1 else "many"]
             return str(form).format(sense=next(iter(senses)))
-        told = []
+        told: list[Rich] = []
         for sense, symbols in senses.items():
             form = "others" if told else "one" if len(symbols) == 1 else "many"
             template = str(said["couple_sense"][form])
