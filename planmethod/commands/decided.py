@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 import click
 from msgspec.structs import replace
 
-from planmethod.commands.problems import load_unsettled, solution_of
+from planmethod.commands.problems import load_unsettled, solution_of, warn
 from planmethod.errors import ProblemError
 from planmethod.options import UsageError, drawn_by
 
@@ -51,6 +51,7 @@ def decided(path: Path, variant: str | None, position: int | None, settled: Sett
     from planmethod.kinds import kind_of
     from planmethod.problem.cycle_records import ProjectTask
     from planmethod.project.settle import settle
+    from planmethod.project.train import train_apart
 
     kind = kind_of(path)
     if kind is not None:
@@ -72,4 +73,7 @@ def decided(path: Path, variant: str | None, position: int | None, settled: Sett
             "--position: {}. {}", error.faults[0].message, error.faults[0].hint
         ) from None
     solution_of(project.problem, None, drawn_by(None, None), forces=True)
+    apart = train_apart(project)
+    if apart is not None:
+        warn(project.problem, apart)
     return project

@@ -30,7 +30,7 @@ from planmethod.options import (
 from planmethod.problem.cycle_records import PROJECT_PARTS
 
 if TYPE_CHECKING:
-    from planmethod.project.model import Project, ProjectPart
+    from planmethod.project.model import Project, ProjectPart, SheetEntry
     from planmethod.project.notes import NoteOptions
     from planmethod.project.record import PartFiles
     from planmethod.render.ink.drawing import Drawing
@@ -50,11 +50,12 @@ class MadePart(Struct, frozen=True):
 
 
 class WritingTask(Struct, frozen=True):
-    """What is written: the sheets of a part, all sheets, the note or the numbers."""
+    """What is written: the sheets of a part, all sheets, the note with their list, the numbers."""
 
     name: str
     stem: str = ""
     drawings: tuple[Drawing, ...] = ()
+    sheets: tuple[SheetEntry, ...] = ()
 
 
 class SheetFormats(Struct, frozen=True):
@@ -186,7 +187,7 @@ def _made(
     """
     from planmethod.project.model import PartName
     from planmethod.project.record import PartFiles
-    from planmethod.project.sheets import numbered_set
+    from planmethod.project.sheets import numbered_set, sheet_list
 
     parts = chosen.parts
     texts = ["note", NUMBERS] if "note" in wanted else [NUMBERS]
@@ -205,7 +206,8 @@ def _made(
         numbered = numbered_set(chosen, [drawn[name].drawings for name in sheets])
         sets = {name: tuple(some) for name, some in zip(sheets, numbered, strict=True)}
         # The note takes the longest: with it first, all processes end alike.
-        tasks: list[WritingTask] = [WritingTask(name) for name in texts]
+        listed = sheet_list(chosen, numbered)
+        tasks: list[WritingTask] = [WritingTask(name, sheets=listed) for name in texts]
         tasks += [WritingTask(name, names[name], sets[name]) for name in shown]
         if whole:
             tasks.append(WritingTask(WHOLE, "project", tuple(d for some in numbered for d in some)))
@@ -247,7 +249,7 @@ def write(
     if task.name == "note":
         from planmethod.project.notes import note_files
 
-        return task.name, MadePart(note_files(project, "note", options))
+        return task.name, MadePart(note_files(project, "note", options, sheets=task.sheets))
     from planmethod.commands.output import drawing_files
 
     kinds = ("pdf",) if task.name == WHOLE else formats.formats

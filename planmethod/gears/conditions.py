@@ -55,6 +55,14 @@ def sentence(condition: Condition, words: Language) -> str:
     return said.format(**facts)
 
 
+def judgement(condition: Condition, words: Language) -> str:
+    """Return a condition in words, and whether it holds where the words do not say so."""
+    told = sentence(condition, words)
+    if condition.holds and condition.name == "satellites":
+        return told
+    return str(words.gears["holds"]["yes" if condition.holds else "no"]).format(sentence=told)
+
+
 # Coaxiality --------------------------------------------------------------------------------------
 
 Terms = tuple[tuple[int, str], ...]

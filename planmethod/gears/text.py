@@ -9,7 +9,7 @@ from msgspec import Struct
 
 from planmethod.errors import PlanMethodError
 from planmethod.gears.answers import answer, rack_speed
-from planmethod.gears.conditions import conditions, sentence
+from planmethod.gears.conditions import conditions, judgement
 from planmethod.gears.model import GearProblem, Mesh, MeshKind
 from planmethod.gears.motion import (
     Mobility,
@@ -62,8 +62,7 @@ def solved_document(problem: GearProblem, words: Language) -> Iterator[Node]:
     if judged:
         yield Caption(say.checked)
     for one in judged:
-        verdict = say["holds"]["yes" if one.holds else "no"]
-        yield Item(escape(f"{sentence(one, words)}: {verdict}"))
+        yield Item(escape(judgement(one, words)))
     yield Caption(say.picture)
     yield from _picture(motion, words)
     if problem.published:

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 
 from planmethod.gears.answers import Answer, answer, named
 from planmethod.gears.asked import parse
-from planmethod.gears.conditions import conditions, sentence
+from planmethod.gears.conditions import conditions, judgement
 from planmethod.gears.construction import GearDrawing, GearReading
 from planmethod.gears.motion import TrainMotion
 from planmethod.gears.text import equation_of, fraction_text, kind_of, mobility
@@ -45,23 +45,22 @@ def given(motion: TrainMotion, words: Language) -> list[str]:
     if train.module is not None:
         facts.append(told.module.format(value=say.given(float(train.module * 1000))))
     if train.fixed:
-        facts.append(told.fixed.format(labels=", ".join(sorted(train.fixed))))
+        labels = sorted(train.fixed)
+        form = "one" if len(labels) == 1 else "many"
+        facts.append(str(told["fixed"][form]).format(labels=", ".join(labels)))
     return facts
 
 
 def calculation(motion: TrainMotion, words: Language, notation: str | None = None) -> list[str]:
     """Return kind, mobility, equations of the meshes with their ratios, ratios asked for."""
-    train, say, found = motion.train, words.gears, motion.structure
+    train, found = motion.train, motion.structure
     lines = [kind_of(found, words), mobility(found, words, notation)]
     for mesh in train.meshes:
         lines.append(";  ".join(equation_of(motion, mesh)))
     lines += ratios(motion, words)
     rest = [one for name in dict.fromkeys(train.ask) for one in _plain(name, motion, words)]
     lines += ["; ".join(rest)] if rest else []
-    lines += [
-        indexed(sentence(one, words)) + f": {say['holds']['yes' if one.holds else 'no']}"
-        for one in conditions(motion)
-    ]
+    lines += [indexed(judgement(one, words)) for one in conditions(motion)]
     return lines
 
 

@@ -9,6 +9,7 @@ from typing import Any
 from msgspec import Struct
 
 from planmethod.kind import ProblemKind
+from planmethod.paper import Format
 from planmethod.problem.head import KindProblem
 from planmethod.problem.model import Problem, Scales
 from planmethod.solved.solution import Solution
@@ -41,6 +42,25 @@ class ProjectPart(Struct, frozen=True):
     name: PartName
     problem: KindProblem
     kind: ProblemKind[Any] | None = None
+
+
+class SheetEntry(Struct, frozen=True):
+    """A sheet in the list of the note (запись перечня листов).
+
+    Attributes
+    ----------
+    part : PartName
+    number : int
+        In the set of all sheets.
+    title : str
+        As in the title block.
+    paper : Format
+    """
+
+    part: PartName
+    number: int
+    title: str
+    paper: Format
 
 
 class Project(Struct, frozen=True, dict=True):

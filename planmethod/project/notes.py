@@ -11,7 +11,7 @@ from msgspec.structs import replace
 from planmethod.note.wording import language
 from planmethod.note.writers.pdfnote import pdf_note
 from planmethod.note.writers.word import word_document
-from planmethod.project.model import Project
+from planmethod.project.model import Project, SheetEntry
 from planmethod.project.report import note_document
 from planmethod.render.frame.titleblock import merged
 
@@ -38,9 +38,18 @@ class NoteOptions(Struct, frozen=True):
 
 
 def note_files(
-    project: Project, stem: str, options: NoteOptions, formats: Sequence[str] = FORMATS
+    project: Project,
+    stem: str,
+    options: NoteOptions,
+    formats: Sequence[str] = FORMATS,
+    sheets: Sequence[SheetEntry] = (),
 ) -> dict[str, bytes]:
     """Return the files of the note by their names.
+
+    Parameters
+    ----------
+    sheets : sequence of SheetEntry
+        The sheets that it lists; without them it lists the parts.
 
     Raises
     ------
@@ -50,7 +59,7 @@ def note_files(
     words = language(project.language)
     stamp = merged(project.problem.stamp, options.fields)
     stamped = replace(project, problem=replace(project.problem, stamp=stamp))
-    written, author = note_document(stamped, words), stamp.get("author", "")
+    written, author = note_document(stamped, words, sheets), stamp.get("author", "")
     files: dict[str, bytes] = {}
     for fmt in formats:
         if fmt == "docx":

@@ -9,8 +9,9 @@ from msgspec.structs import replace
 
 from planmethod.construct.drafting import PROFILES
 from planmethod.note.wording import Language, language
+from planmethod.paper import FORMATS
 from planmethod.project.first import PAPER, first_sheet
-from planmethod.project.model import PartName, Project, ProjectPart
+from planmethod.project.model import PartName, Project, ProjectPart, SheetEntry
 from planmethod.render.frame.furniture import Furniture
 from planmethod.render.frame.numbered import numbered
 from planmethod.render.ink.drawing import Drawing
@@ -108,6 +109,18 @@ def numbered_set(project: Project, sheets: Sequence[Sequence[Drawing]]) -> list[
         found.append([numbered(one, around, k) for k, one in enumerate(some, 1)])
         before += len(some)
     return found
+
+
+def sheet_list(project: Project, sheets: Sequence[Sequence[Drawing]]) -> tuple[SheetEntry, ...]:
+    """Return what the list of sheets in the note has of every sheet (перечень листов)."""
+    sizes = {(paper.width, paper.height): paper for paper in FORMATS.values()}
+    found = [
+        (part.name, one) for part, some in zip(project.parts, sheets, strict=True) for one in some
+    ]
+    return tuple(
+        SheetEntry(name, number, one.title, sizes[one.width, one.height])
+        for number, (name, one) in enumerate(found, 1)
+    )
 
 
 def flat(sheets: Iterable[Iterable[Drawing]]) -> list[Drawing]:

@@ -14,7 +14,7 @@ from cases import each, some
 from trains import closed, mesh, planetary, solved, told
 from worked import PROBLEMS
 
-from planmethod.gears.conditions import Condition, conditions, sentence
+from planmethod.gears.conditions import Condition, conditions, judgement, sentence
 from planmethod.gears.motion import TrainMotion, solve_motion
 from planmethod.gears.reader import load
 from planmethod.note.wording import LANGUAGES, language
@@ -161,13 +161,13 @@ def test_assembly_and_neighbourhood_are_told_with_true_numbers(
             assert re.search(rf"k = {count}\b", said)
             if count > 1:  # the inequality that is told is the one that is judged
                 assert (left > right) == apart.holds
-            assert f" {held[-1]} " in sentence(most, words)
+            assert re.search(rf" {held[-1]}\b", sentence(most, words))
 
 
 def test_the_inequality_says_that_the_first_number_must_be_more(tmp_path: Path) -> None:
     (apart,) = found(set_of(tmp_path, *SETS[0], 3), "neighbourhood")
     english, russian = (sentence(apart, language(lang)) for lang in ("en", "ru"))
-    assert re.search(r"sin\(π/k\) = 0\.8660 must be more than 0\.7000$", english)
+    assert re.search(r"sin\(π/k\) = 0\.8660 must be greater than 0\.7000$", english)
     assert re.search(r"sin\(π/k\) = 0,8660 .*больше 0,7000$", russian)
 
 
@@ -177,7 +177,9 @@ def test_undercutting_names_the_teeth_there_are_and_those_that_are_needed(
 ) -> None:
     motion = solved(tmp_path, told({"1": z, "2": 40}, [mesh("1", "2")], "n = { 1 = 1 }"))
     (one,) = found(motion, "undercutting")
-    assert sentence(one, language("en")) == f"Undercutting: z_1 = {z}, without it at least {least}"
+    said = f"No undercutting: z_1 = {z}, at least {least} needed"
+    assert sentence(one, language("en")) == said
+    assert judgement(one, language("en")) == f"{said} – not met"
     motion = solved(tmp_path, told({"1": 17, "2": 40}, [mesh("1", "2")], "n = { 1 = 1 }"))
     assert not found(motion, "undercutting")
 

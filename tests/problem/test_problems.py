@@ -15,6 +15,7 @@ import pytest
 from cases import each, thinned
 from worked import every_file, every_task
 
+import planmethod
 from planmethod.problem import FAMILIES, keys, load, loads, template, variant_names
 from planmethod.problem.declared import (
     AngleKey,
@@ -151,12 +152,12 @@ def test_the_six_variants_of_task_12() -> None:
 @pytest.mark.parametrize("family", FAMILIES)
 def test_templates_load_clean_and_are_commented_in_russian(family: str) -> None:
     text = template(family)
-    problem = loads(text, name=family)
+    problem = planmethod.loads(text, name=family)  # a crank may be driven by a train
     assert problem.title
     assert len(re.findall(r"#.*[а-яё]", text)) >= 10
     # what is commented out must be right as well
     uncommented = re.sub(r"(?m)^# (?=\[|mu_|convention|driver)", "", text)
-    assert loads(uncommented, name=family, variant="Б").drive is not None
+    assert planmethod.loads(uncommented, name=family, variant="Б").drive is not None
 
 
 def test_an_unknown_family() -> None:

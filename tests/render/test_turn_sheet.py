@@ -88,7 +88,7 @@ def test_sigmas_of_the_ordinates_are_those_of_random_sheets() -> None:
 def test_the_protocol_tells_poles_and_scales_in_both_languages() -> None:
     solution = press()
     for lang, words in (
-        ("ru", ("Из полюса P_v (K₁ = 19,5 мм)", "хорды")),
+        ("ru", ("Из полюса P_v (K₁ = 19,5 мм)", "по хордам")),
         ("en", ("From the pole", "from O₃ tangents to the circle of the radius l_O1A")),
     ):
         text = cycle_protocol(solution, lang)

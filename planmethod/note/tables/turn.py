@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 import numpy as np
 
@@ -69,11 +69,12 @@ def cycle_columns(diagrams: Diagrams, words: Language) -> Columns:
     return columns
 
 
-def deviation_columns(diagrams: Diagrams, words: Language) -> Columns:
-    """Return how far v and a are off by every way: drawn exactly, and with the ruler."""
+def deviation_columns(
+    diagrams: Diagrams, words: Language, ways: Sequence[Differentiation] = tuple(Differentiation)
+) -> Columns:
+    """Return how far v and a are off by some ways: drawn exactly, and with the ruler."""
     said, say = words.cycle, words.say
     hand = Hand(ruler=diagrams.turn.solution.profile.ruler)
-    ways = list(Differentiation)
     exactly, ruled = deviations(diagrams, ways), deviations(diagrams, ways, hand)
     rows: list[tuple[str, str, Deviation | None, Deviation]] = [
         (said["ways"][way.value], letter, exactly[way, letter], ruled[way, letter])
@@ -99,7 +100,7 @@ def deviation_columns(diagrams: Diagrams, words: Language) -> Columns:
 
     return [
         (said.way, "", tuple(row[0] for row in rows)),
-        ("", "", tuple(row[1] for row in rows)),
+        (said.diagram, "", tuple(row[1] for row in rows)),
         (said["greatest"][0].format(), "", column(2, "most")),
         (said["mean"][0].format(), "", column(2, "rms")),
         (said["greatest"][1].format(), "", column(3, "most")),

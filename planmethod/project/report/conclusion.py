@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 from planmethod.gears.model import GearProblem
 from planmethod.mechanism.structure import roman
@@ -12,10 +12,11 @@ from planmethod.note.narrate.forces.lever import both_balances, difference, expe
 from planmethod.note.wording import Words
 from planmethod.plans.legend import kinds_on
 from planmethod.plans.model import RATES
-from planmethod.project.model import PartName
+from planmethod.project.model import PartName, SheetEntry
 from planmethod.project.report.context import Report, sentences
 from planmethod.project.report.flywheel import machine_of
-from planmethod.project.report.gears import ratio_of
+from planmethod.project.report.gears import failed_conditions, ratio_of
+from planmethod.project.report.position import has_equal_strokes, loads_drive
 from planmethod.project.report.results import compared, worst
 from planmethod.project.report.turn import has_turn
 from planmethod.solved.errors.forces import drawn_forces, size_label
@@ -76,8 +77,11 @@ def _turn(report: Report, said: Words) -> Iterator[Rich]:
         size = report.quantity(turn.stroke, "m") if slides else report.degrees(turn.stroke)
         told.append(str(said["stroke"][turn.output.unit]).format(stroke=size))
     if strokes is not None and strokes.K_v is not None:
+        form = (
+            "equal" if has_equal_strokes(strokes) else "drives" if loads_drive(report) else "usual"
+        )
         told.append(
-            said.ratio.format(
+            str(said["ratio"][form]).format(
                 working=report.degrees(strokes.working_deg),
                 idle=report.degrees(strokes.idle_deg),
                 ratio=report.say.found(strokes.K_v),
@@ -134,30 +138,44 @@ def _gears(report: Report, said: Words) -> Iterator[Rich]:
     part = report.project.part(PartName.GEARS)
     if part is None or not isinstance(part.problem, GearProblem):
         return
-    ratio = ratio_of(part.problem, report)
+    ratio, failed = ratio_of(part.problem, report), failed_conditions(part.problem, report)
     if ratio is not None:
         yield said.gears.format(ratio=ratio)
+    if failed:
+        form = "one" if len(failed) == 1 else "many"
+        yield str(said["failed"][form]).format(conditions="; ".join(failed))
 
 
-def back(report: Report) -> Iterator[Node]:
-    """Yield the sources and the list of sheets."""
+def back(report: Report, sheets: Sequence[SheetEntry]) -> Iterator[Node]:
+    """Yield the sources and the list of sheets; of parts, where no sheet is drawn."""
     said: Words = report.said["back"]
     source = report.project.problem.source
     yield StructuralHeading(said.sources.format())
     yield References((*([escape(source)] if source else []), *said["standards"]))
     yield StructuralHeading(said.sheets.format())
-    names: Words = said["names"]
-    rows = []
-    for number, part in enumerate(report.project.parts, 1):
-        key = part.name.value
-        if part.name is PartName.KINEMATICS and not has_turn(report):
-            key = "kinematics_one"
-        rows.append((str(number), str(names[key]).format()))
+    parts = _parts(report, said["names"])
+    rows: list[tuple[Rich, ...]] = [
+        (str(one.number), escape(one.title), one.paper.written(report.words.frame.paper))
+        for one in sheets
+    ] or [(str(number), name) for number, name in enumerate(parts, 1)]
     if len(rows) == 1:
-        ((_, only),) = rows
+        (only, *_) = parts
         yield sentences(said.sheet_text.format(sheet=f"{only[0].lower()}{only[1:]}"))
         return
-    yield sentences(said.sheets_text.format())
+    yield sentences((said.sheets_text if sheets else said.parts_text).format())
     yield Table(
-        tuple(said["columns_sheets"]), tuple(rows), 2, name=said.sheets_table.format(), key="sheets"
+        tuple(said["columns_sheets" if sheets else "columns_parts"]),
+        tuple(rows),
+        2,
+        name=said.sheets_table.format(),
+        key="sheets",
     )
+
+
+def _parts(report: Report, names: Words) -> list[Rich]:
+    """Return what the parts of the drawings are called."""
+    keys = [part.name.value for part in report.project.parts]
+    one = f"{PartName.KINEMATICS.value}_one"
+    if not has_turn(report):
+        keys = [one if key == PartName.KINEMATICS.value else key for key in keys]
+    return [str(names[key]).format() for key in keys]

@@ -7,7 +7,7 @@ from collections.abc import Iterable, Sequence
 
 from planmethod.construct.steps import Compute, NumberName
 from planmethod.mechanism.describe import LinkKind, kind_of_motion
-from planmethod.note.document import Formula, Paragraph
+from planmethod.note.document import Formula, Item, Paragraph
 from planmethod.note.formula import Rich, inlined
 from planmethod.note.narrate.formulas import Formulas
 from planmethod.note.narrate.naming import Names
@@ -223,6 +223,16 @@ def chain(lines: Iterable[Rich]) -> list[Formula]:
     """Return formulas one after another: semicolons between them, a full stop at the end."""
     texts = list(lines)
     return [Formula(f"{text}{'.' if k == len(texts) else ';'}") for k, text in enumerate(texts, 1)]
+
+
+def items(texts: Iterable[Rich]) -> list[Item | Paragraph]:
+    """Return the entries of a numbered list; one alone as a sentence."""
+    told = list(texts)
+    if len(told) == 1:
+        return [sentences(f"{told[0][:1].upper()}{told[0][1:]}.")]
+    return [
+        Item(f"{text}{'.' if k == len(told) else ';'}", f"{k})") for k, text in enumerate(told, 1)
+    ]
 
 
 def sentences(*texts: Rich) -> Paragraph:

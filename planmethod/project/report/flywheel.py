@@ -173,7 +173,8 @@ def _checked(report: Report, tell: MachineTeller, said: Words) -> Iterator[Rich]
         whole=percent(tell.drawing.read_inertia - exact),
     )
     if told:
-        yield said.why.format(parts=", ".join(told))
+        form = "one" if len(told) == 1 else "many"
+        yield str(said["why"][form]).format(parts=", ".join(told))
     high, low = flywheel.integrated
     per_second = report.unit("1/s")
     yield said.reached.format(

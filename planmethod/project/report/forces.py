@@ -31,14 +31,17 @@ from planmethod.plans.forces.polygons import ForcePlan, Moments
 from planmethod.plans.model import PlanKind
 from planmethod.project.report.context import Report, chain, displayed, sentences
 from planmethod.project.report.figures import figure
+from planmethod.project.report.turn import has_turn
 from planmethod.render.forces.cut import cut_picture, inner_picture, loads_picture
 from planmethod.render.forces.leverpicture import lever_picture
 from planmethod.render.forces.polygon import drawn_edges, polygon_picture
 from planmethod.render.layout.block import Block, Row
+from planmethod.solved.cycle import cycle
 from planmethod.solved.errors.forces import drawn_forces, size_label
 from planmethod.solved.forces.contact import VANISHING
 from planmethod.solved.forces.reading import force_reading
 from planmethod.solved.forces.statics import statics_of
+from planmethod.solved.reading import Reals
 
 GAP = 10.0
 """Between two pictures in a row, mm."""
@@ -108,13 +111,18 @@ class ForceChapter:
     def _senses(self, couples: list[GivenLoad]) -> Rich:
         """Return which way the couples of inertia turn."""
         said: Words = self.said
-        senses = {
-            one.applied.name: self.context.sense(float(one.applied.couple[0])) for one in couples
-        }
-        if len({*senses.values()}) == 1:
+        senses: dict[Rich, list[Rich]] = {}
+        for one in couples:
+            sense = self.context.sense(float(one.applied.couple[0]))
+            senses.setdefault(sense, []).append(one.applied.name)
+        if len(senses) == 1:
             form = said["couple_alike"]["one" if len(couples) == 1 else "many"]
-            return str(form).format(sense=next(iter(senses.values())))
-        told = [said.couple_sense.format(symbol=a, sense=b) for a, b in senses.items()]
+            return str(form).format(sense=next(iter(senses)))
+        told: list[Rich] = []
+        for sense, symbols in senses.items():
+            form = "others" if told else "one" if len(symbols) == 1 else "many"
+            template = str(said["couple_sense"][form])
+            told.append(template.format(symbols=self.report.listed(symbols), sense=sense))
         return f"{', '.join(told)}."
 
     def _inertia(self, voice: LoadNarrator, forces: list[GivenLoad]) -> Iterator[Node]:
@@ -395,7 +403,37 @@ class ForceChapter:
         table = table_of_columns([*lead, *columns], repeated=len(lead))
         name = str(said["all_table"][quantity]).format()
         yield Table(table.head, table.rows, 0, len(lead), name=name, key="all_reactions")
-        peak = max(sizes, key=lambda one: float(sizes[one].max()))
-        k = int(sizes[peak].argmax())
-        value = f"{self.find(float(sizes[peak][k]))} {report.unit('N')}"
-        yield sentences(said.all_peaks.format(symbol=peak, value=value, number=k))
+        yield sentences(*self._peaks(sizes))
+
+    def _peaks(self, sizes: dict[Rich, Reals]) -> Iterator[Rich]:
+        """Yield the largest reaction of the positions, and that of the cycle, as sheets have it."""
+        said, find, unit = self.said, self.find, self.report.unit("N")
+        symbol = max(sizes, key=lambda one: float(sizes[one].max()))
+        k = int(sizes[symbol].argmax())
+        value = find(float(sizes[symbol][k]))
+        facts = {"symbol": symbol, "value": f"{value} {unit}", "number": k}
+        if not has_turn(self.report):
+            yield said.all_peaks.format(**facts)
+            return
+        curves = cycle(self.report.every)
+        peaks = [curves.peak(number) for number in range(len(curves.joints))]
+        number = max(range(len(peaks)), key=lambda one: peaks[one].size)
+        most, whose = peaks[number], self.report.reaction(curves.joints[number])
+        if (whose, find(most.size)) == (symbol, value):
+            yield said.cycle_peaks.format(**facts)
+            return
+        yield said.all_peaks.format(**facts)
+        yield (said.between_limit if most.is_limit else said.between).format(
+            symbol=whose,
+            value=f"{find(most.size)} {unit}",
+            place=self._between(most.position),
+        )
+
+    def _between(self, position: float) -> Rich:
+        """Return between which positions a position of the crank is, with its angle."""
+        places = self.report.project.positions
+        step = places[1] - places[0]
+        before = int((position - places[0]) / step % len(places))
+        angle = f"{self.report.coordinate} = {self.report.degrees(round(position % 360.0) % 360)}"
+        facts = {"one": before, "other": (before + 1) % len(places), "angle": angle}
+        return str(self.said.between_positions).format(**facts)

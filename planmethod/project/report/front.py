@@ -8,7 +8,6 @@ from collections.abc import Iterator
 from planmethod.mechanism.structure import roman
 from planmethod.note.document import (
     Contents,
-    Item,
     Node,
     PageBreak,
     StructuralHeading,
@@ -24,7 +23,7 @@ from planmethod.note.numbers import with_unit
 from planmethod.note.wording import Words
 from planmethod.problem.load_records import Against, Couple, Fixed, Load, SizeTable
 from planmethod.project.model import PartName
-from planmethod.project.report.context import NBSP, Report, lettered, sentences
+from planmethod.project.report.context import NBSP, Report, items, lettered, sentences
 from planmethod.project.report.figures import figure
 from planmethod.render.pictures.schemeview import scheme_picture
 from planmethod.solved.machine.drawing import drawing_of
@@ -77,9 +76,7 @@ def _assignment(report: Report) -> Iterator[Node]:
     number = report.project.calculated
     statement = said.statement_series if report.is_series else said.statement
     yield sentences(statement.format(symbol=report.coordinate, value=report.place, number=number))
-    tasks = list(_tasks(report))
-    for k, task in enumerate(tasks, 1):
-        yield Item(f"{task}{'.' if k == len(tasks) else ';'}", f"{k})")
+    yield from items(_tasks(report))
     rows, further = _data(report)
     yield sentences(said.data.format())
     yield Table(

@@ -7,7 +7,7 @@ from itertools import groupby
 
 from msgspec.structs import replace
 
-from planmethod.gears.conditions import conditions, sentence
+from planmethod.gears.conditions import conditions, judgement, sentence
 from planmethod.gears.construction import construct, read
 from planmethod.gears.involute.meshpicture import meshing_picture, view_for
 from planmethod.gears.involute.quantities import SolvedMeshing
@@ -19,21 +19,25 @@ from planmethod.gears.picture import draw
 from planmethod.gears.sheet import pictures
 from planmethod.gears.text import equation_of, fraction_text
 from planmethod.gears.told import given, indexed, ratios, results
-from planmethod.note.document import Chapter, Formula, Item, Node, Part, Table
+from planmethod.note.document import Chapter, Formula, Node, Part, Table
 from planmethod.note.formula import Rich, fraction
 from planmethod.note.narrate.structure import pair_classes
 from planmethod.note.numbers import MINUS, raised
 from planmethod.note.wording import Words
-from planmethod.project.report.context import Report, chain, displayed, sentences
+from planmethod.project.report.context import Report, chain, displayed, items, sentences
 from planmethod.project.report.figures import bare, figure
+from planmethod.project.train import output_of
 from planmethod.render.layout.block import Block
 from planmethod.render.sheets.composer import Sizes
+
+FRACTION = 1
+"""Column of the results that has them as fractions."""
 
 COLUMN = 185.0
 """Width of the texts of the sheet, mm."""
 
-SEEN = 0.05
-"""Least difference of construction and calculation that is told, per cent."""
+SEEN = 0.005
+"""Least difference of construction and calculation that a table shows, per cent."""
 
 
 def train_chapter(report: Report, problem: GearProblem) -> Iterator[Node]:
@@ -86,12 +90,9 @@ def _ratios(report: Report, motion: TrainMotion, said: Words) -> Iterator[Node]:
     yield from chain([*_speeds(motion, report), *asked_ratios(motion, report)])
     judged = conditions(motion)
     if judged:
-        yield sentences(said.conditions.format())
-    for number, one in enumerate(judged, 1):
-        told = str(said["condition"]["yes" if one.holds else "no"]).format(
-            sentence=indexed(sentence(one, report.words))
-        )
-        yield Item(f"{told}{'.' if number == len(judged) else ';'}", f"{number})")
+        form = "one" if len(judged) == 1 else "many"
+        yield sentences(str(said["conditions"][form]).format())
+    yield from items(indexed(judgement(one, report.words)) for one in judged)
 
 
 def willis(motion: TrainMotion, mesh: Mesh, report: Report) -> Rich:
@@ -122,10 +123,7 @@ def asked_ratios(motion: TrainMotion, report: Report) -> list[Rich]:
     found = list(ratios(motion, report.words))
     if found or len(motion.train.inputs) != 1:
         return found
-    (source,) = motion.train.inputs
-    moving = [b for b in motion.train.bodies if motion.speeds.get(b) and b != source]
-    ends = [*motion.train.carriers, *reversed(moving)]
-    end = next((body for body in ends if body in moving), None)
+    (source,), end = motion.train.inputs, output_of(motion)
     if end is None:
         return []
     asked = replace(motion, train=replace(motion.train, ask=(f"U_{source}_{end}",)))
@@ -169,15 +167,15 @@ def _pictures(
             ),
         )
         yield from _figures(report, problem, motion, "angular")
-    rows = [
-        (symbol, fraction, exact, shown, sigma, off)
-        for symbol, fraction, exact, shown, sigma, off in results(motion, drawn, seen, report.words)
-    ]
+    rows = list(results(motion, drawn, seen, report.words))
     yield sentences(said.speeds.format())
-    columns = said["columns"] if drawn is not None else said["columns"][:3]
+    # Of whole numbers the fraction says what the decimal says.
+    fractions = any(fraction not in (exact, "—") for _, fraction, exact, *_ in rows)
+    heads = said["columns"] if drawn is not None else said["columns"][:3]
+    shown = [k for k in range(len(heads)) if fractions or k != FRACTION]
     yield Table(
-        tuple(columns),
-        tuple(row[: len(columns)] for row in rows),
+        tuple(heads[k] for k in shown),
+        tuple(tuple(row[k] for k in shown) for row in rows),
         name=said.results.format(),
         key="train_results",
     )
@@ -190,7 +188,7 @@ def _pictures(
         if offs and max(offs) < SEEN:
             yield sentences(said.same)
         elif offs:
-            yield sentences(said.agree.format(most=say.number(f"{max(offs):.1f}")))
+            yield sentences(said.agree.format(most=say.number(f"{max(offs):.2f}")))
 
 
 def _figures(
@@ -239,6 +237,13 @@ def meshing_chapter(report: Report, problem: MeshingProblem) -> Iterator[Node]:
         said.figure.format(),
         "meshing_picture",
     )
+
+
+def failed_conditions(problem: GearProblem, report: Report) -> list[Rich]:
+    """Return the conditions of the numbers of teeth that do not hold."""
+    judged = (one for one in conditions(solve_motion(problem)) if not one.holds)
+    told = (indexed(sentence(one, report.words)) for one in judged)
+    return [f"{text[:1].lower()}{text[1:]}" for text in told]
 
 
 def ratio_of(problem: GearProblem, report: Report) -> str | None:

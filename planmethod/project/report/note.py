@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 from msgspec.structs import replace
 
@@ -13,7 +13,7 @@ from planmethod.note import document
 from planmethod.note.document import Document, Node
 from planmethod.note.wording import Language
 from planmethod.plans.model import RATES
-from planmethod.project.model import PartName, Project
+from planmethod.project.model import PartName, Project, SheetEntry
 from planmethod.project.report.conclusion import back, conclusion
 from planmethod.project.report.context import NBSP, Report
 from planmethod.project.report.flywheel import flywheel_chapter
@@ -27,7 +27,7 @@ from planmethod.project.report.structure import structure_chapter
 from planmethod.project.report.turn import diagrams_part, has_turn, transfer_chapter
 
 
-def note_document(project: Project, words: Language) -> Document:
+def note_document(project: Project, words: Language, sheets: Sequence[SheetEntry] = ()) -> Document:
     """Return the explanatory note of a project (пояснительная записка).
 
     It has the chapters that the file has something for; its numbers are those of the sheets.
@@ -36,6 +36,8 @@ def note_document(project: Project, words: Language) -> Document:
     ----------
     project : Project
     words : Language
+    sheets : sequence of SheetEntry
+        The sheets of the project where they are drawn; else the parts are listed.
 
     Raises
     ------
@@ -44,17 +46,17 @@ def note_document(project: Project, words: Language) -> Document:
     """
     units = sorted(set(words.note["units"].values()), key=len, reverse=True)
     tie = re.compile(rf"(?<=\d) (?=(?:{'|'.join(map(re.escape, units))}|%)(?![^\W\d_]))")
-    return Document.of(_tied(node, tie) for node in _nodes(Report(project, words)))
+    return Document.of(_tied(node, tie) for node in _nodes(Report(project, words), sheets))
 
 
-def _nodes(report: Report) -> Iterator[Node]:
+def _nodes(report: Report, sheets: Sequence[SheetEntry]) -> Iterator[Node]:
     yield from front(report)
     for node in _chapters(report):
         if isinstance(node, document.Chapter):
             yield document.PageBreak()
         yield node
     yield from conclusion(report)
-    yield from back(report)
+    yield from back(report, sheets)
 
 
 def _chapters(report: Report) -> Iterator[Node]:

@@ -236,7 +236,7 @@ class PlanChapter:
         if self._drawing:
             yield sentences(said.on_drawing.format(segments=self.report.listed(self._drawing)))
         if self._measured:
-            template = str(said["on_plan"][self.kind.value])
+            template = str(said["on_plan" if self._formulas else "measured"][self.kind.value])
             yield sentences(template.format(segments=self.report.listed(self._measured)))
         elif self._formulas:
             yield sentences(said.computed.format())

@@ -17,8 +17,11 @@ from planmethod.project.report.context import Report, displayed, lettered, sente
 from planmethod.project.report.figures import figure
 from planmethod.render.pictures.seriesview import series_picture
 from planmethod.solved.turn.construction import PRIMES, extreme_construction
-from planmethod.solved.turn.strokes import LONGER, TOLD
+from planmethod.solved.turn.strokes import LONGER, TOLD, Strokes, looked_at, powers
 from planmethod.solved.turn.turn import TURN, Turn, turn_of
+
+EQUAL = 1e-6
+"""Difference of K_v from 1 up to which both strokes take the same time."""
 
 
 def position_part(report: Report) -> Iterator[Node]:
@@ -205,19 +208,51 @@ def _stroke(report: Report, said: Words, turn: Turn) -> Iterator[Node]:
     yield displayed(f"{'H' if output.slide else 'ψ'} = {size}.")
 
 
+def has_equal_strokes(strokes: Strokes) -> bool:
+    """Tell whether the output goes there and back in the same time."""
+    return strokes.K_v is not None and abs(strokes.K_v - 1.0) < EQUAL
+
+
+def loads_drive(report: Report) -> bool:
+    """Tell whether the loads that decide of the strokes drive the mechanism, as a gas does."""
+    turn, strokes = turn_of(report.every), report.project.strokes
+    if strokes is None or turn.ends is None or strokes.by in (LONGER, TOLD):
+        return False
+    start = turn.ends[0].phi
+    at = looked_at(report.every.problem, start, turn.turns)
+    return sum(float(one.sum()) for one in powers(report.every, start, at).values()) > 0.0
+
+
+def _why_working(strokes: Strokes, said: Words, *, drives: bool, four: bool) -> Rich:
+    """Return why a stroke is the working one; nothing of strokes that nothing tells apart."""
+    by: Words = said["by"]
+    if strokes.by == TOLD:
+        return by.told.format()
+    if strokes.by == LONGER:
+        return "" if has_equal_strokes(strokes) else by.longer.format()
+    word, _, names = strokes.by.partition(" ")
+    form = "one" if word == "load" else "many"
+    kind = ("expansion" if four else "drives") if drives else "load"
+    return str(by[kind][form]).format(names=names)
+
+
 def _ratio(report: Report, said: Words) -> Iterator[Node]:
     strokes = report.project.strokes
     if strokes is None:
         return
-    why = {LONGER: said["by"]["longer"], TOLD: said["by"]["told"]}.get(
-        strokes.by, said["by"]["load"]
-    )
+    four, drives = turn_of(report.every).turns > 1, loads_drive(report)
     working, idle = report.degrees(strokes.working_deg), report.degrees(strokes.idle_deg)
+    if has_equal_strokes(strokes):
+        phases = said.phases_equal.format(angle=working)
+    else:
+        form = "four" if four else "drives" if drives else "usual"
+        phases = str(said["phases"][form]).format(working=working, idle=idle)
     yield sentences(
-        said.phases.format(working=working, idle=idle),
-        why.format(names=strokes.by.partition(" ")[2]),
+        said.four_strokes.format() if four else "",
+        phases,
+        _why_working(strokes, said, drives=drives, four=four),
     )
-    if strokes.K_v is None:
+    if strokes.K_v is None or has_equal_strokes(strokes):
         return
     yield sentences(said.ratio.format())
     sides = [

@@ -10,7 +10,7 @@ from planmethod.mechanism.describe import PairKind, pairs
 from planmethod.mechanism.groups import AssurGroup
 from planmethod.mechanism.model import FRAME
 from planmethod.mechanism.structure import roman
-from planmethod.note.document import Chapter, Item, Node, Part
+from planmethod.note.document import Chapter, Node, Part
 from planmethod.note.formula import Rich
 from planmethod.note.narrate.structure import (
     group_joints,
@@ -21,7 +21,7 @@ from planmethod.note.narrate.structure import (
     signed,
 )
 from planmethod.note.wording import Words
-from planmethod.project.report.context import NBSP, Report, displayed, lettered, sentences
+from planmethod.project.report.context import NBSP, Report, displayed, items, lettered, sentences
 
 
 def structure_chapter(report: Report) -> Iterator[Node]:
@@ -71,16 +71,18 @@ def _mobility(report: Report, said: Words) -> Iterator[Node]:
 
 def _groups(report: Report, said: Words) -> Iterator[Node]:
     structure, mechanism = report.one.structure, report.one.problem.mechanism
-    yield sentences(said.first.format())
-    groups = list(reversed(structure.groups))
-    for k, group in enumerate(groups, 1):
-        yield Item(f"{_group(group, report, said)}{'.' if k == len(groups) else ';'}", f"{k})")
+    if len(structure.groups) == 1:
+        (only,) = structure.groups
+        yield sentences(said.only.format(group=_group(only, report, said)))
+    else:
+        yield sentences(said.first.format())
+        yield from items(_group(one, report, said) for one in reversed(structure.groups))
     letters = report.words.note["letters"]
     yield sentences(said.letters.format(revolute=letters["R"], prismatic=letters["P"]))
     ends = {FRAME, mechanism.driver}
     kind = next(pair.kind for pair in pairs(mechanism) if set(pair.links) == ends)
     yield sentences(
-        said.rest.format(
+        str(said["rest"]["one" if len(structure.groups) == 1 else "many"]).format(
             role=report.role(mechanism.driver),
             link=mechanism.driver,
             frame=report.project.frame,

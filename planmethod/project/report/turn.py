@@ -70,9 +70,15 @@ def diagrams_part(report: Report) -> Iterator[Node]:
         height=190.0,
     )
     ruler = report.say.given(report.every.profile.ruler)
-    yield sentences(said.deviations.format(ruler=f"{ruler} {report.unit('mm')}"))
+    yield sentences(
+        said.deviations.format(ruler=f"{ruler} {report.unit('mm')}"),
+        said.deviations_plans.format() if diagrams.plans is not None else "",
+        said.deviations_found.format(),
+    )
     name = said.deviations_table.format()
-    (_, _, ways), (_, _, letters), *others = deviation_columns(diagrams, words)
+    (_, _, ways), (_, _, letters), *others = deviation_columns(
+        diagrams, words, [task.differentiation]
+    )
     columns = [(said.way.format(), "", ways), (said.diagram.format(), "", letters), *others]
     yield _table(columns, report, name, "deviations", names=2)
     yield from _hodographs(report, said)
