@@ -174,7 +174,9 @@ def test_every_quantity_has_one_value(name: str, made: Callable[[str], Path]) ->
         off = (row[1] - one["phi_deg"] + 180.0) % 360.0 - 180.0
         assert off == pytest.approx(0.0, abs=1e-6)
     measured = dict(zip(head, rows[told["calculated"]], strict=True))
-    line = re.compile(r"^v_?([A-Z]\w*) ?= ?μ_?v·\(p\w+\) ?= ?[\d,]+·[\d,]+ ?= ?([\d,]+) м/с")
+    line = re.compile(
+        r"^v_?([A-Z]\w*) ?= ?(?:v_?\w+ ?= ?)?μ_?v·\(p\w+\) ?= ?[\d,]+·[\d,]+ ?= ?([\d,]+) м/с"
+    )
     for lines in (text_of(folder / "note.pdf").splitlines(), words_of(folder / "note.docx")):
         found = [m for text in lines if (m := line.match(text.replace("\u00a0", " ")))]
         assert found

@@ -61,7 +61,7 @@ def test_missing_file_names_the_nearest(tmp_path: Path) -> None:
     assert message_of(tmp_path / "else.toml").endswith(there)
 
 
-@pytest.mark.parametrize("typed", ["t40", "t40.tom", "T40", "t4000.toml"])
+@pytest.mark.parametrize("typed", ["t40", "t40.tom", "T40"])
 def test_a_name_without_its_ending_is_told_with_it(typed: str, tmp_path: Path) -> None:
     for name in ("t40.toml", "t41.toml", "t400.toml"):
         (tmp_path / name).write_text("", encoding="utf-8")

@@ -80,7 +80,10 @@ def _sequence(tokens: Sequence[Token]) -> list[Element]:
                     found += [_run(token.text, "p"), *inside, _run(PAIRS[token.text], "p")]
             operand = True
         elif kind == "sign":
-            has_next = k < len(tokens) and tokens[k].kind != "sign"
+            after = tokens[k : k + 2]  # a sign may have one before its number: = −3
+            if after and after[0].kind == "sign" and after[0].text.strip(" \u00a0") in _UNARY:
+                after = after[1:]
+            has_next = bool(after) and after[0].kind != "sign"
             sign = token.text.strip(" \u00a0")
             if has_next and (operand or sign in _UNARY):
                 found.append(_run(sign, "p"))
