@@ -7,6 +7,7 @@ import numpy as np
 from planmethod.construct.scale import choose_scale
 from planmethod.mechanism.model import FRAME
 from planmethod.problem.load_records import SizeTable
+from planmethod.solved.clearest import clearest_position, is_clear
 from planmethod.solved.forces.loads import external
 from planmethod.solved.forces.statics import statics_of
 from planmethod.solved.reading import Flags
@@ -17,15 +18,26 @@ FORCES_BOX: Box = (170.0, 130.0)
 """What the largest force plan of a project fills at the scale of all of them, mm."""
 
 
-CONSIDERABLE = 1.0 / 3.0
-"""Share of its largest size from which a load is considerable in a position."""
+CONSIDERABLE, SLIGHT = 1.0 / 3.0, 0.05
+"""Shares of its largest size from which a load is considerable, and acts at all, in a position."""
 
 
-def loaded_positions(solution: Solution) -> tuple[int, ...]:
+def calculated_position(solution: Solution) -> int:
+    """Return which position is calculated where nobody says it (расчётное положение).
+
+    The clearest of those in which a load is considerable; if none of them is clear, a clear one in
+    which a load acts.
+    """
+    chosen = [clearest_position(solution, loaded_positions(solution, share))
+              for share in (CONSIDERABLE, SLIGHT)]  # fmt: skip
+    return next((number for number in chosen if is_clear(solution)[number]), chosen[0])
+
+
+def loaded_positions(solution: Solution, share: float = CONSIDERABLE) -> tuple[int, ...]:
     """Return the positions in which a load that changes is considerable; all where none changes.
 
-    A load is considerable from `CONSIDERABLE` of its largest size on: what a position is loaded
-    for would be lost beside weights and inertia in others.
+    A load is considerable from a ``share`` of its largest size on: what a position is loaded for
+    would be lost beside weights and inertia in others.
     """
     count, dynamics = len(solution.positions), solution.problem.dynamics
     acts: Flags = np.zeros(count, dtype=bool)
@@ -36,7 +48,7 @@ def loaded_positions(solution: Solution) -> tuple[int, ...]:
             for one in external(solution, dynamics, link):
                 size = np.abs(np.broadcast_to(one.force if one.point else one.couple, acts.shape))
                 largest = max(float(size.max()), *map(abs, tables.get(one.name, ())), 1e-300)
-                large = size >= CONSIDERABLE * largest
+                large = size >= share * largest
                 acts |= large & (not large.all())  # one that is there always says nothing
     return tuple(np.flatnonzero(acts).tolist()) if acts.any() else tuple(range(count))
 

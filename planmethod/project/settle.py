@@ -21,13 +21,12 @@ from planmethod.problem.load_records import TurningSense
 from planmethod.problem.model import SAME_DEG, Problem
 from planmethod.problem.source import parse, read_source
 from planmethod.project.decided import (
+    calculated_position,
     force_scale,
-    loaded_positions,
 )
 from planmethod.project.first import first_scales
 from planmethod.project.model import PartName, Project, ProjectPart
 from planmethod.render.frame.titleblock import merged
-from planmethod.solved.clearest import clearest_position
 from planmethod.solved.forces.loads import only_in_positions
 from planmethod.solved.scaling import MOST_DRAWN
 from planmethod.solved.solution import Solution
@@ -156,7 +155,7 @@ def _calculated(problem: Problem, solution: Solution, asked: tuple[float, ...]) 
         off = [abs((p - asked[0] + turn / 2) % turn - turn / 2) for p in problem.drive.positions]
         if count == 1 or min(off) < SAME_DEG:
             return int(np.argmin(off))
-    return clearest_position(solution, loaded_positions(solution))
+    return calculated_position(solution)
 
 
 # Parts -------------------------------------------------------------------------------------------

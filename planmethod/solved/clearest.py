@@ -39,12 +39,18 @@ def clearest_position(solution: Solution, indices: tuple[int, ...]) -> int:
     position.
     """
     solution, chosen = solution.origin, list(indices)  # whatever scales a sheet tries
-    clear = _joints_apart(solution) & _vectors_seen(solution)
+    clear = is_clear(solution)
     better = sum(f(solution)[chosen].astype(int) for f in (_moving, _links_apart, _usual))
     short = -short_readings(solution.construction, solution.paper)[chosen]
     ranked = zip(clear[chosen].tolist(), np.asarray(better).tolist(), short.tolist(),
                  solution.margin[chosen].tolist(), indices, strict=True)  # fmt: skip
     return max(ranked, key=lambda one: one[:4])[4]
+
+
+@remembered
+def is_clear(solution: Solution) -> npt.NDArray[np.bool_]:
+    """Tell in which positions no two joints lie together on the paper and no vector vanishes."""
+    return _joints_apart(solution.origin) & _vectors_seen(solution.origin)
 
 
 def _vectors(solution: Solution, kind: PlanKind) -> list[Reals]:

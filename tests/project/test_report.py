@@ -185,7 +185,9 @@ def value_of(side: str) -> float | None:
     plain = re.sub(r"\^\{([0-9]+)\}", r"**\1", side.replace("·10^{−", "*10^{-"))
     plain = plain.replace("·", "*").replace("−", "-").replace(",", ".").replace("°", "")
     plain = (
-        re.sub(r"\s*(?:мм|м/с|м|кг|Н|с|рад|Дж| \(|%).*$", "", plain) if "*" not in plain else plain
+        re.sub(r"\s*(?:мм|м/с|м|кг|Н|с|рад|Дж|\((?!\d)|%).*$", "", plain)
+        if "*" not in plain
+        else plain
     )
     if not NUMERIC.fullmatch(plain) or not re.search(r"\d", plain):
         return None
