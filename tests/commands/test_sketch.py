@@ -64,7 +64,7 @@ def without(text: str, line: str) -> str:
 def test_a_finished_file_shows_all_links_and_how_far_the_crank_turns() -> None:
     drawing, links = drawn(EX3)
     assert links == {"1", "2", "3", "4", "5"}
-    assert "crank turns fully" in written(drawing).lower()
+    assert "the crank makes full turns" in written(drawing).lower()
     assert "?" not in written(drawing)
 
 
