@@ -51,6 +51,12 @@ def at_positions(
     return {name: value[chosen] if np.ndim(value) else value for name, value in values.items()}
 
 
+def even(problem: Problem) -> Problem:
+    """Return a problem without loads, its driver at one radian (or metre) a second."""
+    drive = replace(problem.drive, rate=1.0, acceleration=0.0)
+    return replace(problem, drive=drive, dynamics=None)
+
+
 class PointMotion(Struct, frozen=True):
     """Place, velocity and acceleration of a point in every position, SI, ndarrays of shape (n,)."""
 
@@ -156,11 +162,9 @@ class Solution(Remembering):
 
     def at_unit_rate(self) -> Solution:
         """Return the same mechanism without loads, its driver at one radian (or metre) a second."""
-        drive = self.problem.drive
-        even = replace(drive, rate=1.0, acceleration=0.0)
-        problem = replace(self.problem, drive=even, dynamics=None)
+        problem = even(self.problem)
         # The plans of a crank that turns evenly have fewer steps.
-        construction = None if drive.acceleration else self.construction
+        construction = None if self.problem.drive.acceleration else self.construction
         return self._alike(problem=problem, views=None, scales=None, construction=construction)
 
     def _redrawn(self, **changed: Any) -> Solution:
@@ -186,6 +190,20 @@ class Solution(Remembering):
     def structure(self) -> Structure:
         """Groups of the mechanism."""
         return self.construction.structure
+
+    @property
+    def together(self) -> int:
+        """How many positions are of one mechanism."""
+        return len(self.positions)
+
+    def length(self, link: str, p: str, q: str) -> float | Reals:
+        """Return the given distance of two points of a link, m."""
+        points = self.problem.bodies[link].points
+        return abs(points[q] - points[p])
+
+    def alone_at(self, index: int) -> tuple[Solution, int]:
+        """Return the solution of the mechanism that a position is of, and its number there."""
+        return self, index
 
     # Readings --------------------------------------------------------------------------------
 

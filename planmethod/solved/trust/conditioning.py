@@ -66,7 +66,7 @@ def _blocks(suspects: npt.NDArray[np.intp]) -> Iterator[npt.NDArray[np.intp]]:
 def _suspects(solution: Solution) -> npt.NDArray[np.intp]:
     """Return the positions that a cheap look does not clear."""
     count = len(solution.positions)
-    if count <= FEW:
+    if solution.together <= FEW:
         return np.arange(count)
     least = solution.margin
     ends = _extent(solution)
