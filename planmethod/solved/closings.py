@@ -10,7 +10,7 @@ depends on the one before it.
 from __future__ import annotations
 
 import math
-from collections.abc import Generator, Iterator, Mapping
+from collections.abc import Generator, Iterator
 from functools import partial
 
 import numpy as np

@@ -10,7 +10,7 @@ from msgspec.structs import replace
 
 from planmethod.construct.arithmetic import Number
 from planmethod.construct.evaluate import Trace
-from planmethod.construct.steps import PointName
+from planmethod.construct.steps import NumberName, PointName
 from planmethod.plans.legend import QuantityKind
 from planmethod.plans.model import FACTS, PlanKind
 from planmethod.solved.errors.drawing import (
@@ -54,7 +54,7 @@ class Drafting(Errors):
 
     def _items(self) -> Iterator[DrawnQuantity]:
         """Yield every quantity that the drawing gives."""
-        solution, construction = self.solution, self.solution.construction
+        construction = self.solution.construction
         for segment in construction.segments:
             size = number(segment.drawn, size=True)
             item = DrawnQuantity(segment.label, (segment.drawn,), size, DrawnKind.LENGTH)
@@ -114,5 +114,5 @@ def _plan_points(solution: Solution) -> tuple[PointName, ...]:
 
 
 def _coordinate(place: PointName, part: str, origin: float) -> Callable[[Trace], Number]:
-    mu = FACTS[PlanKind.POSITION].scale
+    mu = NumberName(FACTS[PlanKind.POSITION].scale)
     return lambda trace: getattr(trace.value[place], part) * trace.value[mu] + origin

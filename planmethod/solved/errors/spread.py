@@ -400,9 +400,18 @@ class _Slopes(Struct, frozen=True):
 
     def at(self, chosen: npt.NDArray[np.intp]) -> _Slopes:
         """Return the same in some of the positions."""
-        groups = (self.taken, self.margins, self.points, self.leaves)
-        some = ({name: dual.at(chosen) for name, dual in group.items()} for group in groups)
-        return _Slopes(len(chosen), *some, self.strokes)
+
+        def some(duals: Mapping[Key, Dual]) -> dict[Key, Dual]:
+            return {name: dual.at(chosen) for name, dual in duals.items()}
+
+        return _Slopes(
+            len(chosen),
+            some(self.taken),
+            some(self.margins),
+            some(self.points),
+            some(self.leaves),
+            self.strokes,
+        )
 
 
 class _First(Struct, frozen=True):

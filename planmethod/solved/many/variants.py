@@ -1,7 +1,7 @@
 """Variants of a problem as rows of one solution (варианты как строки одного решения).
 
-Variants that are drawn by the same steps differ in their numbers alone: each number is a column, and
-one reading of the program has the positions of all of them. What holds of one variant only (its
+Variants that are drawn by the same steps differ in their numbers alone: each number is a column,
+and one reading of the program has the positions of all of them. What holds of one variant only (its
 scales, what is enlarged, random sheets) its own solution tells, whose readings are rows of the
 common ones. A variant of which something is to be said is left to be solved alone.
 """
@@ -31,8 +31,8 @@ from planmethod.solved.enlarging import SHORT, SMALL
 from planmethod.solved.impossible import failing
 from planmethod.solved.reading import Flags, Reading, Reals
 from planmethod.solved.selfcheck import changed_branches, refused
-from planmethod.solved.solution import EVERY, UNIT_SCALES, Solution, at_positions, even
-from planmethod.solved.trust.conditioning import FEW
+from planmethod.solved.solution import EVERY, FEW_ROWS, UNIT_SCALES, Solution, at_positions, even
+
 
 class Batch(Solution):
     """Variants that are drawn by the same steps, each with its rows (варианты одной схемы).
@@ -130,7 +130,7 @@ class Batch(Solution):
 
     @cached_property
     def per_mm(self) -> dict[str, Number]:
-        """Unit per millimetre of each plan in every row, by the name that the program has for it."""
+        """Unit per millimetre of each plan in every row, by its name in the program."""
         return _columns([one.per_mm for one in self.alone], self._counts)
 
     @cached_property
@@ -184,7 +184,7 @@ def in_batches(problems: Sequence[Problem], profile: Profile) -> list[tuple[Batc
 def _is_plain(problem: Problem) -> bool:
     """Tell whether a problem asks for plans of a few positions, and nothing beyond them."""
     more = (problem.cycle, problem.machine, problem.balancing, problem.dynamics, problem.project)
-    return not any(part is not None for part in more) and len(problem.drive.positions) <= FEW
+    return not any(part is not None for part in more) and len(problem.drive.positions) <= FEW_ROWS
 
 
 def _kind(problem: Problem, construction: Construction) -> tuple[Any, ...]:
@@ -241,7 +241,9 @@ def _read_together(wanted: Mapping[int, Wanted]) -> list[tuple[int, Reading]]:
     found = []
     for members in alike.values():
         counts = [len(wanted[k][2]) for k in members]
-        own = [drive_data(d.problem, d, places) for d, _, places in map(wanted.get, members)]
+        own = [
+            drive_data(d.problem, d, places) for d, _, places in map(wanted.__getitem__, members)
+        ]
         trace = evaluate(wanted[members[0]][1], _columns(own, counts), Float64())
         whole = Reading(trace, sum(counts))
         ends = np.cumsum([0, *counts]).tolist()
