@@ -223,12 +223,15 @@ def solve(
     )
     found: list[Any] = []
     act = functools.partial(compute, options=options)
+    ahead = None
+    if phi is None and referee is None and not swept:
+        if as_json:
+            ahead = functools.partial(_together, hand=drawn_by(profile, ruler), table=False)
+        elif csv_file is not None and not partial:
+            ahead = functools.partial(_together, hand=drawn_by("board", ruler), table=True)
     if as_json:
         from planmethod.note.written import plain_of
 
-        ahead = None
-        if phi is None and referee is None:
-            ahead = functools.partial(_records, hand=drawn_by(profile, ruler))
         texts: list[str] = []
         code = each(
             problems,
@@ -243,7 +246,7 @@ def solve(
             click.echo(texts[0] if len(texts) == 1 else f"[{', '.join(texts)}]")
         finish(code)
         return
-    code = each(problems, variant, all_variants, act, jobs=jobs, take=found.append)
+    code = each(problems, variant, all_variants, act, jobs=jobs, take=found.append, ahead=ahead)
     if found and covariance_file is not None:
         from planmethod.note.records.covariance import covariance_text
 
@@ -275,15 +278,17 @@ def compute(
     return None
 
 
-def _records(todo: Sequence[Todo], hand: Profile) -> dict[int, Any]:
-    """Return the records of problems that are solved together, by their numbers."""
+def _together(todo: Sequence[Todo], hand: Profile, *, table: bool) -> dict[int, Any]:
+    """Return records or tables of problems that are solved together, by their numbers."""
     from planmethod.note.records.solution import batch_records
+    from planmethod.note.records.spreadsheet import batch_tables
     from planmethod.solved.many.variants import in_batches
 
     linkages = [k for k, one in enumerate(todo) if one.kind is None]
     found: dict[int, Any] = {}
     for batch, members in in_batches([todo[k].linkage for k in linkages], hand):
-        found.update(zip([linkages[k] for k in members], batch_records(batch), strict=True))
+        made = batch_tables(batch) if table else batch_records(batch)
+        found.update(zip([linkages[k] for k in members], made, strict=True))
     return found
 
 

@@ -1,5 +1,6 @@
 """Variants that are read together are told as each alone, to the last bit."""
 
+import csv
 import random
 import tomllib
 from pathlib import Path
@@ -115,3 +116,16 @@ def test_what_is_doubtful_is_warned_of_as_alone(tmp_path: Path) -> None:
     assert sorted(both.stderr.splitlines()) == sorted(
         line for run in each_alone for line in run.stderr.splitlines()
     )
+
+
+def test_a_table_has_the_rows_of_each_alone(tmp_path: Path) -> None:
+    file = tmp_path / "mixed.toml"
+    file.write_text(EX3 + MIXED.replace('"2" = { links.4.DE = 0.01 }\n', ""))
+    whole = CliRunner().invoke(main, ["solve", str(file), "--all-variants", "--csv"])
+    head, *rows = csv.reader(whole.stdout.splitlines())
+    assert head[:3] == ["problem", "variant", "position"]
+    for variant in ("1", "3", "4", "5", "6", "7"):
+        alone = CliRunner().invoke(main, ["solve", str(file), "--csv", "--variant", variant])
+        own = [row for row in rows if row[1] == variant]
+        names, *cells = csv.reader(alone.stdout.splitlines())
+        assert [[row[head.index(name)] for name in names] for row in own] == cells
