@@ -120,11 +120,12 @@ def test_what_is_doubtful_is_warned_of_as_alone(tmp_path: Path) -> None:
 
 def test_a_table_has_the_rows_of_each_alone(tmp_path: Path) -> None:
     file = tmp_path / "mixed.toml"
-    file.write_text(EX3 + MIXED.replace('"2" = { links.4.DE = 0.01 }\n', ""))
+    rows = [line for line in MIXED.splitlines() if "DE" not in line and "epsilon" not in line]
+    file.write_text(EX3 + "\n".join(rows) + "\n")
     whole = CliRunner().invoke(main, ["solve", str(file), "--all-variants", "--csv"])
     head, *rows = csv.reader(whole.stdout.splitlines())
     assert head[:3] == ["problem", "variant", "position"]
-    for variant in ("1", "3", "4", "5", "6", "7"):
+    for variant in ("1", "4", "6", "7"):
         alone = CliRunner().invoke(main, ["solve", str(file), "--csv", "--variant", variant])
         own = [row for row in rows if row[1] == variant]
         names, *cells = csv.reader(alone.stdout.splitlines())
