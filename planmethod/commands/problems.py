@@ -44,6 +44,9 @@ class Todo(Struct, frozen=True):
         return cast("Problem", self.problem)
 
 
+AT_ONCE = 512
+"""Problems that are acted on at once, where they can be."""
+
 MANY = 6
 """Number of problems from which a command shows its progress."""
 
@@ -145,6 +148,7 @@ def each(
     kinds: bool = True,
     jobs: int = 1,
     take: Callable[[T], object] | None = None,
+    ahead: Callable[[Sequence[Todo]], dict[int, T]] | None = None,
 ) -> ExitCode:
     """Act on every problem; a faulty one is reported and the others go on.
 
@@ -160,6 +164,9 @@ def each(
         same.
     take : callable, optional
         Gets what was returned for every problem, in order.
+    ahead : callable, optional
+        Acts on several problems at once, as far as it can: returns what it finds by their numbers.
+        The others are acted on one by one.
 
     Returns
     -------
@@ -170,7 +177,11 @@ def each(
     def steps(todo: list[Todo]) -> Iterator[Callable[[], T | None]]:
         # Problems that are called alike write the same files: the last one wins, as in one process.
         if jobs == 1 or len({stem(one.problem) for one in todo}) < max(2, len(todo)):
-            yield from (partial(act, one) for one in todo)
+            for start in range(0, len(todo), AT_ONCE):
+                block = todo[start : start + AT_ONCE]
+                found = ahead(block) if ahead is not None and len(block) > 1 else {}
+                for k, one in enumerate(block):
+                    yield partial(found.pop, k) if k in found else partial(act, one)
         else:
             yield from _shared(act, todo, jobs)
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import functools
 import sys
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -223,12 +223,30 @@ def solve(
     )
     found: list[Any] = []
     act = functools.partial(compute, options=options)
-    code = each(problems, variant, all_variants, act, jobs=jobs, take=found.append)
-    if as_json and found:
+    ahead = None
+    if phi is None and referee is None and not swept:
+        if as_json:
+            ahead = functools.partial(_together, hand=drawn_by(profile, ruler), table=False)
+        elif csv_file is not None and not partial:
+            ahead = functools.partial(_together, hand=drawn_by("board", ruler), table=True)
+    if as_json:
         from planmethod.note.written import plain_of
 
-        texts = [json_text(plain_of(one)) for one in found]
-        click.echo(texts[0] if len(texts) == 1 else f"[{', '.join(texts)}]")
+        texts: list[str] = []
+        code = each(
+            problems,
+            variant,
+            all_variants,
+            act,
+            jobs=jobs,
+            take=lambda one: texts.append(json_text(plain_of(one))),
+            ahead=ahead,
+        )
+        if texts:
+            click.echo(texts[0] if len(texts) == 1 else f"[{', '.join(texts)}]")
+        finish(code)
+        return
+    code = each(problems, variant, all_variants, act, jobs=jobs, take=found.append, ahead=ahead)
     if found and covariance_file is not None:
         from planmethod.note.records.covariance import covariance_text
 
@@ -258,6 +276,20 @@ def compute(
     words = language(options.lang)
     click.echo(plain_document(kind.solved_document(problem, words), words))
     return None
+
+
+def _together(todo: Sequence[Todo], hand: Profile, *, table: bool) -> dict[int, Any]:
+    """Return records or tables of problems that are solved together, by their numbers."""
+    from planmethod.note.records.solution import batch_records
+    from planmethod.note.records.spreadsheet import batch_tables
+    from planmethod.solved.many.variants import in_batches
+
+    linkages = [k for k, one in enumerate(todo) if one.kind is None]
+    found: dict[int, Any] = {}
+    for batch, members in in_batches([todo[k].linkage for k in linkages], hand):
+        made = batch_tables(batch) if table else batch_records(batch)
+        found.update(zip([linkages[k] for k in members], made, strict=True))
+    return found
 
 
 def _computed(

@@ -17,6 +17,7 @@ from planmethod.problem.mistyped import line_hint
 from planmethod.problem.names import listed, near
 
 SIZE_LIMIT = 256 * 1024
+TABLE_LIMIT = 1024 * 1024
 LINE_LIMIT = 8192
 DOT_LIMIT = 64
 DEPTH_LIMIT = 12

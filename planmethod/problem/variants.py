@@ -31,7 +31,7 @@ from planmethod.problem.names import (
 )
 from planmethod.problem.posed import is_place, is_posed
 from planmethod.problem.selector import SelectorError, is_force, parse_selector
-from planmethod.problem.source import SIZE_LIMIT, table_text
+from planmethod.problem.source import TABLE_LIMIT, table_text
 
 KeyPath = tuple[str, ...]
 
@@ -286,12 +286,12 @@ def with_table(faults: Faults, table: Mapping[str, Any], folder: Path | None) ->
         return {**table, "variants": {}}
     try:
         with path.open("rb") as stream:
-            data = stream.read(SIZE_LIMIT + 1)
+            data = stream.read(TABLE_LIMIT + 1)
     except OSError as error:
         faults.add("variants", say("{} cannot be read: {}", name, error.strerror), example)
         data = b""
-    if len(data) > SIZE_LIMIT:
-        faults.add("variants", say("{} is larger than {} bytes", name, SIZE_LIMIT))
+    if len(data) > TABLE_LIMIT:
+        faults.add("variants", say("{} is larger than {} bytes", name, TABLE_LIMIT))
         data = b""
     return {**table, "variants": _variants(faults, table, table_text(data), name) if data else {}}
 

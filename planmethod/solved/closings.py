@@ -10,7 +10,7 @@ depends on the one before it.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Generator, Iterator
 from functools import partial
 
 import numpy as np
@@ -79,8 +79,28 @@ def construct(problem: Problem) -> Construction:
     return build(problem, structure, choose_closings(problem, structure))
 
 
+Wanted = tuple[Draft, Program, Reals]
+"""A reading that is wanted: what is drawn, its program, the positions of the driver."""
+
+Choosing = Generator[Wanted, Reading, dict[tuple[str, ...], Closing]]
+
+
 def choose_closings(problem: Problem, structure: Structure) -> dict[tuple[str, ...], Closing]:
-    """Return the closing of every group that has two.
+    """Return the closing of every group that has two: see `choosing`."""
+    choice = choosing(problem, structure)
+    try:
+        wanted = next(choice)
+        while True:
+            wanted = choice.send(_read(*wanted))
+    except StopIteration as end:
+        chosen: dict[tuple[str, ...], Closing] = end.value
+        return chosen
+
+
+def choosing(problem: Problem, structure: Structure) -> Choosing:
+    """Yield the readings that the choice of the closings wants, and return the closings.
+
+    So one problem asks for its readings in turn, and many that are drawn alike are read together.
 
     Raises
     ------
@@ -109,10 +129,11 @@ def choose_closings(problem: Problem, structure: Structure) -> dict[tuple[str, .
         if not has_two_closings(group):
             continue
         choice[group.links] = Closing()
-        both = [
-            _try(problem, done, {**choice, group.links: Closing(sign)}, positions)
-            for sign in (1, -1)
-        ]
+        both: list[Tried] = []
+        for sign in (1, -1):
+            draft = draw_positions(problem, done, {**choice, group.links: Closing(sign)})
+            program = draft.b.program()
+            both.append((draft, program, (yield draft, program, positions)))
         late = [late_fault(rule, both[0][0]) for rule in mine] + [
             unkept_fault(problem, rule, group) for rule in mine
         ]
@@ -175,17 +196,6 @@ def _going_on(problem: Problem, tried: Tried, group: AssurGroup, closing: Closin
         low, high, turn = low - way, low + way, closing.turn
     found = changes(draft, program, lambda s: drive_data(problem, draft, s), group, low, high)
     return replace(closing, changes=found, turn=turn)
-
-
-def _try(
-    problem: Problem,
-    groups: list[AssurGroup],
-    choice: Mapping[tuple[str, ...], Closing],
-    positions: Reals,
-) -> Tried:
-    draft = draw_positions(problem, groups, choice)
-    program = draft.b.program()
-    return draft, program, _read(draft, program, positions)
 
 
 def _read(draft: Draft, program: Program, positions: Reals) -> Reading:

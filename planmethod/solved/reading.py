@@ -65,11 +65,25 @@ class Reading(Struct, frozen=True):
         there = [np.isfinite(np.asarray(part, dtype=complex)) for part in parts]
         return np.broadcast_to(np.all(np.broadcast_arrays(*there), axis=0), (self.count,))
 
+    def part(self, chosen: slice) -> Reading:
+        """Return the reading of some of the positions."""
+        trace = self.trace
+        value = {name: _part(one, chosen) for name, one in trace.value.items()}
+        margin = {name: _part(one, chosen) for name, one in trace.margin.items()}
+        return Reading(Trace(value, margin), len(range(self.count)[chosen]))
+
     def go_on(
         self, steps: Iterable[Step], data: Mapping[str, Number], arithmetic: Arithmetic
     ) -> Reading:
         """Return a reading with further steps, read in the same arithmetic."""
         return Reading(go_on(self.trace, steps, data, arithmetic), self.count)
+
+
+def _part(value: Number, chosen: slice) -> Number:
+    """Return a value of some positions; of a line both of its."""
+    if isinstance(value, tuple):
+        return tuple(_part(one, chosen) for one in value)
+    return value[chosen] if np.ndim(value) else value
 
 
 class Remembering:

@@ -7,6 +7,8 @@ as the sheet. The sizes of texts are those of the shipped compositions, by what 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import lru_cache
+from math import inf
 from typing import Any, TypeAlias
 
 from msgspec import Struct
@@ -111,33 +113,39 @@ def has_room(
     return False
 
 
-def shapes(blocks: Blocks, room: Box) -> list[Box]:
+def shapes(blocks: Blocks, room: Box) -> tuple[Box, ...]:
     """Return the sizes that blocks can be put together to within a room, none beaten in both."""
     if isinstance(blocks, tuple):
         blocks = frozenset({blocks})
     if isinstance(blocks, frozenset):
         return _best(list(blocks), room)
-    kept = {(k, k + 1): shapes(block, room) for k, block in enumerate(blocks)}
+    return _in_order(tuple(shapes(block, room) for block in blocks), room)
+
+
+@lru_cache(maxsize=1024)  # of what is tried, most blocks are as they were before
+def _in_order(blocks: tuple[tuple[Box, ...], ...], room: Box) -> tuple[Box, ...]:
+    """Return the sizes of blocks in reading order, of each of which several sizes are known."""
+    kept = {(k, k + 1): block for k, block in enumerate(blocks)}
     for length in range(2, len(blocks) + 1):
         for start in range(len(blocks) - length + 1):
             end = start + length
-            pairs = [
-                (one, two)
-                for middle in range(start + 1, end)
-                for one in kept[start, middle]
-                for two in kept[middle, end]
-            ]
-            found = [(a + GAP + c, max(b, d)) for (a, b), (c, d) in pairs]
-            found += [(max(a, c), b + GAP + d) for (a, b), (c, d) in pairs]
+            found: list[Box] = []
+            for middle in range(start + 1, end):
+                for a, b in kept[start, middle]:
+                    for c, d in kept[middle, end]:
+                        found.append((a + GAP + c, b if b > d else d))
+                        found.append((a if a > c else c, b + GAP + d))
             kept[start, end] = _best(found, room)
     return kept[0, len(blocks)]
 
 
-def _best(found: list[Box], room: Box) -> list[Box]:
+def _best(found: list[Box], room: Box) -> tuple[Box, ...]:
+    wide, least = room[0], inf
     best: list[Box] = []
-    for box in sorted(box for box in found if box[0] <= room[0] and box[1] <= room[1]):
-        if not best or box[1] < best[-1][1]:
+    for box in sorted(box for box in found if box[1] <= room[1] and box[0] <= wide):
+        if box[1] < least:
             best.append(box)
+            least = box[1]
     if len(best) <= _OPTIONS:
-        return best
-    return [best[round(k * (len(best) - 1) / (_OPTIONS - 1))] for k in range(_OPTIONS)]
+        return tuple(best)
+    return tuple(best[round(k * (len(best) - 1) / (_OPTIONS - 1))] for k in range(_OPTIONS))

@@ -234,7 +234,11 @@ def sizes(construction: Construction, si: Reading, kind: PlanKind) -> tuple[Real
 
 def extent(construction: Construction, si: Reading, kind: PlanKind) -> Box:
     """Return the size of what is drawn, in its own unit: of plans the largest, without outliers."""
-    width, height = sizes(construction, si, kind)
+    return _usual(*sizes(construction, si, kind))
+
+
+def _usual(width: Reals, height: Reals) -> Box:
+    """Return the largest of sizes without outliers."""
     size = np.maximum(width, height)
     usual = size <= OUTLIER * median(size)
     return float(np.max(width[usual])), float(np.max(height[usual]))
@@ -246,7 +250,46 @@ def median(sizes: Reals) -> float:
     return float(ordered[(len(ordered) - 1) // 2] + ordered[len(ordered) // 2]) / 2
 
 
-def choose_views(construction: Construction, si: Reading, problem: Problem) -> Views:
+class Extents:
+    """How large a mechanism and its plans are, at unit scales (размеры планов).
+
+    What is asked of it for one paper after another is found once.
+
+    Parameters
+    ----------
+    construction : Construction
+    si : Reading
+        Exact, at unit scales.
+    """
+
+    def __init__(self, construction: Construction, si: Reading) -> None:
+        self.construction, self.si = construction, si
+        self._chosen: dict[tuple[Views, Scales], _Chosen] = {}
+
+    @cached_property
+    def sizes(self) -> dict[PlanKind, tuple[Reals, Reals]]:
+        """Width and height of what is drawn in every position, shape (n,)."""
+        return {kind: sizes(self.construction, self.si, kind) for kind in MOTION}
+
+    @cached_property
+    def largest(self) -> dict[PlanKind, Box]:
+        """Width and height of the largest that is not an outlier."""
+        return {kind: _usual(*each) for kind, each in self.sizes.items()}
+
+    @cached_property
+    def texts(self) -> Texts:
+        """How much the texts of a sheet tell."""
+        return Texts.of(self.construction)
+
+    def chosen(self, views: Views, asked: Scales) -> _Chosen:
+        """Return the scales that fill a room."""
+        key = views, asked
+        if key not in self._chosen:
+            self._chosen[key] = _Chosen.of(self, views, asked)
+        return self._chosen[key]
+
+
+def choose_views(extents: Extents, problem: Problem) -> Views:
     """Return the room on the file's format, else on the smallest that is large enough.
 
     That is one where the scheme has `SCHEME` or three quarters of it in height, and each plan
@@ -255,54 +298,43 @@ def choose_views(construction: Construction, si: Reading, problem: Problem) -> V
 
     Parameters
     ----------
-    si : Reading
-        Exact, at unit scales.
     problem : Problem
         Its paper and its scales.
     """
-    paper = problem.sheet.paper
+    paper, count = problem.sheet.paper, extents.si.count
     if paper:
-        return Views.for_paper(paper, si.count)
-    for name in TRIED[:-1] if si.count <= FEW else ():
-        views = Views.for_paper(name, si.count)
-        chosen = _Chosen.of(construction, si, views, problem.scales)
+        return Views.for_paper(paper, count)
+    for name in TRIED[:-1] if count <= FEW else ():
+        views = Views.for_paper(name, count)
+        chosen = extents.chosen(views, problem.scales)
         if chosen.has_room() and chosen.is_large():
             return views
-    return Views.for_paper(TRIED[-1], si.count)
+    return Views.for_paper(TRIED[-1], count)
 
 
-def decide(
-    construction: Construction, si: Reading, problem: Problem, *, moved: bool
-) -> tuple[Views, Scales]:
+def decide(extents: Extents, problem: Problem, *, moved: bool) -> tuple[Views, Scales]:
     """Return the room, and the scales that are given: for all that is told of some positions.
 
     Those of the file hold for its own positions. For others (``moved``) that of a plan may be too
     fine for the largest paper: then the file's scales of plans are left.
     """
-    given = problem.scales
-    views = choose_views(construction, si, problem)
-    if moved and given != given.freed and si.count <= MOST_DRAWN:
-        over = CLOSE if si.count > FEW else 1.0
-        if not _Chosen.of(construction, si, views, given).has_room(over):
+    given, count = problem.scales, extents.si.count
+    views = choose_views(extents, problem)
+    if moved and given != given.freed and count <= MOST_DRAWN:
+        over = CLOSE if count > FEW else 1.0
+        if not extents.chosen(views, given).has_room(over):
             problem = replace(problem, scales=given.freed)
-            views = choose_views(construction, si, problem)
+            views = choose_views(extents, problem)
     return views, problem.scales
 
 
-def choose_scales(
-    construction: Construction, si: Reading, views: Views, asked: Scales
-) -> dict[PlanKind, Scale]:
+def choose_scales(extents: Extents, views: Views, asked: Scales) -> dict[PlanKind, Scale]:
     """Return the scale of each plan: as ``asked`` gives it, else to fill the room of the views.
 
     First each view fills its own room; then the scales become finer as long as all views have room
     on the paper. What one does not need another takes.
-
-    Parameters
-    ----------
-    si : Reading
-        Exact, at unit scales.
     """
-    chosen = _Chosen.of(construction, si, views, asked).per_mm
+    chosen = extents.chosen(views, asked).per_mm
     return {kind: Scale(FACTS[kind].scale, chosen[kind], FACTS[kind].unit) for kind in MOTION}
 
 
@@ -315,9 +347,9 @@ class _Chosen(Struct, frozen=True):
     free: tuple[PlanKind, ...]
 
     @classmethod
-    def of(cls, construction: Construction, si: Reading, views: Views, asked: Scales) -> _Chosen:
-        """Choose the scales of a construction that are free."""
-        drawn = {kind: _Drawn(construction, si, views, asked, kind) for kind in MOTION}
+    def of(cls, extents: Extents, views: Views, asked: Scales) -> _Chosen:
+        """Choose the scales that are free."""
+        drawn = {kind: _Drawn(extents, views, asked, kind) for kind in MOTION}
         given = {kind: getattr(asked, FACTS[kind].scale) for kind in MOTION}
         free = [
             kind
@@ -355,7 +387,7 @@ class _Chosen(Struct, frozen=True):
     def has_room(self, over: float = 1.0) -> bool:
         """Tell whether the views have room on the paper, texts and all."""
         one = self.drawn[PlanKind.POSITION]
-        texts = Texts.of(one.construction).blocks(paper_format(self.views.paper), one.si.count)
+        texts = one.extents.texts.blocks(paper_format(self.views.paper), one.si.count)
         boxes = [self.drawn[kind].ways(self.per_mm[kind]) for kind in MOTION]
         return has_room(paper_format(self.views.paper), texts, boxes, one.si.count, over)
 
@@ -378,21 +410,25 @@ class _Chosen(Struct, frozen=True):
 class _Drawn(Struct, frozen=True, dict=True):
     """What is drawn of a kind, in SI, and the room that it has."""
 
-    construction: Construction
-    si: Reading
+    extents: Extents
     views: Views
     asked: Scales
     kind: PlanKind
 
-    @cached_property
+    @property
+    def si(self) -> Reading:
+        """What is drawn, at unit scales."""
+        return self.extents.si
+
+    @property
     def sizes(self) -> tuple[Reals, Reals]:
         """Width and height in every position, shape (n,)."""
-        return sizes(self.construction, self.si, self.kind)
+        return self.extents.sizes[self.kind]
 
-    @cached_property
+    @property
     def size(self) -> Box:
         """Width and height of the largest that is not an outlier."""
-        return extent(self.construction, self.si, self.kind)
+        return self.extents.largest[self.kind]
 
     @property
     def largest(self) -> Box:
@@ -537,8 +573,6 @@ def _fitting(asked: Scales, box: Box, size: Box) -> float:
     return choose_scale(size, box, mm_per_unit=asked.in_mm_per_unit)
 
 
-def own_scales(
-    construction: Construction, si: Reading, views: Views, asked: Scales, kind: PlanKind
-) -> Reals:
+def own_scales(extents: Extents, views: Views, asked: Scales, kind: PlanKind) -> Reals:
     """Return scales of plans that have their own, shape (n,); NaN where the common one holds."""
-    return _Drawn(construction, si, views, asked, kind).own
+    return extents.chosen(views, asked).drawn[kind].own

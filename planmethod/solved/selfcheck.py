@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
 import numpy as np
 
 from planmethod.construct.steps import PointName
@@ -21,7 +23,7 @@ from planmethod.solved.failures import (
     Place,
     PositionError,
 )
-from planmethod.solved.reading import Complexes, Reals
+from planmethod.solved.reading import Complexes, Flags, Reals
 from planmethod.solved.solution import Solution
 from planmethod.solved.trust.conditioning import error_bound
 
@@ -151,6 +153,27 @@ def verify(solution: Solution) -> None:
         When a position is so badly conditioned that its results mean nothing.
     """
     _refuse_spoilt(solution)
+    for what, error, size in _contradictions(solution):
+        bad = np.flatnonzero(_is_too_large(solution, error, size))
+        if bad.size:
+            i = int(bad[0])
+            place = Place.of(solution.problem, solution.positions, i)
+            told = Contradiction(
+                solution.problem.name, place, *what, float(error[i]), float(size[i])
+            )
+            raise SelfCheckError(told)
+
+
+def refused(solution: Solution) -> Flags:
+    """Return in which positions `verify` or `warnings` would have something to say; shape (n,)."""
+    found = ~(error_bound(solution) <= DOUBTFUL)
+    for _, error, size in _contradictions(solution):
+        found |= _is_too_large(solution, error, size)
+    return found
+
+
+def _contradictions(solution: Solution) -> Iterator[tuple[tuple[str, str, str, str], Reals, Reals]]:
+    """Yield what of a rigid link is compared, how far it is off and what it is measured by."""
     kin = solution.construction.kinematics
     for link, body in solution.problem.bodies.items():
         names = list(body.points)
@@ -163,7 +186,7 @@ def verify(solution: Solution) -> None:
             place = _between(solution, p, q)
             v = _difference(solution, kin.velocity.point[one], kin.velocity.point[two])
             a = _difference(solution, kin.acceleration.point[one], kin.acceleration.point[two])
-            length = abs(body.points[q] - body.points[p])
+            length = solution.length(link, p, q)
             turn = 1j * motion.epsilon - motion.omega**2
             checks = (
                 ("length", np.abs(place) - length, np.maximum(length, _largest(solution, "place"))),
@@ -171,7 +194,7 @@ def verify(solution: Solution) -> None:
                 ("acceleration", a - turn * place, _largest(solution, "acceleration")),
             )
             for what, error, size in checks:
-                _judge(solution, (what, q, p, link), np.abs(error), size)
+                yield (what, q, p, link), np.abs(error), size
 
 
 def _between(solution: Solution, p: str, q: str) -> Complexes:
@@ -188,12 +211,7 @@ def _largest(solution: Solution, field: str) -> Reals:
     return np.asarray(np.max(values, axis=0), dtype=float)
 
 
-def _judge(solution: Solution, what: tuple[str, str, str, str], error: Reals, size: Reals) -> None:
+def _is_too_large(solution: Solution, error: Reals, size: Reals) -> Flags:
     # Near a dead position the plan magnifies rounding: there only gross errors are ours.
     limit = LIMIT * size / np.maximum(solution.margin, 1e-9)
-    bad = np.flatnonzero(~(error <= np.maximum(limit, 1e-300)))
-    if bad.size:
-        i = int(bad[0])
-        place = Place.of(solution.problem, solution.positions, i)
-        name = solution.problem.name
-        raise SelfCheckError(Contradiction(name, place, *what, float(error[i]), float(size[i])))
+    return np.asarray(~(error <= np.maximum(limit, 1e-300)))

@@ -31,6 +31,7 @@ from planmethod.solved.impossible import explain, failing
 from planmethod.solved.reading import Complexes, Reading, Reals, Remembering
 from planmethod.solved.scaling import (
     MOST_DRAWN,
+    Extents,
     Views,
     choose_scales,
     decide,
@@ -43,12 +44,21 @@ UNIT_SCALES: Mapping[str, float] = MappingProxyType({"mu_l": 1.0, "mu_v": 1.0, "
 
 EVERY = slice(None)
 
+FEW_ROWS = 64
+"""Positions up to which a mechanism is read as it is read among its variants."""
+
 
 def at_positions(
     values: Mapping[str, Number], chosen: npt.NDArray[np.intp] | slice
 ) -> dict[str, Number]:
     """Return values of some positions: of columns, shape (n,), those, of single numbers all."""
     return {name: value[chosen] if np.ndim(value) else value for name, value in values.items()}
+
+
+def even(problem: Problem) -> Problem:
+    """Return a problem without loads, its driver at one radian (or metre) a second."""
+    drive = replace(problem.drive, rate=1.0, acceleration=0.0)
+    return replace(problem, drive=drive, dynamics=None)
 
 
 class PointMotion(Struct, frozen=True):
@@ -156,11 +166,9 @@ class Solution(Remembering):
 
     def at_unit_rate(self) -> Solution:
         """Return the same mechanism without loads, its driver at one radian (or metre) a second."""
-        drive = self.problem.drive
-        even = replace(drive, rate=1.0, acceleration=0.0)
-        problem = replace(self.problem, drive=even, dynamics=None)
+        problem = even(self.problem)
         # The plans of a crank that turns evenly have fewer steps.
-        construction = None if drive.acceleration else self.construction
+        construction = None if self.problem.drive.acceleration else self.construction
         return self._alike(problem=problem, views=None, scales=None, construction=construction)
 
     def _redrawn(self, **changed: Any) -> Solution:
@@ -187,6 +195,20 @@ class Solution(Remembering):
         """Groups of the mechanism."""
         return self.construction.structure
 
+    @property
+    def together(self) -> int:
+        """How many positions are of one mechanism."""
+        return len(self.positions)
+
+    def length(self, link: str, p: str, q: str) -> float | Reals:
+        """Return the given distance of two points of a link, m."""
+        points = self.problem.bodies[link].points
+        return abs(points[q] - points[p])
+
+    def alone_at(self, index: int) -> tuple[Solution, int]:
+        """Return the solution of the mechanism that a position is of, and its number there."""
+        return self, index
+
     # Readings --------------------------------------------------------------------------------
 
     def data(
@@ -196,10 +218,14 @@ class Solution(Remembering):
     ) -> dict[str, Any]:
         """Return the data of the program at given scales (unit per mm), for some positions."""
         draft = self.construction.draft
-        own = at_positions(scales, chosen)
-        data: dict[str, Any] = {**drive_data(self.problem, draft, self.positions[chosen]), **own}
-        for name, place in draft.places.items():
-            data[name] = place / scales["mu_l"]
+        own, positions = at_positions(scales, chosen), self.positions[chosen]
+        data: dict[str, Any] = {**drive_data(self.problem, draft, positions), **own}
+        if len(positions) <= FEW_ROWS:
+            # As of variants that are read together (`planmethod.solved.many.variants`), to the last
+            # bit: NumPy multiplies a column by one complex number in another way than by a column.
+            data = {name: np.full(len(positions), value) for name, value in data.items()}
+        for name in draft.places:
+            data[name] = data[name] / data["mu_l"]
         return data
 
     def read(self, arithmetic: Arithmetic, scales: Mapping[str, Number] = UNIT_SCALES) -> Reading:
@@ -227,6 +253,10 @@ class Solution(Remembering):
         return reading
 
     @cached_property
+    def _extents(self) -> Extents:
+        return Extents(self.construction, self.si)
+
+    @cached_property
     def scales(self) -> dict[PlanKind, Scale]:
         """Scales of the plans: given, the file's, or those of the series that fill the views.
 
@@ -234,7 +264,7 @@ class Solution(Remembering):
         """
         if self._scales is not None:
             return dict(self._scales)
-        scales = choose_scales(self.construction, self.si, self.views, self.given_scales)
+        scales = choose_scales(self._extents, self.views, self.given_scales)
         for kind, own in self._own_scales.items():
             if not np.isnan(own).any():  # there is no common one: one of them stands for it
                 scales[kind] = replace(scales[kind], per_mm=float(median(own)))
@@ -248,7 +278,7 @@ class Solution(Remembering):
         """
         found: dict[PlanKind, Reals] = {}
         for kind in RATES if self._scales is None and not self._too_many else ():
-            own = own_scales(self.construction, self.si, self.views, self.given_scales, kind)
+            own = own_scales(self._extents, self.views, self.given_scales, kind)
             if not np.isnan(own).all():
                 found[kind] = own
         return found
@@ -275,7 +305,7 @@ class Solution(Remembering):
         if self._views is not None:
             return self._views, self.problem.scales
         moved = tuple(self.positions.tolist()) != self.problem.drive.positions
-        return decide(self.construction, self.si, self.problem, moved=moved)
+        return decide(self._extents, self.problem, moved=moved)
 
     @property
     def views(self) -> Views:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
@@ -17,6 +18,7 @@ from planmethod.plans.motion.leads import Relative
 from planmethod.problem.cycle_records import Differentiation
 from planmethod.solved.analogues import analogues
 from planmethod.solved.errors.motion import drafting_of
+from planmethod.solved.many.variants import Batch
 from planmethod.solved.reading import Complexes
 from planmethod.solved.solution import RelativeMotion, Solution
 from planmethod.solved.turn.construction import extreme_construction
@@ -345,6 +347,17 @@ def record_in_columns(solution: Solution, **more: Column) -> dict[str, Any]:
         "positions": rows({**columns, **more}),
         **machine,
     }
+
+
+def batch_records(batch: Batch) -> Iterator[dict[str, Any]]:
+    """Yield `record` of each variant of a batch, its positions cut out of all of them."""
+    common = plain_of(record_in_columns(batch))
+    common.pop("variant", None)
+    for problem, own in zip(batch.problems, batch.rows, strict=True):
+        named = {"schema": SCHEMA, "problem": problem.name}
+        if problem.variant is not None:
+            named["variant"] = problem.variant
+        yield {**named, **common, **named, "positions": common["positions"][own]}
 
 
 def finite(value: Any) -> bool:

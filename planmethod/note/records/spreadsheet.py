@@ -17,6 +17,7 @@ from planmethod.plans.legend import TURNING
 from planmethod.plans.model import MOTION
 from planmethod.problem.model import Problem
 from planmethod.solved.many.positions import Gaps, blocks, common_scales, force_scale
+from planmethod.solved.many.variants import Batch
 from planmethod.solved.reading import Reals
 from planmethod.solved.solution import Solution
 
@@ -156,6 +157,21 @@ def solved_table(solution: Solution) -> SpreadsheetRows:
     """Return the rows of a solution."""
     header, rows = csv_rows(solution)
     return SpreadsheetRows(solution.problem, tuple(header), len(rows), lambda: iter([rows]))
+
+
+def batch_tables(batch: Batch) -> Iterator[SpreadsheetRows]:
+    """Yield `solved_table` of each variant of a batch, its rows cut out of all of them."""
+    columns = csv_columns(batch)
+    lists = [values.tolist() for values in columns.values()]
+    whole = list(zip(*lists, strict=True))
+    header = ("position", *columns)
+    for problem, own in zip(batch.problems, batch.rows, strict=True):
+        rows = [[number, *row] for number, row in enumerate(whole[own])]
+        yield SpreadsheetRows(problem, header, len(rows), partial(_at_once, rows))
+
+
+def _at_once(rows: Rows) -> Iterator[Rows]:
+    return iter([rows])
 
 
 def large_table(

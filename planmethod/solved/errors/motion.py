@@ -10,9 +10,9 @@ from msgspec.structs import replace
 
 from planmethod.construct.arithmetic import Number
 from planmethod.construct.evaluate import Trace
-from planmethod.construct.steps import PointName
+from planmethod.construct.steps import NumberName, PointName
 from planmethod.plans.legend import QuantityKind
-from planmethod.plans.model import PlanKind
+from planmethod.plans.model import FACTS, PlanKind
 from planmethod.solved.errors.drawing import (
     Drafted,
     DrawnKind,
@@ -54,17 +54,17 @@ class Drafting(Errors):
 
     def _items(self) -> Iterator[DrawnQuantity]:
         """Yield every quantity that the drawing gives."""
-        solution, construction = self.solution, self.solution.construction
+        construction = self.solution.construction
         for segment in construction.segments:
             size = number(segment.drawn, size=True)
             item = DrawnQuantity(segment.label, (segment.drawn,), size, DrawnKind.LENGTH)
             yield self._known_absent(item, segment.kind)
-        origin, mu_l = construction.draft.origin, solution.scales[PlanKind.POSITION].per_mm
+        origin = construction.draft.origin
         for quantity in construction.legend:
             if quantity.kind is QuantityKind.PLACE:
                 place = PointName(quantity.name)
                 for axis, part in (("x", "real"), ("y", "imag")):
-                    take = _coordinate(place, mu_l, part, getattr(origin, part))
+                    take = _coordinate(place, part, getattr(origin, part))
                     yield DrawnQuantity(f"{axis}_{quantity.of}", (place,), take)
             elif quantity.size is not None:
                 sized = quantity.kind.is_size
@@ -78,6 +78,13 @@ class Drafting(Errors):
         if kind is PlanKind.POSITION:
             return item
         return replace(item, absent=lambda: self._absent[kind])
+
+    def _of_sheets(self, index: int) -> dict[str, float]:
+        """Return the sigmas that random sheets of one position give: those of its own mechanism."""
+        solution, own = self.solution.alone_at(index)
+        if solution is self.solution:
+            return super()._of_sheets(index)
+        return drafting_of(solution)._of_sheets(own)
 
     @cached_property
     def _absent(self) -> dict[PlanKind, Flags]:
@@ -106,5 +113,6 @@ def _plan_points(solution: Solution) -> tuple[PointName, ...]:
     return tuple(sorted(ends | {PointName(p) for p in solution.construction.draft.points()}))
 
 
-def _coordinate(place: PointName, mu: float, part: str, origin: float) -> Callable[[Trace], Number]:
-    return lambda trace: getattr(trace.value[place], part) * mu + origin
+def _coordinate(place: PointName, part: str, origin: float) -> Callable[[Trace], Number]:
+    mu = NumberName(FACTS[PlanKind.POSITION].scale)
+    return lambda trace: getattr(trace.value[place], part) * trace.value[mu] + origin

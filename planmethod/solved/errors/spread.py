@@ -114,6 +114,10 @@ class Errors:
         return counted.causes
 
     def _propagate(self, chosen: npt.NDArray[np.intp]) -> _Slopes:
+        if len(chosen) == 1:
+            # NumPy multiplies a number by one complex number in another way than by many: what is
+            # told of a position alone is to be what is told of it among others, to the last bit.
+            return self._propagate(np.repeat(chosen, 2)).at(np.zeros(1, dtype=np.intp))
         pencil = Propagated(
             self.profile, self.drawing.free, self._causes, self.drawing.times(chosen)
         )
@@ -393,6 +397,21 @@ class _Slopes(Struct, frozen=True):
     points: dict[PointName, Dual]
     leaves: dict[Name, Dual]
     strokes: list[str]
+
+    def at(self, chosen: npt.NDArray[np.intp]) -> _Slopes:
+        """Return the same in some of the positions."""
+
+        def some(duals: Mapping[Key, Dual]) -> dict[Key, Dual]:
+            return {name: dual.at(chosen) for name, dual in duals.items()}
+
+        return _Slopes(
+            len(chosen),
+            some(self.taken),
+            some(self.margins),
+            some(self.points),
+            some(self.leaves),
+            self.strokes,
+        )
 
 
 class _First(Struct, frozen=True):

@@ -17,9 +17,10 @@ CENTRAL = (0.158655253931457, 0.841344746068543)
 
 def sigma_of(value: Dual) -> Reals:
     """Return the sigma of a number in every position."""
-    # All causes, those that change nothing too: a position alone is added up as one of many.
+    # All causes, those that change nothing too, one after another: `sum` would add up a position
+    # alone in another order than one of many.
     slope = value.slope
-    sigma = 0.0 if slope is None else np.sqrt((slope**2).sum(axis=0))
+    sigma = 0.0 if slope is None else np.sqrt(np.add.accumulate(slope**2)[-1])
     return np.array(np.broadcast_to(sigma, value.value.shape), dtype=float)
 
 
@@ -32,7 +33,8 @@ def covariance_of(values: Sequence[Dual]) -> Reals:
         for slope, value in zip(slopes, values, strict=True)
         for side in ((np.real(slope), np.imag(slope)) if np.iscomplexobj(value.value) else (slope,))
     ]
-    return np.asarray(np.einsum("amn,bmn->abn", rows, rows), dtype=float)
+    products = np.array(rows)[:, None] * np.array(rows)[None]
+    return np.asarray(np.add.accumulate(products, axis=2)[:, :, -1], dtype=float)
 
 
 def half_widths(item: DrawnQuantity, rows: Reals) -> Reals:

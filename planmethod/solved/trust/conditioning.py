@@ -13,7 +13,7 @@ from planmethod.plans.dimensions import DimensionKind
 from planmethod.plans.legend import ZERO, Quantity, QuantityKind
 from planmethod.solved.quantities import natural_size, quantities_of
 from planmethod.solved.reading import Reals
-from planmethod.solved.solution import UNIT_SCALES, Solution
+from planmethod.solved.solution import FEW_ROWS, UNIT_SCALES, Solution
 
 MULTIPLE = 16
 """Forward error of a result in units of u times its reach that is allowed for."""
@@ -24,8 +24,8 @@ SCALES = frozenset(UNIT_SCALES)
 SAFE = 2e-3
 """Margin, and share of a difference in its terms, above which a position needs no closer look."""
 
-FEW, BLOCK = 64, 256
-"""Positions that are all looked at closely; positions looked at in one go."""
+BLOCK = 256
+"""Positions looked at in one go."""
 
 PLACING = (DimensionKind.LENGTH, DimensionKind.ALONG, DimensionKind.ACROSS)
 """Kinds of dimensions that tell how large a mechanism is."""
@@ -66,7 +66,7 @@ def _blocks(suspects: npt.NDArray[np.intp]) -> Iterator[npt.NDArray[np.intp]]:
 def _suspects(solution: Solution) -> npt.NDArray[np.intp]:
     """Return the positions that a cheap look does not clear."""
     count = len(solution.positions)
-    if count <= FEW:
+    if solution.together <= FEW_ROWS:
         return np.arange(count)
     least = solution.margin
     ends = _extent(solution)

@@ -1,0 +1,267 @@
+"""Variants of a problem as rows of one solution (варианты как строки одного решения).
+
+Variants that are drawn by the same steps differ in their numbers alone: each number is a column,
+and one reading of the program has the positions of all of them. What holds of one variant only (its
+scales, what is enlarged, random sheets) its own solution tells, whose readings are rows of the
+common ones. A variant of which something is to be said is left to be solved alone.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from functools import cached_property, partial
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from planmethod.construct.arithmetic import Float64, Number
+from planmethod.construct.drafting import Profile
+from planmethod.construct.evaluate import evaluate
+from planmethod.construct.hand import Hand
+from planmethod.errors import PlanMethodError
+from planmethod.mechanism.model import Mechanism
+from planmethod.mechanism.structure import Structure, analyse
+from planmethod.plans.build import Construction, build
+from planmethod.plans.model import RATES
+from planmethod.problem.model import Problem
+from planmethod.solved.closings import Choosing, Wanted, choosing, drive_data
+from planmethod.solved.enlarging import SHORT, SMALL
+from planmethod.solved.impossible import failing
+from planmethod.solved.reading import Flags, Reading, Reals
+from planmethod.solved.selfcheck import changed_branches, refused
+from planmethod.solved.solution import EVERY, FEW_ROWS, UNIT_SCALES, Solution, at_positions, even
+
+
+class Batch(Solution):
+    """Variants that are drawn by the same steps, each with its rows (варианты одной схемы).
+
+    Everything that is asked of it by positions has a row for each position of each variant, in
+    order. Where a step is impossible there is NaN.
+
+    Parameters
+    ----------
+    problems : sequence of Problem
+    constructions : sequence of Construction
+        Of the problems; with the same steps.
+    profile : Profile
+    """
+
+    def __init__(
+        self, problems: Sequence[Problem], constructions: Sequence[Construction], profile: Profile
+    ) -> None:
+        positions = [place for problem in problems for place in problem.drive.positions]
+        first = constructions[0]
+        super().__init__(problems[0], positions=positions, profile=profile, construction=first)
+        self.problems, self.constructions = problems, constructions
+        counts = [len(problem.drive.positions) for problem in problems]
+        ends = np.cumsum([0, *counts]).tolist()
+        self.rows = [slice(start, end) for start, end in pairwise(ends)]
+        self._counts, self._of = counts, np.repeat(np.arange(len(problems)), counts)
+
+    def data(
+        self,
+        scales: Mapping[str, Number] = UNIT_SCALES,
+        chosen: npt.NDArray[np.intp] | slice = EVERY,
+    ) -> dict[str, Any]:
+        """Return the data of the program at given scales (unit per mm), for some rows."""
+        own = at_positions(scales, chosen)
+        data: dict[str, Any] = {**at_positions(self._given, chosen), **own}
+        for name in self.construction.draft.places:
+            data[name] = data[name] / own["mu_l"]
+        return data
+
+    @cached_property
+    def _given(self) -> dict[str, Number]:
+        each = zip(self.problems, self.constructions, self.rows, strict=True)
+        own = [drive_data(p, made.draft, self.positions[rows]) for p, made, rows in each]
+        return _columns(own, self._counts)
+
+    def length(self, link: str, p: str, q: str) -> Reals:
+        """Return the given distance of two points of a link in every row, m."""
+        bodies = [problem.bodies[link].points for problem in self.problems]
+        return np.repeat([abs(points[q] - points[p]) for points in bodies], self._counts)
+
+    def alone_at(self, index: int) -> tuple[Solution, int]:
+        """Return the solution of the variant that a row is of, and its position there."""
+        k = int(self._of[index])
+        return self.alone[k], index - self.rows[k].start
+
+    def at_unit_rate(self) -> Solution:
+        """Return the same mechanisms, their drivers at one radian (or metre) a second."""
+        problems, constructions = [even(problem) for problem in self.problems], self.constructions
+        if self.problem.drive.acceleration:
+            each = zip(problems, constructions, strict=True)
+            constructions = [build(p, made.structure, made.draft.choice) for p, made in each]
+        return Batch(problems, constructions, self.profile)
+
+    # Readings --------------------------------------------------------------------------------
+
+    @property
+    def together(self) -> int:
+        """Most positions of a variant."""
+        return max(self._counts)
+
+    @cached_property
+    def si(self) -> Reading:
+        """Exact reading at unit scales; NaN where a step is impossible."""
+        return self.read(Float64())
+
+    @cached_property
+    def good(self) -> Flags:
+        """Which variants are solved, and nothing is to be said of them; shape (variants,)."""
+        rows = failing(self.construction.program, self.si.trace, self.si.count) < 0
+        rows &= ~refused(self)
+        told = np.array([bool(rows[own].all()) for own in self.rows])
+        for k in np.flatnonzero(told & (np.array(self._counts) > 1)):
+            told[k] = not changed_branches(self.alone[k])
+        return told
+
+    @cached_property
+    def alone(self) -> list[Solution]:
+        """Every variant's own solution: its exact reading is its rows of this one."""
+        found = []
+        for problem, made, own in zip(self.problems, self.constructions, self.rows, strict=True):
+            one = Solution(problem, profile=self.profile, construction=made)
+            one.si = self.si.part(own)
+            found.append(one)
+        return found
+
+    @cached_property
+    def per_mm(self) -> dict[str, Number]:
+        """Unit per millimetre of each plan in every row, by its name in the program."""
+        return _columns([one.per_mm for one in self.alone], self._counts)
+
+    @cached_property
+    def hand(self) -> Hand:
+        """Draughtsman with a ruler: in every row what is short is read as in its variant."""
+        enlarged: dict[str, Number] = {}
+        for k in np.flatnonzero(self._short):
+            one, own = self.alone[k], self.rows[k]
+            one.paper = self.paper.part(own)
+            for name, times in one.hand.enlarged.items():
+                enlarged.setdefault(name, np.ones(len(self.positions)))[own] = times
+        return Hand(self.profile.ruler, enlarged)
+
+    @property
+    def _short(self) -> Flags:
+        """Which variants may have something enlarged, by a look at all; shape (variants,)."""
+        found = np.zeros(len(self.positions), dtype=bool)
+        for kind in RATES:
+            ends = [(v.tail, v.head) for v in self.construction.plan(kind).vectors]
+            for tail, head in ends:
+                found |= np.abs(self.paper.point(head) - self.paper.point(tail)) < max(SHORT, SMALL)
+        return np.array([bool(found[own].any()) for own in self.rows])
+
+
+def in_batches(problems: Sequence[Problem], profile: Profile) -> list[tuple[Batch, list[int]]]:
+    """Return variants together as far as they are drawn by the same steps, and their numbers.
+
+    Those of which something is to be said, and those that are like no other, are in none of them:
+    each is to be solved alone.
+    """
+    plain = [k for k, problem in enumerate(problems) if _is_plain(problem)]
+    made = dict(zip(plain, _constructed([problems[k] for k in plain]), strict=True))
+    alike: dict[tuple[Any, ...], list[int]] = {}
+    for k, construction in made.items():
+        if construction is not None and construction.draft.origin == 0:
+            alike.setdefault(_kind(problems[k], construction), []).append(k)
+    found: list[tuple[Batch, list[int]]] = []
+    for members in alike.values():
+        kept = members
+        while len(kept) > 1:
+            chosen = [made[k] for k in kept]
+            batch = Batch([problems[k] for k in kept], [c for c in chosen if c], profile)
+            good = batch.good
+            if good.all():
+                found.append((batch, kept))
+                break
+            kept = [k for k, told in zip(kept, good.tolist(), strict=True) if told]
+    return found
+
+
+def _is_plain(problem: Problem) -> bool:
+    """Tell whether a problem asks for plans of a few positions, and nothing beyond them."""
+    more = (problem.cycle, problem.machine, problem.balancing, problem.dynamics, problem.project)
+    return not any(part is not None for part in more) and len(problem.drive.positions) <= FEW_ROWS
+
+
+def _kind(problem: Problem, construction: Construction) -> tuple[Any, ...]:
+    """Return what problems have in common that are drawn and told by the same names."""
+    bodies = tuple((link, tuple(body.points)) for link, body in problem.bodies.items())
+    draft = construction.draft
+    given = tuple(draft.numbers), tuple(draft.places), tuple(draft.branches)
+    even = problem.drive.acceleration == 0
+    several = len(problem.drive.positions) > 1
+    return construction.program.steps, bodies, given, construction.segments, even, several
+
+
+def _constructed(problems: Sequence[Problem]) -> list[Construction | None]:
+    """Return the constructions of problems, None where there is none.
+
+    Their closings are judged side by side: what is drawn by the same steps is read at once.
+    """
+    found: list[Construction | None] = [None] * len(problems)
+    structures: dict[Mechanism, Structure] = {}
+    choosing_of: dict[int, Choosing] = {}
+    wanted: dict[int, Wanted] = {}
+
+    def take(k: int, ask: Callable[[], Wanted]) -> None:
+        """Take one problem to the next reading that it wants, or to its end."""
+        wanted.pop(k, None)
+        problem = problems[k]
+        try:
+            wanted[k] = ask()
+        except StopIteration as end:
+            found[k] = build(problem, structures[problem.mechanism], end.value)
+        except PlanMethodError:
+            return  # it says why when it is solved alone
+
+    for k, problem in enumerate(problems):
+        mechanism = problem.mechanism
+        try:
+            if mechanism not in structures:
+                structures[mechanism] = analyse(mechanism)
+        except PlanMethodError:
+            continue
+        choosing_of[k] = choosing(problem, structures[mechanism])
+        take(k, partial(next, choosing_of[k]))
+    while wanted:
+        for k, reading in _read_together(wanted):
+            take(k, partial(choosing_of[k].send, reading))
+    return found
+
+
+def _read_together(wanted: Mapping[int, Wanted]) -> list[tuple[int, Reading]]:
+    """Return the readings that are wanted, by the number of who wants them."""
+    alike: dict[tuple[Any, ...], list[int]] = {}
+    for k, (draft, program, _) in wanted.items():
+        alike.setdefault((program.steps, tuple(draft.numbers)), []).append(k)
+    found = []
+    for members in alike.values():
+        counts = [len(wanted[k][2]) for k in members]
+        own = [
+            drive_data(d.problem, d, places) for d, _, places in map(wanted.__getitem__, members)
+        ]
+        trace = evaluate(wanted[members[0]][1], _columns(own, counts), Float64())
+        whole = Reading(trace, sum(counts))
+        ends = np.cumsum([0, *counts]).tolist()
+        found += [
+            (k, whole.part(slice(start, end)))
+            for k, (start, end) in zip(members, pairwise(ends), strict=True)
+        ]
+    return found
+
+
+def _columns(own: Sequence[Mapping[str, Number]], counts: Sequence[int]) -> dict[str, Number]:
+    """Return numbers of variants as columns with a row for each of their positions."""
+    found: dict[str, Number] = {}
+    for name in own[0]:
+        values = [one[name] for one in own]
+        if any(np.ndim(value) for value in values):
+            pairs = zip(values, counts, strict=True)
+            found[name] = np.concatenate([np.broadcast_to(v, (n,)) for v, n in pairs])
+        else:
+            found[name] = np.repeat(values, counts)
+    return found

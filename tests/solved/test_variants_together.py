@@ -1,0 +1,132 @@
+"""Variants that are read together are told as each alone, to the last bit."""
+
+import csv
+import random
+import tomllib
+from pathlib import Path
+from typing import Any
+
+import msgspec
+from cases import each, thinned
+from click.testing import CliRunner
+
+from planmethod.cli import cli as main
+from planmethod.construct.drafting import PROFILES
+from planmethod.note.records.solution import batch_records, record_in_columns
+from planmethod.note.written import plain_of
+from planmethod.problem import loads
+from planmethod.problem.model import Problem
+from planmethod.solved.many.variants import in_batches
+from planmethod.solved.solution import Solution
+
+PROBLEMS = Path(__file__).parents[2] / "problems"
+MORE = ("cycle", "machine", "dynamics", "loads", "balancing", "variants", "project", "gears")
+
+
+def plain_files() -> list[Path]:
+    """Return shipped problems that ask for plans alone."""
+    files = sorted(PROBLEMS.glob("l*/*.toml"))
+    return [file for file in files if not set(MORE) & tomllib.loads(file.read_text()).keys()]
+
+
+def varied(file: Path, count: int) -> list[Problem]:
+    """Return variants of a problem whose lengths and crank angles are off by a few percent."""
+    text = file.read_text()
+    table = tomllib.loads(text)
+    spread = random.Random(file.name)
+    rows = []
+    for k in range(count):
+        cells = [
+            f"links.{link}.{key} = {value * spread.uniform(0.97, 1.03):.5g}"
+            for link, keys in table["links"].items()
+            for key, value in keys.items()
+            if len(key) == 2 and type(value) in (int, float)
+        ]
+        if type(table["driver"].get("phi")) in (int, float):
+            cells.append(f"driver.phi = {table['driver']['phi'] + spread.uniform(-20, 20):.4g}")
+        rows.append(f'"{k}" = {{ {", ".join(cells)} }}')
+    whole = text + "\n[variants]\n" + "\n".join(rows) + "\n"
+    return [loads(whole, name=file.stem, variant=str(k)) for k in range(count)]
+
+
+def encoded(record: Any) -> bytes:
+    return msgspec.json.encode(plain_of(record))
+
+
+def together(problems: list[Problem]) -> dict[int, bytes]:
+    found: dict[int, bytes] = {}
+    for batch, members in in_batches(problems, PROFILES["board"]):
+        records = map(encoded, batch_records(batch))
+        found.update(zip(members, records, strict=True))
+    return found
+
+
+@each("file", thinned(plain_files(), 4))
+def test_a_variant_among_others_has_the_bytes_of_one_alone(file: Path) -> None:
+    problems = varied(file, 8)
+    for k, text in together(problems).items():
+        assert text == encoded(record_in_columns(Solution(problems[k]))), (file.name, k)
+
+
+def test_most_variants_are_read_together_whatever_their_order() -> None:
+    problems = varied(PROBLEMS / "linkages" / "ex3.toml", 12)
+    assert len(together(problems)) == 12
+    found, turned = together(problems), together(problems[::-1])
+    assert [turned[11 - k] for k in range(12)] == [found[k] for k in range(12)]
+
+
+EX3 = (PROBLEMS / "linkages" / "ex3.toml").read_text().replace("phi = 160", "phi = 20")
+MIXED = """
+[variants]
+"1" = { driver.phi = 30 }
+"2" = { links.4.DE = 0.01 }
+"3" = { driver.phi = 50, driver.epsilon = 10 }
+"4" = { driver.phi = 60 }
+"5" = { driver.phi = 70, driver.epsilon = -10 }
+"6" = { driver.phi = [20, 80], links.3.CD = 0.21 }
+"7" = { driver.phi = [20, 90] }
+"""
+
+
+def test_one_that_cannot_be_assembled_is_named_and_the_others_go_on(tmp_path: Path) -> None:
+    file = tmp_path / "mixed.toml"
+    file.write_text(EX3 + MIXED)
+    run = CliRunner().invoke(main, ["solve", str(file), "--all-variants", "--json", "--lang", "en"])
+    assert run.exit_code == 4, run.stderr
+    assert run.stderr.count("mixed-2: ") == 1
+    records = msgspec.json.decode(run.stdout)
+    assert [one["variant"] for one in records] == ["1", "3", "4", "5", "6", "7"]
+    assert list(map(len, (one["positions"] for one in records))) == [1, 1, 1, 1, 2, 2]
+    alone = ["solve", str(file), "--json", "--variant"]
+    for one in records:
+        run = CliRunner().invoke(main, [*alone, one["variant"]])
+        assert msgspec.json.decode(run.stdout) == one
+
+
+def test_what_is_doubtful_is_warned_of_as_alone(tmp_path: Path) -> None:
+    # The arc of the first touches the guide but for 2e-13 m: next to a dead position.
+    near = {"8": "links.4.DE = 0.090171477781", "9": "driver.phi = 35", "10": "driver.phi = 36"}
+    file = tmp_path / "doubt.toml"
+    rows = "\n".join(f'"{k}" = {{ {v} }}' for k, v in near.items())
+    file.write_text(EX3 + "\n[variants]\n" + rows + "\n")
+    arguments = ["solve", str(file), "--json", "--lang", "en"]
+    both = CliRunner().invoke(main, [*arguments, "--all-variants"])
+    assert both.stderr.count("Warning: ") == 1
+    each_alone = [CliRunner().invoke(main, [*arguments, "--variant", k]) for k in near]
+    assert sorted(both.stderr.splitlines()) == sorted(
+        line for run in each_alone for line in run.stderr.splitlines()
+    )
+
+
+def test_a_table_has_the_rows_of_each_alone(tmp_path: Path) -> None:
+    file = tmp_path / "mixed.toml"
+    rows = [line for line in MIXED.splitlines() if "DE" not in line and "epsilon" not in line]
+    file.write_text(EX3 + "\n".join(rows) + "\n")
+    whole = CliRunner().invoke(main, ["solve", str(file), "--all-variants", "--csv"])
+    head, *rows = csv.reader(whole.stdout.splitlines())
+    assert head[:3] == ["problem", "variant", "position"]
+    for variant in ("1", "4", "6", "7"):
+        alone = CliRunner().invoke(main, ["solve", str(file), "--csv", "--variant", variant])
+        own = [row for row in rows if row[1] == variant]
+        names, *cells = csv.reader(alone.stdout.splitlines())
+        assert [[row[head.index(name)] for name in names] for row in own] == cells
