@@ -31,6 +31,7 @@ from planmethod.note.document import (
     table_of,
 )
 from planmethod.note.formula import Rich, escape
+from planmethod.note.narrate.given import reading_notes
 from planmethod.note.narrate.structure import pair_classes
 from planmethod.note.numbers import MINUS, half_up
 from planmethod.note.wording import Language
@@ -44,7 +45,10 @@ def solved_document(problem: GearProblem, words: Language) -> Iterator[Node]:
     ProblemError
     """
     motion, say = solve_motion(problem), words.gears
-    yield from _structure(problem, motion.roles, motion.structure, words)
+    structure = _structure(problem, motion.roles, motion.structure, words)
+    yield next(structure)
+    yield from reading_notes(problem, words)
+    yield from structure
     yield Caption(say.equations)
     for mesh in motion.train.meshes:
         equation, stage = (escape(plainly(text)) for text in equation_of(motion, mesh))
