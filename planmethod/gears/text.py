@@ -10,6 +10,7 @@ from msgspec import Struct
 from planmethod.errors import PlanMethodError
 from planmethod.gears.answers import answer, rack_speed
 from planmethod.gears.conditions import conditions, judgement
+from planmethod.gears.derivation import derivation
 from planmethod.gears.model import GearProblem, Mesh, MeshKind
 from planmethod.gears.motion import (
     Mobility,
@@ -21,6 +22,7 @@ from planmethod.gears.motion import (
 )
 from planmethod.gears.picture import draw
 from planmethod.gears.roles import Roles
+from planmethod.gears.velocities import by_velocities
 from planmethod.note.document import (
     Caption,
     Item,
@@ -53,6 +55,9 @@ def solved_document(problem: GearProblem, words: Language) -> Iterator[Node]:
     for mesh in motion.train.meshes:
         equation, stage = (escape(plainly(text)) for text in equation_of(motion, mesh))
         yield Item(say.equation.format(name=mesh.name, equation=equation, stage=stage))
+    if derived := [*derivation(motion, words), *by_velocities(motion, words)]:
+        yield Caption(say["derived"]["title"])
+        yield from (Item(line.text) for line in derived)
     yield Caption(say.wheels)
     yield _wheels(motion, words)
     yield Caption(say.speeds)
