@@ -42,7 +42,9 @@ INTRODUCTION = """# Shipped tasks
 Problem files of the textbooks' tasks by structure: the Assur groups in the order of kinematic
 analysis, a letter for each pair. `planmethod tasks` lists them; `planmethod new levers-13 my.toml
 --variant Б` writes one to start from. Where the figure of a source is lost, the file says what was
-chosen in its place. The pictures show the first position of each. Written by `make tasks`.
+chosen in its place; `*` marks those whose scheme is one of several that fit the data: compare it
+with the figure of your assignment. The pictures show the first position of each. Written by
+`make tasks`.
 """
 
 LETTER = 2.5
@@ -67,13 +69,15 @@ def task_of(path: Path) -> ShippedTask:
     """Read a file for the index."""
     file, kind = path.relative_to(home()).as_posix(), kind_of(path)
     if kind is None:
-        problem = load(path)
-        groups = tuple(group.signature for group in analyse(problem.mechanism).groups)
-        of, title, source = LINKAGE, problem.title, problem.source
+        linkage = load(path)
+        groups = tuple(group.signature for group in analyse(linkage.mechanism).groups)
+        of, one = LINKAGE, linkage
     else:
-        other = kind.load(path, None)
-        groups, of, title, source = (), kind.table, other.title, other.source
-    return ShippedTask(name_of(file), file, of, title, source, groups, tuple(variant_names(path)))
+        groups, of, one = (), kind.table, kind.load(path, None)
+    variants = tuple(variant_names(path))
+    return ShippedTask(
+        name_of(file), file, of, one.title, one.source, groups, variants, one.reading
+    )
 
 
 def index() -> list[ShippedTask]:
@@ -129,7 +133,8 @@ def document(tasks: list[ShippedTask]) -> dict[Path, bytes]:
         text += ["| task | title | source |", "| --- | --- | --- |"]
         for task in rows:
             variants = f" ({', '.join(task.variants)})" if task.variants else ""
-            link = f"[{task.name}](../problems/{task.file}){variants}"
+            mark = " \\*" if task.reading else ""
+            link = f"[{task.name}](../problems/{task.file}){variants}{mark}"
             text.append(f"| {link} | {task.title} | {task.source} |")
     files[DOCUMENT] = ("\n".join(text) + "\n").encode()
     return files

@@ -179,7 +179,7 @@ def test_the_russian_pages_work(name: str, tmp_path: Path) -> None:
     """
     folder = tmp_path / Path(name).stem
     shutil.copytree(PROBLEMS / "linkages", folder / "problems" / "linkages")
-    quick = ("solve", "protocol", "layouts", "sketch", "teeth", "live", "structure")
+    quick = ("solve", "protocol", "layouts", "sketch", "teeth", "live", "structure", "new")
     mine = folder / "my.toml"
     with pytest.MonkeyPatch.context() as patch:
         patch.chdir(folder)

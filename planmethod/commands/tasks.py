@@ -41,7 +41,10 @@ def tasks(group: str | None, search: str | None, as_json: bool, lang: str) -> No
     if search is not None:
         found = tuple(task for task in found if task.says(search))
     if as_json:
-        rows = [{**asdict(task), "structure": task.structure or None} for task in found]
+        rows = [
+            {**asdict(task), "structure": task.structure or None, "reading": task.reading or None}
+            for task in found
+        ]
         click.echo(json_text({"schema": 1, "tasks": rows}))
         return
     if not found:
@@ -51,4 +54,7 @@ def tasks(group: str | None, search: str | None, as_json: bool, lang: str) -> No
         click.echo(structure or words.tasks[kind])
         for task in some:
             variants = f" ({' '.join(task.variants)})" if task.variants else ""
-            click.echo(f"  {task.name.ljust(width)}  {task.title}{variants}")
+            mark = words.tasks.reading_mark if task.reading else ""
+            click.echo(f"  {task.name.ljust(width)}  {task.title}{variants}{mark}")
+    if any(task.reading for task in found):
+        click.echo(words.tasks.readings)

@@ -33,7 +33,18 @@ ASK_LIMIT = 100
 TURNS = ("n", "omega")
 _NAMES = "For example: W, U_1_5, U_1_4^H, n_5, omega_H, z_5, a_w_1_2."
 GROUP_LIMIT = 60
-TOP = ("title", "source", "stamp", "sheet", "published", "answers", "compare", "variants", "gears")
+TOP = (
+    "title",
+    "source",
+    *keys.READING,
+    "stamp",
+    "sheet",
+    "published",
+    "answers",
+    "compare",
+    "variants",
+    "gears",
+)
 """Tables of the file that a gear train may have."""
 
 SHARED = ("title", "source", "stamp", "sheet", "variants", "gears")

@@ -15,7 +15,7 @@ from planmethod.gears.motion import TrainMotion, analyse, solve_motion
 from planmethod.gears.picture import draw
 from planmethod.note.records.legend import legend_record
 from planmethod.note.wording import language
-from planmethod.problem.head import KindProblem
+from planmethod.problem.head import KindProblem, reading_record
 
 
 def record(problem: GearProblem, lang: str) -> dict[str, Any]:
@@ -99,6 +99,7 @@ def head(problem: KindProblem) -> dict[str, Any]:
         "variant": problem.variant,
         "title": problem.title,
         "source": problem.source,
+        **reading_record(problem),
     }
 
 

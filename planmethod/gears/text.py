@@ -10,6 +10,7 @@ from msgspec import Struct
 from planmethod.errors import PlanMethodError
 from planmethod.gears.answers import answer, rack_speed
 from planmethod.gears.conditions import conditions, judgement
+from planmethod.gears.derivation import derivation
 from planmethod.gears.model import GearProblem, Mesh, MeshKind
 from planmethod.gears.motion import (
     Mobility,
@@ -21,6 +22,7 @@ from planmethod.gears.motion import (
 )
 from planmethod.gears.picture import draw
 from planmethod.gears.roles import Roles
+from planmethod.gears.velocities import by_velocities
 from planmethod.note.document import (
     Caption,
     Item,
@@ -31,6 +33,7 @@ from planmethod.note.document import (
     table_of,
 )
 from planmethod.note.formula import Rich, escape
+from planmethod.note.narrate.given import reading_notes
 from planmethod.note.narrate.structure import pair_classes
 from planmethod.note.numbers import MINUS, half_up
 from planmethod.note.wording import Language
@@ -44,11 +47,17 @@ def solved_document(problem: GearProblem, words: Language) -> Iterator[Node]:
     ProblemError
     """
     motion, say = solve_motion(problem), words.gears
-    yield from _structure(problem, motion.roles, motion.structure, words)
+    structure = _structure(problem, motion.roles, motion.structure, words)
+    yield next(structure)
+    yield from reading_notes(problem, words)
+    yield from structure
     yield Caption(say.equations)
     for mesh in motion.train.meshes:
         equation, stage = (escape(plainly(text)) for text in equation_of(motion, mesh))
         yield Item(say.equation.format(name=mesh.name, equation=equation, stage=stage))
+    if derived := [*derivation(motion, words), *by_velocities(motion, words)]:
+        yield Caption(say["derived"]["title"])
+        yield from (Item(line.text) for line in derived)
     yield Caption(say.wheels)
     yield _wheels(motion, words)
     yield Caption(say.speeds)

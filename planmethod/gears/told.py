@@ -9,9 +9,10 @@ from planmethod.gears.answers import Answer, answer, named
 from planmethod.gears.asked import parse
 from planmethod.gears.conditions import conditions, judgement
 from planmethod.gears.construction import GearDrawing, GearReading
+from planmethod.gears.derivation import DerivedLine, derivation
 from planmethod.gears.motion import TrainMotion
 from planmethod.gears.text import equation_of, fraction_text, kind_of, mobility
-from planmethod.note.formula import fraction
+from planmethod.gears.velocities import by_velocities
 from planmethod.note.numbers import raised
 from planmethod.note.rounding import sigma_text
 from planmethod.note.wording import Language
@@ -52,36 +53,28 @@ def given(motion: TrainMotion, words: Language) -> list[str]:
 
 
 def calculation(motion: TrainMotion, words: Language, notation: str | None = None) -> list[str]:
-    """Return kind, mobility, equations of the meshes with their ratios, ratios asked for."""
+    """Return kind, mobility, equations of the meshes with their ratios, what is derived."""
     train, found = motion.train, motion.structure
     lines = [kind_of(found, words), mobility(found, words, notation)]
     for mesh in train.meshes:
         lines.append(";  ".join(equation_of(motion, mesh)))
-    lines += ratios(motion, words)
+    lines += [line.text for line in ratios(motion, words)]
     rest = [one for name in dict.fromkeys(train.ask) for one in _plain(name, motion, words)]
     lines += ["; ".join(rest)] if rest else []
     lines += [indexed(judgement(one, words)) for one in conditions(motion)]
     return lines
 
 
-def ratios(motion: TrainMotion, words: Language) -> Iterator[str]:
-    """Yield the ratios that are asked for, each with letters and value (отношения)."""
-    train, say = motion.train, words.gears
-    letter, known = train.letter, tuple(train.body_of)
-    for name in dict.fromkeys(train.ask):
+def ratios(motion: TrainMotion, words: Language) -> Iterator[DerivedLine]:
+    """Yield how ratios and speeds that are asked for are derived, and why some have no value."""
+    yield from derivation(motion, words)
+    yield from by_velocities(motion, words)
+    say, known = words.gears, tuple(motion.train.body_of)
+    for name in dict.fromkeys(motion.train.ask):
         asked, one = parse(name, known), answer(motion, name)
-        if asked.kind != "U":
-            continue
-        if one.value is None:
+        if asked.kind == "U" and one.value is None:
             told = say["reasons"][one.reason].format(label=one.label)
-            yield f"{asked.symbol}: {told}"
-            continue
-        hat = f"^{{({asked.carrier})}}" if asked.carrier else ""
-        letters = fraction(*(f"{letter}{hat}_{{{label}}}" for label in asked.labels))
-        value = fraction_text(one.exact)
-        decimal = f" = {words.say.found(one.value)}" if "/" in value else ""
-        shown = re.sub(r"(\d+)/(\d+)", r"\\frac{\1}{\2}", value)
-        yield f"{asked.symbol} = {letters} = {shown}{decimal}"
+            yield DerivedLine(f"{asked.symbol}: {told}", False)
 
 
 def _plain(name: str, motion: TrainMotion, words: Language) -> Iterator[str]:

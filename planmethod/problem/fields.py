@@ -352,7 +352,7 @@ def read_member(faults: Faults, path: str, value: object, kind: type[M]) -> M | 
 
 def _either(words: tuple[str, ...]) -> str:
     *first, last = (f"'{word}'" for word in words)
-    return say("{} or {}", ", ".join(first), last)
+    return say("{} or {}", ", ".join(first), last) if first else last
 
 
 def read_point_name(faults: Faults, path: str, value: object) -> str | None:

@@ -237,6 +237,10 @@ class SheetSettings(Struct, frozen=True):
         return replace(lower, **given)
 
 
+SEVERAL = "one of several"
+"""What ``reading`` says of a scheme that is one of several which fit the data of a lost figure."""
+
+
 class KindProblem(Struct, frozen=True, kw_only=True):
     """What is read of a problem of any kind (задача).
 
@@ -244,6 +248,10 @@ class KindProblem(Struct, frozen=True, kw_only=True):
     ----------
     name : str
         Stem of the file.
+    reading : str
+        `SEVERAL`, or empty where the scheme is that of the task.
+    other_readings : tuple of str
+        What else the figure may have been (другие прочтения рисунка).
     stamp : mapping of str to str
         Texts of the title block.
     answers : tuple of AskedAnswer
@@ -257,12 +265,21 @@ class KindProblem(Struct, frozen=True, kw_only=True):
     name: str
     title: str = ""
     source: str = ""
+    reading: str = ""
+    other_readings: tuple[str, ...] = ()
     stamp: Mapping[str, str] = field(default_factory=dict)
     sheet: SheetSettings = SheetSettings()
     published: tuple[Published, ...] = ()
     answers: tuple[AskedAnswer, ...] = ()
     variants: tuple[str, ...] = ()
     variant: str | None = None
+
+
+def reading_record(problem: KindProblem) -> dict[str, object]:
+    """Return what records say of the reading of a lost figure; nothing where there is one."""
+    if not problem.reading:
+        return {}
+    return {"reading": problem.reading, "other_readings": list(problem.other_readings)}
 
 
 MESHING_EXAMPLE = '[meshing] z = [12, 30], m = 5, x = "blocking"'

@@ -35,8 +35,11 @@ from planmethod.problem.model import Scales
 OF_KINDS = ("gears", "point", "meshing")
 """Tables by which a file is of another kind than linkages; those kinds read them."""
 
+READING = ("reading", "other_readings")
+"""Keys of a file, of a linkage or a train, whose scheme is one of several that fit the data."""
+
 TOP = (
-    "title", "source", "units", "frame", "links", "driver", "assembly", "scales", "stamp",
+    "title", "source", *READING, "units", "frame", "links", "driver", "assembly", "scales", "stamp",
     "sheet", "published", "answers", "compare", "variants", "dynamics", "loads", "machine",
     "balancing", "cycle", "project", *OF_KINDS,
 )  # fmt: skip

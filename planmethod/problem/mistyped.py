@@ -57,6 +57,8 @@ def line_hint(what: str, lines: Sequence[str], number: int, column: int) -> str:
     code = line.split("#", 1)[0].strip()
     if hint := _key_hint(code):
         return hint
+    if "immutable" in what and (listing := re.fullmatch(r"\[\[\s*(\w+)\s*\]\]", code)):
+        return say("The file lists them already: add {{ ... }} to {} = [ ... ].", listing[1])
     comma = re.match(_COMMA, code)
     if comma and not re.match(r"\s*,", code[comma.end() :]):
         told = say("Write {0}.{1} with a decimal point, not {0},{1}.", comma[1], comma[2])

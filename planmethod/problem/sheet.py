@@ -18,19 +18,28 @@ from planmethod.errors import ConfigError, Fault, LayoutError, ProblemError
 from planmethod.languages import LANGUAGES, say
 from planmethod.paper import paper_format
 from planmethod.problem import keys
-from planmethod.problem.fields import Faults, Table, read_keys, read_table, read_text
+from planmethod.problem.fields import (
+    Faults,
+    Table,
+    read_keys,
+    read_table,
+    read_text,
+    read_word,
+)
 from planmethod.problem.flat import read_choice, read_flat
-from planmethod.problem.head import STAMP_LIMIT, SheetSettings
+from planmethod.problem.head import SEVERAL, STAMP_LIMIT, SheetSettings
 from planmethod.problem.names import TITLE_LIMIT, joined, segment
 from planmethod.problem.source import parse, read_source
 
 _PAPER_LIMIT = 40
+_READINGS_LIMIT = 10
 
 
 def read_head(faults: Faults, given: Mapping[str, Any]) -> dict[str, Any]:
     """Read what files of every kind begin with: title, source, title block, make-up of sheets."""
     return {
         **{key: _read_heading(faults, given, key) for key in ("title", "source")},
+        **_read_reading(faults, given),
         "stamp": read_stamp(faults, given.get("stamp", {})),
         "sheet": read_sheet(faults, given.get("sheet", {})),
     }
@@ -38,6 +47,25 @@ def read_head(faults: Faults, given: Mapping[str, Any]) -> dict[str, Any]:
 
 def _read_heading(faults: Faults, given: Mapping[str, Any], key: str) -> str:
     return read_text(faults, key, given.get(key, ""), limit=TITLE_LIMIT) or ""
+
+
+def _read_reading(faults: Faults, given: Mapping[str, Any]) -> dict[str, Any]:
+    """Read whether the scheme is one of several that fit the data, and what the others are."""
+    if "reading" not in given:
+        if "other_readings" in given:
+            hint = say('Write reading = "{}".', SEVERAL)
+            faults.add("other_readings", "goes with a reading", hint)
+        return {}
+    word = read_word(faults, "reading", given["reading"], (SEVERAL,))
+    others = given.get("other_readings", [])
+    if not isinstance(others, list) or len(others) > _READINGS_LIMIT:
+        faults.expected("other_readings", say("a list of up to {} texts", _READINGS_LIMIT), others)
+        return {}
+    texts = [
+        read_text(faults, f"other_readings[{k}]", one, limit=TITLE_LIMIT)
+        for k, one in enumerate(others)
+    ]
+    return {"reading": word or "", "other_readings": tuple(text for text in texts if text)}
 
 
 def read_stamp(faults: Faults, table: object) -> dict[str, str]:

@@ -40,6 +40,9 @@ class ShippedTask(Struct, frozen=True):
     groups : tuple of str
         Signatures of the Assur groups of a linkage in the order of kinematic analysis.
     variants : tuple of str
+    reading : str
+        ``one of several`` where the figure is lost and the scheme is one of those that fit; or
+        empty.
     """
 
     name: str
@@ -49,6 +52,7 @@ class ShippedTask(Struct, frozen=True):
     source: str
     groups: tuple[str, ...]
     variants: tuple[str, ...]
+    reading: str = ""
 
     @property
     def structure(self) -> str:

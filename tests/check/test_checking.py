@@ -327,7 +327,8 @@ def test_a_number_without_a_unit_is_in_the_one_that_is_asked() -> None:
 
 
 def test_the_key_has_every_position_and_hides_what_none_shows() -> None:
-    solution = Solution(task_of("levers/crosshead").solution.problem, positions=[90.0, 150.0])
+    usual = replace(task_of("levers/crosshead").solution.problem, answers=())
+    solution = Solution(usual, positions=[90.0, 150.0])
     both = key_of(solution)
     alone = [
         key_of(Solution(solution.problem, positions=[phi], scales=solution.scales))

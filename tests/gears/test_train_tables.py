@@ -33,7 +33,7 @@ from planmethod.note.wording import language
 from planmethod.render.ink.drawing import Arc, Drawing, Fill, Text
 
 PLANAR = [maker for maker in MAKERS if maker is not bevel]
-WITH_PICTURES = ("gears-ex1", "gears-ex2", "gears-ex4", "gears-ex6", "planetary-k10")
+WITH_PICTURES = (*(f"gears-ex{k}" for k in range(1, 7)), "planetary-k10")
 BOARD = PROFILES["board"]
 
 

@@ -12,6 +12,7 @@ from slotted import R, problem_of
 from worked import every_file
 
 from planmethod.cli import cli
+from planmethod.kinds import kind_of
 from planmethod.note.audit.audit import (
     AuditDocument,
     Audited,
@@ -23,12 +24,13 @@ from planmethod.note.audit.audit import (
 )
 from planmethod.note.wording import LANGUAGES, language
 from planmethod.problem import load
-from planmethod.problem.head import Published
+from planmethod.problem.head import KindProblem, Published
 from planmethod.problem.model import Problem
 from planmethod.solved.selectors.steps import NoValue
 
 ROOT = Path(__file__).parents[2]
 PROBLEMS = sorted(every_file(), key=str)
+TABLES = sorted([*PROBLEMS, *(ROOT / "problems/gears").glob("*.toml")], key=str)
 
 
 def test_a_millimetre_of_a_rate_and_of_an_angle() -> None:
@@ -170,9 +172,15 @@ def audited(stem: str) -> dict[str, Audited]:
 
 
 @cache
-def audits() -> tuple[tuple[Problem, list[Audited]], ...]:
-    problems = [load(path) for path in PROBLEMS]
-    return tuple((problem, audit(problem)) for problem in problems)
+def audits() -> tuple[tuple[Problem | KindProblem, list[Audited]], ...]:
+    return tuple(map(audited_file, TABLES))
+
+
+def audited_file(path: Path) -> tuple[Problem | KindProblem, list[Audited]]:
+    if (kind := kind_of(path)) is None:
+        return (problem := load(path)), audit(problem)
+    train = kind.load(path, None)
+    return train, kind.audited(train, 0.5)
 
 
 @pytest.mark.parametrize(
@@ -306,7 +314,7 @@ def test_signs_of_markdown_in_names_and_notes_are_only_signs() -> None:
 
 def test_the_command_writes_the_document(tmp_path: Path) -> None:
     target = tmp_path / "published.md"
-    arguments = ["audit", "--lang", "en", "-o", str(target), *map(str, PROBLEMS)]
+    arguments = ["audit", "--lang", "en", "-o", str(target), *map(str, TABLES)]
     result = CliRunner().invoke(cli, arguments)
     assert result.exit_code == 0, result.output
     assert target.read_text(encoding="utf-8") == AuditDocument("en", 0.5).markdown(audits())

@@ -62,6 +62,7 @@ def test_the_worked_examples_are_here() -> None:
     ("path", "count"),
     [
         (LINKAGES / "ex1.toml", 14),
+        (LINKAGES / "ex2.toml", 17),
         (LINKAGES / "ex3.toml", 22),
         (LEVERS / "six-link.toml", 66),
         (LEVERS / "task12.toml", 79),

@@ -14,12 +14,16 @@ from worked import ROOT, every_task
 from benchmarks.tasks import document, index, index_text
 from planmethod.cli import cli
 from planmethod.kinds import load
+from planmethod.languages import LANGUAGES
+from planmethod.note.wording import language
 from planmethod.problem import Problem, variant_names
 from planmethod.problem.fields import Faults
+from planmethod.problem.selector import parse_selector
 from planmethod.problem.source import parse
 from planmethod.problem.tasks import LINKAGE, ShippedTask, groups_of, home, tasks, text_for
 from planmethod.problem.variants import apply_variant, read_variants
 from planmethod.render.control.remarks import Severity
+from planmethod.render.ink.drawing import Text
 from planmethod.render.sheets.controlled import controlled_kinematics
 from planmethod.solved.forces.statics import statics_of
 from planmethod.solved.selfcheck import verify
@@ -88,6 +92,59 @@ def test_sheets_of_tasks_have_no_errors(path: Path) -> None:
     for one, positions in asked:
         for sheet in controlled_kinematics(one, positions=positions):
             assert not [f for f in sheet.findings if f.severity is Severity.ERROR]
+
+
+@each("lang", LANGUAGES)
+def test_a_scheme_that_is_one_of_several_readings_says_so_and_on_no_sheet(lang: str) -> None:
+    """Said by the list, by ``solve`` with the other readings, in JSON; of no other task."""
+    several = [name for name, task in TASKS.items() if task.reading]
+    assert len([name for name in several if name.startswith("levers-")]) == 17
+    assert len([name for name in several if name.startswith("linkages-")]) == 12 + 4
+    assert len([name for name in several if name.startswith("gears-")]) == 8
+    said = language(lang).tasks
+    listed = run("tasks", "--lang", lang).output
+    starred = re.findall(r"(?m)^  (\S+) .*\*$", listed)
+    assert sorted(starred) == sorted(several)
+    assert said.readings in listed
+    assert said.readings not in run("tasks", "--search", "К11", "--lang", lang).output
+    for name in ("levers-3", "gears-2-2-090"):
+        path = str(home() / TASKS[name].file)
+        told = " ".join(run("solve", path, "--lang", lang).output.split())
+        others = parse(TASKS[name].text, name=name)["other_readings"]
+        assert said.reading in told
+        assert said.other_readings.format(others="; ".join(others)) in told
+        record = json.loads(run("solve", path, "--json").stdout)
+        assert (record["reading"], record["other_readings"]) == ("one of several", others)
+    plain = str(home() / TASKS["levers-13"].file)
+    assert said.reading[:20] not in run("solve", plain, "--lang", lang).output
+    assert "reading" not in json.loads(run("solve", plain, "--json").stdout)
+    for sheet in controlled_kinematics(load(home() / TASKS["levers-3"].file)):
+        texts = [item.text for item in sheet.drawing.items if isinstance(item, Text)]
+        assert not [text for text in texts if "прочтени" in text]
+
+
+@each("path", [path for path in every_task() if path.stem.startswith("task-")])
+def test_lever_tasks_ask_for_motion_and_for_forces_where_there_are_masses(path: Path) -> None:
+    """The list is the same in all variants."""
+    problem = load(path)
+    kinds = [parse_selector(one.what).kind for one in problem.answers]
+    assert {"v", "a", "omega", "epsilon"} <= set(kinds)
+    assert ({"F", "balance"} <= set(kinds)) == (problem.dynamics is not None)
+    asked = {one.what for one in problem.answers}
+    sliders = ["0", *(link for link, slide in problem.slides.items() if slide.host == "0")]
+    alike = {p for link in sliders for p in problem.bodies[link].points}
+    for p in {p for body in problem.bodies.values() for p in body.points} - alike:
+        assert {f"v {p}", f"a {p}"} <= asked
+    for link in sliders[1:]:
+        assert any({f"v {p}", f"a {p}"} <= asked for p in problem.bodies[link].points)
+    assert all(one.sense for one in problem.answers if one.what.startswith(("omega", "epsilon")))
+
+
+@each("path", thinned([path for path in every_task() if path.stem.startswith("task-")], 33))
+def test_keys_of_lever_tasks_are_made_for_all_variants(path: Path, tmp_path: Path) -> None:
+    told = run("check", "--key", str(path), "-o", str(tmp_path), "--lang", "ru")
+    assert told.exit_code == 0, told.output
+    assert all(f"\n      {name}  " in told.output for name in variant_names(path))
 
 
 def test_the_list_is_filtered_by_structure_and_words() -> None:

@@ -3,21 +3,32 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 
 import numpy as np
 
 from planmethod.mechanism.model import FRAME
-from planmethod.note.formula import fraction
+from planmethod.note.document import Item, Node
+from planmethod.note.formula import escape, fraction
 from planmethod.note.numbers import MINUS, Notation, trimmed, with_unit
 from planmethod.note.wording import Language
 from planmethod.plans.legend import MOTION_KINDS, TURNINGS, Quantity, QuantityKind
 from planmethod.plans.motion.leads import slot_name
+from planmethod.problem.head import KindProblem
 from planmethod.problem.model import Body, Geared, Posed, PosedBy, Problem, Slide
 from planmethod.problem.names import UNITS, split_names
 from planmethod.solved.solution import Solution
 
 NBSP = "\u00a0"
+
+
+def reading_notes(problem: KindProblem, words: Language) -> Iterator[Node]:
+    """Yield that the scheme is one of several that fit the data, and what the others are."""
+    if problem.reading:
+        yield Item(words.tasks.reading)
+        if problem.other_readings:
+            others = escape("; ".join(problem.other_readings))
+            yield Item(words.tasks.other_readings.format(others=others))
 
 
 def point_name(point: str) -> str:

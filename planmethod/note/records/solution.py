@@ -16,6 +16,7 @@ from planmethod.plans.legend import TURNING, TURNINGS, Quantity, QuantityKind
 from planmethod.plans.model import FACTS, MOTION, PlanKind, pole_letter
 from planmethod.plans.motion.leads import Relative
 from planmethod.problem.cycle_records import Differentiation
+from planmethod.problem.head import reading_record
 from planmethod.solved.analogues import analogues
 from planmethod.solved.errors.motion import drafting_of
 from planmethod.solved.many.variants import Batch
@@ -342,6 +343,7 @@ def record_in_columns(solution: Solution, **more: Column) -> dict[str, Any]:
         "schema": SCHEMA,
         "problem": solution.problem.name,
         **({"variant": v} if (v := solution.problem.variant) is not None else {}),
+        **reading_record(solution.problem),
         "structure": structure_record(solution.structure, solution.problem.mechanism),
         **({"cycle": cycle_record(solution)} if solution.problem.cycle is not None else {}),
         "positions": rows({**columns, **more}),

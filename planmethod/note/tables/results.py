@@ -18,7 +18,7 @@ from planmethod.note.document import (
     table_of_columns,
 )
 from planmethod.note.formula import Rich, escape
-from planmethod.note.narrate.given import told
+from planmethod.note.narrate.given import reading_notes, told
 from planmethod.note.narrate.naming import Names
 from planmethod.note.narrate.scales import scale_inscription
 from planmethod.note.numbers import with_unit
@@ -55,6 +55,7 @@ def _results(solution: Solution, words: Language, sigmas: Sigmas) -> Iterator[No
     note, every = words.note, range(len(solution.positions))
     convention = solution.problem.scales.convention
     yield Paragraph(heading_of(solution.problem))
+    yield from reading_notes(solution.problem, words)
     yield Item(note.formula.format(formula=solution.structure.formula))
     common = (solution.scales[kind] for kind in MOTION if solution.has_common(kind))
     scales = (scale_inscription(scale, convention, words.say) for scale in common)

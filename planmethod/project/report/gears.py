@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from itertools import groupby
 
 from msgspec.structs import replace
 
+from planmethod.gears.answers import answer
+from planmethod.gears.asked import parse
 from planmethod.gears.conditions import conditions, judgement, sentence
 from planmethod.gears.construction import construct, read
+from planmethod.gears.derivation import DerivedLine, by_speeds
 from planmethod.gears.involute.meshpicture import meshing_picture, view_for
 from planmethod.gears.involute.quantities import SolvedMeshing
 from planmethod.gears.involute.sizes import MeshingProblem
@@ -86,8 +89,9 @@ def _ratios(report: Report, motion: TrainMotion, said: Words) -> Iterator[Node]:
     yield sentences((said.willis if train.carriers else said.plain).format())
     for text in (willis(motion, mesh, report) for mesh in train.meshes):
         yield displayed(f"{text}.")
+    yield from _derived(ratios(asked_of(motion), report.words), said)
     yield sentences((said.solved if train.fixed else said.solved_plain).format())
-    yield from chain([*_speeds(motion, report), *asked_ratios(motion, report)])
+    yield from chain(_speeds(motion, report))
     judged = conditions(motion)
     if judged:
         form = "one" if len(judged) == 1 else "many"
@@ -118,16 +122,26 @@ def willis(motion: TrainMotion, mesh: Mesh, report: Report) -> Rich:
     return f"U{hat}_{{{mesh.first}{mesh.second}}} = {speeds} = {found} = {ratio}"
 
 
-def asked_ratios(motion: TrainMotion, report: Report) -> list[Rich]:
-    """Return the ratios that the file asks for; else that of the input to the output."""
-    found = list(ratios(motion, report.words))
-    if found or len(motion.train.inputs) != 1:
-        return found
-    (source,), end = motion.train.inputs, output_of(motion)
+def _derived(lines: Iterable[DerivedLine], said: Words) -> Iterator[Node]:
+    """Yield a derivation: formulas in chains, sentences between them."""
+    for k, (is_formula, run) in enumerate(groupby(lines, lambda line: line.is_formula)):
+        if not k:
+            yield sentences(said.derived.format())
+        if is_formula:
+            yield from chain(line.text for line in run)
+        else:
+            yield from (sentences(f"{line.text}.") for line in run)
+
+
+def asked_of(motion: TrainMotion) -> TrainMotion:
+    """Return a train that is asked for something: else for the ratio of input to output."""
+    train = motion.train
+    if any(name.startswith("U") for name in train.ask) or len(train.inputs) != 1:
+        return motion
+    (source,), end = train.inputs, output_of(motion)
     if end is None:
-        return []
-    asked = replace(motion, train=replace(motion.train, ask=(f"U_{source}_{end}",)))
-    return list(ratios(asked, report.words))
+        return motion
+    return replace(motion, train=replace(train, ask=(f"U_{source}_{end}", *train.ask)))
 
 
 def _speeds(motion: TrainMotion, report: Report) -> Iterator[Rich]:
@@ -248,5 +262,8 @@ def failed_conditions(problem: GearProblem, report: Report) -> list[Rich]:
 
 def ratio_of(problem: GearProblem, report: Report) -> str | None:
     """Return the first ratio that is asked for, with its symbol; None where none is."""
-    found = asked_ratios(solve_motion(problem), report)
-    return found[0] if found else None
+    motion = asked_of(solve_motion(problem))
+    known = tuple(motion.train.body_of)
+    asked = (parse(name, known) for name in motion.train.ask if answer(motion, name).value)
+    first = next((one for one in asked if one.kind == "U"), None)
+    return None if first is None else by_speeds(motion, first, report.words)

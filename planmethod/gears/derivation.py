@@ -1,0 +1,508 @@
+"""Ratios and speeds derived as the textbook does: stages, Willis, elimination (вывод отношений).
+
+A ratio is a path of stages between two bodies: meshes whose axes stand, sets with a wheel that is
+held (``1 - U_13`` with the carrier held), and differentials that a chain closes. Speeds that no
+path leads to follow from the formula of Willis.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+from fractions import Fraction
+from itertools import pairwise, permutations
+
+from msgspec import Struct
+
+from planmethod.errors import PlanMethodError
+from planmethod.gears.asked import SoughtQuantity, parse
+from planmethod.gears.model import Mesh, MeshKind
+from planmethod.gears.motion import TrainMotion, mesh_row
+from planmethod.note.formula import Rich, fraction
+from planmethod.note.numbers import MINUS, raised
+from planmethod.note.wording import Language, Words
+
+_ONE = Fraction(1)
+
+
+class DerivedLine(Struct, frozen=True):
+    """A line of a derivation: a formula, or a sentence (строка вывода)."""
+
+    text: Rich
+    is_formula: bool = True
+
+
+class Stage(Struct, frozen=True):
+    """A ratio of the speeds of two bodies that is known by itself (ступень).
+
+    Attributes
+    ----------
+    one, other : str
+        Bodies: the ratio is that of the first to the second.
+    labels : (str, str)
+        What the ratio is called by.
+    ratio : Fraction
+    tops, bottoms : tuple of str
+        Wheels whose teeth are multiplied and divided; none of a set.
+    carrier : str or None
+        The carrier that is held while the ratio is taken.
+    told : tuple of DerivedLine
+        How it is derived, line by line; empty for a mesh.
+    """
+
+    one: str
+    other: str
+    labels: tuple[str, str]
+    ratio: Fraction
+    tops: tuple[str, ...] = ()
+    bottoms: tuple[str, ...] = ()
+    carrier: str | None = None
+    told: tuple[DerivedLine, ...] = ()
+
+    @property
+    def symbol(self) -> Rich:
+        """``U_{12}``, ``U^{(H)}_{13}``."""
+        return SoughtQuantity("U", self.labels, self.carrier).symbol
+
+
+def derivation(motion: TrainMotion, words: Language) -> list[DerivedLine]:
+    """Return how the ratios and speeds that are asked for are derived, line by line.
+
+    Raises
+    ------
+    PlanMethodError
+        A derived value is not the one that the mesh equations give: a mistake of ours.
+    """
+    known = tuple(motion.train.body_of)
+    asked = [parse(name, known) for name in dict.fromkeys(motion.train.ask)]
+    teller = _Derivation(motion, words)
+    lines = [line for one in asked if one.kind == "U" for line in teller.ratio(one)]
+    speeds = [one for one in asked if one.kind == motion.train.unit and not one.carrier]
+    return lines + [line for one in speeds for line in teller.speed(one.labels[0])]
+
+
+def by_speeds(motion: TrainMotion, asked: SoughtQuantity, words: Language) -> Rich:
+    """Return a ratio in letters of speeds and its value: ``U_{15} = n_1/n_5 = -33``."""
+    hat = f"^{{({asked.carrier})}}" if asked.carrier else ""
+    letters = (f"{motion.train.letter}{hat}_{{{label}}}" for label in asked.labels)
+    one, other = (motion.speed(label, asked.carrier) for label in asked.labels)
+    return f"{asked.symbol} = {fraction(*letters)} = {_value(one / other, words)}"
+
+
+class _Derivation:
+    """Derives one quantity after another; what was told once is not told again."""
+
+    def __init__(self, motion: TrainMotion, words: Language) -> None:
+        self.motion, self.train, self.words = motion, motion.train, words
+        self.say: Words = words.gears["derived"]
+        self._told: set[Rich] = set()
+        fixed = self.train.fixed
+        self.moving = [c for c in self.train.carriers if c not in fixed]
+        self.stages = [
+            stage
+            for mesh in self.train.meshes
+            if self.train.carrier(mesh) not in self.moving
+            for stage in self._both(mesh, None)
+        ]
+        for carrier in self.moving:
+            self.stages += self._held(carrier)
+        self._close()
+        self.speeds = dict(self.train.inputs) | dict.fromkeys(fixed, Fraction(0))
+
+    # What is known by itself ----------------------------------------------------------------------
+
+    def _both(self, mesh: Mesh, carrier: str | None) -> Iterator[Stage]:
+        """Yield the ratio of a mesh, seen from its carrier, in both directions."""
+        if mesh.kind is MeshKind.RACK:
+            return
+        row = mesh_row(self.train, self.motion.roles, self.motion.axes, mesh)
+        ends, labels = self.train.ends(mesh), (mesh.first, mesh.second)
+        ratio = -row[ends[1]] / row[ends[0]]
+        yield Stage(*ends, labels, ratio, (labels[1],), (labels[0],), carrier)
+        back = ends[::-1]
+        yield Stage(*back, labels[::-1], 1 / ratio, (labels[0],), (labels[1],), carrier)
+
+    def _carried(self, carrier: str) -> list[Stage]:
+        return [
+            stage
+            for mesh in self.train.meshes
+            if self.train.carrier(mesh) == carrier
+            for stage in self._both(mesh, mesh.carrier)
+        ]
+
+    def _held(self, carrier: str) -> Iterator[Stage]:
+        """Yield the ratios of wheels to a carrier on whose set a wheel is fixed."""
+        stages = self._carried(carrier)
+        fixed = next((s.one for s in stages if s.one in self.train.fixed), None)
+        if fixed is None:
+            return
+        for body in dict.fromkeys(stage.one for stage in stages):
+            if body == fixed or body in self.motion.roles.across:
+                continue
+            path = find_path(stages, body, fixed)
+            whole = self._whole(path)
+            if not path or whole.ratio == 1:
+                continue
+            label, held = _number(whole.labels[0]), path[0].carrier or carrier
+            symbol = _symbol(label, held)
+            less = f"1 − {whole.symbol}"
+            teeth, numbers = (f"1 {_plus(*parts)}" for parts in self._signed(whole))
+            told, ratio = tuple(self._product(path)), 1 - whole.ratio
+            line = DerivedLine(
+                f"{symbol} = {less} = {teeth} = {numbers} = {_value(ratio, self.words)}"
+            )
+            yield Stage(body, carrier, (label, held), ratio, told=(*told, line))
+            under = [fraction("1", text) for text in (symbol, less, teeth, numbers)]
+            line = DerivedLine(
+                " = ".join([_symbol(held, label), *under, _value(1 / ratio, self.words)])
+            )
+            yield Stage(carrier, body, (held, label), 1 / ratio, told=(*told, line))
+
+    def _close(self) -> None:
+        """Find the ratios of differentials that a chain closes, until there are no more."""
+        open_ = [c for c in self.moving if not any(s.other == c and s.told for s in self.stages)]
+        while True:
+            found = next(
+                ((c, made) for c in open_ if (made := self._eliminated(c))),
+                None,
+            )
+            if found is None:
+                return
+            open_.remove(found[0])
+            self.stages += found[1]
+
+    def _eliminated(self, carrier: str) -> list[Stage]:
+        """Return the ratio of a wheel of a differential to its carrier, and its inverse."""
+        stages, across = self._carried(carrier), self.motion.roles.across
+        around = self.motion.roles.satellites[carrier]
+        central = [b for b in dict.fromkeys(s.one for s in stages) if b not in (*across, *around)]
+        for p, q in permutations(central, 2):
+            path = find_path(stages, p, q)
+            whole, held = self._whole(path), path[0].carrier if path else None
+            if held is None:
+                continue
+            u, symbol = whole.ratio, whole.symbol
+            p_c, letter = _symbol(_number(whole.labels[0]), held), self.train.letter
+            n_p, n_q, n_c = (f"{letter}_{{{_number(x)}}}" for x in (*whole.labels, held))
+            seen = fraction(f"{n_p} − {n_c}", f"{n_q} − {n_c}")
+            willis = f"{symbol} = {seen}"
+            if chain := find_path(self.stages, q, carrier):  # n_q = r n_H
+                r, link = self._linked(chain)
+                closing, ratio = f"{n_q} = {link}·{n_c}", u * (r - 1) + 1
+                below = (f"{link}·{n_c} − {n_c}", f"{link} − 1")
+                hence = f"{symbol}·({link} − 1) + 1"
+                numbers = f"{_built(u)}·({_built(r)} − 1) + 1"
+            elif chain := find_path(self.stages, q, p):  # n_q = r n_p
+                r, link = self._linked(chain)
+                if u * r == 1 or u == 1:
+                    continue
+                closing, ratio = f"{n_q} = {link}·{n_p}", (u - 1) / (u * r - 1)
+                below = (f"{link}·{n_p} − {n_c}", f"{link}·{p_c} − 1")
+                hence = fraction(f"{symbol} − 1", f"{symbol}·{link} − 1")
+                shown = _built(u)
+                numbers = fraction(f"{shown} − 1", f"{shown}·{_factor(r)} − 1")
+            else:
+                continue
+            if not ratio:
+                continue
+            say, wheels = self.say, ", ".join(map(_number, whole.labels))
+            shares = [fraction(f"{n_p} − {n_c}", below[0]), fraction(f"{p_c} − 1", below[1])]
+            divided = f"{symbol} = {' = '.join(shares)}"
+            told = (
+                DerivedLine(say.willis.format(wheels=wheels, carrier=held, formula=willis), False),
+                DerivedLine(say.closing.format(formula=closing), False),
+                DerivedLine(say.divided.format(speed=n_c, formula=divided), False),
+                DerivedLine(say.hence.format(formula=f"{p_c} = {hence}"), False),
+                *self._product(path),
+                *self._explained(chain, link),
+                DerivedLine(f"{p_c} = {numbers} = {_value(ratio, self.words)}"),
+            )
+            label, inverse = _number(whole.labels[0]), _value(1 / ratio, self.words)
+            back = DerivedLine(f"{_symbol(held, label)} = {fraction('1', p_c)} = {inverse}")
+            return [
+                Stage(p, carrier, (label, held), ratio, told=told),
+                Stage(carrier, p, (held, label), 1 / ratio, told=(*told, back)),
+            ]
+        return []
+
+    # Telling --------------------------------------------------------------------------------------
+
+    def ratio(self, asked: SoughtQuantity) -> Iterator[DerivedLine]:
+        """Yield the derivation of a ratio; letters and value alone where no stages lead to it."""
+        train = self.train
+        one, other = (train.body_of[label] for label in asked.labels)
+        if {one, other} & train.racks or not self.motion.speed(asked.labels[1], asked.carrier):
+            return
+        exact = self.motion.speed(asked.labels[0], asked.carrier) / self.motion.speed(
+            asked.labels[1], asked.carrier
+        )
+        if asked.carrier is None:
+            path = find_path(self.stages, one, other)
+        else:
+            path = find_path(self._carried(train.body_of[asked.carrier]), one, other)
+        if not path:
+            yield DerivedLine(by_speeds(self.motion, asked, self.words))
+            return
+        self._check(asked.symbol, self._whole(path).ratio, exact)
+        yield from self._once(self._explained(path, asked.symbol))
+        if asked.carrier is None and len(path) > 1 and not {one, other} & self.motion.roles.across:
+            first, last = asked.labels
+            sense = str(self.say["senses"]["same" if exact > 0 else "other"])
+            yield DerivedLine(sense.format(symbol=asked.symbol, one=first, other=last), False)
+
+    def _once(self, lines: Iterable[DerivedLine]) -> Iterator[DerivedLine]:
+        for line in lines:
+            if line.text not in self._told:
+                self._told.add(line.text)
+                yield line
+
+    def _explained(self, path: Sequence[Stage], symbol: Rich) -> Iterator[DerivedLine]:
+        """Yield how the ratio of a path is found."""
+        if not any(stage.told for stage in path):
+            yield from self._product(path, symbol)
+            return
+        if len(path) == 1:
+            yield from path[0].told
+            if symbol != path[0].symbol:
+                yield DerivedLine(
+                    f"{symbol} = {path[0].symbol} = {_value(path[0].ratio, self.words)}"
+                )
+            return
+        product = "·".join(stage.symbol for stage in path)
+        yield DerivedLine(f"{symbol} = {product}")
+        for stage in path:
+            yield from stage.told or self._product([stage])
+        numbers = "·".join(_factor(s.ratio, first=not k) for k, s in enumerate(path))
+        yield DerivedLine(f"{symbol} = {numbers} = {_value(self._whole(path).ratio, self.words)}")
+
+    def _product(self, path: Sequence[Stage], symbol: Rich = "") -> Iterator[DerivedLine]:
+        """Yield the ratio of meshes one after another in teeth: what cancels, and the number."""
+        whole = self._whole(path)
+        symbol = symbol or whole.symbol
+        chain = [symbol]
+        if len(path) > 1:
+            chain.append("·".join(stage.symbol for stage in path))
+            parts = (self._signed(stage)[0] for stage in path)
+            chain.append("·".join(f"({sign}{text})" for sign, text in parts))
+        elif symbol != path[0].symbol:
+            chain.append(path[0].symbol)
+        chain += [sign + text for sign, text in self._signed(whole)]
+        shown = _value(whole.ratio, self.words)
+        if chain[-1] == shown.partition(" = ")[0]:
+            chain.pop()
+        yield DerivedLine(" = ".join([*chain, shown]))
+        idle = [label for one, two in pairwise(path) for label in {one.labels[1]} & {two.labels[0]}]
+        if idle:
+            form = "one" if len(idle) == 1 else "many"
+            said = str(self.say["idlers"][form])
+            yield DerivedLine(said.format(labels=", ".join(idle), symbol=symbol), False)
+
+    def _whole(self, path: Sequence[Stage]) -> Stage:
+        """Return a path as one stage: wheels that are both above and below cancel."""
+        if not path:
+            return Stage("", "", ("", ""), _ONE)
+        tops = [label for stage in path for label in stage.tops]
+        bottoms = [label for stage in path for label in stage.bottoms]
+        for label in tuple(tops):
+            if label in bottoms:
+                tops.remove(label)
+                bottoms.remove(label)
+        ratio = _ONE
+        for stage in path:
+            ratio *= stage.ratio
+        labels = (path[0].labels[0], path[-1].labels[1])
+        ends = (path[0].one, path[-1].other)
+        return Stage(*ends, labels, ratio, tuple(tops), tuple(bottoms), path[0].carrier)
+
+    def _signed(self, stage: Stage) -> list[tuple[str, Rich]]:
+        """Return the sign and the size of a ratio in letters, and the same in numbers."""
+        sign = MINUS if stage.ratio < 0 else ""
+        texts = []
+        for of in (self._letter, self._size):
+            above, below = ("·".join(map(of, labels)) for labels in (stage.tops, stage.bottoms))
+            texts.append((sign, fraction(above or "1", below) if below else above or "1"))
+        return texts
+
+    def _letter(self, label: str) -> Rich:
+        return f"{'z' if self.train.counted(label) else 'r'}_{{{label}}}"
+
+    def _size(self, label: str) -> Rich:
+        size = self.motion.axes.sizes[label]
+        metres = _ONE if self.train.counted(label) else self.train.unit_m
+        return self.words.say.given(float(size * metres))
+
+    def _linked(self, chain: Sequence[Stage]) -> tuple[Fraction, Rich]:
+        whole = self._whole(chain)
+        return whole.ratio, whole.symbol
+
+    def _check(self, symbol: Rich, derived: Fraction, exact: Fraction) -> None:
+        if derived != exact:
+            raise PlanMethodError(
+                "the derivation gives {} = {}, the mesh equations {}; please report the problem "
+                "file",
+                symbol,
+                derived,
+                exact,
+            )
+
+    # Speeds ---------------------------------------------------------------------------------------
+
+    def speed(self, label: str) -> Iterator[DerivedLine]:
+        """Yield how a speed is found: by a ratio to one that is known, else by Willis."""
+        body = self.train.body_of[label]
+        if body in self.speeds or body in self.train.racks or body in self.motion.roles.across:
+            return
+        yield from self._once(self._found(label, body, 2 * len(self.train.bodies)))
+
+    def _found(self, label: str, body: str, depth: int) -> Iterator[DerivedLine]:
+        """Yield how a speed is found; of satellites as the textbook does, by Willis first."""
+        ways = [self._by_ratio, self._by_willis]
+        if any(body in around for around in self.motion.roles.satellites.values()):
+            ways.reverse()
+        for way in ways:
+            if body not in self.speeds:
+                yield from way(label, body, depth)
+
+    def _by_ratio(self, label: str, body: str, _: int) -> Iterator[DerivedLine]:
+        letter = self.train.letter
+        for source in [b for b, v in self.speeds.items() if v]:
+            path = find_path(self.stages, source, body)
+            if not path:
+                continue
+            whole, n = self._whole(path), self.speeds[source]
+            yield from self._explained(path, whole.symbol)
+            formula = fraction(f"{letter}_{{{_number(source)}}}", whole.symbol)
+            is_whole = whole.ratio.denominator == 1
+            numbers = fraction(_built(n), (_factor if is_whole else _built)(whole.ratio))
+            yield self._speed(label, body, (formula, numbers), n / whole.ratio)
+            return
+
+    def _by_willis(self, label: str, body: str, depth: int) -> Iterator[DerivedLine]:
+        for carrier in self.moving:
+            stages = self._carried(carrier)
+            bodies = dict.fromkeys(s.one for s in stages if s.one not in self.motion.roles.across)
+            if body == carrier:
+                known = [b for b in bodies if b in self.speeds]
+                for one, two in permutations(known, 2):
+                    path = find_path(stages, one, two)
+                    if path and self._whole(path).ratio != 1:
+                        yield from self._carrier(label, body, path)
+                        return
+            elif body in bodies:
+                if carrier not in self.speeds and depth:
+                    yield from self._found(_number(carrier), carrier, depth - 1)
+                known = sorted(bodies, key=lambda b: b not in self.train.fixed)
+                for one in known if carrier in self.speeds else ():
+                    if one in self.speeds and find_path(stages, body, one):
+                        yield from self._wheel(label, body, carrier, one)
+                        return
+
+    def _carrier(self, label: str, body: str, path: Sequence[Stage]) -> Iterator[DerivedLine]:
+        """Yield the speed of a carrier by those of two of its wheels."""
+        whole, n = self._whole(path), self._letter_of(label)
+        u, p, q = whole.ratio, self.speeds[path[0].one], self.speeds[path[-1].other]
+        n_p, n_q = (self._letter_of(b) for b in (path[0].one, path[-1].other))
+        yield from self._product(path)
+        yield DerivedLine(f"{whole.symbol} = {fraction(f'{n_p} − {n}', f'{n_q} − {n}')}")
+        formula = fraction(f"{n_p} − {whole.symbol}·{n_q}", f"1 − {whole.symbol}")
+        above = f"{_built(p)} − {_factor(u)}·{_factor(q)}"
+        numbers = fraction(above, f"1 {_plus(*_split(u))}")
+        yield self._speed(label, body, (formula, numbers), (p - u * q) / (1 - u))
+
+    def _wheel(self, label: str, body: str, carrier: str, other: str) -> Iterator[DerivedLine]:
+        """Yield the speed of a wheel on a carrier by those of the carrier and another wheel.
+
+        The ratio is that which was asked for, where it was; else that to the other wheel.
+        """
+        stages, known = self._carried(carrier), tuple(self.train.body_of)
+        asked = [parse(name, known).symbol for name in self.train.ask]
+        path = find_path(stages, other, body)
+        is_asked = self._whole(path).symbol in asked
+        if not is_asked:
+            path = find_path(stages, body, other)
+        whole, n = self._whole(path), self._letter_of(label)
+        n_c, n_q = (self._letter_of(b) for b in (carrier, other))
+        c, q, u = self.speeds[carrier], self.speeds[other], whole.ratio
+        yield from self._product(path)
+        ways = [f"{n} − {n_c}", f"{n_q} − {n_c}"]
+        yield DerivedLine(f"{whole.symbol} = {fraction(*(ways[::-1] if is_asked else ways))}")
+        less = f"{_built(q)} {_plus(*_split(c))}"
+        if is_asked:
+            sides = [fraction(ways[1], whole.symbol), fraction(less, _built(u))]
+        else:
+            sides = [f"{whole.symbol}·({ways[1]})", f"{_factor(u)}·({less})"]
+        formulas = (f"{n_c} + {sides[0]}", f"{_built(c)} + {sides[1]}")
+        yield self._speed(label, body, formulas, c + ((q - c) / u if is_asked else u * (q - c)))
+
+    def _letter_of(self, body: str) -> Rich:
+        return f"{self.train.letter}_{{{_number(body)}}}"
+
+    def _speed(
+        self, label: str, body: str, sides: Iterable[Rich], derived: Fraction
+    ) -> DerivedLine:
+        """Return a speed with its formula, and keep it for the next."""
+        unit = raised(self.words.gears["units"][self.train.units[0]])
+        symbol = f"{self.train.letter}_{{{label}}}"
+        self._check(symbol, derived, self.motion.speeds[body])
+        self.speeds[body] = derived
+        value = _value(derived, self.words)
+        whole = [side for side in sides if side != value.partition(" = ")[0]]
+        return DerivedLine(" = ".join([symbol, *whole, f"{value} {unit}"]))
+
+
+def find_path(stages: Iterable[Stage], one: str, other: str) -> list[Stage]:
+    """Return the fewest stages that lead from a body to another; none where none do."""
+    by: dict[str, list[Stage]] = {}
+    for stage in stages:
+        by.setdefault(stage.one, []).append(stage)
+    reached: dict[str, list[Stage]] = {one: []}
+    rows = [one]
+    while rows and other not in reached:
+        rows = [
+            stage.other
+            for body in rows
+            for stage in by.get(body, ())
+            if stage.other not in reached
+            and reached.setdefault(stage.other, [*reached[body], stage])
+        ]
+    return reached.get(other, [])
+
+
+def _value(value: Fraction, words: Language) -> Rich:
+    """Return a ratio as a fraction, and as a decimal where it is not whole."""
+    if value.denominator == 1:
+        return _text(value)
+    return f"{_built(value)} = {words.say.found(float(value))}"
+
+
+def _number(label: str) -> str:
+    return label.rstrip("'")
+
+
+def _symbol(one: str, other: str) -> Rich:
+    return SoughtQuantity("U", (one, other)).symbol
+
+
+def _text(value: Fraction) -> str:
+    return str(value).replace("-", MINUS)
+
+
+def _built(value: Fraction) -> Rich:
+    """Return a number, as a built-up fraction where it is one."""
+    size = abs(value)
+    text = _text(size) if size.denominator == 1 else fraction(*map(str, size.as_integer_ratio()))
+    return (MINUS if value < 0 else "") + text
+
+
+def _factor(value: Fraction, *, first: bool = False) -> Rich:
+    """Return a number that others stand before: in brackets where it has a sign."""
+    return _built(value) if first or value >= 0 else f"({_built(value)})"
+
+
+def _split(value: Fraction) -> tuple[str, Rich]:
+    """Return the sign and the size of a number."""
+    return MINUS if value < 0 else "", _built(abs(value))
+
+
+def _plus(sign: str, text: Rich) -> Rich:
+    """Return ``+ text`` where it is taken away with a sign, ``− text`` where not."""
+    return f"+ {text}" if sign == MINUS else f"− {text}"
