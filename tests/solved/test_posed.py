@@ -94,3 +94,18 @@ def test_an_angle_that_is_only_touched_is_one_position(
     places = found(tmp_path / "posed.toml", text)
     assert len(places) == count
     assert places == pytest.approx([180.0] * count, abs=0.2)
+
+
+def test_variants_have_angles_between_links(tmp_path: Path) -> None:
+    (tmp_path / "variants.csv").write_text(
+        "no;φ2,3;root\nA;80;near 250\nB;70;1\n", encoding="utf-8"
+    )
+    text = FILE.format(r=0.1, l=0.4, m=0.4, c=0.55) + "phi_2_3 = 90\nroot = 1\n"
+    path = tmp_path / "posed.toml"
+    path.write_text('variants = "variants.csv"\n' + text, encoding="utf-8")
+    for variant, angle, number in (("A", 80, 1), ("B", 70, 0)):
+        problem = load(path, variant=variant)
+        assert problem is not None
+        side = 0.8 * np.sin(np.radians(angle / 2))
+        phi = np.degrees(np.arccos((0.01 + 0.55**2 - side**2) / (2 * 0.1 * 0.55)))
+        assert problem.drive.positions[0] == pytest.approx((phi, 360 - phi)[number], abs=1e-9)
