@@ -18,6 +18,7 @@ from planmethod.plans.legend import ZERO, Quantity, QuantityKind
 from planmethod.plans.model import FACTS, PlanKind
 from planmethod.plans.motion.board import MotionBoard
 from planmethod.plans.motion.leads import Kinematics, Turning
+from planmethod.problem.graphs import ratio_of
 
 Powers = tuple[tuple[NumberName, int], ...]
 
@@ -185,9 +186,3 @@ def transfer_quantities(kin: Kinematics, draft: Draft) -> Iterator[Quantity]:
     for link in driven:
         name = steps.of_link(link, orders[1])
         yield Quantity(QuantityKind.RATIO_2, name, link, name, shown=f"ε_{{q{link}}}")
-
-
-def ratio_of(link: str, crank: str, links: list[str]) -> str:
-    """Return how a ratio is indexed: ``21``; ``12/1`` where that would be read otherwise."""
-    plain = f"{link}{crank}"
-    return plain if len(plain) == 2 and plain not in links else f"{link}/{crank}"

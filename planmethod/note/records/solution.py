@@ -21,6 +21,7 @@ from planmethod.solved.reading import Complexes
 from planmethod.solved.solution import RelativeMotion, Solution
 from planmethod.solved.turn.construction import extreme_construction
 from planmethod.solved.turn.diagrams import Diagrams, diagrams_of
+from planmethod.solved.turn.series import quantities_over, values_over
 from planmethod.solved.turn.turn import TURN, Extreme, NoNumber, Turn, turn_of
 
 
@@ -101,6 +102,7 @@ def cycle_record(solution: Solution) -> dict[str, Any]:
         },
         "diagrams": _diagrams(diagrams),
         "hodograph": _hodograph(turn),
+        **({"graphs": _graphs(turn)} if turn.task.graphs else {}),
         **({"reasons": {key: why.value for key, why in reasons.items() if why}} if reasons else {}),
     }
 
@@ -132,6 +134,14 @@ def _diagrams(diagrams: Diagrams) -> dict[str, Any]:
         "a_chord_mm": listed(a_chord),
         "v_exact_mm": listed(v_exact),
         "a_exact_mm": listed(a_exact),
+    }
+
+
+def _graphs(turn: Turn) -> dict[str, Any]:
+    """Return what ``[cycle] graphs`` asks for in the positions of the cycle, SI and degrees."""
+    return {
+        one.label: listed(values_over(turn, one, turn.positions))
+        for one in quantities_over(turn, turn.task.graphs)
     }
 
 
