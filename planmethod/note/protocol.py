@@ -80,11 +80,11 @@ class _Protocol:
                 kind = section.kind
                 yield from self._open_plan(kind)
             yield from self._section(section)
+        yield from self._transfers()
         if self.solution.problem.dynamics is not None:
             from planmethod.note.narrate.forces.protocol import force_chapters
 
             yield from force_chapters(self.narrator.say, self.index)
-        yield from self._transfers()
         yield from self._results()
 
     def _transfers(self) -> Iterator[Node]:

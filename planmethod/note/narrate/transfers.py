@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 
-from planmethod.construct.steps import Compute, NumberName, Step, Total
+from planmethod.construct.steps import Compute, GivenNumber, NumberName, Step, Total
 from planmethod.note.formula import Rich, fraction
 from planmethod.note.narrate.formulas import Formulas
 from planmethod.plans.legend import Quantity, QuantityKind
@@ -35,8 +35,21 @@ class TransferNarrator:
         self._made: dict[NumberName, Step] = {NumberName(s.out): s for s in transfers.added}
         self._own = {NumberName(q.name): q for q in transfers.quantities}
 
-    def formulas(self, plan: PlanKind) -> list[Rich]:
-        """Return the formulas of what a plan gives; what is alike by nature has one."""
+    def formulas(self, plan: PlanKind, *, senses: bool = True) -> list[Rich]:
+        """Return the formulas of what a plan gives, with senses of turning or without."""
+        return [self._formula(some, senses=senses) for some in self._alike(plan)]
+
+    def senses(self, plan: PlanKind) -> list[Rich]:
+        """Return which way the links turn that a plan tells: ``u_21 – against link 1``."""
+        told = []
+        for quantities in self._alike(plan):
+            sense = self._sense(quantities[0])
+            if sense:
+                told.append(f"{' = '.join(q.symbol for q in quantities)} – {sense}")
+        return told
+
+    def _alike(self, plan: PlanKind) -> list[list[Quantity]]:
+        """Return what a plan gives; what is alike by nature together."""
         kin, found = self.transfers.steps.kin, dict[object, list[Quantity]]()
         motion = kin.velocity if plan is PlanKind.VELOCITY else kin.acceleration
         for quantity in self.transfers.some(*ORDERS[plan]):
@@ -47,13 +60,13 @@ class TransferNarrator:
                 link = self._link(quantity)
                 alike = kin.omega.get(link), kin.epsilon.get(link)
             found.setdefault((quantity.kind, alike), []).append(quantity)
-        return [self._formula(quantities) for quantities in found.values()]
+        return list(found.values())
 
     @staticmethod
     def _link(quantity: Quantity) -> str:
         return str(quantity.name).removeprefix("u_").removeprefix("epsilon_q_")
 
-    def _formula(self, quantities: list[Quantity]) -> Rich:
+    def _formula(self, quantities: list[Quantity], *, senses: bool) -> Rich:
         say, quantity = self.say, quantities[0]
         read, exact = self._values(NumberName(quantity.name))
         turns = quantity.kind in (QuantityKind.RATIO, QuantityKind.RATIO_2)
@@ -64,12 +77,19 @@ class TransferNarrator:
         shown = [side for side in sides if side and side != bare]
         parts = [*(q.symbol for q in quantities), *shown, value]
         told = " = ".join(parts) + say.exactly(abs(exact), unit)
-        if not turns or not read:
-            return told
-        along, against = ("transfer_along", "transfer_against")
-        if quantity.kind is QuantityKind.RATIO_2:
-            along, against = "ccw", "cw"
-        return f"{told}, {str(say.words[along if read > 0 else against]).format(link=self.crank)}"
+        sense = self._sense(quantity) if senses else ""
+        return f"{told}, {sense}" if sense else told
+
+    def _sense(self, quantity: Quantity) -> Rich:
+        """Return the sense of a ratio against the crank, of an ε_q its own; nothing of others."""
+        read, _ = self._values(NumberName(quantity.name))
+        forms = {
+            QuantityKind.RATIO: ("transfer_along", "transfer_against"),
+            QuantityKind.RATIO_2: ("ccw", "cw"),
+        }
+        if quantity.kind not in forms or not read:
+            return ""
+        return str(self.say.words[forms[quantity.kind][read < 0]]).format(link=self.crank)
 
     def _values(self, name: NumberName) -> tuple[float, float]:
         """Return a number as the hand has it, and as it is exactly."""
@@ -103,8 +123,12 @@ class TransferNarrator:
 
     def _factor(self, name: NumberName) -> tuple[str, float]:
         value = abs(self._values(name)[0])
-        if name not in self._made:
+        made = self._made.get(name)
+        if made is None:
             return self.say.names.symbol(name), value
+        if isinstance(made, GivenNumber):  # a length that no plan needs
+            letter, _, index = name.partition("_")
+            return f"{letter}_{{{index}}}", value
         pole, end = self._end(str(name).strip("|").removeprefix("a_q_"))
         return f"({pole}{end})", value
 

@@ -37,7 +37,7 @@ LETTERS = {"x": "x, y", "phi": "φ", "v_q": "v_{q}", "u": "u", "a_q": "a_{q}", "
 NOTHING = 1e-12
 """Size of what is nothing but for rounding, SI."""
 
-MARKS = {"x": "l", "u": "u", "omega": "ω", "epsilon": "ε", "phi": "φ", "v_q": "vq", "a_q": "aq",
+MARKS = {"x": "l", "u": "u", "omega": "ω", "epsilon": "ε", "phi": "φ_{i}", "v_q": "vq", "a_q": "aq",
          "epsilon_q": "εq"}  # fmt: skip
 """Indices of the scales by what a diagram shows, where they are not its letter."""
 
