@@ -10,6 +10,7 @@ import pytest
 
 from planmethod.errors import AssemblyError, ProblemError
 from planmethod.kinds import load
+from planmethod.solved.reading import Complexes, Reals
 
 FILE = """
 [frame]
@@ -32,7 +33,7 @@ omega = 10
 """
 
 
-def fourbar(phi: np.ndarray, r: float, l: float, m: float, c: float) -> tuple[np.ndarray, ...]:  # noqa: E741
+def fourbar(phi: Reals, r: float, l: float, m: float, c: float) -> tuple[Complexes, Complexes]:  # noqa: E741
     """Return A and B by the cosine theorem, B on the left of AC."""
     a = r * np.exp(1j * phi)
     d = np.abs(c - a)
@@ -42,8 +43,8 @@ def fourbar(phi: np.ndarray, r: float, l: float, m: float, c: float) -> tuple[np
     return a, b
 
 
-def between(p: np.ndarray, q: np.ndarray) -> np.ndarray:
-    return np.degrees(np.abs(np.angle(p / q)))
+def between(p: Complexes, q: Complexes) -> Reals:
+    return np.asarray(np.degrees(np.abs(np.angle(p / q))))
 
 
 def found(path: Path, text: str) -> list[float]:

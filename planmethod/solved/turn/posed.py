@@ -232,6 +232,7 @@ def _roots(solution: Solution, posed: Posed, index: int) -> Found:
     crank, period = solution.problem.drive.is_crank, _period(solution.problem, posed)
     grid = _grid(solution.problem, LOOKS if crank else 3 * LOOKS)
     sense = -1.0 if solution.problem.drive.rate < 0 else 1.0
+    value = _value(solution, posed, index)
     if posed.by is PosedBy.STROKE:
         turn = Turn(solution)
         start, end = _ends(turn)
@@ -239,8 +240,6 @@ def _roots(solution: Solution, posed: Posed, index: int) -> Found:
         if posed.values[index] in (0.0, 1.0):
             return [((start, end)[int(posed.values[index])].phi % TURN, 0.0)]
         sense = -sense if end.value < start.value else sense
-    else:
-        value = _value(solution, posed, index)
     found: Found = []
     # An angle of two links has no sign: both ways of it are looked for.
     for one in {target, -target} if posed.by is PosedBy.BETWEEN else (target,):
