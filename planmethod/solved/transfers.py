@@ -3,26 +3,22 @@
 from __future__ import annotations
 
 from functools import cached_property
-from typing import Any
 
 import numpy as np
 
 from planmethod.construct.arithmetic import Float64
-from planmethod.construct.program import Program
-from planmethod.construct.steps import NumberName, Step
+from planmethod.construct.steps import Step
 from planmethod.plans.draft import Draft
 from planmethod.plans.legend import TRANSFERS, Quantity, QuantityKind
 from planmethod.plans.transfers import TransferSteps, transfer_quantities
-from planmethod.solved.errors.drawing import Drafted, DrawnKind, DrawnQuantity, number
-from planmethod.solved.errors.spread import Errors
 from planmethod.solved.reading import Reading, Reals
 from planmethod.solved.solution import Solution
 
 
-class Transfers(Errors):
+class Transfers:
     """Transfer functions through segments of the plans (передаточные функции по планам).
 
-    Labels: ``v_q_B``, ``a_q_B`` (m), ``u_21``, ``epsilon_q_2``.
+    Their drafting errors are among those of the plans, by label.
 
     Parameters
     ----------
@@ -33,6 +29,10 @@ class Transfers(Errors):
     ----------
     quantities : tuple of Quantity
         Of points and links, velocities before accelerations; what is nothing by nature is left out.
+    program : Program
+        That of the construction, and their steps.
+    added : tuple of Step
+        These.
     """
 
     def __init__(self, solution: Solution) -> None:
@@ -45,34 +45,8 @@ class Transfers(Errors):
             QuantityKind.RATIO_2: {f"epsilon_q_{link}" for link in (*kin.omega, *kin.epsilon)},
         }
         self.quantities = tuple(q for q in found if str(q.name) in turning.get(q.kind, {q.name}))
-        program = self.draft.b.program()
-        self.added: tuple[Step, ...] = program.steps[len(construction.program.steps) :]
-        super().__init__(
-            Drafted(
-                Program(program.steps),
-                self._data,
-                len(solution.positions),
-                solution.profile,
-                frozenset(str(plan.pole) for plan in construction.plans),
-                tuple(self._items()),
-                (),
-                solution.hand.enlarged,
-            )
-        )
-
-    def _data(self, chosen: Any) -> dict[str, Any]:
-        return {**self.draft.numbers, **self.solution.data(self.solution.per_mm, chosen)}
-
-    def _items(self) -> list[DrawnQuantity]:
-        return [
-            DrawnQuantity(
-                q.label,
-                (NumberName(q.name),),
-                number(NumberName(q.name), size=q.kind.is_size),
-                DrawnKind.LENGTH if q.kind.is_size else DrawnKind.NUMBER,
-            )
-            for q in self.quantities
-        ]
+        self.program = self.draft.b.program()
+        self.added: tuple[Step, ...] = self.program.steps[len(construction.program.steps) :]
 
     @cached_property
     def steps(self) -> TransferSteps:

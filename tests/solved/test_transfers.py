@@ -90,7 +90,7 @@ def test_the_hand_takes_them_from_segments_with_their_sigma() -> None:
     for label, value in expected.items():
         assert transfers.read_off(quantities[label])[0] == pytest.approx(value, rel=1e-12)
         own = {"v_q_C": "v_C", "u_21": "omega_2", "u_31": "omega_3"}[label]
-        sigma = transfers.spreads[label].sigma[0]
+        sigma = drafted[label].sigma[0]
         assert sigma == pytest.approx(drafted[own].sigma[0] / abs(omega), rel=1e-9)
         assert abs(value - transfers.exact(quantities[label])[0]) < 3 * sigma
 

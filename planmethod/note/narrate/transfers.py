@@ -7,6 +7,7 @@ from collections import Counter
 from planmethod.construct.steps import Compute, GivenNumber, NumberName, Step, Total
 from planmethod.note.formula import Rich, fraction
 from planmethod.note.narrate.formulas import Formulas
+from planmethod.note.narrate.naming import Names
 from planmethod.plans.legend import Quantity, QuantityKind
 from planmethod.plans.model import PlanKind
 from planmethod.solved.transfers import Transfers
@@ -16,6 +17,13 @@ ORDERS = {
     PlanKind.ACCELERATION: (QuantityKind.TRANSFER_2, QuantityKind.RATIO_2),
 }
 """Kinds of transfer functions by the plan that gives them."""
+
+
+def even_letter(names: Names, point: str) -> Rich:
+    """Return the end of a point's acceleration without the part of ε₁: ``c_{q}``."""
+    motion = names.kin.acceleration
+    letter = names.point(motion.point[motion.named[point]])
+    return f"{letter[:-1]}q}}" if letter.endswith("}") else f"{letter}_{{q}}"
 
 
 class TransferNarrator:
@@ -129,15 +137,9 @@ class TransferNarrator:
         if isinstance(made, GivenNumber):  # a length that no plan needs
             letter, _, index = name.partition("_")
             return f"{letter}_{{{index}}}", value
-        pole, end = self._end(str(name).strip("|").removeprefix("a_q_"))
-        return f"({pole}{end})", value
-
-    def _end(self, point: str) -> tuple[str, str]:
-        """Return the pole of accelerations, and the end without the part of ε₁: ``c_{q}``."""
-        motion, names = self.transfers.steps.kin.acceleration, self.say.names
-        letter = names.point(motion.point[motion.named[point]])
-        own = f"{letter[:-1]}q}}" if letter.endswith("}") else f"{letter}_{{q}}"
-        return names.pole(motion.kind), own
+        names = self.say.names
+        end = even_letter(names, str(name).strip("|").removeprefix("a_q_"))
+        return f"({names.pole(PlanKind.ACCELERATION)}{end})", value
 
     def _turned(self, quantity: Quantity) -> tuple[str, ...]:
         """Return ε_q of a crank with ε₁: what is left of a link's ε over the square of ω₁."""
@@ -181,7 +183,7 @@ class TransferNarrator:
             " = ".join(("k", *letters, self.say.notation.short(abs(sign), 4))),
             self.say.words["transfer_carried"]["with" if sign > 0 else "against"].format(
                 ends=", ".join(
-                    f"({names.point(a.point[a.named[q.of]])}{self._end(q.of)[1]})"
+                    f"({names.point(a.point[a.named[q.of]])}{even_letter(names, q.of)})"
                     f" = k·({names.pole(v.kind)}{names.point(v.point[v.named[q.of]])})"
                     for q in points
                 )

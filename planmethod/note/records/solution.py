@@ -19,6 +19,7 @@ from planmethod.solved.analogues import analogues
 from planmethod.solved.errors.motion import drafting_of
 from planmethod.solved.reading import Complexes
 from planmethod.solved.solution import RelativeMotion, Solution
+from planmethod.solved.transfers import transfers_of
 from planmethod.solved.turn.construction import extreme_construction
 from planmethod.solved.turn.diagrams import Diagrams, diagrams_of
 from planmethod.solved.turn.series import quantities_over, values_over
@@ -253,9 +254,29 @@ def _hand(solution: Solution) -> Records:
             "relative": together(
                 [rows({**_names(r, count), **told(sliding[r.name])}) for r in relatives], count
             ),
+            **_transfers(solution),
             "monte_carlo": named({k: s.drawn for k, s in spreads.items()}, count),
         }
     )
+
+
+def _transfers(solution: Solution) -> dict[str, Column | Records]:
+    """Return the transfer functions through segments, by label: exact, read, sigma."""
+    transfers = transfers_of(solution)
+    if transfers is None:
+        return {}
+    spreads = drafting_of(solution).spreads
+    told = {
+        one.label: rows(
+            {
+                "exact": listed(transfers.exact(one)),
+                "read": listed(transfers.read_off(one)),
+                "sigma": listed(spreads[one.label].sigma),
+            }
+        )
+        for one in transfers.quantities
+    }
+    return {"transfers": rows(told)}
 
 
 def _names(relative: Relative | RelativeMotion, count: int) -> dict[str, Column]:
@@ -266,11 +287,13 @@ def _names(relative: Relative | RelativeMotion, count: int) -> dict[str, Column]
 def record(solution: Solution) -> dict[str, Any]:
     """Return everything that a solution says as plain data, SI, full precision.
 
-    ``segments`` are in millimetres of the plan: ``exact``, ``read`` with the ruler along the hand's
-    own chain, and ``sigma``, one standard deviation of the drafting error. ``hand`` holds the
-    quantities that follow from the read segments with theirs, and the labels of those whose sigma
-    was found by random draws because first order does not hold. ``cycle`` is there for a problem
-    with ``[cycle]``, ``forces`` for one with ``[dynamics]``: see `planmethod.note.tables.forces`.
+    ``hand.transfers`` are the transfer functions through segments, by label: ``exact``, ``read``,
+    ``sigma``. ``segments`` are in millimetres of the plan: ``exact``, ``read`` with the ruler along
+    the hand's own chain, and ``sigma``, one standard deviation of the drafting error. ``hand``
+    holds the quantities that follow from the read segments with theirs, and the labels of those
+    whose sigma was found by random draws because first order does not hold. ``cycle`` is there for
+    a problem with ``[cycle]``, ``forces`` for one with ``[dynamics]``: see
+    `planmethod.note.tables.forces`.
     """
     found: dict[str, Any] = plain_of(record_in_columns(solution))
     return found

@@ -21,6 +21,7 @@ from planmethod.render.layout.tables import TableColumn, table_block
 from planmethod.render.sheets.model import Manner
 from planmethod.render.sheets.results import MOST_OFF, position_columns, table_width, with_note
 from planmethod.render.sheets.views import shown_position
+from planmethod.solved.errors.motion import drafting_of
 from planmethod.solved.solution import Solution
 from planmethod.solved.transfers import Transfers, transfers_of
 
@@ -85,7 +86,7 @@ def _column(
     if alone:
         index, value = indices[0], exact[0]
         read = float(transfers.read_off(quantity)[index])
-        sigma, mark = marked(transfers, quantity.label, index)
+        sigma, mark = marked(drafting_of(transfers.solution), quantity.label, index)
         off = 100.0 * (read - value) / value if abs(value) > sigma else np.inf
         decimals = len(texts[0].partition(".")[2])
         cells = [
