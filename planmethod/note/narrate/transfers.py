@@ -183,9 +183,11 @@ class TransferNarrator:
             " = ".join(("k", *letters, self.say.notation.short(abs(sign), 4))),
             self.say.words["transfer_carried"]["with" if sign > 0 else "against"].format(
                 ends=", ".join(
-                    f"({names.point(a.point[a.named[q.of]])}{even_letter(names, q.of)})"
-                    f" = k·({names.pole(v.kind)}{names.point(v.point[v.named[q.of]])})"
-                    for q in points
+                    dict.fromkeys(
+                        f"({names.point(a.point[a.named[q.of]])}{even_letter(names, q.of)})"
+                        f" = k·({names.pole(v.kind)}{names.point(v.point[v.named[q.of]])})"
+                        for q in points
+                    )
                 )
             ),
         ]

@@ -29,6 +29,7 @@ _TRIES = 36  # positions of a turn in which it is tried how the groups close
 _SLIDER_TRIES = 120
 _ASIDE = 0.0931  # degrees off round numbers, where singular places like to be
 _SAME = 1e-7  # degrees, or share of the way of a slider, within which two roots are one
+_ROUNDING = 1e-15  # share of the range within which a round position is as good as the root
 _OFF = 1e-6  # share of the range of the output that a root may miss it by
 
 
@@ -263,7 +264,11 @@ def _zeros(off: Callable[[Reals], Reals], grid: Reals) -> Found:
 
     def add(low: float, high: float, going: float) -> None:
         at = root(off, low, high)
-        if abs(off(np.array([at]))[0]) <= _OFF * size:
+        round_one = round(at, 6)  # 90 degrees, and not what rounding makes of it
+        missed, of_round = np.abs(off(np.array([at, round_one])))
+        if of_round <= max(missed, _ROUNDING * size) and abs(round_one - at) < _SAME:
+            at = round_one
+        if missed <= _OFF * size:
             found.append((at, going))
 
     for k in crossings(looks):
