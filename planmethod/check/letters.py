@@ -47,6 +47,9 @@ def called(selector: Selector) -> tuple[str, str]:
         "inertia": "Φ",
         "inertia couple": "M_Φ",
         "length": "l",
+        "v_q": "v",
+        "a_q": "a",
+        "epsilon_q": "ε",
         "load": "",
     }
     if selector.over is not None:
@@ -62,5 +65,7 @@ def called(selector: Selector) -> tuple[str, str]:
     letter = letters.get(kind, kind)
     if kind == "load":
         return own, names[0]
+    if kind.endswith("_q"):
+        return own, f"{letter}_{{q{names[0]}}}"
     joined = "".join(names) if all(len(n) < 3 for n in names) else ",".join(names)
     return own, f"{letter}_{{{joined}}}" if names else letter

@@ -17,7 +17,7 @@ from planmethod.mechanism.model import FRAME
 from planmethod.plans.legend import PLAN_OF, QuantityKind
 from planmethod.plans.model import FACTS, MOTION, PlanKind, VectorKind
 from planmethod.plans.segments import Ends, Segments
-from planmethod.problem.selector import FORCES, Selector
+from planmethod.problem.selector import FORCES, TRANSFERS, Selector
 from planmethod.solved.errors.drawing import RADIAN
 from planmethod.solved.forces.statics import Statics, statics_of
 from planmethod.solved.selectors.forces import ForceValues
@@ -212,6 +212,9 @@ class Questions:
             return self._made(
                 selector, "mm", Sign.SIZE, answer.name, answer.plan, answer.name, between
             )
+        if kind in TRANSFERS:
+            sign = Sign.STRICT if answer.signed else Sign.SIZE
+            return self._made(selector, "" if answer.signed else "m", sign, answer.name)
         if kind in COMPONENTS:
             plan = COMPONENTS[kind]
             return self._made(selector, FACTS[plan].unit, Sign.STRICT, answer.name, plan)

@@ -40,6 +40,7 @@ from planmethod.options import (
     out_option,
     position_option,
     problem_options,
+    read_labels,
     reading_options,
 )
 
@@ -60,6 +61,7 @@ class SheetOptions(Struct, frozen=True, kw_only=True):
     ruler: float | None
     profile: str | None
     layout: str | None
+    ask: tuple[str, ...] = ()
     compact: bool = False
     errors: bool
     sigma: bool | None
@@ -113,6 +115,13 @@ def compacted(problem: Problem, positions: Sequence[float] | None) -> Problem:
 @sheet_options
 @layout_option
 @click.option(
+    "--ask",
+    callback=read_labels,
+    metavar="LIST",
+    help="Graphs over the turn of these quantities: x_C,phi_3,v_q_C,u_31,omega_3,ay_C; on the "
+    "layout graphs without --layout.",
+)
+@click.option(
     "--compact",
     is_flag=True,
     help="For a printer at home: several sheets of A4 (A3 with --paper), up to five positions, at "
@@ -142,6 +151,7 @@ def sheet(
     formats: tuple[str, ...],
     asked: PaperRequest,
     layout: str | None,
+    ask: tuple[str, ...] | None,
     compact: bool,
     one_file: str | None,
     errors: bool,
@@ -159,8 +169,14 @@ def sheet(
         if layout is not None:
             raise UsageError("give --compact or --layout, not both")
         layout = "compact"
+    layout = "graphs" if ask and layout is None else layout
     if layout is not None:
-        composition(layout)  # its faults are told once, before any problem is drawn
+        made = composition(layout)  # its faults are told once, before any problem is drawn
+        if ask and not any(entry.kind == "graphs" for entry in made.blocks):
+            raise UsageError(
+                "--ask: layout {} has no block of kind graphs. Leave --layout out, or add one.",
+                layout,
+            )
     options = SheetOptions(
         settled=asked.settle(),
         phi=phi,
@@ -168,6 +184,7 @@ def sheet(
         ruler=ruler,
         profile=profile,
         layout=layout,
+        ask=ask or (),
         compact=compact,
         errors=errors,
         sigma=sigma,
@@ -302,6 +319,8 @@ def _drawn(
     from planmethod.render.sheets.kinematics import kinematics_sheets
 
     problem, positions = todo.linkage, None if phi is None else phi.tolist()
+    if options.ask and not problem.drive.is_crank:
+        raise UsageError("--ask: {}: the driver slides and has no turn", problem.name)
     return kinematics_sheets(
         compacted(problem, positions) if options.compact else problem,
         positions=positions,
@@ -312,6 +331,7 @@ def _drawn(
         sigma=sigma,
         layout=layout,
         most=None if options.all_positions or options.compact else MOST_SHEETS,
+        asked=options.ask,
     )
 
 

@@ -124,8 +124,8 @@ class SolveOptions(Struct, frozen=True, kw_only=True):
     "--ask",
     callback=read_labels,
     metavar="LIST",
-    help="Only these results: v_E,omega_3,B,phi_2,F_B_2/1,M_dr, or positions, velocities, "
-    "accelerations, forces.",
+    help="Only these results: v_E,omega_3,B,phi_2,v_q_E,u_31,F_B_2/1,M_dr, or positions, "
+    "velocities, accelerations, transfers, forces.",
 )
 @click.option(
     "--partial",

@@ -28,12 +28,14 @@ from planmethod.note.narrate.given import unbroken
 from planmethod.note.narrate.naming import Names
 from planmethod.note.narrate.steps import Narrator
 from planmethod.note.narrate.structure import group_title
+from planmethod.note.narrate.transfers import TransferNarrator
 from planmethod.note.plaintext import given
 from planmethod.note.tables.results import position_line, position_tables, scale_texts
 from planmethod.note.wording import Language
 from planmethod.plans.build import Section
 from planmethod.plans.model import PlanKind
 from planmethod.solved.solution import Solution
+from planmethod.solved.transfers import transfers_of
 
 
 def protocol_document(solution: Solution, words: Language, position: int = 0) -> Document:
@@ -78,11 +80,29 @@ class _Protocol:
                 kind = section.kind
                 yield from self._open_plan(kind)
             yield from self._section(section)
+        yield from self._transfers()
         if self.solution.problem.dynamics is not None:
             from planmethod.note.narrate.forces.protocol import force_chapters
 
             yield from force_chapters(self.narrator.say, self.index)
         yield from self._results()
+
+    def _transfers(self) -> Iterator[Node]:
+        transfers, words = transfers_of(self.solution), self.words
+        if transfers is None:
+            return
+        told = TransferNarrator(self.narrator.say, transfers)
+        link = self.solution.problem.drive.link
+        end = "" if transfers.steps.even else words.transfer_epsilon.format(link=link)
+        yield Chapter(words.title_transfers)
+        lead = words.transfer_first.format(link=link)
+        yield Step((lead, *closed(told.formulas(PlanKind.VELOCITY))))
+        lead = words.transfer_second.format(end=end)
+        formula, *sentence = told.carried() or [""]
+        if formula:
+            yield Step((lead, f"{formula}.", *sentence))
+        lead = words.read_off if formula else lead
+        yield Step((lead, *closed(told.formulas(PlanKind.ACCELERATION))))
 
     def _head(self) -> Iterator[Node]:
         words, problem = self.words, self.solution.problem

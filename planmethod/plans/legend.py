@@ -69,6 +69,11 @@ class QuantityKind(Enum):
     SLIDING = KindFacts("v", "m/s", _V, is_number=True, is_size=True)
     CORIOLIS = KindFacts("ak", "m/s²", _A, is_number=True, is_size=True)
     RELATIVE = KindFacts("ar", "m/s²", _A, is_number=True, is_size=True)
+    # Derivatives by the angle of the crank: of places, and of angles of links.
+    TRANSFER = KindFacts("v_q", "m", _V, is_number=True, is_size=True)
+    RATIO = KindFacts("u", "1", _V, is_number=True)
+    TRANSFER_2 = KindFacts("a_q", "m", _A, is_number=True, is_size=True)
+    RATIO_2 = KindFacts("epsilon_q", "1", _A, sign="ε", is_number=True)
     REACTION = KindFacts("F", "N", _F, (".x", ".y", ""), is_size=True)
     # Of a reaction or on the crank; on the driving slider, along its guide.
     MOMENT = KindFacts("M", "N·m", _F, ("",), is_number=True)
@@ -87,6 +92,14 @@ PLAN_OF = {kind.letter: kind.plan for kind in QuantityKind}
 
 TURNING = (QuantityKind.DIRECTION, QuantityKind.OMEGA, QuantityKind.EPSILON)
 """Kinds of quantities of links."""
+
+TRANSFERS = (
+    QuantityKind.TRANSFER,
+    QuantityKind.RATIO,
+    QuantityKind.TRANSFER_2,
+    QuantityKind.RATIO_2,
+)
+"""Kinds of transfer functions, in the order in which tables have them."""
 
 TURNINGS = tuple(kind for kind in TURNING if kind.is_number)
 """Those of them that the plans give."""
@@ -140,7 +153,8 @@ class Quantity(Struct, frozen=True):
         """How it is asked for.
 
         ``B`` (a place), ``v_B``, ``a_B``, ``phi_2``, ``omega_2``, ``epsilon_2``, ``v_B3/2``,
-        ``ak_B3/2``, ``ar_B3/2``; ``u_2``, the direction ``phi_2`` as a unit vector. Of forces
+        ``ak_B3/2``, ``ar_B3/2``; ``u_2``, the direction ``phi_2`` as a unit vector. Transfer
+        functions are ``v_q_B``, ``u_21``, ``a_q_B``, ``epsilon_q_2``. Of forces
         ``F_B_2/1``, ``M_B_2/1`` (its moment), ``M_dr`` or ``F_dr``, ``M_lever`` or ``F_lever``.
         """
         return f"{self.kind.letter}_{self.of}" if self.kind.letter else self.of

@@ -32,6 +32,7 @@ SEGMENT_LIMIT = 40
 _ID_RE = r"[^\W\d_][\w./@'{}^-]*\Z"
 _REACTION_RE = r"[FM]_(?P<joint>[^_/]+)_(?P<on>[^_/]+)/(?P<by>[^_/]+)\Z"
 _BALANCING = {"dr": "balance", "lever": "lever"}
+_TRANSFERS = ("v_q_", "a_q_", "epsilon_q_")
 _TAKEN = ("mu_l", "mu_v", "mu_a", "mu_F", "ruler_mm")
 """What a row of a group's table is called that is no answer."""
 
@@ -67,7 +68,8 @@ def words_of(name: str, slides: Iterable[Slide]) -> str:
     """Return the words of ``[published]`` for a name of ``--ask``; other texts as they are.
 
     ``v_B3`` is ``v B3``, ``v_B3/2`` is ``vs B3 B``, ``F_B_2/1`` is ``F 2 1``, ``M_dr`` is
-    ``balance``. Along a guide of the frame a slider moves as its point does: ``v_E5/0`` is ``v E``.
+    ``balance``, ``v_q_C`` is ``v_q C``, ``u_21`` is ``u 2 1``.
+    Along a guide of the frame a slider moves as its point does: ``v_E5/0`` is ``v E``.
     """
     name = " ".join(name.split())
     if " " in name or "_" not in name:
@@ -80,6 +82,10 @@ def words_of(name: str, slides: Iterable[Slide]) -> str:
         return _BALANCING[rest]
     if head == "load":
         return f"load {rest}"  # its letter may have an index
+    if name.startswith(_TRANSFERS):
+        return f"{head}_q {name.split('_', 2)[2]}"
+    if head == "u":
+        return f"u {' '.join(rest.split('/') if '/' in rest else rest)}"
     pair = _sliding(slides).get(rest, ())
     if head in ("v", "ak", "ar") and len(pair) == 2:
         return f"{'vs' if head == 'v' else head} {pair[0]} {pair[1]}"

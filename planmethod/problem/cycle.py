@@ -14,13 +14,16 @@ from planmethod.problem import fields
 from planmethod.problem.cycle_records import CycleTask, PoleDistances, StrokeSense, Zero
 from planmethod.problem.fields import Faults
 from planmethod.problem.flat import OwnReader, read_flat
+from planmethod.problem.graphs import OUTPUT, graph_quantities
 from planmethod.problem.machine_records import Machine
 from planmethod.problem.model import SAME_DEG, Body, Drive, Slide
+from planmethod.problem.names import near, short
 
 _EXAMPLE = '[cycle] output = "B", zero = "extreme", count = 12'
 _NAMED = {zero.value: zero for zero in Zero if zero is not Zero.USUAL}
 _COUNTS, _OF_MACHINE = range(3, 361), range(4, 73)
 
+_MOST_GRAPHS = 24
 MOST_LISTED = 36
 """Most positions of a turn that a cycle without a count takes from the driver."""
 
@@ -87,7 +90,13 @@ def read_cycle(
             "A cycle is a turn of a crank. Delete [cycle], or let a crank drive.",
         )
     output = partial(_read_output, bodies=bodies, slides=slides, drive=drive)
-    own: dict[str, OwnReader] = {"output": output, "zero": _read_zero, "pole": _read_pole}
+    graphs = partial(_read_graphs, bodies=bodies, slides=slides, drive=drive)
+    own: dict[str, OwnReader] = {
+        "output": output,
+        "zero": _read_zero,
+        "pole": _read_pole,
+        "graphs": graphs,
+    }
     found = read_flat(faults, "cycle", entries, CycleTask, own)
     if len(faults) > before:
         return None
@@ -199,6 +208,44 @@ def _read_output(
         )
         return None
     return name
+
+
+def _read_graphs(
+    faults: Faults,
+    path: str,
+    value: object,
+    bodies: Mapping[str, Body],
+    slides: Mapping[str, Slide],
+    drive: Drive | None,
+) -> tuple[str, ...]:
+    """Read the quantities whose graphs are asked for."""
+    if not isinstance(value, list) or not 1 <= len(value) <= _MOST_GRAPHS:
+        example = 'graphs = ["v_q_C", "u_31", "x_C"]'
+        faults.expected(path, say("a list of quantities, 1 to {} of them", _MOST_GRAPHS), value,
+                        say("For example: {}", example))  # fmt: skip
+        return ()
+    moving = [link for link in bodies if link != FRAME]
+    fixed = bodies[FRAME].points if FRAME in bodies else {}
+    points = [p for link in moving for p in bodies[link].points if p not in fixed]
+    for slide in slides.values():  # the coincident points of a sliding pair
+        points += [f"{slide.pin}{slide.host}"] if slide.host != FRAME else []
+        points += [f"{slide.through}{slide.slider}"] if slide.through else []
+    crank = "" if drive is None else drive.link
+    known = [*graph_quantities(dict.fromkeys(points), moving, crank), OUTPUT]
+    for k, label in enumerate(value):
+        if not isinstance(label, str):
+            faults.expected(f"{path}[{k}]", "a quantity", label)
+        elif drive is not None and label not in known:
+            said = "unknown quantity '{}'"
+            faults.add(f"{path}[{k}]", say(said, short(label)), _nearest(label, known))
+    return tuple(label for label in value if isinstance(label, str))
+
+
+def _nearest(label: str, known: list[str]) -> str:
+    guess = near(label, known)
+    if guess is not None:
+        return say("Did you mean '{}'?", guess)
+    return 'For example: "x_C", "phi_3", "v_q_C", "u_31", "omega_3", "a_C".'
 
 
 def guiding(point: str, bodies: Mapping[str, Body], slides: Mapping[str, Slide]) -> Slide | None:

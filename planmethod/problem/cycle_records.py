@@ -121,6 +121,15 @@ class CycleTask(Struct, frozen=True):
             "when absent"
         ),
     ] = PoleDistances()
+    graphs: Annotated[
+        tuple[str, ...],
+        OwnKey(
+            'quantities whose graphs over the turn are drawn: `["x_C", "phi_3", "v_q_C", "v_qx_C", '
+            '"u_31", "omega_3", "ay_C"]`; `"output"` stands for the place of the output and its '
+            "transfer functions",
+            absent="none",
+        ),
+    ] = ()
     differentiation: Annotated[
         Differentiation,
         WordKey(

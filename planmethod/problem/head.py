@@ -127,8 +127,9 @@ class AskedAnswer(Struct, frozen=True):
         OwnKey(
             "the quantity",
             more=". The words of `[published]`, or a name as `--ask` has it: `v_B3`, "
-            "`omega_3`, `v_B3/2` for `vs B3 B`, `ak_B3/2`, `F_B_2/1` for `F 2 1`, `M_dr` for "
-            "`balance`. Words may be joined by `_` as well: `an_E_D`",
+            "`omega_3`, `v_B3/2` for `vs B3 B`, `ak_B3/2`, `v_q_C`, `u_21` for `u 2 1`, "
+            "`F_B_2/1` for `F 2 1`, `M_dr` for `balance`. Words may be "
+            "joined by `_` as well: `an_E_D`",
             required=True,
             missing='Say which quantity: what = "v B".',
         ),

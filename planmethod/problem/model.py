@@ -211,6 +211,8 @@ class PosedBy(Enum):
     X = "x"
     Y = "y"
     PHI = "phi"
+    BETWEEN = "between"  # the angle of two links
+    LINE = "on"  # a point on a line of two others
     STROKE = "stroke"
     EXTREME = "at"
     LENGTH = "length"
@@ -223,19 +225,21 @@ class Posed(Struct, frozen=True):
     ----------
     by : PosedBy
     of : str
-        The point, the link of an angle, or two points of a length; empty of a share of the stroke
-        and of an extreme.
+        The point, the link of an angle, two links with a low line between (``2_3``), or two points
+        of a length; empty of a share of the stroke, of an extreme, and of a point on a line.
     values : tuple of float
         Coordinates and lengths, m; angles, degrees; shares of the stroke from position zero of the
         cycle; or degrees of the crank after an extreme.
     extremes : tuple of str
         Which extreme each is counted from: ``left``, ``right``, ``upper``, ``lower``, ``other``, or
-        nothing for that of position zero.
+        nothing for that of position zero; or the point and the line that it is on, ``B on OC``.
     going : str
         Which of several positions is meant: that in which the output goes ``right``, ``ccw``,
         ``forth`` ...; empty where the file does not say it.
     near : float or None
         That nearest to this position of the driver, degrees or m.
+    number : int
+        That of this number, from 1, as positions of the driver grow; 0 where the file has none.
     rates : tuple of float
         Of an actuator, which drives by the distance of two points: m/s, m/s².
     """
@@ -247,12 +251,17 @@ class Posed(Struct, frozen=True):
     going: str = ""
     near: float | None = None
     rates: tuple[float, float] = (0.0, 0.0)
+    number: int = 0
 
     @property
     def key(self) -> str:
         """Its key in ``[driver]``."""
         if self.by is PosedBy.LENGTH:
             return self.of
+        if self.by is PosedBy.LINE:
+            return PosedBy.EXTREME.value
+        if self.by is PosedBy.BETWEEN:
+            return f"{PosedBy.PHI.value}_{self.of}"
         return f"{self.by.value}_{self.of}" if self.of else self.by.value
 
 

@@ -1,4 +1,4 @@
-"""Positions told by the output: ``x_B``, ``phi_3``, a share of the stroke, an extreme."""
+"""Positions told by the output: ``x_B``, ``phi_3``, ``phi_2_3``, a share of the stroke, ..."""
 
 from __future__ import annotations
 
@@ -21,9 +21,10 @@ _READERS: Mapping[str, Callable[[Faults, str, object], float | None]] = {
     "stroke": partial(fields.read_number, what="a share of the stroke", low=0.0, high=1.0, hint=""),
 }
 _SIDE = "|".join(keys.EXTREMES)
+_ON = r"(\S+) on (\S+)\Z"
 _AT = rf"(?:(other|{_SIDE}) )?extreme(?: ({_SIDE}))?(?: ?([-+−].*))?\Z"
 _ROOT = 'For example: x_B = 0.12, root = "going right".'
-_WAYS = '"extreme", "other extreme", "left extreme", "extreme left + 30"'
+_WAYS = '"extreme", "other extreme", "left extreme", "extreme left + 30", "B on OC"'
 
 
 def is_posed(key: str) -> bool:
@@ -83,7 +84,8 @@ def read_posed(
             faults.add(
                 f"driver.{key}", say("is the rate of {}, which tells no position", key[2:]), hint
             )
-    if "root" in given and first in ("", "phi", "s", "at"):
+    counted = first == "at" and (found is None or found.by is not PosedBy.LINE)
+    if "root" in given and (first in ("", "phi", "s") or counted):
         faults.add("driver.root", "goes only with a position that the output tells", _ROOT)
     return None if others else found
 
@@ -102,8 +104,13 @@ def _read(
     moving = [p for one in links.values() for p in one.points if p not in fixed]
     known: Collection[str] = links if kind == "phi" else dict.fromkeys(moving)
     said = "unknown link '{}'" if kind == "phi" else "unknown moving point '{}'"
-    if name and name not in known:
-        fields.report_unknown(faults, path, name, known, said=said)
+    pair = name.split("_") if kind == "phi" else [name]
+    for one in pair if name else ():
+        if one not in known:
+            fields.report_unknown(faults, path, one, known, said=said)
+            return None
+    if len(pair) > 2 or len({*pair}) < len(pair):
+        faults.add(path, "an angle is between two links", "For example: phi_2_3 = 90")
         return None
     if kind in ("stroke", "at") and not crank:
         faults.add(path, "a driving slider has no turn", "Give x_B, y_B or phi_1 of a link.")
@@ -117,19 +124,51 @@ def _read(
         return None
     values: list[float] = []
     extremes: list[str] = []
+    by = PosedBy.BETWEEN if len(pair) == 2 else PosedBy(kind)
+    if kind == "at" and all(isinstance(item, str) and " on " in item for item in items):
+        by = PosedBy.LINE
     for index, item in enumerate(items):
         where = f"{path}[{index}]" if isinstance(value, list) else path
-        if kind == "at":
+        if by is PosedBy.LINE:
+            line = _read_on(faults, where, item, moving, fixed)
+            extremes += [line or ""]
+            number = 0.0 if line else None
+        elif kind == "at":
             told = _read_extreme(faults, where, item)
             number = None if told is None else told[1]
             extremes += [] if told is None else [told[0]]
         else:
             number = _READERS[kind](faults, where, item)
+            if by is PosedBy.BETWEEN and number is not None and not 0.0 <= number <= 180.0:
+                faults.expected(where, "an angle of two links from 0 to 180 degrees", item)
         values += [] if number is None else [number]
-    going, near = _read_root(faults, kind, given.get("root"), crank=crank)
+    kind = by.value if by is PosedBy.BETWEEN or by is PosedBy.LINE else kind
+    going, near, chosen = _read_root(faults, kind, given.get("root"), crank=crank)
     if len(values) != len(items):
         return None
-    return Posed(PosedBy(kind), name, tuple(values), tuple(extremes), going, near)
+    return Posed(by, name, tuple(values), tuple(extremes), going, near, number=chosen)
+
+
+def _read_on(
+    faults: Faults, path: str, value: object, moving: Collection[str], fixed: Collection[str]
+) -> str | None:
+    """Read ``B on OC``: a moving point, and the line of two others that it is on."""
+    match = re.match(_ON, " ".join(value.split())) if isinstance(value, str) else None
+    if match is None:
+        faults.expected(path, "a point on a line", value, 'For example: at = "B on OC"')
+        return None
+    points = dict.fromkeys([*fixed, *moving])
+    name = fields.read_known_point(faults, path, match[1], points, of="the mechanism")
+    line = fields.read_line_name(faults, path, match[2], points, of="the mechanism")
+    if name is None or line is None:
+        return None
+    if name in line:
+        faults.add(path, say("the line {} goes through {} itself", match[2], name))
+        return None
+    if {name, *line} <= {*fixed}:
+        faults.add(path, say("point {} is fixed", name), "Name a point that moves.")
+        return None
+    return f"{name} on {''.join(line)}"
 
 
 def _read_actuator(
@@ -159,11 +198,11 @@ def _read_actuator(
     ]
     if f"v_{pair}" not in given:
         faults.add(f"driver.v_{pair}", "missing", say("How fast {} grows, m/s.", pair))
-    _, near = _read_root(faults, "length", given.get("root"), crank=crank)
+    _, near, number = _read_root(faults, "length", given.get("root"), crank=crank)
     if ends is None or length is None or len(faults) != before:
         return None
     speed, gain = (rate or 0.0 for rate in rates)
-    return Posed(PosedBy.LENGTH, pair, (length,), (), "", near, (speed, gain))
+    return Posed(PosedBy.LENGTH, pair, (length,), (), "", near, (speed, gain), number)
 
 
 def _read_extreme(faults: Faults, path: str, value: object) -> tuple[str, float] | None:
@@ -187,22 +226,24 @@ def _read_extreme(faults: Faults, path: str, value: object) -> tuple[str, float]
 
 def _read_root(
     faults: Faults, kind: str, value: object, *, crank: bool
-) -> tuple[str, float | None]:
-    """Read which of several positions is meant: ``going right``, or ``near 40``."""
+) -> tuple[str, float | None, int]:
+    """Read which of several positions is meant: ``going right``, ``near 40``, or its number."""
     if value is None or kind == "at":
-        return "", None
+        return "", None, 0
+    if isinstance(value, int) and not isinstance(value, bool) and value > 0:
+        return "", None, value
     words = value.split() if isinstance(value, str) else []
     ways = keys.GOING.get(kind, ())
     if len(words) == 2 and words[0] == "going" and words[1] in ways:
-        return words[1], None
+        return words[1], None, 0
     if len(words) == 2 and words[0] == "near":
         read = fields.read_angle if crank else fields.read_coordinate
         try:
-            return "", read(faults, "driver.root", float(words[1]))
+            return "", read(faults, "driver.root", float(words[1])), 0
         except ValueError:
             pass
-    example = f'"near {40 if crank else 0.1}"'
+    example = say('"near {}" or a number from 1', 40 if crank else 0.1)
     if ways:
-        example = say('"going {}", "going {}" or {}', *ways, example)
+        example = say('"going {}", "going {}", {}', *ways, example)
     faults.expected("driver.root", example, value)
-    return "", None
+    return "", None, 0

@@ -44,6 +44,9 @@ class Selector(Struct, frozen=True):
 ANALOGUES = ("x1", "y1", "x2", "y2", "phi1", "phi2")
 """First and second derivatives by the coordinate of the driver (аналоги), as JSON has them."""
 
+TRANSFERS = ("v_q", "a_q", "u", "epsilon_q")
+"""Transfer functions as the plans give them: of a point, of two links, of a link."""
+
 QUANTITIES: Mapping[str, tuple[int, ...]] = {
     "x": (1,),
     "y": (1,),
@@ -65,10 +68,12 @@ QUANTITIES: Mapping[str, tuple[int, ...]] = {
     "segment velocity": (2,),
     "segment acceleration": (2,),
     **dict.fromkeys(ANALOGUES, (1,)),
+    **dict.fromkeys(TRANSFERS, (1,)),
+    "u": (2,),
 }
 """Kinds of quantity of the motion, and how many names each may have."""
 
-LINK_KINDS = frozenset({"phi", "omega", "epsilon", "phi1", "phi2"})
+LINK_KINDS = frozenset({"phi", "omega", "epsilon", "phi1", "phi2", "u", "epsilon_q"})
 POLE = "p"
 
 

@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterable
 
-from planmethod.plans.legend import QuantityKind
+from planmethod.plans.legend import TRANSFERS, QuantityKind
 from planmethod.solved.quantities import Quantities, UnknownQuantityError, quantities_of
 from planmethod.solved.solution import Solution
+
+TRANSFER = re.compile("|".join(f"{kind.letter}_" for kind in TRANSFERS)).match
+"""Tells whether a label may be of a transfer function: they are planned only where one is."""
 
 
 def quantities_for(
@@ -27,6 +31,10 @@ def quantities_for(
         A force is asked of a problem without masses and loads.
     """
     quantities = quantities_of(solution.construction)
+    if labels is not None:
+        labels = tuple(labels)
+        if any(label == "transfers" or TRANSFER(label) for label in labels):
+            quantities = quantities_of(solution.construction, transfers=True)
     other = () if labels is None else [label for label in labels if not quantities.find(label)]
     if not (other or (forces and labels is None)):
         return quantities

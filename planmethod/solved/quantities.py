@@ -14,9 +14,10 @@ from planmethod.errors import PlanMethodError
 from planmethod.languages import say
 from planmethod.plans.build import Construction
 from planmethod.plans.draft import Draft
-from planmethod.plans.legend import Quantity, QuantityKind
+from planmethod.plans.legend import TRANSFERS, Quantity, QuantityKind
+from planmethod.plans.transfers import transfer_quantities
 
-BY_NAME = (QuantityKind.UNIT, QuantityKind.CORIOLIS, QuantityKind.RELATIVE)
+BY_NAME = (QuantityKind.UNIT, QuantityKind.CORIOLIS, QuantityKind.RELATIVE, *TRANSFERS)
 """Kinds of what is given only when it is asked for by name."""
 
 ACCELERATIONS = (QuantityKind.ACCELERATION, QuantityKind.CORIOLIS, QuantityKind.RELATIVE)
@@ -53,8 +54,8 @@ class Quantities(Struct, frozen=True):
     def choose(self, labels: Iterable[str] | None) -> tuple[Quantity, ...]:
         """Return the results of some labels, in the order asked; for None all that have columns.
 
-        ``positions``, ``velocities``, ``accelerations``, ``forces`` and ``units`` stand for what
-        they say.
+        ``positions``, ``velocities``, ``accelerations``, ``forces``, ``transfers`` and ``units``
+        stand for what they say.
 
         Raises
         ------
@@ -110,11 +111,14 @@ WHOLE = {
     "accelerations": (QuantityKind.ACCELERATION, QuantityKind.EPSILON),
     "forces": tuple(kind for kind in QuantityKind if kind.is_force),
     "units": (QuantityKind.UNIT,),
+    "transfers": TRANSFERS,
 }
 """Whole groups of results that can be asked for at once."""
 
 
-def quantities_of(construction: Construction) -> Quantities:
-    """Return every quantity of a construction."""
-    draft = construction.draft.copy()
-    return Quantities(draft.b.program(), draft.numbers, construction.legend, draft)
+def quantities_of(construction: Construction, *, transfers: bool = False) -> Quantities:
+    """Return every quantity of a construction; transfer functions where they are wanted."""
+    draft, found = construction.draft.copy(), construction.legend
+    if transfers:
+        found = (*found, *transfer_quantities(construction.kinematics, draft))
+    return Quantities(draft.b.program(), draft.numbers, found, draft)

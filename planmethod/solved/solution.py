@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from functools import cached_property
 from types import MappingProxyType
 from typing import Any
@@ -199,6 +199,10 @@ class Solution(Remembering):
     def together(self) -> int:
         """How many positions are of one mechanism."""
         return len(self.positions)
+
+    def numbers_of(self, plan: Callable[[Construction], Mapping[str, float]]) -> dict[str, Number]:
+        """Return the known numbers of what goes on from the construction."""
+        return dict(plan(self.construction))
 
     def length(self, link: str, p: str, q: str) -> float | Reals:
         """Return the given distance of two points of a link, m."""

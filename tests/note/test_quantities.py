@@ -62,6 +62,11 @@ EXACT = {
     "y2 D": -0.075 * R,
     "phi1 3": 0.5,
     "phi2 3": 0.0,
+    "v_q D": 0.15,
+    "a_q D": 0.075,
+    "u 3 1": 0.5,
+    "u 1 3": 2.0,
+    "epsilon_q 3": 0.0,
 }
 
 
@@ -88,6 +93,9 @@ def test_the_hand_reads_along_its_own_chain() -> None:
         "vs B3 B": 0.71,
         "x D": 0.212,
         "an B A": 10.0,
+        "v_q B3": 0.1 * 35.5 / 50,
+        "u 3 1": 0.1 * 35.5 / 50 / 0.141,
+        "v_q B": 0.1,
     }
     for what, value in expected.items():
         assert kulisa().read(parse_selector(what)) == pytest.approx(value, rel=1e-12), what

@@ -120,8 +120,8 @@ def test_what_is_doubtful_is_warned_of_as_alone(tmp_path: Path) -> None:
 
 def test_a_table_has_the_rows_of_each_alone(tmp_path: Path) -> None:
     file = tmp_path / "mixed.toml"
-    rows = [line for line in MIXED.splitlines() if "DE" not in line and "epsilon" not in line]
-    file.write_text(EX3 + "\n".join(rows) + "\n")
+    lines = [line for line in MIXED.splitlines() if "DE" not in line and "epsilon" not in line]
+    file.write_text(EX3 + "\n".join(lines) + "\n")
     whole = CliRunner().invoke(main, ["solve", str(file), "--all-variants", "--csv"])
     head, *rows = csv.reader(whole.stdout.splitlines())
     assert head[:3] == ["problem", "variant", "position"]

@@ -217,6 +217,9 @@ def of_turn(problem: Problem, position: float, angle: str, words: Language) -> s
 def _posed(posed: Posed, of: Sequence[int], text: As) -> str:
     """Return how the output tells some of the positions."""
     note, values = text.words.note, [posed.values[k] for k in of]
+    if posed.by is PosedBy.LINE:
+        pairs = [posed.extremes[k].split(" on ") for k in of]
+        return "; ".join(note.given_on_line.format(point=one, line=line) for one, line in pairs)
     if posed.by is PosedBy.EXTREME:
         told = []
         for where, after in ((posed.extremes[k], posed.values[k]) for k in of):
@@ -230,7 +233,7 @@ def _posed(posed: Posed, of: Sequence[int], text: As) -> str:
             path += f"[{posed.values.index(value)}]"
         if posed.by is PosedBy.STROKE:
             return text.plain(value, path)
-        if posed.by is PosedBy.PHI:
+        if posed.by in (PosedBy.PHI, PosedBy.BETWEEN):
             return text.number(value, "deg", path)
         return text.metres(value, path)
 
@@ -242,8 +245,10 @@ def _posed(posed: Posed, of: Sequence[int], text: As) -> str:
         acted += f"a_{{{pair}}} = {text.number(a, 'm/s²', f'driver.a_{pair}')}"
         letter, unit = (f"ω_{{{drive.link}}}", "1/s") if drive.is_crank else ("v", "m/s")
         return f"{acted} ({letter} = {say.found(drive.rate)} {say.units[unit]})"
-    letter = {PosedBy.PHI: "φ", PosedBy.STROKE: "s/H"}.get(posed.by, posed.by.value)
-    symbol = f"{letter}_{{{posed.of}}}" if posed.of else letter
+    letter = {PosedBy.PHI: "φ", PosedBy.BETWEEN: "φ", PosedBy.STROKE: "s/H"}.get(
+        posed.by, posed.by.value
+    )
+    symbol = f"{letter}_{{{posed.of.replace('_', ',')}}}" if posed.of else letter
     way = note["given_going"][posed.going] if posed.going else ""
     return f"{symbol} = {', '.join(map(said, values))}{way}"
 

@@ -22,8 +22,10 @@ from planmethod.solved.errors.motion import drafting_of
 from planmethod.solved.many.variants import Batch
 from planmethod.solved.reading import Complexes
 from planmethod.solved.solution import RelativeMotion, Solution
+from planmethod.solved.transfers import transfers_of
 from planmethod.solved.turn.construction import extreme_construction
 from planmethod.solved.turn.diagrams import Diagrams, diagrams_of
+from planmethod.solved.turn.series import quantities_over, values_over
 from planmethod.solved.turn.turn import TURN, Extreme, NoNumber, Turn, turn_of
 
 
@@ -104,6 +106,7 @@ def cycle_record(solution: Solution) -> dict[str, Any]:
         },
         "diagrams": _diagrams(diagrams),
         "hodograph": _hodograph(turn),
+        **({"graphs": _graphs(turn)} if turn.task.graphs else {}),
         **({"reasons": {key: why.value for key, why in reasons.items() if why}} if reasons else {}),
     }
 
@@ -135,6 +138,14 @@ def _diagrams(diagrams: Diagrams) -> dict[str, Any]:
         "a_chord_mm": listed(a_chord),
         "v_exact_mm": listed(v_exact),
         "a_exact_mm": listed(a_exact),
+    }
+
+
+def _graphs(turn: Turn) -> dict[str, Any]:
+    """Return what ``[cycle] graphs`` asks for in the positions of the cycle, SI and degrees."""
+    return {
+        one.label: listed(values_over(turn, one, turn.positions))
+        for one in quantities_over(turn, turn.task.graphs)
     }
 
 
@@ -246,9 +257,29 @@ def _hand(solution: Solution) -> Records:
             "relative": together(
                 [rows({**_names(r, count), **told(sliding[r.name])}) for r in relatives], count
             ),
+            **_transfers(solution),
             "monte_carlo": named({k: s.drawn for k, s in spreads.items()}, count),
         }
     )
+
+
+def _transfers(solution: Solution) -> dict[str, Column | Records]:
+    """Return the transfer functions through segments, by label: exact, read, sigma."""
+    transfers = transfers_of(solution)
+    if transfers is None:
+        return {}
+    spreads = drafting_of(solution).spreads
+    told = {
+        one.label: rows(
+            {
+                "exact": listed(transfers.exact(one)),
+                "read": listed(transfers.read_off(one)),
+                "sigma": listed(spreads[one.label].sigma),
+            }
+        )
+        for one in transfers.quantities
+    }
+    return {"transfers": rows(told)}
 
 
 def _names(relative: Relative | RelativeMotion, count: int) -> dict[str, Column]:
@@ -259,11 +290,13 @@ def _names(relative: Relative | RelativeMotion, count: int) -> dict[str, Column]
 def record(solution: Solution) -> dict[str, Any]:
     """Return everything that a solution says as plain data, SI, full precision.
 
-    ``segments`` are in millimetres of the plan: ``exact``, ``read`` with the ruler along the hand's
-    own chain, and ``sigma``, one standard deviation of the drafting error. ``hand`` holds the
-    quantities that follow from the read segments with theirs, and the labels of those whose sigma
-    was found by random draws because first order does not hold. ``cycle`` is there for a problem
-    with ``[cycle]``, ``forces`` for one with ``[dynamics]``: see `planmethod.note.tables.forces`.
+    ``hand.transfers`` are the transfer functions through segments, by label: ``exact``, ``read``,
+    ``sigma``. ``segments`` are in millimetres of the plan: ``exact``, ``read`` with the ruler along
+    the hand's own chain, and ``sigma``, one standard deviation of the drafting error. ``hand``
+    holds the quantities that follow from the read segments with theirs, and the labels of those
+    whose sigma was found by random draws because first order does not hold. ``cycle`` is there for
+    a problem with ``[cycle]``, ``forces`` for one with ``[dynamics]``: see
+    `planmethod.note.tables.forces`.
     """
     found: dict[str, Any] = plain_of(record_in_columns(solution))
     return found

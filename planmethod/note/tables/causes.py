@@ -11,12 +11,15 @@ from planmethod.note.document import Caption, Item, Node, Paragraph
 from planmethod.note.formula import Rich
 from planmethod.note.narrate.given import told
 from planmethod.note.narrate.naming import Names
+from planmethod.note.narrate.transfers import even_letter
 from planmethod.note.plaintext import fixed, spoken
 from planmethod.note.rounding import rounded_to, sigma_text
 from planmethod.note.tables.sigmas import marked
 from planmethod.plans.legend import MOTION_KINDS, Quantity
+from planmethod.plans.model import FACTS, PlanKind
 from planmethod.solved.errors.motion import drafting_of
 from planmethod.solved.errors.spread import SHORT
+from planmethod.solved.transfers import transfers_of
 
 MOST = 3
 """Causes that are listed for one result."""
@@ -34,6 +37,9 @@ class Causes:
     def __init__(self, names: Names) -> None:
         self.names, self.words, self.solution = names, names.words, names.solution
         titles = names.words["plans"].items()
+        transfers = transfers_of(self.solution)
+        added = () if transfers is None else transfers.added
+        self._added = {str(step.out): step for step in added}
         self._titles = {kind: title[:1].lower() + title[1:] for kind, title in titles}
 
     def nodes(self, index: int) -> Iterator[Node]:
@@ -72,11 +78,24 @@ class Causes:
 
     def tell(self, stroke: str) -> Rich:
         """Return a stroke in words: "проведение прямой из точки b ⊥ BC (план скоростей)"."""
+        if stroke in self._added:  # of the analogues of accelerations of a crank with ε
+            text = self._of_analogues(self._added[stroke])
+            return f"{text} ({self._titles[PlanKind.ACCELERATION.value]})"
         step = self.names.step[PointName(stroke)]
         text = self._stroke(step)
         plans = self.names.construction.draft.plans
         plan = plans.get(step.out) or plans.get(getattr(step, "head", step.out))
         return text if plan is None else f"{text} ({self._titles[plan.value]})"
+
+    def _of_analogues(self, step: Step) -> Rich:
+        names, words = self.names, self.words
+        if isinstance(step, steps.Measure):
+            point = str(step.out).strip("|").removeprefix("a_q_")
+            segment = f"{names.pole(PlanKind.ACCELERATION)}{even_letter(names, point)}"
+            return words.cause_read.format(segment=segment)
+        assert isinstance(step, steps.Carry)
+        point = str(step.out).removeprefix(FACTS[PlanKind.ACCELERATION].prefix).removesuffix("_q")
+        return words.cause_lay_off.format(of=names.of(step.origin), point=even_letter(names, point))
 
     def _stroke(self, step: Step) -> str:
         names, words = self.names, self.words

@@ -26,10 +26,12 @@ from planmethod.note.narrate.turn import (
 from planmethod.note.numbers import alike, in_heads, significant
 from planmethod.note.wording import Language
 from planmethod.problem.cycle_records import Differentiation
+from planmethod.problem.graphs import GraphQuantity, graph_quantities
 from planmethod.solved.reading import Reals
 from planmethod.solved.solution import Solution
 from planmethod.solved.turn.construction import extreme_construction
 from planmethod.solved.turn.diagrams import Deviation, Diagrams, deviations, diagrams_of, sigmas
+from planmethod.solved.turn.series import quantities_over, values_over
 from planmethod.solved.turn.turn import turn_of
 
 Columns = list[tuple[str, str, tuple[str, ...]]]
@@ -66,6 +68,41 @@ def cycle_columns(diagrams: Diagrams, words: Language) -> Columns:
         peak = float(np.nanmax(np.abs(values), initial=0.0))
         texts = alike([0.0 if abs(x) <= 1e-9 * peak else float(x) for x in values])
         columns.append((head, unit, tuple(map(say.number, texts))))
+    return columns
+
+
+def transfer_columns(diagrams: Diagrams, words: Language) -> Columns:
+    """Return the transfer functions of all points and links by positions, exact."""
+    turn = diagrams.turn
+    velocity, crank = turn.unit.construction.kinematics.velocity, turn.unit.problem.drive.link
+    moving = [name for name, at in velocity.named.items() if velocity.point[at] != velocity.pole]
+    omega = turn.unit.construction.kinematics.omega
+    turning = [k for k in turn.unit.problem.mechanism.links if k in omega and k != crank]
+    known = graph_quantities(moving, turn.unit.problem.mechanism.links, crank).values()
+    chosen = [
+        one
+        for kind in ("v_q", "u", "a_q", "epsilon_q")
+        for one in known
+        if one.kind == kind and not one.axis and one.of in (*moving, *turning)
+    ]
+    return _columns_over(diagrams, chosen, words)
+
+
+def graph_columns(diagrams: Diagrams, words: Language) -> Columns:
+    """Return what ``[cycle] graphs`` asks for by positions."""
+    turn = diagrams.turn
+    return _columns_over(diagrams, quantities_over(turn, turn.task.graphs), words)
+
+
+def _columns_over(diagrams: Diagrams, chosen: Sequence[GraphQuantity], words: Language) -> Columns:
+    turn, say = diagrams.turn, words.say
+    at = turn.at(diagrams.shares[np.argsort(turn.numbers)])
+    columns = cycle_columns(diagrams, words)[:2]
+    for one in chosen:
+        values = values_over(turn, one, at)
+        peak = float(np.nanmax(np.abs(values), initial=0.0))
+        texts = alike([0.0 if abs(x) <= 1e-9 * peak else float(x) for x in values])
+        columns.append((one.symbol, one.unit, tuple(map(say.number, texts))))
     return columns
 
 
@@ -121,6 +158,8 @@ def cycle_tables(solution: Solution, words: Language) -> Iterator[Node]:
     yield Paragraph("; ".join(turn_facts(turn, words)) + ".")
     for title, columns in (
         (said.table, cycle_columns(diagrams, words)),
+        (said.transfers, transfer_columns(diagrams, words)),
+        *([(said.asked, graph_columns(diagrams, words))] if turn.task.graphs else ()),
         (deviations_title(solution, words), deviation_columns(diagrams, words)),
     ):
         yield Caption(title)

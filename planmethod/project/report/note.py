@@ -67,7 +67,7 @@ def _chapters(report: Report) -> Iterator[Node]:
     yield from results_parts(report)
     if has_turn(report):
         yield from diagrams_part(report)
-        yield from transfer_chapter(report)
+    yield from transfer_chapter(report)
     if report.has(PartName.FORCES):
         yield from ForceChapter(report).nodes()
     if report.has(PartName.FLYWHEEL):

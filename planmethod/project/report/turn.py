@@ -9,15 +9,26 @@ from math import degrees
 from planmethod.note.document import Chapter, Node, Part, Table
 from planmethod.note.formula import Rich, fraction
 from planmethod.note.narrate.given import point_name
+from planmethod.note.narrate.scales import scale_inscription
+from planmethod.note.narrate.transfers import TransferNarrator
 from planmethod.note.narrate.turn import NO_ANGLE, diagram_scales, output_name, output_symbol
 from planmethod.note.numbers import half_up, in_heads, with_unit
-from planmethod.note.tables.turn import Columns, cycle_columns, deviation_columns
+from planmethod.note.tables.turn import (
+    Columns,
+    cycle_columns,
+    deviation_columns,
+    transfer_columns,
+)
 from planmethod.note.wording import Words
-from planmethod.plans.model import RATES
-from planmethod.project.report.context import Report, displayed, sentences
+from planmethod.plans.model import RATES, PlanKind
+from planmethod.problem.graphs import GraphQuantity
+from planmethod.project.report.context import Report, chain, displayed, sentences
 from planmethod.project.report.figures import figure
+from planmethod.render.layout.block import Picture
 from planmethod.render.pictures.kinematic import kinematic_picture
+from planmethod.render.sheets.graphs import graph_groups, graph_picture
 from planmethod.render.sheets.turn import hodograph
+from planmethod.solved.transfers import Transfers, transfers_of
 from planmethod.solved.turn.diagrams import diagrams_of
 from planmethod.solved.turn.turn import TURN, turn_of
 
@@ -130,14 +141,47 @@ def _hodographs(report: Report, said: Words) -> Iterator[Node]:
 
 
 def transfer_chapter(report: Report) -> Iterator[Node]:
-    """Yield the chapter on transfer functions."""
+    """Yield the chapter on transfer functions: by segments of the plans, and over the turn."""
+    transfers = transfers_of(report.one)
+    if transfers is None:
+        return
+    yield Chapter(report.said["turn"].transfer.format())
+    yield from _by_segments(report, transfers)
+    if has_turn(report):
+        yield from _over_the_turn(report)
+
+
+def _by_segments(report: Report, transfers: Transfers) -> Iterator[Node]:
+    """Yield the transfer functions of the calculated position with the segments that give them."""
+    said, told = report.said["turn"], TransferNarrator(report.formulas, transfers)
+    facts = {"link": report.one.problem.drive.link, "position": report.in_position}
+    yield sentences(said.transfer_first.format(**facts))
+    yield from chain(told.formulas(PlanKind.VELOCITY, senses=False))
+    yield from _senses(said, told, PlanKind.VELOCITY)
+    carried = told.carried()
+    even = said.transfer_second_even if carried else said.transfer_second
+    yield sentences(even.format(**facts))
+    if carried:
+        yield from chain(carried[:1])
+        yield sentences(*carried[1:])
+    yield from chain(told.formulas(PlanKind.ACCELERATION, senses=False))
+    yield from _senses(said, told, PlanKind.ACCELERATION)
+
+
+def _senses(said: Words, told: TransferNarrator, plan: PlanKind) -> Iterator[Node]:
+    found = told.senses(plan)
+    if found:
+        yield sentences(said.transfer_senses.format(senses="; ".join(found)))
+
+
+def _over_the_turn(report: Report) -> Iterator[Node]:
+    """Yield the transfer functions of the output, of all points and links, and asked graphs."""
     said: Words = report.said["turn"]
     diagrams = diagrams_of(report.every)
     turn, drive = turn_of(report.every), report.every.problem.drive
     symbol = output_symbol(turn.output)
     index, link = symbol.partition("_")[2], drive.link
     v, a = ("v", "a") if turn.output.slide is not None else ("ω", "ε")
-    yield Chapter(said.transfer.format())
     yield sentences(said.transfer_text.format(symbol=symbol))
     first = fraction(f"d{symbol}", f"dφ_{{{link}}}")
     second = fraction(f"d^{{2}}{symbol}", f"dφ_{{{link}}}^{{2}}")
@@ -151,10 +195,35 @@ def transfer_chapter(report: Report) -> Iterator[Node]:
     yield sentences(even.format())
     columns = cycle_columns(diagrams, report.words)
     yield _table(columns, report, said.transfer_table.format(), "transfer", names=1)
+    yield sentences(said.transfer_all_text.format())
+    columns = transfer_columns(diagrams, report.words)
+    yield _table(columns, report, said.transfer_all.format(), "transfer_all", names=1)
+    yield from _graphs(report, said)
     peak = turn.pressure
     if peak is not None and abs(peak.most) > NO_ANGLE:
         place = f"{report.coordinate} = {report.degrees(round(peak.most_at % 360.0, 2) % 360.0)}"
         yield sentences(said.pressure.format(most=report.degrees(peak.most), most_at=place))
+
+
+def _graphs(report: Report, said: Words) -> Iterator[Node]:
+    """Yield the graphs that ``[cycle] graphs`` asks for, a figure for each diagram."""
+    diagrams = diagrams_of(report.every)
+    groups = graph_groups(diagrams.turn, diagrams.task.graphs)
+    if groups:
+        keys = [f"\\ref{{graph_{k}}}" for k in range(len(groups))]
+        yield sentences(said.graphs_text.format(figures=report.listed(keys)))
+    convention = report.every.problem.scales.convention
+    for number, group in enumerate(groups):
+
+        def made(letter: float, group: list[GraphQuantity] = group) -> Picture:
+            return graph_picture(diagrams, group, letter, report.words)[0]
+
+        _, scale = graph_picture(diagrams, group, 5.0, report.words)
+        caption = said.graph.format(
+            name=report.words.cycle["graphs"][group[0].family],
+            scale=scale_inscription(scale, convention, report.say),
+        )
+        yield figure(made, caption, f"graph_{number}", height=75.0)
 
 
 def _table(columns: Columns, report: Report, name: Rich, key: str, *, names: int) -> Table:

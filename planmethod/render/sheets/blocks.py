@@ -56,6 +56,15 @@ def _kinematics() -> Mapping[str, Maker]:
     }
 
 
+def _transfers() -> Mapping[str, Maker]:
+    from planmethod.render.sheets import transfers
+
+    return {
+        "transfers": transfers.formulas_block,
+        "transfer-table": transfers.transfer_table,
+    }
+
+
 def _scheme(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
     if len(solution.positions) == 1:
         return views.scheme_view(solution, indices, manner)
@@ -101,9 +110,10 @@ def _cycle() -> Mapping[str, Maker]:
 
 
 def _turn() -> Mapping[str, Maker]:
-    from planmethod.render.sheets import measured, turn
+    from planmethod.render.sheets import graphs, measured, turn
 
     return {
+        "graphs": graphs.graphs_view,
         "turn-statement": turn.turn_statement,
         "kinematic-diagrams": turn.diagrams_view,
         "chosen-plans": turn.chosen_plans,
@@ -166,6 +176,8 @@ BLOCKS: Mapping[str, BlockKind] = MappingProxyType(
         "equations": BlockKind(_kinematics, ("of", *_TEXT)),
         "calculation": BlockKind(_kinematics, ("of", "title", "height", "position")),
         "results": BlockKind(_kinematics, (*_TEXT, "columns")),
+        "transfers": BlockKind(_transfers, ("of", "title", "height", "position")),
+        "transfer-table": BlockKind(_transfers, _TEXT),
         "text": BlockKind(_kinematics, ("text", *_TEXT)),
         "loads": BlockKind(_forces, _VIEW),
         "load-statement": BlockKind(_forces, (*_TEXT, "position")),
@@ -184,6 +196,7 @@ BLOCKS: Mapping[str, BlockKind] = MappingProxyType(
         "kinematic-diagrams": BlockKind(_turn, _DIAGRAM),
         "chosen-plans": BlockKind(_turn, ("of", *_VIEW[:-1])),
         "hodograph": BlockKind(_turn, ("of", *_DIAGRAM)),
+        "graphs": BlockKind(_turn, ("asked", *_VIEW[:-1], "per_row")),
         "measured-results": BlockKind(_turn, _TEXT),
         "turn-table": BlockKind(_turn, _TEXT),
         "deviations": BlockKind(_turn, _TEXT),

@@ -57,6 +57,7 @@ def kinematics_sheets(
     sigma: bool | None = None,
     layout: str | Path | Composition | None = None,
     most: int | None = None,
+    asked: Sequence[str] = (),
 ) -> list[Drawing]:
     """Draw the kinematic analysis in the language of ``problem.sheet``, a dozen positions a sheet.
 
@@ -83,9 +84,14 @@ def kinematics_sheets(
         absent, ``one-position`` or ``many-positions``.
     most : int, optional
         Sheets that may be made; any number when absent.
+    asked : sequence of str
+        Labels of quantities whose graphs the composition's block of graphs has; without them
+        those of the block or of ``[cycle]``.
 
     Raises
     ------
+    UnknownQuantityError
+        There is no such quantity.
     LayoutError
         When the blocks fit no format, or not the asked one, or when more sheets than that follow.
     CompositionError
@@ -95,7 +101,8 @@ def kinematics_sheets(
         problem = replace(problem, sheet=replace(problem.sheet, paper=paper_format(paper).name))
     solution = Solution(problem, positions=positions, ruler=ruler, profile=profile)
     moved = positions is not None
-    strategy = _strategy(solution, layout, errors=errors, sigma=sigma, moved=moved, most=most)
+    strategy = _strategy(solution, layout, errors=errors, sigma=sigma, moved=moved, most=most,
+                         asked=asked)  # fmt: skip
     drawings = compose(problem, strategy, _misfit(problem), fields=fields, furniture=furniture)
     _refuse_many(strategy.solution, len(drawings), most)
     return drawings
@@ -127,6 +134,7 @@ def _strategy(
     sigma: bool | None = None,
     moved: bool,
     most: int | None = None,
+    asked: Sequence[str] = (),
 ) -> Linkage:
     """Return how sheets of a layout are searched for; ``moved``: positions were asked for."""
     words = language(solution.problem.sheet.lang or LANGUAGES[0])
@@ -142,7 +150,7 @@ def _strategy(
     least = len(made.sheets) * -(-count // made.at_most(count)[0])
     _refuse_many(solution, least, most)  # before the work, where it is known
     verify(solution)
-    return Linkage(made, solution, Extras(words, errors, sigma, made.turn))
+    return Linkage(made, solution, Extras(words, errors, sigma, made.turn, asked=tuple(asked)))
 
 
 def _misfit(problem: Problem) -> Misfit:

@@ -49,6 +49,8 @@ class Entry(Struct, frozen=True):
         Kinds of columns of a table: v, ω, a, ε; empty for all.
     traces : bool or tuple of str, optional
         Traces of the construction: all, none, or those of the points with these letters.
+    asked : tuple of str
+        Quantities whose graphs are drawn, by label.
     number : int
         Which of the force plans, from 0: the blocks of one are made for each of them.
     """
@@ -68,6 +70,7 @@ class Entry(Struct, frozen=True):
     position: int | None = None
     columns: tuple[str, ...] = ()
     traces: bool | tuple[str, ...] | None = None
+    asked: tuple[str, ...] = ()
     number: int = 0
 
 
@@ -156,7 +159,7 @@ class Extras(Struct, frozen=True):
     ``errors`` are ellipses around points, ``sigma`` stands in the tables; None: in that of the
     results of one position alone. ``turn``: it is that of a turn, and the scheme has the
     construction of the extreme positions. ``traces``: there is room for those of the construction
-    where nobody asks for them.
+    where nobody asks for them. ``asked`` are the quantities whose graphs are drawn.
     """
 
     words: Language
@@ -164,6 +167,7 @@ class Extras(Struct, frozen=True):
     sigma: bool | None = None
     turn: bool = False
     traces: bool = True
+    asked: tuple[str, ...] = ()
 
 
 class Manner(Struct, frozen=True):

@@ -15,6 +15,7 @@ from msgspec import Struct
 from planmethod.construct.arithmetic import Number
 from planmethod.construct.dual import angle
 from planmethod.construct.evaluate import Trace
+from planmethod.construct.program import Program
 from planmethod.construct.steps import AtAngle, NumberName, Parallel, Perpendicular, PointName
 from planmethod.plans.forces.board import Force, Reaction
 from planmethod.solved.errors.drawing import (
@@ -29,6 +30,7 @@ from planmethod.solved.errors.spread import Errors
 from planmethod.solved.forces.contact import JointForce
 from planmethod.solved.forces.statics import Statics
 from planmethod.solved.reading import Flags, Reals
+from planmethod.solved.transfers import transfers_of
 
 BALANCE, LEVER, DIFFERENCE = "balance", "lever", "difference"
 """Labels: what balances the driver by the force plans and by the lever, lever minus plans."""
@@ -136,10 +138,15 @@ def drawn_forces(statics: Statics) -> DrawnForces:
 def all_errors(statics: Statics) -> Errors:
     """Return the errors of force plans and kinematics together: they have strokes in common."""
     solution, drawn = statics.solution, drawn_forces(statics).drawing
+    transfers, steps = transfers_of(solution), statics.board.draft.b.program().steps
+    made, known = {step.out for step in steps}, {}
+    if transfers is not None:
+        known = transfers.draft.numbers
+        steps += tuple(step for step in transfers.added if step.out not in made)
     return Errors(
         Drafted(
-            statics.board.draft.b.program(),
-            drawn.data,
+            Program(steps),
+            lambda chosen: {**known, **drawn.data(chosen)},
             drawn.count,
             drawn.profile,
             drawn.free,

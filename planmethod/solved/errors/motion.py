@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from functools import cached_property, partial
+from functools import cached_property
 
 import numpy as np
+import numpy.typing as npt
 from msgspec.structs import replace
 
 from planmethod.construct.arithmetic import Number
@@ -21,14 +22,16 @@ from planmethod.solved.errors.drawing import (
 )
 from planmethod.solved.errors.spread import DRAWS, Errors
 from planmethod.solved.reading import Flags
-from planmethod.solved.solution import Solution
+from planmethod.solved.solution import Solution, at_positions
+from planmethod.solved.transfers import transfers_of
 
 
 class Drafting(Errors):
     """Drafting errors of the plans of a solution.
 
     Labels: ``velocity.p-b`` (mm of the plan), ``x_B``, ``v_B``, ``a_B``, ``omega_2``,
-    ``epsilon_2``, ``v_B3/2``, ``ak_B3/2``, ``ar_B3/2`` (SI).
+    ``epsilon_2``, ``v_B3/2``, ``ak_B3/2``, ``ar_B3/2`` (SI); transfer functions, ``v_q_B``,
+    ``u_21``, ``a_q_B``, ``epsilon_q_2``.
 
     Parameters
     ----------
@@ -40,9 +43,11 @@ class Drafting(Errors):
 
     def __init__(self, solution: Solution, *, draws: int = DRAWS, seed: int = 1) -> None:
         self.solution = solution
+        self._transfers = transfers_of(solution)
+        whole = solution.construction if self._transfers is None else self._transfers
         drawing = Drafted(
-            solution.construction.program,
-            partial(solution.data, solution.per_mm),
+            whole.program,
+            self._data,
             len(solution.positions),
             solution.profile,
             frozenset(str(plan.pole) for plan in solution.construction.plans),
@@ -52,6 +57,10 @@ class Drafting(Errors):
         )
         super().__init__(drawing, draws=draws, seed=seed)
 
+    def _data(self, chosen: npt.NDArray[np.intp]) -> dict[str, Number]:
+        known = {} if self._transfers is None else at_positions(self._transfers.numbers, chosen)
+        return {**known, **self.solution.data(self.solution.per_mm, chosen)}
+
     def _items(self) -> Iterator[DrawnQuantity]:
         """Yield every quantity that the drawing gives."""
         construction = self.solution.construction
@@ -60,7 +69,8 @@ class Drafting(Errors):
             item = DrawnQuantity(segment.label, (segment.drawn,), size, DrawnKind.LENGTH)
             yield self._known_absent(item, segment.kind)
         origin = construction.draft.origin
-        for quantity in construction.legend:
+        more = () if self._transfers is None else self._transfers.quantities
+        for quantity in (*construction.legend, *more):
             if quantity.kind is QuantityKind.PLACE:
                 place = PointName(quantity.name)
                 for axis, part in (("x", "real"), ("y", "imag")):

@@ -78,6 +78,10 @@ class Batch(Solution):
         own = [drive_data(p, made.draft, self.positions[rows]) for p, made, rows in each]
         return _columns(own, self._counts)
 
+    def numbers_of(self, plan: Callable[[Construction], Mapping[str, float]]) -> dict[str, Number]:
+        """Return the known numbers of what goes on from the constructions, in every row."""
+        return _columns([plan(made) for made in self.constructions], self._counts)
+
     def length(self, link: str, p: str, q: str) -> Reals:
         """Return the given distance of two points of a link in every row, m."""
         bodies = [problem.bodies[link].points for problem in self.problems]
@@ -192,9 +196,9 @@ def _kind(problem: Problem, construction: Construction) -> tuple[Any, ...]:
     bodies = tuple((link, tuple(body.points)) for link, body in problem.bodies.items())
     draft = construction.draft
     given = tuple(draft.numbers), tuple(draft.places), tuple(draft.branches)
-    even = problem.drive.acceleration == 0
+    rates = problem.drive.rate == 0, problem.drive.acceleration == 0
     several = len(problem.drive.positions) > 1
-    return construction.program.steps, bodies, given, construction.segments, even, several
+    return construction.program.steps, bodies, given, construction.segments, rates, several
 
 
 def _constructed(problems: Sequence[Problem]) -> list[Construction | None]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from enum import Enum
+from functools import cached_property
 
 from msgspec import Struct
 
@@ -14,7 +15,8 @@ from planmethod.plans.legend import ZERO
 from planmethod.plans.model import FACTS, MOTION, RATES, PlanKind
 from planmethod.plans.motion.board import MotionBoard
 from planmethod.plans.segments import Segments
-from planmethod.problem.selector import ANALOGUES, POLE, Selector
+from planmethod.plans.transfers import TransferSteps
+from planmethod.problem.selector import ANALOGUES, POLE, TRANSFERS, Selector
 from planmethod.solved.solution import Solution
 
 PLANS: Mapping[str, PlanKind] = {
@@ -44,6 +46,7 @@ class NoValue(Enum):
     NO_POINT = "no point"  # a name that the plans do not have
     NO_LINK = "no link"  # turning of a point about one that no link joins it to
     NO_ARM = "no arm"  # a force in the axis of the crank cannot balance it
+    NO_CRANK = "no crank"  # transfer functions are by the angle of a crank that turns
     NO_SLIDING = "no sliding"  # the points are not a prismatic pair's
     ZERO_DIVISOR = "zero divisor"
     NO_FORCES = "no forces"  # the file has neither masses nor loads
@@ -144,6 +147,8 @@ class SelectorSteps:
             )
         if kind in ("ak", "ar"):
             return Selected(self.relative(kind, *names))
+        if kind in TRANSFERS:
+            return self._transfer(kind, names)
         if kind in ANALOGUES:
             raise NoValueError(NoValue.NO_WHAT)  # no plan has them
         (link,) = names
@@ -151,6 +156,35 @@ class SelectorSteps:
             raise NoValueError(NoValue.NO_LINK)
         rates = self.kin.omega if kind == "omega" else self.kin.epsilon
         return Selected(rates.get(link, self.zero), signed=True)
+
+    @cached_property
+    def _transfers(self) -> TransferSteps:
+        drive = self.solution.problem.drive
+        if not drive.is_crank or drive.rate == 0.0:
+            raise NoValueError(NoValue.NO_CRANK)
+        return TransferSteps(self.kin, self.draft, by_values=True)
+
+    def _transfer(self, kind: str, names: tuple[str, ...]) -> Selected:
+        """Return a transfer function; u of other links than the crank is ω over ω."""
+        steps, plan = (
+            self._transfers,
+            PlanKind.VELOCITY if kind in "v_q u" else PlanKind.ACCELERATION,
+        )
+        if kind in ("v_q", "a_q"):
+            if names[0] not in self.kin.velocity.named:
+                raise NoValueError(NoValue.NO_POINT)
+            return Selected(steps.of_point(names[0], plan))
+        if not set(names) <= set(self.solution.links):
+            raise NoValueError(NoValue.NO_LINK)
+        crank = self.solution.problem.drive.link
+        first, *others = names
+        found = steps.of_link(first, plan)
+        if others in ([], [crank]):
+            return Selected(found, signed=True)
+        if others[0] not in self.kin.omega:
+            raise NoValueError(NoValue.ZERO_DIVISOR)
+        below = steps.of_link(others[0], plan)
+        return Selected(self.compute((found, 1), (below, -1)), signed=True)
 
     @property
     def zero(self) -> NumberName:

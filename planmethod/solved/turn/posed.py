@@ -29,6 +29,7 @@ _TRIES = 36  # positions of a turn in which it is tried how the groups close
 _SLIDER_TRIES = 120
 _ASIDE = 0.0931  # degrees off round numbers, where singular places like to be
 _SAME = 1e-7  # degrees, or share of the way of a slider, within which two roots are one
+_ROUNDING = 1e-15  # share of the range within which a round position is as good as the root
 _OFF = 1e-6  # share of the range of the output that a root may miss it by
 
 
@@ -153,8 +154,11 @@ def _grid(problem: Problem, count: int) -> Reals:
     return np.linspace(-reach, reach, count + 1) * (1.0 + 1e-3 * _ASIDE)
 
 
-def _value(solution: Solution, posed: Posed) -> Callable[[Reals], Reals]:
-    """Return what tells the output in positions of the driver: m or degrees."""
+def _value(solution: Solution, posed: Posed, index: int) -> Callable[[Reals], Reals]:
+    """Return what tells the output in positions of the driver: m or degrees.
+
+    The angle between links is signed, from the first to the second; a distance from a line, too.
+    """
     draft = solution.construction.draft
 
     def read(positions: Reals) -> Reading:
@@ -162,6 +166,13 @@ def _value(solution: Solution, posed: Posed) -> Callable[[Reals], Reals]:
 
     def angle(positions: Reals) -> Reals:
         return np.asarray(np.degrees(np.angle(read(positions).course(draft.axes[posed.of]))))
+
+    def between(positions: Reals) -> Reals:
+        reading = read(positions)
+        one, two = (
+            reading.course(draft.axis(link)) * way for link, way in _rays(solution.problem, posed)
+        )
+        return np.asarray(np.degrees(np.angle(two * np.conj(one))))
 
     def place(positions: Reals) -> Reals:
         at = read(positions).point(PointName(posed.of)) + draft.origin
@@ -171,9 +182,47 @@ def _value(solution: Solution, posed: Posed) -> Callable[[Reals], Reals]:
         reading, (one, two) = read(positions), split_pair(posed.of) or ("", "")
         return np.abs(reading.vector(PointName(one), PointName(two)))
 
-    if posed.by is PosedBy.LENGTH:
-        return length
-    return angle if posed.by is PosedBy.PHI else place
+    def aside(positions: Reals) -> Reals:
+        point, _, line = posed.extremes[index].partition(" on ")
+        reading, (one, two) = read(positions), split_pair(line) or ("", "")
+        along = reading.vector(PointName(one), PointName(two))
+        off = reading.vector(PointName(one), PointName(point))
+        return np.asarray((off * np.conj(along)).imag / np.abs(along))
+
+    told = {
+        PosedBy.LENGTH: length,
+        PosedBy.PHI: angle,
+        PosedBy.BETWEEN: between,
+        PosedBy.LINE: aside,
+    }
+    return told.get(posed.by, place)
+
+
+def _rays(problem: Problem, posed: Posed) -> list[tuple[str, float]]:
+    """Return two links with the sense of each own axis in which it leads from their common pin.
+
+    Links without one have the angle of their axes as the file directs them.
+    """
+    one, two = posed.of.split("_")
+    bodies = problem.bodies
+    pins = {*bodies[one].points} & {*bodies[two].points}
+    return [
+        (link, -1.0 if (axis := bodies[link].axis) is not None and axis[1] in pins else 1.0)
+        for link in (one, two)
+    ]
+
+
+def _period(problem: Problem, posed: Posed) -> float:
+    """Return after how many degrees a value is the same; of no angle infinity.
+
+    A slider's axis is its guide, and has no sense.
+    """
+    if posed.by is PosedBy.PHI:
+        return TURN
+    if posed.by is not PosedBy.BETWEEN:
+        return np.inf
+    lettered = [problem.bodies[link].axis is not None for link in posed.of.split("_")]
+    return TURN if all(lettered) else TURN / 2
 
 
 def _roots(solution: Solution, posed: Posed, index: int) -> Found:
@@ -181,35 +230,65 @@ def _roots(solution: Solution, posed: Posed, index: int) -> Found:
     if posed.by is PosedBy.EXTREME:
         return _extreme(Turn(solution), posed, index)
     target = posed.values[index]
-    grid = _grid(solution.problem, LOOKS if solution.problem.drive.is_crank else 3 * LOOKS)
-    value = _value(solution, posed)
+    crank, period = solution.problem.drive.is_crank, _period(solution.problem, posed)
+    grid = _grid(solution.problem, LOOKS if crank else 3 * LOOKS)
+    sense = -1.0 if solution.problem.drive.rate < 0 else 1.0
+    value = _value(solution, posed, index)
     if posed.by is PosedBy.STROKE:
         turn = Turn(solution)
         start, end = _ends(turn)
         value, target = turn.values, start.value + target * (end.value - start.value)
         if posed.values[index] in (0.0, 1.0):
             return [((start, end)[int(posed.values[index])].phi % TURN, 0.0)]
-
-    def off(positions: Reals) -> Reals:
-        missed = value(positions) - target
-        return (missed + 180.0) % 360.0 - 180.0 if posed.by is PosedBy.PHI else missed
-
-    looks = off(grid)
-    size = float(np.nanmax(np.abs(looks))) if np.isfinite(looks).any() else 0.0
-    sense = -1.0 if solution.problem.drive.rate < 0 else 1.0
-    if posed.by is PosedBy.STROKE and end.value < start.value:
-        sense = -sense
+        sense = -sense if end.value < start.value else sense
     found: Found = []
+    # An angle of two links has no sign: both ways of it are looked for.
+    for one in {target, -target} if posed.by is PosedBy.BETWEEN else (target,):
+
+        def off(positions: Reals, one: float = one) -> Reals:
+            missed = value(positions) - one
+            half = period / 2
+            return missed if np.isinf(period) else (missed + half) % period - half
+
+        found += [(at % TURN if crank else at, sense * going) for at, going in _zeros(off, grid)]
+    return found
+
+
+def _zeros(off: Callable[[Reals], Reals], grid: Reals) -> Found:
+    """Return where a function is zero, and whether it grows there; 0 where it only touches it.
+
+    A change of sign by a jump, of an angle by a turn, is none.
+    """
+    looks, found = off(grid), []
+    size = float(np.nanmax(np.abs(looks))) if np.isfinite(looks).any() else 0.0
+
+    def add(low: float, high: float, going: float) -> None:
+        at = root(off, low, high)
+        round_one = round(at, 6)  # 90 degrees, and not what rounding makes of it
+        missed, of_round = np.abs(off(np.array([at, round_one])))
+        if of_round <= max(missed, _ROUNDING * size) and abs(round_one - at) < _SAME:
+            at = round_one
+        if missed <= _OFF * size:
+            found.append((at, going))
+
     for k in crossings(looks):
-        at = root(off, float(grid[k]), float(grid[k + 1]))
-        if abs(off(np.array([at]))[0]) <= _OFF * size:
-            going = sense * float(np.sign(looks[k + 1] - looks[k]))
-            found.append((at % TURN if solution.problem.drive.is_crank else at, going))
-    if not found and np.isfinite(looks).any():  # an extreme, which is come to and not passed
-        k = int(np.nanargmin(np.abs(looks)))
-        at, _ = top(lambda p: -np.abs(off(p)), 2 * grid[k] - grid[k - 1], float(grid[k - 1]))
-        if abs(off(np.array([at]))[0]) <= _OFF * size:
-            found.append((at % TURN if solution.problem.drive.is_crank else at, 0.0))
+        add(float(grid[k]), float(grid[k + 1]), float(np.sign(looks[k + 1] - looks[k])))
+    step = grid[1] - grid[0]
+    near, signs = np.abs(looks), np.sign(looks)
+    for k in range(len(grid) - 1):  # between neighbours it may touch zero, or pass it and return
+        before = (k - 1) if k else len(grid) - 2  # of a turn the last but one
+        same = signs[before] == signs[k] == signs[k + 1] != 0.0
+        if not same or near[k] > min(near[before], near[k + 1]):
+            continue
+        low, high, sign = float(grid[k] - step), float(grid[k + 1]), float(signs[k])
+        if not np.isfinite(off(np.array([low]))[0]):
+            continue
+        at, beyond = top(lambda p, sign=sign: -sign * off(p), low, high)  # type: ignore[misc]
+        if beyond > 1e-12 * size:
+            add(low, at, -sign)
+            add(at, high, sign)
+        elif -beyond <= _OFF * size:
+            found.append((at, 0.0))
     return found
 
 
@@ -251,12 +330,17 @@ def _chosen(
     said = f"{posed.key} = {_told(posed, posed.values[index], problem)}"
     if posed.by is PosedBy.EXTREME:
         said = f"at = extreme {posed.extremes[index]} {posed.values[index]:+g}".replace(" +0", "")
+    elif posed.by is PosedBy.LINE:
+        said = f"at = {posed.extremes[index]}"
     found = sorted(found)
     kept = [one for k, one in enumerate(found) if not k or one[0] - found[k - 1][0] > _SAME]
     if not kept:
         reached = ""
         if posed.of:
-            every = np.concatenate([_value(way, posed)(_grid(problem, LOOKS)) for way in ways])
+            every = np.concatenate(
+                [_value(way, posed, index)(_grid(problem, LOOKS)) for way in ways]
+            )
+            every = np.abs(every) if posed.by is PosedBy.BETWEEN else every
             ends = [_told(posed, float(end(every)), problem) for end in (np.nanmin, np.nanmax)]
             reached = say(
                 ": {} goes from {} to {} as the groups are closed", posed.key, ends[0], ends[1]
@@ -276,7 +360,9 @@ def _chosen(
     if posed.going:
         kept = [one for one in kept if one[1] == (1.0 if posed.going == ways_of[0] else -1.0)]
         said = say("{}, going {},", said, posed.going)
-    if len(kept) == 1:
+    if posed.number and posed.number <= len(kept):
+        return kept[posed.number - 1][0]
+    if len(kept) == 1 and not posed.number:
         return kept[0][0]
     per = 1.0 if drive.is_crank else UNITS[problem.unit]
     places = [f"{p * per:.5g}" for p, _ in kept]
@@ -284,6 +370,11 @@ def _chosen(
     told = ", ".join(f"{name} = {place}" for place in places) or say("no position")
     senses = [going for _, going in kept]
     near = ", ".join(f'root = "near {place}"' for place in places)
+    if posed.number:
+        message = say("{} fits {}: there is no position {} of them", said, told, posed.number)
+        raise ProblemError(
+            problem.name, [Fault("driver.root", message, say("Say one of {}", near))]
+        )
     hint = say("Say one of {}", near) if places else "Leave root out to see the positions"
     if ways_of[0] and senses in ([1.0, -1.0], [-1.0, 1.0]):
         one, two = ways_of[:: 1 if senses[0] > 0 else -1]
@@ -303,4 +394,4 @@ def _told(posed: Posed, value: float, problem: Problem) -> str:
     """Return a value of the output as the file has it."""
     if posed.by in (PosedBy.X, PosedBy.Y, PosedBy.LENGTH):
         return told_length(value, problem.unit, 5)
-    return say("{:.5g} deg" if posed.by is PosedBy.PHI else "{:.5g}", value)
+    return say("{:.5g} deg" if posed.by in (PosedBy.PHI, PosedBy.BETWEEN) else "{:.5g}", value)

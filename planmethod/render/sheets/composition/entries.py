@@ -38,6 +38,7 @@ SHEET_LIMIT = 12
 GROUP_DEPTH = 4
 MOST_PER_ROW = 12
 MOST_LETTERS = 40
+MOST_ASKED = 24
 
 OF = {kind.value: kind for kind in RATES}
 COLUMNS = {"v": "v", "omega": "ω", "a": "a", "epsilon": "ε"}
@@ -133,6 +134,11 @@ def _read_traces(faults: Faults, path: str, value: object) -> bool | tuple[str, 
     return tuple(read_line(faults, f"{path}[{k}]", item) for k, item in enumerate(letters))
 
 
+def _read_asked(faults: Faults, path: str, value: object) -> tuple[str, ...]:
+    asked = read_list(faults, path, value, "quantities", MOST_ASKED)
+    return tuple(read_line(faults, f"{path}[{k}]", item) for k, item in enumerate(asked))
+
+
 _READERS: Mapping[str, Callable[[Faults, str, object], object]] = {
     "of": _read_of,
     "group": _read_group,
@@ -148,6 +154,7 @@ _READERS: Mapping[str, Callable[[Faults, str, object], object]] = {
     "position": partial(read_whole, low=0, high=119),
     "columns": _read_columns,
     "traces": _read_traces,
+    "asked": _read_asked,
 }
 """Readers of the keys of a block, each of which is a field of `Entry`; ``height`` is `heights`."""
 

@@ -27,6 +27,7 @@ SHIPPED = (
     "balancing",
     "project-kinematics",
     "project-forces",
+    "graphs",
 )
 """Compositions that come with the program; the first three are taken when none is asked for."""
 

@@ -1,0 +1,174 @@
+"""Graphs of any quantities over the turn, several curves on a diagram (графики за цикл)."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from math import log
+
+import numpy as np
+
+from planmethod.construct.scale import Scale, choose_scale
+from planmethod.note.narrate.scales import scale_inscription
+from planmethod.note.wording import Language
+from planmethod.problem.graphs import OUTPUT, GraphQuantity
+from planmethod.problem.model import Convention
+from planmethod.render.ink.drawing import Pen
+from planmethod.render.ink.typeset import typeset
+from planmethod.render.layout.block import Block, Column, Line, Picture, Row, shaped
+from planmethod.render.pictures.diagram import Abscissae, Curve, Ordinates, diagram_picture
+from planmethod.render.sheets.composer import Viewed
+from planmethod.render.sheets.model import Manner
+from planmethod.solved.reading import Reals
+from planmethod.solved.solution import Solution
+from planmethod.solved.turn.diagrams import Diagrams, diagrams_of
+from planmethod.solved.turn.series import quantities_over, values_over
+from planmethod.solved.turn.turn import Turn
+
+HEIGHT = 55.0
+"""Height that the curves of a diagram keep to, mm."""
+
+PENS = (Pen.MAIN, Pen.THIN, Pen.HIDDEN, Pen.AXIS)
+"""Lines of the curves of one diagram, in turn."""
+
+LETTERS = {"x": "x, y", "phi": "φ", "v_q": "v_{q}", "u": "u", "a_q": "a_{q}", "epsilon_q": "ε_{q}",
+           "v": "v", "omega": "ω", "a": "a", "epsilon": "ε"}  # fmt: skip
+"""What stands at the axis of a diagram with several curves."""
+
+NOTHING = 1e-12
+"""Size of what is nothing but for rounding, SI."""
+
+MARKS = {"x": "l", "u": "u", "omega": "ω", "epsilon": "ε", "phi": "φ_{i}", "v_q": "vq", "a_q": "aq",
+         "epsilon_q": "εq"}  # fmt: skip
+"""Indices of the scales by what a diagram shows, where they are not its letter."""
+
+
+def graph_groups(turn: Turn, labels: Sequence[str]) -> list[list[GraphQuantity]]:
+    """Return what is asked by diagrams: quantities of one kind, as many as there are lines.
+
+    Raises
+    ------
+    UnknownQuantityError
+    """
+    found: dict[str, list[GraphQuantity]] = {}
+    for one in quantities_over(turn, labels):
+        found.setdefault(one.family, []).append(one)
+    most = len(PENS)
+    return [some[k : k + most] for some in found.values() for k in range(0, len(some), most)]
+
+
+def graph_picture(
+    diagrams: Diagrams, group: Sequence[GraphQuantity], letter: float, words: Language
+) -> tuple[Picture, Scale]:
+    """Return one diagram over the angle of the crank, and its scale of ordinates."""
+    turn, say = diagrams.turn, words.say
+    shares, drawn = diagrams.fine, diagrams.shares
+    if turn.range is not None:
+        shares, drawn = shares[1:-1], drawn[:-1]
+    values = [_clean(values_over(turn, one, turn.at(shares))) for one in group]
+    there = np.concatenate([[0.0], *(one[np.isfinite(one)] for one in values)])
+    inverse = turn.solution.problem.scales.convention is Convention.MM_PER_UNIT
+    height = float(np.ptp(there)) or 1.0
+    first = group[0]
+    per_mm = choose_scale((0.0, height), (1.0, HEIGHT), mm_per_unit=inverse)
+    scale = Scale(f"mu_{MARKS.get(first.family, first.family)}", per_mm, first.unit)
+    x = diagrams.x(shares)
+    curves: list[Curve] = []
+    for one, row in zip(group, values, strict=True):
+        if len(group) > 1 and not np.any(row):
+            continue  # it is the axis, and is told beside
+        parts = _parts(x, row / per_mm)
+        same = next((k for k, other in enumerate(curves) if _alike(other.parts, parts)), None)
+        if same is None:
+            curves.append(Curve(one.symbol, parts, PENS[len(curves)]))
+        else:
+            both = f"{curves[same].symbol} = {one.symbol}"
+            curves[same] = Curve(both, curves[same].parts, curves[same].pen)
+    names, at = turn.numbers, diagrams.x(drawn)
+    numbers = tuple(str(names[k % diagrams.count]) for k in range(len(at)))
+    curves = curves or [Curve(first.symbol, _parts(x, values[0]))]
+    shown = curves[0].symbol if len(curves) == 1 else LETTERS[first.family]
+    picture = diagram_picture(
+        Abscissae("φ", tuple(at.tolist()), numbers),
+        Ordinates(f"{shown}, {say.in_head(first.unit)}" if first.unit else shown, per_mm, say),
+        curves if len(curves) > 1 else [Curve("", curves[0].parts)],
+        letter_height=letter,
+        name=f"graph {first.label}",
+    )
+    return picture, scale
+
+
+def is_none(diagrams: Diagrams, quantity: GraphQuantity) -> bool:
+    """Tell whether a quantity is nothing all the time: what is along the other axis."""
+    turn = diagrams.turn
+    size = np.abs(values_over(turn, quantity, turn.at(diagrams.fine)))
+    return bool(np.nanmax(size, initial=0.0) <= NOTHING)
+
+
+def _clean(values: Reals) -> Reals:
+    """Return values without the rounding noise about nothing."""
+    return np.where(np.abs(values) <= NOTHING, 0.0, values)
+
+
+def _parts(x: Reals, y: Reals) -> tuple[tuple[complex, ...], ...]:
+    """Return a curve's unbroken parts."""
+    cuts = np.flatnonzero(np.diff(np.isfinite(y).astype(int))) + 1
+    runs = np.split(np.arange(len(x)), cuts)
+    return tuple(
+        tuple(complex(x[k], y[k]) for k in run)
+        for run in runs
+        if np.isfinite(y[run[0]]) and len(run) > 1
+    )
+
+
+def _alike(one: Iterable[Iterable[complex]], two: Iterable[Iterable[complex]]) -> bool:
+    """Tell whether two curves would be drawn over each other."""
+    first, second = ([place for part in curve for place in part] for curve in (one, two))
+    return len(first) == len(second) and all(
+        abs(p - q) < 0.2 for p, q in zip(first, second, strict=True)
+    )
+
+
+def graph_labels(solution: Solution, manner: Manner) -> tuple[str, ...]:
+    """Return what is asked: on the command line, of the block, in the file; none if nothing is.
+
+    A block that asks for the output alone has that where nothing else is asked.
+    """
+    task, own = solution.problem.cycle, manner.entry.asked
+    if not solution.problem.drive.is_crank:
+        return ()
+    of_file = task.graphs if task is not None else ()
+    return manner.extras.asked or (() if own == (OUTPUT,) else own) or of_file or own
+
+
+def graphs_view(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
+    """Return the graphs of what is asked, in one column or several; nothing if nothing is."""
+    labels, problem = graph_labels(solution, manner), solution.problem
+    if not labels:
+        return Column([])
+    diagrams, words = diagrams_of(solution), manner.words
+    convention, height = problem.scales.convention, manner.text(manner.sizes.text)
+    cells: list[Block] = []
+    scale = diagrams.scales[0]
+    for group in graph_groups(diagrams.turn, labels):
+        picture, scale = graph_picture(diagrams, group, manner.letter, words)
+        name = str(words.cycle["graphs"][group[0].family])
+        inscription = scale_inscription(scale, convention, words.say)
+        none = [f"{one.symbol} = 0" for one in group if is_none(diagrams, one)]
+        inscription = "; ".join([inscription, *(none if len(group) > 1 else ())])
+        lines = [Line(typeset(text, height)) for text in (name, inscription)]
+        cells.append(Column([Column(lines, gap=2.5, align="centre"), picture], gap=4.0,
+                            align="centre"))  # fmt: skip
+    axis = scale_inscription(diagrams.scales[-1], convention, words.say)
+    title = Line(typeset(manner.entry.title or words.cycle.graphs_title, manner.title),
+                 underline=True)  # fmt: skip
+    said = Line(typeset(axis, height))
+    steps = (manner.entry.per_row,) if manner.entry.per_row else (1, 2, 3, 4)
+    ways: list[Block] = []
+    for step in dict.fromkeys(min(k, len(cells)) for k in steps):
+        rows = [Row(cells[k : k + step], gap=12.0) for k in range(0, len(cells), step)]
+        head = Column([title, said], gap=2.5, align="centre")
+        block = Column([head, *rows], gap=8.0, align="centre")
+        ways.append(Viewed(block, "graphs", scale))
+    # The last block of a sheet stands in its first way: the one that is shaped as the sheet.
+    ways.sort(key=lambda way: (way.width > manner.inside, abs(log(way.width / way.height / 1.4))))
+    return shaped(ways)

@@ -1,0 +1,85 @@
+"""Graphs of asked quantities, and transfer functions on sheets: what is drawn is what they are."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from cases import each
+from msgspec.structs import replace
+from reading import texts
+from worked import problem_of
+
+from planmethod.note.wording import language
+from planmethod.problem.cycle_records import CycleTask
+from planmethod.render.control.texts import lint
+from planmethod.render.ink.drawing import Item, Stroke
+from planmethod.render.pictures.diagram import CURVE
+from planmethod.render.sheets.graphs import graph_groups, graph_picture
+from planmethod.render.sheets.kinematics import kinematics_sheets
+from planmethod.solved.solution import Solution
+from planmethod.solved.turn.diagrams import diagrams_of
+from planmethod.solved.turn.series import values_over
+
+ASKED = ("x_E", "y_E", "v_qx_D", "v_qy_D", "u_31", "u_41", "phi_3", "omega_3", "a_D")
+
+
+def said(items: list[Item] | tuple[Item, ...]) -> str:
+    return " ".join(text.text for text in texts(items))
+
+
+def test_curves_are_the_exact_quantities_in_their_scale() -> None:
+    solution = Solution(problem_of("linkages/ex3"))
+    diagrams = diagrams_of(solution)
+    groups = graph_groups(diagrams.turn, ASKED)
+    assert [[one.label for one in group] for group in groups] == [
+        ["x_E", "y_E"],
+        ["v_qx_D", "v_qy_D"],
+        ["u_31", "u_41"],
+        ["phi_3"],
+        ["omega_3"],
+        ["a_D"],
+    ]
+    for group in groups:
+        picture, scale = graph_picture(diagrams, group, 5.0, language("ru"))
+        drawn = [
+            item.points
+            for item in picture.items
+            if isinstance(item, Stroke) and item.tag.startswith(CURVE)
+        ]
+        at = diagrams.turn.at(diagrams.fine)
+        rows = [values_over(diagrams.turn, one, at) / scale.per_mm for one in group]
+        rows = [row for row in rows if np.abs(row).max() > 1e-9]
+        assert len(drawn) == len(rows)  # y_E is nothing: the axis itself
+        for points, row in zip(drawn, rows, strict=True):
+            assert [p.imag for p in points] == pytest.approx(row, abs=1e-9)
+            assert points[-1].real == pytest.approx(diagrams.length)
+            assert 10.0 < np.ptp([0.0, *row]) <= 55.0 + 1e-9
+
+
+@each("name", ["linkages/ex3", "levers/six-link", "levers/task-22"])
+def test_a_sheet_of_graphs_is_drawn_and_clean(name: str) -> None:
+    (drawing,) = kinematics_sheets(problem_of(name), layout="graphs")
+    assert not lint(drawing.items)
+
+
+def test_the_file_or_the_caller_asks_for_graphs() -> None:
+    problem = problem_of("linkages/ex3")
+    asked = replace(problem, cycle=CycleTask("E", graphs=("omega_3",)))
+    curves = {
+        "output": (problem, ()),
+        "file": (asked, ()),
+        "caller": (asked, ("u_31", "phi_3")),
+    }
+    counts = {}
+    for name, (one, labels) in curves.items():
+        (drawing,) = kinematics_sheets(one, layout="graphs", asked=labels)
+        strokes = [i for i in drawing.items if isinstance(i, Stroke) and i.tag.startswith(CURVE)]
+        counts[name] = len(strokes)
+    assert counts == {"output": 3, "file": 1, "caller": 2}
+
+
+def test_homework_has_the_formulas_of_transfer_functions() -> None:
+    (drawing,) = kinematics_sheets(problem_of("levers/six-link"), layout="homework")
+    text = said(drawing.items)
+    assert "Передаточные функции скоростей" in text
+    assert "0,1·72/60 = 0,12" in text
