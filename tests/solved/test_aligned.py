@@ -1,0 +1,225 @@
+"""Schemes without redundant constraints: true by rank, as another program finds it."""
+
+from __future__ import annotations
+
+import cmath
+import math
+import random
+from functools import cache
+from itertools import product
+
+import pytest
+from cases import each, some
+from newton import solve as newton
+from spatial import Rank, rank_of
+from worked import PROBLEMS, problem_of
+
+from benchmarks.generator import random_problem
+from planmethod.mechanism.model import FRAME, Mechanism, Prismatic, Revolute
+from planmethod.mechanism.structure import analyse
+from planmethod.problem import loads
+from planmethod.problem.model import Drive, Problem
+from planmethod.solved.aligned.schemes import SelfAligning, self_aligning
+from planmethod.solved.solution import Solution
+
+LEVERS = ("levers/task-13", "levers/task-33", "levers/task-49", "levers/crosshead")
+NAMES = ("linkages/ex1", "linkages/ex3", "levers/six-link", "levers/task12", "press/press",
+         "press/press-stone", "levers/task-12", *LEVERS)  # fmt: skip
+
+
+@cache
+def aligned(name: str) -> SelfAligning:
+    problem = problem_of(name)
+    return self_aligning(problem, analyse(problem.mechanism))
+
+
+def places_of(
+    problem: Problem, found: SelfAligning, position: float | None = None
+) -> dict[str, tuple[complex, complex]]:
+    """Return where the pairs are by the plans' own program, not by that which finds the schemes."""
+    at = problem.drive.positions[0] if position is None else position
+    solution = Solution(problem, positions=[at])
+    points = {name: complex(point.place[0]) for name, point in solution.points.items()}
+    turns = {link: math.radians(motion.phi_deg[0]) for link, motion in solution.links.items()}
+    return _places(problem, found, points, {FRAME: 0.0, **turns})
+
+
+def _places(
+    problem: Problem, found: SelfAligning, points: dict[str, complex], turns: dict[str, float]
+) -> dict[str, tuple[complex, complex]]:
+    places = {}
+    for pair in found.pairs:
+        if isinstance(pair.joint, Revolute):
+            places[pair.key] = (points[pair.joint.point], 0j)
+            continue
+        slide = problem.slides[pair.joint.slider]
+        along = cmath.rect(1.0, turns[slide.host] + math.radians(slide.angle))
+        places[pair.key] = (points[slide.pin] - 1j * slide.offset * along, along)
+    return places
+
+
+def _is_true(rank: Rank) -> bool:
+    return (rank.redundant, rank.mobility, rank.counted) == (0, 1, 1)
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_every_scheme_is_true_by_rank_in_the_position_of_the_file_and_beside_it(name: str) -> None:
+    problem, found = problem_of(name), aligned(name)
+    assert found.schemes
+    for away in (0.0, 3.7):
+        places = places_of(problem, found, problem.drive.positions[0] + away)
+        for scheme in found.schemes:
+            rank = rank_of(scheme, places)
+            assert _is_true(rank), (scheme, rank)
+    assert found.rank == 6 * len(problem.mechanism.links) - 1
+    assert sum(k * count for k, count in enumerate(found.counts, 1)) == 6 * (
+        len(found.pairs) - len(problem.mechanism.links)
+    ) + 1  # fmt: skip
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_no_scheme_that_keeps_its_groups_apart_is_forgotten(name: str) -> None:
+    problem, found = problem_of(name), aligned(name)
+    places = places_of(problem, found, problem.drive.positions[0] + 3.7)
+    first = found.driver.key
+    every = 1
+    for group in found.groups:
+        own = [pair for pair in group.pairs]
+        known = {"0", *_links_before(found, group.group.links)}
+        good = set()
+        for classes in product(*(pair.classes for pair in own)):
+            named = dict(zip((pair.key for pair in own), classes, strict=True))
+            there = {_grounded(key, known): places[key] for key in named}
+            judged = rank_of({_grounded(key, known): name for key, name in named.items()}, there)
+            if (judged.redundant, judged.mobility) == (0, 0):
+                good.add(classes)
+        assert {scheme.classes for scheme in group.schemes} == good
+        every *= len(good)
+    assert len(found.schemes) == every
+    assert all(scheme[first][0] == "1" for scheme in found.schemes)
+
+
+def _links_before(found: SelfAligning, links: tuple[str, ...]) -> set[str]:
+    before = set(found.driver.links)
+    for group in found.groups:
+        if group.group.links == links:
+            break
+        before |= set(group.group.links)
+    return before
+
+
+def _grounded(key: str, known: set[str]) -> str:
+    point, ends = key.split()
+    return f"{point}.{ends} " + "-".join("0" if x in known else x for x in ends.split("-"))
+
+
+def test_the_printed_scheme_of_the_six_link_is_right_by_count_and_wrong_by_rank() -> None:
+    problem, found = problem_of("levers/six-link"), aligned("levers/six-link")
+    places = places_of(problem, found)
+    printed = {pair.key: pair.classes[0] for pair in found.pairs}
+    printed |= {"C 2-3": "2c", "D 0-3": "3s", "H 4-5": "3s", "H 0-5": "2c"}
+    rank = rank_of(printed, places)
+    assert (rank.counted, rank.redundant, rank.mobility) == (1, 1, 2)
+    assert printed not in found.schemes
+    group = found.groups[1]
+    assert [pair.key for pair in group.pairs] == ["H 4-5", "H 2-4", "H 0-5"]
+    wrong = {scheme.classes: scheme.local for scheme in group.counted}
+    assert wrong[("3s", "1p", "2c")] == wrong[("3s", "2c", "1p")] == 1
+    assert {scheme.classes for scheme in group.schemes} == {
+        ("2c", "2c", "2c"), ("1v", "2c", "3pl"), ("1v", "3pl", "2c"),
+    }  # fmt: skip
+
+
+REFERENCE = {  # numbers of schemes group by group, found elsewhere by exhaustion
+    "linkages/ex1": 3, "linkages/ex3": 6, "levers/six-link": 18, "levers/task12": 4,
+    "press/press": 6, "press/press-stone": 6,
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", REFERENCE)
+def test_as_many_schemes_are_found_as_there_are(name: str) -> None:
+    assert len(aligned(name).schemes) == REFERENCE[name]
+
+
+@each("seed", range(some(200, few=25)))
+def test_random_mechanisms_have_true_schemes_the_best_first(seed: int) -> None:
+    text, pose = random_problem(seed)
+    problem = loads(text, name=f"random-{seed}")
+    found = self_aligning(problem, analyse(problem.mechanism))
+    motion = newton(problem, problem.drive.positions[0], pose)
+    points = {point: place for (_, point), place in motion.position.items()}
+    for pair in found.pairs:
+        if isinstance(pair.joint, Prismatic):
+            points[pair.joint.pin] = motion.position[pair.joint.slider, pair.joint.pin]
+    turns = {FRAME: 0.0} | {link: where[2] for link, where in motion.pose.items()}
+    places = _places(problem, found, points, turns)
+    assert found.schemes
+    for scheme in found.schemes:
+        assert _is_true(rank_of(scheme, places)), scheme
+    changes = [sum(name[0] != "1" for name in scheme.values()) for scheme in found.schemes]
+    assert changes == sorted(changes)
+    assert len({tuple(scheme.items()) for scheme in found.schemes}) == len(found.schemes)
+
+
+def _bare(points: str, slides: str = "") -> Problem:
+    revolutes, prismatics, links = [], [], []
+    for word in points.split():
+        name, ends = word.split(":")
+        revolutes.append(Revolute(name, tuple(ends)))
+        links += [end for end in ends if end != FRAME and end not in links]
+    for word in slides.split():
+        ends, pin = word.split("@")
+        slider, host = ends.split("/")
+        prismatics.append(Prismatic(slider, host, pin))
+        links += [end for end in (slider, host) if end != FRAME and end not in links]
+    mechanism = Mechanism(tuple(sorted(links)), tuple(revolutes), tuple(prismatics), "1")
+    drive = Drive("1", "A", (0.0,), 1.0, 0.0)
+    return Problem(name="b", title="b", mechanism=mechanism, bodies={}, slides={}, drive=drive)
+
+
+@pytest.mark.parametrize(
+    ("points", "slides", "changes"),
+    [
+        ("A:01 B:12 C:23 D:34 E:04 F:35 G:05", "", 3),  # class III
+        ("A:01 B:13 C:23 D:24 E:25", "4/0@D 5/0@E", 4),
+        ("A:01 B:12 C:23 D:24 E:35 F:45 G:05", "", 3),  # class IV
+        ("A:01 B:12 C:23 D:03 E:246 F:45 G:05 H:67 K:07", "", 6),  # two groups on one hinge
+        ("A:01 D:05 B:14 C:245 E:23", "3/0@E", 4),  # the hinge closed by what the file has later
+    ],
+)
+def test_groups_of_any_class_without_sizes(points: str, slides: str, changes: int) -> None:
+    problem = _bare(points, slides)
+    structure = analyse(problem.mechanism)
+    found = self_aligning(problem, structure)
+    assert found.schemes and found.local == 0
+    assert found.rank == 6 * len(problem.mechanism.links) - 1
+    assert sum(name[0] != "1" for name in found.schemes[0].values()) == changes
+    assert set(found.schemes[0]) == {pair.key for pair in found.pairs}
+    assert len(found.pairs) == problem.mechanism.lower_pairs
+    rng = random.Random(7)
+    at = {name: complex(rng.uniform(-1, 1), rng.uniform(-1, 1)) for name in "ABCDEFGHK"}
+    lines = {pair.key: cmath.rect(1.0, rng.uniform(0, 3)) if isinstance(pair.joint, Prismatic)
+             else 0j for pair in found.pairs}  # fmt: skip
+    places = {key: (at[key[0]], along) for key, along in lines.items()}
+    assert all(_is_true(rank_of(scheme, places)) for scheme in found.schemes)
+
+
+def test_a_driver_alone_has_nothing_redundant() -> None:
+    problem = _bare("A:01")
+    assert self_aligning(problem, analyse(problem.mechanism)).schemes == ({"A 0-1": "1v"},)
+
+
+def test_ten_links_are_searched_at_once() -> None:
+    problem = _bare("A:01 B:12 C:23 D:03 E:34 F:45 G:05 H:56 K:67 L:07 M:78 N:89 P:09")
+    found = self_aligning(problem, analyse(problem.mechanism))
+    assert len(found.schemes) == 60  # of 6⁴
+    assert all(sum(name[0] != "1" for name in scheme.values()) == 8 for scheme in found.schemes)
+
+
+def test_shipped_levers_have_schemes() -> None:
+    none = []
+    for path in sorted((PROBLEMS / "levers").glob("*.toml")):
+        name = f"levers/{path.stem}"
+        if not aligned(name).schemes:
+            none.append(name)
+    assert none == []
