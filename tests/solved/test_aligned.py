@@ -5,6 +5,7 @@ from __future__ import annotations
 import cmath
 import math
 import random
+import re
 from functools import cache
 from itertools import product
 
@@ -72,7 +73,7 @@ def test_every_scheme_is_true_by_rank_in_the_position_of_the_file_and_beside_it(
             rank = rank_of(scheme, places)
             assert _is_true(rank), (scheme, rank)
     assert found.rank == 6 * len(problem.mechanism.links) - 1
-    assert sum(k * count for k, count in enumerate(found.counts, 1)) == 6 * (
+    assert sum(k * count for k, count in found.counts.items()) == 6 * (
         len(found.pairs) - len(problem.mechanism.links)
     ) + 1  # fmt: skip
 
@@ -84,7 +85,7 @@ def test_no_scheme_that_keeps_its_groups_apart_is_forgotten(name: str) -> None:
     first = found.driver.key
     every = 1
     for group in found.groups:
-        own = [pair for pair in group.pairs]
+        own = list(group.pairs)
         known = {"0", *_links_before(found, group.group.links)}
         good = set()
         for classes in product(*(pair.classes for pair in own)):
@@ -123,7 +124,7 @@ def test_the_printed_scheme_of_the_six_link_is_right_by_count_and_wrong_by_rank(
     assert printed not in found.schemes
     group = found.groups[1]
     assert [pair.key for pair in group.pairs] == ["H 4-5", "H 2-4", "H 0-5"]
-    wrong = {scheme.classes: scheme.local for scheme in group.counted}
+    wrong = {scheme.classes: scheme.loose for scheme in group.counted}
     assert wrong[("3s", "1p", "2c")] == wrong[("3s", "2c", "1p")] == 1
     assert {scheme.classes for scheme in group.schemes} == {
         ("2c", "2c", "2c"), ("1v", "2c", "3pl"), ("1v", "3pl", "2c"),
@@ -191,7 +192,7 @@ def test_groups_of_any_class_without_sizes(points: str, slides: str, changes: in
     problem = _bare(points, slides)
     structure = analyse(problem.mechanism)
     found = self_aligning(problem, structure)
-    assert found.schemes and found.local == 0
+    assert found.schemes
     assert found.rank == 6 * len(problem.mechanism.links) - 1
     assert sum(name[0] != "1" for name in found.schemes[0].values()) == changes
     assert set(found.schemes[0]) == {pair.key for pair in found.pairs}
@@ -202,6 +203,26 @@ def test_groups_of_any_class_without_sizes(points: str, slides: str, changes: in
              else 0j for pair in found.pairs}  # fmt: skip
     places = {key: (at[key[0]], along) for key, along in lines.items()}
     assert all(_is_true(rank_of(scheme, places)) for scheme in found.schemes)
+
+
+def test_what_jams_in_the_position_of_the_file_is_left_out() -> None:
+    text = (PROBLEMS / "linkages/ex1.toml").read_text("utf-8")
+    every = []
+    for phi in ("phi = 0", "phi = 33"):
+        problem = loads(re.sub(r"(?m)^phi = [0-9.]+", phi, text), name="slider-crank")
+        found = self_aligning(problem, analyse(problem.mechanism))
+        every.append([scheme.classes for scheme in found.groups[0].schemes])
+    # The sphere B stands on the cylinder's line, about which the rod and the slider are loose.
+    assert ("3s", "1v", "2c") not in every[0] and ("3s", "1v", "2c") in every[1]
+    assert not next(s for s in found.groups[0].schemes if s.classes == ("3s", "1v", "2c")).steady
+    assert set(every[0]) < set(every[1])
+
+
+def test_sizes_that_close_nowhere_give_the_schemes_of_random_ones() -> None:
+    text = (PROBLEMS / "linkages/ex2.toml").read_text("utf-8")
+    problem = loads(re.sub(r"(?m)^(BC = )[0-9.]+", r"\g<1>0.0001", text), name="open")
+    found = self_aligning(problem, analyse(problem.mechanism))
+    assert len(found.schemes) == 6 and found.rank == 17
 
 
 def test_a_driver_alone_has_nothing_redundant() -> None:

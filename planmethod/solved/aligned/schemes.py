@@ -17,7 +17,7 @@ from msgspec import Struct, field
 from msgspec.structs import replace
 
 from planmethod.mechanism.groups import AssurGroup, Joint
-from planmethod.mechanism.model import FRAME, Mechanism, Prismatic, Revolute
+from planmethod.mechanism.model import FRAME, Mechanism, Revolute
 from planmethod.mechanism.structure import Structure
 from planmethod.problem.model import Problem
 from planmethod.solved.aligned.poses import PlanePose, group_pairs, poses
@@ -66,14 +66,14 @@ class AlignedScheme(Struct, frozen=True):
     ----------
     classes : tuple of str
         In the order of the group's pairs.
-    local : int
-        W_m, loose motions of links that the output does not feel (местные подвижности).
+    loose : int
+        How many constraints are redundant yet, and as many motions loose; 0 of a true scheme.
     steady : bool
         Whether it is regular in all positions that were looked at; else links are loose in some.
     """
 
     classes: tuple[str, ...]
-    local: int = 0
+    loose: int = 0
     steady: bool = True
 
     @property
@@ -81,17 +81,12 @@ class AlignedScheme(Struct, frozen=True):
         """How many pairs are not what they were."""
         return sum(name[0] != "1" for name in self.classes)
 
-    @property
-    def mobility(self) -> int:
-        """Sum of the mobilities of the pairs."""
-        return sum(int(name[0]) for name in self.classes)
-
 
 class AlignedGroup(Struct, frozen=True):
     """Group with its schemes, the best first (группа и её схемы).
 
     ``counted`` has those of a dyad that the formula takes for right, and the rank does not: as many
-    constraints as its ``local`` stay redundant, and as many motions are loose instead.
+    constraints as its ``loose`` stay redundant, and as many motions are loose instead.
     """
 
     group: AssurGroup
@@ -109,10 +104,8 @@ class SelfAligning(Struct, frozen=True):
         The pair of the driver with the frame, which stays as it is.
     groups : tuple of AlignedGroup
     schemes : tuple of mapping of str to str
-        Class of every pair by its key, the best scheme first: fewest changes, then lowest
-        mobility, then those that are regular in all positions; at most `MOST`.
-    local : int
-        W_m of the first scheme.
+        Class of every pair by its key, the best scheme first: fewest changes (the mobility is that
+        of the plane in all), then those that are regular in all positions; at most `MOST`.
     rank : int
         Of the spatial constraint matrix of the first scheme, all links and pairs at once.
     """
@@ -120,7 +113,6 @@ class SelfAligning(Struct, frozen=True):
     driver: MovablePair
     groups: tuple[AlignedGroup, ...]
     schemes: tuple[Mapping[str, str], ...]
-    local: int = 0
     rank: int = 0
 
     @property
@@ -129,10 +121,17 @@ class SelfAligning(Struct, frozen=True):
         return (self.driver, *(pair for group in self.groups for pair in group.pairs))
 
     @property
-    def counts(self) -> tuple[int, int, int]:
-        """Numbers p1, p2, p3 of pairs by their mobility in the first scheme."""
-        digits = [name[0] for name in self.schemes[0].values()] if self.schemes else []
-        return digits.count("1"), digits.count("2"), digits.count("3")
+    def counts(self) -> dict[int, int]:
+        """How many pairs of the first scheme have so many mobilities: p1, p2, p3."""
+        found: dict[int, int] = {}
+        for name in self.schemes[0].values() if self.schemes else ():
+            found[int(name[0])] = found.get(int(name[0]), 0) + 1
+        return found
+
+    @property
+    def rows(self) -> int:
+        """Rows of the constraint matrix of the first scheme, as many as it has constraints."""
+        return sum((6 - mobility) * count for mobility, count in self.counts.items())
 
     @property
     def without(self) -> tuple[AlignedGroup, ...]:
@@ -166,7 +165,7 @@ def self_aligning(problem: Problem, structure: Structure) -> SelfAligning:
         whole = sorted(grown, key=lambda one: one.rank)[:MOST]
     first = {pair.key: pair.classes[0]}
     named = tuple({**first, **dict(one.classes)} for one in whole)
-    found = SelfAligning(pair, groups, named, whole[0].rank[1] if whole else 0)
+    found = SelfAligning(pair, groups, named)
     if not places or not named:
         return replace(found, rank=5 if named else 0)
     generic = places[min(GENERIC, len(places) - 1)]
@@ -176,19 +175,19 @@ def self_aligning(problem: Problem, structure: Structure) -> SelfAligning:
 class _Whole(Struct, frozen=True):
     """Scheme of some groups: what it is compared by, and its classes."""
 
-    rank: tuple[int, int, int, int] = (0, 0, 0, 0)
+    rank: tuple[int, ...] = (0, 0, 0)
     classes: tuple[tuple[str, str], ...] = ()
 
     def with_(self, group: AlignedGroup, scheme: AlignedScheme) -> _Whole:
         rank = tuple(a + b for a, b in zip(self.rank, _rank(scheme), strict=True))
         named = zip((pair.key for pair in group.pairs), scheme.classes, strict=True)
-        return _Whole(rank, (*self.classes, *named))  # type: ignore[arg-type]
+        return _Whole(rank, (*self.classes, *named))
 
 
-def _rank(scheme: AlignedScheme) -> tuple[int, int, int, int]:
-    """Return what schemes are compared by: changes, W_m (with it the mobility), steadiness."""
+def _rank(scheme: AlignedScheme) -> tuple[int, ...]:
+    """Return what schemes are compared by: changes, steadiness, pairs that textbooks seldom use."""
     unusual = sum(name == "3pl" for name in scheme.classes)
-    return scheme.changes, scheme.local, int(not scheme.steady), unusual
+    return scheme.changes, int(not scheme.steady), unusual
 
 
 def _pair(mechanism: Mechanism, joint: Joint, one: str, other: str) -> MovablePair:
@@ -261,9 +260,7 @@ def _constraints(name: str, at: complex, along: complex) -> list[list[float]]:
 # A group -------------------------------------------------------------------------------------
 
 
-def _aligned(
-    mechanism: Mechanism, group: AssurGroup, places: Sequence[PlanePose]
-) -> AlignedGroup:
+def _aligned(mechanism: Mechanism, group: AssurGroup, places: Sequence[PlanePose]) -> AlignedGroup:
     joints: list[Joint] = [*mechanism.revolutes, *mechanism.prismatics]
     pairs = [_pair(mechanism, *pair) for pair in group_pairs(group)]
     pairs.sort(key=lambda pair: joints.index(pair.joint))  # as the table of pairs has them
@@ -280,45 +277,41 @@ class _Search(Struct):
 
     def found(self) -> AlignedGroup:
         self.columns = [self._columns(pose) for pose in self.places]
-        need = 3 * (len(self.pairs) - len(self.group.links))
-        for local in range(len(self.pairs) + 1):
-            good = self._good(need, local)
-            if good:
-                break
+        every = range(len(self.pairs) + 1)
+        good = self._good(every)
         good.sort(key=lambda one: (*_rank(one), one.classes))
         counted: tuple[AlignedScheme, ...] = ()
         if len(self.pairs) == 3:
-            right = {one.classes for one in good}
-            counted = tuple(
-                AlignedScheme(classes, need - self._rank(classes, need))
-                for classes in self._made(need, range(len(self.pairs) + 1))
-                if classes not in right
-            )
+            made = [AlignedScheme(one, self.need - self._rank(one)) for one in self._made(every)]
+            counted = tuple(one for one in made if one.loose)
         return AlignedGroup(self.group, self.pairs, tuple(good[:MOST]), counted)
 
-    def _good(self, need: int, local: int) -> list[AlignedScheme]:
-        """Return the schemes of so many loose motions, as few changes as there are first."""
+    @property
+    def need(self) -> int:
+        """How many freedoms out of the plane the contours need."""
+        return 3 * (len(self.pairs) - len(self.group.links))
+
+    def _good(self, every: Sequence[int]) -> list[AlignedScheme]:
+        """Return the true schemes, those of fewest changes first, until there are enough."""
         good: list[AlignedScheme] = []
-        freed = need + local
         tried = 0
-        for changes in range((freed + 1) // 2, len(self.pairs) + 1):
+        for changes in every:
             if len(good) >= MOST:
                 break
-            for classes in self._made(freed, (changes,)):
+            for classes in self._made((changes,)):
                 tried += 1
                 if tried > TRIED:
                     break
-                judged = self._judged(classes, need, local)
-                if judged is not None:
-                    good.append(judged)
+                if self._measure(self.generic, classes) >= REGULAR:
+                    good.append(AlignedScheme(classes, steady=self._steady(classes)))
         # One that jams where the problem is asked is left out as long as there is another.
-        first = [one for one in good if self._measure(0, one.classes, need) >= REGULAR]
+        first = [one for one in good if self._measure(0, one.classes) >= REGULAR]
         return first or good
 
-    def _made(self, freed: int, changes: Sequence[int]) -> Iterator[tuple[str, ...]]:
-        """Yield the schemes that have so many freedoms more than the plane one, by their count."""
+    def _made(self, changes: Sequence[int]) -> Iterator[tuple[str, ...]]:
+        """Yield the schemes of so many changes that are right by their count."""
         for count in changes:
-            twos = 2 * count - freed  # pairs of two freedoms, the others of the changed of three
+            twos = 2 * count - self.need  # pairs of two freedoms, the other changed ones of three
             if not 0 <= twos <= count:
                 continue
             for changed in combinations(range(len(self.pairs)), count):
@@ -333,27 +326,18 @@ class _Search(Struct):
         """Number of a pose in general position: at no round angle of the driver."""
         return min(GENERIC, len(self.places) - 1)
 
-    def _rank(self, classes: tuple[str, ...], need: int) -> int:
+    def _rank(self, classes: tuple[str, ...]) -> int:
         vectors = self._vectors(self.generic, classes)
-        return next(k for k in range(need, -1, -1) if _least_pivot(vectors, k))
+        return next(k for k in range(self.need, -1, -1) if _least_pivot(vectors, k))
 
-    def _judged(self, classes: tuple[str, ...], need: int, local: int) -> AlignedScheme | None:
-        if self._measure(self.generic, classes, need) < REGULAR:
-            return None
-        return AlignedScheme(classes, local, self._steady(classes, need))
-
-    def _steady(self, classes: tuple[str, ...], need: int) -> bool:
+    def _steady(self, classes: tuple[str, ...]) -> bool:
         """Whether the matrix stays regular over the sweep: its determinant keeps its sign."""
-        signs = set()
-        for k in range(len(self.places)):
-            vectors = self._vectors(k, classes)
-            value = _determinant(vectors) if len(vectors) == need else self._measure(k, classes, need)
-            signs.add(0 if abs(value) < REGULAR else value > 0)
-        return len(signs) == 1
+        values = [_determinant(self._vectors(k, classes)) for k in range(len(self.places))]
+        return len({0 if abs(value) < REGULAR else value > 0 for value in values}) == 1
 
-    def _measure(self, k: int, classes: tuple[str, ...], need: int) -> float:
+    def _measure(self, k: int, classes: tuple[str, ...]) -> float:
         """Return the least pivot of the matrix at a pose: 0 where a constraint is redundant."""
-        return _least_pivot(self._vectors(k, classes), need)
+        return _least_pivot(self._vectors(k, classes), self.need)
 
     def _vectors(self, k: int, classes: tuple[str, ...]) -> list[list[float]]:
         return [v for i, name in enumerate(classes) for v in self.columns[k][i, name]]
@@ -369,8 +353,7 @@ class _Search(Struct):
             for name in pair.classes:
                 freedoms = _freedoms(name, (at - middle) / size, along)
                 found[i, name] = [
-                    [sign * value for sign in signs[i] for value in freedom]
-                    for freedom in freedoms
+                    [sign * value for sign in signs[i] for value in freedom] for freedom in freedoms
                 ]
         return found
 
