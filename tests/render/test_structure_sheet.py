@@ -301,9 +301,10 @@ def test_the_second_scheme_marks_every_pair_that_is_changed_and_no_other(name: s
     problem, structure = _case(name)
     aligned = self_aligning(problem, structure)
     mobile = Mobile(aligned, PRINTED)
-    size = {"width": 240.0, "height": 130.0}
-    plain = mechanism_picture(problem.mechanism, structure, **size)
-    picture = mechanism_picture(problem.mechanism, structure, **size, mobile=mobile)
+    plain, picture = (
+        mechanism_picture(problem.mechanism, structure, width=240.0, height=130.0, mobile=one)
+        for one in (None, mobile)
+    )
     marks = re.findall(r"\dс|\dц|\dпл", " ".join(_writings(list(_letters(picture)))))
     changed = [PRINTED[one] for one in aligned.schemes[0].values() if one[0] != "1"]
     assert sorted(marks) == sorted(changed)

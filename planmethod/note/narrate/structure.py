@@ -246,7 +246,7 @@ def aligned_lines(
     said = words.structure
     for group in aligned.groups:
         if group.schemes:
-            yield from _aligned_group(mechanism, group, words)
+            yield from aligned_group(mechanism, group, words)
     if not aligned.schemes:
         links = "; ".join("–".join(group.group.links) for group in aligned.without)
         yield said.aligned_none.format(links=links)
@@ -283,7 +283,8 @@ def aligned_sums(
     yield words.structure.aligned_whole.format(numbers=numbers, w=w, ways=WAYS_IN, q=WAYS_IN - w)
 
 
-def _aligned_group(mechanism: Mechanism, group: AlignedGroup, words: Language) -> Iterator[Rich]:
+def aligned_group(mechanism: Mechanism, group: AlignedGroup, words: Language) -> Iterator[Rich]:
+    """Yield the best scheme of a group, the others, and what is right by count alone."""
     said = words.structure
     best, *others = group.schemes
     counts = [sum(int(name[0]) == k for name in best.classes) for k in range(1, 6)]

@@ -321,7 +321,7 @@ def _shown(
         if fits and all(one.width <= wide for one in drawn) and room >= share * height:
             spare = (room - highest) / 4
             centred = [_Centred(one, wide, highest) for one in drawn]
-            parts = [
+            parts: list[Block] = [
                 head,
                 Spacer(width, GAP + spare),
                 Row(centred, gap=GAP),
