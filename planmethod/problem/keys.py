@@ -16,6 +16,7 @@ from planmethod.problem.head import (
     TITLE_FORMS,
     AskedAnswer,
     GearWheelTable,
+    HigherPairTable,
     MeshingTable,
     PictureTable,
     Published,
@@ -38,7 +39,7 @@ OF_KINDS = ("gears", "point", "meshing")
 TOP = (
     "title", "source", "units", "frame", "links", "driver", "assembly", "scales", "stamp",
     "sheet", "published", "answers", "compare", "variants", "dynamics", "loads", "machine",
-    "balancing", "cycle", "project", *OF_KINDS,
+    "balancing", "cycle", "project", "higher_pairs", *OF_KINDS,
 )  # fmt: skip
 FRAME = ("guides", "number")
 GUIDE = ("through", "angle")
@@ -95,7 +96,7 @@ FLAT: Mapping[str, type[object]] = {
     "load": LoadEntry, "phases": Phase, "machine": Machine, "flywheel": FlywheelTask,
     "motor": MotorTable, "kloss": KlossTable, "line": LineTable, "balancing": CounterweightTask,
     "wheel": GearWheelTable, "picture": PictureTable, "meshing": MeshingTable,
-    "project": ProjectTask,
+    "project": ProjectTask, "higher": HigherPairTable,
 }  # fmt: skip
 """Records of flat tables by the kind of table."""
 
@@ -129,4 +130,5 @@ VARIANT_LIMIT = 400
 PUBLISHED_LIMIT = 1000
 LOAD_LIMIT = 200
 ANSWER_LIMIT = 200
+HIGHER_LIMIT = 20
 ROW_LIMIT = POSITION_LIMIT

@@ -13,7 +13,7 @@ from planmethod.note.formula import Rich
 from planmethod.note.narrate.letters import pair_letters
 from planmethod.note.numbers import MINUS
 from planmethod.note.wording import Language, Words
-from planmethod.solved.aligned.schemes import AlignedGroup, AlignedScheme, SelfAligning
+from planmethod.solved.aligned.schemes import AlignedGroup, AlignedScheme, MovablePair, SelfAligning
 
 NBSP = "\u00a0"
 
@@ -106,15 +106,21 @@ def pair_table(
 def link_table(mechanism: Mechanism, words: Language) -> Table:
     """Return the table of links (звенья)."""
     every, said = stated_pairs(mechanism), words.structure
+    replacing = {pair.by for pair in mechanism.higher}
+    kinds = [
+        (row.link, row.role.value, row.motion.value)
+        for row in kind_of_motion(mechanism)
+        if row.link not in replacing
+    ]
+    kinds += [(pair.roller, "roller", "plane") for pair in mechanism.higher if pair.roller]
     rows = (
         (
-            mechanism.called(row.link),
-            words.note["roles"][row.role.value],
-            said["motions"][row.motion.value],
-            ", ".join(pair_letters(pair.name) for pair in every if row.link in pair.links),
+            mechanism.called(link),
+            words.note["roles"][role],
+            said["motions"][motion],
+            ", ".join(pair_letters(pair.name) for pair in every if link in pair.links),
         )
-        for row in kind_of_motion(mechanism)
-        if row.link not in {pair.by for pair in mechanism.higher}
+        for link, role, motion in kinds
     )
     return table_of(said["columns_links"], rows, names=4)
 
@@ -159,7 +165,7 @@ def replacement_lines(
     for pair in mechanism.higher:
         joints = [one for one in pairs(mechanism) if pair.by in one.links]
         told = ", ".join(
-            f"{pair_letters(one.point)} ({'–'.join(map(mechanism.called, one.links))})"
+            f"{pair_letters(one.point)}{NBSP}({'–'.join(map(mechanism.called, one.links))})"
             for one in joints
         )
         links = "–".join(map(mechanism.called, (pair.links[0], pair.roller or pair.links[1])))
@@ -220,6 +226,7 @@ def _static_counts(structure: Structure, words: Words) -> Rich:
         w=signed(structure.mobility),
         unknowns=unknowns,
         verdict=verdict,
+        higher=words.static_higher.format() if structure.higher_pairs else "",
     )
 
 
@@ -248,11 +255,11 @@ def aligned_lines(
         if group.schemes:
             yield from aligned_group(mechanism, group, words)
     if not aligned.schemes:
-        links = "; ".join("–".join(group.group.links) for group in aligned.without)
+        links = "; ".join("–".join(group.links) for group in aligned.without)
         yield said.aligned_none.format(links=links)
         return
     yield from aligned_sums(structure, aligned, words, notation)
-    rows, n = aligned.rows, structure.moving_links - structure.local_mobility
+    rows, n = aligned.rows, structure.moving_links
     yield said.aligned_rank.format(
         rows=rows, columns=6 * n, rank=aligned.rank, q=rows - aligned.rank, w=6 * n - aligned.rank
     )
@@ -271,7 +278,7 @@ def aligned_sums(
     """Yield the formulas of the scheme without redundant constraints, where there is one."""
     if not aligned.schemes or not structure.groups:
         return
-    n, counts = structure.moving_links - structure.local_mobility, aligned.counts
+    n, counts, local = structure.moving_links, aligned.counts, structure.local_mobility
     _, numbers = spatial_sum(n, counts, notation)
     by_class = notation == "p5 p4"
     told = ", ".join(
@@ -280,7 +287,15 @@ def aligned_sums(
     )
     w = 6 * n - sum((6 - mobility) * count for mobility, count in counts.items())
     yield words.structure.aligned_counts.format(counts=told)
-    yield words.structure.aligned_whole.format(numbers=numbers, w=w, ways=WAYS_IN, q=WAYS_IN - w)
+    yield words.structure.aligned_whole.format(
+        numbers=numbers, w=w, ways=WAYS_IN, local=local, q=WAYS_IN + local - w
+    )
+
+
+def _told_pair(mechanism: Mechanism, pair: MovablePair) -> tuple[Rich, Rich]:
+    """Return the letter of a pair and its links."""
+    point, links = pair.key.split()
+    return pair_letters(point), "–".join(map(mechanism.called, links.split("-")))
 
 
 def aligned_group(mechanism: Mechanism, group: AlignedGroup, words: Language) -> Iterator[Rich]:
@@ -288,13 +303,12 @@ def aligned_group(mechanism: Mechanism, group: AlignedGroup, words: Language) ->
     said = words.structure
     best, *others = group.schemes
     counts = [sum(int(name[0]) == k for name in best.classes) for k in range(1, 6)]
-    n = len({link for pair in group.pairs for link in pair.links} & set(group.group.links))
-    _, numbers = spatial_sum(n, dict(enumerate(counts, 1)), None)
+    _, numbers = spatial_sum(len(group.links), dict(enumerate(counts, 1)), None)
 
     def told(scheme: AlignedScheme) -> Rich:
         named = said["pair_classes"]
         changed = [
-            (pair_letters(pair.key.split()[0]), "–".join(map(mechanism.called, pair.links)), name)
+            (*_told_pair(mechanism, pair), name)
             for pair, name in zip(group.pairs, scheme.classes, strict=True)
             if name != pair.classes[0]
         ]
@@ -302,7 +316,7 @@ def aligned_group(mechanism: Mechanism, group: AlignedGroup, words: Language) ->
             f"{point}{NBSP}({links}){NBSP}– {named[name]}" for point, links, name in changed
         )
 
-    links = "–".join(link for link in group.group.links)
+    links = "–".join(group.links)
     yield said.aligned_group.format(
         links=links, scheme=told(best), numbers=numbers.replace(" ", NBSP)
     )

@@ -47,7 +47,7 @@ def aligned_record(aligned: SelfAligning) -> dict[str, Any]:
         "groups": [_group(group) for group in aligned.groups],
     }
     if not aligned.schemes:
-        links = "; ".join("-".join(group.group.links) for group in aligned.without)
+        links = "; ".join("-".join(group.links) for group in aligned.without)
         record["reason"] = f"no choice of pairs of the links {links} has full rank"
     return record
 
@@ -57,7 +57,7 @@ def _group(group: AlignedGroup) -> dict[str, Any]:
         return dict(zip((pair.key for pair in group.pairs), classes, strict=True))
 
     return {
-        "links": list(group.group.links),
+        "links": list(group.links),
         "schemes": [named(scheme.classes) for scheme in group.schemes],
         "right_by_count_only": [named(scheme.classes) for scheme in group.counted],
     }

@@ -106,7 +106,7 @@ def _groups(report: Report, said: Words) -> Iterator[Node]:
 def _aligned(report: Report, said: Words) -> Iterator[Node]:
     problem, structure, words = report.one.problem, report.one.structure, report.words
     aligned = self_aligning(problem, structure)
-    if not aligned.schemes or not aligned.groups:
+    if not aligned.schemes or not aligned.groups or problem.mechanism.higher:
         return
     yield Part(said.aligned.format())
     classes = words.structure["pair_classes"]

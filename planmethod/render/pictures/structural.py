@@ -1,7 +1,7 @@
 """Structural pictures without scale (структурная схема, структурные группы).
 
 Links are bars and rigid triangles, revolute pairs circles, prismatic pairs rectangles on bars, the
-frame is hatched. A group taken apart keeps its outer joints open: a dashed stub shows where a link
+frame is hatched; what replaces a higher pair is dashed. A group taken apart keeps its outer joints open: a dashed stub shows where a link
 outside the group goes on, with that link's number.
 """
 
@@ -227,7 +227,8 @@ class _Draft(Struct):
                 for slide in self.chain.slides
             )
             target = self.arms if carried else self.lines
-            target.append(Stroke((start, end), tag=f"link {link}"))
+            pen = Pen.HIDDEN if link in self.chain.replacing else Pen.MAIN
+            target.append(Stroke((start, end), pen, tag=f"link {link}"))
             stops = [start, *([at[shape.on]] if shape.on else []), end]
             self.segments += [(link, a, b) for a, b in pairwise(stops)]
         elif shape.outline:

@@ -270,9 +270,11 @@ def _shown(
     mechanism, sizes = problem.mechanism, pictures.sizes
     sense = -1 if problem.drive.rate < 0 else 1
     mobile = Mobile(aligned, words.structure["pair_classes"])
-    schemes = [None, mobile] if aligned.schemes and structure.groups else [None]
+    both = bool(aligned.schemes and structure.groups) and not mechanism.higher
+    schemes = [None, mobile] if both else [None]
     wide = (width - GAP * (len(schemes) - 1)) / len(schemes)
-    names = [words.structure.scheme, words.structure.aligned_scheme][: len(schemes)]
+    first = words.structure.replacing_scheme if mechanism.higher else words.structure.scheme
+    names = [first, words.structure.aligned_scheme][: len(schemes)]
     heads = [paragraph(name, sizes.title, wide, align="centre") for name in names]
     head = Row([_Centred(one, wide, one.height) for one in heads], gap=GAP)
     below = _title(words.structure.parts, sizes)

@@ -15,7 +15,7 @@ from random import Random
 from msgspec import Struct
 
 from planmethod.mechanism.groups import AssurGroup, Joint, links_of
-from planmethod.mechanism.model import FRAME, Mechanism, Prismatic, Revolute
+from planmethod.mechanism.model import FRAME, HigherPair, Mechanism, Prismatic, Revolute
 from planmethod.mechanism.structure import Structure
 from planmethod.problem.model import Problem, Slide
 
@@ -32,14 +32,22 @@ CLOSED = 1e-10
 class PlanePose(Struct, frozen=True):
     """Places of the points, and a point and the direction of every slide (положение), m."""
 
+    mechanism: Mechanism
     places: dict[str, complex]
     lines: dict[Prismatic, tuple[complex, complex]]
 
-    def line(self, joint: Joint) -> tuple[complex, complex]:
-        """Return a point of a joint and its direction; a hinge has none, 0."""
+    def line(self, joint: Joint | HigherPair) -> tuple[complex, complex]:
+        """Return a point and the direction of a joint: 0 of a hinge, the normal of profiles."""
         if isinstance(joint, Prismatic):
             return self.lines[joint]
-        return self.places[joint.point], 0j
+        if isinstance(joint, Revolute):
+            return self.places[joint.point], 0j
+        of = self.mechanism
+        ends = [self.places[pin.point] for pin in of.revolutes if joint.by in pin.links]
+        if len(ends) == 2:
+            return ends[0], (ends[1] - ends[0]) / abs(ends[1] - ends[0])
+        at, along = next(line for pair, line in self.lines.items() if pair.slider == joint.by)
+        return at, 1j * along
 
 
 Links = dict[str, tuple[complex, complex]]
@@ -180,7 +188,7 @@ class _Sizes(Struct):
             slide = self._slide(pair)
             along = self._line(slide, links)[1]
             lines[pair] = (self._pin(slide, links) - 1j * along * slide.offset, along)
-        return PlanePose(places, lines)
+        return PlanePose(mechanism, places, lines)
 
 
 def group_pairs(group: AssurGroup) -> list[tuple[Joint, str, str]]:
@@ -242,4 +250,4 @@ def _random_pose(mechanism: Mechanism, rng: Random) -> PlanePose:
         pair: (places[pair.pin], cmath.exp(1j * rng.uniform(0, pi)))
         for pair in mechanism.prismatics
     }
-    return PlanePose(places, lines)
+    return PlanePose(mechanism, places, lines)

@@ -17,7 +17,7 @@ from msgspec import Struct, field
 from msgspec.structs import replace
 
 from planmethod.mechanism.groups import AssurGroup, Joint
-from planmethod.mechanism.model import FRAME, Mechanism, Revolute
+from planmethod.mechanism.model import FRAME, HigherPair, Mechanism, Prismatic, Revolute
 from planmethod.mechanism.structure import Structure
 from planmethod.problem.model import Problem
 from planmethod.solved.aligned.poses import PlanePose, group_pairs, poses
@@ -27,6 +27,9 @@ TURNING = ("1v", "2c", "3s")
 
 SLIDING = ("1p", "2c", "3pl")
 """Classes of a sliding pair: prism, cylinder about its line, plane through its line and z."""
+
+TOUCHING = ("4l", "5t")
+"""Classes of a higher pair: profiles that touch along a line, and in a point."""
 
 MOST = 60
 """Most schemes of a group, and of a mechanism, that are given."""
@@ -40,22 +43,28 @@ REGULAR = 1e-7
 GENERIC = 3
 """Which pose of a sweep is in general position: at no round angle of the driver."""
 
+PLANE = ("1v", "1p", "4l")
+"""Classes of the pairs as they are in the plane."""
+
 Column = tuple[float, float, float]
 
 
 class MovablePair(Struct, frozen=True):
     """Pair of two links that may be given more freedom (кинематическая пара).
 
-    ``key`` names it: joint or pin, and its links, the frame 0: ``B 2-3``.
+    ``key`` names it: joint or pin, and its links, the frame 0: ``B 2-3``; of a higher pair the
+    roller that touches, while ``links`` has the link that the roller is on.
     """
 
     key: str
-    joint: Joint
+    joint: Joint | HigherPair
     links: tuple[str, str]
 
     @property
-    def classes(self) -> tuple[str, str, str]:
+    def classes(self) -> tuple[str, ...]:
         """Classes that it may have, the plane one first."""
+        if isinstance(self.joint, HigherPair):
+            return TOUCHING
         return TURNING if isinstance(self.joint, Revolute) else SLIDING
 
 
@@ -79,17 +88,19 @@ class AlignedScheme(Struct, frozen=True):
     @property
     def changes(self) -> int:
         """How many pairs are not what they were."""
-        return sum(name[0] != "1" for name in self.classes)
+        return sum(name not in PLANE for name in self.classes)
 
 
 class AlignedGroup(Struct, frozen=True):
     """Group with its schemes, the best first (группа и её схемы).
 
+    ``links`` are those of the group without what replaces higher pairs.
     ``counted`` has those of a dyad that the formula takes for right, and the rank does not: as many
     constraints as its ``loose`` stay redundant, and as many motions are loose instead.
     """
 
     group: AssurGroup
+    links: tuple[str, ...]
     pairs: tuple[MovablePair, ...]
     schemes: tuple[AlignedScheme, ...]
     counted: tuple[AlignedScheme, ...] = ()
@@ -163,13 +174,17 @@ def self_aligning(problem: Problem, structure: Structure) -> SelfAligning:
         # The sums that are compared grow with every group: the best wholes have the best parts.
         grown = [one.with_(group, scheme) for one in whole for scheme in group.schemes]
         whole = sorted(grown, key=lambda one: one.rank)[:MOST]
+    rollers = [one for one in mechanism.higher if one.roller]
     first = {pair.key: pair.classes[0]}
+    first |= {f"{one.at} {one.links[1]}-{one.roller}": TURNING[0] for one in rollers}
     named = tuple({**first, **dict(one.classes)} for one in whole)
     found = SelfAligning(pair, groups, named)
     if not places or not named:
         return replace(found, rank=5 if named else 0)
     generic = places[min(GENERIC, len(places) - 1)]
-    return replace(found, rank=constraint_rank(found.pairs, named[0], generic))
+    # A roller has its hinge, whose five constraints nothing repeats.
+    rank = constraint_rank(found.pairs, named[0], generic) + 5 * len(rollers)
+    return replace(found, rank=rank)
 
 
 class _Whole(Struct, frozen=True):
@@ -190,10 +205,17 @@ def _rank(scheme: AlignedScheme) -> tuple[int, ...]:
     return scheme.changes, int(not scheme.steady), unusual
 
 
-def _pair(mechanism: Mechanism, joint: Joint, one: str, other: str) -> MovablePair:
+def _pair(mechanism: Mechanism, joint: Joint | HigherPair, one: str, other: str) -> MovablePair:
     order = (FRAME, *mechanism.links)
     first, second = sorted((one, other), key=order.index)
-    name = joint.point if isinstance(joint, Revolute) else joint.pin
+    match joint:
+        case Revolute():
+            name = joint.point
+        case Prismatic():
+            name = joint.pin
+        case HigherPair():
+            name = joint.name
+            return MovablePair(f"{name} {first}-{joint.roller or second}", joint, (first, second))
     return MovablePair(f"{name} {first}-{second}", joint, (first, second))
 
 
@@ -247,11 +269,15 @@ def _constraints(name: str, at: complex, along: complex) -> list[list[float]]:
         return [up * y, -up * x, moment, way.real, way.imag, up]
 
     flat = [slide(1), slide(1j)] if not along else [turn(z, 1.0), slide(1j * along)]
+    if name in TOUCHING:
+        flat = [slide(along)]
     lifts = {
         "1v": [turn(1), turn(1j), slide(z, 1.0)],
         "3s": [slide(z, 1.0)],
         "1p": [turn(1), turn(1j), slide(z, 1.0)],
         "3pl": [turn(along)],
+        "4l": [turn(1j * along)],
+        "5t": [],
         "2c": [turn(1j * along), slide(z, 1.0)] if along else [turn(1), turn(1j)],
     }
     return [*flat, *lifts[name]]
@@ -261,16 +287,21 @@ def _constraints(name: str, at: complex, along: complex) -> list[list[float]]:
 
 
 def _aligned(mechanism: Mechanism, group: AssurGroup, places: Sequence[PlanePose]) -> AlignedGroup:
-    joints: list[Joint] = [*mechanism.revolutes, *mechanism.prismatics]
-    pairs = [_pair(mechanism, *pair) for pair in group_pairs(group)]
+    higher = [pair for pair in mechanism.higher if pair.by in group.links]
+    replacing = {pair.by for pair in higher}
+    joints = [*mechanism.revolutes, *mechanism.prismatics, *mechanism.higher]
+    pairs = [_pair(mechanism, *pair) for pair in group_pairs(group) if not replacing & {*pair[1:]}]
+    pairs += [_pair(mechanism, pair, *pair.links) for pair in higher]
     pairs.sort(key=lambda pair: joints.index(pair.joint))  # as the table of pairs has them
-    return _Search(group, tuple(pairs), places).found()
+    links = tuple(link for link in group.links if link not in replacing)
+    return _Search(group, links, tuple(pairs), places).found()
 
 
 class _Search(Struct):
     """Search for the schemes of a group."""
 
     group: AssurGroup
+    links: tuple[str, ...]
     pairs: tuple[MovablePair, ...]
     places: Sequence[PlanePose]
     columns: list[dict[tuple[int, str], list[list[float]]]] = field(default_factory=list)
@@ -284,12 +315,17 @@ class _Search(Struct):
         if len(self.pairs) == 3:
             made = [AlignedScheme(one, self.need - self._rank(one)) for one in self._made(every)]
             counted = tuple(one for one in made if one.loose)
-        return AlignedGroup(self.group, self.pairs, tuple(good[:MOST]), counted)
+        return AlignedGroup(self.group, self.links, self.pairs, tuple(good[:MOST]), counted)
 
     @property
     def need(self) -> int:
         """How many freedoms out of the plane the contours need."""
-        return 3 * (len(self.pairs) - len(self.group.links))
+        return 3 * (len(self.pairs) - len(self.links))
+
+    @property
+    def touching(self) -> set[int]:
+        """Numbers of the higher pairs: each has two freedoms as it is, and a third in a point."""
+        return {i for i, pair in enumerate(self.pairs) if isinstance(pair.joint, HigherPair)}
 
     def _good(self, every: Sequence[int]) -> list[AlignedScheme]:
         """Return the true schemes, those of fewest changes first, until there are enough."""
@@ -310,12 +346,16 @@ class _Search(Struct):
 
     def _made(self, changes: Sequence[int]) -> Iterator[tuple[str, ...]]:
         """Yield the schemes of so many changes that are right by their count."""
+        touching, every = self.touching, range(len(self.pairs))
         for count in changes:
-            twos = 2 * count - self.need  # pairs of two freedoms, the other changed ones of three
+            # Of the changed pairs so many have one freedom more, the others two.
+            twos = 2 * count - self.need + 2 * len(touching)
             if not 0 <= twos <= count:
                 continue
-            for changed in combinations(range(len(self.pairs)), count):
+            for changed in combinations(every, count):
                 for two in combinations(changed, twos):
+                    if not touching & set(changed) <= set(two):
+                        continue
                     yield tuple(
                         pair.classes[0 if i not in changed else 1 if i in two else 2]
                         for i, pair in enumerate(self.pairs)
@@ -359,7 +399,7 @@ class _Search(Struct):
 
     def _contours(self) -> list[list[int]]:
         """Return for every pair its sense in every independent contour, 0 where it is in none."""
-        own = set(self.group.links)
+        own = set(self.links)
         ends = [tuple(x if x in own else FRAME for x in pair.links) for pair in self.pairs]
         above: dict[str, tuple[str, int, int]] = {}  # parent, pair, sense
         reached, closing = {FRAME}, []
@@ -396,6 +436,10 @@ def _freedoms(name: str, at: complex, along: complex) -> list[Column]:
     match name:
         case "3s":
             return [turn(1), turn(1j)]
+        case "4l":
+            return [slide, turn(along)]
+        case "5t":
+            return [slide, turn(1), turn(1j)]
         case "3pl":
             return [slide, turn(1j * along)]
         case "2c":
