@@ -97,7 +97,7 @@ class _Reader:
         if straight:
             link.slides = {"on": ends[1], **given["slides"]}
         else:
-            link.lengths.append(Length("".join(centres), *centres, given["distance"]))
+            link.lengths.append(Length("".join(centres), centres[0], centres[1], given["distance"]))
         self.links[by] = link
         return HigherPair(given["name"], tuple(ends), by, roller, centres[-1] if roller else "")
 

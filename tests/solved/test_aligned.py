@@ -53,6 +53,7 @@ def _places(
         if isinstance(pair.joint, Revolute):
             places[pair.key] = (points[pair.joint.point], 0j)
             continue
+        assert isinstance(pair.joint, Prismatic)
         slide = problem.slides[pair.joint.slider]
         along = cmath.rect(1.0, turns[slide.host] + math.radians(slide.angle))
         places[pair.key] = (points[slide.pin] - 1j * slide.offset * along, along)

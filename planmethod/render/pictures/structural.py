@@ -1,8 +1,8 @@
 """Structural pictures without scale (структурная схема, структурные группы).
 
 Links are bars and rigid triangles, revolute pairs circles, prismatic pairs rectangles on bars, the
-frame is hatched; what replaces a higher pair is dashed. A group taken apart keeps its outer joints open: a dashed stub shows where a link
-outside the group goes on, with that link's number.
+frame is hatched; what replaces a higher pair is dashed. A group taken apart keeps its outer joints
+open: a dashed stub shows where a link outside the group goes on, with that link's number.
 """
 
 from __future__ import annotations
