@@ -22,8 +22,9 @@ from planmethod.problem.model import Problem, Slide
 STEP, STEPS = radians(15.3), 24
 """Between two poses of a sweep (no divisor of a right angle), and how many there are at most."""
 
-STARTS, ITERATIONS = 60, 30
-"""How often a group is begun at random, and how often Newton's method mends it."""
+STARTS, ELSEWHERE, TRIES, ITERATIONS = 16, 4, 3, 14
+"""How often all groups are begun at random at the asked position of the driver, and at another; how
+often each of them, and how often Newton's method mends it."""
 
 CLOSED = 1e-10
 """Gap at which a group counts as closed, in parts of the mechanism's size or radians."""
@@ -76,15 +77,18 @@ class _Sizes(Struct):
         first = [radians(p) if drive.is_crank else p for p in asked]
         reach = max(first) - min(first) if len(first) > 1 else self.size
         step = STEP if drive.is_crank else reach / STEPS
-        for start in first + [first[0] + 3.7 * k * step for k in (1, 2, 3, 4, 5, 6)]:
-            begun = self._closed(start, rng, None)
+        others = [first[0] + 3.7 * k * step for k in range(1, 10)]
+        if drive.posed is not None:
+            first = []  # the output tells the position, which nobody has looked for yet
+        for start in [*first[:1], *others, *first]:
+            begun = self._closed(start, rng, STARTS if start in first else ELSEWHERE)
             if begun is None:
                 continue
             found = [begun]
             for way in (1, -1):  # as far as it goes, to both sides of the start
                 last = begun
                 for k in range(1, STEPS):
-                    after = self._closed(start + way * k * step, rng, last)
+                    after = self._closed(start + way * k * step, rng, 1, last)
                     if after is None or len(found) == STEPS:
                         break
                     found.append(after)
@@ -109,28 +113,51 @@ class _Sizes(Struct):
         pin = slide.base + turn * complex(position, slide.offset)
         return pin - turn * bodies[drive.link].points[slide.pin], turn
 
-    def _closed(self, position: float, rng: Random, last: Links | None) -> Links | None:
+    def _closed(
+        self, position: float, rng: Random, starts: int, last: Links | None = None
+    ) -> Links | None:
         """Return the links at a position of the driver, near those of the last one, if any."""
-        links = {FRAME: (0j, 1 + 0j), self.structure_driver: self._driver(position)}
-        for group in self.structure.groups:
-            for _ in range(1 if last else STARTS):
-                start = [number for link in group.links for number in self._start(link, rng, last)]
-                if self._close(group, links, start):
-                    break
-            else:
-                return None
-        return links
+        for _ in range(starts):  # anew from the first group: a later one may not close on another
+            links = {FRAME: (0j, 1 + 0j), self.problem.mechanism.driver: self._driver(position)}
+            if all(self._joined(group, links, rng, last) for group in self.structure.groups):
+                return links
+        return None
 
-    @property
-    def structure_driver(self) -> str:
-        return self.problem.mechanism.driver
+    def _joined(self, group: AssurGroup, links: Links, rng: Random, last: Links | None) -> bool:
+        """Close a group on the known links, begun near the last pose or at random."""
+        for _ in range(1 if last else TRIES):
+            start = self._random(group, links, rng) if last is None else last
+            numbers = [
+                number
+                for origin, turn in (start[link] for link in group.links)
+                for number in (origin.real, origin.imag, cmath.phase(turn))
+            ]
+            if self._close(group, links, numbers):
+                return True
+        return False
 
-    def _start(self, link: str, rng: Random, last: Links | None) -> tuple[float, float, float]:
-        if last:
-            origin, turn = last[link]
-            return origin.real, origin.imag, cmath.phase(turn)
-        size = 2 * self.size
-        return rng.uniform(-size, size), rng.uniform(-size, size), rng.uniform(-pi, pi)
+    def _random(self, group: AssurGroup, links: Links, rng: Random) -> Links:
+        """Return the links of a group laid from joint to joint, those of its own at random."""
+        size, bodies = self.size, self.problem.bodies
+        places: dict[str, complex] = {}
+        for joint, one, _ in group_pairs(group):
+            name = joint.point if isinstance(joint, Revolute) else joint.pin
+            if one in links and isinstance(joint, Revolute):
+                origin, turn = links[one]
+                places[name] = origin + turn * bodies[one].points[name]
+            near = links[group.leads[0].to][0]
+            away = complex(rng.uniform(-size, size), rng.uniform(-size, size))
+            places.setdefault(name, near + away)
+        found = {}
+        for link in group.links:
+            own = [(places[name], at) for name, at in bodies[link].points.items() if name in places]
+            turn = cmath.exp(1j * rng.uniform(-pi, pi))
+            if len(own) > 1 and own[1][1] != own[0][1] and own[1][0] != own[0][0]:
+                span = (own[1][0] - own[0][0]) / (own[1][1] - own[0][1])
+                turn = span / abs(span)
+            at, local = own[0] if own else (complex(rng.uniform(-size, size)), 0j)
+            found[link] = (at - turn * local, turn)
+        return found
 
     def _close(self, group: AssurGroup, known: Links, start: list[float]) -> bool:
         """Close a group by Newton's method and add its links to the known; False if it fails."""
