@@ -18,8 +18,13 @@ from worked import PROBLEMS, problem_of
 from benchmarks.generator import random_problem
 from planmethod.mechanism.model import FRAME, Mechanism, Prismatic, Revolute
 from planmethod.mechanism.structure import analyse
+from planmethod.note.narrate.structure import aligned_lines
+from planmethod.note.records.aligned import aligned_record
+from planmethod.note.wording import language
 from planmethod.problem import loads
 from planmethod.problem.model import Drive, Problem
+from planmethod.render.sheets.structure import structure_sheet
+from planmethod.solved.aligned.poses import poses
 from planmethod.solved.aligned.schemes import SelfAligning, self_aligning
 from planmethod.solved.solution import Solution
 
@@ -224,6 +229,64 @@ def test_sizes_that_close_nowhere_give_the_schemes_of_random_ones() -> None:
     problem = loads(re.sub(r"(?m)^(BC = )[0-9.]+", r"\g<1>0.0001", text), name="open")
     found = self_aligning(problem, analyse(problem.mechanism))
     assert len(found.schemes) == 6 and found.rank == 17
+
+
+TRIAD = """
+title = "t"
+[frame]
+O = [0, 0]
+E = [0.30, 0.02]
+F = [0.16, 0.30]
+[links.1]
+points = ["O", "A"]
+OA = 0.06
+[links.2]
+points = ["A", "B"]
+AB = 0.20
+[links.3]
+points = ["B", "C", "D"]
+BC = 0.16
+BD = 0.14
+CD = 0.13
+D = { side = "left of BC" }
+[links.4]
+points = ["E", "C"]
+EC = 0.15
+[links.5]
+points = ["F", "D"]
+FD = 0.14
+[driver]
+link = "1"
+phi = 50
+omega = 10
+epsilon = 0
+"""
+
+
+def test_a_group_of_class_three_closes_and_has_schemes_in_its_own_pose() -> None:
+    problem = loads(TRIAD, name="triad")
+    structure = analyse(problem.mechanism)
+    swept = poses(problem, structure)
+    assert len(swept) == 24
+    known = (0.235632 + 0.080103j, 0.109611 + 0.232919j)  # found elsewhere, to 1e-6
+    assert min(abs(swept[0].places["B"] - one) for one in known) < 1e-6
+    found = self_aligning(problem, structure)
+    for pose in swept[:4]:
+        places = {pair.key: pose.line(pair.joint) for pair in found.pairs}
+        assert all(_is_true(rank_of(scheme, places)) for scheme in found.schemes)
+    assert found.rank == found.rows == 29
+
+
+def test_where_nothing_is_found_the_links_are_named(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("planmethod.solved.aligned.schemes.TRIED", 0)
+    problem = problem_of("levers/six-link")
+    structure = analyse(problem.mechanism)
+    record = aligned_record(found := self_aligning(problem, structure))
+    assert (record["valid"], record["schemes"]) == (False, [])
+    assert "2-3; 4-5" in record["reason"]
+    lines = list(aligned_lines(problem.mechanism, structure, found, language("ru")))
+    assert len(lines) == 1 and "2–3; 4–5" in lines[0]
+    assert structure_sheet(problem, structure, found).items
 
 
 def test_a_driver_alone_has_nothing_redundant() -> None:

@@ -19,6 +19,7 @@ from planmethod.note.narrate.structure import (
     local_letters,
     pair_classes,
     pair_table,
+    replacement_lines,
     signed,
     spatial_sum,
 )
@@ -64,9 +65,11 @@ def _mobility(report: Report, said: Words) -> Iterator[Node]:
     yield sentences(
         said.chebyshev_where.format(revolute=revolute, prismatic=low - revolute, **counts),
         said.one_driver.format(role=report.role(mechanism.driver), link=mechanism.driver)
-        if structure.mobility == 1
+        if structure.mobility - structure.local_mobility == 1
         else said.drivers.format(w=structure.mobility),
     )
+    if mechanism.higher:
+        yield sentences(*map(lettered, replacement_lines(mechanism, structure, report.words)))
     yield sentences(said.redundant.format())
     yield displayed(
         said.redundant_formula.format(letters=letters, numbers=numbers, w=signed(spatial))
