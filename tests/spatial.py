@@ -34,6 +34,10 @@ def _twists(name: str, at: complex, along: complex) -> list[Vector]:
     def slide(axis: Vector) -> Vector:
         return np.concatenate([np.zeros(3), axis])
 
+    if name in ("4l", "5t"):  # along the normal of the profiles
+        tangent = np.cross(z, u)
+        plane = [turn(z), slide(tangent), slide(z), turn(u)]
+        return [*plane, turn(tangent)] if name == "5t" else plane
     if along:
         more = {"1p": [], "2c": [turn(u)], "3pl": [slide(z), turn(np.cross(z, u))]}
         return [slide(u), *more[name]]

@@ -136,6 +136,42 @@ def test_a_straight_follower_is_a_stone_that_slides_along_it() -> None:
     assert solution.structure.higher_pairs == 1
 
 
+TAPPET = """
+title = "Толкатель"
+[frame]
+A = [0, 0]
+guides.y-y = {{ through = "A", angle = 90 }}
+[links.1]
+points = ["A", "O"]
+AO = 0.02
+[links.2]
+points = ["B"]
+slides = {{ on = "y-y" }}
+[[higher_pairs]]
+name = "K"
+links = ["1", "2"]
+centres = ["O"]
+slides = {{ through = "B", angle = {angle}, offset = -0.03 }}
+[driver]
+link = "1"
+phi = 40
+omega = 10
+epsilon = 0
+"""
+
+
+def test_a_round_tappet_may_turn_only_where_its_face_is_oblique() -> None:
+    found = {}
+    for angle in (0, 30):
+        problem = loads(TAPPET.format(angle=angle), name="tappet")
+        aligned = self_aligning(problem, analyse(problem.mechanism))
+        found[angle] = [(one["K 1-2"], one["B 0-2"]) for one in aligned.schemes]
+        assert aligned.rank == aligned.rows == 11
+    # About its own line a level face turns freely under the cam, and tilts to the cam nevertheless.
+    assert found[0] == [("5t", "1p")]
+    assert sorted(found[30]) == [("4l", "2c"), ("5t", "1p")]
+
+
 @pytest.mark.parametrize("lang", ["ru", "en"])
 def test_the_replacement_is_told_and_drawn(lang: str) -> None:
     problem = _follower(ROUND + '\nroller = "3"', ASSEMBLY)

@@ -7,16 +7,17 @@ import math
 import random
 import re
 from functools import cache
-from itertools import product
+from itertools import combinations, product
 
 import pytest
 from cases import each, some
+from msgspec.structs import replace
 from newton import solve as newton
 from spatial import Rank, rank_of
 from worked import PROBLEMS, problem_of
 
 from benchmarks.generator import random_problem
-from planmethod.mechanism.model import FRAME, Mechanism, Prismatic, Revolute
+from planmethod.mechanism.model import FRAME, HigherPair, Mechanism, Prismatic, Revolute
 from planmethod.mechanism.structure import analyse
 from planmethod.note.narrate.structure import aligned_lines
 from planmethod.note.records.aligned import aligned_record
@@ -25,7 +26,7 @@ from planmethod.problem import loads
 from planmethod.problem.model import Drive, Problem
 from planmethod.render.sheets.structure import structure_sheet
 from planmethod.solved.aligned.poses import poses
-from planmethod.solved.aligned.schemes import SelfAligning, self_aligning
+from planmethod.solved.aligned.schemes import SelfAligning, constraint_rank, self_aligning
 from planmethod.solved.solution import Solution
 
 LEVERS = ("levers/task-13", "levers/task-33", "levers/task-49", "levers/crosshead")
@@ -287,6 +288,55 @@ def test_where_nothing_is_found_the_links_are_named(monkeypatch: pytest.MonkeyPa
     lines = list(aligned_lines(problem.mechanism, structure, found, language("ru")))
     assert len(lines) == 1 and "2–3; 4–5" in lines[0]
     assert structure_sheet(problem, structure, found).items
+
+
+@pytest.mark.parametrize(
+    ("points", "slides", "higher"),
+    [
+        ("A:01 B:12 C:23 D:34 E:04 F:35 G:05", "", HigherPair("K", ("1", "3"), "2")),
+        ("A:01 O:15 C:23 D:03 E:24 F:04", "5/2@O", HigherPair("K", ("1", "2"), "5")),
+    ],
+)
+def test_profiles_that_touch_are_freed_with_the_pairs_of_their_group(
+    points: str, slides: str, higher: HigherPair
+) -> None:
+    bare = _bare(points, slides)
+    problem = replace(bare, mechanism=replace(bare.mechanism, higher=(higher,)))
+    found = self_aligning(problem, structure := analyse(problem.mechanism))
+    assert structure.redundant == 1 - (6 * 4 - 5 * 5 - 2)
+    assert {scheme["K 1-" + higher.links[1]] for scheme in found.schemes} == {"4l", "5t"}
+    for pose in poses(problem, structure):
+        places = {pair.key: pose.line(pair.joint) for pair in found.pairs}
+        if slides:  # the normal of a straight profile is across its line
+            (along,) = (line for _, line in pose.lines.values())
+            places["K 1-2"] = (places["K 1-2"][0], 1j * along)
+        assert all(_is_true(rank_of(scheme, places)) for scheme in found.schemes)
+    assert found.rank == found.rows == 6 * 4 - 1
+    plane = {pair.key: pair.classes[0] for pair in found.pairs}
+    for one in combinations(found.groups[0].pairs, 2):
+        for classes in product(*(pair.classes[1:] for pair in one)):
+            scheme = plane | dict(zip((pair.key for pair in one), classes, strict=True))
+            assert (scheme in found.schemes) == _is_true(rank_of(scheme, places)), scheme
+
+
+@pytest.mark.parametrize("name", NAMES[:6])
+def test_the_rank_of_all_constraints_is_that_of_the_contours(name: str) -> None:
+    problem, found = problem_of(name), aligned(name)
+    pose = poses(problem, analyse(problem.mechanism))[3]
+    places = {pair.key: pose.line(pair.joint) for pair in found.pairs}
+    rng = random.Random(3)
+    tried = [{pair.key: rng.choice(pair.classes) for pair in found.pairs}
+             for _ in range(some(200, few=25))]  # fmt: skip
+    for group in found.groups:
+        keys = [pair.key for pair in group.pairs]
+        tried += [
+            dict(found.schemes[0]) | dict(zip(keys, one.classes, strict=True))
+            for one in group.counted
+        ]
+    for classes in tried:
+        rows = sum(6 - int(one[0]) for one in classes.values())
+        told = rank_of(classes, places)
+        assert constraint_rank(found.pairs, classes, pose) == rows - told.redundant, classes
 
 
 def test_a_driver_alone_has_nothing_redundant() -> None:
