@@ -52,6 +52,7 @@ PLACES: Mapping[str, tuple[str, ...]] = {
     "sheet": ("$defs", "sheet"),
     "published": ("$defs", "published", "additionalProperties"),
     "answer": ("$defs", "answer"),
+    "higher": ("$defs", "higher"),
     "dynamics": ("$defs", "dynamics"),
     "mass": ("$defs", "mass"),
     "load": ("$defs", "load"),

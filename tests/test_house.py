@@ -50,6 +50,7 @@ LATE_OF = {
     "planmethod.note.tables.machine": "machines",
     "planmethod.note.tables.turn": "the turn of a crank",
     "planmethod.problem.dynamics": "forces, counterweights",
+    "planmethod.problem.higher": "higher pairs",
     "planmethod.problem.machine": "machines",
     "planmethod.solved": "forces, drafting errors, the trust in float64",
     "planmethod.compiled.csource": "machine code",

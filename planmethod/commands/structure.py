@@ -49,6 +49,7 @@ def structure(
     from planmethod.mechanism.structure import analyse
     from planmethod.note.wording import language
     from planmethod.note.writers.plain import plain_document
+    from planmethod.solved.aligned.schemes import self_aligning
 
     drawn = not as_json and not no_drawing
     settled = asked.settle() if drawn else None
@@ -59,11 +60,12 @@ def structure(
             return
         problem = todo.linkage
         found = analyse(problem.mechanism)
+        aligned = self_aligning(problem, found)
         if as_json:
-            from planmethod.note.records.solution import structure_record
+            from planmethod.note.records.aligned import structure_in_full
 
             head = {"schema": 1, "problem": problem.name}
-            whole = {**head, "structure": structure_record(found, problem.mechanism)}
+            whole = {**head, "structure": structure_in_full(found, problem.mechanism, aligned)}
             click.echo(json_text(whole))
             return
         from planmethod.note.narrate.structure import structure_document
@@ -71,12 +73,13 @@ def structure(
         if settled is not None:
             problem = settled.over(problem)
         words = language(str(asked.sheet["lang"] or problem.sheet.lang or LANGUAGES[0]))
-        written = structure_document(problem.mechanism, found, words, problem.sheet.notation)
+        notation = problem.sheet.notation
+        written = structure_document(problem.mechanism, found, words, notation, aligned)
         click.echo(plain_document(written, words))
         if settled is not None:
             from planmethod.render.sheets.structure import structure_sheet
 
-            drawing = structure_sheet(problem, found, fields=asked.fields)
+            drawing = structure_sheet(problem, found, aligned, fields=asked.fields)
             write_drawings(
                 [drawing],
                 out,

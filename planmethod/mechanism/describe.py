@@ -14,6 +14,8 @@ class PairKind(Enum):
 
     REVOLUTE = "revolute"
     PRISMATIC = "prismatic"
+    HIGHER = "higher"
+    """Contact of profiles; `pairs` has none, as it looks at what replaces them."""
 
 
 class KinematicPair(Struct, frozen=True):
@@ -35,6 +37,26 @@ class KinematicPair(Struct, frozen=True):
     point: str
     links: tuple[str, str]
     kind: PairKind
+
+
+def stated_pairs(mechanism: Mechanism) -> list[KinematicPair]:
+    """Kinematic pairs as the problem states them: higher ones and rollers, not what replaces them.
+
+    Returns
+    -------
+    list of KinematicPair
+        As many as p1 and p2 of `planmethod.mechanism.structure.Structure`.
+    """
+    replacing = {pair.by for pair in mechanism.higher}
+    rows = [pair for pair in pairs(mechanism) if not replacing & set(pair.links)]
+    for pair in mechanism.higher:
+        carrier = pair.links[1]
+        touching = (pair.links[0], pair.roller or carrier)
+        rows.append(KinematicPair(pair.name, pair.name, touching, PairKind.HIGHER))
+        if pair.roller:
+            ends = (carrier, pair.roller)
+            rows.append(KinematicPair(pair.at, pair.at, ends, PairKind.REVOLUTE))
+    return rows
 
 
 class MotionKind(Enum):

@@ -31,6 +31,31 @@ class Prismatic(Struct, frozen=True):
     pin: str
 
 
+class HigherPair(Struct, frozen=True):
+    """Contact of two profiles, which a link with two lower pairs replaces (высшая пара).
+
+    Attributes
+    ----------
+    name : str
+        Letter of the contact.
+    links : tuple of two str
+        The frame first, then in file order.
+    by : str
+        Link that replaces it (звено заменяющего механизма); it stands among the links.
+    roller : str
+        Number of the roller that the second link touches with, which is not among the links: it
+        turns about itself and nothing else feels it (местная подвижность). Empty without one.
+    at : str
+        Point of the roller's pin.
+    """
+
+    name: str
+    links: tuple[str, str]
+    by: str
+    roller: str = ""
+    at: str = ""
+
+
 class Mechanism(Struct, frozen=True):
     """Links and joints of a planar mechanism (механизм).
 
@@ -45,6 +70,8 @@ class Mechanism(Struct, frozen=True):
         Name of the driving link (начальное звено), joined with the frame.
     frame : str
         Number of the frame as it is printed (номер стойки); among the links it is `FRAME`.
+    higher : tuple of HigherPair
+        What some of the links stand for: then this is the replacing mechanism.
     """
 
     links: tuple[str, ...]
@@ -52,6 +79,7 @@ class Mechanism(Struct, frozen=True):
     prismatics: tuple[Prismatic, ...]
     driver: str
     frame: str = FRAME
+    higher: tuple[HigherPair, ...] = ()
 
     def called(self, link: str) -> str:
         """Return how a link is printed: the frame by its number."""

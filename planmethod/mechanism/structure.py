@@ -13,9 +13,6 @@ from planmethod.mechanism.model import FRAME, Mechanism
 WAYS_IN = 1
 """Number of drivers W0 (число начальных звеньев)."""
 
-LOCAL_MOBILITY = 0
-"""W_M: local mobilities (местные подвижности) come from rollers, and linkages have none."""
-
 
 class Structure(Struct, frozen=True):
     """Result of the structural analysis (структурный анализ).
@@ -25,12 +22,13 @@ class Structure(Struct, frozen=True):
     mobility : int
         W = 3n - 2p1 - p2 by Chebyshev.
     moving_links, lower_pairs, higher_pairs : int
-        n, p1, p2.
+        n, p1, p2 of the mechanism with its higher pairs and rollers, not of that which replaces it.
     spatial_mobility : int
-        W of the spatial scheme, 6n - 5p1 (Malyshev).
+        W of the spatial scheme, 6n - 5p1 - 2p4 (Somov and Malyshev); profiles touch along a line.
     redundant : int
-        q = W0 + W_M - W_spatial (избыточные связи), W0 the number of drivers, W_M local mobility,
-        which is 0: a linkage has no rollers.
+        q = W0 + W_M - W_spatial (избыточные связи), W0 the number of drivers.
+    local_mobility : int
+        W_M, rollers that turn about themselves (местные подвижности).
     class_number : int
         Highest class of the groups; 1 when there is none.
     groups : tuple of AssurGroup
@@ -45,6 +43,7 @@ class Structure(Struct, frozen=True):
     higher_pairs: int
     spatial_mobility: int
     redundant: int
+    local_mobility: int
     class_number: int
     groups: tuple[AssurGroup, ...]
     formula: str
@@ -88,17 +87,20 @@ def analyse(mechanism: Mechanism) -> Structure:
     refuse_immovable(mechanism)
     refuse_unbalanced(mechanism)
     groups = _groups(mechanism)
-    n, p1 = len(mechanism.links), mechanism.lower_pairs
-    spatial = 6 * n - 5 * p1
+    high = len(mechanism.higher)
+    local = sum(pair.roller != "" for pair in mechanism.higher)
+    n, p1 = len(mechanism.links) - high + local, mechanism.lower_pairs - 2 * high + local
+    spatial = 6 * n - 5 * p1 - 2 * high
     parts = [f"I({mechanism.frame},{mechanism.driver})"]
     parts += [f"{roman(group.class_number)}({','.join(group.links)})" for group in groups]
     return Structure(
-        mobility=3 * n - 2 * p1,
+        mobility=3 * n - 2 * p1 - high,
         moving_links=n,
         lower_pairs=p1,
-        higher_pairs=0,
+        higher_pairs=high,
         spatial_mobility=spatial,
-        redundant=WAYS_IN + LOCAL_MOBILITY - spatial,
+        redundant=WAYS_IN + local - spatial,
+        local_mobility=local,
         class_number=max((group.class_number for group in groups), default=1),
         groups=groups,
         formula=" → ".join(parts),

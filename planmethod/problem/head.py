@@ -111,6 +111,53 @@ class AskedSense(Enum):
     ANGLE = "angle"  # degrees from +x
 
 
+class HigherPairTable(Struct, frozen=True):
+    """Two profiles that touch (высшая пара), as the file has them."""
+
+    name: Annotated[
+        str,
+        OwnKey("letter of the contact", required=True, missing='Name the contact: name = "K".'),
+    ]
+    links: Annotated[
+        tuple[str, ...],
+        OwnKey(
+            'the two links that touch, `["1", "2"]`; `"0"` is the frame',
+            required=True,
+            missing='Name the links that touch: links = ["1", "2"].',
+        ),
+    ]
+    centres: Annotated[
+        tuple[str, ...],
+        OwnKey(
+            "centres of curvature of both profiles, a point of each link; one point, of the first "
+            "link, where the profile of the second is straight",
+            required=True,
+            missing='Name the centres of curvature, a point of each link: centres = ["O", "C"].',
+        ),
+    ]
+    distance: Annotated[
+        float | None,
+        OwnKey("distance of both centres, m: the sum of the radii, or their difference"),
+    ] = None
+    slides: Annotated[
+        dict[str, object] | None,
+        OwnKey(
+            "straight profile of the second link: `along`, `through`, `angle`, `offset` as in "
+            "`slides` of a link; the offset of the centre is the radius of the first profile"
+        ),
+    ] = None
+    roller: Annotated[
+        str,
+        OwnKey(
+            "number of the roller that turns on the second link about its centre: it counts among "
+            "the links and their mobilities"
+        ),
+    ] = ""
+    by: Annotated[
+        str, OwnKey("number of the link that replaces the pair; the next free one when absent")
+    ] = ""
+
+
 class AskedAnswer(Struct, frozen=True):
     """What students are asked for (вопрос); ``what`` is in the words of ``[published]``."""
 

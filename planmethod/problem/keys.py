@@ -16,6 +16,7 @@ from planmethod.problem.head import (
     TITLE_FORMS,
     AskedAnswer,
     GearWheelTable,
+    HigherPairTable,
     MeshingTable,
     PictureTable,
     Published,
@@ -41,7 +42,7 @@ READING = ("reading", "other_readings")
 TOP = (
     "title", "source", *READING, "units", "frame", "links", "driver", "assembly", "scales", "stamp",
     "sheet", "published", "answers", "compare", "variants", "dynamics", "loads", "machine",
-    "balancing", "cycle", "project", *OF_KINDS,
+    "balancing", "cycle", "project", "higher_pairs", *OF_KINDS,
 )  # fmt: skip
 FRAME = ("guides", "number")
 GUIDE = ("through", "angle")
@@ -98,7 +99,7 @@ FLAT: Mapping[str, type[object]] = {
     "load": LoadEntry, "phases": Phase, "machine": Machine, "flywheel": FlywheelTask,
     "motor": MotorTable, "kloss": KlossTable, "line": LineTable, "balancing": CounterweightTask,
     "wheel": GearWheelTable, "picture": PictureTable, "meshing": MeshingTable,
-    "project": ProjectTask,
+    "project": ProjectTask, "higher": HigherPairTable,
 }  # fmt: skip
 """Records of flat tables by the kind of table."""
 
@@ -132,4 +133,5 @@ VARIANT_LIMIT = 10_000
 PUBLISHED_LIMIT = 1000
 LOAD_LIMIT = 200
 ANSWER_LIMIT = 200
+HIGHER_LIMIT = 20
 ROW_LIMIT = POSITION_LIMIT

@@ -66,6 +66,8 @@ class LinkText(Struct):
         Points whose tables could not be read.
     arc : tuple of two str, or None
         Host and centre of a circular slot: its stone is read as a link from the centre to the pin.
+    where : str
+        Path of the higher pair that the link replaces; empty of a link of the file.
     """
 
     name: str
@@ -78,11 +80,12 @@ class LinkText(Struct):
     whole: bool = True
     faulty: set[str] = field(default_factory=set)
     arc: tuple[str, str] | None = None
+    where: str = ""
 
     @property
     def path(self) -> str:
-        """Dotted path of the link."""
-        return f"links.{segment(self.name)}"
+        """Dotted path of the link, or of what it was made of."""
+        return self.where or f"links.{segment(self.name)}"
 
     def lengths_of(self, point: str) -> list[Length]:
         """Lengths that end in a point, in file order."""

@@ -8,7 +8,7 @@ from typing import Any, TypeAlias
 from msgspec.structs import replace
 
 from planmethod.languages import say
-from planmethod.mechanism.model import FRAME, Mechanism
+from planmethod.mechanism.model import FRAME, HigherPair, Mechanism
 from planmethod.problem import keys
 from planmethod.problem.answers import AnswerScope, read_answers
 from planmethod.problem.bodies import place_points
@@ -60,6 +60,13 @@ def read_parts(
     links = read_links(faults, given["links"])
     if "frame" not in given:
         return None
+    higher: tuple[HigherPair, ...] = ()
+    before = len(faults)
+    if "higher_pairs" in given:
+        from planmethod.problem.higher import read_higher  # few files have any
+
+        higher = read_higher(faults, given["higher_pairs"], links, frame)
+    replaced = len(faults) == before
     check_arcs(faults, links, frame.points)
     for guide in frame.guides:
         if guide in links:
@@ -77,7 +84,8 @@ def read_parts(
     complete = (
         bool(links)
         and frame.sound
-        and len(links) == len(given["links"])
+        and replaced
+        and len(links) - len(higher) == len(given["links"])
         and all(link.whole for link in links.values())
     )
     mechanism = join(faults, frame, links, hosts, driver, complete=complete) if links else None
@@ -85,7 +93,7 @@ def read_parts(
         hint = "The frame has a number of its own: 0, or one that no link has."
         faults.add("frame.number", say("link {} has the same number", frame.number), hint)
     elif mechanism is not None:
-        mechanism = replace(mechanism, frame=frame.number)
+        mechanism = replace(mechanism, frame=frame.number, higher=higher)
     if len(drivers) > 1:
         _refuse_drivers(faults, drivers, mechanism if complete else None)
     moving = [p for link in links.values() for p in link.points if p not in frame.points]

@@ -6,18 +6,19 @@ import pytest
 from cases import each, some
 from texts import protocol, result_tables, structure_text
 from told import LANGUAGES, assert_readable, drawn, worked
-from worked import ROOT, SIX
+from worked import ROOT, SIX, problem_of
 
 from planmethod.errors import ProblemError
 from planmethod.kinds import loads
 from planmethod.mechanism.model import Mechanism, Revolute
 from planmethod.mechanism.structure import analyse
-from planmethod.note.narrate.structure import structure_document
+from planmethod.note.narrate.structure import aligned_lines, structure_document
 from planmethod.note.records.solution import structure_record
 from planmethod.note.wording import language
 from planmethod.note.writers.plain import plain_document
 from planmethod.render.ink.drawing import Text
 from planmethod.render.sheets.kinematics import kinematics_sheets
+from planmethod.solved.aligned.schemes import self_aligning
 from planmethod.solved.solution import Solution
 
 
@@ -45,7 +46,7 @@ def test_numbers_and_letters_of_the_six_link() -> None:
     text = text_of("levers/six-link")
     for line in (
         "W = 3n − 2p_н − p_в = 3·5 − 2·7 − 0 = 1",
-        "W_пр = 6n − 5p_н = 6·5 − 5·7 = −5",
+        "W_пр = 6n − 5p₁ − 4p₂ − 3p₃ − 2p₄ − p₅ = 6·5 − 5·7 = −5",
         "q = W₀ + W_м − W_пр = 1 + 0 − (−5) = 6",
         "  1) Первичный механизм I класса (вращательная пара): звенья 0, 1\n",
         "  2) Группа II класса, 2-го порядка, 1-го вида (ВВВ): звенья 2, 3\n",
@@ -68,7 +69,41 @@ def test_the_numbers_of_pairs_have_one_notation(
     document = structure_document(solution.problem.mechanism, solution.structure, words, notation)
     text = plain_document(document, words)
     assert f"W = 3n − 2{lower} − {higher} = 3·5" in text
-    assert f"6n − 5{lower} = " in text and f"{lower} = 7" in text.replace("\u00a0", " ")
+    spatial = "5p₅ − 4p₄ − 3p₃ − 2p₂ − p₁" if lower == "p₅" else "5p₁ − 4p₂ − 3p₃ − 2p₄ − p₅"
+    assert f"6n − {spatial} = 6·5 − 5·7" in text and f"{lower} = 7" in text.replace("\u00a0", " ")
+
+
+@pytest.mark.parametrize("lang", LANGUAGES)
+@pytest.mark.parametrize("name", [*SIX, "levers/task-13", "levers/task-33", "levers/task-49"])
+def test_schemes_without_redundant_constraints_are_told(name: str, lang: str) -> None:
+    problem, words = problem_of(name), language(lang)
+    structure = analyse(problem.mechanism)
+    aligned = self_aligning(problem, structure)
+    text = plain_document(
+        structure_document(problem.mechanism, structure, words, None, aligned), words
+    )
+    assert_readable(text)
+    flat = " ".join(text.split())
+    n = structure.moving_links
+    assert "29 − 29 = 0, W = 30 − 29 = 1." in flat or (n == 3 and "17 − 17 = 0, W = 18" in flat)
+    counts = (
+        "6·5 − 5·3 − 4·2 − 3·2 = 1; q = 1 + 0 − 1 = 0" if n == 5 else "6·3 − 5·2 − 4·1 − 3·1 = 1"
+    )
+    assert counts in flat
+    assert flat.count("q = 0.") == len(structure.groups)
+
+
+def test_what_is_right_by_count_alone_is_named() -> None:
+    problem, words = problem_of("levers/six-link"), language("ru")
+    structure = analyse(problem.mechanism)
+    aligned = self_aligning(problem, structure)
+    lines = [
+        line.replace("\u00a0", " ")
+        for line in aligned_lines(problem.mechanism, structure, aligned, words)
+    ]
+    assert lines[3].startswith("Группа 4–5: H (2–4) – 2ц, H (0–5) – 3пл; W_{пр} = 6·2 − 5·1 − 4·1")
+    assert lines[5].startswith("Схема H (4–5) – 3с, H (2–4) – 2ц не годится")
+    assert "меньше на 1" in lines[5] and "меньше на 2" in lines[2]
 
 
 def test_the_frame_has_its_number_wherever_it_is_printed() -> None:
@@ -100,8 +135,8 @@ def test_the_frame_has_its_number_wherever_it_is_printed() -> None:
 def test_pairs_and_links_are_listed() -> None:
     text = text_of("linkages/ex3", "en")
     rows = [line.split() for line in text.splitlines()]
-    assert ["A", "0", "–", "1", "revolute", "(R)", "V", "1"] in rows
-    assert ["B(2,3)", "2", "–", "3", "prismatic", "(P)", "V", "1"] in rows
+    assert ["A", "0", "–", "1", "revolute", "(R)", "V", "1", "1"] in rows
+    assert ["B(2,3)", "2", "–", "3", "prismatic", "(P)", "V", "1", "1"] in rows
     assert ["1", "crank", "rotation", "A,", "B"] in rows
     assert ["5", "slider", "translation", "E,", "E(0,5)"] in rows
 

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import re
 from collections import defaultdict
+from collections.abc import Iterator
 from functools import cache
 from itertools import combinations
 from pathlib import Path
@@ -21,6 +23,7 @@ from planmethod.problem.model import Drive, Problem
 from planmethod.render.control.texts import lint
 from planmethod.render.frame.frame import STAMP, Format, paper_format
 from planmethod.render.ink.drawing import Arc, Drawing, Pen, Stroke, Text
+from planmethod.render.layout.block import Picture
 from planmethod.render.pictures.chains import (
     Far,
     driver_chain,
@@ -29,8 +32,15 @@ from planmethod.render.pictures.chains import (
     textbook_places,
 )
 from planmethod.render.pictures.embedding import Bar, Net, embed
-from planmethod.render.pictures.structural import driver_picture, group_picture, mechanism_picture
+from planmethod.render.pictures.structural import (
+    Mobile,
+    driver_picture,
+    group_picture,
+    mechanism_picture,
+)
 from planmethod.render.sheets.structure import structure_sheet
+from planmethod.render.symbols import SIZES
+from planmethod.solved.aligned.schemes import self_aligning
 
 RU = language("ru")
 
@@ -270,7 +280,8 @@ def test_formulas_of_ex3() -> None:
     problem, structure = _case("ex3")
     lines = list(mobility_formulas(problem.mechanism, structure, RU))
     assert lines[1] == "По Чебышеву: W = 3n − 2p_{н} − p_{в} = 3·5 − 2·7 − 0 = 1"
-    assert lines[2] == "Пространственная схема: W_{пр} = 6n − 5p_{н} = 6·5 − 5·7 = −5"
+    spatial = "6n − 5p_{1} − 4p_{2} − 3p_{3} − 2p_{4} − p_{5} = 6·5 − 5·7 = −5"
+    assert lines[2] == f"Пространственная схема: W_{{пр}} = {spatial}"
     assert lines[3] == "Избыточные связи: q = W_{0} + W_{м} − W_{пр} = 1 + 0 − (−5) = 6"
 
 
@@ -280,6 +291,40 @@ def test_caption_of_a_class_three_group() -> None:
     assert named == "Группа III класса, 3-го порядка (трёхповодковая): звенья 2, 3, 4, 5"
     assert w == "W = 3·4 − 2·6 = 0"
     assert q == "q = 0 − (6·4 − 5·6) = 6"
+
+
+PRINTED = {"1v": "1в", "2c": "2ц", "3s": "3с", "1p": "1п", "3pl": "3пл"}
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_the_second_scheme_marks_every_pair_that_is_changed_and_no_other(name: str) -> None:
+    problem, structure = _case(name)
+    aligned = self_aligning(problem, structure)
+    mobile = Mobile(aligned, PRINTED)
+    plain, picture = (
+        mechanism_picture(problem.mechanism, structure, width=240.0, height=130.0, mobile=one)
+        for one in (None, mobile)
+    )
+    marks = re.findall(r"\d(?:с|ц|пл|п|в)", " ".join(_writings(list(_letters(picture)))))
+    changed = [PRINTED[one] for one in aligned.schemes[0].values() if one[0] != "1"]
+    assert sorted(marks) == sorted(changed)
+    assert not re.search(r"\dц", " ".join(_writings(list(_letters(plain)))))
+    spheres = sum(one == "3s" for one in aligned.schemes[0].values())
+    cups = [i for i in picture.items if isinstance(i, Arc) and i.radius == 1.75 * SIZES.joint / 2]
+    assert len(cups) == spheres
+
+
+def _letters(picture: Picture) -> Iterator[Text]:
+    return (item for item in picture.items if isinstance(item, Text))
+
+
+def test_the_sheet_has_both_schemes_and_what_the_pairs_become() -> None:
+    told = _texts(drawn("six-link"))
+    assert "Схема без избыточных связей" in told
+    assert [text for text in told if text in PRINTED.values()] == [
+        "1в", "1в", "2ц", "3с", "1в", "2ц", "3пл",
+    ]  # fmt: skip
+    assert "При q = 0" in " ".join(told).replace("\u00a0", " ")
 
 
 @pytest.mark.parametrize("name", CASES)

@@ -2,38 +2,51 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 
-from planmethod.mechanism.describe import PairKind, kind_of_motion, pairs
+from planmethod.mechanism.describe import PairKind, kind_of_motion, pairs, stated_pairs
 from planmethod.mechanism.groups import AssurGroup, Joint, letter_of, links_of
 from planmethod.mechanism.model import FRAME, Mechanism, Revolute
-from planmethod.mechanism.structure import LOCAL_MOBILITY, WAYS_IN, Structure, roman
+from planmethod.mechanism.structure import WAYS_IN, Structure, roman
 from planmethod.note.document import Caption, Document, Item, Node, Step, Table, Title, table_of
 from planmethod.note.formula import Rich
 from planmethod.note.narrate.letters import pair_letters
 from planmethod.note.numbers import MINUS
 from planmethod.note.wording import Language, Words
+from planmethod.solved.aligned.schemes import AlignedGroup, AlignedScheme, MovablePair, SelfAligning
 
 NBSP = "\u00a0"
 
+MOST_TOLD = 8
+"""Most schemes of a group that the text tells beside the best."""
+
 
 def structure_document(
-    mechanism: Mechanism, structure: Structure, words: Language, notation: str | None = None
+    mechanism: Mechanism,
+    structure: Structure,
+    words: Language,
+    notation: str | None = None,
+    aligned: SelfAligning | None = None,
 ) -> Document:
     """Return the structural analysis of a mechanism with its numbers (структурный анализ).
 
-    ``notation`` is that of the numbers of pairs: `pair_classes`.
+    ``notation`` is that of the numbers of pairs: `pair_classes`. ``aligned``: with the scheme
+    without redundant constraints.
     """
-    return Document.of(_analysis(mechanism, structure, words, notation))
+    return Document.of(_analysis(mechanism, structure, words, notation, aligned))
 
 
 def _analysis(
-    mechanism: Mechanism, structure: Structure, words: Language, notation: str | None
+    mechanism: Mechanism,
+    structure: Structure,
+    words: Language,
+    notation: str | None,
+    aligned: SelfAligning | None,
 ) -> Iterator[Node]:
     said = words.structure
     yield Title(said.title)
     yield Caption(said.pairs)
-    yield pair_table(mechanism, words, lettered=True)
+    yield pair_table(mechanism, words, aligned, lettered=True)
     yield Caption(said.links)
     yield link_table(mechanism, words)
     yield Caption(said.formulas)
@@ -45,45 +58,69 @@ def _analysis(
         named, *counts = group_caption(group, words)
         yield Step((named, _joints(mechanism, group, words.note), "; ".join(counts)))
     yield from map(Item, order_formulas(mechanism, structure, words))
+    if aligned is not None:
+        yield Caption(said.aligned)
+        yield from map(Item, aligned_lines(mechanism, structure, aligned, words, notation))
     yield Item(_static_counts(structure, words.note))
 
 
 # Pairs and links -----------------------------------------------------------------------------
 
 
-def pair_table(mechanism: Mechanism, words: Language, *, lettered: bool = False) -> Table:
+MOBILITY = {
+    PairKind.REVOLUTE: ("V", "1", "1"),
+    PairKind.PRISMATIC: ("V", "1", "1"),
+    PairKind.HIGHER: ("IV", "2", "4"),
+}
+"""Class of a pair by its constraints (Artobolevsky), its mobility in the plane and in space."""
+
+
+def pair_table(
+    mechanism: Mechanism,
+    words: Language,
+    aligned: SelfAligning | None = None,
+    *,
+    lettered: bool = False,
+) -> Table:
     """Return the table of kinematic pairs (кинематические пары).
 
-    ``lettered``: with the letter of each kind, by which `group_caption` calls it.
+    ``aligned``: with what each pair is in its first scheme. ``lettered``: with the letter of each
+    kind, by which `group_caption` calls it.
     """
+    scheme = aligned.schemes[0] if aligned is not None and aligned.schemes else None
     kinds = {kind: words.structure["pair_kinds"][kind.value] for kind in PairKind}
     if lettered:
         signs = {PairKind.REVOLUTE: "R", PairKind.PRISMATIC: "P"}
-        kinds = {kind: f"{kinds[kind]} ({words.note['letters'][signs[kind]]})" for kind in kinds}
-    rows = (
-        (
-            pair_letters(pair.name),
-            " – ".join(map(mechanism.called, pair.links)),
-            kinds[pair.kind],
-            "V",
-            "1",
-        )
-        for pair in pairs(mechanism)
-    )
-    return table_of(words.structure["columns_pairs"], rows, names=4)
+        kinds |= {kind: f"{kinds[kind]} ({words.note['letters'][signs[kind]]})" for kind in signs}
+    named = words.structure["pair_classes"]
+    rows = []
+    for pair in stated_pairs(mechanism):
+        links = " – ".join(map(mechanism.called, pair.links))
+        row = (pair_letters(pair.name), links, kinds[pair.kind], *MOBILITY[pair.kind])
+        key = f"{pair.point} {'-'.join(pair.links)}"
+        rows.append(row if scheme is None else (*row, named.get(scheme.get(key, ""), "–")))
+    columns = words.structure["columns_pairs"]
+    return table_of(columns if scheme else columns[:-1], rows, names=6)
 
 
 def link_table(mechanism: Mechanism, words: Language) -> Table:
     """Return the table of links (звенья)."""
-    every, said = pairs(mechanism), words.structure
+    every, said = stated_pairs(mechanism), words.structure
+    replacing = {pair.by for pair in mechanism.higher}
+    kinds = [
+        (row.link, row.role.value, row.motion.value)
+        for row in kind_of_motion(mechanism)
+        if row.link not in replacing
+    ]
+    kinds += [(pair.roller, "roller", "plane") for pair in mechanism.higher if pair.roller]
     rows = (
         (
-            mechanism.called(row.link),
-            words.note["roles"][row.role.value],
-            said["motions"][row.motion.value],
-            ", ".join(pair_letters(pair.name) for pair in every if row.link in pair.links),
+            mechanism.called(link),
+            words.note["roles"][role],
+            said["motions"][motion],
+            ", ".join(pair_letters(pair.name) for pair in every if link in pair.links),
         )
-        for row in kind_of_motion(mechanism)
+        for link, role, motion in kinds
     )
     return table_of(said["columns_links"], rows, names=4)
 
@@ -102,16 +139,66 @@ def mobility_formulas(
     mechanism: Mechanism, structure: Structure, words: Language, notation: str | None = None
 ) -> Iterator[Rich]:
     """Yield mobility and redundant constraints of the whole (подвижность, избыточные связи)."""
-    said, low, spatial = words.structure, structure.lower_pairs, structure.spatial_mobility
-    revolute = sum(pair.kind is PairKind.REVOLUTE for pair in pairs(mechanism))
+    said, low, high = words.structure, structure.lower_pairs, structure.higher_pairs
+    revolute = sum(pair.kind is PairKind.REVOLUTE for pair in stated_pairs(mechanism))
     indices = pair_classes(notation, words)
-    counts = {"n": structure.moving_links, "low": low, "high": structure.higher_pairs, **indices}
+    counts = {"n": structure.moving_links, "low": low, "high": high, **indices}
     yield said.counts.format(revolute=revolute, prismatic=low - revolute, **counts)
     yield said.chebyshev.format(w=signed(structure.mobility), **counts)
-    yield said.spatial.format(w=signed(spatial), **counts)
+    letters, numbers = spatial_sum(structure.moving_links, {1: low, 4: high}, notation)
+    spatial = structure.spatial_mobility
+    yield said.spatial.format(letters=letters, numbers=numbers, w=signed(spatial))
     yield said.redundant.format(
-        ways=WAYS_IN, local=LOCAL_MOBILITY, w=_bracketed(spatial), q=signed(structure.redundant)
+        ways=WAYS_IN,
+        local=structure.local_mobility,
+        w=_bracketed(spatial),
+        q=signed(structure.redundant),
     )
+    yield from replacement_lines(mechanism, structure, words)
+
+
+def replacement_lines(
+    mechanism: Mechanism, structure: Structure, words: Language
+) -> Iterator[Rich]:
+    """Yield what replaces higher pairs, and rollers that turn about themselves (замена пар)."""
+    said = words.structure
+    for pair in mechanism.higher:
+        joints = [one for one in pairs(mechanism) if pair.by in one.links]
+        told = ", ".join(
+            f"{pair_letters(one.point)}{NBSP}({'–'.join(map(mechanism.called, one.links))})"
+            for one in joints
+        )
+        links = "–".join(map(mechanism.called, (pair.links[0], pair.roller or pair.links[1])))
+        yield said.replaced.format(
+            pair=pair_letters(pair.name), links=links, by=pair.by, pairs=told
+        )
+        if pair.roller:
+            yield said.roller.format(roller=pair.roller, link=mechanism.called(pair.links[1]))
+    if mechanism.higher:
+        n, p = len(mechanism.links), mechanism.lower_pairs
+        yield said.replacing.format(n=n, p=p, w=signed(3 * n - 2 * p))
+
+
+def spatial_sum(n: int, pairs_of: Mapping[int, int], notation: str | None) -> tuple[Rich, Rich]:
+    """Return the sum of Somov and Malyshev, in letters and in numbers (формула Сомова – Малышева).
+
+    Parameters
+    ----------
+    n : int
+        Moving links.
+    pairs_of : mapping of int to int
+        How many pairs have so many mobilities.
+    notation : str or None
+        Where it is ``p5 p4``, pairs are numbered by their constraints, else by their mobilities.
+    """
+    by_class = notation == "p5 p4"
+    letters, numbers = "6n", f"6·{n}"
+    for mobility in range(1, 6):
+        held, index = 6 - mobility, 6 - mobility if by_class else mobility
+        letters += f" − {held if held > 1 else ''}p_{{{index}}}"
+        if pairs_of.get(mobility):
+            numbers += f" − {held}·{pairs_of[mobility]}"
+    return letters, numbers
 
 
 def order_formulas(mechanism: Mechanism, structure: Structure, words: Language) -> Iterator[Rich]:
@@ -139,6 +226,7 @@ def _static_counts(structure: Structure, words: Words) -> Rich:
         w=signed(structure.mobility),
         unknowns=unknowns,
         verdict=verdict,
+        higher=words.static_higher.format() if structure.higher_pairs else "",
     )
 
 
@@ -149,6 +237,96 @@ def signed(number: int) -> str:
 
 def _bracketed(number: int) -> str:
     return f"({signed(number)})" if number < 0 else str(number)
+
+
+# Without redundant constraints -----------------------------------------------------------------
+
+
+def aligned_lines(
+    mechanism: Mechanism,
+    structure: Structure,
+    aligned: SelfAligning,
+    words: Language,
+    notation: str | None = None,
+) -> Iterator[Rich]:
+    """Yield how each group loses its redundant constraints, and the whole (устранение связей)."""
+    said = words.structure
+    for group in aligned.groups:
+        if group.schemes:
+            yield from aligned_group(mechanism, group, words)
+    if not aligned.schemes:
+        links = "; ".join("–".join(group.links) for group in aligned.without)
+        yield said.aligned_none.format(links=links)
+        return
+    yield from aligned_sums(structure, aligned, words, notation)
+    rows, n = aligned.rows, structure.moving_links
+    yield said.aligned_rank.format(
+        rows=rows, columns=6 * n, rank=aligned.rank, q=rows - aligned.rank, w=6 * n - aligned.rank
+    )
+    used = {name for scheme in aligned.schemes[:1] for name in scheme.values()}
+    named = said["pair_classes"]
+    yield said.aligned_legend.format(
+        legend=", ".join(
+            f"{named[k]}{NBSP}– {v}" for k, v in said["class_names"].items() if k in used
+        )
+    )
+
+
+def aligned_sums(
+    structure: Structure, aligned: SelfAligning, words: Language, notation: str | None = None
+) -> Iterator[Rich]:
+    """Yield the formulas of the scheme without redundant constraints, where there is one."""
+    if not aligned.schemes or not structure.groups:
+        return
+    n, counts, local = structure.moving_links, aligned.counts, structure.local_mobility
+    _, numbers = spatial_sum(n, counts, notation)
+    by_class = notation == "p5 p4"
+    told = ", ".join(
+        f"p_{{{6 - mobility if by_class else mobility}}}{NBSP}={NBSP}{count}"
+        for mobility, count in sorted(counts.items())
+    )
+    w = 6 * n - sum((6 - mobility) * count for mobility, count in counts.items())
+    yield words.structure.aligned_counts.format(counts=told)
+    yield words.structure.aligned_whole.format(
+        numbers=numbers, w=w, ways=WAYS_IN, local=local, q=WAYS_IN + local - w
+    )
+
+
+def _told_pair(mechanism: Mechanism, pair: MovablePair) -> tuple[Rich, Rich]:
+    """Return the letter of a pair and its links."""
+    point, links = pair.key.split()
+    return pair_letters(point), "–".join(map(mechanism.called, links.split("-")))
+
+
+def aligned_group(mechanism: Mechanism, group: AlignedGroup, words: Language) -> Iterator[Rich]:
+    """Yield the best scheme of a group, the others, and what is right by count alone."""
+    said = words.structure
+    best, *others = group.schemes
+    counts = [sum(int(name[0]) == k for name in best.classes) for k in range(1, 6)]
+    _, numbers = spatial_sum(len(group.links), dict(enumerate(counts, 1)), None)
+
+    def told(scheme: AlignedScheme) -> Rich:
+        named = said["pair_classes"]
+        changed = [
+            (*_told_pair(mechanism, pair), name)
+            for pair, name in zip(group.pairs, scheme.classes, strict=True)
+            if name != pair.classes[0]
+        ]
+        return ", ".join(
+            f"{point}{NBSP}({links}){NBSP}– {named[name]}" for point, links, name in changed
+        )
+
+    links = "–".join(group.links)
+    yield said.aligned_group.format(
+        links=links, scheme=told(best), numbers=numbers.replace(" ", NBSP)
+    )
+    if others:
+        yield said.aligned_others.format(schemes="; ".join(told(one) for one in others[:MOST_TOLD]))
+    if not best.steady:
+        yield said.aligned_loose.format()
+    if group.counted:
+        wrong = max(group.counted, key=lambda one: "3s" in one.classes and "3pl" not in one.classes)
+        yield said.aligned_counted.format(scheme=told(wrong), loose=wrong.loose)
 
 
 # Groups --------------------------------------------------------------------------------------
@@ -179,7 +357,7 @@ def group_caption(group: AssurGroup, words: Language) -> list[Rich]:
 
 def _counts(drivers: int, n: int, p: int) -> list[Rich]:
     """Return own mobility W and redundant constraints q of a part, with so many drivers."""
-    w, q = 3 * n - 2 * p, drivers + LOCAL_MOBILITY - (6 * n - 5 * p)
+    w, q = 3 * n - 2 * p, drivers - (6 * n - 5 * p)
     lines = (f"W = 3·{n} − 2·{p} = {signed(w)}", f"q = {drivers} − (6·{n} − 5·{p}) = {signed(q)}")
     return [line.replace(" ", NBSP) for line in lines]
 

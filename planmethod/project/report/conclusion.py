@@ -46,7 +46,11 @@ def conclusion(report: Report) -> Iterator[Node]:
 
 def _structure(report: Report, said: Words) -> Rich:
     structure = report.one.structure
-    template = said.structure if structure.mobility == 1 else said.structure_many
+    template = (
+        said.structure
+        if structure.mobility - structure.local_mobility == 1
+        else said.structure_many
+    )
     return template.format(
         w=structure.mobility, roman=roman(structure.class_number), formula=structure.formula
     )

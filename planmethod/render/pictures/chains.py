@@ -76,12 +76,16 @@ class Shape(Struct, frozen=True):
 
 
 class Chain(Struct, frozen=True):
-    """Links of a picture with their joints (кинематическая цепь)."""
+    """Links of a picture with their joints (кинематическая цепь).
+
+    ``replacing``: links that stand for higher pairs, drawn as such.
+    """
 
     pins: tuple[Pin, ...]
     slides: tuple[DrawnSlide, ...]
     shapes: tuple[Shape, ...]
     net: Net
+    replacing: frozenset[str] = frozenset()
 
     def shape(self, link: str) -> Shape:
         """Return the shape of a link."""
@@ -159,9 +163,9 @@ def _chain(mechanism: Mechanism, seen: Sequence[_Seen], rank: Mapping[str, float
     ]
     slides = _slides(mechanism, seen, pins, count)
     shapes, between = _shapes(rank, pins, slides)
-    return Chain(
-        tuple(pins), tuple(slides), tuple(shapes), _net(pins, slides, shapes, between, rank)
-    )
+    net = _net(pins, slides, shapes, between, rank)
+    replacing = frozenset(pair.by for pair in mechanism.higher)
+    return Chain(tuple(pins), tuple(slides), tuple(shapes), net, replacing)
 
 
 def _slides(

@@ -1,14 +1,14 @@
 """Structural pictures without scale (структурная схема, структурные группы).
 
 Links are bars and rigid triangles, revolute pairs circles, prismatic pairs rectangles on bars, the
-frame is hatched. A group taken apart keeps its outer joints open: a dashed stub shows where a link
-outside the group goes on, with that link's number.
+frame is hatched; what replaces a higher pair is dashed. A group taken apart keeps its outer joints
+open: a dashed stub shows where a link outside the group goes on, with that link's number.
 """
 
 from __future__ import annotations
 
 import cmath
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from functools import lru_cache
 from itertools import pairwise
 from math import radians
@@ -16,7 +16,7 @@ from math import radians
 from msgspec import Struct, field
 
 from planmethod.mechanism.groups import AssurGroup
-from planmethod.mechanism.model import Mechanism
+from planmethod.mechanism.model import FRAME, Mechanism, Revolute
 from planmethod.mechanism.structure import Structure
 from planmethod.render import symbols
 from planmethod.render.ink.drawing import Item, Pen, Stroke
@@ -37,6 +37,7 @@ from planmethod.render.pictures.chains import (
 )
 from planmethod.render.pictures.embedding import embed, turned_outwards
 from planmethod.render.symbols import SIZES
+from planmethod.solved.aligned.schemes import SelfAligning
 
 MARGIN = 13.0
 """Room about the joints for symbols and letters, mm."""
@@ -51,6 +52,39 @@ STUB = 13.0
 """Length of the dashed stub of an open joint, mm."""
 
 
+class Mobile(Struct, frozen=True):
+    """Classes of the pairs of a scheme (подвижности пар), and how they are printed.
+
+    Attributes
+    ----------
+    aligned : SelfAligning
+        Its first scheme is drawn.
+    printed : mapping of str to str
+        Classes in the letters of a language: ``3s`` is 3с in Russian.
+    """
+
+    aligned: SelfAligning
+    printed: Mapping[str, str]
+
+    def of(self, links: Collection[str], point: str = "") -> list[str]:
+        """Return the classes of the turning pairs at a point, or of sliding pairs, of links."""
+        scheme = self.aligned.schemes[0]
+        ends = {FRAME, *links} if point else set(links)
+        return [
+            scheme[pair.key]
+            for pair in self.aligned.pairs
+            if set(pair.links) <= ends
+            and (pair.joint.point == point if isinstance(pair.joint, Revolute) else not point)
+        ]
+
+    def mark(self, text: str, classes: Collection[str]) -> str:
+        """Return a letter with the classes of its pairs that are no more what they were."""
+        told = [self.printed[name] for name in classes if name[0] != "1"]
+        if not told:
+            return text
+        return f"{text}\u00a0({', '.join(told)})" if text else f"({', '.join(told)})"
+
+
 def mechanism_picture(
     mechanism: Mechanism,
     structure: Structure,
@@ -60,6 +94,7 @@ def mechanism_picture(
     letter_height: float = 5.0,
     largest: float = LARGEST_STEP,
     sense: int = 1,
+    mobile: Mobile | None = None,
 ) -> Picture:
     """Return the structural scheme of a mechanism (структурная схема), mm.
 
@@ -71,10 +106,12 @@ def mechanism_picture(
         Greatest length of a grid unit: on a large sheet a simple mechanism does not fill the room.
     sense : int
         Of the driver's motion: +1 counter-clockwise or to the right, -1 the other way.
+    mobile : Mobile, optional
+        What the pairs are in a scheme without redundant constraints; hinges and sliders else.
     """
     chain, found = _whole(mechanism, structure)
     room = (width, height)
-    return _fitted(chain, found, room, letter_height, largest, mechanism.driver, sense)
+    return _fitted(chain, found, room, letter_height, largest, mechanism.driver, sense, mobile)
 
 
 def driver_picture(
@@ -124,6 +161,7 @@ def _fitted(
     largest: float,
     driver: str = "",
     sense: int = 1,
+    mobile: Mobile | None = None,
 ) -> Picture:
     """Stretch places in grid units so that the picture with its letters fills a room, mm."""
     xs, ys = [z.real for z in found.values()], [z.imag for z in found.values()]
@@ -134,7 +172,7 @@ def _fitted(
         up = min(largest, max(SMALLEST_STEP, (room[1] - about[1]) / tall))
         across, up = min(across, 1.3 * up), min(up, 1.3 * across)
         at = {name: complex(z.real * across, z.imag * up) for name, z in found.items()}
-        made = _picture(chain, at, letter_height, driver, sense)
+        made = _picture(chain, at, letter_height, driver, sense, mobile)
         if made.width <= room[0] and made.height <= room[1]:
             break
         about = (made.width - across * wide + 0.5, made.height - up * tall + 0.5)
@@ -147,8 +185,9 @@ def _picture(
     letter_height: float,
     driver: str = "",
     sense: int = 1,
+    mobile: Mobile | None = None,
 ) -> Picture:
-    draft = _Draft(chain, at, letter_height)
+    draft = _Draft(chain, at, letter_height, mobile)
     for shape in chain.shapes:
         draft.draw_shape(shape)
     for slide in chain.slides:
@@ -166,6 +205,7 @@ class _Draft(Struct):
     chain: Chain
     at: Mapping[str, complex]
     letter_height: float
+    mobile: Mobile | None = None
     grounds: list[Item] = field(default_factory=list)
     arms: list[Item] = field(default_factory=list)
     stones: list[Item] = field(default_factory=list)
@@ -187,7 +227,8 @@ class _Draft(Struct):
                 for slide in self.chain.slides
             )
             target = self.arms if carried else self.lines
-            target.append(Stroke((start, end), tag=f"link {link}"))
+            pen = Pen.HIDDEN if link in self.chain.replacing else Pen.MAIN
+            target.append(Stroke((start, end), pen, tag=f"link {link}"))
             stops = [start, *([at[shape.on]] if shape.on else []), end]
             self.segments += [(link, a, b) for a, b in pairwise(stops)]
         elif shape.outline:
@@ -243,7 +284,13 @@ class _Draft(Struct):
         else:
             turn = self._cross_direction(place, slide)
         size = 0.85 if slide.bar else 1.0
-        self.stones += symbols.slider(place, angle=symbols.angle_of(turn), factor=size)
+        text, name = slide.text, ""
+        if self.mobile is not None:
+            (name,) = self.mobile.of((slide.stone, slide.bar or FRAME))
+            text = self.mobile.mark(text, (name,))
+        angle = symbols.angle_of(turn)
+        ground = slide.far is Far.FRAME
+        self.stones += symbols.mobile_slider(place, name, angle=angle, factor=size, ground=ground)
         half = SIZES.slider_length / 2 * size
         if slide.far is Far.FRAME:
             reach = half + 6.0
@@ -256,12 +303,12 @@ class _Draft(Struct):
                 ends = (place + way * half, place + way * reach)
                 self.grounds.append(Stroke(ends, Pen.HIDDEN, tag="open"))
             self._number(f"({slide.to})", place + turn * reach, turn, gap=1.2)
-        if slide.text:
+        if text:
             if slide.far is Far.FRAME:
-                self._letter(slide.text, place - half, -1 + 0j, gap=1.2)
+                self._letter(text, place - half, -1 + 0j, gap=1.2)
             else:
                 lines = -sum(self.directions(place), 0j)
-                self._letter(slide.text, place, lines if abs(lines) > 0.3 else 1j * turn, gap=5.4)
+                self._letter(text, place, lines if abs(lines) > 0.3 else 1j * turn, gap=5.4)
         if not self.chain.shape(slide.stone).outline and not self.chain.shape(slide.stone).tips:
             if slide.far is Far.FRAME:
                 self._number(slide.stone, place + half, 1 + 0j, gap=1.2)
@@ -312,11 +359,19 @@ class _Draft(Struct):
             self.grounds.append(Stroke((place, end), Pen.HIDDEN, tag="open"))
             self.segments.append(("", place, end))
             self._number(f"({pin.to})", end, way, gap=0.8)
-        self.joints += symbols.revolute(place, count=pin.count)
         lines = self.directions(place)
         away = -sum(lines, 0j)
+        text = pin.text
+        if self.mobile is None:
+            self.joints += symbols.revolute(place, count=pin.count)
+        else:
+            found = self.mobile.of(pin.links, pin.node)
+            text = self.mobile.mark(text, found)
+            opening = lines[-1] if lines else 1j
+            self.joints += symbols.revolute(place, count=pin.count)[: 2 * (pin.count - 1)]
+            self.joints += symbols.mobile_revolute(place, max(found), opening=opening)
         stone = any(slide.node == pin.node for slide in self.chain.slides)
-        self._letter(pin.text, place, away if abs(away) > 0.3 else 1j, gap=5.5 if stone else 2.8)
+        self._letter(text, place, away if abs(away) > 0.3 else 1j, gap=5.5 if stone else 2.8)
 
     # Motion and inscriptions -----------------------------------------------------------------
 

@@ -1,6 +1,7 @@
 """Sheet of the structural analysis (структурный анализ механизма).
 
-On the left the structural scheme and below it the driver and the groups taken apart, in the order
+On the left the structural scheme, beside it the scheme without redundant constraints with the
+symbols of its pairs, and below them the driver and the groups taken apart, in the order
 of formation; on the right, above the title block, the tables of pairs and links and the formulas.
 """
 
@@ -17,6 +18,7 @@ from planmethod.languages import LANGUAGES, say
 from planmethod.mechanism.structure import Structure
 from planmethod.note.document import Formula, Table
 from planmethod.note.narrate.structure import (
+    aligned_sums,
     driver_caption,
     group_caption,
     link_table,
@@ -33,8 +35,14 @@ from planmethod.render.layout.block import Block, Column, Line, Row, Spacer, par
 from planmethod.render.layout.nodes import blocks_of
 from planmethod.render.layout.pack import Placed
 from planmethod.render.layout.tables import TableColumn, table_block
-from planmethod.render.pictures.structural import driver_picture, group_picture, mechanism_picture
+from planmethod.render.pictures.structural import (
+    Mobile,
+    driver_picture,
+    group_picture,
+    mechanism_picture,
+)
 from planmethod.render.sheets.composer import Blank, Laid, LaidPage, Misfit, Sizes, Viewed, compose
+from planmethod.solved.aligned.schemes import SelfAligning, self_aligning
 
 EDGE = 6.0
 """Least white between the blocks and the frame, mm."""
@@ -90,6 +98,7 @@ PICTURES: Mapping[str, Pictures] = {
 def structure_sheet(
     problem: Problem,
     structure: Structure,
+    aligned: SelfAligning | None = None,
     *,
     paper: str | None = None,
     fields: Mapping[str, str] | None = None,
@@ -102,6 +111,8 @@ def structure_sheet(
         Its mechanism and its title block; coordinates and lengths are not looked at.
     structure : Structure
         What `planmethod.mechanism.structure.analyse` says of the mechanism.
+    aligned : SelfAligning, optional
+        Its schemes without redundant constraints; looked for when absent.
     paper : str, optional
         Format; the file's when absent, or A3, or the smallest larger one that everything fits.
     fields : mapping, optional
@@ -126,7 +137,9 @@ def structure_sheet(
         ),
         say("Draw parts of the mechanism on their own."),
     )
-    (sheet,) = compose(problem, _Structural(problem, structure, words), misfit, fields=fields)
+    aligned = aligned or self_aligning(problem, structure)
+    strategy = _Structural(problem, structure, aligned, words)
+    (sheet,) = compose(problem, strategy, misfit, fields=fields)
     return sheet
 
 
@@ -135,6 +148,7 @@ class _Structural(Struct, frozen=True):
 
     problem: Problem
     structure: Structure
+    aligned: SelfAligning
     words: Language
 
     formats = TRIED
@@ -143,7 +157,7 @@ class _Structural(Struct, frozen=True):
         """Yield two columns for each paper."""
         for paper in papers:
             pictures = PICTURES.get(paper.format.like, PICTURES["A1"])
-            yield _Columns(paper, self.problem, self.structure, pictures, self.words)
+            yield _Columns(paper, self.problem, self.structure, self.aligned, pictures, self.words)
 
 
 class _Columns(Struct, frozen=True):
@@ -152,6 +166,7 @@ class _Columns(Struct, frozen=True):
     paper: Blank
     problem: Problem
     structure: Structure
+    aligned: SelfAligning
     pictures: Pictures
     words: Language
 
@@ -176,14 +191,17 @@ class _Columns(Struct, frozen=True):
                     return block, corner
             return None
 
-        told = begun(lambda top: _told(problem, structure, pictures, top - low, words), right)
+        aligned = self.aligned
+        told = begun(
+            lambda top: _told(problem, structure, aligned, pictures, top - low, words), right
+        )
         if told is None:
             return None
         width = right - EDGE - GAP - left
 
         def scheme(top: float) -> Block | None:
             height = top - inner[1] - EDGE
-            block = _shown(problem, structure, pictures, width, height, words)
+            block = _shown(problem, structure, aligned, pictures, width, height, words)
             return block and Viewed(block, "structure", None)
 
         shown = begun(scheme, left)
@@ -194,7 +212,12 @@ class _Columns(Struct, frozen=True):
 
 
 def _told(
-    problem: Problem, structure: Structure, pictures: Pictures, height: float, words: Language
+    problem: Problem,
+    structure: Structure,
+    aligned: SelfAligning,
+    pictures: Pictures,
+    height: float,
+    words: Language,
 ) -> Block | None:
     """Return tables and formulas, in rows as high as the room allows."""
     mechanism, said = problem.mechanism, words.structure
@@ -203,9 +226,10 @@ def _told(
         lines = [
             *mobility_formulas(mechanism, structure, words, problem.sheet.notation),
             *order_formulas(mechanism, structure, words),
+            *aligned_sums(structure, aligned, words, problem.sheet.notation),
         ]
         blocks = [
-            _table(pair_table(mechanism, words), said.pairs, sizes, row),
+            _table(pair_table(mechanism, words, aligned), said.pairs, sizes, row),
             _table(link_table(mechanism, words), said.links, sizes, row),
             _formulas(lines, sizes, 0.55 * row, said.formulas),
         ]
@@ -236,15 +260,23 @@ def _formulas(lines: Iterable[str], sizes: Sizes, gap: float, title: str) -> Blo
 def _shown(
     problem: Problem,
     structure: Structure,
+    aligned: SelfAligning,
     pictures: Pictures,
     width: float,
     height: float,
     words: Language,
 ) -> Block | None:
-    """Return the scheme and the grid of groups, which fill the column together."""
+    """Return the schemes and the grid of groups, which fill the column together."""
     mechanism, sizes = problem.mechanism, pictures.sizes
     sense = -1 if problem.drive.rate < 0 else 1
-    head = _title(words.structure.scheme, sizes)
+    mobile = Mobile(aligned, words.structure["pair_classes"])
+    both = bool(aligned.schemes and structure.groups) and not mechanism.higher
+    schemes = [None, mobile] if both else [None]
+    wide = (width - GAP * (len(schemes) - 1)) / len(schemes)
+    first = words.structure.replacing_scheme if mechanism.higher else words.structure.scheme
+    names = [first, words.structure.aligned_scheme][: len(schemes)]
+    heads = [paragraph(name, sizes.title, wide, align="centre") for name in names]
+    head = Row([_Centred(one, wide, one.height) for one in heads], gap=GAP)
     below = _title(words.structure.parts, sizes)
     count = 1 + len(structure.groups)
     most = max(1, int((width + GAP) / (pictures.cell + GAP)))
@@ -273,22 +305,28 @@ def _shown(
         grid = _grid(shown, told, across, cell)
         room = height - head.height - below.height - grid.height - 3 * GAP
         share = LEAST_SHARE if tall == pictures.views[-1] else GOOD_SHARE
-        scheme = mechanism_picture(
-            mechanism,
-            structure,
-            width=width,
-            height=max(room, 1.0),
-            letter_height=sizes.letter,
-            largest=pictures.step,
-            sense=sense,
-        )
-        fits = scheme.height <= room and all(p.width <= cell for p in shown)
-        if fits and scheme.width <= width and room >= share * height:
-            spare = (room - scheme.height) / 4
-            parts = [
+        drawn = [
+            mechanism_picture(
+                mechanism,
+                structure,
+                width=wide,
+                height=max(room, 1.0),
+                letter_height=sizes.letter,
+                largest=pictures.step,
+                sense=sense,
+                mobile=one,
+            )
+            for one in schemes
+        ]
+        highest = max(scheme.height for scheme in drawn)
+        fits = highest <= room and all(p.width <= cell for p in shown)
+        if fits and all(one.width <= wide for one in drawn) and room >= share * height:
+            spare = (room - highest) / 4
+            centred = [_Centred(one, wide, highest) for one in drawn]
+            parts: list[Block] = [
                 head,
                 Spacer(width, GAP + spare),
-                scheme,
+                Row(centred, gap=GAP),
                 Spacer(width, GAP + spare),
                 below,
                 Spacer(width, GAP + spare),
@@ -296,6 +334,19 @@ def _shown(
             ]
             return Column(parts, gap=0.0, align="centre")
     return None
+
+
+class _Centred(Struct, frozen=True):
+    """Block in the middle of a room of a given width and height."""
+
+    block: Block
+    width: float
+    height: float
+
+    def place(self, corner: complex) -> list[Item]:
+        """Return what is in the block."""
+        across, down = self.width - self.block.width, self.height - self.block.height
+        return self.block.place(corner + across / 2 - 1j * down / 2)
 
 
 def _grid(pictures: Sequence[Block], told: Sequence[Block], across: int, cell: float) -> Block:

@@ -35,6 +35,8 @@ from planmethod.render.symbols.hatching import (
 from planmethod.render.symbols.links import crank, link, rigid_corner, rocker, stiff_triangle
 from planmethod.render.symbols.pairs import (
     SLIDER,
+    mobile_revolute,
+    mobile_slider,
     offset_slider,
     revolute,
     revolute_on,
@@ -65,6 +67,8 @@ __all__ = [
     "guide_plates",
     "hatch",
     "link",
+    "mobile_revolute",
+    "mobile_slider",
     "offset_slider",
     "revolute",
     "revolute_on",

@@ -62,6 +62,52 @@ def revolute_on(
     return [Fill(tuple(around), Ink.WHITE), Arc(at, radius, start, start + pi, pen), piece]
 
 
+def mobile_revolute(at: complex, name: str, *, opening: complex = 1 + 0j) -> list[Item]:
+    """Return a turning pair with more freedoms, seen along the hinge's axis.
+
+    ``2c``: a point in the circle, the axis along which it also slides (цилиндрическая пара);
+    ``3s``: the ball in a cup that is open to one side (сферическая пара); any other is a hinge.
+    """
+    radius = SIZES.joint / 2
+    if name == "2c":
+        return [Disc(at, 1.25 * radius), Arc(at, 1.25 * radius), Disc(at, 0.4, Ink.BLACK)]
+    if name == "3s":
+        cup = 1.75 * radius
+        free = cmath.phase(unit(opening))
+        start, end = free + radians(55), free + radians(305)
+        return [*revolute(at), Arc(at, cup, start, end)]
+    return revolute(at)
+
+
+def mobile_slider(
+    at: complex, name: str, *, angle: float = 0.0, factor: float = 1.0, ground: bool = False
+) -> list[Item]:
+    """Return a sliding pair with more freedoms.
+
+    ``2c``: the round sleeve on a round rod, about whose line it also turns (цилиндрическая пара);
+    ``3pl``: a plate between two planes, which are seen edge-on (плоскостная пара); any other is a
+    slider. ``ground``: it stands on the frame, whose line is the second plane.
+    """
+    turn = cmath.exp(1j * radians(angle))
+    half, tall = SIZES.slider_length / 2 * factor, SIZES.slider_width / 2 * factor
+    items = slider(at, angle=angle, factor=factor)
+    if name == "2c":
+        bulge = 0.35 * tall
+        for end in (-1, 1):  # what shows that it is round: the near half of either end's rim
+            ring = [
+                at + turn * complex(end * (half - 2.2) + bulge * cmath.cos(t).real,
+                                    tall * cmath.sin(t).real)
+                for t in [pi * (k / 12 - 0.5) for k in range(13)]
+            ]  # fmt: skip
+            items.append(Stroke(tuple(ring), Pen.THIN, smooth=True))
+    elif name == "3pl":
+        for side in (1,) if ground else (-1, 1):
+            edge = side * (tall + 1.4)
+            ends = (complex(-half - 2.0, edge), complex(half + 2.0, edge))
+            items.append(Stroke(tuple(at + turn * end for end in ends)))
+    return items
+
+
 def slider(
     at: complex,
     *,

@@ -19,7 +19,7 @@ from planmethod.render.symbols import SIZES
 from planmethod.render.symbols.axes import axis_line
 
 PAPER = "A2"
-ACROSS, WIDTH, HEIGHT = 6, 92.0, 73.0
+ACROSS, WIDTH, HEIGHT = 7, 79.0, 73.0
 """Cells in a row, and their size, mm."""
 
 
@@ -72,7 +72,7 @@ def _sizes(corner: complex, inner: Bounds, words: Language) -> list[Item]:
 
 def symbol_cells() -> list[SymbolCell]:
     """Return every symbol with its name and clause."""
-    return [*_joints(), *_links(), *_sliders(), *_drivers(), *wheel_cells()]
+    return [*_joints(), *_links(), *_sliders(), *_mobile(), *_drivers(), *wheel_cells()]
 
 
 def way(degrees: float, length: float = 1.0) -> complex:
@@ -259,6 +259,28 @@ def _sliders() -> Iterator[SymbolCell]:
         ),
         (letter("C", -2j, -1, gap=5), letter("2", way(20, 22), 1j, gap=1.5)),
     )
+
+
+def _mobile() -> Iterator[SymbolCell]:
+    """Yield the pairs of schemes without redundant constraints."""
+    arms = (way(215, 24), way(-25, 22))
+    for key, name in (("cylinder", "2c"), ("sphere", "3s")):
+        joint = symbols.mobile_revolute(0j, name, opening=arms[1])
+        yield SymbolCell(
+            key, None, scheme(symbols.link(arms[0], 0j, arms[1]), joint),
+            (letter("B", 0j, 1j, gap=3.5),),
+        )  # fmt: skip
+    for key, name in (("sleeve", "2c"), ("plate", "3pl")):
+        yield SymbolCell(
+            key,
+            None,
+            scheme(
+                symbols.mobile_slider(0j, name),
+                symbols.link(-24 + 0j, 24 + 0j, tag="link 3"),
+                symbols.revolute(0j),
+            ),
+            (letter("E", 0j, 1j, gap=7), letter("3", 18 + 0j, 1j, gap=1.5)),
+        )
 
 
 def _drivers() -> Iterator[SymbolCell]:

@@ -1,0 +1,1 @@
+"""Mechanisms without redundant constraints: poses of the plane, schemes judged by rank."""

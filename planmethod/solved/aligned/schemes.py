@@ -1,0 +1,478 @@
+"""Schemes without redundant constraints, found by search and judged by rank (самоустановка).
+
+A plane pair keeps three constraints out of the plane: a slide along z and the turns about x and y.
+What it may be made free of are columns of these three, (turn x, turn y, slide z at the origin).
+Every contour of a group must be free in all three; the freedoms of its pairs, summed about the
+contours, are a square matrix, and q = 0 without loose motions exactly when it is regular. In the
+plane nothing changes: no freedom here has a part in it. A group's outer links count as the frame,
+so the whole is block-triangular, and regular when each group is.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from itertools import combinations
+
+from msgspec import Struct, field
+from msgspec.structs import replace
+
+from planmethod.mechanism.groups import AssurGroup, Joint
+from planmethod.mechanism.model import FRAME, HigherPair, Mechanism, Prismatic, Revolute
+from planmethod.mechanism.structure import Structure
+from planmethod.problem.model import Problem
+from planmethod.solved.aligned.poses import PlanePose, group_pairs, poses
+
+TURNING = ("1v", "2c", "3s")
+"""Classes of a turning pair: hinge, cylinder along its axis, sphere."""
+
+SLIDING = ("1p", "2c", "3pl")
+"""Classes of a sliding pair: prism, cylinder about its line, plane through its line and z."""
+
+TOUCHING = ("4l", "5t")
+"""Classes of a higher pair: profiles that touch along a line, and in a point."""
+
+MOST = 60
+"""Most schemes of a group, and of a mechanism, that are given."""
+
+TRIED = 20_000
+"""Most schemes of one group that are judged; only large groups of high classes have more."""
+
+REGULAR = 1e-7
+"""Least pivot of a regular matrix; lengths are in parts of the group's size."""
+
+GENERIC = 3
+"""Which pose of a sweep is in general position: at no round angle of the driver."""
+
+PLANE = ("1v", "1p", "4l")
+"""Classes of the pairs as they are in the plane."""
+
+Column = tuple[float, float, float]
+
+
+class MovablePair(Struct, frozen=True):
+    """Pair of two links that may be given more freedom (кинематическая пара).
+
+    ``key`` names it: joint or pin, and its links, the frame 0: ``B 2-3``; of a higher pair the
+    roller that touches, while ``links`` has the link that the roller is on.
+    """
+
+    key: str
+    joint: Joint | HigherPair
+    links: tuple[str, str]
+
+    @property
+    def classes(self) -> tuple[str, ...]:
+        """Classes that it may have, the plane one first."""
+        if isinstance(self.joint, HigherPair):
+            return TOUCHING
+        return TURNING if isinstance(self.joint, Revolute) else SLIDING
+
+
+class AlignedScheme(Struct, frozen=True):
+    """Pairs of a group without redundant constraints (схема без избыточных связей).
+
+    Attributes
+    ----------
+    classes : tuple of str
+        In the order of the group's pairs.
+    loose : int
+        How many constraints are redundant yet, and as many motions loose; 0 of a true scheme.
+    steady : bool
+        Whether it is regular in all positions that were looked at; else links are loose in some.
+    """
+
+    classes: tuple[str, ...]
+    loose: int = 0
+    steady: bool = True
+
+    @property
+    def changes(self) -> int:
+        """How many pairs are not what they were."""
+        return sum(name not in PLANE for name in self.classes)
+
+
+class AlignedGroup(Struct, frozen=True):
+    """Group with its schemes, the best first (группа и её схемы).
+
+    ``links`` are those of the group without what replaces higher pairs.
+    ``counted`` has those of a dyad that the formula takes for right, and the rank does not: as many
+    constraints as its ``loose`` stay redundant, and as many motions are loose instead.
+    """
+
+    group: AssurGroup
+    links: tuple[str, ...]
+    pairs: tuple[MovablePair, ...]
+    schemes: tuple[AlignedScheme, ...]
+    counted: tuple[AlignedScheme, ...] = ()
+
+
+class SelfAligning(Struct, frozen=True):
+    """Mechanism without redundant constraints (самоустанавливающийся механизм).
+
+    Attributes
+    ----------
+    driver : MovablePair
+        The pair of the driver with the frame, which stays as it is.
+    groups : tuple of AlignedGroup
+    schemes : tuple of mapping of str to str
+        Class of every pair by its key, the best scheme first: fewest changes (the mobility is that
+        of the plane in all), then those that are regular in all positions; at most `MOST`.
+    rank : int
+        Of the spatial constraint matrix of the first scheme, all links and pairs at once.
+    """
+
+    driver: MovablePair
+    groups: tuple[AlignedGroup, ...]
+    schemes: tuple[Mapping[str, str], ...]
+    rank: int = 0
+
+    @property
+    def pairs(self) -> tuple[MovablePair, ...]:
+        """All pairs: the driver's, then those of the groups."""
+        return (self.driver, *(pair for group in self.groups for pair in group.pairs))
+
+    @property
+    def counts(self) -> dict[int, int]:
+        """How many pairs of the first scheme have so many mobilities: p1, p2, p3."""
+        found: dict[int, int] = {}
+        for name in self.schemes[0].values() if self.schemes else ():
+            found[int(name[0])] = found.get(int(name[0]), 0) + 1
+        return found
+
+    @property
+    def rows(self) -> int:
+        """Rows of the constraint matrix of the first scheme, as many as it has constraints."""
+        return sum((6 - mobility) * count for mobility, count in self.counts.items())
+
+    @property
+    def without(self) -> tuple[AlignedGroup, ...]:
+        """Groups that have no scheme."""
+        return tuple(group for group in self.groups if not group.schemes)
+
+
+def self_aligning(problem: Problem, structure: Structure) -> SelfAligning:
+    """Find the schemes without redundant constraints of a mechanism (устранение избыточных связей).
+
+    Parameters
+    ----------
+    problem : Problem
+        Its sizes tell the positions in which ranks are judged; without sizes they are random.
+    structure : Structure
+        What `planmethod.mechanism.structure.analyse` says of its mechanism.
+    """
+    mechanism = problem.mechanism
+    places = poses(problem, structure) if structure.groups else []
+    groups = tuple(_aligned(mechanism, group, places) for group in structure.groups)
+    joints: tuple[Joint, ...] = (*mechanism.revolutes, *mechanism.prismatics)
+    for joint in joints:
+        pair = _pair(mechanism, joint, FRAME, mechanism.driver)
+        ends = joint.links if isinstance(joint, Revolute) else (joint.slider, joint.host)
+        if {FRAME, mechanism.driver} <= set(ends):
+            break
+    whole = [_Whole()] if all(group.schemes for group in groups) else []
+    for group in groups:
+        # The sums that are compared grow with every group: the best wholes have the best parts.
+        grown = [one.with_(group, scheme) for one in whole for scheme in group.schemes]
+        whole = sorted(grown, key=lambda one: one.rank)[:MOST]
+    rollers = [one for one in mechanism.higher if one.roller]
+    first = {pair.key: pair.classes[0]}
+    first |= {f"{one.at} {one.links[1]}-{one.roller}": TURNING[0] for one in rollers}
+    named = tuple({**first, **dict(one.classes)} for one in whole)
+    found = SelfAligning(pair, groups, named)
+    if not places or not named:
+        return replace(found, rank=5 if named else 0)
+    generic = places[min(GENERIC, len(places) - 1)]
+    # A roller has its hinge, whose five constraints nothing repeats.
+    rank = constraint_rank(found.pairs, named[0], generic) + 5 * len(rollers)
+    return replace(found, rank=rank)
+
+
+class _Whole(Struct, frozen=True):
+    """Scheme of some groups: what it is compared by, and its classes."""
+
+    rank: tuple[int, ...] = (0, 0, 0)
+    classes: tuple[tuple[str, str], ...] = ()
+
+    def with_(self, group: AlignedGroup, scheme: AlignedScheme) -> _Whole:
+        rank = tuple(a + b for a, b in zip(self.rank, _rank(scheme), strict=True))
+        named = zip((pair.key for pair in group.pairs), scheme.classes, strict=True)
+        return _Whole(rank, (*self.classes, *named))
+
+
+def _rank(scheme: AlignedScheme) -> tuple[int, ...]:
+    """Return what schemes are compared by: changes, steadiness, pairs that textbooks seldom use."""
+    unusual = sum(name == "3pl" for name in scheme.classes)
+    return scheme.changes, int(not scheme.steady), unusual
+
+
+def _pair(mechanism: Mechanism, joint: Joint | HigherPair, one: str, other: str) -> MovablePair:
+    order = (FRAME, *mechanism.links)
+    first, second = sorted((one, other), key=order.index)
+    match joint:
+        case Revolute():
+            name = joint.point
+        case Prismatic():
+            name = joint.pin
+        case HigherPair():
+            name = joint.name
+            return MovablePair(f"{name} {first}-{joint.roller or second}", joint, (first, second))
+    return MovablePair(f"{name} {first}-{second}", joint, (first, second))
+
+
+def constraint_rank(
+    pairs: Sequence[MovablePair], classes: Mapping[str, str], pose: PlanePose
+) -> int:
+    """Return the rank of the spatial constraint matrix of a whole mechanism (матрица связей).
+
+    Six columns for the twist of each moving link, a row for each constraint of each pair: with W
+    motions left and no redundant constraint there are 6n - W rows, and that is the rank.
+    """
+    links = sorted({link for pair in pairs for link in pair.links} - {FRAME})
+    size = max(map(abs, pose.places.values())) or 1.0
+    rows = []
+    for pair in pairs:
+        at, along = pose.line(pair.joint)
+        for row in _constraints(classes[pair.key], at / size, along):
+            whole = [0.0] * (6 * len(links))
+            for link, sign in zip(pair.links, (1, -1), strict=True):
+                if link != FRAME:
+                    start = 6 * links.index(link)
+                    whole[start : start + 6] = [sign * value for value in row]
+            rows.append(whole)
+    rank = 0
+    while rows:
+        head = max(rows, key=lambda row: max(map(abs, row)))
+        rows.remove(head)
+        k = max(range(len(head)), key=lambda i: abs(head[i]))
+        if abs(head[k]) < REGULAR:
+            break
+        rank += 1
+        shares = [row[k] / head[k] for row in rows]
+        rows = [
+            [a - share * b for a, b in zip(row, head, strict=True)] if share else row
+            for row, share in zip(rows, shares, strict=True)
+        ]
+    return rank
+
+
+def _constraints(name: str, at: complex, along: complex) -> list[list[float]]:
+    """Return what a pair keeps of the relative twist: turns about, slides along x, y, z at 0."""
+    x, y = at.real, at.imag
+    z: complex = 0j
+
+    def turn(way: complex, up: float = 0.0) -> list[float]:
+        return [way.real, way.imag, up, 0.0, 0.0, 0.0]
+
+    def slide(way: complex, up: float = 0.0) -> list[float]:
+        """Velocity of the pair's place along a direction."""
+        moment = x * way.imag - y * way.real
+        return [up * y, -up * x, moment, way.real, way.imag, up]
+
+    flat = [slide(1), slide(1j)] if not along else [turn(z, 1.0), slide(1j * along)]
+    if name in TOUCHING:
+        flat = [slide(along)]
+    lifts = {
+        "1v": [turn(1), turn(1j), slide(z, 1.0)],
+        "3s": [slide(z, 1.0)],
+        "1p": [turn(1), turn(1j), slide(z, 1.0)],
+        "3pl": [turn(along)],
+        "4l": [turn(1j * along)],
+        "5t": [],
+        "2c": [turn(1j * along), slide(z, 1.0)] if along else [turn(1), turn(1j)],
+    }
+    return [*flat, *lifts[name]]
+
+
+# A group -------------------------------------------------------------------------------------
+
+
+def _aligned(mechanism: Mechanism, group: AssurGroup, places: Sequence[PlanePose]) -> AlignedGroup:
+    higher = [pair for pair in mechanism.higher if pair.by in group.links]
+    replacing = {pair.by for pair in higher}
+    joints = [*mechanism.revolutes, *mechanism.prismatics, *mechanism.higher]
+    pairs = [_pair(mechanism, *pair) for pair in group_pairs(group) if not replacing & {*pair[1:]}]
+    pairs += [_pair(mechanism, pair, *pair.links) for pair in higher]
+    pairs.sort(key=lambda pair: joints.index(pair.joint))  # as the table of pairs has them
+    links = tuple(link for link in group.links if link not in replacing)
+    return _Search(group, links, tuple(pairs), places).found()
+
+
+class _Search(Struct):
+    """Search for the schemes of a group."""
+
+    group: AssurGroup
+    links: tuple[str, ...]
+    pairs: tuple[MovablePair, ...]
+    places: Sequence[PlanePose]
+    columns: list[dict[tuple[int, str], list[list[float]]]] = field(default_factory=list)
+
+    def found(self) -> AlignedGroup:
+        self.columns = [self._columns(pose) for pose in self.places]
+        every = range(len(self.pairs) + 1)
+        good = self._good(every)
+        good.sort(key=lambda one: (*_rank(one), one.classes))
+        counted: tuple[AlignedScheme, ...] = ()
+        if len(self.pairs) == 3:
+            made = [AlignedScheme(one, self.need - self._rank(one)) for one in self._made(every)]
+            counted = tuple(one for one in made if one.loose)
+        return AlignedGroup(self.group, self.links, self.pairs, tuple(good[:MOST]), counted)
+
+    @property
+    def need(self) -> int:
+        """How many freedoms out of the plane the contours need."""
+        return 3 * (len(self.pairs) - len(self.links))
+
+    @property
+    def touching(self) -> set[int]:
+        """Numbers of the higher pairs: each has two freedoms as it is, and a third in a point."""
+        return {i for i, pair in enumerate(self.pairs) if isinstance(pair.joint, HigherPair)}
+
+    def _good(self, every: Sequence[int]) -> list[AlignedScheme]:
+        """Return the true schemes, those of fewest changes first, until there are enough."""
+        good: list[AlignedScheme] = []
+        tried = 0
+        for changes in every:
+            if len(good) >= MOST:
+                break
+            for classes in self._made((changes,)):
+                tried += 1
+                if tried > TRIED:
+                    break
+                if self._measure(self.generic, classes) >= REGULAR:
+                    good.append(AlignedScheme(classes, steady=self._steady(classes)))
+        # One that jams where the problem is asked is left out as long as there is another.
+        first = [one for one in good if self._measure(0, one.classes) >= REGULAR]
+        return first or good
+
+    def _made(self, changes: Sequence[int]) -> Iterator[tuple[str, ...]]:
+        """Yield the schemes of so many changes that are right by their count."""
+        touching, every = self.touching, range(len(self.pairs))
+        for count in changes:
+            # Of the changed pairs so many have one freedom more, the others two.
+            twos = 2 * count - self.need + 2 * len(touching)
+            if not 0 <= twos <= count:
+                continue
+            for changed in combinations(every, count):
+                for two in combinations(changed, twos):
+                    if not touching & set(changed) <= set(two):
+                        continue
+                    yield tuple(
+                        pair.classes[0 if i not in changed else 1 if i in two else 2]
+                        for i, pair in enumerate(self.pairs)
+                    )
+
+    @property
+    def generic(self) -> int:
+        """Number of a pose in general position: at no round angle of the driver."""
+        return min(GENERIC, len(self.places) - 1)
+
+    def _rank(self, classes: tuple[str, ...]) -> int:
+        vectors = self._vectors(self.generic, classes)
+        return next(k for k in range(self.need, -1, -1) if _least_pivot(vectors, k))
+
+    def _steady(self, classes: tuple[str, ...]) -> bool:
+        """Whether the matrix stays regular over the sweep: its determinant keeps its sign."""
+        values = [_determinant(self._vectors(k, classes)) for k in range(len(self.places))]
+        return len({0 if abs(value) < REGULAR else value > 0 for value in values}) == 1
+
+    def _measure(self, k: int, classes: tuple[str, ...]) -> float:
+        """Return the least pivot of the matrix at a pose: 0 where a constraint is redundant."""
+        return _least_pivot(self._vectors(k, classes), self.need)
+
+    def _vectors(self, k: int, classes: tuple[str, ...]) -> list[list[float]]:
+        return [v for i, name in enumerate(classes) for v in self.columns[k][i, name]]
+
+    def _columns(self, pose: PlanePose) -> dict[tuple[int, str], list[list[float]]]:
+        """Return the freedoms of every class of every pair, each about all contours."""
+        lines = [pose.line(pair.joint) for pair in self.pairs]
+        middle = sum(at for at, _ in lines) / len(lines)
+        size = max(abs(at - middle) for at, _ in lines) or 1.0
+        signs = self._contours()
+        found = {}
+        for i, (pair, (at, along)) in enumerate(zip(self.pairs, lines, strict=True)):
+            for name in pair.classes:
+                freedoms = _freedoms(name, (at - middle) / size, along)
+                found[i, name] = [
+                    [sign * value for sign in signs[i] for value in freedom] for freedom in freedoms
+                ]
+        return found
+
+    def _contours(self) -> list[list[int]]:
+        """Return for every pair its sense in every independent contour, 0 where it is in none."""
+        own = set(self.links)
+        ends = [tuple(x if x in own else FRAME for x in pair.links) for pair in self.pairs]
+        above: dict[str, tuple[str, int, int]] = {}  # parent, pair, sense
+        reached, closing = {FRAME}, []
+        rest = list(range(len(ends)))
+        while rest:
+            i = next(i for i in rest if reached & set(ends[i]))
+            rest.remove(i)
+            a, b = ends[i]
+            if a in reached and b in reached:
+                closing.append(i)
+                continue
+            parent, child, sense = (a, b, 1) if a in reached else (b, a, -1)
+            above[child] = (parent, i, sense)
+            reached.add(child)
+        signs = [[0] * len(closing) for _ in ends]
+        for k, i in enumerate(closing):
+            signs[i][k] = 1
+            for link, way in zip(ends[i], (1, -1), strict=True):
+                while link != FRAME:
+                    link, pair, sense = above[link]
+                    signs[pair][k] += way * sense
+        return signs
+
+
+def _freedoms(name: str, at: complex, along: complex) -> list[Column]:
+    """Return the freedoms out of the plane of a pair: turns about x and y, slide along z."""
+    x, y = at.real, at.imag
+    slide: Column = (0.0, 0.0, 1.0)
+
+    def turn(way: complex) -> Column:
+        """About a line through the pair's place: what it lifts at the origin is its moment."""
+        return way.real, way.imag, x * way.imag - y * way.real
+
+    match name:
+        case "3s":
+            return [turn(1), turn(1j)]
+        case "4l":
+            return [slide, turn(along)]
+        case "5t":
+            return [slide, turn(1), turn(1j)]
+        case "3pl":
+            return [slide, turn(1j * along)]
+        case "2c":
+            return [turn(along)] if along else [slide]
+    return []
+
+
+def _least_pivot(vectors: Sequence[Sequence[float]], need: int) -> float:
+    """Return the least of ``need`` pivots of the vectors by elimination, the largest ones taken."""
+    rows, least = [list(v) for v in vectors], 1.0
+    for _ in range(need):
+        best = max(((abs(v), i, k) for i, row in enumerate(rows) for k, v in enumerate(row)),
+                   default=(0.0, 0, 0))  # fmt: skip
+        if best[0] < REGULAR:
+            return 0.0
+        least = min(least, best[0])
+        head, k = rows.pop(best[1]), best[2]
+        rows = [[a - row[k] / head[k] * b for a, b in zip(row, head, strict=True)] for row in rows]
+    return least
+
+
+def _determinant(vectors: Sequence[Sequence[float]]) -> float:
+    rows, value = [list(v) for v in vectors], 1.0
+    for k in range(len(rows)):
+        best = max(range(k, len(rows)), key=lambda i: abs(rows[i][k]))
+        if abs(rows[best][k]) < 1e-14:
+            return 0.0
+        if best != k:
+            rows[k], rows[best] = rows[best], rows[k]
+            value = -value
+        head = rows[k]
+        value *= head[k]
+        for i in range(k + 1, len(rows)):
+            share = rows[i][k] / head[k]
+            rows[i] = [a - share * b for a, b in zip(rows[i], head, strict=True)]
+    return value

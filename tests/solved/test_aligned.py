@@ -1,0 +1,360 @@
+"""Schemes without redundant constraints: true by rank, as another program finds it."""
+
+from __future__ import annotations
+
+import cmath
+import math
+import random
+import re
+from functools import cache
+from itertools import combinations, product
+
+import pytest
+from cases import each, some
+from msgspec.structs import replace
+from newton import solve as newton
+from spatial import Rank, rank_of
+from worked import PROBLEMS, problem_of
+
+from benchmarks.generator import random_problem
+from planmethod.mechanism.model import FRAME, HigherPair, Mechanism, Prismatic, Revolute
+from planmethod.mechanism.structure import analyse
+from planmethod.note.narrate.structure import aligned_lines
+from planmethod.note.records.aligned import aligned_record
+from planmethod.note.wording import language
+from planmethod.problem import loads
+from planmethod.problem.model import Drive, Problem
+from planmethod.render.sheets.structure import structure_sheet
+from planmethod.solved.aligned.poses import poses
+from planmethod.solved.aligned.schemes import SelfAligning, constraint_rank, self_aligning
+from planmethod.solved.solution import Solution
+
+LEVERS = ("levers/task-13", "levers/task-33", "levers/task-49", "levers/crosshead")
+NAMES = ("linkages/ex1", "linkages/ex3", "levers/six-link", "levers/task12", "press/press",
+         "press/press-stone", "levers/task-12", *LEVERS)  # fmt: skip
+
+
+@cache
+def aligned(name: str) -> SelfAligning:
+    problem = problem_of(name)
+    return self_aligning(problem, analyse(problem.mechanism))
+
+
+def places_of(
+    problem: Problem, found: SelfAligning, position: float | None = None
+) -> dict[str, tuple[complex, complex]]:
+    """Return where the pairs are by the plans' own program, not by that which finds the schemes."""
+    at = problem.drive.positions[0] if position is None else position
+    solution = Solution(problem, positions=[at])
+    points = {name: complex(point.place[0]) for name, point in solution.points.items()}
+    turns = {link: math.radians(motion.phi_deg[0]) for link, motion in solution.links.items()}
+    return _places(problem, found, points, {FRAME: 0.0, **turns})
+
+
+def _places(
+    problem: Problem, found: SelfAligning, points: dict[str, complex], turns: dict[str, float]
+) -> dict[str, tuple[complex, complex]]:
+    places = {}
+    for pair in found.pairs:
+        if isinstance(pair.joint, Revolute):
+            places[pair.key] = (points[pair.joint.point], 0j)
+            continue
+        assert isinstance(pair.joint, Prismatic)
+        slide = problem.slides[pair.joint.slider]
+        along = cmath.rect(1.0, turns[slide.host] + math.radians(slide.angle))
+        places[pair.key] = (points[slide.pin] - 1j * slide.offset * along, along)
+    return places
+
+
+def _is_true(rank: Rank) -> bool:
+    return (rank.redundant, rank.mobility, rank.counted) == (0, 1, 1)
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_every_scheme_is_true_by_rank_in_the_position_of_the_file_and_beside_it(name: str) -> None:
+    problem, found = problem_of(name), aligned(name)
+    assert found.schemes
+    for away in (0.0, 3.7):
+        places = places_of(problem, found, problem.drive.positions[0] + away)
+        for scheme in found.schemes:
+            rank = rank_of(scheme, places)
+            assert _is_true(rank), (scheme, rank)
+    assert found.rank == 6 * len(problem.mechanism.links) - 1
+    assert sum(k * count for k, count in found.counts.items()) == 6 * (
+        len(found.pairs) - len(problem.mechanism.links)
+    ) + 1  # fmt: skip
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_no_scheme_that_keeps_its_groups_apart_is_forgotten(name: str) -> None:
+    problem, found = problem_of(name), aligned(name)
+    places = places_of(problem, found, problem.drive.positions[0] + 3.7)
+    first = found.driver.key
+    every = 1
+    for group in found.groups:
+        own = list(group.pairs)
+        known = {"0", *_links_before(found, group.group.links)}
+        good = set()
+        for classes in product(*(pair.classes for pair in own)):
+            named = dict(zip((pair.key for pair in own), classes, strict=True))
+            there = {_grounded(key, known): places[key] for key in named}
+            judged = rank_of({_grounded(key, known): name for key, name in named.items()}, there)
+            if (judged.redundant, judged.mobility) == (0, 0):
+                good.add(classes)
+        assert {scheme.classes for scheme in group.schemes} == good
+        every *= len(good)
+    assert len(found.schemes) == every
+    assert all(scheme[first][0] == "1" for scheme in found.schemes)
+
+
+def _links_before(found: SelfAligning, links: tuple[str, ...]) -> set[str]:
+    before = set(found.driver.links)
+    for group in found.groups:
+        if group.group.links == links:
+            break
+        before |= set(group.group.links)
+    return before
+
+
+def _grounded(key: str, known: set[str]) -> str:
+    point, ends = key.split()
+    return f"{point}.{ends} " + "-".join("0" if x in known else x for x in ends.split("-"))
+
+
+def test_the_printed_scheme_of_the_six_link_is_right_by_count_and_wrong_by_rank() -> None:
+    problem, found = problem_of("levers/six-link"), aligned("levers/six-link")
+    places = places_of(problem, found)
+    printed = {pair.key: pair.classes[0] for pair in found.pairs}
+    printed |= {"C 2-3": "2c", "D 0-3": "3s", "H 4-5": "3s", "H 0-5": "2c"}
+    rank = rank_of(printed, places)
+    assert (rank.counted, rank.redundant, rank.mobility) == (1, 1, 2)
+    assert printed not in found.schemes
+    group = found.groups[1]
+    assert [pair.key for pair in group.pairs] == ["H 4-5", "H 2-4", "H 0-5"]
+    wrong = {scheme.classes: scheme.loose for scheme in group.counted}
+    assert wrong[("3s", "1p", "2c")] == wrong[("3s", "2c", "1p")] == 1
+    assert {scheme.classes for scheme in group.schemes} == {
+        ("2c", "2c", "2c"), ("1v", "2c", "3pl"), ("1v", "3pl", "2c"),
+    }  # fmt: skip
+
+
+REFERENCE = {  # numbers of schemes group by group, found elsewhere by exhaustion
+    "linkages/ex1": 3, "linkages/ex3": 6, "levers/six-link": 18, "levers/task12": 4,
+    "press/press": 6, "press/press-stone": 6,
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", REFERENCE)
+def test_as_many_schemes_are_found_as_there_are(name: str) -> None:
+    assert len(aligned(name).schemes) == REFERENCE[name]
+
+
+@each("seed", range(some(200, few=25)))
+def test_random_mechanisms_have_true_schemes_the_best_first(seed: int) -> None:
+    text, pose = random_problem(seed)
+    problem = loads(text, name=f"random-{seed}")
+    found = self_aligning(problem, analyse(problem.mechanism))
+    motion = newton(problem, problem.drive.positions[0], pose)
+    points = {point: place for (_, point), place in motion.position.items()}
+    for pair in found.pairs:
+        if isinstance(pair.joint, Prismatic):
+            points[pair.joint.pin] = motion.position[pair.joint.slider, pair.joint.pin]
+    turns = {FRAME: 0.0} | {link: where[2] for link, where in motion.pose.items()}
+    places = _places(problem, found, points, turns)
+    assert found.schemes
+    for scheme in found.schemes:
+        assert _is_true(rank_of(scheme, places)), scheme
+    changes = [sum(name[0] != "1" for name in scheme.values()) for scheme in found.schemes]
+    assert changes == sorted(changes)
+    assert len({tuple(scheme.items()) for scheme in found.schemes}) == len(found.schemes)
+
+
+def _bare(points: str, slides: str = "") -> Problem:
+    revolutes, prismatics, links = [], [], []
+    for word in points.split():
+        name, ends = word.split(":")
+        revolutes.append(Revolute(name, tuple(ends)))
+        links += [end for end in ends if end != FRAME and end not in links]
+    for word in slides.split():
+        ends, pin = word.split("@")
+        slider, host = ends.split("/")
+        prismatics.append(Prismatic(slider, host, pin))
+        links += [end for end in (slider, host) if end != FRAME and end not in links]
+    mechanism = Mechanism(tuple(sorted(links)), tuple(revolutes), tuple(prismatics), "1")
+    drive = Drive("1", "A", (0.0,), 1.0, 0.0)
+    return Problem(name="b", title="b", mechanism=mechanism, bodies={}, slides={}, drive=drive)
+
+
+@pytest.mark.parametrize(
+    ("points", "slides", "changes"),
+    [
+        ("A:01 B:12 C:23 D:34 E:04 F:35 G:05", "", 3),  # class III
+        ("A:01 B:13 C:23 D:24 E:25", "4/0@D 5/0@E", 4),
+        ("A:01 B:12 C:23 D:24 E:35 F:45 G:05", "", 3),  # class IV
+        ("A:01 B:12 C:23 D:03 E:246 F:45 G:05 H:67 K:07", "", 6),  # two groups on one hinge
+        ("A:01 D:05 B:14 C:245 E:23", "3/0@E", 4),  # the hinge closed by what the file has later
+    ],
+)
+def test_groups_of_any_class_without_sizes(points: str, slides: str, changes: int) -> None:
+    problem = _bare(points, slides)
+    structure = analyse(problem.mechanism)
+    found = self_aligning(problem, structure)
+    assert found.schemes
+    assert found.rank == 6 * len(problem.mechanism.links) - 1
+    assert sum(name[0] != "1" for name in found.schemes[0].values()) == changes
+    assert set(found.schemes[0]) == {pair.key for pair in found.pairs}
+    assert len(found.pairs) == problem.mechanism.lower_pairs
+    rng = random.Random(7)
+    at = {name: complex(rng.uniform(-1, 1), rng.uniform(-1, 1)) for name in "ABCDEFGHK"}
+    lines = {pair.key: cmath.rect(1.0, rng.uniform(0, 3)) if isinstance(pair.joint, Prismatic)
+             else 0j for pair in found.pairs}  # fmt: skip
+    places = {key: (at[key[0]], along) for key, along in lines.items()}
+    assert all(_is_true(rank_of(scheme, places)) for scheme in found.schemes)
+
+
+def test_what_jams_in_the_position_of_the_file_is_left_out() -> None:
+    text = (PROBLEMS / "linkages/ex1.toml").read_text("utf-8")
+    every = []
+    for phi in ("phi = 0", "phi = 33"):
+        problem = loads(re.sub(r"(?m)^phi = [0-9.]+", phi, text), name="slider-crank")
+        found = self_aligning(problem, analyse(problem.mechanism))
+        every.append([scheme.classes for scheme in found.groups[0].schemes])
+    # The sphere B stands on the cylinder's line, about which the rod and the slider are loose.
+    assert ("3s", "1v", "2c") not in every[0] and ("3s", "1v", "2c") in every[1]
+    assert not next(s for s in found.groups[0].schemes if s.classes == ("3s", "1v", "2c")).steady
+    assert set(every[0]) < set(every[1])
+
+
+def test_sizes_that_close_nowhere_give_the_schemes_of_random_ones() -> None:
+    text = (PROBLEMS / "linkages/ex2.toml").read_text("utf-8")
+    problem = loads(re.sub(r"(?m)^(BC = )[0-9.]+", r"\g<1>0.0001", text), name="open")
+    found = self_aligning(problem, analyse(problem.mechanism))
+    assert len(found.schemes) == 6 and found.rank == 17
+
+
+TRIAD = """
+title = "t"
+[frame]
+O = [0, 0]
+E = [0.30, 0.02]
+F = [0.16, 0.30]
+[links.1]
+points = ["O", "A"]
+OA = 0.06
+[links.2]
+points = ["A", "B"]
+AB = 0.20
+[links.3]
+points = ["B", "C", "D"]
+BC = 0.16
+BD = 0.14
+CD = 0.13
+D = { side = "left of BC" }
+[links.4]
+points = ["E", "C"]
+EC = 0.15
+[links.5]
+points = ["F", "D"]
+FD = 0.14
+[driver]
+link = "1"
+phi = 50
+omega = 10
+epsilon = 0
+"""
+
+
+def test_a_group_of_class_three_closes_and_has_schemes_in_its_own_pose() -> None:
+    problem = loads(TRIAD, name="triad")
+    structure = analyse(problem.mechanism)
+    swept = poses(problem, structure)
+    assert len(swept) == 24
+    known = (0.235632 + 0.080103j, 0.109611 + 0.232919j)  # found elsewhere, to 1e-6
+    assert min(abs(swept[0].places["B"] - one) for one in known) < 1e-6
+    found = self_aligning(problem, structure)
+    for pose in swept[:4]:
+        places = {pair.key: pose.line(pair.joint) for pair in found.pairs}
+        assert all(_is_true(rank_of(scheme, places)) for scheme in found.schemes)
+    assert found.rank == found.rows == 29
+
+
+def test_where_nothing_is_found_the_links_are_named(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("planmethod.solved.aligned.schemes.TRIED", 0)
+    problem = problem_of("levers/six-link")
+    structure = analyse(problem.mechanism)
+    record = aligned_record(found := self_aligning(problem, structure))
+    assert (record["valid"], record["schemes"]) == (False, [])
+    assert "2-3; 4-5" in record["reason"]
+    lines = list(aligned_lines(problem.mechanism, structure, found, language("ru")))
+    assert len(lines) == 1 and "2–3; 4–5" in lines[0]
+    assert structure_sheet(problem, structure, found).items
+
+
+@pytest.mark.parametrize(
+    ("points", "slides", "higher"),
+    [
+        ("A:01 B:12 C:23 D:34 E:04 F:35 G:05", "", HigherPair("K", ("1", "3"), "2")),
+        ("A:01 O:15 C:23 D:03 E:24 F:04", "5/2@O", HigherPair("K", ("1", "2"), "5")),
+    ],
+)
+def test_profiles_that_touch_are_freed_with_the_pairs_of_their_group(
+    points: str, slides: str, higher: HigherPair
+) -> None:
+    bare = _bare(points, slides)
+    problem = replace(bare, mechanism=replace(bare.mechanism, higher=(higher,)))
+    found = self_aligning(problem, structure := analyse(problem.mechanism))
+    assert structure.redundant == 1 - (6 * 4 - 5 * 5 - 2)
+    assert {scheme["K 1-" + higher.links[1]] for scheme in found.schemes} == {"4l", "5t"}
+    for pose in poses(problem, structure):
+        places = {pair.key: pose.line(pair.joint) for pair in found.pairs}
+        if slides:  # the normal of a straight profile is across its line
+            (along,) = (line for _, line in pose.lines.values())
+            places["K 1-2"] = (places["K 1-2"][0], 1j * along)
+        assert all(_is_true(rank_of(scheme, places)) for scheme in found.schemes)
+    assert found.rank == found.rows == 6 * 4 - 1
+    plane = {pair.key: pair.classes[0] for pair in found.pairs}
+    for one in combinations(found.groups[0].pairs, 2):
+        for classes in product(*(pair.classes[1:] for pair in one)):
+            scheme = plane | dict(zip((pair.key for pair in one), classes, strict=True))
+            assert (scheme in found.schemes) == _is_true(rank_of(scheme, places)), scheme
+
+
+@pytest.mark.parametrize("name", NAMES[:6])
+def test_the_rank_of_all_constraints_is_that_of_the_contours(name: str) -> None:
+    problem, found = problem_of(name), aligned(name)
+    pose = poses(problem, analyse(problem.mechanism))[3]
+    places = {pair.key: pose.line(pair.joint) for pair in found.pairs}
+    rng = random.Random(3)
+    tried = [{pair.key: rng.choice(pair.classes) for pair in found.pairs}
+             for _ in range(some(200, few=25))]  # fmt: skip
+    for group in found.groups:
+        keys = [pair.key for pair in group.pairs]
+        tried += [
+            dict(found.schemes[0]) | dict(zip(keys, one.classes, strict=True))
+            for one in group.counted
+        ]
+    for classes in tried:
+        rows = sum(6 - int(one[0]) for one in classes.values())
+        told = rank_of(classes, places)
+        assert constraint_rank(found.pairs, classes, pose) == rows - told.redundant, classes
+
+
+def test_a_driver_alone_has_nothing_redundant() -> None:
+    problem = _bare("A:01")
+    assert self_aligning(problem, analyse(problem.mechanism)).schemes == ({"A 0-1": "1v"},)
+
+
+def test_ten_links_are_searched_at_once() -> None:
+    problem = _bare("A:01 B:12 C:23 D:03 E:34 F:45 G:05 H:56 K:67 L:07 M:78 N:89 P:09")
+    found = self_aligning(problem, analyse(problem.mechanism))
+    assert len(found.schemes) == 60  # of 6⁴
+    assert all(sum(name[0] != "1" for name in scheme.values()) == 8 for scheme in found.schemes)
+
+
+def test_shipped_levers_have_schemes() -> None:
+    none = []
+    for path in sorted((PROBLEMS / "levers").glob("*.toml")):
+        name = f"levers/{path.stem}"
+        if not aligned(name).schemes:
+            none.append(name)
+    assert none == []
