@@ -41,6 +41,9 @@ def unlikely(problem: Problem) -> Iterator[str]:
 def _outranked(problem: Problem) -> Iterator[str]:
     """Yield what the driver lists beside ``[cycle]``, whose positions are others."""
     listed, numbered = problem.drive.judged, problem.numbered
+    if numbered and problem.drive.posed is None and len(problem.drive.positions) == 1:
+        yield from _numberless(problem, problem.drive.positions[0])
+        return
     if not numbered or not listed or listed == ANYWHERE:
         return
     apart = [abs((a - b + 180.0) % 360.0 - 180.0) for a, b in zip(listed, numbered, strict=False)]
@@ -54,6 +57,20 @@ def _outranked(problem: Problem) -> Iterator[str]:
             for way in (listed, [*map(problem.shown, numbered)]))  # fmt: skip
     (one, two), (first, last) = ends
     yield say(told, len(listed), one, two, len(numbered), first, last)
+
+
+def _numberless(problem: Problem, position: float) -> Iterator[str]:
+    """Yield that a single position of the driver is none of those of ``[cycle]``."""
+    apart = [abs((position - one + 180.0) % 360.0 - 180.0) for one in problem.numbered]
+    nearest = min(range(len(apart)), key=apart.__getitem__)
+    if apart[nearest] <= SAME_DEG:
+        return
+    told = (
+        "driver.phi = {:.5g}° is none of the {} positions of [cycle]; the nearest is position {} "
+        "at {}°. Write phi = {}, or delete phi: all outputs have the positions of [cycle] then."
+    )
+    near = f"{problem.shown(problem.numbered[nearest]):.5g}"
+    yield say(told, position, len(apart), nearest, near, near)
 
 
 def _short_rods(problem: Problem) -> Iterator[str]:

@@ -26,6 +26,7 @@ from planmethod.project.decided import (
 )
 from planmethod.project.first import first_scales
 from planmethod.project.model import PartName, Project, ProjectPart
+from planmethod.project.train import in_mesh
 from planmethod.render.frame.titleblock import merged
 from planmethod.solved.forces.loads import only_in_positions
 from planmethod.solved.scaling import MOST_DRAWN
@@ -78,7 +79,7 @@ def settle(problem: Problem, path: Path | None = None) -> Project:
         frame=problem.mechanism.frame,
         language=problem.sheet.lang or LANGUAGES[0],
         paper=problem.sheet.paper,
-        parts=tuple(_parts(problem, path)),
+        parts=in_mesh(tuple(_parts(problem, path))),
     )
 
 
