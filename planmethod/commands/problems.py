@@ -279,6 +279,11 @@ def refuse_plans(kind: ProblemKind[Any], **options: object) -> None:
         )
 
 
+def no_position(number: int, name: str, count: int) -> UsageError:
+    """Return the error of a position that a problem has not."""
+    return UsageError("--position {}: the last of {} is {}", number, name, count - 1)
+
+
 def watched(steps: Iterable[T], length: int) -> Iterator[T]:
     """Yield what is to do, on a terminal with a bar when they are many (about a second of work)."""
     if length < MANY or not is_terminal(sys.stderr):

@@ -18,6 +18,7 @@ from planmethod.plans.model import RATES
 from planmethod.project.model import PartName, SheetEntry
 from planmethod.project.report.context import Report, sentences
 from planmethod.project.report.flywheel import machine_of
+from planmethod.project.report.forces import largest_reactions
 from planmethod.project.report.gears import failed_conditions, failed_quality, ratios_of
 from planmethod.project.report.position import has_equal_strokes, loads_drive
 from planmethod.project.report.results import compared, worst
@@ -101,7 +102,8 @@ def _forces(report: Report, said: Words) -> Iterator[Rich]:
     read = float(drawn_forces(reading.statics).read(size_label(most))[0])
     plans, lever = both_balances(reading)
     balancing = reading.balancing
-    yield said.forces.format(
+    (*_, whole) = "", *largest_reactions(report)
+    told = said.forces.format(
         position=report.in_position,
         symbol=report.reaction(most),
         value=report.quantity(read, "N"),
@@ -109,6 +111,7 @@ def _forces(report: Report, said: Words) -> Iterator[Rich]:
         balancing=say.symbol(reading.balancing_symbol),
         balance=report.quantity(abs(plans), balancing.unit),
     )
+    yield f"{told} {whole}".rstrip()
     share, sigma = difference(reading), expected(reading)
     if lever is None or share is None or sigma is None or not plans:
         return

@@ -1,0 +1,73 @@
+"""What other commands make of the file of a project."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+from click.testing import CliRunner, Result
+from worked import ROOT
+
+from planmethod.cli import cli
+from planmethod.kinds import load
+from planmethod.project.settle import settle
+from planmethod.solved.solution import Solution
+
+SHAPER = ROOT / "tests/data/projects/shaper.toml"
+
+
+def run(*words: object) -> Result:
+    return CliRunner().invoke(cli, [str(word) for word in words])
+
+
+def exact(number: int) -> str:
+    """Return the speed of C in a position, as tables have it."""
+    project = settle(load(SHAPER), SHAPER)
+    solution = Solution(project.problem, positions=[project.positions[number]])
+    return f"{abs(complex(solution.points['C'].velocity[0])):.3g}".replace(".", ",")
+
+
+# Own numbers -------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("row", ["v C;0,5;", "v C;0,5;1"])
+def test_own_numbers_are_of_the_calculated_position_if_they_say_no_other(
+    row: str, tmp_path: Path
+) -> None:
+    work = tmp_path / "my.csv"
+    work.write_text(f"величина;значение;положение\n{row}\n", "utf-8")
+    number = 4 if row.endswith(";") else 1
+    told = run("solve", SHAPER, "--compare", work, "--lang", "ru")
+    assert told.exit_code == 0, told.output
+    assert exact(number) in told.stdout and exact(5 - number) not in told.stdout
+    checked = run("check", SHAPER, work, "--json")
+    (checked_work,) = json.loads(checked.stdout)
+    (answer,) = checked_work["answers"]
+    assert answer["position"] == number
+
+
+def test_of_an_exact_nothing_there_is_no_per_cent(tmp_path: Path) -> None:
+    work = tmp_path / "my.csv"
+    work.write_text("величина;значение;положение\nv C;0,5;0\n", "utf-8")
+    told = run("solve", SHAPER, "--compare", work, "--lang", "ru").stdout
+    (row,) = (line for line in told.splitlines() if line.startswith("v_C"))
+    assert row.endswith("—") and "10" not in row
+
+
+def test_solve_prints_one_position_at_the_scales_of_all() -> None:
+    """As the protocol and the sheet of all positions have it."""
+    path = ROOT / "problems/linkages/ex3.toml"
+    asked = (path, "--phi", "20,140,260", "--lang", "ru")
+    whole, one = (run("solve", *asked, *more).stdout for more in ((), ("--position", "1")))
+    scales = [line for line in whole.splitlines() if line.startswith("Масштабы")]
+    assert scales[0] in one and "φ₁ = 140°" in one and "20,00" not in one
+    record = json.loads(run("solve", *asked[:3], "--position", "2", "--json").stdout)
+    assert [p["phi_deg"] for p in record["positions"]] == [260.0]
+    for words, said in (
+        (("--position", "3"), "последнее положение в ex3 — 2"),
+        (("--position", "1", "--csv"), "--position сочетается"),
+        (("--position", "1", "--compare", "my.csv"), "--compare"),
+    ):
+        refused = run("solve", *asked, *words)
+        assert refused.exit_code == 2 and said in refused.stderr, words
