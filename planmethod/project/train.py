@@ -73,11 +73,11 @@ def _cut(problem: GearProblem, pair: MeshingProblem) -> GearProblem:
 
 
 def output_of(motion: TrainMotion) -> str | None:
-    """Return the body that a train with one input drives: a carrier, else the last that moves."""
-    inputs = motion.train.inputs
-    moving = [body for body in motion.train.bodies if motion.speeds.get(body)]
-    ends = [*motion.train.carriers, *reversed(moving)]
-    return next((body for body in ends if body in moving and body not in inputs), None)
+    """Return the body that a train with one input drives: the last that moves and is no planet."""
+    train = motion.train
+    others = {*train.inputs, *(x for some in motion.roles.satellites.values() for x in some)}
+    moving = [body for body in train.bodies if motion.speeds.get(body) and body not in others]
+    return train.output or (moving[-1] if moving else None)
 
 
 def train_apart(project: Project) -> str | None:

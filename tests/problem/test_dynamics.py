@@ -134,16 +134,6 @@ def test_loads_without_a_name_have_different_letters() -> None:
     assert taken == ["F_{3}'", "F_{3}"]
 
 
-@pytest.mark.parametrize(
-    ("name", "letter"),
-    [("F3", "F_{3}"), ("Fрез", "F_{рез}"), ("Pс2'", "P_{с2}'"), ("Pсопр", "P_{сопр}"),
-     ("F_{5}", "F_{5}"), ("P", "P"), ("Fmax", "Fmax")],
-)  # fmt: skip
-def test_the_name_of_a_load_has_its_index(name: str, letter: str) -> None:
-    body = f'[[loads]]\nname = "{name}"\nlink = "3"\nat = "C"\nforce = 1\nangle = 0\n'
-    assert [load.name for load in dynamics_of(body).loads] == [letter]
-
-
 def test_tables() -> None:
     rows = "values = [[0, 0], [90, 730], [360, 0]]"
     text = f'force = {{ over = "phi", {rows}, interpolation = "linear" }}\nangle = 90'
@@ -268,8 +258,9 @@ def test_faulty_overrides(override: str, wanted: str) -> None:
 
 @pytest.mark.parametrize(
     ("written", "letter"),
-    [("P12", "P_{12}"), ("P3'", "P_{3}'"), ("Pс", "Pс"), ("P_3", "P_3"), ("2P", "2P")],
-)
+    [("P12", "P_{12}"), ("P3'", "P_{3}'"), ("Pс", "P_{с}"), ("Fрез", "F_{рез}"), ("Pс2'", "P_{с2}'"),
+     ("Fmax", "Fmax"), ("P_3", "P_3"), ("2P", "2P")],
+)  # fmt: skip
 def test_a_number_after_the_letter_of_a_load_is_its_index(written: str, letter: str) -> None:
     assert force(f'name = "{written}"\nangle = 0\nforce = 1').name == letter
     if letter != written:

@@ -382,6 +382,22 @@ def test_a_train_that_does_not_turn_the_crank_is_warned_of(tmp_path: Path) -> No
     assert "60 rev/min" in apart and "H" in apart and "53.33 rev/min" in apart
 
 
+def test_the_warning_of_a_train_names_its_last_stage(tmp_path: Path) -> None:
+    """Behind the carrier there is a pair of wheels."""
+    apart = train_apart(staged('train = "5"', "n = 90", tmp_path))
+    assert apart is not None
+    assert "link 5 of the train 80 rev/min" in apart and 'train = "5"' in apart
+
+
+def staged(old: str, new: str, tmp_path: Path) -> Project:
+    """Return the project of the template, with wheels that mesh, changed."""
+    path = tmp_path / "staged.toml"
+    text = (ROOT / "planmethod/problem/templates/project.toml").read_text("utf-8")
+    assert old in text
+    path.write_text(text.replace(old, new), "utf-8")
+    return settle(load(path), path)
+
+
 # Sheets ------------------------------------------------------------------------------------------
 
 
