@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import functools
 import re
 import sys
@@ -89,11 +90,8 @@ def load(path: Path, variant: str | None, all_variants: bool) -> list[Problem]:
 
             problem = settled(problem)
         found.append(problem)
-    for table in left_out(found[0]) if found else ():
-        if table == "point":
-            warn(found[0], "[point] is left out; give it a file of its own.")
-        else:
-            warn(found[0], say("[{}] is left out; planmethod project draws it.", table))
+    if found and found[0].project is None:  # who writes [project] knows what it is for
+        tell_left_out(found[0])
     return found
 
 
@@ -110,14 +108,39 @@ def _read(path: Path, variant: str | None, all_variants: bool) -> Iterator[Probl
     for problem in load_each(path, variants_of(path, variant, all_variants)):
         for said in unlikely(problem):
             warn(problem, said)
+        if problem.cycle is not None and problem.cycle.working is not None:
+            _tell_working(problem)
         yield problem
 
 
-def left_out(problem: Problem) -> Iterator[str]:
-    """Yield the tables of a linkage's file that are of other kinds of problem, and not used."""
+def _tell_working(problem: Problem) -> None:
+    """Warn of a working stroke on which the loads do not do their work."""
+    from planmethod.note.plaintext import plain_text
+    from planmethod.solved.solution import Solution
+    from planmethod.solved.turn.turn import turn_of
+
+    with contextlib.suppress(PlanMethodError):  # said where the positions are solved
+        turn = turn_of(Solution(problem))
+        loads, strokes = turn.contradicting, turn.strokes
+        if loads is not None and strokes is not None and problem.cycle is not None:
+            told = say(
+                '[cycle] working = "{}" makes the stroke of {:.2f}° the working one, and the work '
+                "of {} is done on the other one, of {:.2f}°. Mend one of them.",
+                getattr(problem.cycle.working, "value", ""),
+                strokes.working_deg,
+                plain_text(loads.partition(" ")[2]),
+                strokes.idle_deg,
+            )
+            warn(problem, told)
+
+
+def tell_left_out(problem: Problem) -> None:
+    """Tell of the tables of a linkage's file that are of other kinds of problem, and not used."""
     for table in problem.tables:
-        if table != "gears" or problem.drive.geared is None:
-            yield table
+        if table == "point":
+            warn(problem, "[point] is left out; give it a file of its own.")
+        elif table != "gears" or problem.drive.geared is None:
+            warn(problem, say("[{}] is left out; planmethod project draws it.", table))
 
 
 def _load_other(

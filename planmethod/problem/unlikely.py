@@ -35,7 +35,25 @@ def unlikely(problem: Problem) -> Iterator[str]:
         told = "the crank makes {:.0f} rev/min (omega = {:g} 1/s). Give rev/min as n, 1/s as omega."
         yield say(told, speed, drive.rate)
     yield from _short_rods(problem)
+    yield from _weightless(problem)
     yield from _outranked(problem)
+
+
+def _weightless(problem: Problem) -> Iterator[str]:
+    """Yield that forces are asked for, and nothing or a link that is listed has no inertia."""
+    dynamics = problem.dynamics
+    if dynamics is None:
+        return
+    nothing = [link for link, one in dynamics.masses.items() if not one.mass and not one.inertia]
+    if len(nothing) == len(dynamics.masses):
+        yield say(
+            "no link has a mass or a moment of inertia: the forces are those of the loads alone. "
+            "Give them in [dynamics.links.2]."
+        )
+        return
+    for link in nothing:
+        told = "dynamics.links.{0}: link {0} has neither a mass nor a moment of inertia."
+        yield say(told, link)
 
 
 def _outranked(problem: Problem) -> Iterator[str]:

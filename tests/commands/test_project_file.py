@@ -12,6 +12,8 @@ from worked import ROOT
 from planmethod.cli import cli
 from planmethod.kinds import load
 from planmethod.project.settle import settle
+from planmethod.project.sheets import part_drawings
+from planmethod.render.sheets.controlled import paper_of
 from planmethod.solved.solution import Solution
 
 SHAPER = ROOT / "tests/data/projects/shaper.toml"
@@ -71,3 +73,62 @@ def test_solve_prints_one_position_at_the_scales_of_all() -> None:
     ):
         refused = run("solve", *asked, *words)
         assert refused.exit_code == 2 and said in refused.stderr, words
+
+
+# Norm control ------------------------------------------------------------------------------------
+
+
+def test_lint_looks_over_the_sheets_of_the_project() -> None:
+    project = settle(load(SHAPER), SHAPER)
+    sheets = [sheet for part in project.parts for sheet in part_drawings(project, part, {})]
+    found = json.loads(run("lint", SHAPER, "--json").stdout)
+    assert found["kind"] == "project" and len(found["sheets"]) == len(sheets)
+    assert [sheet["paper"] for sheet in found["sheets"]] == [*map(paper_of, sheets)]
+    one = json.loads(run("lint", SHAPER, "--phi", "30", "--json").stdout)
+    assert one["kind"] == "kinematics" and len(one["sheets"]) == 1
+
+
+# What is left out --------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("words", "told"),
+    [(("solve",), 0), (("structure",), 0), (("sheet",), 1), (("sheet", "--layout", "forces"), 0)],
+)
+def test_only_the_usual_sheet_says_which_parts_of_a_project_it_leaves_out(
+    words: tuple[str, ...], told: int, tmp_path: Path
+) -> None:
+    more = ("-o", tmp_path) if words[0] == "sheet" else ()
+    done = run(words[0], SHAPER, *words[1:], *more, "--lang", "en")
+    assert done.exit_code == 0, done.output
+    assert done.stderr.count("[gears]") == told
+
+
+# What is hardly meant ----------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(("way", "warned"), [("left", False), ("right", True)])
+def test_a_working_stroke_against_the_loads_is_warned_of(
+    way: str, warned: bool, tmp_path: Path
+) -> None:
+    path = tmp_path / "way.toml"
+    text = SHAPER.read_text("utf-8").replace("[cycle]", f'[cycle]\nworking = "{way}"')
+    path.write_text(text, "utf-8")
+    done = run("structure", path, "--no-drawing", "--lang", "ru")
+    strokes = settle(load(SHAPER), SHAPER).strokes
+    assert done.exit_code == 0 and strokes is not None
+    told = f'working = "right" называет рабочим ход на {strokes.idle_deg:.2f}°, а P совершает'
+    assert (told in done.stderr) is warned
+
+
+@pytest.mark.parametrize(
+    ("kept", "said"), [("", "ни у одного звена нет ни массы"), ("3", "у звена 5 нет ни массы")]
+)
+def test_forces_without_masses_are_warned_of(kept: str, said: str, tmp_path: Path) -> None:
+    path = tmp_path / "light.toml"
+    text = SHAPER.read_text("utf-8").replace("mass = 50", "mass = 0")
+    if not kept:
+        text = text.replace("mass = 22", "mass = 0").replace("inertia = 0.9", "inertia = 0")
+    path.write_text(text, "utf-8")
+    done = run("structure", path, "--no-drawing", "--lang", "ru")
+    assert said in done.stderr and "массы" not in run("structure", SHAPER, "--no-drawing").stderr
