@@ -81,14 +81,19 @@ def guarded(command: F) -> F:
     return wrapper  # type: ignore[return-value]
 
 
-def load(path: Path, variant: str | None, all_variants: bool) -> list[Problem]:
-    """Read a problem file: one problem, or one for each variant; that of a project is settled."""
+def load(
+    path: Path, variant: str | None, all_variants: bool, *, drawn: bool = True
+) -> list[Problem]:
+    """Read a problem file: one problem, or one for each variant; that of a project is settled.
+
+    Scales are decided by laying sheet 1 out: what is not ``drawn`` has only the positions.
+    """
     found = []
     for problem in _read(path, variant, all_variants):
         if problem.project is not None:
-            from planmethod.project.settle import settled
+            from planmethod.project.settle import in_positions, settled
 
-            problem = settled(problem)
+            problem = settled(problem) if drawn else in_positions(problem)
         found.append(problem)
     if found and found[0].project is None:  # who writes [project] knows what it is for
         tell_left_out(found[0])
@@ -168,6 +173,7 @@ def each(
     kinds: bool = True,
     jobs: int = 1,
     take: Callable[[T], object] | None = None,
+    drawn: bool = True,
 ) -> ExitCode:
     """Act on every problem; a faulty one is reported and the others go on.
 
@@ -183,6 +189,8 @@ def each(
         same.
     take : callable, optional
         Gets what was returned for every problem, in order.
+    drawn : bool
+        Whether scales of a project matter, which take a second to decide.
 
     Returns
     -------
@@ -197,7 +205,7 @@ def each(
         else:
             yield from _shared(act, todo, jobs)
 
-    return through(paths, variant, all_variants, steps, kinds=kinds, take=take)
+    return through(paths, variant, all_variants, steps, kinds=kinds, take=take, drawn=drawn)
 
 
 def through(
@@ -208,6 +216,7 @@ def through(
     *,
     kinds: bool,
     take: Callable[[T], object] | None = None,
+    drawn: bool = True,
 ) -> ExitCode:
     """Read all problems and take the steps, one for each problem; what fails is reported.
 
@@ -226,7 +235,7 @@ def through(
         try:
             kind = kind_of(path) if kinds else None
             if kind is None:
-                found = load(path, variant, all_variants)
+                found = load(path, variant, all_variants, drawn=drawn)
                 todo += [Todo(path, None, problem) for problem in found]
             else:
                 others = _load_other(kind, path, variant, all_variants)

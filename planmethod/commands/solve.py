@@ -237,7 +237,9 @@ def solve(
     )
     found: list[Any] = []
     act = functools.partial(compute, options=options)
-    code = each(problems, variant, all_variants, act, jobs=jobs, take=found.append)
+    code = each(
+        problems, variant, all_variants, act, jobs=jobs, take=found.append, drawn=not swept
+    )
     if as_json and found:
         from planmethod.note.written import plain_of
 

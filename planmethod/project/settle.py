@@ -57,7 +57,7 @@ def settle(problem: Problem, path: Path | None = None) -> Project:
         As of a sheet.
     """
     asked = problem.drive.positions
-    problem = _in_positions(problem)
+    problem = in_positions(problem)
     scales = replace(problem.scales, decided=True)
     if None in (scales.mu_l, scales.mu_v, scales.mu_a):
         scales = first_scales(problem)
@@ -93,7 +93,7 @@ def settled(problem: Problem) -> Problem:
 # Positions ---------------------------------------------------------------------------------------
 
 
-def _in_positions(problem: Problem) -> Problem:
+def in_positions(problem: Problem) -> Problem:
     """Return a problem whose positions, cycle and flywheel are numbered alike."""
     if problem.drive.is_crank and problem.cycle is None:
         cycle = _default_cycle(problem)

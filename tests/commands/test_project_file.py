@@ -11,6 +11,8 @@ from worked import ROOT
 
 from planmethod.cli import cli
 from planmethod.kinds import load
+from planmethod.problem.model import Problem, Scales
+from planmethod.project import settle as settle_module
 from planmethod.project.settle import settle
 from planmethod.project.sheets import part_drawings
 from planmethod.render.sheets.controlled import paper_of
@@ -132,3 +134,27 @@ def test_forces_without_masses_are_warned_of(kept: str, said: str, tmp_path: Pat
     path.write_text(text, "utf-8")
     done = run("structure", path, "--no-drawing", "--lang", "ru")
     assert said in done.stderr and "массы" not in run("structure", SHAPER, "--no-drawing").stderr
+
+
+# What is decided for nothing ---------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("words", "laid"),
+    [(("structure", "--no-drawing"), 0), (("solve", "--ask", "v_C"), 0), (("solve",), 1)],
+)
+def test_what_needs_no_scales_lays_no_sheet_out(
+    words: tuple[str, ...], laid: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    calls: list[Problem] = []
+    real = settle_module.first_scales
+
+    def counted(problem: Problem) -> Scales:
+        calls.append(problem)
+        return real(problem)
+
+    monkeypatch.setattr(settle_module, "first_scales", counted)
+    done = run(words[0], SHAPER, *words[1:])
+    assert done.exit_code == 0 and len(calls) == laid
+    if "--ask" in words:  # the positions are those of the project
+        assert sum(line.strip()[:1].isdigit() for line in done.stdout.splitlines()) == 6
