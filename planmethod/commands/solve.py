@@ -237,9 +237,7 @@ def solve(
     )
     found: list[Any] = []
     act = functools.partial(compute, options=options)
-    code = each(
-        problems, variant, all_variants, act, jobs=jobs, take=found.append, drawn=not swept
-    )
+    code = each(problems, variant, all_variants, act, jobs=jobs, take=found.append, drawn=not swept)
     if as_json and found:
         from planmethod.note.written import plain_of
 

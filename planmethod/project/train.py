@@ -29,7 +29,7 @@ def meshed(train: Train, pair: MeshingProblem) -> tuple[str, str] | None:
     """
     kind = MeshKind.INTERNAL if pair.cutter else MeshKind.EXTERNAL
     ends = [(mesh.first, mesh.second) for mesh in train.meshes if mesh.kind is kind]
-    ways = [[e for e in (end, end[::-1]) if tuple(train.wheels[x].size for x in e) == pair.z]
+    ways = [[e for e in (end, end[::-1]) if [train.wheels[x].size for x in e] == [*pair.z]]
             for end in ends]  # fmt: skip
     found = [way[0] for way in ways if way]
     return found[0] if len(found) == 1 else None

@@ -12,7 +12,7 @@ from worked import ROOT
 from planmethod.cli import cli
 from planmethod.kinds import load
 from planmethod.problem.model import Problem, Scales
-from planmethod.project import settle as settle_module
+from planmethod.project.first import first_scales
 from planmethod.project.settle import settle
 from planmethod.project.sheets import part_drawings
 from planmethod.render.sheets.controlled import paper_of
@@ -147,13 +147,13 @@ def test_what_needs_no_scales_lays_no_sheet_out(
     words: tuple[str, ...], laid: int, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     calls: list[Problem] = []
-    real = settle_module.first_scales
+    real = first_scales
 
     def counted(problem: Problem) -> Scales:
         calls.append(problem)
         return real(problem)
 
-    monkeypatch.setattr(settle_module, "first_scales", counted)
+    monkeypatch.setattr("planmethod.project.settle.first_scales", counted)
     done = run(words[0], SHAPER, *words[1:])
     assert done.exit_code == 0 and len(calls) == laid
     if "--ask" in words:  # the positions are those of the project

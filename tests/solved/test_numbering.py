@@ -93,8 +93,8 @@ def test_a_single_position_that_the_cycle_has_not_is_warned_of() -> None:
         problem = read(SHAPER, ("phi = { from = 0, count = 12 }", f"phi = {phi}"))
         said = [str(one) for one in unlikely(problem)]
         assert bool(said) is warned, phi
-        for part in (f"phi = {phi}° ", "position 7 at 48°" if phi == "48.2" else "position 8 at 78°"):
-            assert not said or part in said[0]
+        near = "position 7 at 48°" if phi == "48.2" else "position 8 at 78°"
+        assert all(part in text for part in (f"phi = {phi}° ", near) for text in said)
 
 
 @pytest.mark.parametrize("with_cycle", [True, False])
