@@ -196,6 +196,8 @@ def _has(problem: Problem, task: ProjectTask, name: PartName) -> bool:
             return problem.dynamics is not None
         case PartName.FLYWHEEL:
             return problem.dynamics is not None and problem.machine is not None
+        case PartName.BALANCING:
+            return problem.balancing is not None
         case PartName.GEARS | PartName.MESHING:
             return bool(getattr(task, name.value)) or name.value in problem.tables
         case _:

@@ -10,6 +10,7 @@ from planmethod.gears.model import GearProblem
 from planmethod.mechanism.structure import roman
 from planmethod.note.document import Item, Node, References, StructuralHeading, Table
 from planmethod.note.formula import Rich, escape, inlined
+from planmethod.note.narrate.balancing import BalancingTeller
 from planmethod.note.narrate.forces.lever import both_balances, difference, expected
 from planmethod.note.numbers import with_unit
 from planmethod.note.wording import Words
@@ -42,6 +43,7 @@ def conclusion(report: Report) -> Iterator[Node]:
         *_turn(report, said),
         *(_forces(report, said) if report.has(PartName.FORCES) else ()),
         *(_flywheel(report, said) if report.has(PartName.FLYWHEEL) else ()),
+        *(_balancing(report, said) if report.has(PartName.BALANCING) else ()),
         *_gears(report, said),
         *_meshing(report, said),
     ]
@@ -139,6 +141,20 @@ def _flywheel(report: Report, said: Words) -> Iterator[Rich]:
         mass=report.quantity(sizes.mass, "kg"),
     )
     yield f"{main} {size}"
+
+
+def _balancing(report: Report, said: Words) -> Iterator[Rich]:
+    tell = BalancingTeller(report.every, report.words)
+    weights = [one for one in tell.balancing.counterweights if one.mass]
+    told = [
+        said.counterweight.format(link=one.link, mass=report.quantity(one.mass, "kg"))
+        for one in weights
+    ]
+    before, after = tell.balancing.largest
+    size = report.quantity(0.0 if after < 1e-9 * before else after, "N")
+    listed = report.listed(told) if told else ""
+    template = said.balancing_part if told else said.balancing_none
+    yield template.format(weights=listed, before=report.quantity(before, "N"), after=size)
 
 
 def _gears(report: Report, said: Words) -> Iterator[Rich]:

@@ -35,6 +35,9 @@ from planmethod.solved.machine.flywheel import flywheel_of
 _FACT = re.compile(r"^([^\s=(]+) = (.+)$")
 _CONST = " = const"
 
+_FURTHER = tuple(name for name in PartName if name not in (PartName.KINEMATICS, PartName.NOTE))
+"""Parts that not every project has."""
+
 LINKS = ("n", "ω", "ε", "φ", "m", "J", "length")
 """Letters of quantities of links."""
 
@@ -102,7 +105,7 @@ def _tasks(report: Report) -> Iterator[Rich]:
     yield tasks.motion.format()
     if report.every.problem.cycle is not None:
         yield tasks.cycle.format()
-    for name in (PartName.FORCES, PartName.FLYWHEEL, PartName.GEARS, PartName.MESHING):
+    for name in _FURTHER:
         if report.has(name):
             balancing = report.said["balancing"][report.one.problem.drive.balancing.quantity]
             yield str(tasks[name.value]).format(balancing=balancing)
@@ -277,11 +280,7 @@ def _introduction(report: Report) -> Iterator[Node]:
     many = structure.moving_links
     links = counts["links"][many] if many < len(counts["links"]) else counts.many.format(count=many)
     yield StructuralHeading(said.title.format())
-    others = [
-        str(said["kinds"][name.value]).format()
-        for name in (PartName.FORCES, PartName.FLYWHEEL, PartName.GEARS, PartName.MESHING)
-        if report.has(name)
-    ]
+    others = [str(said["kinds"][name.value]).format() for name in _FURTHER if report.has(name)]
     yield sentences(
         said.object.format(roman=roman(structure.class_number), links=links),
         said.parts.format(parts=report.listed(others)) if others else "",
