@@ -204,7 +204,6 @@ def _sizes(report: Report, tell: MachineTeller, said: Words) -> Iterator[Node]:
     ratio = tell.flywheel.machine.wheel.ratio
     yield sentences(
         str(said["on_shaft"]["crank" if ratio == 1.0 else "other"]).format(
-            symbol=report.said["quantities"]["flywheel symbol"],
             ratio=say.given(ratio),
             inertia=tell.letter("flywheel"),
             exact=say.found(tell.flywheel.exact.inertia),

@@ -142,9 +142,9 @@ def _data(report: Report) -> tuple[list[tuple[Rich, Rich, Rich]], list[Rich]]:
             if told is not None and told[1] in ("δ", tell.letter("crank inertia")):
                 key = "δ" if told[1] == "δ" else "crank inertia"
                 rows.append((str(quantities[key]).format(), told[1], told[2]))
-        ratio, symbol = tell.flywheel.machine.wheel.ratio, quantities["flywheel symbol"]
+        ratio = tell.flywheel.machine.wheel.ratio
         if ratio != 1.0:
-            rows.append((quantities["flywheel ratio"], symbol, report.say.given(ratio)))
+            rows.append((str(quantities["flywheel ratio"]).format(), "i", report.say.given(ratio)))
     listed = {symbol for _, symbol, _ in rows}
     return rows + [row for row in _teeth(report) if row[1] not in listed], further
 
