@@ -422,18 +422,16 @@ def test_the_wheels_of_the_train_are_those_of_the_meshing() -> None:
 def test_which_wheels_mesh_is_told_by_their_teeth() -> None:
     path = ROOT / "planmethod/problem/templates/project.toml"
     parts = settle(load(path), path).parts
-    train, pair = (
-        next(part.problem for part in parts if isinstance(part.problem, kind))
-        for kind in (GearProblem, MeshingProblem)
-    )
-    assert meshed(train.train, pair) == ("4", "5")
-    assert meshed(train.train, replace(pair, z=(20, 13))) == ("5", "4")
-    assert meshed(train.train, replace(pair, z=(20, 40))) == ("1", "2")
-    assert meshed(train.train, replace(pair, z=(13, 21))) is None
-    alike = {**train.train.wheels, "1": train.train.wheels["4"], "2": train.train.wheels["5"]}
-    assert meshed(replace(train.train, wheels=alike), pair) is None  # 1-2 has the same teeth
-    assert meshed(train.train, replace(pair, z=(25, 85))) is None  # they mesh internally
-    assert meshed(train.train, replace(pair, z=(25, 85), cutter=20)) == ("2'", "3")
+    train = next(x.problem.train for x in parts if isinstance(x.problem, GearProblem))
+    pair = next(x.problem for x in parts if isinstance(x.problem, MeshingProblem))
+    assert meshed(train, pair) == ("4", "5")
+    assert meshed(train, replace(pair, z=(20, 13))) == ("5", "4")
+    assert meshed(train, replace(pair, z=(20, 40))) == ("1", "2")
+    assert meshed(train, replace(pair, z=(13, 21))) is None
+    alike = {**train.wheels, "1": train.wheels["4"], "2": train.wheels["5"]}
+    assert meshed(replace(train, wheels=alike), pair) is None  # 1-2 has the same teeth
+    assert meshed(train, replace(pair, z=(25, 85))) is None  # they mesh internally
+    assert meshed(train, replace(pair, z=(25, 85), cutter=20)) == ("2'", "3")
 
 
 def test_a_train_takes_module_and_shifts_of_its_wheels_in_mesh() -> None:
