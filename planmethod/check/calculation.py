@@ -165,10 +165,11 @@ class Calculation(Task):
         fixed = COUNTED / abs(figure.value) if figure is not None and whole else None
         return TaskItem(name, question, position, fixed=fixed, label=name, name=name)
 
-    def usual(self, position: int = 0) -> tuple[TaskItem, ...]:
+    def usual(self, position: int | None = None) -> tuple[TaskItem, ...]:
         """Return what is asked: what the file asks, else the usual quantities of a position."""
         if self.declared:
             return self.declared
+        position = position or 0
         told = [(name, self._question(name, position)) for name in self.figures.names]
         return tuple(self._item(q, position, name) for name, q in told if q is not None)
 

@@ -190,7 +190,7 @@ class Task:
 
     def _declare(self, asked: AskedAnswer) -> Iterator[TaskItem]:
         """Yield an answer, and the direction of its vector where that is an answer of its own."""
-        position = asked.position or 0
+        position = self.first if asked.position is None else asked.position
         questions = self.questions(position)
         question = questions.question(parse_selector(asked.what))
         item = TaskItem(
@@ -255,6 +255,11 @@ class Task:
         """Positions of the driver."""
         return len(self.solution.positions)
 
+    @property
+    def first(self) -> int:
+        """Position that is meant where none is named: the calculated one of a project, else 0."""
+        return self.solution.problem.calculated or 0
+
     # Questions -------------------------------------------------------------------------------
 
     def questions(self, position: int) -> Questions:
@@ -280,10 +285,11 @@ class Task:
         """Have a question on the sheets of a position."""
         return self._asked.setdefault(position, {}).setdefault(question.id, question)
 
-    def usual(self, position: int = 0) -> tuple[TaskItem, ...]:
+    def usual(self, position: int | None = None) -> tuple[TaskItem, ...]:
         """Return what is asked: what the file asks, else the usual quantities of a position."""
         if self.declared:
             return self.declared
+        position = self.first if position is None else position
         questions = self.questions(position)
         found = [self.ask(questions.question(sel), position) for sel in questions.usual()]
         return tuple(
@@ -306,7 +312,7 @@ class Task:
         """
         if (declared := self.stated(written)) is not None:
             return declared
-        position = written.position or 0
+        position = self.first if written.position is None else written.position
         questions, why = self.questions(position), NoValue.NO_WHAT
         for text in (written.what, written.id):
             if not text:

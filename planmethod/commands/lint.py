@@ -79,8 +79,9 @@ def lint(
     """Check the sheets and say what a norm inspector would mark (нормоконтроль).
 
     PROBLEM is a problem file: its sheets are drawn as the commands sheet and structure draw them,
-    with the same options, and are not written. Exit code 0 when there is nothing to correct, 1 when
-    there are errors. The codes: docs/normcontrol.md.
+    with the same options, and are not written; of a file with [project] all sheets that the command
+    project draws. Exit code 0 when there is nothing to correct, 1 when there are errors. The codes:
+    docs/normcontrol.md.
     """
     from planmethod.render.sheets.composition.reader import composition
 
@@ -150,10 +151,16 @@ def _looked_over(todo: Todo, options: LintOptions) -> tuple[str, list[Controlled
         hand = drawn_by(options.profile, options.ruler)
         drawings = kind.drawings(todo.problem, fields=fields, profile=hand)
         return kind.table, looked_over(drawings, kind.scales)
+    usual = phi is None and layout is None and not errors and sigma is None
+    if usual and todo.linkage.project is not None and not options.structural:
+        return "project", _of_project(todo, options)
     if options.structural:
         return "structure", controlled_structure(todo.linkage, fields=fields)
+    linkage = todo.linkage
+    if phi is not None:  # what a project decided is of its own positions
+        linkage = replace(linkage, calculated=None)
     return "kinematics", controlled_kinematics(
-        todo.linkage,
+        linkage,
         positions=None if phi is None else phi.tolist(),
         profile=drawn_by(options.profile, options.ruler),
         fields=fields,
@@ -161,3 +168,18 @@ def _looked_over(todo: Todo, options: LintOptions) -> tuple[str, list[Controlled
         sigma=sigma,
         layout=layout,
     )
+
+
+def _of_project(todo: Todo, options: LintOptions) -> list[Controlled]:
+    """Return the sheets of all parts of a project, as it draws them, looked over."""
+    from planmethod.project.settle import settle
+    from planmethod.project.sheets import numbered_set, part_drawings
+    from planmethod.render.sheets.controlled import looked_over
+
+    project = settle(todo.linkage, todo.path)
+    drawn = [part_drawings(project, part, options.settled.fields) for part in project.parts]
+    return [
+        sheet
+        for part, sheets in zip(project.parts, numbered_set(project, drawn), strict=True)
+        for sheet in looked_over(sheets, "[scales]" if part.kind is None else part.kind.scales)
+    ]

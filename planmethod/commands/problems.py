@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import functools
 import re
 import sys
@@ -83,20 +84,22 @@ def guarded(command: F) -> F:
     return wrapper  # type: ignore[return-value]
 
 
-def load(path: Path, variant: str | None, all_variants: bool) -> list[Problem]:
-    """Read a problem file: one problem, or one for each variant; that of a project is settled."""
+def load(
+    path: Path, variant: str | None, all_variants: bool, *, drawn: bool = True
+) -> list[Problem]:
+    """Read a problem file: one problem, or one for each variant; that of a project is settled.
+
+    Scales are decided by laying sheet 1 out: what is not ``drawn`` has only the positions.
+    """
     found = []
     for problem in _read(path, variant, all_variants):
         if problem.project is not None:
-            from planmethod.project.settle import settled
+            from planmethod.project.settle import in_positions, settled
 
-            problem = settled(problem)
+            problem = settled(problem) if drawn else in_positions(problem)
         found.append(problem)
-    for table in left_out(found[0]) if found else ():
-        if table == "point":
-            warn(found[0], "[point] is left out; give it a file of its own.")
-        else:
-            warn(found[0], say("[{}] is left out; planmethod project draws it.", table))
+    if found and found[0].project is None:  # who writes [project] knows what it is for
+        tell_left_out(found[0])
     return found
 
 
@@ -113,14 +116,39 @@ def _read(path: Path, variant: str | None, all_variants: bool) -> Iterator[Probl
     for problem in load_each(path, variants_of(path, variant, all_variants)):
         for said in unlikely(problem):
             warn(problem, said)
+        if problem.cycle is not None and problem.cycle.working is not None:
+            _tell_working(problem)
         yield problem
 
 
-def left_out(problem: Problem) -> Iterator[str]:
-    """Yield the tables of a linkage's file that are of other kinds of problem, and not used."""
+def _tell_working(problem: Problem) -> None:
+    """Warn of a working stroke on which the loads do not do their work."""
+    from planmethod.note.plaintext import plain_text
+    from planmethod.solved.solution import Solution
+    from planmethod.solved.turn.turn import turn_of
+
+    with contextlib.suppress(PlanMethodError):  # said where the positions are solved
+        turn = turn_of(Solution(problem))
+        loads, strokes = turn.contradicting, turn.strokes
+        if loads is not None and strokes is not None and problem.cycle is not None:
+            told = say(
+                '[cycle] working = "{}" makes the stroke of {:.2f}° the working one, and the work '
+                "of {} is done on the other one, of {:.2f}°. Mend one of them.",
+                getattr(problem.cycle.working, "value", ""),
+                strokes.working_deg,
+                plain_text(loads.partition(" ")[2]),
+                strokes.idle_deg,
+            )
+            warn(problem, told)
+
+
+def tell_left_out(problem: Problem) -> None:
+    """Tell of the tables of a linkage's file that are of other kinds of problem, and not used."""
     for table in problem.tables:
-        if table != "gears" or problem.drive.geared is None:
-            yield table
+        if table == "point":
+            warn(problem, "[point] is left out; give it a file of its own.")
+        elif table != "gears" or problem.drive.geared is None:
+            warn(problem, say("[{}] is left out; planmethod project draws it.", table))
 
 
 def _load_other(
@@ -149,6 +177,7 @@ def each(
     jobs: int = 1,
     take: Callable[[T], object] | None = None,
     ahead: Callable[[Sequence[Todo]], dict[int, T]] | None = None,
+    drawn: bool = True,
 ) -> ExitCode:
     """Act on every problem; a faulty one is reported and the others go on.
 
@@ -167,6 +196,8 @@ def each(
     ahead : callable, optional
         Acts on several problems at once, as far as it can: returns what it finds by their numbers.
         The others are acted on one by one.
+    drawn : bool
+        Whether scales of a project matter, which take a second to decide.
 
     Returns
     -------
@@ -185,7 +216,7 @@ def each(
         else:
             yield from _shared(act, todo, jobs)
 
-    return through(paths, variant, all_variants, steps, kinds=kinds, take=take)
+    return through(paths, variant, all_variants, steps, kinds=kinds, take=take, drawn=drawn)
 
 
 def through(
@@ -196,6 +227,7 @@ def through(
     *,
     kinds: bool,
     take: Callable[[T], object] | None = None,
+    drawn: bool = True,
 ) -> ExitCode:
     """Read all problems and take the steps, one for each problem; what fails is reported.
 
@@ -214,7 +246,7 @@ def through(
         try:
             kind = kind_of(path) if kinds else None
             if kind is None:
-                found = load(path, variant, all_variants)
+                found = load(path, variant, all_variants, drawn=drawn)
                 todo += [Todo(path, None, problem) for problem in found]
             else:
                 others = _load_other(kind, path, variant, all_variants)
@@ -288,6 +320,11 @@ def refuse_plans(kind: ProblemKind[Any], **options: object) -> None:
             told,
             kind.table,
         )
+
+
+def no_position(number: int, name: str, count: int) -> UsageError:
+    """Return the error of a position that a problem has not."""
+    return UsageError("--position {}: the last of {} is {}", number, name, count - 1)
 
 
 def watched(steps: Iterable[T], length: int) -> Iterator[T]:

@@ -13,6 +13,7 @@ from planmethod.commands.problems import (
     each,
     finish,
     guarded,
+    no_position,
     refuse_plans,
     solution_of,
     stem,
@@ -20,7 +21,6 @@ from planmethod.commands.problems import (
 from planmethod.options import (
     PathType,
     Positions,
-    UsageError,
     drawn_by,
     lang_option,
     problem_options,
@@ -88,9 +88,7 @@ def protocol(
             if chosen is None:
                 chosen = (None if phi is not None else todo.linkage.calculated) or 0
             if chosen >= count:
-                raise UsageError(
-                    "--position {}: the last of {} is {}", chosen, problem.name, count - 1
-                )
+                raise no_position(chosen, problem.name, count)
             told = protocol_document(solution, words, chosen)
         suffix = "txt" if form == "text" else form
         text = write(told, words) + "\n"

@@ -21,6 +21,7 @@ from planmethod.commands.problems import (
     refuse_plans,
     stem,
     tell_changes,
+    tell_left_out,
     tell_wheel,
     warn,
 )
@@ -238,6 +239,8 @@ def _settled(todo: Todo, options: SheetOptions) -> Todo:
     todo = replace(todo, problem=options.settled.over(todo.problem))
     if todo.kind is not None:
         return todo
+    if todo.linkage.project is not None and options.layout is None:
+        tell_left_out(todo.linkage)
     if options.phi is not None or options.position is not None:
         # What a project decided is of its own positions.
         todo = replace(todo, problem=replace(todo.linkage, calculated=options.position))

@@ -18,6 +18,7 @@ from planmethod.commands.problems import (
     each,
     finish,
     guarded,
+    no_position,
     solution_of,
     stem,
     tell_changes,
@@ -73,6 +74,7 @@ class SolveOptions(Struct, frozen=True, kw_only=True):
     """
 
     phi: Positions | None
+    position: int | None = None
     ruler: float | None
     profile: str | None
     as_json: bool
@@ -93,6 +95,7 @@ class SolveOptions(Struct, frozen=True, kw_only=True):
             "--npz": self.npz,
             "--ask": self.ask is not None,
             "--phi": self.phi is not None,
+            "--position": self.position is not None,
             "--sigma": self.sigma,
             "--covariance": self.covariance,
             "--referee": self.referee is not None,
@@ -102,6 +105,12 @@ class SolveOptions(Struct, frozen=True, kw_only=True):
 @click.command(cls=Spoken)
 @problem_options
 @positions_option(MOST_SWEPT)
+@click.option(
+    "--position",
+    type=click.IntRange(min=0),
+    metavar="NUMBER",
+    help="Only the position of this number, from 0.",
+)
 @hand_options
 @click.option("--json", "as_json", is_flag=True, help="One object, full precision, SI.")
 @click.option(
@@ -164,6 +173,7 @@ def solve(
     variant: str | None,
     all_variants: bool,
     phi: Positions | None,
+    position: int | None,
     ruler: float | None,
     profile: str | None,
     as_json: bool,
@@ -182,7 +192,8 @@ def solve(
     if work is not None:
         from planmethod.commands.compared import compare
 
-        others = (all_variants, phi is not None, as_json, csv_file, npz_file, ask, covariance_file)
+        numbers = phi is not None or position is not None
+        others = (all_variants, numbers, as_json, csv_file, npz_file, ask, covariance_file)
         if any(others) or len(problems) > 1:
             raise UsageError("--compare goes with one PROBLEM, --variant and --lang alone")
         compare(problems[0], work, variant, lang)
@@ -198,6 +209,8 @@ def solve(
         raise UsageError("--covariance would write over {}; put it last", covariance_file)
     if referee is not None:
         _need_mpmath()
+    if position is not None and (told or covariance_file is not None):
+        raise UsageError("--position goes with the tables of a terminal or --json")
     if partial and not swept and csv_file is None:
         raise UsageError("--partial goes with --csv, --npz or --ask")
     if phi is not None and len(phi) > MOST_POSITIONS and not swept:
@@ -208,6 +221,7 @@ def solve(
         jobs = 1  # large tables are solved while they are written
     options = SolveOptions(
         phi=phi,
+        position=position,
         ruler=ruler,
         profile=profile,
         as_json=as_json,
@@ -241,12 +255,22 @@ def solve(
             jobs=jobs,
             take=lambda one: texts.append(json_text(plain_of(one))),
             ahead=ahead,
+            drawn=not swept,
         )
         if texts:
             click.echo(texts[0] if len(texts) == 1 else f"[{', '.join(texts)}]")
         finish(code)
         return
-    code = each(problems, variant, all_variants, act, jobs=jobs, take=found.append, ahead=ahead)
+    code = each(
+        problems,
+        variant,
+        all_variants,
+        act,
+        jobs=jobs,
+        take=found.append,
+        ahead=ahead,
+        drawn=not swept,
+    )
     if found and covariance_file is not None:
         from planmethod.note.records.covariance import covariance_text
 
@@ -321,7 +345,7 @@ def _computed(
     elif options.as_json:
         from planmethod.note.records.solution import record_in_columns
 
-        solution, more = _whole(problem, phi, hand), {}
+        solution, more = _whole(problem, options, hand), {}
         if referee is not None:
             from planmethod.note.tables.referee import referee_record
 
@@ -335,7 +359,7 @@ def _computed(
         from planmethod.note.writers.plain import plain_document
 
         words = language(options.lang)
-        solution = _whole(problem, phi, hand)
+        solution = _whole(problem, options, hand)
         click.echo(plain_document(results_document(solution, words, sigma=options.sigma), words))
         if referee is not None:
             from planmethod.note.tables.referee import referee_document
@@ -345,8 +369,15 @@ def _computed(
     return None
 
 
-def _whole(problem: Problem, phi: Positions | None, hand: Profile) -> Solution:
-    return solution_of(problem, phi, hand, hint=HINT, forces=True, machine=True)
+def _whole(problem: Problem, options: SolveOptions, hand: Profile) -> Solution:
+    """Return the solution that is told; of one position alone it has the scales of all."""
+    solution = solution_of(problem, options.phi, hand, hint=HINT, forces=True, machine=True)
+    number, positions = options.position, solution.positions
+    if number is None:
+        return solution
+    if number >= len(positions):
+        raise no_position(number, problem.name, len(positions))
+    return solution.moved([float(positions[number])]).drawn_at(solution.scales)
 
 
 def _need_mpmath() -> None:

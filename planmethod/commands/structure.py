@@ -100,4 +100,4 @@ def structure(
         else:
             raise UsageError("{} is no mechanism, it has no structure", problem.name)
 
-    finish(each(problems, variant, all_variants, show))
+    finish(each(problems, variant, all_variants, show, drawn=False))

@@ -160,6 +160,9 @@ def _beside(train: Train, lines: _Lines, body: str) -> set[str]:
         found |= more
 
 
+_OF_COAXIALITY = ("gears.wheels", "gears.unknown")
+"""What faults of coaxiality are about."""
+
 # Equations ---------------------------------------------------------------------------------------
 
 
@@ -188,8 +191,8 @@ def _solve(
             fault = _positive(train, axes, meshes)
             if fault is None:
                 return axes, []
-        best = fault if best is None or "coaxial" in best.message else best
-    if best is not None and "coaxial" in best.message:
+        best = fault if best is None or best.path in _OF_COAXIALITY else best
+    if best is not None and best.path in _OF_COAXIALITY:
         best = _say_why(train, lines, meshes) or best
     return None, [] if best is None else [best]
 
@@ -317,7 +320,13 @@ def _positive(train: Train, axes: TrainDimensions, meshes: Sequence[Mesh]) -> Fa
         wanted = one + other if mesh.kind is MeshKind.EXTERNAL else abs(one - other)
         known = first in axes.heights and second in axes.heights
         if known and abs(apart) != wanted:
-            return Fault("gears.wheels", say("the train is not coaxial at {}", mesh.name), HINT)
+            told = say(
+                "the train is not coaxial at {}: its axes are {} apart, its wheels need {}",
+                mesh.name,
+                _shown(abs(apart)),
+                _shown(wanted),
+            )
+            return Fault("gears.wheels", told, HINT)
     return None
 
 

@@ -65,6 +65,8 @@ def rich_number(text: str, decimal: str) -> str:
     if text.endswith(("nan", "inf")):
         return "—"
     mantissa, e, power = text.partition("e")
+    if not mantissa.strip("-0."):
+        mantissa = mantissa.lstrip("-")  # no sign before nothing
     mantissa = mantissa.replace(".", decimal).replace("-", MINUS)
     if not e:
         return mantissa

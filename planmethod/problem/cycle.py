@@ -193,7 +193,7 @@ def _read_output(
             faults.add(path, say("link {} drives", name), "The output is a link that is driven.")
             return None
         return name
-    points = [point for link in moving for point in bodies[link].points]
+    points = list(dict.fromkeys(point for link in moving for point in bodies[link].points))
     if name not in points:
         fields.report_unknown(
             faults, path, name, [*points, *moving], said="unknown point or link '{}'"

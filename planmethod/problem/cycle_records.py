@@ -139,7 +139,7 @@ class CycleTask(Struct, frozen=True):
     ] = Differentiation.CHORDS
 
 
-PROJECT_PARTS = ("kinematics", "forces", "flywheel", "gears", "meshing", "note")
+PROJECT_PARTS = ("kinematics", "forces", "flywheel", "balancing", "gears", "meshing", "note")
 """Parts of a project in the order of their sheets."""
 
 

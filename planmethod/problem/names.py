@@ -152,8 +152,12 @@ def listed(names: Iterable[str], *, limit: int = 12) -> str:
 
 
 def indexed(name: str) -> str:
-    """Return the letter of a load with its number as its index: ``F3`` is ``F_{3}``."""
-    return re.sub(r"\A([^\W\d_]+)(\d+)(?='*\Z)", r"\1_{\2}", name)
+    """Return the letter of a load with its index: ``F3`` is ``F_{3}``, ``Fрез`` is ``F_{рез}``."""
+    return re.sub(_INDEX, lambda found: "{}_{{{}}}".format(*filter(None, found.groups())), name)
+
+
+_INDEX = r"\A(?:([A-Z])(\d*[а-яё]+\d*)|([^\W\d_]+)(\d+))(?='*\Z)"
+"""Small Cyrillic letters behind a Latin one, or a number behind letters."""
 
 
 def short(text: str, limit: int = 40) -> str:

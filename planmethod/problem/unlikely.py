@@ -35,12 +35,33 @@ def unlikely(problem: Problem) -> Iterator[str]:
         told = "the crank makes {:.0f} rev/min (omega = {:g} 1/s). Give rev/min as n, 1/s as omega."
         yield say(told, speed, drive.rate)
     yield from _short_rods(problem)
+    yield from _weightless(problem)
     yield from _outranked(problem)
+
+
+def _weightless(problem: Problem) -> Iterator[str]:
+    """Yield that forces are asked for, and nothing or a link that is listed has no inertia."""
+    dynamics = problem.dynamics
+    if dynamics is None:
+        return
+    nothing = [link for link, one in dynamics.masses.items() if not one.mass and not one.inertia]
+    if len(nothing) == len(dynamics.masses):
+        yield say(
+            "no link has a mass or a moment of inertia: the forces are those of the loads alone. "
+            "Give them in [dynamics.links.2]."
+        )
+        return
+    for link in nothing:
+        told = "dynamics.links.{0}: link {0} has neither a mass nor a moment of inertia."
+        yield say(told, link)
 
 
 def _outranked(problem: Problem) -> Iterator[str]:
     """Yield what the driver lists beside ``[cycle]``, whose positions are others."""
     listed, numbered = problem.drive.judged, problem.numbered
+    if numbered and problem.drive.posed is None and len(problem.drive.positions) == 1:
+        yield from _numberless(problem, problem.drive.positions[0])
+        return
     if not numbered or not listed or listed == ANYWHERE:
         return
     apart = [abs((a - b + 180.0) % 360.0 - 180.0) for a, b in zip(listed, numbered, strict=False)]
@@ -54,6 +75,20 @@ def _outranked(problem: Problem) -> Iterator[str]:
             for way in (listed, [*map(problem.shown, numbered)]))  # fmt: skip
     (one, two), (first, last) = ends
     yield say(told, len(listed), one, two, len(numbered), first, last)
+
+
+def _numberless(problem: Problem, position: float) -> Iterator[str]:
+    """Yield that a single position of the driver is none of those of ``[cycle]``."""
+    apart = [abs((position - one + 180.0) % 360.0 - 180.0) for one in problem.numbered]
+    nearest = min(range(len(apart)), key=apart.__getitem__)
+    if apart[nearest] <= SAME_DEG:
+        return
+    told = (
+        "driver.phi = {:.5g}° is none of the {} positions of [cycle]; the nearest is position {} "
+        "at {}°. Write phi = {}, or delete phi: all outputs have the positions of [cycle] then."
+    )
+    near = f"{problem.shown(problem.numbered[nearest]):.5g}"
+    yield say(told, position, len(apart), nearest, near, near)
 
 
 def _short_rods(problem: Problem) -> Iterator[str]:

@@ -22,6 +22,7 @@ class PartName(Enum):
     KINEMATICS = "kinematics"
     FORCES = "forces"
     FLYWHEEL = "flywheel"
+    BALANCING = "balancing"
     GEARS = "gears"
     MESHING = "meshing"
     NOTE = "note"

@@ -26,6 +26,7 @@ from planmethod.project.decided import (
 )
 from planmethod.project.first import first_scales
 from planmethod.project.model import PartName, Project, ProjectPart
+from planmethod.project.train import in_mesh
 from planmethod.render.frame.titleblock import merged
 from planmethod.solved.forces.loads import only_in_positions
 from planmethod.solved.scaling import MOST_DRAWN
@@ -56,7 +57,7 @@ def settle(problem: Problem, path: Path | None = None) -> Project:
         As of a sheet.
     """
     asked = problem.drive.positions
-    problem = _in_positions(problem)
+    problem = in_positions(problem)
     scales = replace(problem.scales, decided=True)
     if None in (scales.mu_l, scales.mu_v, scales.mu_a):
         scales = first_scales(problem)
@@ -78,7 +79,7 @@ def settle(problem: Problem, path: Path | None = None) -> Project:
         frame=problem.mechanism.frame,
         language=problem.sheet.lang or LANGUAGES[0],
         paper=problem.sheet.paper,
-        parts=tuple(_parts(problem, path)),
+        parts=in_mesh(tuple(_parts(problem, path))),
     )
 
 
@@ -92,7 +93,7 @@ def settled(problem: Problem) -> Problem:
 # Positions ---------------------------------------------------------------------------------------
 
 
-def _in_positions(problem: Problem) -> Problem:
+def in_positions(problem: Problem) -> Problem:
     """Return a problem whose positions, cycle and flywheel are numbered alike."""
     if problem.drive.is_crank and problem.cycle is None:
         cycle = _default_cycle(problem)
@@ -195,6 +196,8 @@ def _has(problem: Problem, task: ProjectTask, name: PartName) -> bool:
             return problem.dynamics is not None
         case PartName.FLYWHEEL:
             return problem.dynamics is not None and problem.machine is not None
+        case PartName.BALANCING:
+            return problem.balancing is not None
         case PartName.GEARS | PartName.MESHING:
             return bool(getattr(task, name.value)) or name.value in problem.tables
         case _:

@@ -65,6 +65,8 @@ def part_drawings(project: Project, part: ProjectPart, fields: Mapping[str, str]
                     problem, layout=layout, fields=fields, furniture=around
                 )
             ]
+        case PartName.BALANCING:
+            return kinematics_sheets(problem, layout="balancing", fields=fields, furniture=around)
         case PartName.GEARS | PartName.MESHING:
             assert part.kind is not None
             titled = replace(part.problem, title=words.project["titles"][part.name.value])

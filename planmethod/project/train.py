@@ -1,13 +1,19 @@
-"""Whether the train of a project turns its crank (согласование привода с кривошипом)."""
+"""The train of a project: whether it turns the crank, which of its wheels mesh (привод)."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from fractions import Fraction
 from math import pi
 
-from planmethod.gears.model import GearProblem
+from msgspec.structs import replace
+
+from planmethod.construct.scale import series_near
+from planmethod.gears.involute.sizes import MeshingProblem
+from planmethod.gears.model import HALF_MODULES, GearProblem, MeshKind, PictureSettings, Train
 from planmethod.gears.motion import TrainMotion, solve_motion
 from planmethod.languages import say
-from planmethod.project.model import PartName, Project
+from planmethod.project.model import PartName, Project, ProjectPart
 
 ALIKE = 5e-3
 """Share of the crank's speed within which a link of the train turns with it."""
@@ -16,12 +22,62 @@ RPM = 30.0 / pi
 """Revolutions per minute of 1 rad/s."""
 
 
+def meshed(train: Train, pair: MeshingProblem) -> tuple[str, str] | None:
+    """Return the wheels of a train that a meshing is of, its wheel 1 first (колёса зацепления).
+
+    They are the only ones that mesh so and have its numbers of teeth; else None.
+    """
+    kind = MeshKind.INTERNAL if pair.cutter else MeshKind.EXTERNAL
+    ends = [(mesh.first, mesh.second) for mesh in train.meshes if mesh.kind is kind]
+    ways = [[e for e in (end, end[::-1]) if [train.wheels[x].size for x in e] == [*pair.z]]
+            for end in ends]  # fmt: skip
+    found = [way[0] for way in ways if way]
+    return found[0] if len(found) == 1 else None
+
+
+def in_mesh(parts: Sequence[ProjectPart]) -> tuple[ProjectPart, ...]:
+    """Return the parts of a project, its train with what the meshing decides.
+
+    Wheels that mesh there are cut with its shifts. Its module is that of the train where the train
+    has none, and the scale of the scheme grows with it.
+    """
+    pair = next((x.problem for x in parts if isinstance(x.problem, MeshingProblem)), None)
+    return tuple(
+        replace(part, problem=_cut(part.problem, pair))
+        if isinstance(part.problem, GearProblem) and pair is not None
+        else part
+        for part in parts
+    )
+
+
+def _cut(problem: GearProblem, pair: MeshingProblem) -> GearProblem:
+    train = problem.train
+    ends = meshed(train, pair)
+    if ends is None:
+        return problem
+    shifts = dict(zip(ends, pair.x, strict=True))
+    wheels = {
+        label: wheel if wheel.shift or label not in shifts
+        else replace(wheel, shift=Fraction(repr(shifts[label])))
+        for label, wheel in train.wheels.items()
+    }  # fmt: skip
+    train = replace(train, wheels=wheels)
+    if train.module is None and not any(wheel.plain for wheel in wheels.values()):
+        module, picture = Fraction(repr(pair.m)) / 1000, train.picture
+        if picture.mu_l == PictureSettings().mu_l:
+            wanted = float(picture.mu_l * module * HALF_MODULES / 2)
+            mu_l = series_near(wanted, up=False)
+            picture = replace(picture, mu_l=Fraction(repr(mu_l)))
+        train = replace(train, module=module, picture=picture)
+    return replace(problem, train=train)
+
+
 def output_of(motion: TrainMotion) -> str | None:
-    """Return the body that a train with one input drives: a carrier, else the last that moves."""
-    inputs = motion.train.inputs
-    moving = [body for body in motion.train.bodies if motion.speeds.get(body)]
-    ends = [*motion.train.carriers, *reversed(moving)]
-    return next((body for body in ends if body in moving and body not in inputs), None)
+    """Return the body that a train with one input drives: the last that moves and is no planet."""
+    train = motion.train
+    others = {*train.inputs, *(x for some in motion.roles.satellites.values() for x in some)}
+    moving = [body for body in train.bodies if motion.speeds.get(body) and body not in others]
+    return train.output or (moving[-1] if moving else None)
 
 
 def train_apart(project: Project) -> str | None:

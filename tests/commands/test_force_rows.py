@@ -319,7 +319,7 @@ def test_motion_is_told_where_only_forces_do_not_exist(monkeypatch: pytest.Monke
     phi = "0:360:30"  # dead at 180 degrees, with flat force plans at some others
     for form in ((), ("--json",), ("--csv",), ("--npz", "a.npz"), ("--ask", "M_dr")):
         said = refused(4, "solve", "dead.toml", "--phi", "45,160,90", *form)
-        assert said.startswith("Error: Cannot close the force plan at position 1 (phi = 160 deg)")
+        assert "Error: Cannot close the force plan at position 1 (phi = 160 deg)" in said
         assert said.endswith("give --partial with --csv, --npz or --ask.")
     assert run("solve", "dead.toml", "--phi", "45,160,90", "--ask", "a_C").exit_code == 0
     for block in (2048, 5):

@@ -14,9 +14,11 @@ from click.testing import CliRunner
 from worked import PROBLEMS, ROOT
 
 from planmethod.cli import cli
-from planmethod.errors import ExitCode
+from planmethod.errors import ExitCode, ProblemError
 from planmethod.gears.asked import SoughtQuantityError, parse
 from planmethod.kinds import KINDS, kind_of
+from planmethod.languages import speaking
+from planmethod.note.wording import language
 
 FILES = sorted((PROBLEMS / "gears").glob("*.toml"))
 SCHEMA = json.loads((ROOT / "planmethod/problem/schema.json").read_text("utf-8"))
@@ -239,6 +241,18 @@ def test_a_train_that_cannot_be_says_why(text: str, said: str, tmp_path: Path) -
     assert done.exit_code == ExitCode.PROBLEM, done.output
     assert said in done.stderr, done.stderr
     assert not done.stdout
+
+
+@each("lang, said", [("ru", "на 60 по зацеплению 1-2 и на 61 по 2-3"), ("en", "is 60 from the")])
+def test_that_a_train_is_not_coaxial_has_numbers_in_every_language(
+    lang: str, said: str, tmp_path: Path
+) -> None:
+    path = tmp_path / "faulty.toml"
+    path.write_text(f"[gears]\n{SET.replace('100', '101')}", encoding="utf-8")
+    kind = kind_of(path)
+    assert kind is not None
+    with speaking(lang), pytest.raises(ProblemError, match=said):
+        kind.solved_document(kind.load(path, None), language(lang))
 
 
 def test_options_of_linkages_are_refused() -> None:

@@ -203,3 +203,13 @@ def test_items_below_a_caption_are_indented_and_others_are_not() -> None:
     assert lines[3].startswith("    word")
     assert lines[-1] == "a note"
     assert written(Item("one"), Caption("Checks"), Item("two")).splitlines()[-1] == "  two"
+
+
+def test_nothing_has_no_sign() -> None:
+    say = language("ru").say
+    assert [say.number(text) for text in ("-0.00", "-0", "0.0", "-0.01")] == [
+        "0,00",
+        "0",
+        "0,0",
+        "−0,01",
+    ]

@@ -258,8 +258,9 @@ def test_faulty_overrides(override: str, wanted: str) -> None:
 
 @pytest.mark.parametrize(
     ("written", "letter"),
-    [("P12", "P_{12}"), ("P3'", "P_{3}'"), ("Pс", "Pс"), ("P_3", "P_3"), ("2P", "2P")],
-)
+    [("P12", "P_{12}"), ("P3'", "P_{3}'"), ("Pс", "P_{с}"), ("Fрез", "F_{рез}"),
+     ("Pс2'", "P_{с2}'"), ("Fmax", "Fmax"), ("P_3", "P_3"), ("2P", "2P")],
+)  # fmt: skip
 def test_a_number_after_the_letter_of_a_load_is_its_index(written: str, letter: str) -> None:
     assert force(f'name = "{written}"\nangle = 0\nforce = 1').name == letter
     if letter != written:

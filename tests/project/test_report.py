@@ -2,6 +2,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
+from fractions import Fraction
 from functools import cache
 from itertools import pairwise
 from pathlib import Path
@@ -11,6 +12,7 @@ import pytest
 from msgspec.structs import replace
 from worked import ROOT, path_of
 
+from planmethod.gears.involute.sizes import MeshingProblem
 from planmethod.gears.model import GearProblem
 from planmethod.kinds import load
 from planmethod.note import document
@@ -31,7 +33,7 @@ from planmethod.project.report.figures import LETTER, WIDTH, FittedView
 from planmethod.project.report.gears import train_chapter
 from planmethod.project.settle import settle
 from planmethod.project.sheets import part_drawings, sheet_list
-from planmethod.project.train import train_apart
+from planmethod.project.train import meshed, train_apart
 from planmethod.render.ink.drawing import Text
 from planmethod.solved.cycle import cycle
 from planmethod.solved.machine.drawing import drawing_of
@@ -380,6 +382,145 @@ def test_a_train_that_does_not_turn_the_crank_is_warned_of(tmp_path: Path) -> No
     apart = train_apart(geared("1 = 540", "1 = 480", tmp_path))
     assert apart is not None
     assert "60 rev/min" in apart and "H" in apart and "53.33 rev/min" in apart
+
+
+def test_the_warning_of_a_train_names_its_last_stage(tmp_path: Path) -> None:
+    """Behind the carrier there is a pair of wheels."""
+    apart = train_apart(staged('train = "5"', "n = 90", tmp_path))
+    assert apart is not None
+    assert "link 5 of the train 80 rev/min" in apart and 'train = "5"' in apart
+
+
+def staged(old: str, new: str, tmp_path: Path) -> Project:
+    """Return the project of the template, with wheels that mesh, changed."""
+    path = tmp_path / "staged.toml"
+    text = (ROOT / "planmethod/problem/templates/project.toml").read_text("utf-8")
+    assert old in text
+    path.write_text(text.replace(old, new), "utf-8")
+    return settle(load(path), path)
+
+
+# Wheels in mesh ----------------------------------------------------------------------------------
+
+
+@cache
+def template_of(lang: str = "ru") -> str:
+    """Return the note of the template, whose wheels 4 and 5 mesh, without figures."""
+    path = ROOT / "planmethod/problem/templates/project.toml"
+    return plain_document(note_document(settle(load(path), path), language(lang)), language(lang))
+
+
+def test_the_wheels_of_the_train_are_those_of_the_meshing() -> None:
+    text = " ".join(template_of().split())
+    assert "колесо 4 обозначено номером 1, колесо 5 – номером 2" in text
+    assert "Модуль колёс 4 и 5 m 8 мм" in text and "n₁ = −960 мин⁻¹; m = 8 мм." in text
+    assert "подрезания: z₄" not in text  # with their shifts they are not undercut
+    assert "Число зубьев колеса 1 z₁ = 13 меньше z_min" in text and "предотвращает" in text
+    assert "z₂ = 20 меньше" not in text
+
+
+def test_which_wheels_mesh_is_told_by_their_teeth() -> None:
+    path = ROOT / "planmethod/problem/templates/project.toml"
+    parts = settle(load(path), path).parts
+    train = next(x.problem.train for x in parts if isinstance(x.problem, GearProblem))
+    pair = next(x.problem for x in parts if isinstance(x.problem, MeshingProblem))
+    assert meshed(train, pair) == ("4", "5")
+    assert meshed(train, replace(pair, z=(20, 13))) == ("5", "4")
+    assert meshed(train, replace(pair, z=(20, 40))) == ("1", "2")
+    assert meshed(train, replace(pair, z=(13, 21))) is None
+    alike = {**train.wheels, "1": train.wheels["4"], "2": train.wheels["5"]}
+    assert meshed(replace(train, wheels=alike), pair) is None  # 1-2 has the same teeth
+    assert meshed(train, replace(pair, z=(25, 85))) is None  # they mesh internally
+    assert meshed(train, replace(pair, z=(25, 85), cutter=20)) == ("2'", "3")
+
+
+def test_a_train_takes_module_and_shifts_of_its_wheels_in_mesh() -> None:
+    path = ROOT / "planmethod/problem/templates/project.toml"
+    project = settle(load(path), path)
+    part = project.part(PartName.GEARS)
+    assert part is not None and isinstance(part.problem, GearProblem)
+    train = part.problem.train
+    assert train.module == Fraction(8, 1000) and train.picture.mu_l == Fraction(4, 1000)
+    assert [float(train.wheels[x].shift) for x in ("1", "4", "5")] == [0.0, 0.52, 0.43]
+    alone = project_of("shaper").part(PartName.GEARS)
+    assert alone is not None and isinstance(alone.problem, GearProblem)
+    assert alone.problem.train.module is None
+    assert "условном модуле 2 мм" in text_of("shaper")
+
+
+def test_the_data_of_the_note_name_the_teeth_the_input_and_the_flywheel() -> None:
+    text = " ".join(template_of().split())
+    for row in (
+        "Число зубьев колеса 2' z_2' 25",
+        "Число сателлитов на водиле H k 3",
+        "Частота вращения ведущего звена 1 зубчатого механизма n₁ −960 мин⁻¹",
+        "Отношение скоростей вала маховика и кривошипа i 5",
+        "ω₁ 8,378 с⁻¹ (постоянна)",
+    ):
+        assert row in text, row
+    assert "Частота вращения кривошипа" not in text  # that of the wheel 1 is none of the crank
+
+
+def test_the_flywheel_stands_on_a_shaft(tmp_path: Path) -> None:
+    text = " ".join(template_of().split())
+    found = re.search(r"момент инерции самого маховика J_м/i² = (\S+)/5² = (\S+) кг", text)
+    assert found is not None
+    own, reduced = (float(x.replace(",", ".")) for x in (found[2], found[1]))
+    assert own == pytest.approx(reduced / 25.0, rel=5e-4)
+    path = tmp_path / "crank.toml"
+    source = (ROOT / "planmethod/problem/templates/project.toml").read_text("utf-8")
+    path.write_text(source.replace("flywheel = { ratio = 5 }", ""), "utf-8")
+    alone = note_document(settle(load(path), path), language("ru"))
+    assert "Маховик установлен на валу кривошипа." in plain_document(alone, language("ru"))
+
+
+def test_the_conclusion_has_the_whole_ratio_the_shifts_and_the_largest_reaction() -> None:
+    _, _, text = " ".join(template_of().split()).rpartition("Заключение")
+    assert "U_1H = n₁/n_H = 39/5 = 7,800 и U₁₅ = n₁/n₅ = −12" in text
+    assert "δ = 1/25" in text and "x₁ = 0,52 и x₂ = 0,43" in text
+    assert "Наибольшего значения за весь цикл реакция достигает между положениями 0 и 1" in text
+
+
+def test_limits_that_the_shifts_do_not_keep_are_in_the_conclusion(tmp_path: Path) -> None:
+    path = tmp_path / "pointed.toml"
+    source = (ROOT / "planmethod/problem/templates/project.toml").read_text("utf-8")
+    path.write_text(source.replace('x = "blocking"', "x = [0, 0]"), "utf-8")
+    text = plain_document(note_document(settle(load(path), path), language("ru")), language("ru"))
+    _, _, told = " ".join(text.split()).rpartition("Заключение")
+    assert "С такими смещениями не выполнено:" in told and "подрезание: x₁ = 0,000 <" in told
+    assert "зубья будут подрезаны" in " ".join(text.split())
+    assert "не выполнено" not in template_of().rpartition("Заключение")[2]
+
+
+@pytest.mark.parametrize("lang", LANGUAGES)
+def test_every_step_of_the_meshing_is_led_in(lang: str) -> None:
+    path = ROOT / "planmethod/problem/templates/project.toml"
+    nodes = note_document(settle(load(path), path), language(lang)).nodes
+    start = max(k for k, node in enumerate(nodes) if isinstance(node, document.Chapter))
+    chapter = nodes[
+        start : next(
+            k for k in range(start, len(nodes)) if isinstance(nodes[k], document.StructuralHeading)
+        )
+    ]
+    titles = [node.title for node in chapter if isinstance(node, document.Part)]
+    assert len(titles) == len(set(titles)) == 9
+    for before, after in pairwise(chapter):
+        if isinstance(after, document.Formula):
+            assert isinstance(before, document.Formula | document.Paragraph), after.text
+
+
+def test_counterweights_are_a_part_of_a_project(tmp_path: Path) -> None:
+    path = tmp_path / "balanced.toml"
+    source = path_of("machines/balanced-crank").read_text("utf-8")
+    path.write_text(source.replace("[balancing]", "[project]\n[balancing]"), "utf-8")
+    project = settle(load(path), path)
+    assert [part.name.value for part in project.parts] == ["kinematics", "forces", "balancing"]
+    sheets = part_drawings(project, project.parts[-1], {})
+    assert [sheet.title for sheet in sheets] == ["Уравновешивание механизма"]
+    text = plain_document(note_document(project, language("ru")), language("ru"))
+    # m_2B = 3.6·0.16/0.36 kg and the slider, at AB = 0.36 m; then all of it and m_1 at the crank.
+    rod = (1.6 + 2.8) * 0.36 / 0.24
+    assert f"на звене 2 массой {rod:.3f} кг".replace(".", ",") in " ".join(text.split())
 
 
 # Sheets ------------------------------------------------------------------------------------------

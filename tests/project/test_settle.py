@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from msgspec.structs import replace
 
+from planmethod.construct.scale import next_scale
 from planmethod.errors import ProblemError
 from planmethod.kinds import load
 from planmethod.plans.model import PlanKind
@@ -22,7 +23,7 @@ from planmethod.project.record import project_record
 from planmethod.project.settle import settle, settled
 from planmethod.project.sheets import numbered_set, part_drawings
 from planmethod.render.ink.drawing import Drawing, Text
-from planmethod.render.sheets.turn import hodograph
+from planmethod.render.sheets.turn import MOST, SMALL, hodograph
 from planmethod.solved.forces.loads import external
 from planmethod.solved.solution import Solution
 from planmethod.solved.turn.turn import turn_of
@@ -183,11 +184,20 @@ def test_a_settled_problem_stays_as_it_is() -> None:
     assert settled(problem_of("homework")).calculated is None  # it has no [project]
 
 
-def test_hodographs_have_the_scale_of_the_plans() -> None:
-    project = project_of("shaper")
+@pytest.mark.parametrize("name", ["shaper", "engine"])
+def test_hodographs_have_the_scale_of_the_plans_or_are_larger(name: str) -> None:
+    solution = project_of(name).solution
     for kind in (PlanKind.VELOCITY, PlanKind.ACCELERATION):
-        made = hodograph(project.solution, kind, 60.0)
-        assert made.scale == project.solution.scales[kind]
+        made, common = hodograph(solution, kind, 60.0), solution.scales[kind]
+        widths = [np.ptp([part.real, part.imag], axis=1).max() for part in made.parts]
+        assert made.scale == hodograph(solution, kind, 90.0).scale  # that of the sheet in the note
+        assert MOST / 2.5 <= max(widths) <= MOST
+        at_common = max(widths) * made.scale.per_mm / common.per_mm
+        if SMALL * MOST <= at_common <= MOST:
+            assert made.scale == common
+        else:  # the next larger one would have no room
+            finer = next_scale(made.scale.per_mm, finer=True)
+            assert max(widths) * made.scale.per_mm / finer > MOST
 
 
 def test_places_are_written_within_a_turn() -> None:

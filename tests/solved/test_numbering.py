@@ -81,12 +81,20 @@ def test_positions_that_the_driver_lists_are_outranked_with_one_warning() -> Non
 def test_a_single_position_stays_and_the_sheets_of_the_cycle_have_the_cycle() -> None:
     problem = read(SHAPER, ("phi = { from = 0, count = 12 }", "phi = 70"))
     assert problem.drive.positions == (70.0,)
-    assert not list(unlikely(problem))
     assert numbered_positions(Solution(problem)) == pytest.approx(
         read(without_phi(SHAPER)).numbered, abs=1e-9
     )
     (sheet,) = kinematics_sheets(problem, layout="forces-cycle")
     assert {"198", "228", "168"} <= set(sheet_texts(sheet))
+
+
+def test_a_single_position_that_the_cycle_has_not_is_warned_of() -> None:
+    for phi, warned in (("70", True), ("48", False), ("408.05", False), ("48.2", True)):
+        problem = read(SHAPER, ("phi = { from = 0, count = 12 }", f"phi = {phi}"))
+        said = [str(one) for one in unlikely(problem)]
+        assert bool(said) is warned, phi
+        near = "position 7 at 48°" if phi == "48.2" else "position 8 at 78°"
+        assert all(part in text for part in (f"phi = {phi}° ", near) for text in said)
 
 
 @pytest.mark.parametrize("with_cycle", [True, False])

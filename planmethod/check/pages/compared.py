@@ -13,6 +13,9 @@ from planmethod.note.wording import Language, Words
 
 _NONE = "—"
 
+_FAINT = 1e-6
+"""Share of a difference below which an exact value is nothing: no per cent of it is told."""
+
 
 def compared_document(checked: Sequence[CheckedWork], words: Language) -> Document:
     """Return tables, one for each work: his value, the exact one, how far apart."""
@@ -45,7 +48,8 @@ def _cells(judged: Judged, speech: Speech) -> Iterator[str]:
     off = told(value, key) - told(key.exact, key)
     number = speech.words.say.number
     yield speech.with_unit(number(trimmed(off / key.per, 2)), key)
-    yield number(trimmed(100.0 * off / abs(key.exact), 2)) if key.exact else _NONE
+    share = 100.0 * off / abs(key.exact) if abs(key.exact) > _FAINT * abs(off) else None
+    yield _NONE if share is None else number(trimmed(share, 2))
 
 
 ASIDE = (Unread.COLUMN, Unread.KEY)

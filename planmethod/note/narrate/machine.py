@@ -81,14 +81,7 @@ class MachineTeller:
         if machine.crank_inertia:
             inertia = self.say.given(machine.crank_inertia)
             lines.append(f"{self.letter('crank inertia')} = {inertia} {self.unit('kg·m²')}")
-        inverse = 1.0 / machine.delta
-        fraction = abs(inverse - round(inverse)) < 1e-9 * inverse
-        delta = (
-            formula.fraction("1", str(round(inverse)))
-            if fraction
-            else self.say.given(machine.delta)
-        )
-        lines.append(f"δ = {delta}")
+        lines.append(f"δ = {self.delta}")
         speed = self.say.found(abs(problem.drive.rate))
         mean = self.said["means"][machine.mean.value]
         lines.append(f"{self.letter('mean speed')} = {mean.format()} = {speed} {self.unit('1/s')}")
@@ -96,6 +89,15 @@ class MachineTeller:
         if machine.signs is WeightSigns.SOURCE:
             lines.append(self.said.source_signs)
         return lines
+
+    @property
+    def delta(self) -> str:
+        """The irregularity that is asked for, as a fraction of one where it is such."""
+        delta = self.flywheel.machine.delta
+        inverse = 1.0 / delta
+        if abs(inverse - round(inverse)) < 1e-9 * inverse:
+            return formula.fraction("1", str(round(inverse)))
+        return self.say.given(delta)
 
     def wanted(self) -> str:
         """Return what is to be found."""

@@ -4,18 +4,23 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
+from planmethod.gears.involute.quantities import SolvedMeshing
+from planmethod.gears.involute.sizes import MeshingProblem
 from planmethod.gears.model import GearProblem
 from planmethod.mechanism.structure import roman
 from planmethod.note.document import Item, Node, References, StructuralHeading, Table
 from planmethod.note.formula import Rich, escape, inlined
+from planmethod.note.narrate.balancing import BalancingTeller
 from planmethod.note.narrate.forces.lever import both_balances, difference, expected
+from planmethod.note.numbers import with_unit
 from planmethod.note.wording import Words
 from planmethod.plans.legend import kinds_on
 from planmethod.plans.model import RATES
 from planmethod.project.model import PartName, SheetEntry
 from planmethod.project.report.context import Report, sentences
 from planmethod.project.report.flywheel import machine_of
-from planmethod.project.report.gears import failed_conditions, ratio_of
+from planmethod.project.report.forces import largest_reactions
+from planmethod.project.report.gears import failed_conditions, failed_quality, ratios_of
 from planmethod.project.report.position import has_equal_strokes, loads_drive
 from planmethod.project.report.results import compared, worst
 from planmethod.project.report.turn import has_turn
@@ -38,7 +43,9 @@ def conclusion(report: Report) -> Iterator[Node]:
         *_turn(report, said),
         *(_forces(report, said) if report.has(PartName.FORCES) else ()),
         *(_flywheel(report, said) if report.has(PartName.FLYWHEEL) else ()),
+        *(_balancing(report, said) if report.has(PartName.BALANCING) else ()),
         *_gears(report, said),
+        *_meshing(report, said),
     ]
     for number, text in enumerate(filter(None, found), 1):
         yield Item(inlined(text), f"{number})")
@@ -101,7 +108,8 @@ def _forces(report: Report, said: Words) -> Iterator[Rich]:
     read = float(drawn_forces(reading.statics).read(size_label(most))[0])
     plans, lever = both_balances(reading)
     balancing = reading.balancing
-    yield said.forces.format(
+    (*_, whole) = "", *largest_reactions(report)
+    told = said.forces.format(
         position=report.in_position,
         symbol=report.reaction(most),
         value=report.quantity(read, "N"),
@@ -109,6 +117,7 @@ def _forces(report: Report, said: Words) -> Iterator[Rich]:
         balancing=say.symbol(reading.balancing_symbol),
         balance=report.quantity(abs(plans), balancing.unit),
     )
+    yield f"{told} {whole}".rstrip()
     share, sigma = difference(reading), expected(reading)
     if lever is None or share is None or sigma is None or not plans:
         return
@@ -125,7 +134,7 @@ def _flywheel(report: Report, said: Words) -> Iterator[Rich]:
         yield said.no_flywheel.format(delta=say.number(f"{flywheel.delta_reached:.4f}"))
         return
     main = said.flywheel.format(
-        delta=say.given(flywheel.machine.delta),
+        delta=tell.delta,
         symbol=tell.letter("flywheel"),
         value=report.quantity(read, "kg·m²"),
         whole=say.number(f"{100.0 * abs(read / exact - 1.0):.1f}"),
@@ -138,16 +147,50 @@ def _flywheel(report: Report, said: Words) -> Iterator[Rich]:
     yield f"{main} {size}"
 
 
+def _balancing(report: Report, said: Words) -> Iterator[Rich]:
+    tell = BalancingTeller(report.every, report.words)
+    weights = [one for one in tell.balancing.counterweights if one.mass]
+    told = [
+        said.counterweight.format(link=one.link, mass=report.quantity(one.mass, "kg"))
+        for one in weights
+    ]
+    before, after = tell.balancing.largest
+    size = report.quantity(0.0 if after < 1e-9 * before else after, "N")
+    listed = report.listed(told) if told else ""
+    template = said.balancing_part if told else said.balancing_none
+    yield template.format(weights=listed, before=report.quantity(before, "N"), after=size)
+
+
 def _gears(report: Report, said: Words) -> Iterator[Rich]:
     part = report.project.part(PartName.GEARS)
     if part is None or not isinstance(part.problem, GearProblem):
         return
-    ratio, failed = ratio_of(part.problem, report), failed_conditions(part.problem, report)
-    if ratio is not None:
-        yield said.gears.format(ratio=ratio)
+    ratios, failed = ratios_of(part.problem, report), failed_conditions(part.problem, report)
+    if ratios:
+        form = "one" if len(ratios) == 1 else "many"
+        yield str(said["gears"][form]).format(ratios=report.listed(ratios))
     if failed:
         form = "one" if len(failed) == 1 else "many"
         yield str(said["failed"][form]).format(conditions="; ".join(failed))
+
+
+def _meshing(report: Report, said: Words) -> Iterator[Rich]:
+    part = report.project.part(PartName.MESHING)
+    if part is None or not isinstance(part.problem, MeshingProblem):
+        return
+    solved, problem = SolvedMeshing(part.problem), part.problem
+    x1, x2 = (report.say.given(round(x, 4)) for x in problem.x)
+    told = said.meshing.format(
+        z1=problem.z[0],
+        z2=problem.z[1],
+        x1=x1,
+        x2=x2,
+        a_w=with_unit(report.say.number(f"{abs(solved.pair.a_w):.3f}"), report.unit("mm")),
+        epsilon=report.say.number(f"{solved.contact.overlap(solved.pair):.3f}"),
+    )
+    failed = failed_quality(part.problem, report)
+    shifted = str(said["failed"]["shifted"]).format(conditions="; ".join(failed))
+    yield f"{told} {shifted}" if failed else told
 
 
 def back(report: Report, sheets: Sequence[SheetEntry]) -> Iterator[Node]:

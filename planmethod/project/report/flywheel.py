@@ -201,7 +201,14 @@ def _sizes(report: Report, tell: MachineTeller, said: Words) -> Iterator[Node]:
     if sizes.held:
         limit = say.given(tell.flywheel.machine.wheel.greatest_speed)
         held = said.held.format(speed=f"{limit}{NBSP}{report.unit('m/s')}")
+    ratio = tell.flywheel.machine.wheel.ratio
     yield sentences(
+        str(said["on_shaft"]["crank" if ratio == 1.0 else "other"]).format(
+            ratio=say.given(ratio),
+            inertia=tell.letter("flywheel"),
+            exact=say.found(tell.flywheel.exact.inertia),
+            value=report.quantity(sizes.inertia, "kg·m²"),
+        ),
         (said.disc if disc else said.rim).format(),
         f"{', '.join(facts)}.",
         held,

@@ -41,7 +41,6 @@ from planmethod.solved.errors.forces import drawn_forces, size_label
 from planmethod.solved.forces.contact import VANISHING
 from planmethod.solved.forces.reading import force_reading
 from planmethod.solved.forces.statics import statics_of
-from planmethod.solved.reading import Reals
 
 GAP = 10.0
 """Between two pictures in a row, mm."""
@@ -387,12 +386,9 @@ class ForceChapter:
             return
         lead = lead_columns(every.problem, report.project.positions, report.words.note)
         columns: list[list[Rich]] = []
-        sizes = {}
         for joint in statics.reactions:
-            size = np.abs(joint.force)
-            symbol = report.reaction(joint)
-            sizes[symbol] = size
-            columns.append([symbol, *(report.say.number(t) for t in alike(size.tolist()))])
+            sizes = alike(np.abs(joint.force).tolist())
+            columns.append([report.reaction(joint), *map(report.say.number, sizes)])
         drive = every.problem.drive
         symbol = self.context.symbol(drive.balancing.symbol)
         balance = [report.say.number(text) for text in alike(statics.balance.tolist())]
@@ -403,37 +399,42 @@ class ForceChapter:
         table = table_of_columns([*lead, *columns], repeated=len(lead))
         name = str(said["all_table"][quantity]).format()
         yield Table(table.head, table.rows, 0, len(lead), name=name, key="all_reactions")
-        yield sentences(*self._peaks(sizes))
+        yield sentences(*largest_reactions(report))
 
-    def _peaks(self, sizes: dict[Rich, Reals]) -> Iterator[Rich]:
-        """Yield the largest reaction of the positions, and that of the cycle, as sheets have it."""
-        said, find, unit = self.said, self.find, self.report.unit("N")
-        symbol = max(sizes, key=lambda one: float(sizes[one].max()))
-        k = int(sizes[symbol].argmax())
-        value = find(float(sizes[symbol][k]))
-        facts = {"symbol": symbol, "value": f"{value} {unit}", "number": k}
-        if not has_turn(self.report):
-            yield said.all_peaks.format(**facts)
-            return
-        curves = cycle(self.report.every)
-        peaks = [curves.peak(number) for number in range(len(curves.joints))]
-        number = max(range(len(peaks)), key=lambda one: peaks[one].size)
-        most, whose = peaks[number], self.report.reaction(curves.joints[number])
-        if (whose, find(most.size)) == (symbol, value):
-            yield said.cycle_peaks.format(**facts)
-            return
+
+def largest_reactions(report: Report) -> Iterator[Rich]:
+    """Yield the largest reaction of the positions, and that of the cycle, as sheets have it."""
+    statics = statics_of(report.every)
+    if not report.is_series or not statics.closes.all():
+        return
+    said: Words = report.said["forces"]
+    find, unit = report.say.found, report.unit("N")
+    sizes = {report.reaction(joint): np.abs(joint.force) for joint in statics.reactions}
+    symbol = max(sizes, key=lambda one: float(sizes[one].max()))
+    k = int(sizes[symbol].argmax())
+    value = find(float(sizes[symbol][k]))
+    facts = {"symbol": symbol, "value": f"{value} {unit}", "number": k}
+    if not has_turn(report):
         yield said.all_peaks.format(**facts)
-        yield (said.between_limit if most.is_limit else said.between).format(
-            symbol=whose,
-            value=f"{find(most.size)} {unit}",
-            place=self._between(most.position),
-        )
+        return
+    curves = cycle(report.every)
+    peaks = [curves.peak(number) for number in range(len(curves.joints))]
+    number = max(range(len(peaks)), key=lambda one: peaks[one].size)
+    most, whose = peaks[number], report.reaction(curves.joints[number])
+    if (whose, find(most.size)) == (symbol, value):
+        yield said.cycle_peaks.format(**facts)
+        return
+    yield said.all_peaks.format(**facts)
+    yield (said.between_limit if most.is_limit else said.between).format(
+        symbol=whose, value=f"{find(most.size)} {unit}", place=_between(most.position, report)
+    )
 
-    def _between(self, position: float) -> Rich:
-        """Return between which positions a position of the crank is, with its angle."""
-        places = self.report.project.positions
-        step = places[1] - places[0]
-        before = int((position - places[0]) / step % len(places))
-        angle = f"{self.report.coordinate} = {self.report.degrees(round(position % 360.0) % 360)}"
-        facts = {"one": before, "other": (before + 1) % len(places), "angle": angle}
-        return str(self.said.between_positions).format(**facts)
+
+def _between(position: float, report: Report) -> Rich:
+    """Return between which positions a position of the crank is, with its angle."""
+    places = report.project.positions
+    step = places[1] - places[0]
+    before = int((position - places[0]) / step % len(places))
+    angle = f"{report.coordinate} = {report.degrees(round(position % 360.0) % 360)}"
+    facts = {"one": before, "other": (before + 1) % len(places), "angle": angle}
+    return str(report.said["forces"]["between_positions"]).format(**facts)

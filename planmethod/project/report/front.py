@@ -5,6 +5,8 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
+from planmethod.gears.involute.sizes import MeshingProblem
+from planmethod.gears.model import GearProblem
 from planmethod.mechanism.structure import roman
 from planmethod.note.document import (
     Contents,
@@ -25,12 +27,16 @@ from planmethod.problem.load_records import Against, Couple, Fixed, Load, SizeTa
 from planmethod.project.model import PartName
 from planmethod.project.report.context import NBSP, Report, items, lettered, sentences
 from planmethod.project.report.figures import figure
+from planmethod.project.train import meshed
 from planmethod.render.pictures.schemeview import scheme_picture
 from planmethod.solved.machine.drawing import drawing_of
 from planmethod.solved.machine.flywheel import flywheel_of
 
 _FACT = re.compile(r"^([^\s=(]+) = (.+)$")
 _CONST = " = const"
+
+_FURTHER = tuple(name for name in PartName if name not in (PartName.KINEMATICS, PartName.NOTE))
+"""Parts that not every project has."""
 
 LINKS = ("n", "ω", "ε", "φ", "m", "J", "length")
 """Letters of quantities of links."""
@@ -99,7 +105,7 @@ def _tasks(report: Report) -> Iterator[Rich]:
     yield tasks.motion.format()
     if report.every.problem.cycle is not None:
         yield tasks.cycle.format()
-    for name in (PartName.FORCES, PartName.FLYWHEEL, PartName.GEARS, PartName.MESHING):
+    for name in _FURTHER:
         if report.has(name):
             balancing = report.said["balancing"][report.one.problem.drive.balancing.quantity]
             yield str(tasks[name.value]).format(balancing=balancing)
@@ -113,14 +119,20 @@ def _data(report: Report) -> tuple[list[tuple[Rich, Rich, Rich]], list[Rich]]:
         facts += mass_lines(problem, words)
     rows: list[tuple[Rich, Rich, Rich]] = []
     further: list[Rich] = []
-    series = report.is_series
+    series, driving = report.is_series, _driving(report)
     for fact in dict.fromkeys(facts):
         told = _FACT.match(fact)
-        name = None if told is None else _name(told[1], report)
+        name = None if told is None else driving.get(told[1]) or _name(told[1], report)
         if told is None or name is None:
             further.append(fact)
+        elif told[1] == _ratio(report) and report.has(PartName.GEARS):
+            continue  # the teeth tell it, and the chapter on gears finds it
         elif not (series and told[1] == report.coordinate):
             rows.append((lettered(name), told[1], _value(told[2], report)))
+    for slide in problem.slides.values():
+        if slide.length is not None:
+            name = report.said["quantities"]["length"].format(of=report.link(slide.slider, "of"))
+            rows.append((name, f"l_{{{slide.slider}}}", _given(slide.length, "m", report)))
     if report.has(PartName.FLYWHEEL):
         tell = MachineTeller(drawing_of(flywheel_of(report.every), report.every.profile), words)
         quantities = report.said["quantities"]
@@ -130,12 +142,71 @@ def _data(report: Report) -> tuple[list[tuple[Rich, Rich, Rich]], list[Rich]]:
             if told is not None and told[1] in ("δ", tell.letter("crank inertia")):
                 key = "δ" if told[1] == "δ" else "crank inertia"
                 rows.append((str(quantities[key]).format(), told[1], told[2]))
-    return rows, further
+        ratio = tell.flywheel.machine.wheel.ratio
+        if ratio != 1.0:
+            rows.append((str(quantities["flywheel ratio"]).format(), "i", report.say.given(ratio)))
+    listed = {symbol for _, symbol, _ in rows}
+    return rows + [row for row in _teeth(report) if row[1] not in listed], further
+
+
+def _given(value: float, unit: str, report: Report) -> Rich:
+    return with_unit(report.say.given(value), report.unit(unit))
+
+
+def _driving(report: Report) -> dict[Rich, Rich]:
+    """Return what the letters of the train that drives the crank stand for."""
+    geared, quantities = report.one.problem.drive.geared, report.said["quantities"]
+    if geared is None:
+        return {}
+    letter = "n" if geared.unit == "n" else "ω"
+    named = {f"{letter}_{{{x}}}": str(quantities[f"{letter}_train"]).format(of=x)
+             for x, _ in geared.inputs}  # fmt: skip
+    ratio = str(quantities["U"]).format(of=geared.inputs[0][0], to=geared.label)
+    return {**named, _ratio(report): ratio}
+
+
+def _ratio(report: Report) -> Rich:
+    """Return the letter of the ratio from the input of the train to the crank, as given has it."""
+    geared = report.one.problem.drive.geared
+    return "" if geared is None else f"U_{{{geared.inputs[0][0]}-{geared.label}}}"
+
+
+def _teeth(report: Report) -> Iterator[tuple[Rich, Rich, Rich]]:
+    """Yield the rows of the train and of the wheels in mesh."""
+    quantities, say = report.said["quantities"], report.say
+
+    def row(key: str, symbol: Rich, value: Rich, **facts: object) -> tuple[Rich, Rich, Rich]:
+        return str(quantities[key]).format(**facts), symbol, value
+
+    parts = [part.problem for part in report.project.parts]
+    train = next((x.train for x in parts if isinstance(x, GearProblem)), None)
+    pair = next((x for x in parts if isinstance(x, MeshingProblem)), None)
+    ends = None if train is None or pair is None else meshed(train, pair)
+    if train is not None:
+        for label, wheel in train.wheels.items():
+            if wheel.size is not None and train.counted(label):
+                yield row("z", f"z_{{{label}}}", say.given(float(wheel.size)), of=label)
+        unit = "1/min" if train.unit == "n" else "1/s"
+        for body, speed in train.inputs.items():
+            symbol = f"{train.letter}_{{{body}}}"
+            yield row(f"{train.letter}_train", symbol, _given(float(speed), unit, report), of=body)
+        for carrier, count in train.satellites.items():
+            yield row("satellites", "k", str(count), of=carrier)
+        if train.module is not None and ends is None:
+            yield row("module", "m", _given(float(train.module) * 1000.0, "mm", report))
+    if pair is not None:
+        if ends is None:
+            for k, count in enumerate(pair.z, 1):
+                yield row("z_mesh", f"z_{{{k}}}", str(count), of=k)
+        told = ends or ("1", "2")
+        yield row("module_mesh", "m", _given(pair.m, "mm", report), one=told[0], other=told[1])
 
 
 def _value(text: Rich, report: Report) -> Rich:
     """Return a value; of one that is constant that it is."""
     value, const, _ = text.partition(_CONST)
+    if report.one.problem.drive.geared is not None:
+        value = value.rpartition(" = ")[2]  # whose wheel's speed it is, is no value
     return report.said["front"].constant.format(value=value) if const else value
 
 
@@ -209,11 +280,7 @@ def _introduction(report: Report) -> Iterator[Node]:
     many = structure.moving_links
     links = counts["links"][many] if many < len(counts["links"]) else counts.many.format(count=many)
     yield StructuralHeading(said.title.format())
-    others = [
-        str(said["kinds"][name.value]).format()
-        for name in (PartName.FORCES, PartName.FLYWHEEL, PartName.GEARS, PartName.MESHING)
-        if report.has(name)
-    ]
+    others = [str(said["kinds"][name.value]).format() for name in _FURTHER if report.has(name)]
     yield sentences(
         said.object.format(roman=roman(structure.class_number), links=links),
         said.parts.format(parts=report.listed(others)) if others else "",

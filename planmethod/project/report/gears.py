@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from itertools import groupby
 
+import numpy as np
 from msgspec.structs import replace
 
 from planmethod.gears.answers import answer
@@ -22,14 +23,15 @@ from planmethod.gears.picture import draw
 from planmethod.gears.sheet import pictures
 from planmethod.gears.text import equation_of, fraction_text
 from planmethod.gears.told import given, indexed, ratios, results
-from planmethod.note.document import Chapter, Formula, Node, Part, Table
+from planmethod.note.document import Chapter, Node, Part, Table
 from planmethod.note.formula import Rich, fraction
 from planmethod.note.narrate.structure import pair_classes
 from planmethod.note.numbers import MINUS, raised
 from planmethod.note.wording import Words
+from planmethod.project.model import PartName
 from planmethod.project.report.context import Report, chain, displayed, items, sentences
 from planmethod.project.report.figures import bare, figure
-from planmethod.project.train import output_of
+from planmethod.project.train import meshed, output_of
 from planmethod.render.layout.block import Block
 from planmethod.render.sheets.composer import Sizes
 
@@ -54,6 +56,7 @@ def train_chapter(report: Report, problem: GearProblem) -> Iterator[Node]:
     yield sentences(
         said.about.format(facts="; ".join(facts)),
         str(form).format(labels=", ".join(labels)) if labels else "",
+        _module(report, motion, said),
     )
     yield from _figures(report, problem, motion, "train")
     yield from _structure(report, problem, motion, said)
@@ -61,6 +64,25 @@ def train_chapter(report: Report, problem: GearProblem) -> Iterator[Node]:
     yield from _ratios(report, motion, said)
     yield Part(said.pictures.format())
     yield from _pictures(report, problem, motion, said)
+
+
+def _module(report: Report, motion: TrainMotion, said: Words) -> Rich:
+    """Return whose module the scheme is drawn with, where the train has none of its own."""
+    train, ends = motion.train, wheels_of(report)
+    if not train.toothed or draw(motion) is None:
+        return ""
+    if ends is not None and train.module is not None:
+        return said.module_mesh.format(one=ends[0], other=ends[1])
+    return said.module_assumed.format() if train.module is None else ""
+
+
+def wheels_of(report: Report) -> tuple[str, str] | None:
+    """Return the wheels of the train that mesh in the meshing, its wheel 1 first; else None."""
+    train, pair = (report.project.part(name) for name in (PartName.GEARS, PartName.MESHING))
+    if train is None or pair is None:
+        return None
+    assert isinstance(train.problem, GearProblem) and isinstance(pair.problem, MeshingProblem)
+    return meshed(train.problem.train, pair.problem)
 
 
 def _structure(
@@ -89,7 +111,7 @@ def _ratios(report: Report, motion: TrainMotion, said: Words) -> Iterator[Node]:
     yield sentences((said.willis if train.carriers else said.plain).format())
     for text in (willis(motion, mesh, report) for mesh in train.meshes):
         yield displayed(f"{text}.")
-    yield from _derived(ratios(asked_of(motion), report.words), said)
+    yield from _derived(ratios(asked_of(motion, report), report.words), said)
     yield sentences((said.solved if train.fixed else said.solved_plain).format())
     yield from chain(_speeds(motion, report))
     judged = conditions(motion)
@@ -133,15 +155,21 @@ def _derived(lines: Iterable[DerivedLine], said: Words) -> Iterator[Node]:
             yield from (sentences(f"{line.text}.") for line in run)
 
 
-def asked_of(motion: TrainMotion) -> TrainMotion:
-    """Return a train that is asked for something: else for the ratio of input to output."""
-    train = motion.train
-    if any(name.startswith("U") for name in train.ask) or len(train.inputs) != 1:
-        return motion
-    (source,), end = train.inputs, output_of(motion)
-    if end is None:
-        return motion
-    return replace(motion, train=replace(train, ask=(f"U_{source}_{end}", *train.ask)))
+def asked_of(motion: TrainMotion, report: Report) -> TrainMotion:
+    """Return a train that is asked for its ratios: those of the file, else input to output.
+
+    Of one that drives the crank that of the whole is among them.
+    """
+    train, geared = motion.train, report.one.problem.drive.geared
+    ask = [one for one in train.ask if one.startswith("U")]
+    more = [one for one in train.ask if one not in ask]
+    if len(train.inputs) == 1:
+        (source,) = train.inputs
+        end = geared.label if geared is not None and not ask[1:] else output_of(motion)
+        whole = f"U_{source}_{end}"
+        if end is not None and end != source and (not ask or geared is not None):
+            ask += [] if whole in ask else [whole]
+    return replace(motion, train=replace(train, ask=(*ask, *more)))
 
 
 def _speeds(motion: TrainMotion, report: Report) -> Iterator[Rich]:
@@ -182,7 +210,7 @@ def _pictures(
         )
         yield from _figures(report, problem, motion, "angular")
     rows = list(results(motion, drawn, seen, report.words))
-    yield sentences(said.speeds.format())
+    yield sentences(said.speeds.format(), said.signs.format())
     # Of whole numbers the fraction says what the decimal says.
     fractions = any(fraction not in (exact, "—") for _, fraction, exact, *_ in rows)
     heads = said["columns"] if drawn is not None else said["columns"][:3]
@@ -228,15 +256,30 @@ def meshing_chapter(report: Report, problem: MeshingProblem) -> Iterator[Node]:
     said: Words = report.said["meshing"]
     solved, words = SolvedMeshing(problem), report.words
     say: Words = words.meshing
-    fields = solved.fields(words.say)
+    fields, ends = solved.fields(words.say), wheels_of(report)
     yield Chapter(said.title.format())
-    yield sentences(said.about.format())
+    told = {name: text.strip("()") for name, text in fields.items()}  # in no product
+    way = "distance" if problem.a_w is not None else "blocking" if problem.chosen else "given"
+    yield sentences(
+        str(said["about"]["internal" if problem.cutter else "external"]).format(**told),
+        said.wheels.format(one=ends[0], other=ends[1]) if ends is not None else "",
+        str(said["shifts"][way]).format(**told),
+    )
+    lead, lines = "", list[Rich]()
     for key, formulas in groupby(solved.formulas(words), lambda one: one[0]):
+        if key in say["steps"] or key in say["beside"]:
+            yield from _led(lead, lines)
+            lead, lines = "", []
         if key in say["steps"]:
             yield Part(say["steps"][key])
+            if key == "x_min":
+                yield sentences(*_undercut(solved, report, said))
+            lead = str(said["steps"][key]).format()
         if key in say["beside"]:
-            yield sentences(say["beside"][key].format(**fields))
-        yield from (Formula(formula) for _, formula in formulas)
+            beside = say["beside"][key].format(**told), str(said["beside"][key]).format()
+            lead = " ".join(filter(None, (lead, *beside)))
+        lines += [formula for _, formula in formulas]
+    yield from _led(lead, lines)
     yield Part(said.table.format())
     yield sentences(said.table_text.format())
     pair, wheels, contact = solved.told()
@@ -244,13 +287,41 @@ def meshing_chapter(report: Report, problem: MeshingProblem) -> Iterator[Node]:
     whole = table([*pair, *contact], words, (*heads[:2], say.pair))
     yield Table(whole.head, whole.rows, 2, name=said.table_pair.format(), key="meshing")
     own = table(wheels, words, heads)
-    yield Table(own.head, own.rows, 2, name=said.table.format(), key="wheels")
+    yield Table(own.head, own.rows, 2, name=said.table_wheels.format(), key="wheels")
     yield sentences(said.quality.format(facts="; ".join(quality(solved, words))))
     yield figure(
         lambda letter: meshing_picture(view_for(solved, 300.0, 240.0), words, letter),
         said.figure.format(),
         "meshing_picture",
     )
+
+
+def _led(lead: Rich, lines: list[Rich]) -> Iterator[Node]:
+    """Yield a sentence and the formulas that it leads to."""
+    if lead:
+        yield sentences(lead)
+    yield from chain(lines)
+
+
+def _undercut(solved: SolvedMeshing, report: Report, said: Words) -> Iterator[Rich]:
+    """Yield of every wheel that the rack would undercut without a shift what its shift does."""
+    least = solved.pair.x_min
+    for k, (count, shift) in enumerate(zip(solved.problem.z, solved.problem.x, strict=True)):
+        bound = float(least[k])
+        if not np.isfinite(bound) or bound <= 0.0 or (k and solved.problem.cutter):
+            continue
+        form = "avoided" if shift >= bound else "stays"
+        yield str(said["is_undercut"][form]).format(
+            wheel=k + 1,
+            z=count,
+            x=report.say.number(f"{shift:.2f}"),
+            x_min=report.say.number(f"{bound:.2f}"),
+        )
+
+
+def failed_quality(problem: MeshingProblem, report: Report) -> list[Rich]:
+    """Return the limits of a meshing that its shifts do not keep."""
+    return [text for _, holds, text in SolvedMeshing(problem).sentences(report.words) if not holds]
 
 
 def failed_conditions(problem: GearProblem, report: Report) -> list[Rich]:
@@ -260,10 +331,9 @@ def failed_conditions(problem: GearProblem, report: Report) -> list[Rich]:
     return [f"{text[:1].lower()}{text[1:]}" for text in told]
 
 
-def ratio_of(problem: GearProblem, report: Report) -> str | None:
-    """Return the first ratio that is asked for, with its symbol; None where none is."""
-    motion = asked_of(solve_motion(problem))
+def ratios_of(problem: GearProblem, report: Report) -> list[Rich]:
+    """Return the ratios that are asked for and that of the whole train, with their symbols."""
+    motion = asked_of(solve_motion(problem), report)
     known = tuple(motion.train.body_of)
-    asked = (parse(name, known) for name in motion.train.ask if answer(motion, name).value)
-    first = next((one for one in asked if one.kind == "U"), None)
-    return None if first is None else by_speeds(motion, first, report.words)
+    asked = [parse(name, known) for name in motion.train.ask if answer(motion, name).value]
+    return [by_speeds(motion, one, report.words) for one in asked if one.kind == "U"]

@@ -14,6 +14,7 @@ from planmethod.note.document import Document, Node
 from planmethod.note.wording import Language
 from planmethod.plans.model import RATES
 from planmethod.project.model import PartName, Project, SheetEntry
+from planmethod.project.report.balancing import balancing_chapter
 from planmethod.project.report.conclusion import back, conclusion
 from planmethod.project.report.context import NBSP, Report
 from planmethod.project.report.flywheel import flywheel_chapter
@@ -72,6 +73,8 @@ def _chapters(report: Report) -> Iterator[Node]:
         yield from ForceChapter(report).nodes()
     if report.has(PartName.FLYWHEEL):
         yield from flywheel_chapter(report)
+    if report.has(PartName.BALANCING):
+        yield from balancing_chapter(report)
     for part in report.project.parts:
         if isinstance(part.problem, GearProblem):
             yield from train_chapter(report, part.problem)

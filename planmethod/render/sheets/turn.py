@@ -42,6 +42,9 @@ SIDE = 0.4
 MOST = 150.0
 """Side up to which a hodograph of a project keeps the scale of its plans, mm."""
 
+SMALL = 0.6
+"""Share of `MOST` below which it is drawn larger than the plans, at a scale of its own."""
+
 _NARROW = 0.05  # a hodograph that is narrower than so much of its length is a straight line
 
 
@@ -136,7 +139,7 @@ def hodograph(solution: Solution, kind: PlanKind, side: float) -> Hodograph:
     """Return the hodograph of velocities or accelerations that fills a square, its side in mm.
 
     One of a project has the scale of the plans, as a plan of all positions about one pole, unless
-    it is larger than `MOST` then.
+    it is larger than `MOST` or small beside it then: it fills that square, whatever the side.
     """
     turn = turn_of(solution)
     point = hodograph_point(turn) or turn.output.point
@@ -159,9 +162,10 @@ def hodograph(solution: Solution, kind: PlanKind, side: float) -> Hodograph:
     size = (float(np.ptp(there.real)), float(np.ptp(there.imag)))
     inverse = solution.problem.scales.convention is Convention.MM_PER_UNIT
     facts = FACTS[kind]
+    decided, common = solution.problem.scales.decided, solution.scales[kind]
+    side = MOST if decided else side
     own = Scale(facts.scale, choose_scale(size, (side, side), mm_per_unit=inverse), facts.unit)
-    common = solution.scales[kind]
-    keeps = solution.problem.scales.decided and max(size) <= MOST * common.per_mm
+    keeps = decided and SMALL * MOST <= max(size) / common.per_mm <= MOST
     scale = common if keeps else own
     gaps = np.flatnonzero(~np.isfinite(curve))
     parts = tuple(part[np.isfinite(part)] / scale.per_mm for part in np.split(curve, gaps))

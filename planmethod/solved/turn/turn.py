@@ -385,6 +385,15 @@ class Turn(Remembering):
         start = self.ends[0 if is_first else 1].phi
         return Strokes(working, idle, None if self.why_no_ratio else ratio, by, start)
 
+    @property
+    def contradicting(self) -> str | None:
+        """The loads that work on the other stroke than ``[cycle] working`` says; None without."""
+        told = self._told_stroke()
+        if told is None or self.ends is None or self.range is not None:
+            return None
+        loaded = self._loaded_stroke(self._ahead(self.ends[0].phi, self.ends[1].phi))
+        return loaded[1] if loaded is not None and loaded[0] is not told else None
+
     def _loaded_stroke(self, quick: float) -> tuple[bool, str] | None:
         """Return whether the loads work on the quicker stroke, and which do; None without."""
         assert self.ends is not None
