@@ -21,7 +21,15 @@ from planmethod.problem.head import (
     Published,
     SheetSettings,
 )
-from planmethod.problem.load_records import Dynamics, LoadEntry, Mass, Phase
+from planmethod.problem.load_records import (
+    BalancingForceTask,
+    Dynamics,
+    FrictionTask,
+    LoadEntry,
+    Mass,
+    PairFriction,
+    Phase,
+)
 from planmethod.problem.machine_records import (
     CounterweightTask,
     FlywheelTask,
@@ -38,7 +46,7 @@ OF_KINDS = ("gears", "point", "meshing")
 TOP = (
     "title", "source", "units", "frame", "links", "driver", "assembly", "scales", "stamp",
     "sheet", "published", "answers", "compare", "variants", "dynamics", "loads", "machine",
-    "balancing", "cycle", "project", *OF_KINDS,
+    "balancing", "balancing_force", "friction", "cycle", "project", *OF_KINDS,
 )  # fmt: skip
 FRAME = ("guides", "number")
 GUIDE = ("through", "angle")
@@ -95,7 +103,8 @@ FLAT: Mapping[str, type[object]] = {
     "load": LoadEntry, "phases": Phase, "machine": Machine, "flywheel": FlywheelTask,
     "motor": MotorTable, "kloss": KlossTable, "line": LineTable, "balancing": CounterweightTask,
     "wheel": GearWheelTable, "picture": PictureTable, "meshing": MeshingTable,
-    "project": ProjectTask,
+    "project": ProjectTask, "balancing_force": BalancingForceTask, "friction": FrictionTask,
+    "pair": PairFriction,
 }  # fmt: skip
 """Records of flat tables by the kind of table."""
 

@@ -11,11 +11,13 @@ from planmethod.note.columns import listed, named, pairs, sizes
 from planmethod.note.document import Caption, Node, Note
 from planmethod.note.formula import Rich
 from planmethod.note.narrate.forces.resultants import kept_lines, shift_lines
+from planmethod.note.narrate.given import point_name
 from planmethod.note.numbers import plain
 from planmethod.note.plaintext import NO_BREAK, fixed, found, given
 from planmethod.note.tables.sigmas import Sigmas
 from planmethod.note.wording import Words
 from planmethod.note.written import Column, Records, rows, together
+from planmethod.problem.model import Problem
 from planmethod.solved.errors.forces import (
     BALANCE,
     LEVER,
@@ -124,6 +126,7 @@ def forces_records(solution: Solution) -> Records:
     statics = statics_of(solution)
     drawn, balance = drawn_forces(statics), statics.balance
     quantity, count = solution.problem.drive.balancing.quantity, len(solution.positions)
+    pushed = solution.problem.drive.pushed
     reactions = [_reaction_records(statics, k) for k in range(len(statics.reactions))]
     still = {angle_label(joint): _still(statics, joint) for joint in statics.reactions}
     random = {
@@ -136,6 +139,7 @@ def forces_records(solution: Solution) -> Records:
         "driving": rows(
             {
                 quantity: listed(balance),
+                **({"moment": listed(statics.moment)} if pushed and statics.moment is not None else {}),
                 "read": listed(drawn.read(BALANCE)),
                 "sigma": listed(drawn.spreads[BALANCE].sigma),
             }
@@ -192,6 +196,15 @@ def _distance(solution: Solution, number: int, index: int, words: Words) -> str:
         return "—"
     largest = statics_of(solution).largest(index)
     return found(0.0 if abs(contact.joint.moment[index]) <= VANISHING * largest else b, words)
+
+
+def push_way(problem: Problem, words: Words) -> str:
+    """Return how the force at a point of the crank that balances it is directed."""
+    pushed, pivot = problem.drive.pushed, problem.drive.pivot
+    assert pushed is not None and pivot is not None
+    if pushed.angle is None:
+        return words.push_across.format(line=f"{point_name(pivot)}{point_name(pushed.at)}")
+    return words.push_angle.format(angle=given(pushed.angle, words))
 
 
 def resultant_notes(solution: Solution, words: Words, index: int | None = None) -> Iterator[Rich]:
@@ -256,8 +269,14 @@ def forces_tables(solution: Solution, words: Words, index: int, sigmas: Sigmas) 
     yield from map(Note, _edge_notes(solution, words, index))
     yield from map(Note, resultant_notes(solution, words, index))
     balancing = solution.problem.drive.balancing
-    balance, unit = words["balance"][balancing.quantity], words["units"][balancing.unit]
-    yield Note(balance.format(value=found(float(statics.balance[index]), words), unit=unit))
+    balance, unit = words["balance"][balancing.said], words["units"][balancing.unit]
+    facts = {"value": found(float(statics.balance[index]), words), "unit": unit}
+    if (pushed := solution.problem.drive.pushed) is not None:
+        assert statics.moment is not None
+        facts["moment"] = f"{found(float(statics.moment[index]), words)} {words['units']['N·m']}"
+        facts["point"] = point_name(pushed.at)
+        facts["way"] = push_way(solution.problem, words)
+    yield Note(balance.format(**facts))
     if statics.lever is None:
         yield Note(words.lever_stands)
         return

@@ -63,6 +63,10 @@ def arms_of(reading: ForceReading, equations: Iterable[Moments], say: Notation) 
             if read:
                 force = Acting(say.symbol(edge.symbol), reading.place(edge.at), reading.way(edge))
                 found.setdefault((edge.symbol, about), arm_of(force, about, read))
+        if (edge := equation.force) is not None and edge.is_aslant:
+            force = Acting(say.symbol(edge.symbol), reading.place(edge.at), reading.way(edge))
+            read = reading.read_number(equation.arm[0][0])
+            found.setdefault((edge.symbol, about), arm_of(force, about, read))
     return list(found.values())
 
 

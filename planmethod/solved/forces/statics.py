@@ -125,6 +125,7 @@ class Statics(Remembering):
             asked += [reaction.force.at, reaction.force.tail, reaction.force.head]
             asked += [reaction.couple] if reaction.couple is not None else []
         asked.append(self.driving.balance)
+        asked += [self.driving.moment] if self.driving.moment is not None else []
         asked += [*self.board.segments.values.values(), *self.board.segments.lengths.values()]
         asked += self.board.arms.values()
         asked.append(self.board.scale)
@@ -202,8 +203,13 @@ class Statics(Remembering):
 
     @cached_property
     def balance(self) -> Reals:
-        """Balancing moment on the crank, N·m, or force along the guide of a driving slider, N."""
+        """What balances the driver: moment on a crank, N·m, force at its point or on a slider, N."""
         return self._number(self.driving.balance)
+
+    @cached_property
+    def moment(self) -> Reals | None:
+        """Balancing moment on the crank, N·m, whatever balances it; None of a driving slider."""
+        return None if self.driving.moment is None else self._number(self.driving.moment)
 
     @cached_property
     def lever(self) -> Reals | None:
