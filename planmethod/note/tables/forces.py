@@ -154,6 +154,10 @@ def forces_records(solution: Solution) -> Records:
         ),
         "monte_carlo": named(random, count),
     }
+    if rubbed(solution.problem):
+        from planmethod.note.tables.friction import friction_records  # few files have any
+
+        columns["friction"] = friction_records(solution)
     if statics.lever is not None:
         assert drawn.discrepancy_sigma is not None and drawn.balances is not None
         plans, hung = drawn.balances.plans, drawn.balances.lever
@@ -196,6 +200,11 @@ def _distance(solution: Solution, number: int, index: int, words: Words) -> str:
         return "—"
     largest = statics_of(solution).largest(index)
     return found(0.0 if abs(contact.joint.moment[index]) <= VANISHING * largest else b, words)
+
+
+def rubbed(problem: Problem) -> bool:
+    """Tell whether the pairs have friction."""
+    return problem.dynamics is not None and problem.dynamics.friction is not None
 
 
 def push_way(problem: Problem, words: Words) -> str:

@@ -6,7 +6,7 @@ of the drawings, whoever reads them.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from functools import cached_property
 from types import MappingProxyType
 
@@ -68,6 +68,8 @@ def plan_forces(
     draft: Draft,
     loads: Iterable[Applied],
     single: Mapping[str, Applied] = MappingProxyType({}),
+    *,
+    hung: bool = True,
 ) -> Planned:
     """Plan the forces of a solution on a draft of its construction, from the last group on.
 
@@ -79,6 +81,8 @@ def plan_forces(
         What acts on the links beside the reactions.
     single : mapping of str to Applied
         Couples that the force of inertia of their link stands for as well, by link.
+    hung : bool
+        The loads hang on the lever, too: not those of friction, which act on both links of a pair.
     """
     start = len(draft.b.steps)
     board = ForceBoard(draft, solution.construction.kinematics, solution.problem.dynamics)
@@ -86,7 +90,7 @@ def plan_forces(
     for group in reversed(solution.structure.groups):
         group_forces(board, group)
     driving = drive_forces(board)
-    lever = plan_lever(board, driving)
+    lever = plan_lever(board, driving) if hung else None
     draft.note_plan(PlanKind.FORCE, start)
     return Planned(board, driving, lever)
 
@@ -98,6 +102,8 @@ class Statics(Remembering):
     ----------
     solution : Solution
         Of a problem with ``[dynamics]``; every group must be a dyad.
+    rubbing : sequence of Applied
+        Forces and couples of friction, which act beside the other loads; then there is no lever.
 
     Attributes
     ----------
@@ -105,15 +111,16 @@ class Statics(Remembering):
         Links that keep the couple of inertia although the file asks for the single resultant.
     """
 
-    def __init__(self, solution: Solution) -> None:
+    def __init__(self, solution: Solution, rubbing: Sequence[Applied] = ()) -> None:
         super().__init__()
         self.solution = solution
-        loads = applied(solution)
+        loads = (*applied(solution), *rubbing)
         single: Mapping[str, Applied] = {}
         self.unshifted: tuple[UnshiftedInertia, ...] = ()
         if solution.problem.dynamics is not None and solution.problem.dynamics.resultant:
             single, self.unshifted = shifted_inertia(solution, loads)
-        planned = plan_forces(solution, solution.construction.draft.copy(), loads, single)
+        draft = solution.construction.draft.copy()
+        planned = plan_forces(solution, draft, loads, single, hung=not rubbing)
         self.board, self.driving, self.lever_plan = planned.board, planned.driving, planned.lever
         self.program: Program = self.board.draft.b.program().needed_for(self._asked())
 

@@ -60,7 +60,7 @@ class MomentNarrator:
         """Return an equation of moments told; None where there is no couple to be found."""
         reading, edge, couple = self.reading, equation.force, equation.couple
         forces = [
-            (known.symbol, reading.read(known), reading.arm(known, equation.about))
+            (self.symbol(known.symbol), reading.read(known), reading.arm(known, equation.about))
             for known in equation.edges
             if not reading.is_none(known)
         ]
