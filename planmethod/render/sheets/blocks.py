@@ -88,6 +88,18 @@ def _forces() -> Mapping[str, Maker]:
     }
 
 
+def _friction() -> Mapping[str, Maker]:
+    from planmethod.render.sheets import friction
+
+    return {
+        "friction-text": friction.friction_text,
+        "friction-cut": friction.cut_view,
+        "friction-equations": friction.equations_block,
+        "friction-plan": friction.plan_view,
+        "friction-table": friction.friction_table,
+    }
+
+
 def _cycle() -> Mapping[str, Maker]:
     from planmethod.render.sheets import cycle, cycletable
 
@@ -176,6 +188,11 @@ BLOCKS: Mapping[str, BlockKind] = MappingProxyType(
         "lever": BlockKind(_forces, _VIEW),
         "lever-equation": BlockKind(_forces, (*_TEXT, "position")),
         "reactions": BlockKind(_forces, (*_TEXT, "position")),
+        "friction-text": BlockKind(_friction, (*_TEXT, "position")),
+        "friction-cut": BlockKind(_friction, _FORCES, each=True),
+        "friction-equations": BlockKind(_friction, _FORCE_TEXT, each=True),
+        "friction-plan": BlockKind(_friction, _FORCES, each=True),
+        "friction-table": BlockKind(_friction, (*_TEXT, "position")),
         "cycle-statement": BlockKind(_cycle, _TEXT),
         "balance-diagram": BlockKind(_cycle, _DIAGRAM),
         "reaction-diagram": BlockKind(_cycle, _DIAGRAM[1:], each=True),

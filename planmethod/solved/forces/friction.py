@@ -29,8 +29,16 @@ from planmethod.problem.model import Problem, Slide
 from planmethod.problem.names import pair_name, segment
 from planmethod.solved.forces.contact import JointForce, slide_between
 from planmethod.solved.forces.loads import STILL
+from planmethod.solved.forces.reading import ForceReading
 from planmethod.solved.forces.statics import Statics, statics_of
-from planmethod.solved.reading import Complexes, Flags, Reading, Reals, Remembering
+from planmethod.solved.reading import (
+    Complexes,
+    Flags,
+    Reading,
+    Reals,
+    Remembering,
+    remembered,
+)
 from planmethod.solved.solution import UNIT_SCALES, Solution
 
 NOTHING = 1e-9
@@ -369,6 +377,22 @@ class Friction(Remembering):
 def friction_of(solution: Solution) -> Friction:
     """Return the friction of a solution, worked out when it is first asked for."""
     return solution.once(Friction)
+
+
+class RubbedReading(ForceReading):
+    """The forces of a position with one correction for friction, as they are drawn."""
+
+    def __init__(self, solution: Solution, index: int) -> None:
+        super().__init__(solution, index)
+        self.friction = friction_of(solution)
+        self.statics = self.friction.drawn
+        self.plans = tuple(self.statics.board.plans)
+
+
+@remembered
+def rubbed_reading(solution: Solution, index: int) -> RubbedReading:
+    """Return the forces of a position with friction; kept, since several views show them."""
+    return RubbedReading(solution, index)
 
 
 class TurnEfficiency(Struct, frozen=True):

@@ -14,16 +14,6 @@ from planmethod.note.narrate.given import point_name
 from planmethod.plans.forces.polygons import reaction_symbol
 from planmethod.plans.model import PlanKind
 from planmethod.solved.forces.friction import Friction, Rubbing, friction_of, turn_efficiency
-from planmethod.solved.forces.reading import ForceReading
-
-
-class RubbedReading(ForceReading):
-    """The forces of a position with one correction for friction, as they are drawn."""
-
-    def __init__(self, friction: Friction, index: int) -> None:
-        super().__init__(friction.solution, index)
-        self.statics = friction.drawn
-        self.plans = tuple(self.statics.board.plans)
 
 
 class FrictionTeller:
@@ -42,7 +32,7 @@ class FrictionTeller:
         self.find, self.units, self.symbol = context.found, context.units, context.symbol
 
     def _per_cent(self, share: float) -> Rich:
-        return f"{self.find(100.0 * share)} %"
+        return f"{self.context.short(100.0 * share, 2)} %"
 
     # Pairs -----------------------------------------------------------------------------------
 
@@ -59,7 +49,7 @@ class FrictionTeller:
         index, f = self._between(pair), self.context.short(pair.f)
         if pair.slide is not None:
             phi = self.find(pair.phi)
-            return f"φ_{{{index}}} = arctg {f} = {phi}{self.units['deg']}"
+            return f"φ_{{{index}}} = arctg f = arctg {f} = {phi}{self.units['deg']}"
         rho, radius = self.find(1e3 * pair.rho), self.context.short(1e3 * pair.radius)
         return f"ρ_{{{index}}} = f'·r = {f}·{radius} = {rho} {self.units['mm']}"
 

@@ -121,14 +121,15 @@ def _lever(context: ForceContext) -> Iterator[Node]:
 
 def _friction(context: ForceContext, say: Formulas) -> Iterator[Node]:
     """Tell the friction of the pairs, and the force plans with one correction."""
-    from planmethod.note.narrate.forces.friction import FrictionTeller, RubbedReading  # few need it
+    from planmethod.note.narrate.forces.friction import FrictionTeller  # few need it
+    from planmethod.solved.forces.friction import rubbed_reading
 
     tell, words = FrictionTeller(context), context.words
     yield Chapter(tell.said.title)
     yield Step((tell.said.order, *closed(tell.given())))
     for pair in tell.friction.pairs:
         yield Step((tell.pair(pair),))
-    corrected = ForceContext(RubbedReading(tell.friction, context.reading.index), say)
+    corrected = ForceContext(rubbed_reading(context.solution, context.reading.index), say)
     driver = words.driver.format(link=context.solution.problem.drive.link)
     yield Chapter(tell.said.corrected)
     groups: list[AssurGroup | None] = [*reversed(context.solution.structure.groups), None]
