@@ -274,7 +274,7 @@ class FrictionTask(Struct, frozen=True):
     pairs: Annotated[
         Mapping[str, PairFriction],
         OwnKey(
-            'a table for each pair that has other values, named by its joint and its two links: '
+            "a table for each pair that has other values, named by its joint and its two links: "
             '`"B 3-0" = { f = 0.2 }`, a sliding pair by its pin, the frame is 0'
         ),
     ] = MappingProxyType({})

@@ -339,7 +339,7 @@ def record_in_columns(solution: Solution, **more: Column) -> dict[str, Any]:
     dynamics = solution.problem.dynamics
     if dynamics is not None and dynamics.friction is not None:
         from planmethod.note.tables.friction import turn_record
-        from planmethod.solved.forces.friction import turn_efficiency
+        from planmethod.solved.efficiency import turn_efficiency
 
         turn = turn_efficiency(solution)
         machine["friction"] = {"turn": None if turn is None else turn_record(turn)}

@@ -139,7 +139,11 @@ def forces_records(solution: Solution) -> Records:
         "driving": rows(
             {
                 quantity: listed(balance),
-                **({"moment": listed(statics.moment)} if pushed and statics.moment is not None else {}),
+                **(
+                    {"moment": listed(statics.moment)}
+                    if pushed and statics.moment is not None
+                    else {}
+                ),
                 "read": listed(drawn.read(BALANCE)),
                 "sigma": listed(drawn.spreads[BALANCE].sigma),
             }

@@ -14,11 +14,11 @@ from planmethod.note.narrate.formulas import Formulas
 from planmethod.note.narrate.naming import Names
 from planmethod.note.wording import Language
 from planmethod.note.written import Column, Records, rows, together
+from planmethod.solved.efficiency import TurnEfficiency
 from planmethod.solved.forces.friction import (
     Friction,
     RubbedForces,
     Rubbing,
-    TurnEfficiency,
     friction_of,
 )
 from planmethod.solved.forces.reading import force_reading
@@ -54,7 +54,11 @@ def friction_records(solution: Solution) -> Records:
 
 
 def _kinds(friction: Friction) -> dict[str, RubbedForces]:
-    return {"without": friction.without, "once": friction.once, "converged": friction.converged}
+    return {
+        "without": friction.without,
+        "once": friction.corrected,
+        "converged": friction.converged,
+    }
 
 
 def _pair(friction: Friction, pair: Rubbing, count: int) -> Records:
@@ -95,7 +99,7 @@ def friction_columns(solution: Solution) -> Iterator[tuple[str, Reals]]:
         yield f"F.{name}.rubbed", np.abs(friction.total(pair, friction.converged))
         yield f"friction.{name}", friction.converged.friction[friction.pairs.index(pair)]
     quantity = solution.problem.drive.balancing.quantity
-    yield f"driving.{quantity}.once", friction.once.balance
+    yield f"driving.{quantity}.once", friction.corrected.balance
     yield f"driving.{quantity}.rubbed", friction.converged.balance
     yield "efficiency", friction.efficiency
 

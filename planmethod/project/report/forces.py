@@ -31,6 +31,7 @@ from planmethod.plans.forces.polygons import ForcePlan, Moments
 from planmethod.plans.model import PlanKind
 from planmethod.project.report.context import Report, chain, displayed, sentences
 from planmethod.project.report.figures import figure
+from planmethod.project.report.friction import friction_part
 from planmethod.project.report.turn import has_turn
 from planmethod.render.forces.cut import cut_picture, inner_picture, loads_picture
 from planmethod.render.forces.leverpicture import lever_picture
@@ -69,6 +70,7 @@ class ForceChapter:
         yield from self._reactions()
         yield Part(said.lever.format())
         yield from self._lever()
+        yield from friction_part(self.report, self.context)
         if self.report.is_series:
             yield from self._every()
 

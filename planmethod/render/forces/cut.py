@@ -253,9 +253,7 @@ def _cut(
         for edge in shown
         if edge.symbol not in replaced
     ]
-    turnings = [
-        turning(reading, scheme, one, say) for one in couples if one.symbol not in replaced
-    ]
+    turnings = [turning(reading, scheme, one, say) for one in couples if one.symbol not in replaced]
     shifts = shifts_on(reading, scheme.links, say)
     arms = [arm for arm in arms_of(reading, equations, say) if arm.symbol not in replaced]
     return _loaded_picture(

@@ -126,7 +126,7 @@ def _touching(
 def _done(reading: RubbedReading, pair: Rubbing, force: float) -> float:
     """Return what of the friction of a force one correction has: nearly all, where it was there."""
     number = reading.friction.pairs.index(pair)
-    friction = float(reading.friction.once.friction[number, reading.index])
+    friction = float(reading.friction.corrected.friction[number, reading.index])
     return min(1.0, friction / (pair.share * force))
 
 
@@ -134,7 +134,7 @@ def _off_normal(reading: RubbedReading, pair: Rubbing, one: Acting, sign: float)
     """Incline the force of a guide against the sliding."""
     index = reading.index
     rub = -sign * pair.sense[index] * complex(pair.along[index]) * pair.f * abs(one.direction)
-    whole = abs(complex(reading.friction.once.reactions[pair.number][index]))
+    whole = abs(complex(reading.friction.corrected.reactions[pair.number][index]))
     rub *= _done(reading, pair, max(whole, 1e-12)) if one.symbol.count("'") == 0 else 1.0
     symbol = one.symbol.replace("F", "R", 1)
     acting = replace(one, symbol=symbol, direction=one.direction + rub)
@@ -225,14 +225,23 @@ def _marks(
                 items.append(Stroke((foot, near), Pen.THIN, tag=tag))
             away = one.centre - foot
             labels.append(
-                Label(typeset(letter, height), one.centre, prefer=away, gap=one.radius + 1.0, name=name)
+                Label(
+                    typeset(letter, height),
+                    one.centre,
+                    prefer=away,
+                    gap=one.radius + 1.0,
+                    name=name,
+                )
             )
             continue
         middle = sum(arrow) / 2 - one.acting.at
         side = 1.0 if (middle * one.acting.direction.conjugate()).real > 0 else -1.0
         normal = side * unit(one.normal)
         reach = max(_REACH, abs(middle) + 12.0)
-        other = normal * cmath.exp(1j * radians(pair.phi)), normal * cmath.exp(-1j * radians(pair.phi))
+        other = (
+            normal * cmath.exp(1j * radians(pair.phi)),
+            normal * cmath.exp(-1j * radians(pair.phi)),
+        )
         at = one.acting.at
         items.append(Stroke((at, at + reach * normal), Pen.AXIS, tag=tag))
         items += [Stroke((at, at + reach * way), Pen.THIN, tag=tag) for way in other]
@@ -242,4 +251,3 @@ def _marks(
         place = at + radius * normal
         labels.append(Label(typeset(letter, height), place, prefer=normal, gap=3.5, name=name))
     return items, labels
-

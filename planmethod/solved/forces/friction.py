@@ -10,7 +10,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from functools import cached_property
-from math import inf
 
 import numpy as np
 import numpy.typing as npt
@@ -27,7 +26,7 @@ from planmethod.plans.forces.polygons import reaction_symbol
 from planmethod.problem.load_records import FrictionTask, PairFriction
 from planmethod.problem.model import Problem, Slide
 from planmethod.problem.names import pair_name, segment
-from planmethod.solved.forces.contact import JointForce, slide_between
+from planmethod.solved.forces.contact import JointForce, SlideReaction, slide_between
 from planmethod.solved.forces.loads import STILL
 from planmethod.solved.forces.reading import ForceReading
 from planmethod.solved.forces.statics import Statics, statics_of
@@ -119,19 +118,20 @@ class Rubbing(Struct, frozen=True):
     def loads(self, size: Reals) -> list[Applied]:
         """Return what friction of a size, N or N·m, does to both links, on ``on`` first."""
         found, none = [], np.zeros(size.shape)
+        nowhere = np.zeros(size.shape, dtype=complex)
         for link, other, way in ((self.on, self.by, -1.0), (self.by, self.on, 1.0)):
             if link == FRAME:
                 continue
             turns = self._symbol("moment", link, other)
             signed, kind = way * self.sense * size, LoadKind.FRICTION
             if self.slide is None:
-                found.append(Applied(turns, link, None, none + 0j, signed, kind))
+                found.append(Applied(turns, link, None, nowhere, signed, kind))
                 continue
             name = self._symbol("force", link, other)
             found.append(Applied(name, link, self.joint, signed * self.along, none, kind))
             if np.any(self.beside):
                 couple = -signed * self.beside
-                found.append(Applied(turns, link, None, none + 0j, couple, kind))
+                found.append(Applied(turns, link, None, nowhere, couple, kind))
         return found
 
 
@@ -179,7 +179,9 @@ class Friction(Remembering):
         self._planned = self._with(np.ones((len(self.pairs), len(solution.positions))))
 
     def _with(self, sizes: Reals) -> Statics:
-        rubbing = [one for pair, size in zip(self.pairs, sizes, strict=True) for one in pair.loads(size)]
+        rubbing = [
+            one for pair, size in zip(self.pairs, sizes, strict=True) for one in pair.loads(size)
+        ]
         return Statics(self.solution, rubbing)
 
     # Linear in friction ----------------------------------------------------------------------
@@ -188,7 +190,10 @@ class Friction(Remembering):
         """Read the plans with friction of given sizes, shape (k, n)."""
         board = self._planned.board
         scales = {**UNIT_SCALES, SCALE: 1.0}
-        data, names = {**self.solution.data(scales, slice(None)), **board.data}, dict(board.changing)
+        data, names = (
+            {**self.solution.data(scales, slice(None)), **board.data},
+            dict(board.changing),
+        )
         for pair, size in zip(self.pairs, sizes, strict=True):
             for load in pair.loads(size):
                 data.update(zip(names[load.name], numbers_of(load), strict=True))
@@ -219,7 +224,10 @@ class Friction(Remembering):
             reads.append(self._values(self._read(sizes)))
         whole = [np.concatenate([np.asarray(part, dtype=complex) for part in one]) for one in reads]
         per = [unit * pair.share for pair in self.pairs]
-        return [whole[0], *((one - whole[0]) / size for one, size in zip(whole[1:], per, strict=True))], unit
+        return [
+            whole[0],
+            *((one - whole[0]) / size for one, size in zip(whole[1:], per, strict=True)),
+        ], unit
 
     def _at(self, sizes: Reals) -> npt.NDArray[np.complex128]:
         base, *added = self._linear[0]
@@ -228,7 +236,6 @@ class Friction(Remembering):
     def _pressing(self, sizes: Reals) -> tuple[Reals, Matrices]:
         """Return what presses each pair, N, shape (k, n), and its derivatives, shape (n, k, k)."""
         values, added = self._at(sizes), self._linear[0][1:]
-        count = len(self.statics.reactions)
         pressed = np.zeros(sizes.shape)
         slopes = np.zeros((sizes.shape[1], len(self.pairs), len(self.pairs)))
         for row, pair in enumerate(self.pairs):
@@ -239,17 +246,24 @@ class Friction(Remembering):
             contact = self.statics.contacts.get(pair.number)
             if contact is not None and contact.length is not None:
                 # Both edges together: |F/2 + M/a| + |F/2 - M/a|, M about the middle.
-                def about(value: npt.NDArray[np.complex128]) -> Reals:
-                    normal = (contact.along.conjugate() * value[pair.number]).imag
-                    return value[count + pair.number].real - contact.middle * normal
-
-                moment = about(values)
+                moment = self._about_middle(pair, contact, values)
                 edges = 2.0 * np.abs(moment) / contact.length
-                bears = edges > size
-                slope = np.array([2.0 * np.sign(moment) * about(one) / contact.length for one in added])
-                size, turned = np.where(bears, edges, size), np.where(bears, slope, turned)
+                more = [self._about_middle(pair, contact, one) for one in added]
+                slope = 2.0 * np.sign(moment) * np.array(more) / contact.length
+                size, turned = (
+                    np.where(edges > size, edges, size),
+                    np.where(edges > size, slope, turned),
+                )
             pressed[row], slopes[:, row, :] = size, turned.T
         return pressed, slopes
+
+    def _about_middle(
+        self, pair: Rubbing, contact: SlideReaction, values: npt.NDArray[np.complex128]
+    ) -> Reals:
+        """Return the moment of a guide about the middle of its slider, N·m."""
+        moment = values[len(self.statics.reactions) + pair.number].real
+        normal = (contact.along.conjugate() * values[pair.number]).imag
+        return np.asarray(moment - contact.middle * normal, dtype=float)
 
     # Once, and converged ---------------------------------------------------------------------
 
@@ -306,7 +320,7 @@ class Friction(Remembering):
         return self._forces(np.zeros(self._shares.shape))
 
     @cached_property
-    def once(self) -> RubbedForces:
+    def corrected(self) -> RubbedForces:
         """Forces with the friction that those of ideal pairs cause: one correction."""
         return self._forces(self._first)
 
@@ -323,14 +337,15 @@ class Friction(Remembering):
     def total(self, pair: Rubbing, forces: RubbedForces) -> Complexes:
         """Return the whole reaction of a pair, N: that across a guide and the friction along it."""
         number = self.pairs.index(pair)
-        return forces.reactions[pair.number] - pair.sense * pair.along * forces.friction[number]
+        along = pair.sense * pair.along * forces.friction[number]
+        return np.asarray(forces.reactions[pair.number] - along, dtype=complex)
 
     # What of it remains ----------------------------------------------------------------------
 
     @cached_property
     def change(self) -> Reals:
         """How far one correction is from the converged balance, as a part of that; NaN of none."""
-        once, end = self.once.balance, self.converged.balance
+        once, end = self.corrected.balance, self.converged.balance
         there = np.abs(self.converged.power) > NOTHING * self.scale
         return np.where(there, np.abs(end - once) / np.where(there, np.abs(end), 1.0), np.nan)
 
@@ -338,7 +353,7 @@ class Friction(Remembering):
     def reaction_change(self) -> Reals:
         """The same of the reactions: the largest change, as a part of the largest reaction."""
         changes, sizes = [np.zeros(self.jammed.shape)], [np.full(self.jammed.shape, 1e-300)]
-        for one, end in zip(self.once.reactions, self.converged.reactions, strict=True):
+        for one, end in zip(self.corrected.reactions, self.converged.reactions, strict=True):
             changes.append(np.abs(end - one))
             sizes.append(np.abs(end))
         return np.asarray(np.max(changes, axis=0) / np.max(sizes, axis=0))
@@ -393,58 +408,6 @@ class RubbedReading(ForceReading):
 def rubbed_reading(solution: Solution, index: int) -> RubbedReading:
     """Return the forces of a position with friction; kept, since several views show them."""
     return RubbedReading(solution, index)
-
-
-class TurnEfficiency(Struct, frozen=True):
-    """Efficiency of a whole cycle (КПД за цикл), or why it has none.
-
-    Attributes
-    ----------
-    value : float or None
-    ideal, real : float, J
-        Work of the driver without friction and with it.
-    locked : tuple of float, degrees
-        First and last position of a part of the cycle that is jammed; empty of none.
-    """
-
-    value: float | None
-    ideal: float = 0.0
-    real: float = 0.0
-    locked: tuple[float, ...] = ()
-
-
-def turn_efficiency(solution: Solution, count: int = 360) -> TurnEfficiency | None:
-    """Return the efficiency of the cycle of a crank; None where it has no cycle to be moved through.
-
-    Parameters
-    ----------
-    count : int
-        Positions of a turn.
-    """
-    from planmethod.solved.forces.loads import only_in_positions
-    from planmethod.solved.many.positions import impossible_steps
-
-    problem = solution.problem
-    assert problem.dynamics is not None
-    if not problem.drive.is_crank or only_in_positions(problem.dynamics):
-        return None
-    turned = 360.0 * problem.turns
-    grid = float(solution.positions[0]) + turned * (np.arange(count * problem.turns) + 0.5) / (
-        count * problem.turns
-    )
-    moved = solution.moved(grid.tolist())
-    if (impossible_steps(moved) >= 0).any() or not statics_of(moved).closes.all():
-        return None
-    found = friction_of(moved)
-    step = float(np.radians(turned)) / len(grid) / abs(problem.drive.rate)
-    ideal = float(found.without.power.sum() * step)
-    if found.jammed.any():
-        at = grid[found.jammed]
-        return TurnEfficiency(None, ideal, inf, (float(at[0]), float(at[-1])))
-    real = float(found.converged.power.sum() * step)
-    if abs(ideal) <= NOTHING * float(found.scale.sum() * step):
-        return TurnEfficiency(None, ideal, real)
-    return TurnEfficiency(ideal / real if ideal > 0 else real / ideal, ideal, real)
 
 
 # Pairs -------------------------------------------------------------------------------------------

@@ -210,7 +210,7 @@ class Statics(Remembering):
 
     @cached_property
     def balance(self) -> Reals:
-        """What balances the driver: moment on a crank, N·m, force at its point or on a slider, N."""
+        """What balances the driver: moment on a crank, N·m; force at its point, on a slider, N."""
         return self._number(self.driving.balance)
 
     @cached_property

@@ -13,7 +13,8 @@ from planmethod.note.narrate.forces.common import ForceContext
 from planmethod.note.narrate.given import point_name
 from planmethod.plans.forces.polygons import reaction_symbol
 from planmethod.plans.model import PlanKind
-from planmethod.solved.forces.friction import Friction, Rubbing, friction_of, turn_efficiency
+from planmethod.solved.efficiency import turn_efficiency
+from planmethod.solved.forces.friction import Rubbing, friction_of
 
 
 class FrictionTeller:
@@ -56,9 +57,11 @@ class FrictionTeller:
     def size(self, pair: Rubbing) -> Rich:
         """Return the friction of a pair, found of the forces without it."""
         number = self.friction.pairs.index(pair)
-        size = float(self.friction.once.friction[number, self.index])
+        size = float(self.friction.corrected.friction[number, self.index])
         symbol, force = self.symbol(pair.symbol), self._force(pair)
-        letters, share = ("f", pair.f) if pair.slide is not None else (f"ρ_{{{self._between(pair)}}}", pair.rho)
+        letters, share = (
+            ("f", pair.f) if pair.slide is not None else (f"ρ_{{{self._between(pair)}}}", pair.rho)
+        )
         contact = self.friction.statics.contacts.get(pair.number)
         if contact is not None and contact.edges(self.index):
             force = f"(F^{{'}}_{{{self._between(pair)}}} + F^{{''}}_{{{self._between(pair)}}})"
@@ -85,9 +88,9 @@ class FrictionTeller:
             sense, back = (words.ccw, words.cw) if rate > 0 else (words.cw, words.ccw)
             told = f"{self.find(abs(rate))} {self.units['1/s']}"
             return said.turning.format(sense=sense, back=back, rate=told, **facts)
-        way = complex(pair.along[i]) * np.sign(rate)
+        ahead = complex(pair.along[i]) * float(np.sign(rate))
         told = f"{self.find(abs(rate))} {self.units['m/s']}"
-        way, back = self.context.way(way), self.context.way(-way)
+        way, back = self.context.way(ahead), self.context.way(-ahead)
         return said.sliding.format(sense=way, back=back, rate=told, **facts)
 
     # Results ---------------------------------------------------------------------------------
@@ -100,9 +103,9 @@ class FrictionTeller:
         for number, pair in enumerate(friction.pairs):
             sizes = [
                 abs(complex(friction.total(pair, forces)[i]))
-                for forces in (friction.without, friction.once, friction.converged)
+                for forces in (friction.without, friction.corrected, friction.converged)
             ]
-            once = float(friction.once.friction[number, i])
+            once = float(friction.corrected.friction[number, i])
             rub = float(friction.converged.friction[number, i])
             cells = [
                 point_name(pair.joint),
@@ -124,7 +127,7 @@ class FrictionTeller:
     def results(self) -> Iterator[Rich]:
         """Tell what balances the driver, what of the correction remains, efficiency, locking."""
         said, friction, i = self.said, self.friction, self.index
-        once, jammed = friction.once, bool(friction.jammed[i])
+        once, jammed = friction.corrected, bool(friction.jammed[i])
         balancing = self.context.reading.balancing
         unit = self.units[balancing.unit]
         symbol = self.symbol(balancing.symbol)
