@@ -65,6 +65,7 @@ PLACES: Mapping[str, tuple[str, ...]] = {
     "balancing_force": ("$defs", "balancingForce"),
     "friction": ("$defs", "friction"),
     "pair": ("$defs", "pairFriction"),
+    "bearing": ("$defs", "bearing"),
     "wheel": ("$defs", "gearWheel"),
     "picture": ("$defs", "gears", "properties", "picture"),
     "meshing": ("$defs", "meshing"),

@@ -1,6 +1,7 @@
-"""``[dynamics]``, ``[balancing]``, ``[balancing_force]``, ``[friction]``.
+"""``[dynamics]``, ``[balancing]``, ``[balancing_force]``, ``[friction]``, ``[bearings]``.
 
-Gravity, masses, moments of inertia; counterweights; what balances a crank; friction of the pairs.
+Gravity, masses, moments of inertia; counterweights; what balances a crank; friction of the
+pairs; bearings of a shaft.
 """
 
 from __future__ import annotations
@@ -19,6 +20,7 @@ from planmethod.problem.links import LinkText
 from planmethod.problem.load_records import (
     GRAVITY,
     BalancingForceTask,
+    BearingTable,
     Dynamics,
     FrictionTask,
     Mass,
@@ -284,3 +286,53 @@ def _read_pairs(
                     **read_flat(faults, where, table, PairFriction)
                 )
     return pairs
+
+
+_BEARINGS = "[bearings.O] at = [-0.04, 0.06]"
+
+
+def read_bearings(
+    faults: Faults, given: Mapping[str, Any], turning: Collection[str]
+) -> dict[str, BearingTable]:
+    """Read ``[bearings]``, by joint.
+
+    Parameters
+    ----------
+    given : mapping
+        The whole file.
+    turning : collection of str
+        Points of the frame about which a link turns.
+    """
+    found: dict[str, BearingTable] = {}
+    shafts = fields.read_table(faults, "bearings", given["bearings"], _BEARINGS)
+    for joint, body in (shafts or {}).items():
+        where = f"bearings.{segment(joint)}"
+        if joint not in turning:
+            hint = near_hint(joint, turning, say("Shafts are in {}.", listed(list(turning))))
+            faults.add(where, say("no link turns about a fixed point '{}'", joint), hint)
+            continue
+        table = fields.read_table(faults, where, body, _BEARINGS)
+        before = len(faults)
+        own = {"at": _read_places}
+        read = read_flat(faults, where, table or {}, BearingTable, own, example=_BEARINGS)
+        if table is not None and len(faults) == before:
+            found[joint] = BearingTable(**read)
+    if "dynamics" not in given and "loads" not in given:
+        faults.add("bearings", "there are neither masses nor loads that they could carry", _MASSES)
+    return found
+
+
+def _read_places(faults: Faults, path: str, value: object) -> tuple[float, float] | None:
+    if not isinstance(value, list) or len(value) != 2:
+        faults.expected(path, "two distances in metres", value, say("For example: {}", _BEARINGS))
+        return None
+    one, two = (
+        fields.read_number(faults, f"{path}[{k}]", each, "a distance in m", low=-1e3, high=1e3)
+        for k, each in enumerate(value)
+    )
+    if one is None or two is None:
+        return None
+    if one == two:
+        faults.add(path, "both bearings are at one place", "Two bearings hold a shaft apart.")
+        return None
+    return one, two

@@ -23,6 +23,7 @@ from planmethod.problem.head import (
 )
 from planmethod.problem.load_records import (
     BalancingForceTask,
+    BearingTable,
     Dynamics,
     FrictionTask,
     LoadEntry,
@@ -46,7 +47,8 @@ OF_KINDS = ("gears", "point", "meshing")
 TOP = (
     "title", "source", "units", "frame", "links", "driver", "assembly", "scales", "stamp",
     "sheet", "published", "answers", "compare", "variants", "dynamics", "loads", "machine",
-    "balancing", "balancing_force", "friction", "cycle", "project", *OF_KINDS,
+    "balancing", "balancing_force", "friction", "bearings", "cycle",
+    "project", *OF_KINDS,
 )  # fmt: skip
 FRAME = ("guides", "number")
 GUIDE = ("through", "angle")
@@ -104,7 +106,7 @@ FLAT: Mapping[str, type[object]] = {
     "motor": MotorTable, "kloss": KlossTable, "line": LineTable, "balancing": CounterweightTask,
     "wheel": GearWheelTable, "picture": PictureTable, "meshing": MeshingTable,
     "project": ProjectTask, "balancing_force": BalancingForceTask, "friction": FrictionTask,
-    "pair": PairFriction,
+    "pair": PairFriction, "bearing": BearingTable,
 }  # fmt: skip
 """Records of flat tables by the kind of table."""
 

@@ -280,6 +280,29 @@ class FrictionTask(Struct, frozen=True):
     ] = MappingProxyType({})
 
 
+class BearingTable(Struct, frozen=True):
+    """Two bearings of a shaft, a table of ``[bearings]`` (подшипники вала)."""
+
+    at: Annotated[
+        tuple[float, float],
+        OwnKey(
+            "`[z′, z″]`: where the bearings O′ and O″ are along the axis of the shaft, m, counted "
+            "from anywhere",
+            required=True,
+        ),
+    ]
+    plane: Annotated[
+        float,
+        NumberKey("where the plane of the force is along the axis", "a distance", "m", -1e3, 1e3),
+    ] = 0.0
+
+    @property
+    def shares(self) -> tuple[float, float]:
+        """What of a force in the plane each bearing takes; negative where it acts back."""
+        first, second = self.at
+        return (second - self.plane) / (second - first), (self.plane - first) / (second - first)
+
+
 class Dynamics(Struct, frozen=True):
     """What the force analysis knows beside the motion (исходные данные силового расчёта).
 
@@ -295,6 +318,8 @@ class Dynamics(Struct, frozen=True):
         (равнодействующая сил инерции)
     friction : FrictionTask or None
         None: the pairs are ideal.
+    bearings : mapping of str to BearingTable
+        By the joint of the shaft with the frame.
     """
 
     gravity: Annotated[
@@ -321,3 +346,4 @@ class Dynamics(Struct, frozen=True):
         ),
     ] = False
     friction: FrictionTask | None = None
+    bearings: Mapping[str, BearingTable] = MappingProxyType({})

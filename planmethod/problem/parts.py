@@ -110,6 +110,14 @@ def read_parts(
 
         friction = read_friction(faults, given, links, drive, [*frame.points, *moving])
         dynamics = None if dynamics is None else replace(dynamics, friction=friction)
+    if "bearings" in given:
+        from planmethod.problem.dynamics import read_bearings  # few files have any
+
+        turning = (
+            [one.point for one in mechanism.revolutes if FRAME in one.links] if mechanism else []
+        )
+        bearings = read_bearings(faults, given, turning) if mechanism else {}
+        dynamics = None if dynamics is None else replace(dynamics, bearings=bearings)
     balancing = None
     if "balancing" in given:
         from planmethod.problem.dynamics import read_balancing  # few files have one

@@ -10,6 +10,7 @@ import numpy as np
 from planmethod.note.columns import listed, named, pairs, sizes
 from planmethod.note.document import Caption, Node, Note
 from planmethod.note.formula import Rich
+from planmethod.note.narrate.forces.bearings import bearing_text, redundant
 from planmethod.note.narrate.forces.resultants import kept_lines, shift_lines
 from planmethod.note.narrate.given import point_name
 from planmethod.note.numbers import plain
@@ -17,6 +18,7 @@ from planmethod.note.plaintext import NO_BREAK, fixed, found, given
 from planmethod.note.tables.sigmas import Sigmas
 from planmethod.note.wording import Words
 from planmethod.note.written import Column, Records, rows, together
+from planmethod.plans.forces.polygons import ForcePlan
 from planmethod.problem.model import Problem
 from planmethod.solved.errors.forces import (
     BALANCE,
@@ -28,7 +30,7 @@ from planmethod.solved.errors.forces import (
     size_label,
 )
 from planmethod.solved.forces.contact import VANISHING, JointForce, SlideReaction
-from planmethod.solved.forces.statics import Statics, statics_of
+from planmethod.solved.forces.statics import Statics, bearings_of, statics_of
 from planmethod.solved.reading import Flags
 from planmethod.solved.solution import Solution
 
@@ -68,6 +70,26 @@ def _at_edges(contact: SlideReaction | None) -> dict[int, dict[str, Any]]:
     }
 
 
+def _in_bearings(statics: Statics, joint: JointForce) -> dict[str, Records]:
+    """Return what each of two bearings takes of the reaction of a shaft, N."""
+    shared = bearings_of(statics, joint)
+    if shared is None:
+        return {}
+    count = len(statics.solution.positions)
+    parts = [
+        rows(
+            {
+                "at": [place] * count,
+                "fx": listed(share * joint.force.real),
+                "fy": listed(share * joint.force.imag),
+                "f": sizes(share * joint.force),
+            }
+        )
+        for place, share in zip(shared.at, shared.shares, strict=True)
+    ]
+    return {"bearings": together(parts, count)}
+
+
 def _drawn(drawn: DrawnForces, joint: JointForce, still: Flags) -> dict[str, Column]:
     """Return what the ruler gives of a reaction, and the drafting errors of what is told of it.
 
@@ -105,6 +127,7 @@ def _reaction_records(statics: Statics, number: int) -> Records:
             "moment": listed(joint.moment),
             **_drawn(drawn, joint, still),
             **_acts(contact),
+            **_in_bearings(statics, joint),
         },
         some=_at_edges(contact),
     )
@@ -151,7 +174,7 @@ def forces_records(solution: Solution) -> Records:
         "mu": [statics.scale.per_mm] * count,
         "plans": together(
             [
-                rows({"links": [[*plan.links]] * count, "mu": listed(own)})
+                rows({"links": [[*plan.links]] * count, "mu": listed(own), "q": [_q(plan)] * count})
                 for plan, own in zip(statics.board.plans, statics.own_scales, strict=True)
             ],
             count,
@@ -181,6 +204,11 @@ def forces_records(solution: Solution) -> Records:
             }
         )
     return rows(columns)
+
+
+def _q(plan: ForcePlan) -> int:
+    """Return how many redundant constraints the links of a plan have with pairs of one freedom."""
+    return redundant(len(plan.links))
 
 
 def forces_columns(solution: Solution, words: Words) -> list[list[str]]:
@@ -280,6 +308,10 @@ def forces_tables(solution: Solution, words: Words, index: int, sigmas: Sigmas) 
     yield Caption(words.table_forces)
     yield sigmas.table(words["columns_forces"], (3, 4, 5), rows, names=2)
     yield from map(Note, _edge_notes(solution, words, index))
+    for joint in statics.reactions:
+        if (shared := bearings_of(statics, joint)) is not None:
+            force = abs(complex(joint.force[index]))
+            yield Note(bearing_text(solution, joint, shared, force, words))
     yield from map(Note, resultant_notes(solution, words, index))
     balancing = solution.problem.drive.balancing
     balance, unit = words["balance"][balancing.said], words["units"][balancing.unit]

@@ -21,6 +21,7 @@ from planmethod.construct.hand import Hand
 from planmethod.construct.program import Program
 from planmethod.construct.scale import Scale, choose_scale
 from planmethod.construct.steps import Name, NumberName
+from planmethod.mechanism.model import FRAME
 from planmethod.plans.draft import Draft
 from planmethod.plans.forces.board import SCALE, Force, ForceBoard, Reaction
 from planmethod.plans.forces.dyads import Driving, drive_forces, group_forces
@@ -28,6 +29,7 @@ from planmethod.plans.forces.lever import Lever, plan_lever
 from planmethod.plans.forces.loads import Applied
 from planmethod.plans.forces.polygons import ForcePlan
 from planmethod.plans.model import FACTS, PlanKind
+from planmethod.problem.load_records import BearingTable
 from planmethod.problem.model import Convention
 from planmethod.solved.failures import PositionError
 from planmethod.solved.forces.contact import JointForce, SlideReaction, contacts
@@ -319,3 +321,12 @@ class Statics(Remembering):
 def statics_of(solution: Solution) -> Statics:
     """Return the force analysis of a solution, made when it is first asked for."""
     return solution.once(Statics)
+
+
+def bearings_of(statics: Statics, joint: JointForce) -> BearingTable | None:
+    """Return the two bearings that share the reaction of a shaft; None where the file has none."""
+    dynamics = statics.solution.problem.dynamics
+    if dynamics is None or FRAME not in (joint.on, joint.by):
+        return None
+    slides = joint.joint in {slide.pin for slide in statics.solution.problem.slides.values()}
+    return None if slides else dynamics.bearings.get(joint.joint)

@@ -17,6 +17,7 @@ from planmethod.note.document import (
     step_of,
 )
 from planmethod.note.narrate.equations import direction_note
+from planmethod.note.narrate.forces.bearings import undetermined
 from planmethod.note.narrate.forces.common import ForceContext, balance_equation, closed
 from planmethod.note.narrate.forces.lever import LeverNarrator
 from planmethod.note.narrate.forces.loads import LoadNarrator
@@ -71,6 +72,8 @@ def _plans(context: ForceContext) -> Iterator[Node]:
     frame = context.solution.problem.mechanism.frame
     order = ", ".join(title[:1].lower() + title[1:] for title in titles)
     yield Step((said.order.format(order=order), said.indices.format(frame=frame)))
+    if dyads := [group for group in groups if group is not None]:
+        yield Step((undetermined(dyads, words),))
     for number, (plan, group) in enumerate(zip(context.reading.plans, groups, strict=True)):
         yield Part(driver if group is None else group_title(group, words))
         yield from _plan(context, plan, number)
