@@ -50,7 +50,10 @@ def test_the_tables_of_the_press() -> None:
     assert tell.energy_formulas()[-1] == r"J_{п} = \frac{2T}{ω_{1}^{2}}"
 
 
-@pytest.mark.parametrize(("variant", "signs"), [(None, "−−−"), ("source", "−++")])
-def test_the_formula_has_the_signs_of_its_terms(variant: str | None, signs: str) -> None:
-    formula = told("press/flywheel", variant).moment_formula()
+@pytest.mark.parametrize(
+    ("name", "variant", "signs"),
+    [(*MACHINES[0], "−−−"), (*MACHINES[1], "−++"), (*MACHINES[2], "++")],
+)
+def test_the_formula_has_the_signs_of_its_terms(name: str, variant: str | None, signs: str) -> None:
+    formula = told(name, variant).moment_formula()
     assert "".join(sign for sign in formula if sign in "−+") == signs

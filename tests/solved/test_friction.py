@@ -136,18 +136,21 @@ def compared(problem: Problem, motion: Motion, found: Friction) -> float:
     joints = [(r.joint, r.on, r.by) for r in found.statics.reactions]
     referee = Referee(problem, joints, motion)
     x: list[float] = []
-    for joint, reaction in zip(joints, found.converged.reactions, strict=True):
+    forces = zip(found.converged.reactions, found.converged.moments, strict=True)
+    for joint, (reaction, moment) in zip(joints, forces, strict=True):
         slide, force = slide_between(problem, joint), complex(reaction[0])
-        across = 0j if slide is None else 1j * complex(referee.pose.along(slide))
-        x += [force.real, force.imag] if slide is None else [(force / across).real, 0.0]
+        if slide is None:
+            x += [force.real, force.imag]
+            continue
+        across = 1j * complex(referee.pose.along(slide))
+        # The plans have the moment of a bar in a block about the block, the referee about the pin.
+        shift = referee.pose.place(slide.slider, slide.pin) - complex(
+            found.statics.reactions[joints.index(joint)].at[0]
+        )
+        x += [(force / across).real, float(moment[0]) - cross(shift, force)]
     start = np.array([*x, float(found.converged.balance[0])])
     solved = referee.solve(np.zeros(len(start)))
-    off = [abs(solved[2 * k] - start[2 * k]) for k in range(len(joints))]
-    off += [
-        abs(solved[2 * k + 1] - start[2 * k + 1])
-        for k, joint in enumerate(joints)
-        if slide_between(problem, joint) is None
-    ]
+    off = np.abs(solved[:-1] - start[:-1])
     big = float(np.max(np.abs(solved[:-1])))
     drives = abs(solved[-1] - start[-1]) / max(abs(solved[-1]), 1e-3 * big)
     return max(float(np.max(off)) / big, float(drives))

@@ -72,7 +72,7 @@ class Rubbing(Struct, frozen=True):
     along : Complexes
         Unit vectors in the guide's direction; of a turning pair zero.
     beside : Reals, m
-        How far the guide's line is to the left of the place where the plans have its force.
+        How far the guide's line is to the left of the slider's pin.
     frame : str
         How the frame is printed.
     """
@@ -144,6 +144,8 @@ class RubbedForces(Struct, frozen=True):
         Size of the friction of each pair, N or N·m.
     reactions : list of Complexes
         All reactions in the order of the force analysis, N: those of guides across them.
+    moments : list of Reals
+        Their moments about the places where the plans have them, N·m; zero in turning pairs.
     balance : Reals
         What balances the driver, N·m or N.
     power : Reals, W
@@ -152,6 +154,7 @@ class RubbedForces(Struct, frozen=True):
 
     friction: Reals
     reactions: list[Complexes]
+    moments: list[Reals]
     balance: Reals
     power: Reals
 
@@ -312,7 +315,8 @@ class Friction(Remembering):
     def _forces(self, sizes: Reals) -> RubbedForces:
         values, count = self._at(sizes), len(self.statics.reactions)
         balance, power = values[-2].real, values[-1].real
-        return RubbedForces(sizes, list(values[:count]), balance, power)
+        moments = [one.real for one in values[count : 2 * count]]
+        return RubbedForces(sizes, list(values[:count]), moments, balance, power)
 
     @cached_property
     def without(self) -> RubbedForces:
@@ -431,7 +435,8 @@ def _rubbing(solution: Solution, task: FrictionTask, number: int, joint: JointFo
         rate = (along.conjugate() * relative).real
         speeds = [np.abs(point.velocity) for point in solution.points.values()]
         fastest = np.max(speeds, axis=0)
-        beside = (along.conjugate() * (contact.base - joint.at)).imag
+        pin = solution.points[slide.pin].place
+        beside = (along.conjugate() * (contact.base - pin)).imag
         beside = np.where(np.abs(beside) < 1e-12, 0.0, beside)
     sense = np.where(np.abs(rate) > STILL * fastest, np.sign(rate), 0.0)
     return Rubbing(
