@@ -244,11 +244,15 @@ class BalancingForceTask(Struct, frozen=True):
     ] = None
 
 
+_LIKE = "A coefficient of friction is a number like 0.1."
+
+
 class PairFriction(Struct, frozen=True):
     """Friction of one kinematic pair, a table of ``friction.pairs`` (трение в паре)."""
 
     f: Annotated[
-        float | None, NumberKey("coefficient of friction", "a coefficient", "", 0.0, 10.0)
+        float | None,
+        NumberKey("coefficient of friction", "a coefficient", "", 0.0, 10.0, hint=_LIKE),
     ] = None
     radius: Annotated[
         float | None, NumberKey("radius of the pin of a turning pair", "a radius", "m", 0.0, 10.0)
@@ -259,13 +263,14 @@ class FrictionTask(Struct, frozen=True):
     """What ``[friction]`` tells (трение в кинематических парах)."""
 
     f: Annotated[
-        float, NumberKey("coefficient of sliding pairs (f)", "a coefficient", "", 0.0, 10.0)
+        float,
+        NumberKey("coefficient of sliding pairs (f)", "a coefficient", "", 0.0, 10.0, hint=_LIKE),
     ] = 0.0
     f_pin: Annotated[
         float,
         NumberKey(
             "reduced coefficient of turning pairs (приведённый коэффициент f′)",
-            "a coefficient", "", 0.0, 10.0,
+            "a coefficient", "", 0.0, 10.0, hint=_LIKE,
         ),
     ] = 0.0  # fmt: skip
     radius: Annotated[

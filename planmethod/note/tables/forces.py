@@ -221,7 +221,19 @@ def forces_columns(solution: Solution, words: Words) -> list[list[str]]:
     ]
     drive = solution.problem.drive
     head = f"{drive.balancing.letter}{drive.link}, {words['units'][drive.balancing.unit]}"
-    return [*columns, [head, *(found(float(value), words) for value in statics.balance)]]
+    columns.append([head, *(found(float(value), words) for value in statics.balance)])
+    if rubbed(solution.problem):
+        from planmethod.solved.forces.friction import friction_of  # few files have any
+
+        friction = friction_of(solution)
+        more = (
+            (words.rubbed.format(head=head), friction.converged.balance),
+            ("η", friction.efficiency),
+        )
+        for name, values in more:
+            told = (found(float(v), words) if np.isfinite(v) else "—" for v in values)
+            columns.append([name, *told])
+    return columns
 
 
 def _distance(solution: Solution, number: int, index: int, words: Words) -> str:

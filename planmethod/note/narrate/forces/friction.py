@@ -171,12 +171,13 @@ class FrictionTeller:
             yield self.said.turn_jams.format(first=first, last=last)
             return
         joule = self.units["J"]
-        ideal, real = self.find(found.ideal), self.find(found.real)
+        drives, real = found.ideal > 0, self.find(found.real if found.ideal > 0 else -found.real)
         if found.value is None:
-            yield self.said.turn_idle.format(real=f"{real} {joule}")
+            yield self.said.turn_idle.format(real=f"{self.find(found.real)} {joule}")
             return
-        letters = fraction("A_{0}", "A") if found.ideal > 0 else fraction("A", "A_{0}")
-        numbers = fraction(ideal, real) if found.ideal > 0 else fraction(real, ideal)
+        letters = fraction(*(("A_{0}", "A") if drives else ("A", "A_{0}")))
+        ideal = self.find(abs(found.ideal))
+        numbers = fraction(*((ideal, real) if drives else (real, ideal)))
         yield self.said.turn.format(eta=f"η = {letters} = {numbers} = {self.find(found.value)}")
 
     def given(self) -> list[Rich]:
