@@ -71,9 +71,9 @@ def _plans(context: ForceContext) -> Iterator[Node]:
     titles = [driver if group is None else links_of_group(group, words) for group in groups]
     frame = context.solution.problem.mechanism.frame
     order = ", ".join(title[:1].lower() + title[1:] for title in titles)
-    yield Step((said.order.format(order=order), said.indices.format(frame=frame)))
-    if dyads := [group for group in groups if group is not None]:
-        yield Step((undetermined(dyads, words),))
+    dyads = [group for group in groups if group is not None]
+    lines = (said.order.format(order=order), said.indices.format(frame=frame))
+    yield Step((*lines, *([undetermined(dyads, words)] if dyads else [])))
     for number, (plan, group) in enumerate(zip(context.reading.plans, groups, strict=True)):
         yield Part(driver if group is None else group_title(group, words))
         yield from _plan(context, plan, number)
