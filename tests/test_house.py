@@ -37,6 +37,7 @@ LATE_OF = {
     "planmethod.note.audit": "printed values",
     "planmethod.note.tables.causes": "drafting errors",
     "planmethod.note.tables.forces": "forces",
+    "planmethod.note.tables.friction": "friction",
     "planmethod.gears.audit": "printed values of gear trains",
     "planmethod.gears.angles": "wheels with shifts",
     "planmethod.gears.drawn": "pens, for the sheets of gear trains alone",

@@ -335,13 +335,12 @@ class Questions:
         if first in ("arm", "shift"):
             return self._made(selector, "mm", Sign.SIZE, name, PlanKind.POSITION, name)
         if kind in DRIVES:
-            crank = self.solution.problem.drive.pivot is not None
-            unit = "N·m" if crank and not selector.names else "N"
+            balancing = self.solution.problem.drive.balancing
+            unit = "N" if selector.names else balancing.unit
             sign = Sign.TURN if not selector.names else Sign.SIZE
             ends = self._ends(PlanKind.FORCE, name)
             plan = None if ends is None else PlanKind.FORCE
             length = None if ends is None else self._segments(PlanKind.FORCE).drawn(ends)
-            balancing = self.solution.problem.drive.balancing
             symbol = balancing.symbol if kind == "balance" else f"lever {balancing.quantity}"
             return self._made(
                 selector,

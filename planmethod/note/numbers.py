@@ -111,7 +111,13 @@ class Notation(Struct, frozen=True, eq=False):
         return rich_number(text, self.decimal)
 
     def symbol(self, name: str) -> str:
-        """Return the letters of a quantity of the plans: its own, or those of its role."""
+        """Return the letters of a quantity of the plans: its own, or those of its role.
+
+        An index follows those of the role: ``friction force of 30``.
+        """
+        role, of, index = name.partition(" of ")
+        if of and role in self.symbols:
+            return f"{self.symbols[role].removesuffix('}')}{index}}}"
         return self.symbols.get(name, name)
 
     def given(self, value: float) -> str:

@@ -325,7 +325,7 @@ def _own_sense(selector: Selector, drive: Drive | None) -> AskedSense | None:
     if selector.over is not None:
         return None
     if selector.kind in ("balance", "lever") and not selector.names:
-        turns = drive is None or drive.is_crank
+        turns = drive is None or drive.balancing.turns
         return AskedSense.TURN if turns else AskedSense.DIRECTION
     if selector.kind in _TURNS:
         return AskedSense.TURN

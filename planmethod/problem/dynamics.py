@@ -1,4 +1,8 @@
-"""``[dynamics]`` and ``[balancing]``: gravity, masses, moments of inertia, counterweights."""
+"""``[dynamics]``, ``[balancing]``, ``[balancing_force]``, ``[friction]``, ``[bearings]``.
+
+Gravity, masses, moments of inertia; counterweights; what balances a crank; friction of the
+pairs; bearings of a shaft.
+"""
 
 from __future__ import annotations
 
@@ -7,15 +11,24 @@ from functools import partial
 from typing import Any
 
 from planmethod.languages import say
+from planmethod.mechanism.model import FRAME
 from planmethod.problem import fields
 from planmethod.problem.fields import Faults, Table
 from planmethod.problem.flat import OwnReader, read_flat
 from planmethod.problem.forces import LoadScope, read_loads
 from planmethod.problem.links import LinkText
-from planmethod.problem.load_records import GRAVITY, Dynamics, Mass
+from planmethod.problem.load_records import (
+    GRAVITY,
+    BalancingForceTask,
+    BearingTable,
+    Dynamics,
+    FrictionTask,
+    Mass,
+    PairFriction,
+)
 from planmethod.problem.machine_records import CounterweightTask, Machine, Weighing
 from planmethod.problem.model import Drive
-from planmethod.problem.names import listed, near_hint, segment
+from planmethod.problem.names import listed, near_hint, pair_name, segment
 from planmethod.problem.sizes import TURN
 
 _EXAMPLE = '[dynamics.links.2] mass = 40, centre = "S2", inertia = 2'
@@ -169,3 +182,157 @@ def _read_radii(
         if found is not None:
             radii[link] = found
     return radii
+
+
+_PUSHED = '[balancing_force] at = "A"'
+
+
+def read_balancing_force(
+    faults: Faults, given: Mapping[str, Any], links: Mapping[str, LinkText], drive: Drive | None
+) -> BalancingForceTask | None:
+    """Read ``[balancing_force]``; None after noting a fault.
+
+    Parameters
+    ----------
+    given : mapping
+        The whole file.
+    """
+    path, before = "balancing_force", len(faults)
+    table = fields.read_table(faults, path, given[path], _PUSHED)
+    if table is None:
+        return None
+    if "dynamics" not in given and "loads" not in given:
+        faults.add(path, "there are neither masses nor loads that it could balance", _MASSES)
+    if drive is None or drive.link not in links:
+        return None
+    if drive.pivot is None:
+        hint = "Delete the table: what balances a driving slider is a force along its guide."
+        faults.add(path, say("link {} slides and has no turn", drive.link), hint)
+        return None
+    crank = links[drive.link]
+    others = [point for point in crank.points if point != drive.pivot]
+
+    def point(faults: Faults, path: str, value: object) -> str | None:
+        name = LoadScope(links, (), drive).find_point(faults, path, value, crank)
+        if name == drive.pivot:
+            hint = say("Name another point of link {}: {}.", drive.link, listed(others))
+            faults.add(path, say("point {} is the axis: there a force has no arm", name), hint)
+        return name
+
+    found = read_flat(faults, path, table, BalancingForceTask, {"at": point}, example=_PUSHED)
+    return None if len(faults) != before else BalancingForceTask(**found)
+
+
+_MASSES = 'Give them: [dynamics.links.2] mass = 3, centre = "S2".'
+_FRICTION = "[friction] f = 0.1, f_pin = 0.1, radius = 0.01"
+
+
+def read_friction(
+    faults: Faults,
+    given: Mapping[str, Any],
+    links: Collection[str],
+    drive: Drive | None,
+    points: Collection[str],
+) -> FrictionTask | None:
+    """Read ``[friction]``; None after noting a fault.
+
+    Parameters
+    ----------
+    given : mapping
+        The whole file.
+    points : collection of str
+        Every point of the mechanism.
+    """
+    path, before = "friction", len(faults)
+    table = fields.read_table(faults, path, given[path], _FRICTION)
+    if table is None:
+        return None
+    if "dynamics" not in given and "loads" not in given:
+        faults.add(path, "there are neither masses nor loads that could press", _MASSES)
+    if drive is not None and not drive.rate:
+        hint = "Give the driver a speed: friction acts against the motion."
+        faults.add(path, "the driver stands, so friction has no sense", hint)
+    own = {"pairs": partial(_read_pairs, links=[*links, FRAME], points=points)}
+    found = read_flat(faults, path, table, FrictionTask, own)
+    if len(faults) == before and found.get("f_pin") and "radius" not in found:
+        hint = say("For example: {}", _FRICTION)
+        faults.add(f"{path}.radius", "missing: the friction of a pin goes with its radius", hint)
+    return None if len(faults) != before else FrictionTask(**found)
+
+
+def _read_pairs(
+    faults: Faults, path: str, value: object, links: Collection[str], points: Collection[str]
+) -> dict[str, PairFriction]:
+    """Read the pairs that have friction of their own, by joint and links in order."""
+    pairs: dict[str, PairFriction] = {}
+    example = 'friction.pairs."B 3-0" = { f = 0.2 }'
+    for name, body in (fields.read_table(faults, path, value, example) or {}).items():
+        where = f"{path}.{segment(name)}"
+        joint, _, both = name.partition(" ")
+        one, _, other = both.partition("-")
+        for known, wanted, message in (
+            (points, joint, "there is no point '{}'"),
+            (links, one, "there is no link '{}'"),
+            (links, other, "there is no link '{}'"),
+        ):
+            if wanted not in known:
+                hint = near_hint(wanted, known, say("For example: {}", example))
+                faults.add(where, say(message, wanted), hint)
+                break
+        else:
+            table = fields.read_table(faults, where, body, example)
+            if table is not None:
+                pairs[pair_name(joint, one, other)] = PairFriction(
+                    **read_flat(faults, where, table, PairFriction)
+                )
+    return pairs
+
+
+_BEARINGS = "[bearings.O] at = [-0.04, 0.06]"
+
+
+def read_bearings(
+    faults: Faults, given: Mapping[str, Any], turning: Collection[str]
+) -> dict[str, BearingTable]:
+    """Read ``[bearings]``, by joint.
+
+    Parameters
+    ----------
+    given : mapping
+        The whole file.
+    turning : collection of str
+        Points of the frame about which a link turns.
+    """
+    found: dict[str, BearingTable] = {}
+    shafts = fields.read_table(faults, "bearings", given["bearings"], _BEARINGS)
+    for joint, body in (shafts or {}).items():
+        where = f"bearings.{segment(joint)}"
+        if joint not in turning:
+            hint = near_hint(joint, turning, say("Shafts are in {}.", listed(list(turning))))
+            faults.add(where, say("no link turns about a fixed point '{}'", joint), hint)
+            continue
+        table = fields.read_table(faults, where, body, _BEARINGS)
+        before = len(faults)
+        own = {"at": _read_places}
+        read = read_flat(faults, where, table or {}, BearingTable, own, example=_BEARINGS)
+        if table is not None and len(faults) == before:
+            found[joint] = BearingTable(**read)
+    if "dynamics" not in given and "loads" not in given:
+        faults.add("bearings", "there are neither masses nor loads that they could carry", _MASSES)
+    return found
+
+
+def _read_places(faults: Faults, path: str, value: object) -> tuple[float, float] | None:
+    if not isinstance(value, list) or len(value) != 2:
+        faults.expected(path, "two distances in metres", value, say("For example: {}", _BEARINGS))
+        return None
+    one, two = (
+        fields.read_number(faults, f"{path}[{k}]", each, "a distance in m", low=-1e3, high=1e3)
+        for k, each in enumerate(value)
+    )
+    if one is None or two is None:
+        return None
+    if one == two:
+        faults.add(path, "both bearings are at one place", "Two bearings hold a shaft apart.")
+        return None
+    return one, two

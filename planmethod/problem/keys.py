@@ -22,7 +22,16 @@ from planmethod.problem.head import (
     Published,
     SheetSettings,
 )
-from planmethod.problem.load_records import Dynamics, LoadEntry, Mass, Phase
+from planmethod.problem.load_records import (
+    BalancingForceTask,
+    BearingTable,
+    Dynamics,
+    FrictionTask,
+    LoadEntry,
+    Mass,
+    PairFriction,
+    Phase,
+)
 from planmethod.problem.machine_records import (
     CounterweightTask,
     FlywheelTask,
@@ -42,7 +51,8 @@ READING = ("reading", "other_readings")
 TOP = (
     "title", "source", *READING, "units", "frame", "links", "driver", "assembly", "scales", "stamp",
     "sheet", "published", "answers", "compare", "variants", "dynamics", "loads", "machine",
-    "balancing", "cycle", "project", "higher_pairs", *OF_KINDS,
+    "balancing", "balancing_force", "friction", "bearings", "cycle",
+    "project", "higher_pairs", *OF_KINDS,
 )  # fmt: skip
 FRAME = ("guides", "number")
 GUIDE = ("through", "angle")
@@ -99,7 +109,8 @@ FLAT: Mapping[str, type[object]] = {
     "load": LoadEntry, "phases": Phase, "machine": Machine, "flywheel": FlywheelTask,
     "motor": MotorTable, "kloss": KlossTable, "line": LineTable, "balancing": CounterweightTask,
     "wheel": GearWheelTable, "picture": PictureTable, "meshing": MeshingTable,
-    "project": ProjectTask, "higher": HigherPairTable,
+    "project": ProjectTask, "higher": HigherPairTable, "balancing_force": BalancingForceTask,
+    "friction": FrictionTask, "pair": PairFriction, "bearing": BearingTable,
 }  # fmt: skip
 """Records of flat tables by the kind of table."""
 

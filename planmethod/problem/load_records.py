@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from enum import Enum
+from types import MappingProxyType
 from typing import Annotated
 
 from msgspec import Struct
@@ -228,6 +229,85 @@ class Couple(Struct, frozen=True):
     phase: Phase | None = None
 
 
+class BalancingForceTask(Struct, frozen=True):
+    """What ``[balancing_force]`` asks (уравновешивающая сила): a force at a point of the crank."""
+
+    at: Annotated[
+        str, OwnKey("point of the crank where the force acts (точка приложения)", required=True)
+    ]
+    angle: Annotated[
+        float | None,
+        AngleKey(
+            "its direction from +x, degrees; the force is negative where it acts the other way",
+            absent="across the line from the axis to the point, positive counter-clockwise",
+        ),
+    ] = None
+
+
+_LIKE = "A coefficient of friction is a number like 0.1."
+
+
+class PairFriction(Struct, frozen=True):
+    """Friction of one kinematic pair, a table of ``friction.pairs`` (трение в паре)."""
+
+    f: Annotated[
+        float | None,
+        NumberKey("coefficient of friction", "a coefficient", "", 0.0, 10.0, hint=_LIKE),
+    ] = None
+    radius: Annotated[
+        float | None, NumberKey("radius of the pin of a turning pair", "a radius", "m", 0.0, 10.0)
+    ] = None
+
+
+class FrictionTask(Struct, frozen=True):
+    """What ``[friction]`` tells (трение в кинематических парах)."""
+
+    f: Annotated[
+        float,
+        NumberKey("coefficient of sliding pairs (f)", "a coefficient", "", 0.0, 10.0, hint=_LIKE),
+    ] = 0.0
+    f_pin: Annotated[
+        float,
+        NumberKey(
+            "reduced coefficient of turning pairs (приведённый коэффициент f′)",
+            "a coefficient", "", 0.0, 10.0, hint=_LIKE,
+        ),
+    ] = 0.0  # fmt: skip
+    radius: Annotated[
+        float, NumberKey("radius of the pins (радиус цапф)", "a radius", "m", 0.0, 10.0)
+    ] = 0.0
+    pairs: Annotated[
+        Mapping[str, PairFriction],
+        OwnKey(
+            "a table for each pair that has other values, named by its joint and its two links: "
+            '`"B 3-0" = { f = 0.2 }`, a sliding pair by its pin, the frame is 0'
+        ),
+    ] = MappingProxyType({})
+
+
+class BearingTable(Struct, frozen=True):
+    """Two bearings of a shaft, a table of ``[bearings]`` (подшипники вала)."""
+
+    at: Annotated[
+        tuple[float, float],
+        OwnKey(
+            "`[z′, z″]`: where the bearings O′ and O″ are along the axis of the shaft, m, counted "
+            "from anywhere",
+            required=True,
+        ),
+    ]
+    plane: Annotated[
+        float,
+        NumberKey("where the plane of the force is along the axis", "a distance", "m", -1e3, 1e3),
+    ] = 0.0
+
+    @property
+    def shares(self) -> tuple[float, float]:
+        """What of a force in the plane each bearing takes; negative where it acts back."""
+        first, second = self.at
+        return (second - self.plane) / (second - first), (self.plane - first) / (second - first)
+
+
 class Dynamics(Struct, frozen=True):
     """What the force analysis knows beside the motion (исходные данные силового расчёта).
 
@@ -241,6 +321,10 @@ class Dynamics(Struct, frozen=True):
         In file order, with different names.
     resultant : bool
         (равнодействующая сил инерции)
+    friction : FrictionTask or None
+        None: the pairs are ideal.
+    bearings : mapping of str to BearingTable
+        By the joint of the shaft with the frame.
     """
 
     gravity: Annotated[
@@ -266,3 +350,5 @@ class Dynamics(Struct, frozen=True):
             "that can be drawn ([forces.md](forces.md))"
         ),
     ] = False
+    friction: FrictionTask | None = None
+    bearings: Mapping[str, BearingTable] = MappingProxyType({})

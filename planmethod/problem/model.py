@@ -24,7 +24,7 @@ from planmethod.problem.names import told_length
 if TYPE_CHECKING:
     from fractions import Fraction
 
-    from planmethod.problem.load_records import Dynamics
+    from planmethod.problem.load_records import BalancingForceTask, Dynamics
     from planmethod.problem.machine_records import CounterweightTask, Machine
 
 
@@ -168,9 +168,11 @@ class Coordinate(Struct, frozen=True):
 class BalancingQuantity(Struct, frozen=True):
     """What balances the driver (уравновешивающий момент, уравновешивающая сила).
 
-    Records name it by ``quantity``; ``symbol`` stands for its letters, which a language has.
+    Records name it by ``quantity``, sentences by ``said``; ``symbol`` stands for its letters, which
+    a language has.
     """
 
+    said: str
     quantity: str
     symbol: str
     letter: str
@@ -178,8 +180,9 @@ class BalancingQuantity(Struct, frozen=True):
     turns: bool
 
 
-MOMENT = BalancingQuantity("moment", "balancing moment", "M", "N·m", turns=True)
-FORCE = BalancingQuantity("force", "balancing force", "F", "N", turns=False)
+MOMENT = BalancingQuantity("moment", "moment", "balancing moment", "M", "N·m", turns=True)
+FORCE = BalancingQuantity("force", "force", "balancing force", "F", "N", turns=False)
+PUSH = BalancingQuantity("push", "force", "balancing force", "F", "N", turns=False)
 
 
 class Geared(Struct, frozen=True):
@@ -294,6 +297,8 @@ class Drive(Struct, frozen=True):
     judged : tuple of float
         Positions in which the rules of assembly are judged, where ``[cycle]`` tells the positions:
         those that the file lists, else `ANYWHERE`; empty where they are the positions themselves.
+    pushed : BalancingForceTask or None
+        The force at a point of a crank that balances it, in place of a couple.
     """
 
     link: str
@@ -305,6 +310,7 @@ class Drive(Struct, frozen=True):
     turns: float | None = None
     posed: Posed | None = None
     judged: tuple[float, ...] = ()
+    pushed: BalancingForceTask | None = None
 
     @property
     def is_crank(self) -> bool:
@@ -322,7 +328,9 @@ class Drive(Struct, frozen=True):
     @property
     def balancing(self) -> BalancingQuantity:
         """What balances it."""
-        return MOMENT if self.is_crank else FORCE
+        if not self.is_crank:
+            return FORCE
+        return MOMENT if self.pushed is None else PUSH
 
 
 class Convention(Enum):

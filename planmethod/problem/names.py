@@ -11,6 +11,7 @@ from collections.abc import Iterable, Mapping
 from types import MappingProxyType
 
 from planmethod.languages import say, typed
+from planmethod.mechanism.model import FRAME
 
 UNITS: Mapping[str, float] = MappingProxyType({"m": 1.0, "cm": 100.0, "mm": 1000.0})
 """Units in which a file may give its lengths: how many of them a metre has."""
@@ -177,3 +178,15 @@ def segment(key: str) -> str:
 def joined(*parts: str) -> str:
     """Dotted path of keys; empty parts are left out."""
     return ".".join(part for part in parts if part)
+
+
+def pair_name(joint: str, one: str, other: str) -> str:
+    """Return what a kinematic pair is called: by its joint and its links, the frame last.
+
+    Examples
+    --------
+    >>> pair_name("B", "0", "3"), pair_name("B", "3", "2")
+    ('B 3-0', 'B 2-3')
+    """
+    first, last = sorted((one, other), key=lambda link: (link == FRAME, link))
+    return f"{joint} {first}-{last}"

@@ -108,6 +108,24 @@ def read_parts(
         from planmethod.problem.dynamics import read_dynamics  # few files have any
 
         dynamics = read_dynamics(faults, given, links, frame.points, drive, machine)
+    if "balancing_force" in given:
+        from planmethod.problem.dynamics import read_balancing_force  # few files have one
+
+        pushed = read_balancing_force(faults, given, links, drive)
+        drive = None if drive is None else replace(drive, pushed=pushed)
+    if "friction" in given:
+        from planmethod.problem.dynamics import read_friction  # few files have any
+
+        friction = read_friction(faults, given, links, drive, [*frame.points, *moving])
+        dynamics = None if dynamics is None else replace(dynamics, friction=friction)
+    if "bearings" in given:
+        from planmethod.problem.dynamics import read_bearings  # few files have any
+
+        turning = (
+            [one.point for one in mechanism.revolutes if FRAME in one.links] if mechanism else []
+        )
+        bearings = read_bearings(faults, given, turning) if mechanism else {}
+        dynamics = None if dynamics is None else replace(dynamics, bearings=bearings)
     balancing = None
     if "balancing" in given:
         from planmethod.problem.dynamics import read_balancing  # few files have one

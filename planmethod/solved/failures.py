@@ -89,6 +89,11 @@ class Cause(Enum):
         "balance the loads. Ask another position.",
         "",
     )
+    NO_ARM = (
+        "Cannot balance the crank{at}: the balancing force at {out} points along the crank and has "
+        "no arm. Give [balancing_force] another angle.",
+        "",
+    )
     SAME_ARCS = (
         "Cannot place {out}{at}: arcs from {p[0]} ({l[0]}) and {p[1]} ({l[1]}) "
         "coincide, {p[0]} and {p[1]} being at one place. This dead position is a change point: the "

@@ -133,6 +133,8 @@ def _failure(
 ) -> Failure:
     plan = draft.plans.get(step.out, PlanKind.POSITION)
     if plan is PlanKind.FORCE:
+        if (pushes := draft.letters.get(PointName(step.out))) is not None:
+            return Failure(Cause.NO_ARM, place, pushes)
         return Failure(Cause.FORCES, place)
     letter = draft.letters.get(PointName(step.out), str(step.out))
     match step:

@@ -64,7 +64,8 @@ LAYOUTS = (
     ("forces-cycle", 12, 4, "[dynamics"),
     ("flywheel", 1, 1, "[machine"),
     ("run-up", 1, 1, "motor"),
-    ("balancing", 1, 1, "[balancing"),
+    ("balancing", 1, 1, "[balancing]"),
+    ("friction", 1, 1, "[friction"),
 )
 """Layouts of linkages beside the one that is taken when none is asked for."""
 

@@ -37,6 +37,7 @@ CASES = [
     ("compact", "linkages/ex1", (60.0,)),
     ("forces-cycle", "levers/task12", TURN),
     ("forces-cycle", "press/press", TURN),
+    ("friction", "machines/rubbing-crank", None),
     ("project-kinematics", "press/press", TURN),
     ("project-forces", "press/press", None),
     ("flywheel", "press/flywheel", None),

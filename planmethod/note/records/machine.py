@@ -39,6 +39,12 @@ def machine_record(flywheel: Flywheel, profile: Profile) -> dict[str, Any]:
         "epsilon": rows.epsilon,
         "M_lever": lever,
     }
+    half = flywheel.problem.drive.rate**2 / 2.0
+    terms = {
+        "M_loads": rows.parts.loads,
+        "T_links": {link: half * share for link, share in rows.parts.links.items()},
+    }
+    columns |= {"M_weights": rows.parts.weights, "T": half * rows.inertia}
     made = drawing.made
     corner = drawing.exact.point(made.axes["E"].origin)[0]
     return {
@@ -53,7 +59,14 @@ def machine_record(flywheel: Flywheel, profile: Profile) -> dict[str, Any]:
         "work_per_turn": plain(flywheel.work_per_cycle / flywheel.turns),
         "work_per_cycle": plain(flywheel.work_per_cycle),
         "positions": [
-            {"number": number, **{name: plain(column[k]) for name, column in columns.items()}}
+            {
+                "number": number,
+                **{name: plain(column[k]) for name, column in columns.items()},
+                **{
+                    name: {key: plain(one[k]) for key, one in own.items()}
+                    for name, own in terms.items()
+                },
+            }
             for number, k in sorted(
                 (number, k) for k, number in enumerate(flywheel.turn.numbers(machine.count)[:-1])
             )

@@ -372,6 +372,13 @@ def record_in_columns(solution: Solution, **more: Column) -> dict[str, Any]:
         from planmethod.note.records.balancing import balancing_record
 
         machine["balancing"] = balancing_record(solution)
+    dynamics = solution.problem.dynamics
+    if dynamics is not None and dynamics.friction is not None:
+        from planmethod.note.tables.friction import turn_record
+        from planmethod.solved.efficiency import turn_efficiency
+
+        turn = turn_efficiency(solution)
+        machine["friction"] = {"turn": None if turn is None else turn_record(turn)}
     return {
         "schema": SCHEMA,
         "problem": solution.problem.name,

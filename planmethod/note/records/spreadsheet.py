@@ -133,11 +133,18 @@ def force_columns(solution: Solution) -> Iterator[tuple[str, Reals]]:
             yield moment_row(planned), joint.moment
     quantity = solution.problem.drive.balancing.quantity
     yield f"driving.{quantity}", statics.balance
+    if solution.problem.drive.pushed is not None and statics.moment is not None:
+        yield "driving.moment", statics.moment
     yield f"driving.{quantity}.read", drawn.balance
     if statics.lever is not None:
         assert drawn.balances is not None
         yield f"lever.{quantity}", statics.lever
         yield f"lever.{quantity}.read", drawn.balances.lever
+    assert solution.problem.dynamics is not None
+    if solution.problem.dynamics.friction is not None:
+        from planmethod.note.tables.friction import friction_columns
+
+        yield from friction_columns(solution)
 
 
 def driver_of(problem: Problem) -> str:

@@ -10,12 +10,16 @@ import numpy as np
 from planmethod.note.columns import listed, named, pairs, sizes
 from planmethod.note.document import Caption, Node, Note
 from planmethod.note.formula import Rich
+from planmethod.note.narrate.forces.bearings import bearing_text, redundant
 from planmethod.note.narrate.forces.resultants import kept_lines, shift_lines
+from planmethod.note.narrate.given import point_name
 from planmethod.note.numbers import plain
 from planmethod.note.plaintext import NO_BREAK, fixed, found, given
 from planmethod.note.tables.sigmas import Sigmas
 from planmethod.note.wording import Words
 from planmethod.note.written import Column, Records, rows, together
+from planmethod.plans.forces.polygons import ForcePlan
+from planmethod.problem.model import Problem
 from planmethod.solved.errors.forces import (
     BALANCE,
     LEVER,
@@ -26,7 +30,7 @@ from planmethod.solved.errors.forces import (
     size_label,
 )
 from planmethod.solved.forces.contact import VANISHING, JointForce, SlideReaction
-from planmethod.solved.forces.statics import Statics, statics_of
+from planmethod.solved.forces.statics import Statics, bearings_of, statics_of
 from planmethod.solved.reading import Flags
 from planmethod.solved.solution import Solution
 
@@ -66,6 +70,26 @@ def _at_edges(contact: SlideReaction | None) -> dict[int, dict[str, Any]]:
     }
 
 
+def _in_bearings(statics: Statics, joint: JointForce) -> dict[str, Records]:
+    """Return what each of two bearings takes of the reaction of a shaft, N."""
+    shared = bearings_of(statics, joint)
+    if shared is None:
+        return {}
+    count = len(statics.solution.positions)
+    parts = [
+        rows(
+            {
+                "at": [place] * count,
+                "fx": listed(share * joint.force.real),
+                "fy": listed(share * joint.force.imag),
+                "f": sizes(share * joint.force),
+            }
+        )
+        for place, share in zip(shared.at, shared.shares, strict=True)
+    ]
+    return {"bearings": together(parts, count)}
+
+
 def _drawn(drawn: DrawnForces, joint: JointForce, still: Flags) -> dict[str, Column]:
     """Return what the ruler gives of a reaction, and the drafting errors of what is told of it.
 
@@ -103,6 +127,7 @@ def _reaction_records(statics: Statics, number: int) -> Records:
             "moment": listed(joint.moment),
             **_drawn(drawn, joint, still),
             **_acts(contact),
+            **_in_bearings(statics, joint),
         },
         some=_at_edges(contact),
     )
@@ -124,6 +149,7 @@ def forces_records(solution: Solution) -> Records:
     statics = statics_of(solution)
     drawn, balance = drawn_forces(statics), statics.balance
     quantity, count = solution.problem.drive.balancing.quantity, len(solution.positions)
+    pushed = solution.problem.drive.pushed
     reactions = [_reaction_records(statics, k) for k in range(len(statics.reactions))]
     still = {angle_label(joint): _still(statics, joint) for joint in statics.reactions}
     random = {
@@ -136,6 +162,11 @@ def forces_records(solution: Solution) -> Records:
         "driving": rows(
             {
                 quantity: listed(balance),
+                **(
+                    {"moment": listed(statics.moment)}
+                    if pushed and statics.moment is not None
+                    else {}
+                ),
                 "read": listed(drawn.read(BALANCE)),
                 "sigma": listed(drawn.spreads[BALANCE].sigma),
             }
@@ -143,13 +174,17 @@ def forces_records(solution: Solution) -> Records:
         "mu": [statics.scale.per_mm] * count,
         "plans": together(
             [
-                rows({"links": [[*plan.links]] * count, "mu": listed(own)})
+                rows({"links": [[*plan.links]] * count, "mu": listed(own), "q": [_q(plan)] * count})
                 for plan, own in zip(statics.board.plans, statics.own_scales, strict=True)
             ],
             count,
         ),
         "monte_carlo": named(random, count),
     }
+    if rubbed(solution.problem):
+        from planmethod.note.tables.friction import friction_records  # few files have any
+
+        columns["friction"] = friction_records(solution)
     if statics.lever is not None:
         assert drawn.discrepancy_sigma is not None and drawn.balances is not None
         plans, hung = drawn.balances.plans, drawn.balances.lever
@@ -171,6 +206,11 @@ def forces_records(solution: Solution) -> Records:
     return rows(columns)
 
 
+def _q(plan: ForcePlan) -> int:
+    """Return how many redundant constraints the links of a plan have with pairs of one freedom."""
+    return redundant(len(plan.links))
+
+
 def forces_columns(solution: Solution, words: Words) -> list[list[str]]:
     """Return columns of many positions: the size of every reaction, then what balances."""
     statics, called = statics_of(solution), solution.problem.mechanism.called
@@ -181,7 +221,19 @@ def forces_columns(solution: Solution, words: Words) -> list[list[str]]:
     ]
     drive = solution.problem.drive
     head = f"{drive.balancing.letter}{drive.link}, {words['units'][drive.balancing.unit]}"
-    return [*columns, [head, *(found(float(value), words) for value in statics.balance)]]
+    columns.append([head, *(found(float(value), words) for value in statics.balance)])
+    if rubbed(solution.problem):
+        from planmethod.solved.forces.friction import friction_of  # few files have any
+
+        friction = friction_of(solution)
+        more = (
+            (words.rubbed.format(head=head), friction.converged.balance),
+            ("η", friction.efficiency),
+        )
+        for name, values in more:
+            told = (found(float(v), words) if np.isfinite(v) else "—" for v in values)
+            columns.append([name, *told])
+    return columns
 
 
 def _distance(solution: Solution, number: int, index: int, words: Words) -> str:
@@ -192,6 +244,20 @@ def _distance(solution: Solution, number: int, index: int, words: Words) -> str:
         return "—"
     largest = statics_of(solution).largest(index)
     return found(0.0 if abs(contact.joint.moment[index]) <= VANISHING * largest else b, words)
+
+
+def rubbed(problem: Problem) -> bool:
+    """Tell whether the pairs have friction."""
+    return problem.dynamics is not None and problem.dynamics.friction is not None
+
+
+def push_way(problem: Problem, words: Words) -> str:
+    """Return how the force at a point of the crank that balances it is directed."""
+    pushed, pivot = problem.drive.pushed, problem.drive.pivot
+    assert pushed is not None and pivot is not None
+    if pushed.angle is None:
+        return words.push_across.format(line=f"{point_name(pivot)}{point_name(pushed.at)}")
+    return words.push_angle.format(angle=given(pushed.angle, words))
 
 
 def resultant_notes(solution: Solution, words: Words, index: int | None = None) -> Iterator[Rich]:
@@ -254,10 +320,20 @@ def forces_tables(solution: Solution, words: Words, index: int, sigmas: Sigmas) 
     yield Caption(words.table_forces)
     yield sigmas.table(words["columns_forces"], (3, 4, 5), rows, names=2)
     yield from map(Note, _edge_notes(solution, words, index))
+    for joint in statics.reactions:
+        if (shared := bearings_of(statics, joint)) is not None:
+            force = abs(complex(joint.force[index]))
+            yield Note(bearing_text(solution, joint, shared, force, words))
     yield from map(Note, resultant_notes(solution, words, index))
     balancing = solution.problem.drive.balancing
-    balance, unit = words["balance"][balancing.quantity], words["units"][balancing.unit]
-    yield Note(balance.format(value=found(float(statics.balance[index]), words), unit=unit))
+    balance, unit = words["balance"][balancing.said], words["units"][balancing.unit]
+    facts = {"value": found(float(statics.balance[index]), words), "unit": unit}
+    if (pushed := solution.problem.drive.pushed) is not None:
+        assert statics.moment is not None
+        facts["moment"] = f"{found(float(statics.moment[index]), words)} {words['units']['N·m']}"
+        facts["point"] = point_name(pushed.at)
+        facts["way"] = push_way(solution.problem, words)
+    yield Note(balance.format(**facts))
     if statics.lever is None:
         yield Note(words.lever_stands)
         return

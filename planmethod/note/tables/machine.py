@@ -12,6 +12,7 @@ from planmethod.note.narrate.machine import (
     courses,
     run_up_lines,
 )
+from planmethod.note.narrate.reduction import ReductionTeller
 from planmethod.note.wording import Language
 from planmethod.solved.machine.drawing import drawing_of
 from planmethod.solved.machine.flywheel import flywheel_of
@@ -35,6 +36,15 @@ def machine_tables(solution: Solution, words: Language) -> Iterator[Node]:
     tell = machine_teller(solution, words)
     yield Chapter(tell.said.table, numbered=False)
     yield table_of_quantities(tell.columns(), repeated=2)
+    reduction = ReductionTeller(tell)
+    for title, formulas, columns in (
+        (tell.said.moments, [reduction.moment_formula()], reduction.moments()),
+        (tell.said.energies, reduction.energy_formulas(), reduction.energy_columns()),
+    ):
+        yield Caption(title)
+        yield from map(Item, formulas)
+        yield table_of_quantities(columns, repeated=1)
+    yield Caption(tell.said.calculation)
     yield from map(Item, (*tell.formulas(), *tell.conclusions()))
     sizes = tell.sizes
     if sizes is not None:

@@ -157,6 +157,10 @@ def position_tables(
         from planmethod.note.tables.forces import forces_tables
 
         yield from forces_tables(solution, note, index, sigmas)
+        if solution.problem.dynamics.friction is not None:
+            from planmethod.note.tables.friction import friction_tables
+
+            yield from friction_tables(solution, words, index)
 
 
 def moving_points(solution: Solution) -> list[str]:

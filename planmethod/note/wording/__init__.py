@@ -46,8 +46,8 @@ class Language:
         Its name, that of its folder.
     note : Words
         Protocol and tables; with what `say` is made of.
-    forces : Words
-        The force analysis.
+    forces, friction : Words
+        The force analysis, without friction and with it.
     sheets, structure, frame : Words
         Sheets of the plans, the structural sheet, frame and title block.
     control : Words
@@ -72,6 +72,7 @@ class Language:
 
     note: Words
     forces: Words
+    friction: Words
     sheets: Words
     structure: Words
     frame: Words

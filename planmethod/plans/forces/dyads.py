@@ -32,7 +32,7 @@ from planmethod.plans.forces.polygons import (
     reaction_edge,
     reaction_symbol,
 )
-from planmethod.plans.model import Known
+from planmethod.plans.model import Direction, Known, Relation
 from planmethod.plans.motion.leads import arm, track_direction
 from planmethod.plans.motion.position import (
     inner_point,
@@ -42,6 +42,7 @@ from planmethod.plans.motion.position import (
     split,
 )
 from planmethod.plans.segments import Ends
+from planmethod.problem.load_records import BalancingForceTask
 from planmethod.problem.model import Slide
 
 
@@ -52,13 +53,20 @@ class Driving(Struct, frozen=True):
     ----------
     balance : NumberName
         Moment on a crank, N·m, counter-clockwise positive, or force on a slider, N, positive in the
-        direction of its guide.
+        direction of its guide; or force at a point of a crank, N, positive as the file directs it.
     force : Force or None
-        The force on a slider.
+        The force on a slider, or at a point of a crank.
+    moment : NumberName or None
+        Moment on a crank, N·m, whatever balances it.
+    along : (PointName, PointName) or None
+        A segment in the direction that the file gives the force at a point of a crank; None where
+        that is across the crank.
     """
 
     balance: NumberName
     force: Force | None = None
+    moment: NumberName | None = None
+    along: Ends | None = None
 
 
 def group_forces(board: ForceBoard, group: AssurGroup) -> None:
@@ -313,8 +321,10 @@ def drive_forces(board: ForceBoard) -> Driving:
     known = board.couples_on(drive.link)
     if drive.pivot is not None:
         pivot = PointName(drive.pivot)
-        board.react(drive.pivot, drive.link, FRAME, Force(pivot, loaded, start))
         moment = board.negative(board.moment((drive.link,), pivot))
+        if drive.pushed is not None:
+            return _pushed(board, drive.pushed, pivot, (start, loaded), moment, loads)
+        board.react(drive.pivot, drive.link, FRAME, Force(pivot, loaded, start))
         stands = reaction_edge(drive.link, board.called(FRAME), pivot, loaded, start)
         balancing = CoupleOn(drive.balancing.symbol, drive.link, moment, pivot)
         board.read_off(
@@ -326,7 +336,7 @@ def drive_forces(board: ForceBoard) -> Driving:
                 couples=(*known, balancing),
             )
         )
-        return Driving(moment)
+        return Driving(moment, moment=moment)
     slide = board.draft.problem.slides[drive.link]
     guide, pin = board.draft.direction(slide), PointName(slide.pin)
     end = b.meet_lines(board.name("x"), b.parallel(loaded, guide), b.perpendicular(start, guide))
@@ -348,3 +358,51 @@ def drive_forces(board: ForceBoard) -> Driving:
         )
     )
     return Driving(balance, Force(pin, loaded, end, symbol))
+
+
+def _pushed(
+    board: ForceBoard,
+    task: BalancingForceTask,
+    pivot: PointName,
+    ends: Ends,
+    moment: NumberName,
+    loads: list[Edge],
+) -> Driving:
+    """Balance a crank by a force at one of its points: from moments, then the plan is closed.
+
+    ``ends`` are the start of the plan and where its loads end; ``moment`` is what is needed, N·m.
+    """
+    b, drive, (start, loaded) = board.draft.b, board.draft.problem.drive, ends
+    links, at, known = (drive.link,), PointName(task.at), board.couples_on(drive.link)
+    lever, along = arm(board.draft, drive.link, str(pivot), str(at)), None
+    if task.angle is None:
+        length = lever.length
+        line = b.perpendicular(loaded, lever.line)
+        direction = Direction(Relation.ACROSS, (str(pivot), str(at)))
+    else:
+        turned, one = board.known("angle", task.angle), board.known("1", 1.0)
+        action = b.at_angle(at, None, turned)
+        # Where it meets the crank is the point itself; on the crank's own line there is no arm.
+        met = b.meet_lines(board.name("x"), lever.line, action)
+        board.draft.letters[met] = task.at
+        way = b.at_angle(board.pole, None, turned)
+        along = board.pole, b.lay_off(board.name("u"), board.pole, way, one)
+        measured = b.measure_arm(board.name("h"), pivot, met, *along)
+        length, line = ((measured, 1), (board.draft.mu_l, 1)), b.at_angle(loaded, None, turned)
+        direction = Direction(Relation.ANGLED, angle=task.angle)
+    over = tuple((name, -power) for name, power in length)
+    value = board.segments.compute("F_dr", (moment, 1), *over)
+    end = board.segments.lay_off(board.name("F"), loaded, line, value)
+    board.react(str(pivot), drive.link, FRAME, Force(pivot, end, start))
+    pushes = Edge(drive.balancing.symbol, drive.link, at, loaded, end, direction=direction)
+    stands = reaction_edge(drive.link, board.called(FRAME), pivot, end, start)
+    board.read_off(
+        ForcePlan(
+            links,
+            (*loads, pushes, stands),
+            balances=(Balance(links, (*loads, replace(pushes, direction=None), stands)),),
+            moments=(Moments(links, pivot, tuple(loads), known, pushes, arm=length),),
+            couples=known,
+        )
+    )
+    return Driving(value, Force(at, loaded, end, drive.balancing.symbol), moment, along)

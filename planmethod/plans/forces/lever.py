@@ -15,6 +15,7 @@ from planmethod.construct.steps import NumberName, PointName
 from planmethod.plans.forces.board import ForceBoard, GivenLoad
 from planmethod.plans.forces.dyads import Driving
 from planmethod.plans.forces.loads import Shift
+from planmethod.plans.motion.leads import arm
 
 
 class Lever(Struct, frozen=True):
@@ -24,17 +25,24 @@ class Lever(Struct, frozen=True):
     ----------
     pole : PointName
     balance : NumberName
-        Balancing moment on the crank, N·m, or force along the guide of a driving slider, N.
+        Balancing moment on the crank, N·m, or force along the guide of a driving slider, or at a
+        point of the crank, N.
     difference : NumberName
         What the lever gives less what the force plans give.
     loads : tuple of LeverLoad
         The loads that do work.
+    moment : NumberName or None
+        Balancing moment on a crank, N·m, whatever balances it.
+    arm : NumberName or None
+        Arm about the pole of a force at a point of the crank that the file directs, mm.
     """
 
     pole: PointName
     balance: NumberName
     difference: NumberName
     loads: tuple[LeverLoad, ...] = ()
+    moment: NumberName | None = None
+    arm: NumberName | None = None
 
 
 class LeverLoad(Struct, frozen=True):
@@ -76,9 +84,39 @@ def plan_lever(board: ForceBoard, driving: Driving) -> Lever | None:
         powers.append(b.compute(board.name("P"), *factors, factor=-1.0))
     rate = NumberName(drive.coordinate.rates[0])
     whole = b.total(board.name("P"), *powers)
-    balance = b.compute(board.name("M"), (whole, 1), (rate, -1), factor=-1.0)
+    balance = moment = b.compute(board.name("M"), (whole, 1), (rate, -1), factor=-1.0)
+    measured: NumberName | None = None
+    if drive.pivot is not None and driving.force is not None:
+        balance, measured = _of_force(board, driving, drive.pivot, pole, whole, moment)
     off = b.total(board.name("d"), balance, board.negative(driving.balance))
-    return Lever(pole, balance, off, tuple(loads))
+    return Lever(pole, balance, off, tuple(loads), moment if drive.is_crank else None, measured)
+
+
+def _of_force(
+    board: ForceBoard,
+    driving: Driving,
+    pivot: str,
+    pole: PointName,
+    whole: NumberName,
+    moment: NumberName,
+) -> tuple[NumberName, NumberName | None]:
+    """Return the force at a point of the crank that balances the lever, and its arm if measured.
+
+    Across the crank that is the velocity of its point, which was laid off.
+    """
+    b, motion, drive = board.draft.b, board.kin.velocity, board.draft.problem.drive
+    assert driving.force is not None
+    at = driving.force.at
+    if driving.along is None:
+        length = arm(board.draft, drive.link, pivot, str(at)).length
+        over = ((name, -power) for name, power in length)
+        return b.compute(board.name("F"), (moment, 1), *over), None
+    hung = b.carry(
+        board.name("z"), pole, motion.pole, motion.point[drive.link, str(at)], turned=True
+    )
+    measured = b.measure_arm(board.name("h"), pole, hung, *driving.along)
+    powers = ((whole, 1), (measured, -1), (motion.segments.scale, -1))
+    return b.compute(board.name("F"), *powers), measured
 
 
 def _beside(board: ForceBoard, shift: Shift, centre: PointName) -> PointName:

@@ -26,6 +26,7 @@ class LoadKind(Enum):
     INERTIA = "inertia"
     INERTIA_COUPLE = "inertia couple"
     EXTERNAL = "external"
+    FRICTION = "friction"
 
 
 class Applied(Struct, frozen=True):

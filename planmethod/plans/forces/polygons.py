@@ -59,6 +59,11 @@ class Edge(Struct, frozen=True):
         """The segment."""
         return self.tail, self.head
 
+    @property
+    def is_aslant(self) -> bool:
+        """Whether it has a direction of its own, so that its arm is measured."""
+        return self.direction is not None and self.direction.relation is Relation.ANGLED
+
 
 class CoupleOn(Struct, frozen=True):
     """Couple on a link: a moment of inertia forces, of a guide, the balancing one (пара сил).

@@ -5,14 +5,15 @@ from __future__ import annotations
 from collections.abc import Iterator
 from itertools import takewhile
 
-from planmethod.note.document import Chapter, Node, Part, Table
+from planmethod.note.document import Chapter, Node, Part, Table, table_of_quantities
 from planmethod.note.formula import Rich, fraction
 from planmethod.note.narrate.machine import MachineTeller
+from planmethod.note.narrate.reduction import ReductionTeller
 from planmethod.note.numbers import half_up, with_unit
 from planmethod.note.wording import Words
 from planmethod.problem.load_records import Load, SizeTable
 from planmethod.problem.machine_records import Quadrature, WheelShape
-from planmethod.project.report.context import NBSP, Report, displayed, sentences
+from planmethod.project.report.context import NBSP, Report, chain, displayed, sentences
 from planmethod.project.report.figures import figure, of_sheet
 from planmethod.render.pictures.flywheel import construction_picture
 from planmethod.solved.machine.drawing import drawing_of, split
@@ -59,6 +60,7 @@ def _reduced(report: Report, tell: MachineTeller, said: Words) -> Iterator[Node]
     head = tuple(f"{name}, {unit}" if unit else name for name, unit, _ in columns)
     rows = tuple(zip(*(cells for _, _, cells in columns), strict=True))
     yield Table(head, rows, 1, 2, name=said.table.format(), key="machine")
+    yield from _terms(tell, said)
     dynamics = report.one.problem.dynamics
     changing = dynamics is not None and any(
         isinstance(load, Load) and isinstance(load.size, SizeTable) for load in dynamics.loads
@@ -67,6 +69,19 @@ def _reduced(report: Report, tell: MachineTeller, said: Words) -> Iterator[Node]
         made = of_sheet("load-diagram", report.every, report.words, column=COLUMN)
         yield sentences(said.load_text.format())
         yield figure(made, said.load_figure.format(), "load", height=90.0)
+
+
+def _terms(tell: MachineTeller, said: Words) -> Iterator[Node]:
+    """Yield the reduced moment and the energies term by term, with their tables."""
+    reduction = ReductionTeller(tell)
+    for key, formulas, columns in (
+        ("moments", [reduction.moment_formula()], reduction.moments()),
+        ("energies", reduction.energy_formulas(), reduction.energy_columns()),
+    ):
+        yield sentences(str(said["terms"][key]).format())
+        yield from chain(formulas)
+        table = table_of_quantities(columns, repeated=1)
+        yield Table(table.head, table.rows, 1, 1, name=str(tell.said[key]), key=f"machine_{key}")
 
 
 def _diagrams(report: Report, tell: MachineTeller, said: Words) -> Iterator[Node]:

@@ -9,6 +9,7 @@ import numpy as np
 from planmethod.construct.steps import Name
 from planmethod.note.document import Chapter, Equations, Node, Part, Table, table_of_columns
 from planmethod.note.formula import Rich, fraction
+from planmethod.note.narrate.forces.bearings import bearing_text, undetermined
 from planmethod.note.narrate.forces.common import ForceContext, balance_equation
 from planmethod.note.narrate.forces.lever import (
     LeverNarrator,
@@ -31,6 +32,7 @@ from planmethod.plans.forces.polygons import ForcePlan, Moments
 from planmethod.plans.model import PlanKind
 from planmethod.project.report.context import Report, chain, displayed, sentences
 from planmethod.project.report.figures import figure
+from planmethod.project.report.friction import friction_part
 from planmethod.project.report.turn import has_turn
 from planmethod.render.forces.cut import cut_picture, inner_picture, loads_picture
 from planmethod.render.forces.leverpicture import lever_picture
@@ -40,7 +42,7 @@ from planmethod.solved.cycle import cycle
 from planmethod.solved.errors.forces import drawn_forces, size_label
 from planmethod.solved.forces.contact import VANISHING
 from planmethod.solved.forces.reading import force_reading
-from planmethod.solved.forces.statics import statics_of
+from planmethod.solved.forces.statics import bearings_of, statics_of
 
 GAP = 10.0
 """Between two pictures in a row, mm."""
@@ -68,6 +70,7 @@ class ForceChapter:
         yield from self._reactions()
         yield Part(said.lever.format())
         yield from self._lever()
+        yield from friction_part(self.report, self.context)
         if self.report.is_series:
             yield from self._every()
 
@@ -303,6 +306,7 @@ class ForceChapter:
             name=said.reactions_table.format(position=report.in_position),
             key="reactions",
         )
+        yield sentences(*self._beside())
         balancing, unit = self.reading.balancing, report.unit(self.reading.balancing.unit)
         plans, _ = both_balances(self.reading)
         yield sentences(
@@ -312,6 +316,15 @@ class ForceChapter:
                 exact=f"{self.find(abs(float(statics.balance[0])))} {unit}",
             )
         )
+
+    def _beside(self) -> Iterator[Rich]:
+        """Yield what bearings share, and what statics leaves open across the plane."""
+        solution, words = self.report.one, self.report.words.note
+        for joint in self.reading.statics.reactions:
+            if (shared := bearings_of(self.reading.statics, joint)) is not None:
+                yield bearing_text(solution, joint, shared, abs(complex(joint.force[0])), words)
+        if dyads := list(reversed(solution.structure.groups)):
+            yield undetermined(dyads, words)
 
     # Lever ---------------------------------------------------------------------------------------
 

@@ -63,6 +63,12 @@ def arms_of(reading: ForceReading, equations: Iterable[Moments], say: Notation) 
             if read:
                 force = Acting(say.symbol(edge.symbol), reading.place(edge.at), reading.way(edge))
                 found.setdefault((edge.symbol, about), arm_of(force, about, read))
+        balancing = equation.force
+        if balancing is not None and balancing.is_aslant:
+            at, way = reading.place(balancing.at), reading.way(balancing)
+            force = Acting(say.symbol(balancing.symbol), at, way)
+            read = reading.read_number(equation.arm[0][0])
+            found.setdefault((balancing.symbol, about), arm_of(force, about, read))
     return list(found.values())
 
 

@@ -121,7 +121,8 @@ class FreeBodyScheme(Scheme):
         self.named = sorted(named)
 
 
-def _drawn(scheme: Scheme) -> list[Item]:
+def drawn_items(scheme: Scheme) -> list[Item]:
+    """Return the links of a scheme, drawn."""
     scheme.draw()
     scheme.draw_joints()
     return [
@@ -130,7 +131,7 @@ def _drawn(scheme: Scheme) -> list[Item]:
     ]
 
 
-def _letters(scheme: Scheme, prefix: str, links: Iterable[str]) -> list[Label]:
+def letters_of(scheme: Scheme, prefix: str, links: Iterable[str]) -> list[Label]:
     """Return the letters of the points, one for points that coincide, and the links' numbers."""
     height = scheme.letter_height
     spots = shared_spots((scheme.at(point), [point_name(point)]) for point in scheme.named)
@@ -156,7 +157,7 @@ def _loaded_picture(
     guided: Sequence[Pressed] = (),
     arms: Sequence[ForceArm] = (),
 ) -> Picture:
-    items = [*_drawn(scheme), *point_items(guided, scheme.factor)]
+    items = [*drawn_items(scheme), *point_items(guided, scheme.factor)]
     bars = [part for parts in scheme.segments.values() for part in parts]
     bars += [shift.line for shift in shifts]
     joints = [scheme.at(point) for point in scheme.named]
@@ -172,7 +173,7 @@ def _loaded_picture(
         drawn, letter = span_dimension(span, list(lines_of(items)), scheme.letter_height, prefix)
         items += drawn
         labels.append(letter)
-    return lettered(items, [*labels, *more, *letters, *_letters(scheme, prefix, links)])
+    return lettered(items, [*labels, *more, *letters, *letters_of(scheme, prefix, links)])
 
 
 @remembered
@@ -190,7 +191,7 @@ def loads_picture(reading: ForceReading, letter_height: float, say: Notation) ->
         elif given.couple is not None:
             couple = CoupleOn(one.name, one.link, given.couple)
             if not reading.is_no_couple(couple):
-                couples.append(_turning(reading, scheme, couple, say))
+                couples.append(turning(reading, scheme, couple, say))
     links = solution.problem.mechanism.links
     shifts = shifts_on(reading, links, say)
     return _loaded_picture(scheme, links, forces, couples, shifts, f"loads {index}", say)
@@ -252,9 +253,7 @@ def _cut(
         for edge in shown
         if edge.symbol not in replaced
     ]
-    turnings = [
-        _turning(reading, scheme, one, say) for one in couples if one.symbol not in replaced
-    ]
+    turnings = [turning(reading, scheme, one, say) for one in couples if one.symbol not in replaced]
     shifts = shifts_on(reading, scheme.links, say)
     arms = [arm for arm in arms_of(reading, equations, say) if arm.symbol not in replaced]
     return _loaded_picture(
@@ -269,7 +268,7 @@ def _link_lines(reading: ForceReading, links: Iterable[str]) -> list[Segment]:
     return [pair for ends in places for pair in combinations(ends, 2)]
 
 
-def _turning(reading: ForceReading, scheme: Scheme, couple: CoupleOn, say: Notation) -> CoupleArc:
+def turning(reading: ForceReading, scheme: Scheme, couple: CoupleOn, say: Notation) -> CoupleArc:
     """Return a couple as it is drawn: about its own place, else about the centre of mass."""
     sense, symbol = 1 if reading.number(couple.moment) > 0 else -1, say.symbol(couple.symbol)
     if couple.at is not None:

@@ -288,7 +288,7 @@ class LiveScene:
             turn(drive.link, drive.balancing.symbol, lever.balance)
         else:
             motion = self.construction.kinematics.velocity
-            pin = motion.point[drive.link, self.problem.slides[drive.link].pin]
+            pin = motion.point[drive.link, str(driving.force.at)]
             push([*self._ref(pin), 1], drive.balancing.symbol, *driving.force.ends)
         return view
 

@@ -97,6 +97,18 @@ def _forces() -> Mapping[str, Maker]:
     }
 
 
+def _friction() -> Mapping[str, Maker]:
+    from planmethod.render.sheets import friction
+
+    return {
+        "friction-text": friction.friction_text,
+        "friction-cut": friction.cut_view,
+        "friction-equations": friction.equations_block,
+        "friction-plan": friction.plan_view,
+        "friction-table": friction.friction_table,
+    }
+
+
 def _cycle() -> Mapping[str, Maker]:
     from planmethod.render.sheets import cycle, cycletable
 
@@ -131,6 +143,8 @@ def _flywheel() -> Mapping[str, Maker]:
         "machine-statement": flywheel.statement_block,
         "flywheel-diagrams": flywheel.diagrams_view,
         "machine-table": flywheel.machine_table,
+        "moment-table": flywheel.moment_table,
+        "energy-table": flywheel.energy_table,
         "flywheel-calculation": flywheel.calculation_block,
         "speed-diagram": flywheel.speed_diagram,
         "load-diagram": flywheel.load_diagrams,
@@ -188,6 +202,11 @@ BLOCKS: Mapping[str, BlockKind] = MappingProxyType(
         "lever": BlockKind(_forces, _VIEW),
         "lever-equation": BlockKind(_forces, (*_TEXT, "position")),
         "reactions": BlockKind(_forces, (*_TEXT, "position")),
+        "friction-text": BlockKind(_friction, (*_TEXT, "position")),
+        "friction-cut": BlockKind(_friction, _FORCES, each=True),
+        "friction-equations": BlockKind(_friction, _FORCE_TEXT, each=True),
+        "friction-plan": BlockKind(_friction, _FORCES, each=True),
+        "friction-table": BlockKind(_friction, (*_TEXT, "position")),
         "cycle-statement": BlockKind(_cycle, _TEXT),
         "balance-diagram": BlockKind(_cycle, _DIAGRAM),
         "reaction-diagram": BlockKind(_cycle, _DIAGRAM[1:], each=True),
@@ -203,6 +222,8 @@ BLOCKS: Mapping[str, BlockKind] = MappingProxyType(
         "machine-statement": BlockKind(_flywheel, _TEXT),
         "flywheel-diagrams": BlockKind(_flywheel, _VIEW[:-1]),
         "machine-table": BlockKind(_flywheel, _TEXT),
+        "moment-table": BlockKind(_flywheel, _TEXT),
+        "energy-table": BlockKind(_flywheel, _TEXT),
         "flywheel-calculation": BlockKind(_flywheel, _TEXT),
         "speed-diagram": BlockKind(_flywheel, _DIAGRAM),
         "load-diagram": BlockKind(_flywheel, _DIAGRAM),

@@ -13,6 +13,7 @@ from planmethod.errors import LayoutError
 from planmethod.note.document import Caption, Formula, Paragraph
 from planmethod.note.narrate.given import point_name
 from planmethod.note.narrate.machine import MachineTeller
+from planmethod.note.narrate.reduction import ReductionTeller
 from planmethod.problem.load_records import Load, SizeTable
 from planmethod.problem.machine_records import WheelShape
 from planmethod.render.ink.drawing import Arc, Disc, Item, Pen, Span, Stroke
@@ -222,6 +223,35 @@ def machine_table(solution: Solution, indices: Sequence[int], manner: Manner) ->
                         row_height=max(6.0, 2.0 * height))  # fmt: skip
     note = tell.said.lever_agrees.format(lever=tell.letter("moment by lever"))
     return Column([table, paragraph(note, height, table.width)], gap=3.0)
+
+
+def moment_table(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
+    """Return the reduced moment term by term: forces, velocities, angles."""
+    reduction = ReductionTeller(_teller(solution, manner))
+    formulas = [reduction.moment_formula()]
+    return _reduced(reduction.moments(), formulas, reduction.tell.said.moments, manner)
+
+
+def energy_table(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
+    """Return the energies of the links and the reduced moment of inertia."""
+    reduction = ReductionTeller(_teller(solution, manner))
+    formulas, title = reduction.energy_formulas(), reduction.tell.said.energies
+    return _reduced(reduction.energy_columns(), formulas, title, manner)
+
+
+def _reduced(
+    columns: Sequence[tuple[str, str, list[str]]],
+    formulas: Iterable[str],
+    title: str,
+    manner: Manner,
+) -> Block:
+    """Return a table with the formulas of its columns above it."""
+    height = manner.text(min(manner.sizes.text, 3.5))
+    made = [TableColumn(head, tuple(cells), unit=unit, least=8.0) for head, unit, cells in columns]
+    width = table_width(manner)
+    table = table_block(made, height, max_width=width, leading=1, row_height=max(6.0, 2.0 * height))
+    head: list[TextNode] = [Caption(manner.entry.title or title), *map(Formula, formulas)]
+    return Column([*blocks_of(head, height, width=max(table.width, 100.0)), table], gap=2.5)
 
 
 # The wheel ---------------------------------------------------------------------------------------

@@ -78,9 +78,10 @@ class ForcePlanViewed(Viewed, frozen=True):
         )
 
 
-def _scheme(
+def scheme_of(
     reading: ForceReading, picture: Block, title: str, manner: Manner, *said: str
 ) -> Viewed:
+    """Return a picture at the scale of the position plan, with its title and what is said of it."""
     solution, kind = reading.solution, PlanKind.POSITION
     scale, convention = solution.scales[kind], solution.problem.scales.convention
     told = [scale_inscription(scale, convention, manner.words.say), *said]
@@ -91,7 +92,7 @@ def loads_view(solution: Solution, indices: Sequence[int], manner: Manner) -> Vi
     """Return the scheme with all loads."""
     reading = _reading(solution, indices, manner)
     said, picture = manner.words.sheets, loads_picture(reading, manner.letter, manner.words.say)
-    return _scheme(reading, picture, manner.entry.title or said.loads, manner, said.not_to_scale)
+    return scheme_of(reading, picture, manner.entry.title or said.loads, manner, said.not_to_scale)
 
 
 def cut_view(solution: Solution, indices: Sequence[int], manner: Manner) -> Viewed:
@@ -107,12 +108,17 @@ def cut_view(solution: Solution, indices: Sequence[int], manner: Manner) -> View
         below = Line(typeset(said, manner.text(manner.sizes.text)))
         beside = Column([apart_from, below], gap=3.0, align="centre")
         picture = Row([picture, beside], gap=10.0, align="centre")
-    return _scheme(reading, picture, title, manner)
+    return scheme_of(reading, picture, title, manner)
 
 
 def plan_view(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
     """Return a force plan; of forces that are all nothing its name alone."""
-    reading, number = _reading(solution, indices, manner), manner.entry.number
+    return plan_of(_reading(solution, indices, manner), manner)
+
+
+def plan_of(reading: ForceReading, manner: Manner) -> Block:
+    """Return the force plan of a reading that a composition asks for."""
+    solution, number = reading.solution, manner.entry.number
     links, words = reading.plans[number].links, manner.words
     whose = words.sheets.plan_of_group if len(links) > 1 else words.sheets.plan_of_link
     title = whose.format(links=link_names(links))
@@ -167,7 +173,11 @@ def statement_block(solution: Solution, indices: Sequence[int], manner: Manner) 
 
 def equations_block(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
     """Return the equations of a force plan: moments with arms, forces, what the plan gives."""
-    reading = _reading(solution, indices, manner)
+    return equations_of(_reading(solution, indices, manner), manner)
+
+
+def equations_of(reading: ForceReading, manner: Manner) -> Block:
+    """Return the equations of the force plan of a reading that a composition asks for."""
     number, context = manner.entry.number, lettered(reading, manner.words)
     plan, voice = reading.plans[number], MomentNarrator(context, reading.plans[number])
     height, width = manner.text(manner.sizes.text), manner.width(manner.sizes.column)

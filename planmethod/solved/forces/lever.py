@@ -7,7 +7,7 @@ other way where the link goes counter-clockwise, for the segment then lies again
 
 from __future__ import annotations
 
-from math import isfinite
+from math import copysign, isfinite
 from typing import TypeAlias
 
 from msgspec import Struct
@@ -136,12 +136,15 @@ class LeverReading:
                 self.couples.append(self._couple(reading.balancing_symbol, drive.link, moment))
             return
         motion = reading.solution.construction.kinematics.velocity
-        pin = reading.solution.problem.slides[drive.link].pin
+        pin = str(pushing.at)
         force = reading.of_force(pushing)
         if force:
             place = self.place(motion.point[drive.link, pin])
-            # Its arm is the driver's own velocity, which is laid off and not measured.
+            # Its arm is the driver's own velocity, laid off and not measured, if it is along that.
             arm, size = _across(place, force), abs(reading.read_number(balance))
+            measured = reading.statics.lever_plan.arm if reading.statics.lever_plan else None
+            if measured is not None:
+                arm = copysign(reading.read_number(measured), arm)
             self.forces.append(LeverForce(reading.balancing_symbol, place, force, arm, size, pin))
 
     def place(self, point: PointName) -> complex:

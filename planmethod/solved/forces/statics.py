@@ -6,7 +6,7 @@ of the drawings, whoever reads them.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from functools import cached_property
 from types import MappingProxyType
 
@@ -21,6 +21,7 @@ from planmethod.construct.hand import Hand
 from planmethod.construct.program import Program
 from planmethod.construct.scale import Scale, choose_scale
 from planmethod.construct.steps import Name, NumberName
+from planmethod.mechanism.model import FRAME
 from planmethod.plans.draft import Draft
 from planmethod.plans.forces.board import SCALE, Force, ForceBoard, Reaction
 from planmethod.plans.forces.dyads import Driving, drive_forces, group_forces
@@ -28,6 +29,7 @@ from planmethod.plans.forces.lever import Lever, plan_lever
 from planmethod.plans.forces.loads import Applied
 from planmethod.plans.forces.polygons import ForcePlan
 from planmethod.plans.model import FACTS, PlanKind
+from planmethod.problem.load_records import BearingTable
 from planmethod.problem.model import Convention
 from planmethod.solved.failures import PositionError
 from planmethod.solved.forces.contact import JointForce, SlideReaction, contacts
@@ -68,6 +70,8 @@ def plan_forces(
     draft: Draft,
     loads: Iterable[Applied],
     single: Mapping[str, Applied] = MappingProxyType({}),
+    *,
+    hung: bool = True,
 ) -> Planned:
     """Plan the forces of a solution on a draft of its construction, from the last group on.
 
@@ -79,6 +83,8 @@ def plan_forces(
         What acts on the links beside the reactions.
     single : mapping of str to Applied
         Couples that the force of inertia of their link stands for as well, by link.
+    hung : bool
+        The loads hang on the lever, too: not those of friction, which act on both links of a pair.
     """
     start = len(draft.b.steps)
     board = ForceBoard(draft, solution.construction.kinematics, solution.problem.dynamics)
@@ -86,7 +92,7 @@ def plan_forces(
     for group in reversed(solution.structure.groups):
         group_forces(board, group)
     driving = drive_forces(board)
-    lever = plan_lever(board, driving)
+    lever = plan_lever(board, driving) if hung else None
     draft.note_plan(PlanKind.FORCE, start)
     return Planned(board, driving, lever)
 
@@ -98,6 +104,8 @@ class Statics(Remembering):
     ----------
     solution : Solution
         Of a problem with ``[dynamics]``; every group must be a dyad.
+    rubbing : sequence of Applied
+        Forces and couples of friction, which act beside the other loads; then there is no lever.
 
     Attributes
     ----------
@@ -105,15 +113,16 @@ class Statics(Remembering):
         Links that keep the couple of inertia although the file asks for the single resultant.
     """
 
-    def __init__(self, solution: Solution) -> None:
+    def __init__(self, solution: Solution, rubbing: Sequence[Applied] = ()) -> None:
         super().__init__()
         self.solution = solution
-        loads = applied(solution)
+        loads = (*applied(solution), *rubbing)
         single: Mapping[str, Applied] = {}
         self.unshifted: tuple[UnshiftedInertia, ...] = ()
         if solution.problem.dynamics is not None and solution.problem.dynamics.resultant:
             single, self.unshifted = shifted_inertia(solution, loads)
-        planned = plan_forces(solution, solution.construction.draft.copy(), loads, single)
+        draft = solution.construction.draft.copy()
+        planned = plan_forces(solution, draft, loads, single, hung=not rubbing)
         self.board, self.driving, self.lever_plan = planned.board, planned.driving, planned.lever
         self.program: Program = self.board.draft.b.program().needed_for(self._asked())
 
@@ -125,6 +134,7 @@ class Statics(Remembering):
             asked += [reaction.force.at, reaction.force.tail, reaction.force.head]
             asked += [reaction.couple] if reaction.couple is not None else []
         asked.append(self.driving.balance)
+        asked += [self.driving.moment] if self.driving.moment is not None else []
         asked += [*self.board.segments.values.values(), *self.board.segments.lengths.values()]
         asked += self.board.arms.values()
         asked.append(self.board.scale)
@@ -202,8 +212,13 @@ class Statics(Remembering):
 
     @cached_property
     def balance(self) -> Reals:
-        """Balancing moment on the crank, N·m, or force along the guide of a driving slider, N."""
+        """What balances the driver: moment on a crank, N·m; force at its point, on a slider, N."""
         return self._number(self.driving.balance)
+
+    @cached_property
+    def moment(self) -> Reals | None:
+        """Balancing moment on the crank, N·m, whatever balances it; None of a driving slider."""
+        return None if self.driving.moment is None else self._number(self.driving.moment)
 
     @cached_property
     def lever(self) -> Reals | None:
@@ -306,3 +321,12 @@ class Statics(Remembering):
 def statics_of(solution: Solution) -> Statics:
     """Return the force analysis of a solution, made when it is first asked for."""
     return solution.once(Statics)
+
+
+def bearings_of(statics: Statics, joint: JointForce) -> BearingTable | None:
+    """Return the two bearings that share the reaction of a shaft; None where the file has none."""
+    dynamics = statics.solution.problem.dynamics
+    if dynamics is None or FRAME not in (joint.on, joint.by):
+        return None
+    slides = joint.joint in {slide.pin for slide in statics.solution.problem.slides.values()}
+    return None if slides else dynamics.bearings.get(joint.joint)

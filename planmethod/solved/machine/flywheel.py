@@ -319,9 +319,14 @@ class Flywheel(Remembering):
         return np.asarray(self.cycle * np.arange(count) / count, dtype=float)
 
     @remembered
+    def solved(self, count: int) -> Solution:
+        """Return the motion in so many even positions, by their own plans."""
+        return self.turn.solved(self.turned(count))
+
+    @remembered
     def reduced(self, count: int) -> Reduced:
         """Return what is reduced to the crank in so many even positions, by their own plans."""
-        return reduce(self.turn.solved(self.turned(count)), self.machine)
+        return reduce(self.solved(count), self.machine)
 
     @remembered
     def lever(self, count: int) -> Reals:

@@ -214,7 +214,9 @@ class ForceValues:
             value = statics.lever_plan.balance
         if not names:
             return value
-        if drive.pivot is None:
+        plan = statics.driving if kind == "balance" else statics.lever_plan
+        assert plan is not None
+        if drive.pivot is None or plan.moment is None:
             raise NoValueError(NoValue.NO_LINK)
         link, arm = selecting.arm(names[0], drive.pivot)
         if link != drive.link:
@@ -222,7 +224,7 @@ class ForceValues:
         points = self.solution.problem.bodies[link].points
         if points.get(names[0]) == points[drive.pivot]:
             raise NoValueError(NoValue.NO_ARM)
-        return selecting.compute((value, 1), *((name, -power) for name, power in arm))
+        return selecting.compute((plan.moment, 1), *((name, -power) for name, power in arm))
 
     def _shift(self, selecting: SelectorSteps, link: str) -> NumberName:
         force = self._given("inertia", link)

@@ -163,6 +163,8 @@ class LoadNarrator:
                 sense = self.context.sense(couple)
                 epsilon = f"ε_{{{one.link}}}"
                 return said.inertia_couple.format(sense=sense, epsilon=epsilon, **common)
+            case LoadKind.FRICTION:
+                raise AssertionError("forces of friction are told by themselves")
 
     def _external(self, load: GivenLoad, force: complex, couple: float) -> str:
         symbol = load.applied.name

@@ -60,7 +60,7 @@ class MomentNarrator:
         """Return an equation of moments told; None where there is no couple to be found."""
         reading, edge, couple = self.reading, equation.force, equation.couple
         forces = [
-            (known.symbol, reading.read(known), reading.arm(known, equation.about))
+            (self.symbol(known.symbol), reading.read(known), reading.arm(known, equation.about))
             for known in equation.edges
             if not reading.is_none(known)
         ]
@@ -76,7 +76,7 @@ class MomentNarrator:
         arm, length, measured = "", "", ""
         if edge is not None:
             symbol, unit, nothing, value = (
-                edge.symbol,
+                self.symbol(edge.symbol),
                 "N",
                 reading.is_none(edge),
                 reading.read(edge),
@@ -112,7 +112,14 @@ class MomentNarrator:
 
         The third is how it was measured, where no given length tells it.
         """
-        metres, (first, *more) = self.short(self.reading.read_product(equation.arm)), equation.arm
+        read, (first, *more) = self.reading.read_product(equation.arm), equation.arm
+        if edge.is_aslant:
+            letters = arm_symbol(self.symbol(edge.symbol))
+            ruled = self.context.ruled(abs(self.reading.read_number(first[0])))
+            metres = self.short(abs(read))
+            told = f"{letters} = {self.context.on_drawing(ruled)} = {metres} {self.units['m']}"
+            return letters, metres, told
+        metres = self.short(read)
         if not more:
             return self.context.names.symbol(first[0]), metres, ""
         letters = f"l_{{{edge.at}{equation.about}}}"
@@ -179,7 +186,8 @@ class MomentNarrator:
             return [*lines, f"{told.result}."]
         sense = self.context.sense(told.value)
         exact = self.context.exactly(abs(self.reading.force(edge)))
-        turns = self.said.turns.format(symbol=edge.symbol, link=edge.on, point=point, sense=sense)
+        symbol = self.symbol(edge.symbol)
+        turns = self.said.turns.format(symbol=symbol, link=edge.on, point=point, sense=sense)
         return [*lines, f"{told.result}{exact}.", turns]
 
     def _balancing(self, equation: Moments, couple: CoupleOn) -> list[str]:

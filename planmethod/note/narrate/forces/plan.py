@@ -16,6 +16,7 @@ from planmethod.construct.steps import (
 )
 from planmethod.mechanism.model import FRAME
 from planmethod.note.narrate.forces.common import ForceContext, closed
+from planmethod.note.narrate.given import point_name
 from planmethod.note.narrate.scales import scale_inscription
 from planmethod.plans.forces.board import Reaction
 from planmethod.plans.forces.loads import LoadKind
@@ -70,8 +71,10 @@ class ForcePlanNarrator:
         drive = self.context.solution.problem.drive.link
         if self.plan.links == (drive,):
             symbol = self.context.symbol(self.reading.balancing_symbol)
-            template = said["and_balance"][self.reading.balancing.quantity]
-            balancing = template.format(symbol=symbol)
+            template = said["and_balance"][self.reading.balancing.said]
+            pushed = self.context.solution.problem.drive.pushed
+            point = "" if pushed is None else point_name(pushed.at)
+            balancing = template.format(symbol=symbol, point=point)
             return [
                 said.freed_driver.format(reactions=reactions, balancing=balancing),
                 *self._known,
@@ -173,11 +176,15 @@ class ForcePlanNarrator:
         return f"{symbol} = {numbers} = {size} {self.context.units['N']}"
 
     def _tangential(self, edge: Edge) -> list[str]:
-        """Tell the laying off of a component that moments have found."""
+        """Tell the laying off of a component, or of what balances a crank, that moments found."""
+        if edge.direction is not None and edge.direction.relation is Relation.ANGLED:
+            return self._lay(edge, self.context.way(self.reading.force(edge)))
         return self._lay(edge, self.said.way_tangent.format(line=self._across(edge)))
 
     def _across(self, edge: Edge) -> str:
         """Return the line that a tangential component is across."""
+        if edge.direction is not None:
+            return self.context.base(edge)
         normal = next(
             e
             for e in self.plan.polygon

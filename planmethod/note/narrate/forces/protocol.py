@@ -17,7 +17,8 @@ from planmethod.note.document import (
     step_of,
 )
 from planmethod.note.narrate.equations import direction_note
-from planmethod.note.narrate.forces.common import ForceContext, balance_equation
+from planmethod.note.narrate.forces.bearings import undetermined
+from planmethod.note.narrate.forces.common import ForceContext, balance_equation, closed
 from planmethod.note.narrate.forces.lever import LeverNarrator
 from planmethod.note.narrate.forces.loads import LoadNarrator
 from planmethod.note.narrate.forces.moments import MomentNarrator
@@ -48,6 +49,9 @@ def force_chapters(say: Formulas, index: int) -> Iterator[Node]:
     yield from _loads(context)
     yield from _plans(context)
     yield from _lever(context)
+    dynamics = say.solution.problem.dynamics
+    if dynamics is not None and dynamics.friction is not None:
+        yield from _friction(context, say)
 
 
 def _loads(context: ForceContext) -> Iterator[Node]:
@@ -67,7 +71,9 @@ def _plans(context: ForceContext) -> Iterator[Node]:
     titles = [driver if group is None else links_of_group(group, words) for group in groups]
     frame = context.solution.problem.mechanism.frame
     order = ", ".join(title[:1].lower() + title[1:] for title in titles)
-    yield Step((said.order.format(order=order), said.indices.format(frame=frame)))
+    dyads = [group for group in groups if group is not None]
+    lines = (said.order.format(order=order), said.indices.format(frame=frame))
+    yield Step((*lines, *([undetermined(dyads, words)] if dyads else [])))
     for number, (plan, group) in enumerate(zip(context.reading.plans, groups, strict=True)):
         yield Part(driver if group is None else group_title(group, words))
         yield from _plan(context, plan, number)
@@ -114,3 +120,24 @@ def _lever(context: ForceContext) -> Iterator[Node]:
     else:
         for lines in LeverNarrator(context).items():
             yield from step_of(lines)
+
+
+def _friction(context: ForceContext, say: Formulas) -> Iterator[Node]:
+    """Tell the friction of the pairs, and the force plans with one correction."""
+    from planmethod.note.narrate.forces.friction import FrictionTeller  # few need it
+    from planmethod.solved.forces.friction import rubbed_reading
+
+    tell, words = FrictionTeller(context), context.words
+    yield Chapter(tell.said.title)
+    yield Step((tell.said.order, *closed(tell.given())))
+    for pair in tell.friction.pairs:
+        yield Step((tell.pair(pair),))
+    corrected = ForceContext(rubbed_reading(context.solution, context.reading.index), say)
+    driver = words.driver.format(link=context.solution.problem.drive.link)
+    yield Chapter(tell.said.corrected)
+    groups: list[AssurGroup | None] = [*reversed(context.solution.structure.groups), None]
+    for number, (plan, group) in enumerate(zip(corrected.reading.plans, groups, strict=True)):
+        yield Part(driver if group is None else group_title(group, words))
+        yield from _plan(corrected, plan, number)
+    yield Part(tell.said.results)
+    yield from (Step((line,)) for line in (*tell.results(), *tell.turn()))

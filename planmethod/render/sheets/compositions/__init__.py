@@ -22,6 +22,7 @@ SHIPPED = (
     "coursework-12",
     "forces",
     "forces-cycle",
+    "friction",
     "flywheel",
     "run-up",
     "balancing",

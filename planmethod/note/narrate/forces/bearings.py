@@ -1,0 +1,51 @@
+"""A reaction shared between two bearings, and what statics leaves open (подшипники)."""
+
+from __future__ import annotations
+
+from planmethod.mechanism.groups import AssurGroup
+from planmethod.note.formula import Rich, fraction
+from planmethod.note.narrate.given import point_name
+from planmethod.note.plaintext import found, given
+from planmethod.note.wording import Words
+from planmethod.plans.forces.polygons import reaction_symbol
+from planmethod.problem.load_records import BearingTable
+from planmethod.solved.forces.contact import JointForce
+from planmethod.solved.solution import Solution
+
+
+def bearing_text(
+    solution: Solution, joint: JointForce, shared: BearingTable, force: float, words: Words
+) -> Rich:
+    """Tell what each bearing takes of a reaction, N, with numbers."""
+    called, z = solution.problem.mechanism.called, shared.plane
+    (first, second), parts = shared.at, []
+    symbol = reaction_symbol(called(joint.on), called(joint.by))
+    length = given(abs(second - first), words)
+    for primes, share, arm in zip(
+        ("'", "''"), shared.shares, (abs(second - z), abs(z - first)), strict=True
+    ):
+        name = reaction_symbol(called(joint.on), called(joint.by), letter=f"F^{{{primes}}}")
+        numbers = fraction(f"{found(force, words)}·{given(arm, words)}", length)
+        size = f"{found(abs(share) * force, words)} {words['units']['N']}"
+        back = words.bearing_back.format(symbol=symbol) if share < 0 else ""
+        parts.append(f"{name} = {numbers} = {size}{back}")
+    return words.bearings.format(
+        joint=point_name(joint.joint), symbol=symbol, first=parts[0], second=parts[1]
+    )
+
+
+def redundant(links: int) -> int:
+    """Return q of a group of so many links whose pairs have one freedom each; of a driver 0.
+
+    Across the plane a link has three equations, and a pair three unknowns: the force along the axis
+    of its hinge and two moments. A group of n links has 3n/2 pairs.
+    """
+    return 3 * links // 2 if links > 1 else 0
+
+
+def undetermined(groups: list[AssurGroup], words: Words) -> Rich:
+    """Tell which components of the reactions in the groups follow from no equation of statics."""
+    named = ", ".join("–".join(group.links) for group in groups)
+    n = len(groups[0].links)  # dyads: what else is there has no force plans
+    template = words.undetermined if len(groups) > 1 else words.undetermined_one
+    return template.format(groups=named, equations=3 * n, unknowns=3 * (3 * n // 2), q=redundant(n))

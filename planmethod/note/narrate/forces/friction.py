@@ -1,0 +1,208 @@
+"""Friction told: circles and angles, the correction, efficiency, self-locking (трение)."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from planmethod.mechanism.model import FRAME
+from planmethod.note.document import Formula, Paragraph, Table, table_of_columns
+from planmethod.note.formula import Rich, fraction
+from planmethod.note.narrate.forces.common import ForceContext
+from planmethod.note.narrate.given import point_name
+from planmethod.plans.forces.polygons import reaction_symbol
+from planmethod.plans.model import PlanKind
+from planmethod.solved.efficiency import turn_efficiency
+from planmethod.solved.forces.friction import Rubbing, friction_of
+
+
+class FrictionTeller:
+    """Tells the friction of one position.
+
+    Parameters
+    ----------
+    context : ForceContext
+        Of the forces without friction.
+    """
+
+    def __init__(self, context: ForceContext) -> None:
+        self.context, self.index = context, context.reading.index
+        self.friction = friction_of(context.solution)
+        self.said, self.say = context.language.friction, context.notation
+        self.find, self.units, self.symbol = context.found, context.units, context.symbol
+
+    def _per_cent(self, share: float) -> Rich:
+        return f"{self.context.short(100.0 * share, 2)} %"
+
+    # Pairs -----------------------------------------------------------------------------------
+
+    def _between(self, pair: Rubbing) -> str:
+        between = "," if len(pair.on) > 1 or len(pair.by) > 1 else ""
+        return f"{pair.on}{between}{pair.frame if pair.by == FRAME else pair.by}"
+
+    def _force(self, pair: Rubbing) -> Rich:
+        """Return the letter of the reaction without friction."""
+        return reaction_symbol(pair.on, pair.frame if pair.by == FRAME else pair.by)
+
+    def reach(self, pair: Rubbing) -> Rich:
+        """Return the radius of the friction circle, or the angle of friction, with numbers."""
+        index, f = self._between(pair), self.context.short(pair.f)
+        if pair.slide is not None:
+            phi = self.find(pair.phi)
+            return f"φ_{{{index}}} = arctg f = arctg {f} = {phi}{self.units['deg']}"
+        rho, radius = self.find(1e3 * pair.rho), self.context.short(1e3 * pair.radius)
+        return f"ρ_{{{index}}} = f'·r = {f}·{radius} = {rho} {self.units['mm']}"
+
+    def size(self, pair: Rubbing) -> Rich:
+        """Return the friction of a pair, found of the forces without it."""
+        number = self.friction.pairs.index(pair)
+        size = float(self.friction.corrected.friction[number, self.index])
+        symbol, force = self.symbol(pair.symbol), self._force(pair)
+        letters, share = (
+            ("f", pair.f) if pair.slide is not None else (f"ρ_{{{self._between(pair)}}}", pair.rho)
+        )
+        contact = self.friction.statics.contacts.get(pair.number)
+        if contact is not None and contact.edges(self.index):
+            force = f"(F^{{'}}_{{{self._between(pair)}}} + F^{{''}}_{{{self._between(pair)}}})"
+        unit = self.units["N·m" if pair.slide is None else "N"]
+        numbers = f"{self.context.short(share)}·{self.find(size / share)}"
+        return f"{symbol} = {letters}·{force} = {numbers} = {self.find(size)} {unit}"
+
+    def pair(self, pair: Rubbing) -> Rich:
+        """Tell the sense of the relative motion and what friction does."""
+        said, words, i = self.said, self.context.words, self.index
+        rate, by = float(pair.rate[i]), pair.by
+        sliding = pair.slide is not None
+        frame, link = (said.on_frame, said.on_link) if sliding else (said.to_frame, said.to_link)
+        facts = {
+            "joint": point_name(pair.joint),
+            "reach": self.reach(pair),
+            "on": pair.on,
+            "by": frame if by == FRAME else link.format(link=by),
+            "size": self.size(pair),
+        }
+        if not pair.sense[i]:
+            return said.still.format(**facts)
+        if not sliding:
+            sense, back = (words.ccw, words.cw) if rate > 0 else (words.cw, words.ccw)
+            told = f"{self.find(abs(rate))} {self.units['1/s']}"
+            return said.turning.format(sense=sense, back=back, rate=told, **facts)
+        ahead = complex(pair.along[i]) * float(np.sign(rate))
+        told = f"{self.find(abs(rate))} {self.units['m/s']}"
+        way, back = self.context.way(ahead), self.context.way(-ahead)
+        return said.sliding.format(sense=way, back=back, rate=told, **facts)
+
+    # Results ---------------------------------------------------------------------------------
+
+    def columns(self) -> list[list[Rich]]:
+        """Return the table of the pairs by columns: reactions thrice, and their friction."""
+        friction, i = self.friction, self.index
+        heads = self.context.language.friction["columns"]
+        columns: list[list[Rich]] = [[head] for head in heads]
+        for number, pair in enumerate(friction.pairs):
+            sizes = [
+                abs(complex(friction.total(pair, forces)[i]))
+                for forces in (friction.without, friction.corrected, friction.converged)
+            ]
+            once = float(friction.corrected.friction[number, i])
+            rub = float(friction.converged.friction[number, i])
+            cells = [
+                point_name(pair.joint),
+                self._dashed(pair),
+                "—" if pair.slide is not None else self.find(1e3 * pair.rho),
+                "—" if pair.slide is None else self.find(pair.phi),
+                *(self.find(size) if np.isfinite(size) else "—" for size in sizes),
+                f"{self.find(once)}",
+                self.find(rub) if np.isfinite(rub) else "—",
+            ]
+            for column, cell in zip(columns, cells, strict=True):
+                column.append(cell)
+        return columns
+
+    def table(self) -> Table:
+        """Return the table of the pairs."""
+        return table_of_columns(self.columns(), repeated=2)
+
+    def results(self) -> Iterator[Rich]:
+        """Tell what balances the driver, what of the correction remains, efficiency, locking."""
+        said, friction, i = self.said, self.friction, self.index
+        once, jammed = friction.corrected, bool(friction.jammed[i])
+        balancing = self.context.reading.balancing
+        unit = self.units[balancing.unit]
+        symbol = self.symbol(balancing.symbol)
+        facts = {
+            "symbol": symbol,
+            "without": f"{self.find(float(friction.without.balance[i]))} {unit}",
+            "once": f"{self.find(float(once.balance[i]))} {unit}",
+        }
+        if jammed:
+            yield said.balance_jammed.format(**facts)
+            yield said.jams
+            return
+        end = f"{self.find(float(friction.converged.balance[i]))} {unit}"
+        yield said.balance.format(converged=end, **facts)
+        change, reactions = float(friction.change[i]), float(friction.reaction_change[i])
+        if np.isfinite(change):
+            yield said.change.format(
+                balance=self._per_cent(change), reactions=self._per_cent(reactions), symbol=symbol
+            )
+        eta = float(friction.efficiency[i])
+        if not np.isfinite(eta):
+            yield said.no_power
+            return
+        powers = [float(one.power[i]) for one in (friction.without, friction.converged)]
+        ideal, real = (f"{self.find(abs(power))}" for power in powers)
+        drives = bool(friction.drives[i])
+        letters = ("P_{0}", "P") if drives else ("P", "P_{0}")
+        numbers = (ideal, real) if drives else (self.find(-powers[1]), ideal)
+        told = f"η = {fraction(*letters)} = {fraction(*numbers)} = {self.find(eta)}"
+        yield (said.efficiency if drives else said.efficiency_back).format(eta=told)
+        if eta <= 0:
+            yield said.locks
+
+    def turn(self) -> Iterator[Rich]:
+        """Tell the efficiency of the cycle, where it can be moved through."""
+        found = turn_efficiency(self.context.solution)
+        if found is None:
+            return
+        if found.locked:
+            first, last = (f"{self.say.turned(at)}{self.units['deg']}" for at in found.locked)
+            yield self.said.turn_jams.format(first=first, last=last)
+            return
+        joule = self.units["J"]
+        drives, real = found.ideal > 0, self.find(found.real if found.ideal > 0 else -found.real)
+        if found.value is None:
+            yield self.said.turn_idle.format(real=f"{self.find(found.real)} {joule}")
+            return
+        letters = fraction(*(("A_{0}", "A") if drives else ("A", "A_{0}")))
+        ideal = self.find(abs(found.ideal))
+        numbers = fraction(*((ideal, real) if drives else (real, ideal)))
+        yield self.said.turn.format(eta=f"η = {letters} = {numbers} = {self.find(found.value)}")
+
+    def given(self) -> list[Rich]:
+        """Return the coefficients and radii of the pairs, those alike once."""
+        found: dict[tuple[bool, float, float], list[str]] = {}
+        for pair in self.friction.pairs:
+            key = (pair.slide is not None, pair.f, pair.radius)
+            found.setdefault(key, []).append(f"{point_name(pair.joint)} ({self._dashed(pair)})")
+        return [
+            (self.said.given_sliding if sliding else self.said.given_turning).format(
+                pairs=", ".join(names),
+                f=self.context.short(f),
+                radius=f"{self.context.short(1e3 * radius)} {self.units['mm']}",
+            )
+            for (sliding, f, radius), names in found.items()
+        ]
+
+    def _dashed(self, pair: Rubbing) -> str:
+        return f"{pair.on}–{pair.frame if pair.by == FRAME else pair.by}"
+
+    def nodes(self) -> Iterator[Paragraph | Formula]:
+        """Yield what a sheet tells beside its pictures."""
+        yield from map(Paragraph, self.results())
+        yield from map(Paragraph, self.turn())
+
+    def scaled(self, pair: Rubbing) -> float:
+        """Return the radius of a friction circle on the position plan, mm."""
+        return pair.rho / self.context.solution.scales[PlanKind.POSITION].per_mm

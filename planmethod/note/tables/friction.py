@@ -1,0 +1,119 @@
+"""Friction in the record, on the terminal and in spreadsheets (трение в таблицах)."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from planmethod.note.columns import listed, sizes
+from planmethod.note.document import Caption, Node, Note
+from planmethod.note.narrate.forces.common import ForceContext
+from planmethod.note.narrate.forces.friction import FrictionTeller
+from planmethod.note.narrate.formulas import Formulas
+from planmethod.note.narrate.naming import Names
+from planmethod.note.wording import Language
+from planmethod.note.written import Column, Records, rows, together
+from planmethod.solved.efficiency import TurnEfficiency
+from planmethod.solved.forces.friction import (
+    Friction,
+    RubbedForces,
+    Rubbing,
+    friction_of,
+)
+from planmethod.solved.forces.reading import force_reading
+from planmethod.solved.reading import Reals
+from planmethod.solved.solution import Solution
+
+
+def friction_records(solution: Solution) -> Records:
+    """Return the friction of every position as plain data, N, N·m and W.
+
+    ``pairs`` are those that have friction, with what it is in the forces corrected ``once`` and in
+    the ``converged`` ones; of all reactions these have the whole force, that along a guide with it.
+    ``change`` is how far the first are from the second, as a part of them.
+    """
+    friction, count = friction_of(solution), len(solution.positions)
+    quantity = solution.problem.drive.balancing.quantity
+    columns: dict[str, Column | Records] = {
+        "pairs": together([_pair(friction, pair, count) for pair in friction.pairs], count),
+        "driving": rows(
+            {
+                key: rows({quantity: listed(forces.balance), "power": listed(forces.power)})
+                for key, forces in _kinds(friction).items()
+            }
+        ),
+        "change": rows(
+            {quantity: listed(friction.change), "reactions": listed(friction.reaction_change)}
+        ),
+        "efficiency": listed(friction.efficiency),
+        "self_locking": friction.locks.tolist(),
+        "jammed": friction.jammed.tolist(),
+    }
+    return rows(columns)
+
+
+def _kinds(friction: Friction) -> dict[str, RubbedForces]:
+    return {
+        "without": friction.without,
+        "once": friction.corrected,
+        "converged": friction.converged,
+    }
+
+
+def _pair(friction: Friction, pair: Rubbing, count: int) -> Records:
+    number = friction.pairs.index(pair)
+    steady: dict[str, object] = {"pair": pair.name, "joint": pair.joint, "on": pair.on}
+    steady |= {"from": pair.by, "f": pair.f}
+    steady |= {"rho": pair.rho} if pair.slide is None else {"phi_deg": pair.phi}
+    told: dict[str, Column | Records] = {key: [one] * count for key, one in steady.items()}
+    told |= {"rate": listed(pair.rate), "f_without": sizes(friction.total(pair, friction.without))}
+    for key, forces in list(_kinds(friction).items())[1:]:
+        whole = friction.total(pair, forces)
+        told[key] = rows(
+            {
+                "fx": listed(whole.real),
+                "fy": listed(whole.imag),
+                "f": sizes(whole),
+                "friction": listed(forces.friction[number]),
+            }
+        )
+    return rows(told)
+
+
+def turn_record(found: TurnEfficiency) -> dict[str, object]:
+    """Return the efficiency of the cycle as plain data, J."""
+    return {
+        "efficiency": found.value,
+        "work_without": found.ideal,
+        "work": found.real if np.isfinite(found.real) else None,
+        **({"jammed_between": list(found.locked)} if found.locked else {}),
+    }
+
+
+def friction_columns(solution: Solution) -> Iterator[tuple[str, Reals]]:
+    """Yield the columns of a spreadsheet: whole reactions and what drives, both converged."""
+    friction = friction_of(solution)
+    for pair in friction.pairs:
+        name = f"{pair.joint}.{pair.on}-{pair.by}"
+        yield f"F.{name}.rubbed", np.abs(friction.total(pair, friction.converged))
+        yield f"friction.{name}", friction.converged.friction[friction.pairs.index(pair)]
+    quantity = solution.problem.drive.balancing.quantity
+    yield f"driving.{quantity}.once", friction.corrected.balance
+    yield f"driving.{quantity}.rubbed", friction.converged.balance
+    yield "efficiency", friction.efficiency
+
+
+def teller(solution: Solution, words: Language, index: int) -> FrictionTeller:
+    """Return what tells the friction of a position."""
+    say = Formulas(solution, Names(solution, words.note), index)
+    return FrictionTeller(ForceContext(force_reading(solution, index), say))
+
+
+def friction_tables(solution: Solution, words: Language, index: int) -> Iterator[Node]:
+    """Yield the table of the pairs with friction of one position, and what follows from it."""
+    tell = teller(solution, words, index)
+    yield Caption(words.friction.table)
+    yield tell.table()
+    yield from map(Note, tell.results())
+    yield from map(Note, tell.turn())

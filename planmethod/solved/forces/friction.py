@@ -1,0 +1,478 @@
+"""Friction in the pairs: forces without it, with one correction, and converged (силы трения).
+
+Friction is a load on both links of a pair: along a guide f·N, about a pin f′·r·F, against the
+relative motion. The force plans are linear in these loads, so those that the reactions themselves
+cause are found by Newton's method, along the way on which friction grows from nothing: where the
+way ends before all friction is there, no driving force overcomes it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import cached_property
+
+import numpy as np
+import numpy.typing as npt
+from msgspec import Struct
+
+from planmethod.construct.arithmetic import Float64
+from planmethod.construct.evaluate import evaluate
+from planmethod.errors import Fault, ProblemError
+from planmethod.languages import say
+from planmethod.mechanism.model import FRAME
+from planmethod.plans.forces.board import SCALE
+from planmethod.plans.forces.loads import Applied, LoadKind, numbers_of
+from planmethod.plans.forces.polygons import reaction_symbol
+from planmethod.problem.load_records import FrictionTask, PairFriction
+from planmethod.problem.model import Problem, Slide
+from planmethod.problem.names import pair_name, segment
+from planmethod.solved.forces.contact import JointForce, SlideReaction, slide_between
+from planmethod.solved.forces.loads import STILL
+from planmethod.solved.forces.reading import ForceReading
+from planmethod.solved.forces.statics import Statics, statics_of
+from planmethod.solved.reading import (
+    Complexes,
+    Flags,
+    Reading,
+    Reals,
+    Remembering,
+    remembered,
+)
+from planmethod.solved.solution import UNIT_SCALES, Solution
+
+NOTHING = 1e-9
+"""Share of the largest power that goes through the joints below which a power is none."""
+
+_STEPS, _ROUNDS, _CLOSE = 16, 40, 1e-13
+
+Matrices = npt.NDArray[np.float64]
+
+
+class Rubbing(Struct, frozen=True):
+    """A pair with friction in every position (пара с трением), ndarrays of shape (n,).
+
+    Attributes
+    ----------
+    number : int
+        Of its reaction, among those of the force analysis.
+    name : str
+        ``B 3-0``.
+    joint, on, by : str
+        As of the reaction.
+    slide : Slide or None
+        None of a turning pair.
+    f : float
+        Coefficient: f of a sliding pair, f′ of a turning one.
+    radius : float, m
+        Of the pin; 0 of a sliding pair.
+    rate : Reals
+        Of ``on`` relative to ``by``: angular velocity, 1/s, or velocity along the guide, m/s.
+    sense : Reals
+        Its sign; 0 where the links do not move on one another.
+    along : Complexes
+        Unit vectors in the guide's direction; of a turning pair zero.
+    beside : Reals, m
+        How far the guide's line is to the left of the slider's pin.
+    frame : str
+        How the frame is printed.
+    """
+
+    number: int
+    name: str
+    joint: str
+    on: str
+    by: str
+    slide: Slide | None
+    f: float
+    radius: float
+    rate: Reals
+    sense: Reals
+    along: Complexes
+    beside: Reals
+    frame: str
+
+    @property
+    def rho(self) -> float:
+        """Radius of the friction circle (радиус круга трения), m; 0 of a sliding pair."""
+        return self.f * self.radius
+
+    @property
+    def phi(self) -> float:
+        """Angle of friction (угол трения), degrees; 0 of a turning pair."""
+        return float(np.degrees(np.arctan(self.f))) if self.slide is not None else 0.0
+
+    @property
+    def share(self) -> float:
+        """Friction for a newton of the reaction: f, or ρ, m."""
+        return self.f if self.slide is not None else self.rho
+
+    @property
+    def symbol(self) -> str:
+        """The role of its letter: ``friction force of 30``."""
+        return self._symbol("moment" if self.slide is None else "force", self.on, self.by)
+
+    def _symbol(self, what: str, on: str, by: str) -> str:
+        on, by = (self.frame if link == FRAME else link for link in (on, by))
+        return reaction_symbol(on, by, letter=f"friction {what} of ").replace("_{", "").rstrip("}")
+
+    def loads(self, size: Reals) -> list[Applied]:
+        """Return what friction of a size, N or N·m, does to both links, on ``on`` first."""
+        found, none = [], np.zeros(size.shape)
+        nowhere = np.zeros(size.shape, dtype=complex)
+        for link, other, way in ((self.on, self.by, -1.0), (self.by, self.on, 1.0)):
+            if link == FRAME:
+                continue
+            turns = self._symbol("moment", link, other)
+            signed, kind = way * self.sense * size, LoadKind.FRICTION
+            if self.slide is None:
+                found.append(Applied(turns, link, None, nowhere, signed, kind))
+                continue
+            name = self._symbol("force", link, other)
+            found.append(Applied(name, link, self.joint, signed * self.along, none, kind))
+            if np.any(self.beside):
+                couple = -signed * self.beside
+                found.append(Applied(turns, link, None, nowhere, couple, kind))
+        return found
+
+
+class RubbedForces(Struct, frozen=True):
+    """Forces with friction in every position (силы с учётом трения), ndarrays of shape (n,).
+
+    Attributes
+    ----------
+    friction : Reals, shape (k, n)
+        Size of the friction of each pair, N or N·m.
+    reactions : list of Complexes
+        All reactions in the order of the force analysis, N: those of guides across them.
+    moments : list of Reals
+        Their moments about the places where the plans have them, N·m; zero in turning pairs.
+    balance : Reals
+        What balances the driver, N·m or N.
+    power : Reals, W
+        What the driver gives.
+    """
+
+    friction: Reals
+    reactions: list[Complexes]
+    moments: list[Reals]
+    balance: Reals
+    power: Reals
+
+
+class Friction(Remembering):
+    """Force analysis with friction of a solution (силовой расчёт с учётом трения).
+
+    Parameters
+    ----------
+    solution : Solution
+        Of a problem with ``[friction]``, whose driver moves.
+    """
+
+    def __init__(self, solution: Solution) -> None:
+        super().__init__()
+        self.solution, self.statics = solution, statics_of(solution)
+        dynamics = solution.problem.dynamics
+        assert dynamics is not None and dynamics.friction is not None
+        _refuse_unknown(solution.problem, dynamics.friction, self.statics.reactions)
+        self.pairs: list[Rubbing] = []
+        for number, joint in enumerate(self.statics.reactions):
+            pair = _rubbing(solution, dynamics.friction, number, joint)
+            if pair.share:
+                self.pairs.append(pair)
+        self._planned = self._with(np.ones((len(self.pairs), len(solution.positions))))
+
+    def _with(self, sizes: Reals) -> Statics:
+        rubbing = [
+            one for pair, size in zip(self.pairs, sizes, strict=True) for one in pair.loads(size)
+        ]
+        return Statics(self.solution, rubbing)
+
+    # Linear in friction ----------------------------------------------------------------------
+
+    def _read(self, sizes: Reals) -> Reading:
+        """Read the plans with friction of given sizes, shape (k, n)."""
+        board = self._planned.board
+        scales = {**UNIT_SCALES, SCALE: 1.0}
+        data, names = (
+            {**self.solution.data(scales, slice(None)), **board.data},
+            dict(board.changing),
+        )
+        for pair, size in zip(self.pairs, sizes, strict=True):
+            for load in pair.loads(size):
+                data.update(zip(names[load.name], numbers_of(load), strict=True))
+        trace = evaluate(self._planned.program, data, Float64())
+        return Reading(trace, len(self.solution.positions))
+
+    def _values(self, reading: Reading) -> tuple[Complexes, Reals, Reals]:
+        """Return the reactions (m, n), their moments (m, n), and balance and power (2, n)."""
+        forces, moments = [], []
+        for one in self._planned.board.reactions:
+            forces.append(reading.vector(*one.force.ends))
+            none = np.zeros(len(self.solution.positions))
+            moments.append(none if one.couple is None else reading.number(one.couple))
+        driving, drive = self._planned.driving, self.solution.problem.drive
+        balance = reading.number(driving.balance)
+        pushes = balance if driving.moment is None else reading.number(driving.moment)
+        return np.asarray(forces), np.asarray(moments), np.asarray((balance, pushes * drive.rate))
+
+    @cached_property
+    def _linear(self) -> tuple[list[npt.NDArray[np.complex128]], float]:
+        """Return values without friction, then what each friction of one unit adds."""
+        k, n = len(self.pairs), len(self.solution.positions)
+        unit = max(float(self.statics.largest_forces.max(initial=0.0)), 1e-300)
+        reads = [self._values(self._read(np.zeros((k, n))))]
+        for number in range(k):
+            sizes = np.zeros((k, n))
+            sizes[number] = unit * self.pairs[number].share
+            reads.append(self._values(self._read(sizes)))
+        whole = [np.concatenate([np.asarray(part, dtype=complex) for part in one]) for one in reads]
+        per = [unit * pair.share for pair in self.pairs]
+        return [
+            whole[0],
+            *((one - whole[0]) / size for one, size in zip(whole[1:], per, strict=True)),
+        ], unit
+
+    def _at(self, sizes: Reals) -> npt.NDArray[np.complex128]:
+        base, *added = self._linear[0]
+        return base + sum((one * size for one, size in zip(added, sizes, strict=True)), 0 * base)
+
+    def _pressing(self, sizes: Reals) -> tuple[Reals, Matrices]:
+        """Return what presses each pair, N, shape (k, n), and its derivatives, shape (n, k, k)."""
+        values, added = self._at(sizes), self._linear[0][1:]
+        pressed = np.zeros(sizes.shape)
+        slopes = np.zeros((sizes.shape[1], len(self.pairs), len(self.pairs)))
+        for row, pair in enumerate(self.pairs):
+            force = values[pair.number]
+            size = np.abs(force)
+            way = np.where(size > 0, force / np.where(size > 0, size, 1.0), 0.0)
+            turned = np.array([(way.conjugate() * one[pair.number]).real for one in added])
+            contact = self.statics.contacts.get(pair.number)
+            if contact is not None and contact.length is not None:
+                # Both edges together: |F/2 + M/a| + |F/2 - M/a|, M about the middle.
+                moment = self._about_middle(pair, contact, values)
+                edges = 2.0 * np.abs(moment) / contact.length
+                more = [self._about_middle(pair, contact, one) for one in added]
+                slope = 2.0 * np.sign(moment) * np.array(more) / contact.length
+                size, turned = (
+                    np.where(edges > size, edges, size),
+                    np.where(edges > size, slope, turned),
+                )
+            pressed[row], slopes[:, row, :] = size, turned.T
+        return pressed, slopes
+
+    def _about_middle(
+        self, pair: Rubbing, contact: SlideReaction, values: npt.NDArray[np.complex128]
+    ) -> Reals:
+        """Return the moment of a guide about the middle of its slider, N·m."""
+        moment = values[len(self.statics.reactions) + pair.number].real
+        normal = (contact.along.conjugate() * values[pair.number]).imag
+        return np.asarray(moment - contact.middle * normal, dtype=float)
+
+    # Once, and converged ---------------------------------------------------------------------
+
+    @cached_property
+    def _shares(self) -> Reals:
+        """Friction for a newton of what presses, shape (k, n): none where nothing moves."""
+        return np.array([pair.share * np.abs(pair.sense) for pair in self.pairs]).reshape(
+            len(self.pairs), len(self.solution.positions)
+        )
+
+    @cached_property
+    def _first(self) -> Reals:
+        """Friction of the reactions without friction, shape (k, n)."""
+        return self._shares * self._pressing(np.zeros(self._shares.shape))[0]
+
+    @cached_property
+    def _grown(self) -> tuple[Reals, Flags]:
+        """Return friction of its own reactions, and where there is none such."""
+        sizes, (k, n) = np.zeros(self._shares.shape), self._shares.shape
+        jammed, own = np.zeros(n, dtype=bool), np.eye(k)
+        scale = np.maximum(self._first.max(axis=0, initial=0.0), 1e-300)
+        for step in range(1, _STEPS + 1):
+            shares = self._shares * (step / _STEPS)
+            for _ in range(_ROUNDS):
+                pressed, slopes = self._pressing(sizes)
+                jacobian = own - shares.T[:, :, np.newaxis] * slopes
+                off = sizes - shares * pressed
+                going = ~jammed & (np.abs(off).max(axis=0, initial=0.0) > _CLOSE * scale)
+                jammed |= np.linalg.det(jacobian) <= 0.0
+                going &= ~jammed
+                if not going.any():
+                    break
+                change = np.linalg.solve(jacobian[going], off.T[going][:, :, np.newaxis])
+                sizes[:, going] -= change[:, :, 0].T
+            else:
+                jammed |= np.abs(off).max(axis=0, initial=0.0) > 1e-9 * scale
+        jammed |= (sizes < -1e-9 * scale).any(axis=0)
+        sizes[:, jammed] = np.nan
+        return sizes, jammed
+
+    @property
+    def jammed(self) -> Flags:
+        """Where no driving force overcomes the friction (заклинивание), shape (n,)."""
+        return self._grown[1]
+
+    def _forces(self, sizes: Reals) -> RubbedForces:
+        values, count = self._at(sizes), len(self.statics.reactions)
+        balance, power = values[-2].real, values[-1].real
+        moments = [one.real for one in values[count : 2 * count]]
+        return RubbedForces(sizes, list(values[:count]), moments, balance, power)
+
+    @cached_property
+    def without(self) -> RubbedForces:
+        """Forces of ideal pairs."""
+        return self._forces(np.zeros(self._shares.shape))
+
+    @cached_property
+    def corrected(self) -> RubbedForces:
+        """Forces with the friction that those of ideal pairs cause: one correction."""
+        return self._forces(self._first)
+
+    @cached_property
+    def converged(self) -> RubbedForces:
+        """Forces with the friction that they cause themselves; NaN where they are jammed."""
+        return self._forces(self._grown[0])
+
+    @cached_property
+    def drawn(self) -> Statics:
+        """The force plans with one correction, as they are drawn."""
+        return self._with(self._first)
+
+    def total(self, pair: Rubbing, forces: RubbedForces) -> Complexes:
+        """Return the whole reaction of a pair, N: that across a guide and the friction along it."""
+        number = self.pairs.index(pair)
+        along = pair.sense * pair.along * forces.friction[number]
+        return np.asarray(forces.reactions[pair.number] - along, dtype=complex)
+
+    # What of it remains ----------------------------------------------------------------------
+
+    @cached_property
+    def change(self) -> Reals:
+        """How far one correction is from the converged balance, as a part of that; NaN of none."""
+        once, end = self.corrected.balance, self.converged.balance
+        there = np.abs(self.converged.power) > NOTHING * self.scale
+        return np.where(there, np.abs(end - once) / np.where(there, np.abs(end), 1.0), np.nan)
+
+    @cached_property
+    def reaction_change(self) -> Reals:
+        """The same of the reactions: the largest change, as a part of the largest reaction."""
+        changes, sizes = [np.zeros(self.jammed.shape)], [np.full(self.jammed.shape, 1e-300)]
+        for one, end in zip(self.corrected.reactions, self.converged.reactions, strict=True):
+            changes.append(np.abs(end - one))
+            sizes.append(np.abs(end))
+        return np.asarray(np.max(changes, axis=0) / np.max(sizes, axis=0))
+
+    @cached_property
+    def scale(self) -> Reals:
+        """Power that the largest force has with the fastest point, W, shape (n,)."""
+        speeds = [np.abs(point.velocity) for point in self.solution.points.values()]
+        return np.asarray(self.statics.largest_forces * np.max(speeds, axis=0) + 1e-300)
+
+    @property
+    def drives(self) -> Flags:
+        """Where the driver drives the loads, and is not driven by them."""
+        return self.without.power > 0
+
+    @cached_property
+    def efficiency(self) -> Reals:
+        """Efficiency of the position (мгновенный КПД), shape (n,).
+
+        Where the driver drives, its power without friction over that with it; 0 where it is jammed.
+        Where the loads drive it, the other way round: then it is negative where they cannot. NaN
+        where no power goes through.
+        """
+        ideal, real = self.without.power, np.where(self.jammed, np.inf, self.converged.power)
+        there = np.abs(ideal) > NOTHING * self.scale
+        with np.errstate(divide="ignore", invalid="ignore"):
+            found = np.where(self.drives, ideal / real, real / ideal)
+        return np.where(there, found, np.nan)
+
+    @cached_property
+    def locks(self) -> Flags:
+        """Where the mechanism locks itself (самоторможение): no efficiency above nothing."""
+        return self.jammed | (self.efficiency <= 0)
+
+
+def friction_of(solution: Solution) -> Friction:
+    """Return the friction of a solution, worked out when it is first asked for."""
+    return solution.once(Friction)
+
+
+class RubbedReading(ForceReading):
+    """The forces of a position with one correction for friction, as they are drawn."""
+
+    def __init__(self, solution: Solution, index: int) -> None:
+        super().__init__(solution, index)
+        self.friction = friction_of(solution)
+        self.statics = self.friction.drawn
+        self.plans = tuple(self.statics.board.plans)
+
+
+@remembered
+def rubbed_reading(solution: Solution, index: int) -> RubbedReading:
+    """Return the forces of a position with friction; kept, since several views show them."""
+    return RubbedReading(solution, index)
+
+
+# Pairs -------------------------------------------------------------------------------------------
+
+
+def _rubbing(solution: Solution, task: FrictionTask, number: int, joint: JointForce) -> Rubbing:
+    problem = solution.problem
+    slide, name = slide_between(problem, joint), pair_name(joint.joint, joint.on, joint.by)
+    own = task.pairs.get(name, PairFriction())
+    f = own.f if own.f is not None else task.f if slide is not None else task.f_pin
+    shape = solution.positions.shape
+    if slide is None:
+        rate = _omega(solution, joint.on) - _omega(solution, joint.by)
+        fastest = np.max([np.abs(link.omega) for link in solution.links.values()], axis=0)
+        radius = task.radius if own.radius is None else own.radius
+        along, beside = np.zeros(shape, dtype=complex), np.zeros(shape)
+    else:
+        contact = statics_of(solution).contacts[number]
+        along, radius = contact.along, 0.0
+        relative = _velocity(solution, joint.on, joint.at) - _velocity(solution, joint.by, joint.at)
+        rate = (along.conjugate() * relative).real
+        speeds = [np.abs(point.velocity) for point in solution.points.values()]
+        fastest = np.max(speeds, axis=0)
+        pin = solution.points[slide.pin].place
+        beside = (along.conjugate() * (contact.base - pin)).imag
+        beside = np.where(np.abs(beside) < 1e-12, 0.0, beside)
+    sense = np.where(np.abs(rate) > STILL * fastest, np.sign(rate), 0.0)
+    return Rubbing(
+        number, name, joint.joint, joint.on, joint.by, slide, f, radius, rate, sense, along, beside,
+        problem.mechanism.called(FRAME),
+    )  # fmt: skip
+
+
+def _omega(solution: Solution, link: str) -> Reals:
+    return np.zeros(solution.positions.shape) if link == FRAME else solution.links[link].omega
+
+
+def _velocity(solution: Solution, link: str, at: Complexes) -> Complexes:
+    """Return the velocity of a link at a place, m/s."""
+    if link == FRAME:
+        return np.zeros(solution.positions.shape, dtype=complex)
+    point = solution.points[next(iter(solution.problem.bodies[link].points))]
+    return np.asarray(point.velocity + 1j * solution.links[link].omega * (at - point.place))
+
+
+def _refuse_unknown(problem: Problem, task: FrictionTask, joints: Sequence[JointForce]) -> None:
+    """Refuse friction of a pair that there is not.
+
+    Raises
+    ------
+    ProblemError
+    """
+    there = [pair_name(joint.joint, joint.on, joint.by) for joint in joints]
+    faults = [
+        Fault(
+            f"friction.pairs.{segment(name)}",
+            say("the mechanism has no pair '{}'", name),
+            say("Its pairs: {}.", ", ".join(there)),
+        )
+        for name in task.pairs
+        if name not in there
+    ]
+    if faults:
+        raise ProblemError(problem.name, faults)
