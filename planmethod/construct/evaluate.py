@@ -9,6 +9,7 @@ import numpy as np
 from msgspec import Struct
 
 from planmethod.construct.arithmetic import Arithmetic, Number
+from planmethod.construct.holding import held, place
 from planmethod.construct.program import Program
 from planmethod.construct.steps import (
     AtAngle,
@@ -16,6 +17,7 @@ from planmethod.construct.steps import (
     Compute,
     Given,
     GivenNumber,
+    Hold,
     Join,
     LayOff,
     Measure,
@@ -133,6 +135,9 @@ def apply(
             # A tangent of no length: the foot is the source itself, and no line joins them.
             point = ar.unless_zero(half, centre + d / divisor * (radius * turn), source)
             return ar.pricked(out, point), room / (divisor * divisor)
+        case Hold(out):
+            (b, w), room, _ = held(step, env, ar)
+            return ar.pricked(out, b + w * place(step.at, env)), room
         case Similar(out, b, c, s, B, C, side_read, span_read, arm_read):
             side, span, arm = env[c] - env[b], env[C] - env[B], env[s] - env[B]
             scale = ar.share(env[side_read], side)

@@ -12,8 +12,10 @@ from planmethod.construct.steps import (
     Compute,
     Given,
     GivenNumber,
+    Hold,
     Join,
     LayOff,
+    Leg,
     LineName,
     Measure,
     MeasureAlong,
@@ -25,6 +27,7 @@ from planmethod.construct.steps import (
     NumberName,
     Parallel,
     Perpendicular,
+    Place,
     PointName,
     Side,
     Similar,
@@ -202,6 +205,18 @@ class Builder(Struct):
         """Find where a line from ``source`` touches a circle."""
         name = PointName(out)
         self.steps.append(Touch(name, centre, radius, source, side))
+        return name
+
+    def hold(
+        self,
+        out: str,
+        at: Place,
+        legs: tuple[Leg, Leg, Leg],
+        start: tuple[NumberName, NumberName, NumberName],
+    ) -> PointName:
+        """Find a point of a link that three legs hold."""
+        name = PointName(out)
+        self.steps.append(Hold(name, at, legs, start))
         return name
 
     def similar(
