@@ -31,6 +31,7 @@ from planmethod.construct.steps import (
     PointName,
     Side,
     Similar,
+    Spot,
     Step,
     Total,
     Touch,
@@ -210,13 +211,18 @@ class Builder(Struct):
     def hold(
         self,
         out: str,
-        at: Place,
         legs: tuple[Leg, Leg, Leg],
         start: tuple[NumberName, NumberName, NumberName],
-    ) -> PointName:
-        """Find a point of a link that three legs hold."""
+    ) -> LineName:
+        """Find the axis of a link that three legs hold."""
+        name = LineName(out)
+        self.steps.append(Hold(name, legs, start))
+        return name
+
+    def spot(self, out: str, axis: LineName, at: Place) -> PointName:
+        """Mark a point of a link whose axis is found."""
         name = PointName(out)
-        self.steps.append(Hold(name, at, legs, start))
+        self.steps.append(Spot(name, axis, at))
         return name
 
     def similar(

@@ -160,18 +160,25 @@ class Leg(Struct, frozen=True):
 
 
 class Hold(Struct, frozen=True):
-    """Point of a link that three legs hold at once (точка базисного звена группы III класса).
+    """Axis of a link that three legs hold at once, through its origin (группа III класса).
 
     No arcs alone find it. Without one leg the link is a coupler, which the place of that leg draws a
     curve of: where the curve meets what the leg asks for, the link is held. Of several such
     positions it is the one next to ``start``: where the link's origin is, mm, and the direction of
-    its axis, degrees. ``at`` is the place of the point on the link, as those of the legs.
+    its axis, degrees.
     """
 
-    out: PointName
-    at: Place
+    out: LineName
     legs: tuple[Leg, Leg, Leg]
     start: tuple[NumberName, NumberName, NumberName]
+
+
+class Spot(Struct, frozen=True):
+    """Point of a link whose axis and origin are found, by its place on the link (точка звена)."""
+
+    out: PointName
+    axis: LineName
+    at: Place
 
 
 class Similar(Struct, frozen=True):
@@ -278,6 +285,7 @@ Step: TypeAlias = (
     | MeetCircles
     | Touch
     | Hold
+    | Spot
     | Similar
     | Measure
     | MeasureAlong
@@ -322,7 +330,7 @@ def operands(step: Step) -> Iterator[tuple[Name, object]]:
         for name in step.terms:
             yield name, NumberName
         return
-    if isinstance(step, Hold):
+    if isinstance(step, Hold | Spot):
         yield from _held(step)
         return
     for field, kind in _OPERANDS[type(step)]:
@@ -331,14 +339,18 @@ def operands(step: Step) -> Iterator[tuple[Name, object]]:
             yield name, kind
 
 
-def _held(step: Hold) -> Iterator[tuple[Name, object]]:
-    for leg in step.legs:
-        for name, kind in ((leg.centre, PointName), (leg.line, LineName)):
-            if name is not None:
-                yield name, kind
-    numbers = [*step.at, *step.start]
-    for leg in step.legs:
-        numbers += [*leg.at, leg.radius, leg.angle]
+def _held(step: Hold | Spot) -> Iterator[tuple[Name, object]]:
+    numbers: list[NumberName | None]
+    if isinstance(step, Spot):
+        yield step.axis, LineName
+        numbers = [*step.at]
+    else:
+        numbers = [*step.start]
+        for leg in step.legs:
+            for name, kind in ((leg.centre, PointName), (leg.line, LineName)):
+                if name is not None:
+                    yield name, kind
+            numbers += [*leg.at, leg.radius, leg.angle]
     for number in numbers:
         if number is not None:
             yield number, NumberName

@@ -55,6 +55,12 @@ class Start(Struct, frozen=True):
     followed: Followed
     what: str
 
+    @property
+    def values(self) -> tuple[float, ...]:
+        """It in the positions that the assembly was followed through."""
+        found: tuple[float, ...] = getattr(self.followed, self.what)
+        return found
+
     def branch(self, positions: Reals) -> Reals:
         """Return it in some positions of the driver, m or degrees."""
         return self.followed.at(self.what, positions)
@@ -76,7 +82,7 @@ class Closing(Struct, frozen=True):
     turn : float
         After which the changes come again: 360 of a crank; of a slider out of all reach.
     followed : Followed
-        Of a triad, the assembly that is meant; ``others`` are the places of its point in the rest,
+        Of a triad, the assembly that is meant; ``others`` are the places of ``point`` in the rest,
         m, at ``start``.
     third : int
         Of a triad, the leg whose line does not go through the special point that is used.
@@ -90,6 +96,7 @@ class Closing(Struct, frozen=True):
     followed: Followed = Followed()
     third: int = 2
     others: tuple[complex, ...] = ()
+    point: str = ""
 
     def branch(self, positions: Reals) -> Reals:
         """Return +1 where the side is the first one, else -1; it depends on the position alone."""

@@ -57,7 +57,7 @@ def env_of(step: Hold, trace: Trace, index: int) -> Env:
     one = Single()
     found: Env = {}
     names = [name for leg in step.legs for name in (leg.centre, leg.line, leg.radius, leg.angle)]
-    names += [name for at in (step.at, *(leg.at for leg in step.legs)) for name in at]
+    names += [name for leg in step.legs for name in leg.at]
     for name in names:
         if name is None:
             continue
@@ -218,7 +218,7 @@ class Assembled(Struct, frozen=True):
     def step(self) -> Hold:
         """The step that holds the base link."""
         steps = (step for step in self.program.steps if isinstance(step, Hold))
-        return next(step for step in steps if step.out == self.point)
+        return next(step for step in steps if step.out == f"axis {self.triad.base}")
 
     def read(self, positions: Reals) -> Trace:
         """Read the plan in some positions."""
@@ -248,8 +248,10 @@ def choose(made: Assembled, rules: list[Rule], positions: Reals) -> tuple[Closin
             break
     else:
         place = Place.of(problem, positions, 0)
-        others = {"alike": len(positions) - 1, "count": len(positions)}
-        raise PositionError(Failure(Cause.NO_ASSEMBLY, place, ", ".join(made.group.links), **others))
+        links, count = ", ".join(made.group.links), len(positions)
+        raise PositionError(
+            Failure(Cause.NO_ASSEMBLY, place, links, alike=count - 1, count=count)
+        )
     readings = [made.posed(start, pose) for pose in poses]
     left = list(range(len(poses)))
     for rule in (rule for rule in rules if rule.where is not Where.NEAR):
@@ -267,7 +269,7 @@ def choose(made: Assembled, rules: list[Rule], positions: Reals) -> tuple[Closin
     turn = problem.drive.coordinate.turn
     path = follow(made.step, made.read, start, poses[k], reach, turn)
     others = tuple(place for number, place in enumerate(places) if number != k)
-    return Closing(start=start, followed=path, others=others), []
+    return Closing(start=start, followed=path, others=others, point=point), []
 
 
 def _untold(made: Assembled, rules: list[Rule], point: str, places: list[complex], at: str) -> Fault:
@@ -421,10 +423,11 @@ def follow(
             path = _Path(step, read, size, [start], [pose.origin], [pose.turn])
             path.goes_on(start, env)  # which sign its determinant has
             del path.places[1:], path.origins[1:], path.turns[1:]
-            goals = start + sense * pace * np.arange(1, 1 + int(abs(limit - start) / pace + 1e-9))
-            for number, goal in enumerate(goals.tolist()):
+            count = int(abs(limit - start) / pace + 1e-9)
+            goals = [start + sense * pace * k for k in range(1, 1 + count)]
+            for number, goal in enumerate(goals):
                 if number % _CHUNK == 0:
-                    ready = path.envs(goals[number : number + _CHUNK])
+                    ready = path.envs(np.array(goals[number : number + _CHUNK]))
                 if not path.comes_to(goal, ready[number % _CHUNK]):
                     break
                 if crank and (number + 1) % looks == 0 and path.has_come_again():

@@ -95,6 +95,10 @@ class Causes:
                 return words.cause_arc.format(point=names.point(out))
             case steps.Touch(out):
                 return words.cause_touch.format(point=names.point(out))
+            case steps.Hold(out):
+                return words.cause_hold.format(link=out.removeprefix("axis "))
+            case steps.Spot(out):
+                return words.cause_spot.format(point=names.point(out))
             case steps.Similar(out):
                 return words.cause_similar.format(point=names.point(out))
             case steps.Measure(_, tail, head) | steps.MeasureAlong(_, tail, head, _):

@@ -167,8 +167,9 @@ def _place_triad(draft: Draft, triad: Legs, closing: Closing) -> None:
     one, two, three = legs
     x, y, turn = (_start(draft, base, what, closing) for what in ("x", "y", "turn"))
     x, y = (draft.b.compute(f"|{name}|", (name, 1), (draft.mu_l, -1)) for name in (x, y))
+    axis = draft.b.hold(f"axis {base}", (one, two, three), (x, y, turn))
     for point in points:
-        draft.mark_placed(draft.b.hold(point, at(point), (one, two, three), (x, y, turn)))
+        draft.mark_placed(draft.b.spot(point, axis, at(point)))
     for lead, joint in triad.legs:
         if isinstance(joint, Prismatic):
             draft.turn_with(slide_of(draft, joint), base, PointName(lead_point(lead)))

@@ -42,8 +42,8 @@ from planmethod.plans.motion.position import lead_point, slide_of
 def triad_motion(kin: Kinematics, motion: MotionBoard, triad: Legs) -> None:
     """Find the special point's vector from two legs, the third joint's, then the others."""
     base, special = triad.base, kin.draft.special[triad.base]
-    rays = [_ray(kin, motion, base, lead, joint) for lead, joint in triad.legs]
     first, second = (k for k in range(3) if k != special.third)
+    rays = {k: _ray(kin, motion, base, *triad.legs[k]) for k in (first, second)}
     through = [
         _through(kin, motion, base, special.point, triad.legs[k], rays[k]) for k in (first, second)
     ]
@@ -51,9 +51,10 @@ def triad_motion(kin: Kinematics, motion: MotionBoard, triad: Legs) -> None:
     lead, joint = triad.legs[special.third]
     place = leg_place(lead, joint)
     turned = revolute_ray(kin, motion, base, special.point, place)
-    close(kin, motion, (base, lead.link), place, (turned, rays[special.third]))
+    third = _ray(kin, motion, base, lead, joint)
+    close(kin, motion, (base, lead.link), place, (turned, third))
     read_turning(kin, motion, base, special.point, place, turned)
-    _read_leg(kin, motion, base, (lead, joint), rays[special.third])
+    _read_leg(kin, motion, base, (lead, joint), third)
     for k in (first, second):
         lead, joint = triad.legs[k]
         head = carried(kin, motion, base, leg_place(lead, joint))

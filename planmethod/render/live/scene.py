@@ -224,8 +224,7 @@ class LiveScene:
             whose = said.plan_of_group if len(plan.links) > 1 else said.plan_of_link
             title = whose.format(links=link_names(plan.links))
             view = LiveView(f"forces-{number}", title, _unit(PlanKind.FORCE))
-            inner = () if plan.inner is None else (plan.inner,)
-            for edge in (*plan.polygon, *plan.wholes, *inner):
+            for edge in (*plan.polygon, *plan.wholes, *plan.inner):
                 self._edge(view, edge, beside=edge not in plan.polygon)
             found.append(view)
         lever = self._lever()

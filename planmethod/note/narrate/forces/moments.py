@@ -12,7 +12,7 @@ from planmethod.note.narrate.forces.common import ForceContext, arm_symbol, clos
 from planmethod.note.narrate.given import point_name
 from planmethod.note.numbers import MINUS
 from planmethod.plans.forces.board import Force
-from planmethod.plans.forces.polygons import CoupleOn, Edge, ForcePlan, Moments
+from planmethod.plans.forces.polygons import CoupleOn, Edge, ForcePlan, Moments, Share
 from planmethod.solved.forces.guides import Guided, guide_of
 
 SIDES = ("right", "up", "left", "down")
@@ -112,11 +112,15 @@ class MomentNarrator:
 
         The third is how it was measured, where no given length tells it.
         """
-        metres, (first, *more) = self.short(self.reading.read_product(equation.arm)), equation.arm
+        metres = self.short(abs(self.reading.read_product(equation.arm)))
+        first, *more = equation.arm
         if not more:
             return self.context.names.symbol(first[0]), metres, ""
         letters = f"l_{{{edge.at}{equation.about}}}"
-        length = self.context.on_drawing(self.context.ruled(self.reading.read_number(first[0])))
+        if edge.share is not Share.TANGENTIAL:  # of a force that does not stand across its arm
+            letters = arm_symbol(edge.symbol)
+        read = abs(self.reading.read_number(first[0]))
+        length = self.context.on_drawing(self.context.ruled(read))
         return letters, metres, f"{letters} = {length} = {metres} {self.units['m']}"
 
     def _numbers(

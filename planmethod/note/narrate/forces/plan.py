@@ -52,7 +52,7 @@ class ForcePlanNarrator:
 
     @property
     def _edges(self) -> tuple[Edge, ...]:
-        return (*self.plan.polygon, *(() if self.plan.inner is None else (self.plan.inner,)))
+        return (*self.plan.polygon, *self.plan.inner)
 
     @property
     def is_nothing(self) -> bool:
@@ -174,7 +174,12 @@ class ForcePlanNarrator:
 
     def _tangential(self, edge: Edge) -> list[str]:
         """Tell the laying off of a component that moments have found."""
-        return self._lay(edge, self.said.way_tangent.format(line=self._across(edge)))
+        if edge.share is Share.TANGENTIAL:
+            return self._lay(edge, self.said.way_tangent.format(line=self._across(edge)))
+        assert edge.direction is not None
+        along = edge.direction.relation is Relation.ALONG
+        template = self.said.way_along if along else self.said.way_tangent
+        return self._lay(edge, template.format(line=self.context.base(edge)))
 
     def _across(self, edge: Edge) -> str:
         """Return the line that a tangential component is across."""
@@ -197,7 +202,7 @@ class ForcePlanNarrator:
 
     def _side(self, one: PointName, other: PointName) -> Edge:
         """Return the side of the polygon between two points, whichever way it points."""
-        return next(e for e in self.plan.polygon if {e.tail, e.head} == {one, other})
+        return next(e for e in self._edges if {e.tail, e.head} == {one, other})
 
     def _source(self, step: Carry) -> Reaction | None:
         """Return the reaction that a step carries over from the plan of another group."""
@@ -321,7 +326,7 @@ class ForcePlanNarrator:
                         link=edge.on, symbol=self.context.symbol(edge.symbol), same=same
                     )
                 ]
-            elif edge == self.plan.inner:
+            elif edge in self.plan.inner:
                 yield [self.said.inner.format(link=edge.on, **self._span(edge))]
             else:
                 yield [self.said.close.format(plan=self._plan_of(1), **self._span(edge))]
