@@ -330,6 +330,9 @@ _SHORTEST = 1e-7
 _AHEAD = 0.02
 """How far Newton's method may be from where the motion so far leads, radians and sizes."""
 
+_FAR = 1e3
+"""How many sizes of a base link it may come away: a guide is not endless."""
+
 _TURNS = 6
 """After so many turns each of six assemblies has come again, if they pass into one another."""
 
@@ -365,8 +368,10 @@ class _Path(Struct):
         except (ZeroDivisionError, OverflowError):
             return False
         turned = float(np.degrees(np.angle(w * np.exp(-1j * np.radians(angle)))))
-        off = abs(found - b) / self.size + abs(np.radians(turned))
-        if not (room > 0 and off < patience * _AHEAD and det * (self.det or det) > 0):
+        away = abs(found - self.origins[0])
+        off = abs(found - b) / (self.size + away) + abs(np.radians(turned))
+        near = away < _FAR * self.size and off < patience * _AHEAD
+        if not (room > 0 and near and det * (self.det or det) > 0):
             return False
         self.places.append(goal)
         self.origins.append(complex(found))

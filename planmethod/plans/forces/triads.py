@@ -216,6 +216,9 @@ def triad_forces(board: ForceBoard, group: AssurGroup, triad: Legs) -> None:
     based = board.chain(after, base, own)
     loaded, begin = three.lay(based)
     end = board.segments.lay_off(board.name("n"), begin, b.parallel(begin, three.line), held)
+    # A guide's whole reaction is this segment: whoever takes it over wants its size.
+    for table in (board.segments.values, board.segments.lengths):
+        table[begin, end] = b.compute(board.name("|n|"), (table[begin, end], 1), size=True)
     last, opened = two.lay(end)
     meeting = b.meet_lines(
         board.name("x"), b.parallel(start, one.line), b.parallel(opened, two.line)

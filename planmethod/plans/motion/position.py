@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 from msgspec import Struct
+from msgspec.structs import replace
 
 from planmethod.construct.steps import Leg, LineName, NumberName, Place, PointName
-from planmethod.errors import AssemblyError
+from planmethod.errors import AssemblyError, StructureError
+from planmethod.languages import say
 from planmethod.mechanism.groups import AssurGroup, Lead, Legs, triad_of
-from planmethod.mechanism.model import FRAME, Prismatic, Revolute
+from planmethod.mechanism.model import FRAME, Mechanism, Prismatic, Revolute
+from planmethod.mechanism.structure import analyse
 from planmethod.plans.closing import Closing, Start
 from planmethod.plans.dimensions import Dimension, DimensionKind
 from planmethod.plans.draft import TINY, Draft, Special, cis, degrees, side, way
@@ -212,15 +215,36 @@ def leg_line(draft: Draft, lead: Lead, joint: Prismatic | Revolute) -> LineName:
     return draft.b.join(PointName(lead_point(lead)), PointName(joint.point))
 
 
-def _refusal(problem: Problem, group: AssurGroup) -> tuple[str, int, int, str]:
+def _refusal(problem: Problem, group: AssurGroup) -> tuple[str, int, int, str, str]:
     """Return why a group is not built, with the links that may drive instead."""
+    mechanism = problem.mechanism
+    able = [link for link in mechanism.links if _is_built(replace(mechanism, driver=link))]
+    told = "Of links joined with the frame none makes it fall into these as the driving one."
+    if able:
+        told = "It falls into these where link {} drives: state its motion in [driver]."
     return (
         "Group of class {}, order {} (links {}) cannot be built: dyads (class II) and triads "
-        "(class III, order 3) are.",
+        "(class III, order 3) are. {}",
         group.class_number,
         group.order,
         ", ".join(group.links),
+        say(told, say(" or ").join(able)),
     )
+
+
+def _is_built(mechanism: Mechanism) -> bool:
+    """Tell whether a mechanism falls into groups that are built, its driver being on the frame."""
+    pairs = [
+        *(joint.links for joint in mechanism.revolutes),
+        *((pair.slider, pair.host) for pair in mechanism.prismatics),
+    ]
+    if not any({FRAME, mechanism.driver} <= set(links) for links in pairs):
+        return False
+    try:
+        groups = analyse(mechanism).groups
+    except StructureError:
+        return False
+    return all(group.class_number == 2 or triad_of(group) is not None for group in groups)
 
 
 def _place_rrr(draft: Draft, group: AssurGroup, closing: Closing) -> None:
