@@ -215,6 +215,11 @@ def leg_line(draft: Draft, lead: Lead, joint: Prismatic | Revolute) -> LineName:
     return draft.b.join(PointName(lead_point(lead)), PointName(joint.point))
 
 
+def leg_points(lead: Lead, joint: Prismatic | Revolute) -> tuple[str, ...]:
+    """Return the hinges of a leg, through which its line goes."""
+    return tuple(one.point for one in (lead.joint, joint) if isinstance(one, Revolute))
+
+
 def _refusal(problem: Problem, group: AssurGroup) -> tuple[str, int, int, str, str]:
     """Return why a group is not built, with the links that may drive instead."""
     mechanism = problem.mechanism
