@@ -162,10 +162,10 @@ class Leg(Struct, frozen=True):
 class Hold(Struct, frozen=True):
     """Axis of a link that three legs hold at once, through its origin (группа III класса).
 
-    No arcs alone find it. Without one leg the link is a coupler, which the place of that leg draws a
-    curve of: where the curve meets what the leg asks for, the link is held. Of several such
-    positions it is the one next to ``start``: where the link's origin is, mm, and the direction of
-    its axis, degrees.
+    No arcs alone find it. Without one leg the link is a coupler, and the place of that leg draws a
+    curve: where it meets what the leg asks for, the link is held. Of several such positions it is
+    the one next to ``start``: where the link's origin is, mm, and the direction of its axis,
+    degrees.
     """
 
     out: LineName

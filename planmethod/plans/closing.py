@@ -10,7 +10,6 @@ import numpy as np
 import numpy.typing as npt
 from msgspec import Struct
 
-
 Reals: TypeAlias = npt.NDArray[np.float64]
 
 

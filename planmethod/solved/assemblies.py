@@ -1,4 +1,4 @@
-"""All assemblies of a triad, and one of them followed over the positions (сборки группы III класса).
+"""Assemblies of a triad, and one of them over the positions (сборки группы III класса).
 
 In one position: the base link is turned round as a virtual crank, two legs tell where it then is,
 and how far the third is off is a smooth function of the angle. Its zeros are bracketed and bisected
@@ -12,7 +12,6 @@ from collections.abc import Callable
 from typing import Any, TypeAlias
 
 import numpy as np
-import numpy.typing as npt
 from msgspec import Struct
 
 from planmethod.construct.arithmetic import Float64, Single
@@ -26,7 +25,7 @@ from planmethod.mechanism.groups import AssurGroup, Legs
 from planmethod.plans.closing import Closing, Followed
 from planmethod.plans.draft import Draft
 from planmethod.plans.motion.position import base_points
-from planmethod.problem.model import Problem, Rule, Where
+from planmethod.problem.model import Rule, Where
 from planmethod.problem.names import told_place
 from planmethod.solved.failures import Cause, Failure, Place, PositionError
 from planmethod.solved.reading import Complexes, Reading, Reals
@@ -44,8 +43,11 @@ Read: TypeAlias = Callable[[Reals], Trace]
 """Reads the plan up to a group in some positions."""
 
 
-class Pose(Struct, frozen=True):
-    """Where a base link is (сборка): its origin, m, direction of its axis, degrees, and margin."""
+class Assembly(Struct, frozen=True):
+    """One assembly (сборка): where the base link is.
+
+    Its origin, m, the direction of its axis, degrees, and the margin.
+    """
 
     origin: complex
     turn: float
@@ -68,7 +70,7 @@ def env_of(step: Hold, trace: Trace, index: int) -> Env:
     return found
 
 
-def assemblies(step: Hold, env: Env) -> list[Pose]:
+def assemblies(step: Hold, env: Env) -> list[Assembly]:
     """Return every pose in which three legs hold a base link in one position, none of them dead.
 
     Parameters
@@ -80,7 +82,7 @@ def assemblies(step: Hold, env: Env) -> list[Pose]:
         starts = _starts([_ask(leg, env) for leg in step.legs])
         pose, margin, _ = _settled(step, env, *starts)
     size = sum(abs(place(leg.at, env)) for leg in step.legs)
-    found: list[Pose] = []
+    found: list[Assembly] = []
     for b, w, room in zip(*pose, margin, strict=True):
         same = any(
             abs(b - other.origin) + size * abs(w - np.exp(1j * np.radians(other.turn)))
@@ -88,7 +90,7 @@ def assemblies(step: Hold, env: Env) -> list[Pose]:
             for other in found
         )
         if room > DEAD and not same:
-            found.append(Pose(complex(b), float(np.degrees(np.angle(w))), float(room)))
+            found.append(Assembly(complex(b), float(np.degrees(np.angle(w))), float(room)))
     return sorted(found, key=lambda pose: pose.turn)
 
 
@@ -224,7 +226,7 @@ class Assembled(Struct, frozen=True):
         """Read the plan in some positions."""
         return evaluate(self.program, self.data(positions), Float64())
 
-    def posed(self, position: float, pose: Pose) -> Reading:
+    def posed(self, position: float, pose: Assembly) -> Reading:
         """Read the plan in one position with the group in a certain pose."""
         at = np.array([position])
         told = (pose.origin.real, pose.origin.imag, pose.turn)
@@ -242,16 +244,13 @@ def choose(made: Assembled, rules: list[Rule], positions: Reals) -> tuple[Closin
         When the triad can be assembled in no asked position.
     """
     problem, trace = made.draft.problem, made.read(positions)
-    for index, start in enumerate(positions.tolist()):
-        poses = assemblies(made.step, env_of(made.step, trace, index))
-        if poses:
-            break
-    else:
+    found = (assemblies(made.step, env_of(made.step, trace, k)) for k in range(len(positions)))
+    index, poses = next(((k, poses) for k, poses in enumerate(found) if poses), (-1, []))
+    if not poses:
         place = Place.of(problem, positions, 0)
         links, count = ", ".join(made.group.links), len(positions)
-        raise PositionError(
-            Failure(Cause.NO_ASSEMBLY, place, links, alike=count - 1, count=count)
-        )
+        raise PositionError(Failure(Cause.NO_ASSEMBLY, place, links, alike=count - 1, count=count))
+    start = float(positions[index])
     readings = [made.posed(start, pose) for pose in poses]
     left = list(range(len(poses)))
     for rule in (rule for rule in rules if rule.where is not Where.NEAR):
@@ -272,7 +271,9 @@ def choose(made: Assembled, rules: list[Rule], positions: Reals) -> tuple[Closin
     return Closing(start=start, followed=path, others=others, point=point), []
 
 
-def _untold(made: Assembled, rules: list[Rule], point: str, places: list[complex], at: str) -> Fault:
+def _untold(
+    made: Assembled, rules: list[Rule], point: str, places: list[complex], at: str
+) -> Fault:
     """Return the fault of rules that do not tell which of several assemblies is meant."""
     unit = made.draft.problem.unit
     told = [f"({told_place(place, unit)})" for place in places]
@@ -316,10 +317,10 @@ def best_third(made: Assembled, positions: Reals) -> int:
             held = np.broadcast_to(np.isfinite(about), positions.shape)
             away = np.broadcast_to(np.where(np.isfinite(away), away, np.inf), positions.shape)
             far.append(float(np.max(away[held], initial=0.0)))
-    return int(np.argmin(far[::-1]) * -1 + 2)
+    return min((2, 1, 0), key=far.__getitem__)
 
 
-# Over the positions --------------------------------------------------------------------------------
+# Over the positions -------------------------------------------------------------------------------
 
 _LONGEST = 1.0
 """Degrees of a crank from one look to the next, at the most."""
@@ -403,7 +404,7 @@ class _Path(Struct):
 
 
 def follow(
-    step: Hold, read: Read, start: float, pose: Pose, limits: tuple[float, float], turn: float
+    step: Hold, read: Read, start: float, pose: Assembly, limits: tuple[float, float], turn: float
 ) -> Followed:
     """Follow an assembly from a position to both sides, until it ends or comes again.
 

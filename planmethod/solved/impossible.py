@@ -146,11 +146,14 @@ def _failure(
         case steps.Touch(_, a, r, b, _):
             return Failure(Cause.TANGENT, place, "", (a, b), (real(r), abs(point(b) - point(a))))
         case steps.Hold():
-            (followed,) = {b.followed for n, b in draft.branches.items() if n == step.start[2] and isinstance(b, Start)}
+            start = draft.branches[step.start[2]]
+            assert isinstance(start, Start)
             links, closing = next(
-                (links, one) for links, one in draft.choice.items() if one.followed == followed
+                (links, one)
+                for links, one in draft.choice.items()
+                if one.followed is start.followed
             )
-            reach = (closing.start, followed.places[0], followed.places[-1])
+            reach = (closing.start, *(start.followed.places[k] for k in (0, -1)))
             return Failure(Cause.NOT_HELD, place, ", ".join(links), reach=reach)
         case steps.MeetLines(out) if any(one.point == out for one in draft.special.values()):
             return Failure(Cause.LEGS, place, out)

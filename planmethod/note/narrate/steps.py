@@ -7,6 +7,8 @@ from itertools import pairwise
 
 from planmethod.construct import steps
 from planmethod.construct.steps import LineName, Name, NumberName, PointName, Step, operands
+from planmethod.mechanism.groups import triad_of
+from planmethod.mechanism.model import Revolute
 from planmethod.note.narrate.equations import direction_note
 from planmethod.note.narrate.formulas import SHORTEST_MM, Formulas
 from planmethod.note.narrate.motion import MotionNarrator
@@ -14,12 +16,10 @@ from planmethod.note.narrate.naming import Names
 from planmethod.note.narrate.narrator import BoardNarrator, Line, Reading
 from planmethod.note.plaintext import NO_BREAK, given
 from planmethod.note.wording import Language
-from planmethod.mechanism.groups import triad_of
-from planmethod.mechanism.model import Revolute
-from planmethod.plans.motion.triads import leg_place
-from planmethod.problem.names import UNITS
 from planmethod.plans.dimensions import DimensionKind
 from planmethod.plans.model import PlanKind
+from planmethod.plans.motion.triads import leg_place
+from planmethod.problem.names import UNITS
 from planmethod.solved.solution import Solution
 
 COORDINATES = (DimensionKind.ALONG, DimensionKind.ACROSS)
@@ -92,7 +92,7 @@ class PositionNarrator:
         ]
         third = closing.third
         one, two = (text for k, text in enumerate(asked) if k != third)
-        points = [p for p in construction.draft.problem.bodies[base].points]
+        points = list(construction.draft.problem.bodies[base].points)
         lead, joint = triad.legs[third]
         dropped = lead.link
         if isinstance(joint, Revolute) and isinstance(lead.joint, Revolute):

@@ -51,6 +51,8 @@ class _Leg(Struct):
         As they are laid off.
     parts, value : Components, NumberName
         Of a leg with two hinges, its outer reaction and the tangential share of that, N.
+    passed : NumberName
+        Moment that a stone passes on to the base link, N·m.
     share, outer, inner : (PointName, PointName)
         Ends of that share, of the outer reaction and of the base link's reaction, on the leg.
     """
@@ -62,6 +64,7 @@ class _Leg(Struct):
     loads: list[Edge] = field(default_factory=list)
     parts: Components | None = None
     value: NumberName | None = None
+    passed: NumberName | None = None
     share: Ends = (PointName(""), PointName(""))
     outer: Ends = (PointName(""), PointName(""))
     inner: Ends = (PointName(""), PointName(""))
@@ -126,7 +129,8 @@ class _Leg(Struct):
         board, b = self.board, self.board.draft.b
         forces = board.forces.get(self.link, ())
         if self.is_stone:  # it passes on its own moment, and a force through the special point
-            return [board.moment((self.link,), self.place)]
+            self.passed = board.moment((self.link,), self.place)
+            return [self.passed]
         if self.slides:  # the guide takes what its loads turn, which act in the hinge so
             return [board.moment_of(replace(force, at=self.place), about) for force in forces]
         assert self.value is not None and self.parts is not None
@@ -155,7 +159,7 @@ class _Leg(Struct):
         return self.parts.tangential(*self.share)
 
     def sides(self, normal: Ends) -> tuple[Edge, ...]:
-        """Return the outer reaction as the plan has it; ``normal`` are the ends of what it finds."""
+        """Return the outer reaction in the plan; ``normal`` are the ends of what it finds."""
         if self.parts is not None:
             return self.tangential, self.parts.normal(*normal)
         if self.slides:
@@ -200,9 +204,7 @@ def triad_forces(board: ForceBoard, group: AssurGroup, triad: Legs) -> None:
     """Find the reactions in all joints of a triad."""
     b, base, special = board.draft.b, triad.base, board.draft.special[triad.base]
     order = (*(k for k in range(3) if k != special.third), special.third)
-    one, two, three = legs = tuple(
-        _Leg(board, *triad.legs[k], special.lines[k]) for k in order
-    )
+    one, two, three = legs = tuple(_Leg(board, *triad.legs[k], special.lines[k]) for k in order)
     for leg in legs:
         leg.weigh()
     start = board.start()
@@ -219,6 +221,8 @@ def triad_forces(board: ForceBoard, group: AssurGroup, triad: Legs) -> None:
     # A guide's whole reaction is this segment: whoever takes it over wants its size.
     for table in (board.segments.values, board.segments.lengths):
         table[begin, end] = b.compute(board.name("|n|"), (table[begin, end], 1), size=True)
+    turned = b.measure_arm(board.name("h"), special.point, three.place, begin, end)
+    board.arms[special.point, three.place, board.segments.values[begin, end]] = turned
     last, opened = two.lay(end)
     meeting = b.meet_lines(
         board.name("x"), b.parallel(start, one.line), b.parallel(opened, two.line)
@@ -226,11 +230,10 @@ def triad_forces(board: ForceBoard, group: AssurGroup, triad: Legs) -> None:
     one.outer, one.inner = (meeting, first), (after, meeting)
     two.outer, two.inner = (last, meeting), (meeting, end)
     three.outer, three.inner = (loaded, end), (end, based)
-    sides = [
-        one.sides((meeting, start))[::-1],
-        two.sides((opened, meeting)),
-        tuple(replace(edge, known=Known.BOTH) for edge in three.sides((begin, end))),
-    ]
+    third = three.sides((begin, end))
+    if not three.is_stone:  # else the plan of the stone finds it
+        third = tuple(replace(edge, known=Known.BOTH) for edge in third)
+    sides = [one.sides((meeting, start))[::-1], two.sides((opened, meeting)), third]
     polygon = (
         *sides[0],
         *one.loads,
@@ -245,21 +248,25 @@ def triad_forces(board: ForceBoard, group: AssurGroup, triad: Legs) -> None:
     if three.is_stone:  # what is laid off is the stone's force on the base link
         inner[2] = replace(back(inner[2], base), direction=inner[2].direction)
         found = inner[2]
-    stones = [leg for leg in legs if leg.is_stone]
     couples = board.couples_on(base, *(leg.link for leg in legs if leg.parts is not None))
     couples += tuple(
         CoupleOn(
             reaction_symbol(base, leg.link, letter="M"),
             base,
-            board.moment((leg.link,), leg.place),
+            leg.passed,
             leg.place,
         )
-        for leg in stones
+        for leg in legs
+        if leg.passed is not None
     )
     known = board.couples_on(*group.links)
     weighed = tuple(edge for leg in legs for edge in leg.weighed(special.point))
     about_special = Moments(
-        group.links,
+        tuple(
+            link
+            for link in group.links
+            if not any(leg.link == link and leg.is_stone for leg in legs)
+        ),
         special.point,
         (*weighed, *own),
         couples,
@@ -270,21 +277,20 @@ def triad_forces(board: ForceBoard, group: AssurGroup, triad: Legs) -> None:
     told = [leg.react(base) for leg in legs]
     shares = tuple(one for one, _ in told if one.force is not None)
     guides = tuple(one for one, _ in told if one.force is None)
+    balances = [
+        Balance((leg.link,), (*map(as_known, side), *leg.loads, leg.inner_edge(base)))
+        for leg, side in zip(legs, sides, strict=True)
+    ]
+    if three.is_stone:
+        known_first = as_known(three.inner_edge(base)), *three.loads, *third
+        balances = [Balance((three.link,), known_first), *balances[:2]]
     board.read_off(
         ForcePlan(
             group.links,
             polygon,
             wholes,
             tuple(inner),
-            (
-                Balance(group.links, polygon),
-                *(
-                    Balance((leg.link,), (*map(as_known, side), *leg.loads, edge))
-                    for leg, side, edge in zip(
-                        legs, sides, [leg.inner_edge(base) for leg in legs], strict=True
-                    )
-                ),
-            ),
+            (Balance(group.links, polygon), *balances),
             (*shares, about_special, *guides),
             (*known, *(guide for _, guide in told if guide is not None)),
         )

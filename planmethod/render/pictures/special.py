@@ -1,8 +1,8 @@
-"""Special points of a triad on the scheme (особые точки Ассура): where the lines of its legs meet."""
+"""Special points of a triad on the scheme (особые точки): where the lines of its legs meet."""
 
 from __future__ import annotations
 
-from planmethod.construct.steps import LineName, PointName
+from planmethod.construct.steps import LineName
 from planmethod.mechanism.groups import triad_of
 from planmethod.note.narrate.given import point_name
 from planmethod.plans.motion.position import leg_points

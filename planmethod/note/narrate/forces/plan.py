@@ -147,7 +147,10 @@ class ForcePlanNarrator:
         """Tell the drawing of the plan and what is read off it."""
         for step in self._steps:
             if isinstance(step, LayOff):
-                yield self._tangential(self._side(step.origin, step.out))
+                edge = self._side(step.origin, step.out)
+                yield self._tangential(edge)
+                if edge in self.plan.inner:
+                    self._drawn.append(edge)
             elif isinstance(step, Carry):
                 yield self._carry(step)
             elif isinstance(step, MeetLines):
