@@ -28,8 +28,8 @@ class Followed(Struct, frozen=True):
     turn : tuple of float
         Direction of its axis, degrees.
     period : float
-        After which all comes again; 0 where it does not. Outside of the positions there is then no
-        such assembly.
+        After which all comes again; 0 where it does not. Outside of the positions there is no such
+        assembly.
     """
 
     places: tuple[float, ...] = (0.0,)

@@ -24,7 +24,7 @@ from planmethod.languages import say
 from planmethod.mechanism.groups import AssurGroup, Legs
 from planmethod.plans.closing import Closing, Followed
 from planmethod.plans.draft import Draft
-from planmethod.plans.motion.position import base_points
+from planmethod.plans.motion.position import axis_of_link, base_points
 from planmethod.problem.model import Rule, Where
 from planmethod.problem.names import told_place
 from planmethod.solved.failures import Cause, Failure, Place, PositionError
@@ -220,7 +220,7 @@ class Assembled(Struct, frozen=True):
     def step(self) -> Hold:
         """The step that holds the base link."""
         steps = (step for step in self.program.steps if isinstance(step, Hold))
-        return next(step for step in steps if step.out == f"axis {self.triad.base}")
+        return next(step for step in steps if step.out == axis_of_link(self.triad.base))
 
     def read(self, positions: Reals) -> Trace:
         """Read the plan in some positions."""
@@ -437,9 +437,11 @@ def follow(
                 if not path.comes_to(goal, ready[number % _CHUNK]):
                     break
                 if crank and (number + 1) % looks == 0 and path.has_come_again():
-                    return _table(path, path, period=path.places[-1] - start)
+                    closed = path.places[-1] - start
+                    return _table(path, _Path(step, read, size, [start], [0j], [0.0]), closed)
             ways.append(path)
-    return _table(ways[0], ways[1])
+    span = ways[0].places[-1] - ways[1].places[-1]
+    return _table(ways[0], ways[1], turn if span < turn and crank else 0.0)
 
 
 _CHUNK = 60  # positions that are read at once
@@ -447,7 +449,7 @@ _CHUNK = 60  # positions that are read at once
 
 def _table(ahead: _Path, back: _Path, period: float = 0.0) -> Followed:
     def joined(forth: list[float], before: list[float]) -> tuple[float, ...]:
-        return tuple(forth if period else [*before[:0:-1], *forth])
+        return (*before[:0:-1], *forth)
 
     return Followed(
         joined(ahead.places, back.places),

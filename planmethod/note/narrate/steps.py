@@ -18,6 +18,7 @@ from planmethod.note.plaintext import NO_BREAK, given
 from planmethod.note.wording import Language
 from planmethod.plans.dimensions import DimensionKind
 from planmethod.plans.model import PlanKind
+from planmethod.plans.motion.position import link_of_axis
 from planmethod.plans.motion.triads import leg_place
 from planmethod.problem.names import UNITS
 from planmethod.solved.solution import Solution
@@ -81,7 +82,7 @@ class PositionNarrator:
     def hold(self, step: steps.Hold) -> list[str]:
         """Tell how a base link is found: without one leg it moves, and that leg tells where to."""
         names, words, construction = self.names, self.words, self.names.construction
-        base = step.out.removeprefix("axis ")
+        base = link_of_axis(step)
         group = construction.structure.group_of(base)
         assert group is not None
         triad, closing = triad_of(group), construction.draft.choice[group.links]

@@ -15,6 +15,7 @@ from planmethod.note.plaintext import fixed, spoken
 from planmethod.note.rounding import rounded_to, sigma_text
 from planmethod.note.tables.sigmas import marked
 from planmethod.plans.legend import MOTION_KINDS, Quantity
+from planmethod.plans.motion.position import link_of_axis
 from planmethod.solved.errors.motion import drafting_of
 from planmethod.solved.errors.spread import SHORT
 
@@ -95,8 +96,8 @@ class Causes:
                 return words.cause_arc.format(point=names.point(out))
             case steps.Touch(out):
                 return words.cause_touch.format(point=names.point(out))
-            case steps.Hold(out):
-                return words.cause_hold.format(link=out.removeprefix("axis "))
+            case steps.Hold():
+                return words.cause_hold.format(link=link_of_axis(step))
             case steps.Spot(out):
                 return words.cause_spot.format(point=names.point(out))
             case steps.Similar(out):

@@ -5,7 +5,7 @@ from __future__ import annotations
 from msgspec import Struct
 from msgspec.structs import replace
 
-from planmethod.construct.steps import Leg, LineName, NumberName, Place, PointName
+from planmethod.construct.steps import Hold, Leg, LineName, NumberName, Place, PointName
 from planmethod.errors import AssemblyError, StructureError
 from planmethod.languages import say
 from planmethod.mechanism.groups import AssurGroup, Lead, Legs, triad_of
@@ -170,7 +170,7 @@ def _place_triad(draft: Draft, triad: Legs, closing: Closing) -> None:
     one, two, three = legs
     x, y, turn = (_start(draft, base, what, closing) for what in ("x", "y", "turn"))
     x, y = (draft.b.compute(f"|{name}|", (name, 1), (draft.mu_l, -1)) for name in (x, y))
-    axis = draft.b.hold(f"axis {base}", (one, two, three), (x, y, turn))
+    axis = draft.b.hold(axis_of_link(base), (one, two, three), (x, y, turn))
     for point in points:
         draft.mark_placed(draft.b.spot(point, axis, at(point)))
     for lead, joint in triad.legs:
@@ -180,6 +180,16 @@ def _place_triad(draft: Draft, triad: Legs, closing: Closing) -> None:
             draft.turn_with(slide_of(draft, lead.joint), lead.to, PointName(joint.point))
     if closing.followed.places != Closing().followed.places:
         _special(draft, triad, closing.third)
+
+
+def axis_of_link(link: str) -> str:
+    """Return what the step is called that holds a base link."""
+    return f"axis {link}"
+
+
+def link_of_axis(step: Hold) -> str:
+    """Return the base link that a step holds."""
+    return step.out.removeprefix("axis ")
 
 
 def _start(draft: Draft, base: str, what: str, closing: Closing) -> NumberName:
