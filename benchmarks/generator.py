@@ -87,6 +87,8 @@ class _Drawing:
 
     def make(self, *, triad: bool = False) -> tuple[str, Pose]:
         rng = self.rng
+        if triad:  # P, Q, S are for what is loaded
+            self.names = iter("ABCDEFGHIJKLMNORTUVWXYZ")
         self._draw_driver()
         count = rng.randint(1, 3)
         triads = {rng.randrange(count := min(count, 2))} if triad else set()

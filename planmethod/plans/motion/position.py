@@ -208,9 +208,11 @@ def _special(draft: Draft, triad: Legs, third: int) -> None:
     one, two, three = (leg_line(draft, lead, joint) for lead, joint in triad.legs)
     lines = one, two, three
     first, second = (line for k, line in enumerate(lines) if k != third)
-    taken = draft.points()
-    free = (c for c in "SQKW" if not any(c + digit in taken for digit in "123"))
-    point = draft.b.meet_lines(f"{next(free, 'Z')}{3 - third}", first, second)
+    # Of a point K that of link 1 under it is called K1, too.
+    taken = {p for body in draft.problem.bodies.values() for p in body.points}
+    taken |= {special.point for special in draft.special.values()}
+    free = (c for c in "SQKWUZVXY" if not taken & {c, *(c + digit for digit in "123")})
+    point = draft.b.meet_lines(f"{next(free, 'Ω')}{3 - third}", first, second)
     draft.special[triad.base] = Special(point, lines, third)
 
 
