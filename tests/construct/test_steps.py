@@ -449,9 +449,10 @@ def test_a_held_link_is_where_all_three_legs_have_it(kinds: str, scale: float) -
 
 @pytest.mark.parametrize("bx", [1.0, math.nan])
 def test_a_link_that_no_pose_satisfies_has_no_margin_above_nothing(bx: float) -> None:
-    data = {"A0": 0j, "A1": 10 + 0j, "A2": 5 + 9j, "r0": 1.0, "r1": 1.0, "r2": 1.0}
-    sizes = {"c": 1.0, "dx": 0.5, "dy": 0.8, "bx": bx, "by": 0.3, "turn": 10.0}
-    (p, _), margin = run(lambda builder: held(builder, "rrr"), **data, **sizes)
+    data: dict[str, Any] = {"A0": 0j, "A1": 10 + 0j, "A2": 5 + 9j}
+    data |= {"r0": 1.0, "r1": 1.0, "r2": 1.0}
+    data |= {"c": 1.0, "dx": 0.5, "dy": 0.8, "bx": bx, "by": 0.3, "turn": 10.0}
+    (p, _), margin = run(lambda builder: held(builder, "rrr"), **data)
     assert not scalar(margin).real > 0
     assert np.isnan(scalar(p))
 

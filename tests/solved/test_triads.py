@@ -16,7 +16,8 @@ from loaded import loaded_problem
 from newton import Motion
 from newton import solve as newton
 
-from planmethod.construct.arithmetic import Float64
+from planmethod.construct.arithmetic import Float64, Single
+from planmethod.construct.holding import held
 from planmethod.construct.referee import Precise
 from planmethod.construct.steps import PointName
 from planmethod.errors import AssemblyError, ProblemError
@@ -116,7 +117,7 @@ def sextic(triad: list[tuple[complex, complex, float]]) -> list[tuple[complex, f
     det, b, c = p * v - q * u, q * t - s * v, s * u - p * t
     whole = (b - a1 * det) * (c - a1.conjugate() * det) - r1**2 * det * det
     found = []
-    for w in whole.roots():
+    for w in map(complex, whole.roots()):
         if abs(abs(w) - 1) < 1e-5 and abs(det(w)) > 1e-9:
             origin, other = b(w) / det(w), c(w) / det(w)
             if abs(origin.conjugate() - other) < 1e-4:
@@ -238,6 +239,28 @@ def test_an_assembly_ends_in_dead_positions_and_they_are_named() -> None:
 TURNING = TEXT.replace("OA = 0.06", "OA = 0.01").replace("phi = 50", "phi = [50, 140, 290]")
 
 
+@pytest.mark.parametrize(("phi", "count"), [(57.3, 4), (57.30856, 4), (57.32, 2)])
+def test_two_assemblies_next_to_each_other_are_told_apart(phi: float, count: int) -> None:
+    """They become one in the dead position, at 57.308569 degrees."""
+    made = not_chosen(fixture())
+    env = env_of(made.step, made.read(np.array([phi])), 0)
+    assert len(assemblies(made.step, env)) == count
+
+
+def test_an_assembly_does_not_pass_into_the_one_that_it_meets() -> None:
+    """The determinant of the legs' lines has one sign along it, to its very ends."""
+    problem = fixture()
+    made = not_chosen(problem)
+    (closing,) = choose_closings(problem, analyse(problem.mechanism)).values()
+    path, signs = closing.followed, set()
+    for k, at in enumerate(path.places):
+        env = env_of(made.step, made.read(np.array([at])), 0)
+        start = dict(zip(made.step.start, (path.x[k], path.y[k], path.turn[k]), strict=True))
+        _, _, det = held(made.step, {**env, **start}, Single(), 1)
+        signs.add(np.sign(det))
+    assert len(signs) == 1
+
+
 def test_a_turning_crank_keeps_its_assembly_and_comes_back() -> None:
     problem = fixture("B = { near = [0.2, 0.05] }", TURNING)
     way = np.arange(50.0, 50.0 + 720.0, 1.5)
@@ -277,8 +300,8 @@ def test_a_sweep_gives_what_the_positions_give(native: bool) -> None:
 
 
 def test_the_referee_has_the_same_to_fifty_digits() -> None:
-    """The legs are as long as given, to the digits of the referee."""
-    solution = Solution(fixture())
+    """The legs are as long as given, to the digits of the referee, between two looks as well."""
+    solution = Solution(fixture(), positions=[51.37])
     referee = Precise(50)
     exact = solution.read(referee).value
     for p, q, length in (("A", "B", "l_AB"), ("E", "C", "l_EC"), ("F", "D", "l_FD")):

@@ -437,7 +437,7 @@ class LiveScene:
             PlanKind.FORCE: said.no_forces,
             PlanKind.LEVER: said.no_forces,
         }
-        held = {
+        held: dict[Name, str] = {
             step.out: said.not_held.format(link=link_of_axis(step))
             for step in self.sweep.program.steps
             if isinstance(step, Hold)
