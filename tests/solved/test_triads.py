@@ -7,6 +7,7 @@ import math
 import random
 from collections import Counter
 from functools import cache
+from typing import Any
 
 import numpy as np
 import pytest
@@ -255,7 +256,9 @@ def test_an_assembly_does_not_pass_into_the_one_that_it_meets() -> None:
     path, signs = closing.followed, set()
     for k, at in enumerate(path.places):
         env = env_of(made.step, made.read(np.array([at])), 0)
-        start = dict(zip(made.step.start, (path.x[k], path.y[k], path.turn[k]), strict=True))
+        start: dict[Any, float] = dict(
+            zip(made.step.start, (path.x[k], path.y[k], path.turn[k]), strict=True)
+        )
         _, _, det = held(made.step, {**env, **start}, Single(), 1)
         signs.add(np.sign(det))
     assert len(signs) == 1
