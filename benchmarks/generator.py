@@ -18,6 +18,17 @@ from benchmarks.generator_text import FRAME, Draft, Line, Link, TextBuilder
 
 KINDS = ("RRR", "RRP", "RPR", "PRP", "RPP")
 
+TRIADS = (
+    ("RR", "RR", "RR"),
+    ("RR", "RR", "PR"),
+    ("RR", "PR", "PR"),
+    ("RR", "RR", "RP"),
+    ("RR", "PR", "RP"),
+    ("PR", "PR", "RP"),
+    ("RR", "RP", "RP"),
+)
+"""Legs of a triad: outer and inner joint of each."""
+
 SINE = 0.25
 """Least sine of the angle at which the lines of a group meet: a worse one is near a dead point."""
 
@@ -31,13 +42,15 @@ class _Unlucky(Exception):  # noqa: N818  a draw to be repeated, no error
     """A draw that makes a poor mechanism."""
 
 
-def random_problem(seed: int) -> tuple[str, Pose]:
+def random_problem(seed: int, *, triad: bool = False) -> tuple[str, Pose]:
     """Draw a mechanism.
 
     Parameters
     ----------
     seed : int
         The same seed gives the same mechanism.
+    triad : bool
+        One of its groups is a triad (группа III класса).
 
     Returns
     -------
@@ -50,7 +63,7 @@ def random_problem(seed: int) -> tuple[str, Pose]:
     rng = random.Random(seed)
     while True:
         try:
-            return _Drawing(rng).make()
+            return _Drawing(rng).make(triad=triad)
         except _Unlucky:
             continue
 
@@ -72,14 +85,18 @@ class _Drawing:
     draft: Draft = field(default_factory=Draft)
     names: Iterator[str] = field(default_factory=lambda: iter("ABCDEFGHIJKLMNOPQRSTUVWXYZ"))
 
-    def make(self) -> tuple[str, Pose]:
+    def make(self, *, triad: bool = False) -> tuple[str, Pose]:
         rng = self.rng
+        if triad:  # P, Q, S are for what is loaded
+            self.names = iter("ABCDEFGHIJKLMNORTUVWXYZ")
         self._draw_driver()
-        for _ in range(rng.randint(1, 3)):
+        count = rng.randint(1, 3)
+        triads = {rng.randrange(count := min(count, 2))} if triad else set()
+        for number in range(count):
             for _ in range(40):
                 saved = self.draft.copy()
                 try:
-                    self._draw_group(rng.choice(KINDS))
+                    self._draw_group("triad" if number in triads else rng.choice(KINDS))
                     break
                 except _Unlucky:
                     self.draft = saved
@@ -222,6 +239,7 @@ class _Drawing:
             "RPR": self._rpr,
             "PRP": self._prp,
             "RPP": self._rpp,
+            "triad": self._triad,
         }
         choice = draw[kind]()
         if choice is not None:
@@ -316,6 +334,53 @@ class _Drawing:
                 self._new_point(e.name, e.points)
             draft.slide(a, line)
         _demand(abs((u.conjugate() * line.u).imag) >= SINE)
+
+    def _triad(self) -> None:
+        """Hold a base link by three legs, each with a hinge and another hinge or a guide."""
+        draft, rng = self.draft, self.rng
+        base = draft.add()
+        lines: list[tuple[complex, complex]] = []
+        hung: list[tuple[str, str]] = []
+        for kind in rng.choice(TRIADS):
+            if kind == "PR":
+                a, c = draft.add(), self._name(self._somewhere())
+                a.points.append(c)
+                base.points.append(c)
+                u, to = self._prismatic(a, c, frozenset({base.name}))
+                lines.append((draft.place[c], 1j * u))
+                hung.append((to, ""))
+                continue
+            lead = self._revolute()
+            a = draft.add(lead.point)
+            hung.append((lead.to, lead.point))
+            at = draft.place[lead.point]
+            if kind == "RR":
+                c = self._name(self._somewhere())
+                a.points.append(c)
+                base.points.append(c)
+                lines.append((at, (draft.place[c] - at) / abs(draft.place[c] - at)))
+            else:
+                block = base.line is None and rng.random() < 0.3
+                host, slider = (a, base) if block else (base, a)
+                if not host.points or len(host.points) == 1:
+                    self._new_point(host.name, host.points)
+                if not slider.points:
+                    self._new_point(slider.name, slider.points)
+                line = self._line_on(host.name, 0j, points=host.points)
+                draft.slide(slider, line)
+                lines.append((at, 1j * line.u))
+        while len(base.points) < 2:
+            self._new_point(base.name, base.points)
+        _demand(len({to for to, _ in hung}) > 1)
+        points = [point for _, point in hung if point]
+        _demand(len(set(points)) == len(points))
+        about = draft.place[base.points[0]]
+        rows = [[u.real, u.imag, ((p - about).conjugate() * u).imag] for p, u in lines]
+        (a1, b1, c1), (a2, b2, c2), (a3, b3, c3) = rows
+        det = a1 * (b2 * c3 - b3 * c2) - b1 * (a2 * c3 - a3 * c2) + c1 * (a2 * b3 - a3 * b2)
+        _demand(abs(det) >= SINE / 2)
+        z = draft.place[base.points[0]]
+        draft.rules.append((base.points[0], z + cmath.rect(1e-4, rng.uniform(-math.pi, math.pi))))
 
     def _not_beside(self, lead: _Lead) -> frozenset[str]:
         """Links that the other lead may not hang on: it would make them one rigid body."""

@@ -19,9 +19,9 @@ def with_resultant(problem: Problem) -> Problem:
     return replace(problem, dynamics=replace(problem.dynamics, resultant=True))
 
 
-def loaded_problem(seed: int) -> tuple[Problem, Pose]:
+def loaded_problem(seed: int, *, triad: bool = False) -> tuple[Problem, Pose]:
     """Return a random mechanism with loads, and its pose."""
-    text, pose = random_problem(seed)
+    text, pose = random_problem(seed, triad=triad)
     return loads(
         loaded_text(text, pose, random.Random(f"loads {seed}")), name=f"loaded-{seed}"
     ), pose

@@ -9,6 +9,7 @@ import numpy as np
 from msgspec import Struct
 
 from planmethod.construct.arithmetic import Arithmetic, Number
+from planmethod.construct.holding import held, place
 from planmethod.construct.program import Program
 from planmethod.construct.steps import (
     AtAngle,
@@ -16,6 +17,7 @@ from planmethod.construct.steps import (
     Compute,
     Given,
     GivenNumber,
+    Hold,
     Join,
     LayOff,
     Measure,
@@ -28,6 +30,7 @@ from planmethod.construct.steps import (
     Parallel,
     Perpendicular,
     Similar,
+    Spot,
     Step,
     Total,
     Touch,
@@ -133,6 +136,12 @@ def apply(
             # A tangent of no length: the foot is the source itself, and no line joins them.
             point = ar.unless_zero(half, centre + d / divisor * (radius * turn), source)
             return ar.pricked(out, point), room / (divisor * divisor)
+        case Hold():
+            pose, room, _ = held(step, env, ar)
+            return pose, room
+        case Spot(out, axis, at):
+            b, w = env[axis]
+            return ar.pricked(out, b + w * place(at, env)), None
         case Similar(out, b, c, s, B, C, side_read, span_read, arm_read):
             side, span, arm = env[c] - env[b], env[C] - env[B], env[s] - env[B]
             scale = ar.share(env[side_read], side)
@@ -234,6 +243,9 @@ def go_on(
             value, room = apply(step, env, lifted, ar)
             if room is not None:
                 margin[step.out] = room
-                value = ar.guard(room, limit_of(step), value)
+                if isinstance(value, tuple):
+                    value = ar.guard(room, limit_of(step), value[0]), value[1]
+                else:
+                    value = ar.guard(room, limit_of(step), value)
             env[step.out] = value if put is None else put(step.out, value)
     return Trace(env, margin)

@@ -12,8 +12,10 @@ from planmethod.construct.steps import (
     Compute,
     Given,
     GivenNumber,
+    Hold,
     Join,
     LayOff,
+    Leg,
     LineName,
     Measure,
     MeasureAlong,
@@ -25,9 +27,11 @@ from planmethod.construct.steps import (
     NumberName,
     Parallel,
     Perpendicular,
+    Place,
     PointName,
     Side,
     Similar,
+    Spot,
     Step,
     Total,
     Touch,
@@ -202,6 +206,23 @@ class Builder(Struct):
         """Find where a line from ``source`` touches a circle."""
         name = PointName(out)
         self.steps.append(Touch(name, centre, radius, source, side))
+        return name
+
+    def hold(
+        self,
+        out: str,
+        legs: tuple[Leg, Leg, Leg],
+        start: tuple[NumberName, NumberName, NumberName],
+    ) -> LineName:
+        """Find the axis of a link that three legs hold."""
+        name = LineName(out)
+        self.steps.append(Hold(name, legs, start))
+        return name
+
+    def spot(self, out: str, axis: LineName, at: Place) -> PointName:
+        """Mark a point of a link whose axis is found."""
+        name = PointName(out)
+        self.steps.append(Spot(name, axis, at))
         return name
 
     def similar(

@@ -17,6 +17,7 @@ PointName = NewType("PointName", str)
 LineName = NewType("LineName", str)
 NumberName = NewType("NumberName", str)
 Name: TypeAlias = PointName | LineName | NumberName
+Place: TypeAlias = tuple[NumberName | None, NumberName | None]
 
 
 class Side(Enum):
@@ -137,6 +138,49 @@ class Touch(Struct, frozen=True):
     side: Side
 
 
+class Leg(Struct, frozen=True):
+    """What one of three legs does to the link that they hold (поводок базисного звена).
+
+    A place of the link is ``radius`` away from ``centre``; or it lies on ``line``; or a straight
+    line of the link, through the place and at ``angle`` to its axis, passes through ``centre``.
+
+    Attributes
+    ----------
+    at : (NumberName or None, NumberName or None)
+        The place, mm along the axis of the link and to the left of it; None of 0.
+    angle : NumberName or None
+        Degrees, counter-clockwise.
+    """
+
+    at: Place
+    centre: PointName | None = None
+    radius: NumberName | None = None
+    line: LineName | None = None
+    angle: NumberName | None = None
+
+
+class Hold(Struct, frozen=True):
+    """Axis of a link that three legs hold at once, through its origin (группа III класса).
+
+    No arcs alone find it. Without one leg the link is a coupler, and the place of that leg draws a
+    curve: where it meets what the leg asks for, the link is held. Of several such positions it is
+    the one next to ``start``: where the link's origin is, mm, and the direction of its axis,
+    degrees.
+    """
+
+    out: LineName
+    legs: tuple[Leg, Leg, Leg]
+    start: tuple[NumberName, NumberName, NumberName]
+
+
+class Spot(Struct, frozen=True):
+    """Point of a link whose axis and origin are found, by its place on the link (точка звена)."""
+
+    out: PointName
+    axis: LineName
+    at: Place
+
+
 class Similar(Struct, frozen=True):
     """Point of a plan similar to a point of the link, letters in the same order (теорема подобия).
 
@@ -240,6 +284,8 @@ Step: TypeAlias = (
     | MeetLineCircle
     | MeetCircles
     | Touch
+    | Hold
+    | Spot
     | Similar
     | Measure
     | MeasureAlong
@@ -284,10 +330,30 @@ def operands(step: Step) -> Iterator[tuple[Name, object]]:
         for name in step.terms:
             yield name, NumberName
         return
+    if isinstance(step, Hold | Spot):
+        yield from _held(step)
+        return
     for field, kind in _OPERANDS[type(step)]:
         name = getattr(step, field)
         if name is not None:
             yield name, kind
+
+
+def _held(step: Hold | Spot) -> Iterator[tuple[Name, object]]:
+    numbers: list[NumberName | None]
+    if isinstance(step, Spot):
+        yield step.axis, LineName
+        numbers = [*step.at]
+    else:
+        numbers = [*step.start]
+        for leg in step.legs:
+            for name, kind in ((leg.centre, PointName), (leg.line, LineName)):
+                if name is not None:
+                    yield name, kind
+            numbers += [*leg.at, leg.radius, leg.angle]
+    for number in numbers:
+        if number is not None:
+            yield number, NumberName
 
 
 def makes(step: Step) -> object:

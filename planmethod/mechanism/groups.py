@@ -60,6 +60,45 @@ class AssurGroup(Struct, frozen=True):
     kind: int | None
 
 
+class Legs(Struct, frozen=True):
+    """A triad: its base link and what that hangs on (трёхповодковая группа III класса).
+
+    Attributes
+    ----------
+    base : str
+        The base link (базисное звено), which all legs hold.
+    legs : tuple of (Lead, Joint)
+        Each leg (поводок) by its outer joint, and the joint by which it holds the base.
+    """
+
+    base: str
+    legs: tuple[tuple[Lead, Joint], ...]
+
+
+def triad_of(group: AssurGroup) -> Legs | None:
+    """Return base link and legs of a triad; None of other groups, and of a leg with two guides.
+
+    A leg that slides at both ends does not let the base link turn on its own.
+    """
+    if len(group.links) != 4 or len(group.leads) != 3 or len(group.inner) != 3:
+        return None
+    outer = {lead.link for lead in group.leads}
+    base = next((link for link in group.links if link not in outer), "")
+    inner = {
+        link: joint
+        for joint in group.inner
+        if base in (own := links_of(joint))
+        for link in own
+        if link in outer
+    }
+    if len(inner) != 3:
+        return None
+    legs = tuple((lead, inner[lead.link]) for lead in group.leads)
+    if any(letter_of(lead.joint) == letter_of(joint) == "P" for lead, joint in legs):
+        return None
+    return Legs(base, legs)
+
+
 def links_of(joint: Joint) -> tuple[str, ...]:
     """Links that a joint joins (звенья пары)."""
     if isinstance(joint, Revolute):

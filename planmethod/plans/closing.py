@@ -2,11 +2,67 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
+from typing import TypeAlias
 
 import numpy as np
 import numpy.typing as npt
 from msgspec import Struct
+
+Reals: TypeAlias = npt.NDArray[np.float64]
+
+
+class Followed(Struct, frozen=True):
+    """Assembly of a triad, followed from where it was chosen (сборка группы III класса).
+
+    No formula tells it: from one position to the next it goes on. Between two of the positions that
+    it was followed through it is told well enough for Newton's method.
+
+    Attributes
+    ----------
+    places : tuple of float
+        Positions of the driver, rising, degrees or m.
+    x, y : tuple of float
+        Where the base link's origin is there, m.
+    turn : tuple of float
+        Direction of its axis, degrees.
+    period : float
+        After which all comes again; 0 where it does not. Outside of the positions there is no such
+        assembly.
+    """
+
+    places: tuple[float, ...] = (0.0,)
+    x: tuple[float, ...] = (math.nan,)
+    y: tuple[float, ...] = (math.nan,)
+    turn: tuple[float, ...] = (math.nan,)
+    period: float = 0.0
+
+    def at(self, what: str, positions: Reals) -> Reals:
+        """Return ``x``, ``y`` or ``turn``, shape (n,); NaN where there is no such assembly."""
+        low, high = self.places[0], self.places[-1]
+        here = np.asarray(positions, dtype=float)
+        if self.period:
+            here = low + np.mod(here - low, self.period)
+        found = np.interp(here, self.places, getattr(self, what))
+        return np.where((here < low) | (here > high), np.nan, found)
+
+
+class Start(Struct, frozen=True):
+    """One of the numbers that tell where an assembly is (``x``, ``y`` or ``turn``)."""
+
+    followed: Followed
+    what: str
+
+    @property
+    def values(self) -> tuple[float, ...]:
+        """It in the positions that the assembly was followed through."""
+        found: tuple[float, ...] = getattr(self.followed, self.what)
+        return found
+
+    def branch(self, positions: Reals) -> Reals:
+        """Return it in some positions of the driver, m or degrees."""
+        return self.followed.at(self.what, positions)
 
 
 class Closing(Struct, frozen=True):
@@ -24,6 +80,11 @@ class Closing(Struct, frozen=True):
         Change points: driver positions in which a motion that goes on smoothly changes sides.
     turn : float
         After which the changes come again: 360 of a crank; of a slider out of all reach.
+    followed : Followed
+        Of a triad, the assembly that is meant; ``others`` are the places of ``point`` in the rest,
+        m, at ``start``.
+    third : int
+        Of a triad, the leg whose line does not go through the special point that is used.
     """
 
     side: int = 1
@@ -31,8 +92,12 @@ class Closing(Struct, frozen=True):
     start: float = 0.0
     changes: tuple[float, ...] = ()
     turn: float = 1e12
+    followed: Followed = Followed()
+    third: int = 2
+    others: tuple[complex, ...] = ()
+    point: str = ""
 
-    def branch(self, positions: npt.NDArray[np.float64]) -> npt.NDArray[np.float64]:
+    def branch(self, positions: Reals) -> Reals:
         """Return +1 where the side is the first one, else -1; it depends on the position alone."""
         passed = np.zeros(np.shape(positions))
         for change in self.changes:

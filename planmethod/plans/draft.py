@@ -10,7 +10,7 @@ from typing import NamedTuple
 from planmethod.construct.program import Builder
 from planmethod.construct.steps import LineName, Name, NumberName, PointName, Side, Way
 from planmethod.mechanism.model import FRAME
-from planmethod.plans.closing import Choice, Closing
+from planmethod.plans.closing import Choice, Closing, Start
 from planmethod.plans.dimensions import Dimension, DimensionKind
 from planmethod.plans.model import PlanKind
 from planmethod.problem.model import Problem, Slide
@@ -45,6 +45,18 @@ class Track(NamedTuple):
     line: LineName
 
 
+class Special(NamedTuple):
+    """Special point of a base link (особая точка Ассура): where the lines of two legs meet.
+
+    ``lines`` are those of the three legs, each with two points to be drawn through; ``third`` is
+    the leg whose line does not go through it.
+    """
+
+    point: PointName
+    lines: tuple[LineName, LineName, LineName]
+    third: int
+
+
 class Draft:
     """State of a construction being planned (черновик построения).
 
@@ -59,7 +71,8 @@ class Draft:
     places : dict
         Places of the Given points, m, counted from ``origin``.
     branches : dict
-        Closings by the Known number that tells in each position which of their sides is meant.
+        Closings by the Known number that tells in each position which of their sides is meant, and
+        by those that tell where a triad is.
     origin : complex, m
         Zero, but for a mechanism that stands far from the origin of its file: coordinates counted
         from a place of its own keep the digits of its links.
@@ -73,6 +86,8 @@ class Draft:
         What known numbers of the data tell, and the same on the drawing.
     feet : dict of PointName to str
         Feet of offsets, and the point that each is of.
+    special : dict of str to Special
+        Special point of a base link.
     plans : dict of Name to PlanKind
         Plan that a step belongs to.
     letters : dict of PointName to str
@@ -84,7 +99,7 @@ class Draft:
         self.b = Builder()
         self.numbers: dict[str, float] = {}
         self.places: dict[str, complex] = {}
-        self.branches: dict[str, Closing] = {}
+        self.branches: dict[str, Closing | Start] = {}
         self.placed: dict[str, list[str]] = {}
         self.axes: dict[str, LineName] = {}
         self.mu_l = self.b.known("mu_l")
@@ -92,6 +107,7 @@ class Draft:
         self.read: list[tuple[str, str]] = []
         self.dimensions: dict[NumberName, Dimension] = {}
         self.feet: dict[PointName, str] = {}
+        self.special: dict[str, Special] = {}
         self.plans: dict[Name, PlanKind] = {}
         self.letters: dict[PointName, str] = {}
 
@@ -102,6 +118,7 @@ class Draft:
         other.numbers, other.read = dict(self.numbers), list(self.read)
         other.axes, other.plans = dict(self.axes), dict(self.plans)
         other.dimensions, other.feet = dict(self.dimensions), dict(self.feet)
+        other.special = dict(self.special)
         other.placed = {link: list(points) for link, points in self.placed.items()}
         return other
 
@@ -184,6 +201,10 @@ class Draft:
             return name
         self.dimensions[name] = dimension
         return self.b.compute(name, (metres, 1), (self.mu_l, -1))
+
+    def is_special(self, link: str, place: str) -> bool:
+        """Tell whether a place is the special point of a base link."""
+        return link in self.special and self.special[link].point == place
 
     def size(self, link: str) -> float:
         """Return the extent of a link, m: what an offset is small against."""

@@ -10,7 +10,7 @@ depends on the one before it.
 from __future__ import annotations
 
 import math
-from collections.abc import Generator, Iterator
+from collections.abc import Generator, Iterator, Mapping
 from functools import partial
 
 import numpy as np
@@ -22,7 +22,7 @@ from planmethod.construct.program import Program
 from planmethod.construct.steps import PointName
 from planmethod.errors import Fault, ProblemError
 from planmethod.languages import say
-from planmethod.mechanism.groups import AssurGroup
+from planmethod.mechanism.groups import AssurGroup, triad_of
 from planmethod.mechanism.structure import Structure, analyse
 from planmethod.plans.build import Construction, build, draw_positions
 from planmethod.plans.closing import Closing
@@ -33,6 +33,7 @@ from planmethod.plans.motion.position import (
 )
 from planmethod.problem.model import Problem, Rule, Where
 from planmethod.problem.names import told_length, told_place
+from planmethod.solved.assemblies import Assembled, best_third, choose
 from planmethod.solved.changes import changes
 from planmethod.solved.failures import Cause, Failure, Place, PositionError
 from planmethod.solved.impossible import explain
@@ -126,6 +127,10 @@ def choosing(problem: Problem, structure: Structure) -> Choosing:
         ]
         used.update(rule.point for rule in mine)
         done.append(group)
+        if triad_of(group) is not None:
+            choice[group.links], wrong = _assembled(problem, done, choice, mine, positions)
+            faults += wrong
+            continue
         if not has_two_closings(group):
             continue
         choice[group.links] = Closing()
@@ -184,6 +189,34 @@ def choosing(problem: Problem, structure: Structure) -> Choosing:
     if faults:
         raise ProblemError(problem.name, faults)
     return choice
+
+
+def _assembled(
+    problem: Problem,
+    groups: list[AssurGroup],
+    choice: Mapping[tuple[str, ...], Closing],
+    rules: list[Rule],
+    positions: Reals,
+) -> tuple[Closing, list[Fault]]:
+    """Return the assembly of a triad, the last of some groups, and what is wrong with its rules."""
+    group = groups[-1]
+    triad = triad_of(group)
+    assert triad is not None
+
+    def made(closing: Closing) -> Assembled:
+        draft = draw_positions(problem, groups, {**choice, group.links: closing})
+        program = draft.b.program()
+        return Assembled(draft, program, lambda s: drive_data(problem, draft, s), group, triad)
+
+    drawn = made(Closing())
+    late = [late_fault(rule, drawn.draft) for rule in rules]
+    late += [unkept_fault(problem, rule, group) for rule in rules]
+    if any(late):
+        return Closing(), [fault for fault in late if fault is not None]
+    closing, faults = choose(drawn, rules, positions)
+    if not faults:
+        closing = replace(closing, third=best_third(made(closing), positions))
+    return closing, faults
 
 
 def _going_on(problem: Problem, tried: Tried, group: AssurGroup, closing: Closing) -> Closing:

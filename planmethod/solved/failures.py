@@ -120,6 +120,21 @@ class Cause(Enum):
         "angles.",
         "",
     )
+    NO_ASSEMBLY = (
+        "Cannot assemble links {out}{at}: in no position of their base link do its three legs all "
+        "reach. Check the lengths, or ask another position.",
+        "",
+    )
+    NOT_HELD = (
+        "Cannot assemble links {out}{at}: the assembly that was chosen at {reach[0]} goes on from "
+        "{reach[1]} to {reach[2]} only, where it stands dead. Ask positions between them.",
+        "",
+    )
+    LEGS = (
+        "Cannot find the special point {out}{at}: the lines of two legs are parallel. Ask another "
+        "position, or this one alone: then two other legs are taken.",
+        "",
+    )
     RAYS = (
         "Cannot close the {plan} plan{at}: the rays that meet in {out} are parallel, the mechanism "
         "stands in a dead position. Ask another position: there the velocities are not determined "
@@ -171,6 +186,8 @@ class Failure(Struct, frozen=True):
         As the sentence needs them, m: radii, the distance of the centres, what is missing.
     over_turn : tuple of float
         The most that is missing over a turn, m, and the crank's position there, degrees.
+    reach : tuple of float
+        Where an assembly was chosen, and its first and last position, degrees or m.
     plan : PlanKind
     margin : float
         Of the steps of the position.
@@ -186,6 +203,7 @@ class Failure(Struct, frozen=True):
     points: tuple[str, ...] = ()
     lengths: tuple[float, ...] = ()
     over_turn: tuple[float, ...] = ()
+    reach: tuple[float, ...] = ()
     plan: PlanKind = PlanKind.POSITION
     margin: float = 1.0
     problem: str = ""
@@ -224,6 +242,7 @@ class Failure(Struct, frozen=True):
             "margin": self.margin,
             "problem": self.problem,
             "turn": self._over_turn(),
+            "reach": [self.place.coordinate.told(at, self.place.unit, 6) for at in self.reach],
             "more": say(" So do {} other positions.", self.alike) if whole and self.alike else "",
         }
         return say(sentence, **facts, own=say(own, **facts) if whole else "")

@@ -12,6 +12,7 @@ from planmethod.construct import steps
 from planmethod.construct.evaluate import Trace, limit_of
 from planmethod.construct.program import Program
 from planmethod.construct.steps import LineName, NumberName, PointName, Step, operands
+from planmethod.plans.closing import Start
 from planmethod.plans.draft import Draft
 from planmethod.plans.model import PlanKind
 from planmethod.solved.failures import Cause, Failure, Place
@@ -146,6 +147,18 @@ def _failure(
             return Failure(Cause.ARC, place, out, (a,), (real(r),))
         case steps.Touch(_, a, r, b, _):
             return Failure(Cause.TANGENT, place, "", (a, b), (real(r), abs(point(b) - point(a))))
+        case steps.Hold():
+            start = draft.branches[step.start[2]]
+            assert isinstance(start, Start)
+            links, closing = next(
+                (links, one)
+                for links, one in draft.choice.items()
+                if one.followed is start.followed
+            )
+            reach = (closing.start, *(start.followed.places[k] for k in (0, -1)))
+            return Failure(Cause.NOT_HELD, place, ", ".join(links), reach=reach)
+        case steps.MeetLines(out) if any(one.point == out for one in draft.special.values()):
+            return Failure(Cause.LEGS, place, out)
         case steps.MeetLines():
             cause = Cause.GUIDES if plan is PlanKind.POSITION else Cause.RAYS
             return Failure(cause, place, letter, plan=plan)

@@ -58,6 +58,11 @@ class Reading(Struct, frozen=True):
         along = np.asarray(self.value[line][1], dtype=complex)
         return np.broadcast_to(along, (self.count,))
 
+    def origin(self, line: LineName) -> Complexes:
+        """Return a point of a line, mm, ndarray of shape (n,)."""
+        through = np.asarray(self.value[line][0], dtype=complex)
+        return np.broadcast_to(through, (self.count,))
+
     def has(self, name: Name) -> Flags:
         """Tell where there is a value, and no division by nothing; ndarray of shape (n,)."""
         value = self.value[name]

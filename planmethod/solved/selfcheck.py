@@ -8,7 +8,7 @@ import numpy as np
 
 from planmethod.construct.steps import PointName
 from planmethod.errors import PlanMethodError
-from planmethod.mechanism.groups import AssurGroup
+from planmethod.mechanism.groups import AssurGroup, triad_of
 from planmethod.mechanism.model import FRAME
 from planmethod.plans.motion.position import inner_point, parallelogram
 from planmethod.solved.changes import changes
@@ -93,7 +93,7 @@ def changed_branches(solution: Solution) -> list[Passed]:
     said = []
     for group in solution.structure.groups if high > low else ():
         closing = draft.choice.get(group.links)
-        if closing is None or closing.parallel or closing.changes:
+        if closing is None or closing.parallel or closing.changes or triad_of(group) is not None:
             continue
         high = min(high, low + drive.coordinate.turn)
         found = changes(

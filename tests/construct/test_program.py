@@ -19,6 +19,7 @@ from planmethod.construct.steps import (
     GivenNumber,
     Join,
     LayOff,
+    Leg,
     LineName,
     MeetLines,
     NumberName,
@@ -208,12 +209,15 @@ def test_each_verb_makes_its_step_and_returns_its_name() -> None:
     p, q, r = b.given("P"), b.given("Q"), b.given("R")
     one, two = b.known("one"), b.known("two")
     pq = b.join(p, q)
+    leg = Leg((None, None), centre=p, radius=one)
     made = [
         b.lay_off("a", p, pq, one),
         b.meet_lines("b", pq, b.join(p, r)),
         b.meet_line_circle("c", pq, r, one, Way.BACKWARD),
         b.meet_circles("d", p, one, q, two, Side.RIGHT),
         b.touch("e", p, one, q, Side.LEFT),
+        b.hold("m", (leg, leg, leg), (one, one, two)),
+        b.spot("n", LineName("m"), (one, two)),
         b.similar("f", (p, q), (q, r, p), one, span=two),
         b.measure("g", p, q),
         b.measure_along("h", p, q, pq),
@@ -222,10 +226,10 @@ def test_each_verb_makes_its_step_and_returns_its_name() -> None:
         b.measure_arm("k", p, q, r, p),
         b.total("l", one, two),
     ]
-    assert made == list("abcdefghijkl")
+    assert made == list("abcdemnfghijkl")
     steps = {str(step.out): step for step in b.program().steps}
     assert [type(steps[name]).__name__ for name in made] == [
-        "LayOff", "MeetLines", "MeetLineCircle", "MeetCircles", "Touch",
+        "LayOff", "MeetLines", "MeetLineCircle", "MeetCircles", "Touch", "Hold", "Spot",
         "Similar", "Measure", "MeasureAlong", "Compute", "Carry", "MeasureArm", "Total",
     ]  # fmt: skip
     trace = evaluate(

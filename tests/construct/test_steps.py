@@ -18,6 +18,7 @@ from planmethod.construct.hand import Hand
 from planmethod.construct.program import Builder
 from planmethod.construct.steps import (
     STEP_TYPES,
+    Leg,
     LineName,
     Name,
     NumberName,
@@ -392,6 +393,70 @@ def test_margins_do_not_depend_on_the_hand() -> None:
     assert exact == by_hand
 
 
+def held(b: Builder, kinds: str) -> LineName:
+    """Hold a link by legs: r a radius, l a line, t a line of the link through a point."""
+    x, y, c, dx, dy, turn = map(NumberName, ("bx", "by", "c", "dx", "dy", "turn"))
+    places: tuple[Any, ...] = ((None, None), (c, None), (dx, dy))
+    legs = []
+    for i, (kind, at) in enumerate(zip(kinds, places, strict=True)):
+        centre = PointName(f"A{i}")
+        if kind == "r":
+            legs.append(Leg(at, centre=centre, radius=NumberName(f"r{i}")))
+        elif kind == "l":
+            legs.append(Leg(at, line=b.join(centre, PointName(f"E{i}"))))
+        else:
+            legs.append(Leg(at, centre=centre, angle=NumberName(f"t{i}")))
+    one, two, three = legs
+    return b.hold("axis", (one, two, three), (x, y, turn))
+
+
+@pytest.mark.parametrize("kinds", ["rrr", "rrl", "rrt", "rlt", "rll", "llt", "ttr"])
+@pytest.mark.parametrize("scale", [1.0, 50.0])
+def test_a_held_link_is_where_all_three_legs_have_it(kinds: str, scale: float) -> None:
+    """From a start that is off by a thousandth; the margin is the determinant of three lines."""
+    b, turn = scale * (0.4 + 0.1j), 25.0
+    w = cmath.rect(1.0, math.radians(turn))
+    spots = [0j, scale * (0.9 + 0j), scale * (0.4 + 0.7j)]
+    data: dict[str, Any] = {"bx": b.real, "by": b.imag * 1.001, "turn": turn + 0.05}
+    data |= {"c": spots[1].real, "dx": spots[2].real, "dy": spots[2].imag}
+    lines = []
+    centres = [scale * z for z in (-0.5 - 0.2j, 1.6 - 0.5j, 0.9 + 1.7j)]
+    for i, (kind, z, centre) in enumerate(zip(kinds, spots, centres, strict=True)):
+        place, data[f"A{i}"] = b + w * z, centre
+        ray = (place - centre) / abs(place - centre)
+        if kind == "r":
+            data[f"r{i}"] = abs(place - centre)
+        elif kind == "l":
+            data[f"A{i}"], data[f"E{i}"] = place - 2 * ray, place + 3 * ray
+            ray *= 1j
+        else:
+            data[f"t{i}"] = math.degrees(cmath.phase(ray / w))
+            ray *= 1j
+        at = centre if kind == "t" else place
+        lines.append((ray.real, ray.imag, ((at - b).conjugate() * ray).imag))
+    (p, u), margin = run(lambda builder: held(builder, kinds), **data)
+    assert abs(scalar(p) - b) < TINY * scale
+    assert abs(scalar(u) - w) < TINY
+    size = sum(map(abs, spots))
+    assert abs(scalar(margin) - abs(np.linalg.det(np.array(lines))) / size) < TINY
+
+    def spot(builder: Builder) -> Name:
+        return builder.spot("D", held(builder, kinds), (NumberName("dx"), NumberName("dy")))
+
+    found, _ = run(spot, **data)
+    assert abs(scalar(found) - (b + w * spots[2])) < TINY * scale
+
+
+@pytest.mark.parametrize("bx", [1.0, math.nan])
+def test_a_link_that_no_pose_satisfies_has_no_margin_above_nothing(bx: float) -> None:
+    data: dict[str, Any] = {"A0": 0j, "A1": 10 + 0j, "A2": 5 + 9j}
+    data |= {"r0": 1.0, "r1": 1.0, "r2": 1.0}
+    data |= {"c": 1.0, "dx": 0.5, "dy": 0.8, "bx": bx, "by": 0.3, "turn": 10.0}
+    (p, _), margin = run(lambda builder: held(builder, "rrr"), **data)
+    assert not scalar(margin).real > 0
+    assert np.isnan(scalar(p))
+
+
 def test_every_kind_of_step_is_tested_here() -> None:
     b = Builder()
     b.given("P"), b.given("Q"), b.given("R"), b.given("S"), b.known("x")
@@ -402,6 +467,8 @@ def test_every_kind_of_step_is_tested_here() -> None:
     b.meet_line_circle("3", pq, R, x, Way.FORWARD)
     b.meet_circles("4", P, x, Q, x, Side.LEFT)
     b.touch("5", P, x, R, Side.LEFT)
+    leg = Leg((None, None), centre=P, radius=x)
+    b.spot("14", b.hold("axis", (leg, leg, leg), (x, x, x)), (x, None))
     b.similar("6", (P, Q), (P, Q, R), x)
     b.lay_off("7", P, pq, x)
     b.measure("8", P, Q)

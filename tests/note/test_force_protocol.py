@@ -25,7 +25,10 @@ from planmethod.solved.forces.statics import statics_of
 from planmethod.solved.solution import Solution
 
 LOADED = ("levers/six-link", "levers/task12", "press/press", "press/press-stone")
-SEEDS = range(some(30, few=12))
+TRIADS = 1000
+"""Seeds from there on are of mechanisms with a triad."""
+
+SEEDS = [*range(some(30, few=12)), *range(TRIADS, TRIADS + some(30, few=8))]
 """Random loaded mechanisms: enough for every dyad and for a driving slider."""
 
 SENTENCES = {
@@ -94,7 +97,7 @@ SENTENCES = {
 
 @cache
 def random_loaded(seed: int, ruler: float | None = None) -> Solution:
-    problem = loaded_problem(seed)[0]
+    problem = loaded_problem(seed, triad=seed >= TRIADS)[0]
     return Solution(problem) if ruler is None else Solution(problem, ruler=ruler)
 
 
@@ -146,7 +149,7 @@ def test_any_loaded_mechanism_is_readable(seed: int, lang: str) -> None:
 
 def test_the_random_mechanisms_have_every_dyad_and_driver() -> None:
     signatures = {g.signature for s in every() for g in s.structure.groups}
-    assert signatures == {"RRR", "RRP", "RPR", "PRP", "RPP"}
+    assert signatures > {"RRR", "RRP", "RPR", "PRP", "RPP"}
     assert {s.problem.drive.is_crank for s in every()} == {True, False}
 
 
@@ -240,6 +243,10 @@ def test_every_known_force_is_laid_off_in_the_order_of_the_polygon() -> None:
                 for edge in plan.polygon
                 if edge.symbol not in unknown and reading.length(edge, k) > 0.0
             ]
+            # What a stone passes on to the base link of a triad is found by moments.
+            weighed = {one.force.symbol for one in plan.moments if one.force is not None}
+            passed = [e for e in plan.inner if e.symbol in weighed and reading.length(e, k) > 0.0]
+            asked += passed
             order = [m["symbol"] for m in laid]
             assert sorted(order) == sorted(plain_text(e.symbol) for e in asked)
             lengths = {plain_text(edge.symbol): reading.length(edge, k) for edge in asked}
@@ -247,7 +254,7 @@ def test_every_known_force_is_laid_off_in_the_order_of_the_polygon() -> None:
                 length = lengths[match["symbol"]]
                 assert number(match["length"]) == pytest.approx(length, rel=6e-4)
                 assert computed(match["product"])[0] == pytest.approx(length, rel=1.2e-3)
-            if "с концом у" not in flat(part):
+            if "с концом у" not in flat(part) and not passed:
                 assert order == [plain_text(edge.symbol) for edge in asked]
             count += len(laid)
     assert count > some(300, few=150)
@@ -267,7 +274,7 @@ def test_every_reaction_is_told_from_end_to_end() -> None:
 
 
 WHIRLS = re.compile(
-    r"(?P<symbol>Fᵗ\S+) поворачивает звено (?P<link>\S+) вокруг точки (?P<p>\S+) (?P<s>[^.]*)\."
+    r"(?P<symbol>F\S+) поворачивает звено (?P<link>\S+) вокруг точки (?P<p>\S+) (?P<s>[^.]*)\."
 )
 
 

@@ -102,9 +102,10 @@ def test_any_mechanism_is_readable(seed: int, lang: str) -> None:
 
 
 def test_the_random_mechanisms_have_every_dyad_and_step() -> None:
-    programs = [drawn(seed) for seed in SEEDS] + [worked(name) for name in SIX]
+    triads = [worked("linkages/triad")]
+    programs = [drawn(seed) for seed in SEEDS] + [worked(name) for name in SIX] + triads
     signatures = {group.signature for s in programs for group in s.structure.groups}
-    assert signatures == {"RRR", "RRP", "RPR", "PRP", "RPP"}
+    assert signatures == {"RRR", "RRP", "RPR", "PRP", "RPP", "RRR-RRR"}
     kinds = {type(step) for s in programs for step in s.construction.program.steps}
     # Those of the force plans, which mechanisms without loads have not.
     assert kinds == set(get_args(Step)) - {Carry, MeasureArm, Total}

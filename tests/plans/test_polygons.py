@@ -62,8 +62,7 @@ def test_edges_are_the_loads_and_the_reactions(name: str) -> None:
     loads = {given.applied.name: given.applied.force for given in statics.board.given}
     seen = set()
     for plan in statics.board.plans:
-        inner = () if plan.inner is None else (plan.inner,)
-        for edge in (*plan.polygon, *plan.wholes, *inner):
+        for edge in (*plan.polygon, *plan.wholes, *plan.inner):
             if edge.share is Share.WHOLE:
                 seen.add(edge.symbol)
                 expected = {**loads, **reactions}[edge.symbol]

@@ -244,7 +244,7 @@ def test_segments_of_the_plans_are_the_forces_to_scale(name: str) -> None:
             for edge in drawn_edges(reading, number)
         }
         parts = {f"F{share}_{symbol[2:]}" for symbol in symbols for share in ("^{n}", "^{τ}")}
-        inner = {plan.inner.symbol for plan in reading.plans if plan.inner is not None}
+        inner = {edge.symbol for plan in reading.plans for edge in plan.inner}
         assert abs(one.force[0]) < 1.0 or symbols & seen or parts & lines or symbols & inner
 
 

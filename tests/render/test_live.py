@@ -231,6 +231,23 @@ def test_loads_that_change_are_those_of_the_program(page: Page, tmp_path: Path) 
         assert not page.said, told
 
 
+@needs_chromium
+def test_a_triad_keeps_its_assembly_on_the_page(page: Page, tmp_path: Path) -> None:
+    """Over a turn, and where it swings between two dead positions."""
+    for length in ("0.06", "0.01"):
+        near = "[0.236, 0.08]" if length == "0.06" else "[0.2, 0.05]"
+        text = path_of("linkages/triad").read_text("utf-8").replace("OA = 0.06", f"OA = {length}")
+        problem = loads(text.replace("[0.236, 0.080]", near), name="triad")
+        scene = opened(page, problem, tmp_path, "en")
+        positions = np.linspace(0.0, 359.0, 180)
+        asked = f"{json.dumps(positions.tolist())}.map(x => at(x).map(v => v === v ? v : null))"
+        made = np.array(page.ask(asked), dtype=float).T[: len(scene.sweep.rows)]
+        assert apart(made, scene.sweep, positions) < 1e-11
+        gone = page.ask("(planmethod.show(200), byId('why').textContent)")
+        assert ("link 3 cannot be assembled" in gone) == (length == "0.06")
+        assert not page.said
+
+
 # The file ---------------------------------------------------------------------------------------
 
 

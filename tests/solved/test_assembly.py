@@ -460,17 +460,6 @@ P = "right of B"
 """
 
 
-def test_a_group_of_the_third_class_is_named_and_not_solved() -> None:
-    with pytest.raises(AssemblyError) as error:
-        Solution(loads(THIRD_CLASS, name="third"))
-    assert error.value.exit_code == 4
-    assert str(error.value) == (
-        "Group of class 3, order 3 (links 2, 3, 4, 5) cannot be built by arcs and lines alone: "
-        "only dyads (class II) are. Choose another driving link, so that the mechanism falls into "
-        "dyads."
-    )
-
-
 def test_the_same_links_with_another_driver_fall_into_dyads() -> None:
     """Driven at link 4, the chain is two dyads (links 1 and 2 close last)."""
     text = (

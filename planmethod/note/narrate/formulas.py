@@ -39,6 +39,11 @@ class Formulas:
         """Return a number without the error of reading."""
         return float(self.solution.paper.number(name)[self.index])
 
+    @property
+    def position(self) -> float:
+        """Position of the driver, degrees or m."""
+        return float(self.solution.positions[self.index])
+
     def readable(self, name: Name) -> bool:
         """Tell whether the hand has a value: not where it divides by what the ruler reads as 0."""
         return bool(self.solution.by_hand.has(name)[self.index])

@@ -69,6 +69,10 @@ class StepNarrator:
                 return self.two_arcs(step)
             case steps.Touch():
                 return self.touch(step)
+            case steps.Hold():
+                return self.hold(step)
+            case steps.Spot():
+                return []  # told with the link that it is on
             case steps.Similar():
                 return self.similar(step)
             case steps.Measure() | steps.MeasureAlong():
@@ -106,6 +110,10 @@ class StepNarrator:
 
     def touch(self, step: steps.Touch) -> list[Rich]:
         """Tell a tangent."""
+        return []
+
+    def hold(self, step: steps.Hold) -> list[Rich]:
+        """Tell how a link is held by three legs."""
         return []
 
     def similar(self, step: steps.Similar) -> list[Rich]:

@@ -7,6 +7,8 @@ from itertools import pairwise
 
 from planmethod.construct import steps
 from planmethod.construct.steps import LineName, Name, NumberName, PointName, Step, operands
+from planmethod.mechanism.groups import triad_of
+from planmethod.mechanism.model import Revolute
 from planmethod.note.narrate.equations import direction_note
 from planmethod.note.narrate.formulas import SHORTEST_MM, Formulas
 from planmethod.note.narrate.motion import MotionNarrator
@@ -16,6 +18,9 @@ from planmethod.note.plaintext import NO_BREAK, given
 from planmethod.note.wording import Language
 from planmethod.plans.dimensions import DimensionKind
 from planmethod.plans.model import PlanKind
+from planmethod.plans.motion.position import link_of_axis
+from planmethod.plans.motion.triads import leg_place
+from planmethod.problem.names import UNITS
 from planmethod.solved.solution import Solution
 
 COORDINATES = (DimensionKind.ALONG, DimensionKind.ACROSS)
@@ -73,6 +78,62 @@ class PositionNarrator:
             point=point,
         )
         return [text]
+
+    def hold(self, step: steps.Hold) -> list[str]:
+        """Tell how a base link is found: without one leg it moves, and that leg tells where to."""
+        names, words, construction = self.names, self.words, self.names.construction
+        base = link_of_axis(step)
+        group = construction.structure.group_of(base)
+        assert group is not None
+        triad, closing = triad_of(group), construction.draft.choice[group.links]
+        assert triad is not None
+        asked = [
+            self._leg(leg, base, leg_place(*own))
+            for leg, own in zip(step.legs, triad.legs, strict=True)
+        ]
+        third = closing.third
+        one, two = (text for k, text in enumerate(asked) if k != third)
+        points = list(construction.draft.problem.bodies[base].points)
+        lead, joint = triad.legs[third]
+        dropped = lead.link
+        if isinstance(joint, Revolute) and isinstance(lead.joint, Revolute):
+            dropped = names.axis(lead.joint.point + joint.point)
+        told = [
+            words.hold.format(
+                links="–".join((group.links[0], group.links[-1])),
+                dropped=dropped,
+                base=base,
+                leading=words.hold_by.format(one=one, two=two),
+                asked=asked[third],
+                points=", ".join(names.point(PointName(point)) for point in points),
+            )
+        ]
+        if closing.others and self.say.position == closing.start:
+            unit = construction.draft.problem.unit
+            told.append(
+                words.hold_others.format(
+                    point=names.point(PointName(closing.point)),
+                    places="; ".join(
+                        f"({'; '.join(given(v * UNITS[unit], words) for v in (z.real, z.imag))})"
+                        for z in closing.others
+                    ),
+                    nbsp=NO_BREAK,
+                    unit=self.say.unit(unit),
+                )
+            )
+        return told
+
+    def _leg(self, leg: steps.Leg, base: str, place: str) -> str:
+        """Return what a leg asks of a base link."""
+        names, words = self.names, self.words
+        if leg.line is not None:
+            return words.hold_line.format(point=names.point(PointName(place)))
+        assert leg.centre is not None
+        centre = names.point(leg.centre)
+        if leg.radius is None:
+            return words.hold_through.format(base=base, centre=centre)
+        point = names.point(PointName(place))
+        return words.hold_arc.format(point=point, radius=self.length(leg.radius), centre=centre)
 
     def length(self, name: NumberName, ends: tuple[PointName, PointName] | None = None) -> str:
         """Return a length of the drawing: computed when it is first used, afterwards its value.
@@ -196,6 +257,19 @@ class Narrator(BoardNarrator):
     def similar(self, step: steps.Similar) -> list[str]:
         """Tell a point of a plan found by similarity."""
         return self.motion.similar(step)
+
+    def hold(self, step: steps.Hold) -> list[str]:
+        """Tell how a base link is found, and which other assemblies there are."""
+        return self.drawing.hold(step)
+
+    def meet(self, step: steps.MeetLines) -> list[str]:
+        """Tell the meeting of two lines; of the special point, what it is for."""
+        told = super().meet(step)
+        for base, special in self.names.construction.draft.special.items():
+            if special.point == step.out:
+                point = self.names.point(step.out)
+                told.append(self.words.special_point.format(base=base, point=point))
+        return told
 
     def compute(self, step: steps.Compute) -> list[str]:
         """Tell what is computed."""

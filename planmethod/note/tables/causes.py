@@ -17,6 +17,7 @@ from planmethod.note.rounding import rounded_to, sigma_text
 from planmethod.note.tables.sigmas import marked
 from planmethod.plans.legend import MOTION_KINDS, Quantity
 from planmethod.plans.model import FACTS, PlanKind
+from planmethod.plans.motion.position import link_of_axis
 from planmethod.solved.errors.motion import drafting_of
 from planmethod.solved.errors.spread import SHORT
 from planmethod.solved.transfers import transfers_of
@@ -114,6 +115,10 @@ class Causes:
                 return words.cause_arc.format(point=names.point(out))
             case steps.Touch(out):
                 return words.cause_touch.format(point=names.point(out))
+            case steps.Hold():
+                return words.cause_hold.format(link=link_of_axis(step))
+            case steps.Spot(out):
+                return words.cause_spot.format(point=names.point(out))
             case steps.Similar(out):
                 return words.cause_similar.format(point=names.point(out))
             case steps.Measure(_, tail, head) | steps.MeasureAlong(_, tail, head, _):

@@ -11,15 +11,20 @@ a force on every link.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
 from msgspec import Struct
 from msgspec.structs import replace
 
 from planmethod.construct.steps import LineName, NumberName, PointName
-from planmethod.mechanism.groups import AssurGroup, Lead
+from planmethod.mechanism.groups import AssurGroup, Lead, triad_of
 from planmethod.mechanism.model import FRAME, Revolute
 from planmethod.plans.forces.board import Force, ForceBoard
+from planmethod.plans.forces.leads import (
+    guide_edge,
+    guide_reaction,
+    of_guide,
+    pressed_block,
+    tangent,
+)
 from planmethod.plans.forces.polygons import (
     Balance,
     Components,
@@ -30,8 +35,8 @@ from planmethod.plans.forces.polygons import (
     as_known,
     back,
     reaction_edge,
-    reaction_symbol,
 )
+from planmethod.plans.forces.triads import triad_forces
 from planmethod.plans.model import Direction, Known, Relation
 from planmethod.plans.motion.leads import arm, track_direction
 from planmethod.plans.motion.position import (
@@ -43,7 +48,6 @@ from planmethod.plans.motion.position import (
 )
 from planmethod.plans.segments import Ends
 from planmethod.problem.load_records import BalancingForceTask
-from planmethod.problem.model import Slide
 
 
 class Driving(Struct, frozen=True):
@@ -70,8 +74,11 @@ class Driving(Struct, frozen=True):
 
 
 def group_forces(board: ForceBoard, group: AssurGroup) -> None:
-    """Find the reactions in all joints of a dyad."""
+    """Find the reactions in all joints of a dyad or a triad."""
+    triad = triad_of(group)
     match group.signature:
+        case _ if triad is not None:
+            triad_forces(board, group, triad)
         case "RRR" | "RRP" | "PRP":
             _middle_revolute(board, group)
         case "RPR":
@@ -85,11 +92,11 @@ def _middle_revolute(board: ForceBoard, group: AssurGroup) -> None:
     middle = PointName(inner_point(group))
     one, two = split(group)
     start = board.start()
-    first, at_one = _tangent(board, one, start, middle)
+    first, at_one = tangent(board, one, start, middle)
     loads: tuple[list[Edge], list[Edge]] = ([], [])
     between = board.chain(first, one.link, loads[0])
     loaded = board.chain(between, two.link, loads[1])
-    last, at_two = _tangent(board, two, loaded, middle)
+    last, at_two = tangent(board, two, loaded, middle)
     lines = _unknown(board, one, start, middle), _unknown(board, two, last, middle)
     end = board.draft.b.meet_lines(board.name("x"), *lines)
     held = ((end, first), (loaded, end))  # both outer reactions
@@ -106,9 +113,9 @@ def _middle_revolute(board: ForceBoard, group: AssurGroup) -> None:
         (two, at_two, held[1], outer[1], loads[1], known[1], back(inner, two.link)),
     ):
         if parts is None:
-            guide = _guide_reaction(board, lead, Force(middle, *ends), force)
+            guide = guide_reaction(board, lead, Force(middle, *ends), force)
             guides.append(guide)
-            moments.append(_of_guide(guide, [*own, force], couples))
+            moments.append(of_guide(guide, [*own, force], couples))
             continue
         whole = parts.whole(*ends)
         board.react(parts.at, lead.link, lead.to, Force(parts.at, *whole.ends))
@@ -123,26 +130,8 @@ def _middle_revolute(board: ForceBoard, group: AssurGroup) -> None:
     known_couples = (*known[0], *known[1], *guides)
     board.read_off(
         ForcePlan(
-            group.links, polygon, tuple(wholes), inner, balances, tuple(moments), known_couples
+            group.links, polygon, tuple(wholes), (inner,), balances, tuple(moments), known_couples
         )
-    )
-
-
-def _tangent(
-    board: ForceBoard, lead: Lead, origin: PointName, middle: PointName
-) -> tuple[PointName, Components | None]:
-    """Lay off the tangential reaction of a revolute lead: its moment about the middle joint.
-
-    A guide has none: its reaction is across it.
-    """
-    if not isinstance(lead.joint, Revolute):
-        return origin, None
-    outer = lead_point(lead)
-    lever = arm(board.draft, lead.link, outer, middle)
-    moment = board.moment((lead.link,), middle)
-    end = board.across(origin, lever.line, moment, lever.length)
-    return end, Components(
-        lead, board.called(lead.to), PointName(outer), (outer, str(middle)), lever.length
     )
 
 
@@ -164,34 +153,8 @@ def _outer(
 ) -> tuple[Edge, ...]:
     """Return the sides of an outer reaction: normal and tangential, or that across the guide."""
     if parts is None:
-        return (_guide_edge(board, lead, *whole),)
+        return (guide_edge(board, lead, *whole),)
     return parts.normal(*normal), parts.tangential(*tangential)
-
-
-def _guide_reaction(board: ForceBoard, lead: Lead, force: Force, inner: Edge) -> CoupleOn:
-    """Note the reaction of a guide: its moment about the pin balances those of all other forces.
-
-    ``inner`` is the reaction of the middle joint on the slider.
-    """
-    pin = PointName(slide_of(board.draft, lead.joint).pin)
-    acting = Force(inner.at, *inner.ends, inner.symbol)
-    couple = board.negative(board.moment((lead.link,), pin, acting))
-    return board.react_guide(pin, lead.link, lead.to, replace(force, at=pin), couple)
-
-
-def _guide_edge(board: ForceBoard, lead: Lead, tail: PointName, head: PointName) -> Edge:
-    """Return the reaction of a guide, which is across it."""
-    slide = slide_of(board.draft, lead.joint)
-    direction = track_direction(slide, board.draft.problem, turned=True)
-    return reaction_edge(
-        lead.link, board.called(lead.to), PointName(slide.pin), tail, head, direction
-    )
-
-
-def _of_guide(couple: CoupleOn, edges: Sequence[Edge], known: tuple[CoupleOn, ...]) -> Moments:
-    """Return the moments about the pin of a slider, which give the moment of its guide."""
-    assert couple.at is not None
-    return Moments((couple.on,), couple.at, tuple(map(as_known, edges)), known, couple=couple)
 
 
 def _swinging(board: ForceBoard, group: AssurGroup) -> None:
@@ -223,20 +186,20 @@ def _swinging(board: ForceBoard, group: AssurGroup) -> None:
     board.react(at, slider.link, slider.to, Force(at, end, first))
     board.react(pivot, host.link, host.to, Force(pivot, loaded, end))
     if board.draft.problem.is_block(slide):
-        weighed = _pressed_block(board, slide, Force(pivot, between, end), loads[1])
+        weighed = pressed_block(board, slide, Force(pivot, between, end), loads[1])
     else:
         couple = board.negative(board.moment((slider.link,), at))
         of_slider = board.couples_on(slider.link)
         pressed = Force(at, between, end)
         held = board.react_guide(slide.pin, slider.link, host.link, pressed, couple, inner=True)
-        weighed = _of_guide(held, loads[0], of_slider)
+        weighed = of_guide(held, loads[0], of_slider)
     polygon = (*two, *loads[0], *loads[1], stands)
     board.read_off(
         ForcePlan(
             group.links,
             polygon,
             (whole,),
-            inner,
+            (inner,),
             (
                 Balance((slider.link,), (*two, *loads[0], inner)),
                 Balance(group.links, (as_known(whole), *loads[0], *loads[1], stands)),
@@ -248,16 +211,6 @@ def _swinging(board: ForceBoard, group: AssurGroup) -> None:
             known,
         )
     )
-
-
-def _pressed_block(board: ForceBoard, slide: Slide, force: Force, loads: Sequence[Edge]) -> Moments:
-    """Note the reaction of a block on the bar through it, by the moments about its own joint."""
-    known = board.couples_on(slide.host)
-    held = board.negative(board.moment((slide.host,), force.at))
-    board.react_guide(slide.pin, slide.slider, slide.host, force, board.negative(held), inner=True)
-    symbol = reaction_symbol(slide.host, slide.slider, letter="M")
-    couple = CoupleOn(symbol, slide.host, held, force.at)
-    return _of_guide(couple, loads, known)
 
 
 def _sliding(board: ForceBoard, group: AssurGroup) -> None:
@@ -278,7 +231,7 @@ def _sliding(board: ForceBoard, group: AssurGroup) -> None:
     own = board.moment((revolute.link,), at)
     pin = PointName(outer.pin)
     whole = board.moment((revolute.link, prismatic.link), pin, Force(at, end, first))
-    across = _guide_edge(board, prismatic, loaded, end)
+    across = guide_edge(board, prismatic, loaded, end)
     hinge = reaction_edge(revolute.link, board.called(revolute.to), at, end, first)
     direction = track_direction(inner, board.draft.problem, turned=True)
     between = reaction_edge(prismatic.link, revolute.link, at, end, start, direction)
@@ -297,14 +250,14 @@ def _sliding(board: ForceBoard, group: AssurGroup) -> None:
             group.links,
             (hinge, *loads[0], *loads[1], across),
             (),
-            between,
+            (between,),
             (
                 Balance((prismatic.link,), (between, *loads[1], across)),
                 Balance((revolute.link,), (hinge, *loads[0], back(between, revolute.link))),
             ),
             (
-                _of_guide(held, loads[0], of_one),
-                replace(_of_guide(guide, [hinge, *loads[0], *loads[1]], known), links=group.links),
+                of_guide(held, loads[0], of_one),
+                replace(of_guide(guide, [hinge, *loads[0], *loads[1]], known), links=group.links),
             ),
             (*known, guide),
         )
@@ -353,7 +306,7 @@ def drive_forces(board: ForceBoard) -> Driving:
             links,
             (*loads, drives, presses),
             balances=(Balance(links, (*loads, drives, presses)),),
-            moments=(_of_guide(held, loads, known),),
+            moments=(of_guide(held, loads, known),),
             couples=(*known, held),
         )
     )

@@ -122,8 +122,8 @@ class ForcePlan(Struct, frozen=True):
         One after another, closed.
     wholes : tuple of Edge
         Reactions whose components are in the polygon.
-    inner : Edge or None
-        The reaction in the inner joint, which closes the plan of one of the links.
+    inner : tuple of Edge
+        The reactions in the inner joints, which close the plans of single links.
     balances : tuple of Balance
         In the order of solving.
     moments : tuple of Moments
@@ -135,7 +135,7 @@ class ForcePlan(Struct, frozen=True):
     links: tuple[str, ...]
     polygon: tuple[Edge, ...]
     wholes: tuple[Edge, ...] = ()
-    inner: Edge | None = None
+    inner: tuple[Edge, ...] = ()
     balances: tuple[Balance, ...] = ()
     moments: tuple[Moments, ...] = ()
     couples: tuple[CoupleOn, ...] = ()
@@ -144,7 +144,7 @@ class ForcePlan(Struct, frozen=True):
     def reactions(self) -> tuple[Edge, ...]:
         """The forces that the plan finds."""
         found = [edge for edge in self.polygon if edge.known is not Known.BOTH]
-        return (*found, *self.wholes, *(() if self.inner is None else (self.inner,)))
+        return (*found, *self.wholes, *self.inner)
 
 
 def reaction_symbol(on: str, by: str, share: Share = Share.WHOLE, letter: str = "F") -> str:

@@ -115,7 +115,7 @@ class MotionBoard(Struct):
     def label(self, link: str, place: str) -> str:
         """Return the name of a link's point at a place: ``B3`` where it is under another's pin."""
         bodies = self.draft.problem.bodies
-        if place in bodies[link].points:
+        if place in bodies[link].points or self.draft.is_special(link, place):
             return place
         name = f"{place}{link}"
         taken = any(name in body.points for body in bodies.values())

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from planmethod.mechanism.groups import AssurGroup
+from planmethod.mechanism.groups import AssurGroup, triad_of
 from planmethod.mechanism.model import Revolute
 from planmethod.plans.model import FACTS, Known, PlanKind, Vector, VectorKind
 from planmethod.plans.motion.board import MotionBoard
@@ -25,6 +25,7 @@ from planmethod.plans.motion.position import (
     slide_of,
     split,
 )
+from planmethod.plans.motion.triads import triad_motion
 
 
 def drive_motion(kin: Kinematics, motion: MotionBoard) -> None:
@@ -55,7 +56,12 @@ def drive_motion(kin: Kinematics, motion: MotionBoard) -> None:
 
 
 def group_motion(kin: Kinematics, motion: MotionBoard, group: AssurGroup) -> None:
-    """Close a dyad's plan: the rays of its two leads meet in the middle joint."""
+    """Close a dyad's plan: the rays of its two leads meet in the middle joint; or a triad's."""
+    triad = triad_of(group)
+    if triad is not None:
+        triad_motion(kin, motion, triad)
+        carry_rest(kin, motion, group.links)
+        return
     match group.signature:
         case "RRR" | "RRP" | "PRP":
             _middle_revolute(kin, motion, group)

@@ -113,7 +113,7 @@ class Arm(Struct, frozen=True):
 def arm(draft: Draft, link: str, joint: str, place: str) -> Arm:
     """Return the arm of a link from one of its joints to a place on the drawing."""
     line = draft.b.join(PointName(joint), PointName(place))
-    if place in draft.problem.bodies[link].points:
+    if {joint, place} <= set(draft.problem.bodies[link].points):
         return Arm(line, ((draft.length(link, joint, place), 1),))
     return Arm(line, ((draft.measured(joint, place), 1), (draft.mu_l, 1)))
 

@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 from msgspec import Struct
+from msgspec.structs import replace
 
-from planmethod.construct.steps import LineName, PointName
-from planmethod.errors import AssemblyError
-from planmethod.mechanism.groups import AssurGroup, Lead
-from planmethod.mechanism.model import FRAME, Prismatic, Revolute
-from planmethod.plans.closing import Closing
+from planmethod.construct.steps import Hold, Leg, LineName, NumberName, Place, PointName
+from planmethod.errors import AssemblyError, StructureError
+from planmethod.languages import say
+from planmethod.mechanism.groups import AssurGroup, Lead, Legs, triad_of
+from planmethod.mechanism.model import FRAME, Mechanism, Prismatic, Revolute
+from planmethod.mechanism.structure import analyse
+from planmethod.plans.closing import Closing, Start
 from planmethod.plans.dimensions import Dimension, DimensionKind
-from planmethod.plans.draft import Draft, side, way
+from planmethod.plans.draft import TINY, Draft, Special, cis, degrees, side, way
 from planmethod.problem.model import Problem, Slide
 
 EQUAL = 1e-9
@@ -55,24 +58,20 @@ def place_driver(draft: Draft) -> None:
 
 
 def place_group(draft: Draft, group: AssurGroup) -> None:
-    """Place the links of a dyad between the links that it hangs on.
+    """Place the links of a dyad or a triad between the links that it hangs on.
 
     Raises
     ------
     AssemblyError
-        For a group of a higher class: it is recognised, and not built by these steps.
+        For a group that is neither: it is recognised, and not built by these steps.
     """
-    if group.class_number != 2:
-        raise AssemblyError(
-            "Group of class {}, order {} (links {}) cannot be built by arcs and lines "
-            "alone: only dyads (class II) are. Choose another driving link, so that the "
-            "mechanism falls into dyads.",
-            group.class_number,
-            group.order,
-            ", ".join(group.links),
-        )
     closing = draft.choice.get(group.links, Closing())
+    triad = triad_of(group)
+    if triad is None and group.class_number != 2:
+        raise AssemblyError(*_refusal(draft.problem, group))
     match group.signature:
+        case _ if triad is not None:
+            _place_triad(draft, triad, closing)
         case "RRR" if closing.parallel:
             _place_parallel(draft, group)
         case "RRR":
@@ -110,6 +109,159 @@ def split(group: AssurGroup) -> tuple[Lead, Lead]:
     if isinstance(first.joint, Prismatic) and isinstance(second.joint, Revolute):
         return second, first
     return first, second
+
+
+def base_points(problem: Problem, triad: Legs) -> list[str]:
+    """Return the points of a base link that tell where it is: its hinges first, two at least."""
+    body = problem.bodies[triad.base].points
+    hinges = [joint.point for _, joint in triad.legs if isinstance(joint, Revolute)]
+    found = list(dict.fromkeys([*hinges, *body]))
+    apart = next((point for point in found[1:] if body[point] != body[found[0]]), None)
+    if apart is None:
+        raise AssemblyError(
+            "The base link {} of links {} has no two points: give it another one.",
+            triad.base,
+            ", ".join([triad.base, *(lead.link for lead, _ in triad.legs)]),
+        )
+    return list(dict.fromkeys([found[0], apart, *hinges]))
+
+
+def _place_triad(draft: Draft, triad: Legs, closing: Closing) -> None:
+    """Hold the base link by all three legs at once; then the legs lie between two points each."""
+    base = triad.base
+    body, points = draft.problem.bodies[base].points, base_points(draft.problem, triad)
+    unit = body[points[1]] - body[points[0]]
+    unit /= abs(unit)
+
+    def place(z: complex, *of: str) -> Place:
+        w = (z - body[points[0]]) * unit.conjugate()
+        found: list[NumberName | None] = []
+        for kind, value in ((DimensionKind.ALONG, w.real), (DimensionKind.ACROSS, w.imag)):
+            solid = abs(value) > TINY * draft.size(base)
+            found.append(draft.drawn(draft.dimension(kind, value, *of)) if solid else None)
+        return found[0], found[1]
+
+    def at(point: str) -> Place:
+        if point == points[1]:
+            return draft.drawn(draft.length(base, points[0], point)), None
+        return place(body[point], point)
+
+    legs: list[Leg] = []
+    for lead, joint in triad.legs:
+        if isinstance(joint, Prismatic):
+            pin, slide = lead_point(lead), slide_of(draft, joint)
+            z = draft.problem.bodies[lead.link].points[pin]
+            along = cis(slide.angle)
+            if slide.host == base:
+                line = slide.base + 1j * along * (slide.offset + z.imag)
+            else:
+                line = 1j * (((z - slide.base) / along).imag - slide.offset)
+                along = 1.0 + 0j
+            angle = degrees(along / unit)
+            turned = draft.dimension(DimensionKind.ANGLE, angle, pin, host=base) if angle else None
+            legs.append(Leg(place(line, pin, base), centre=PointName(pin), angle=turned))
+        elif isinstance(lead.joint, Prismatic):
+            track = draft.path(slide_of(draft, lead.joint), lead.to, joint.point)
+            legs.append(Leg(at(joint.point), line=track.line))
+        else:
+            radius = draft.drawn(draft.length(lead.link, lead_point(lead), joint.point))
+            centre = PointName(lead_point(lead))
+            legs.append(Leg(at(joint.point), centre=centre, radius=radius))
+    one, two, three = legs
+    x, y, turn = (_start(draft, base, what, closing) for what in ("x", "y", "turn"))
+    x, y = (draft.b.compute(f"|{name}|", (name, 1), (draft.mu_l, -1)) for name in (x, y))
+    axis = draft.b.hold(axis_of_link(base), (one, two, three), (x, y, turn))
+    for point in points:
+        draft.mark_placed(draft.b.spot(point, axis, at(point)))
+    for lead, joint in triad.legs:
+        if isinstance(joint, Prismatic):
+            draft.turn_with(slide_of(draft, joint), base, PointName(lead_point(lead)))
+        elif isinstance(lead.joint, Prismatic):
+            draft.turn_with(slide_of(draft, lead.joint), lead.to, PointName(joint.point))
+    if closing.followed.places != Closing().followed.places:
+        _special(draft, triad, closing.third)
+
+
+def axis_of_link(link: str) -> str:
+    """Return what the step is called that holds a base link."""
+    return f"axis {link}"
+
+
+def link_of_axis(step: Hold) -> str:
+    """Return the base link that a step holds."""
+    return step.out.removeprefix("axis ")
+
+
+def _start(draft: Draft, base: str, what: str, closing: Closing) -> NumberName:
+    name = f"start_{what}_{base}"
+    draft.branches[name] = Start(closing.followed, what)
+    return draft.b.known(name)
+
+
+def _special(draft: Draft, triad: Legs, third: int) -> None:
+    """Draw the special point: where the lines of two legs meet, forces along which hold the base.
+
+    A leg with a guide holds across it.
+    """
+    for link in (triad.base, *(lead.link for lead, _ in triad.legs)):
+        draft.place_rest(link)
+    one, two, three = (leg_line(draft, lead, joint) for lead, joint in triad.legs)
+    lines = one, two, three
+    first, second = (line for k, line in enumerate(lines) if k != third)
+    # Of a point K that of link 1 under it is called K1, too.
+    taken = {p for body in draft.problem.bodies.values() for p in body.points}
+    taken |= {special.point for special in draft.special.values()}
+    free = (c for c in "SQKWUZVXY" if not taken & {c, *(c + digit for digit in "123")})
+    point = draft.b.meet_lines(f"{next(free, 'Ω')}{3 - third}", first, second)
+    draft.special[triad.base] = Special(point, lines, third)
+
+
+def leg_line(draft: Draft, lead: Lead, joint: Prismatic | Revolute) -> LineName:
+    """Return the line of the force by which a leg without loads holds the base link."""
+    if isinstance(joint, Prismatic):
+        guide = draft.direction(slide_of(draft, joint))
+        return draft.b.perpendicular(PointName(lead_point(lead)), guide)
+    if isinstance(lead.joint, Prismatic):
+        guide = draft.direction(slide_of(draft, lead.joint))
+        return draft.b.perpendicular(PointName(joint.point), guide)
+    return draft.b.join(PointName(lead_point(lead)), PointName(joint.point))
+
+
+def leg_points(lead: Lead, joint: Prismatic | Revolute) -> tuple[str, ...]:
+    """Return the hinges of a leg, through which its line goes."""
+    return tuple(one.point for one in (lead.joint, joint) if isinstance(one, Revolute))
+
+
+def _refusal(problem: Problem, group: AssurGroup) -> tuple[str, int, int, str, str]:
+    """Return why a group is not built, with the links that may drive instead."""
+    mechanism = problem.mechanism
+    able = [link for link in mechanism.links if _is_built(replace(mechanism, driver=link))]
+    told = "Of links joined with the frame none makes it fall into these as the driving one."
+    if able:
+        told = "It falls into these where link {} drives: state its motion in [driver]."
+    return (
+        "Group of class {}, order {} (links {}) cannot be built: dyads (class II) and triads "
+        "(class III, order 3) are. {}",
+        group.class_number,
+        group.order,
+        ", ".join(group.links),
+        say(told, say(" or ").join(able)),
+    )
+
+
+def _is_built(mechanism: Mechanism) -> bool:
+    """Tell whether a mechanism falls into groups that are built, its driver being on the frame."""
+    pairs = [
+        *(joint.links for joint in mechanism.revolutes),
+        *((pair.slider, pair.host) for pair in mechanism.prismatics),
+    ]
+    if not any({FRAME, mechanism.driver} <= set(links) for links in pairs):
+        return False
+    try:
+        groups = analyse(mechanism).groups
+    except StructureError:
+        return False
+    return all(group.class_number == 2 or triad_of(group) is not None for group in groups)
 
 
 def _place_rrr(draft: Draft, group: AssurGroup, closing: Closing) -> None:

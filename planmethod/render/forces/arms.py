@@ -9,7 +9,7 @@ from msgspec.structs import replace
 
 from planmethod.note.narrate.forces.common import arm_symbol
 from planmethod.note.numbers import Notation
-from planmethod.plans.forces.polygons import Moments
+from planmethod.plans.forces.polygons import Moments, Share
 from planmethod.render.forces.arrows import MANNER, Acting, Segment
 from planmethod.render.ink.drawing import Item, Pen, Stroke
 from planmethod.render.labels import Label, segment_label
@@ -58,7 +58,8 @@ def arms_of(reading: ForceReading, equations: Iterable[Moments], say: Notation) 
     found: dict[tuple[str, complex], ForceArm] = {}
     for equation in equations:
         about = reading.place(equation.about)
-        for edge in equation.edges:
+        found_too = equation.force is not None and equation.force.share is not Share.TANGENTIAL
+        for edge in (*equation.edges, *([equation.force] if found_too and equation.force else [])):
             read = 0.0 if reading.is_none(edge) else reading.arm(edge, equation.about)
             if read:
                 force = Acting(say.symbol(edge.symbol), reading.place(edge.at), reading.way(edge))

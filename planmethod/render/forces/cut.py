@@ -156,8 +156,10 @@ def _loaded_picture(
     say: Notation,
     guided: Sequence[Pressed] = (),
     arms: Sequence[ForceArm] = (),
+    special: Sequence[tuple[str, complex]] = (),
 ) -> Picture:
     items = [*drawn_items(scheme), *point_items(guided, scheme.factor)]
+    items += [Disc(place, 0.8 * scheme.factor, Ink.BLACK) for _, place in special]
     bars = [part for parts in scheme.segments.values() for part in parts]
     bars += [shift.line for shift in shifts]
     joints = [scheme.at(point) for point in scheme.named]
@@ -173,6 +175,9 @@ def _loaded_picture(
         drawn, letter = span_dimension(span, list(lines_of(items)), scheme.letter_height, prefix)
         items += drawn
         labels.append(letter)
+    labels += [
+        Label(typeset(name, scheme.letter_height), place, gap=1.5) for name, place in special
+    ]
     return lettered(items, [*labels, *more, *letters, *letters_of(scheme, prefix, links)])
 
 
@@ -256,8 +261,14 @@ def _cut(
     turnings = [turning(reading, scheme, one, say) for one in couples if one.symbol not in replaced]
     shifts = shifts_on(reading, scheme.links, say)
     arms = [arm for arm in arms_of(reading, equations, say) if arm.symbol not in replaced]
+    points = {one.point for one in reading.solution.construction.draft.special.values()}
+    special = [
+        (point_name(one.about), reading.place(one.about))
+        for one in equations
+        if one.about in points
+    ]
     return _loaded_picture(
-        scheme, scheme.links, forces, turnings, shifts, prefix, say, guided, arms
+        scheme, scheme.links, forces, turnings, shifts, prefix, say, guided, arms, special
     )
 
 

@@ -37,10 +37,9 @@ def drawn_edges(reading: ForceReading, number: int) -> list[Edge]:
     Of the resultants and the inner reaction those that no side of the polygon shows.
     """
     plan = reading.plans[number]
-    inner = reading.inner(plan)
     result: list[Edge] = []
     ends: set[frozenset[complex]] = set()
-    others = [*reading.wholes(plan), *([] if inner is None else [inner])]
+    others = [*reading.wholes(plan), *reading.inner(plan)]
     for edge, is_side in (*((e, True) for e in reading.shown(plan)), *((e, False) for e in others)):
         places = frozenset(_rounded(reading.corner(number, end)) for end in (edge.tail, edge.head))
         if abs(reading.drawn(number, edge)) >= _LEAST and (is_side or places not in ends):
@@ -59,7 +58,7 @@ def _written(reading: ForceReading, number: int, edge: Edge, say: Notation) -> s
     A component may be the whole reaction, and the inner reaction the same line.
     """
     plan = reading.plans[number]
-    others = [*plan.wholes, *([] if plan.inner is None else [plan.inner])]
+    others = [*plan.wholes, *plan.inner]
     written = [vector_markup(say.symbol(edge.symbol))]
     tail, head = reading.corner(number, edge.tail), reading.corner(number, edge.head)
     for other in others:

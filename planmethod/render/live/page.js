@@ -8,10 +8,20 @@ const ZOOMS = [64, 48, 32, 24, 16, 12, 8, 6, 4, 3, 2, 1.5, 1, 0.75, ...Array.fro
 
 // Numbers -----------------------------------------------------------------------------------------
 
-function branch(one, x) {  // which side of its line a closing is on
+function branch(one, x) {  // which side of its line a closing is on, or near what a link is held
+  if (one.places) return followed(one, x);
   const passed = one.changes.reduce((n, change) =>
     n + Math.floor((x - change) / one.turn) - Math.floor((one.start - change) / one.turn), 0);
   return passed % 2 === 0 ? 1 : -1;
+}
+
+function followed(one, x) {  // between two positions that an assembly was followed through
+  const { places, values } = one, low = places[0];
+  if (one.turn) x = low + within(x, low, one.turn);
+  const k = Math.min(places.findIndex(place => place > x) >>> 0, places.length - 1);
+  const share = (x - places[k - 1]) / (places[k] - places[k - 1]);
+  return x < low || x > places[places.length - 1] ? NaN
+    : values[k - 1] + share * (values[k] - values[k - 1]);
 }
 
 const modulo = (x, turn) => ((x % turn) + turn) % turn;

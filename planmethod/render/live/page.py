@@ -14,6 +14,7 @@ from planmethod.mechanism.model import FRAME
 from planmethod.note.narrate.given import point_name
 from planmethod.note.narrate.scales import scale_inscription
 from planmethod.note.wording import language
+from planmethod.plans.closing import Start
 from planmethod.plans.legend import TURNING, Quantity, QuantityKind
 from planmethod.problem.model import Problem
 from planmethod.render.backends.canvas import Options
@@ -196,7 +197,9 @@ class _Page:
             "symbol": runs(drive.coordinate.symbol),
             "unit": ("" if drive.is_crank else " ") + _plain(say.units[drive.coordinate.unit]),
             "branches": [
-                {"changes": list(one.changes), "start": one.start, "turn": one.turn}
+                {"places": one.followed.places, "values": one.values, "turn": one.followed.period}
+                if isinstance(one, Start)
+                else {"changes": list(one.changes), "start": one.start, "turn": one.turn}
                 for one in closings
             ],
             "loads": scene.loads(),

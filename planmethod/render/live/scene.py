@@ -14,7 +14,7 @@ import numpy.typing as npt
 from msgspec import Struct, field
 
 from planmethod.construct.scale import Scale
-from planmethod.construct.steps import Name, PointName
+from planmethod.construct.steps import Hold, Name, PointName
 from planmethod.errors import AssemblyError
 from planmethod.mechanism.model import FRAME
 from planmethod.note.narrate.forces.statement import link_names
@@ -24,6 +24,7 @@ from planmethod.note.wording import Language
 from planmethod.plans.forces.polygons import Edge, Share
 from planmethod.plans.legend import Quantity, QuantityKind
 from planmethod.plans.model import FACTS, RATES, PlanKind
+from planmethod.plans.motion.position import link_of_axis
 from planmethod.problem.model import Problem
 from planmethod.render.ink.drawing import Stroke
 from planmethod.render.live.loads import cycle_deg, moving_loads
@@ -224,8 +225,7 @@ class LiveScene:
             whose = said.plan_of_group if len(plan.links) > 1 else said.plan_of_link
             title = whose.format(links=link_names(plan.links))
             view = LiveView(f"forces-{number}", title, _unit(PlanKind.FORCE))
-            inner = () if plan.inner is None else (plan.inner,)
-            for edge in (*plan.polygon, *plan.wholes, *inner):
+            for edge in (*plan.polygon, *plan.wholes, *plan.inner):
                 self._edge(view, edge, beside=edge not in plan.polygon)
             found.append(view)
         lever = self._lever()
@@ -437,8 +437,14 @@ class LiveScene:
             PlanKind.FORCE: said.no_forces,
             PlanKind.LEVER: said.no_forces,
         }
+        held: dict[Name, str] = {
+            step.out: said.not_held.format(link=link_of_axis(step))
+            for step in self.sweep.program.steps
+            if isinstance(step, Hold)
+        }
         return [
-            sentences.get(kind, said.dead).format(point=point_name(step.partition("~")[0]))
+            held.get(step)
+            or sentences.get(kind, said.dead).format(point=point_name(step.partition("~")[0]))
             for step, kind in self.sweep.guards
         ]
 

@@ -16,6 +16,7 @@ from planmethod.render.pictures.ellipses import Ellipses, error_ellipses
 from planmethod.render.pictures.lettered import lettered
 from planmethod.render.pictures.scheme import Scheme
 from planmethod.render.pictures.senses import Senses
+from planmethod.render.pictures.special import special_points
 from planmethod.render.pictures.traces import Shown, scheme_traces
 from planmethod.render.symbols import before_links
 from planmethod.solved.reading import remembered
@@ -129,6 +130,9 @@ def scheme_picture(
     is told by `planmethod.render.pictures.traces`. ``added`` are more items and their letters.
     """
     view = SchemeView.drawn(solution, index, letter_height, traces)
+    special = special_points(view.scheme) if not bare else ([], [])
+    view.scheme.guides += special[0]
+    view.labels += special[1]
     ellipses = error_ellipses(solution, PlanKind.POSITION, index) if errors else Ellipses()
     letter_points(view)
     if not bare:

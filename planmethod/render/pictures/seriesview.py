@@ -22,6 +22,7 @@ from planmethod.render.pictures.schemeview import (
     letter_points,
 )
 from planmethod.render.pictures.senses import small
+from planmethod.render.pictures.special import special_points
 from planmethod.render.pictures.traces import Shown
 from planmethod.solved.reading import remembered
 from planmethod.solved.solution import Solution
@@ -67,6 +68,9 @@ def series_picture(
     letter_axes(view, positions.places())
     others = positions.lines()
     letter_links(view, others)
+    special = special_points(scheme)
+    scheme.guides += special[0]
+    view.labels += special[1]
     own = [replace(label, manner=BUSY) for label in view.labels]
     construction = extreme_construction(solution) if turn else None
     if construction is not None:

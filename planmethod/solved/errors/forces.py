@@ -163,8 +163,7 @@ def _ends(statics: Statics) -> dict[PointName, Reals]:
     """
     found: dict[PointName, Reals] = {}
     for plan, share in zip(statics.board.plans, statics.shares, strict=True):
-        inner = () if plan.inner is None else (plan.inner,)
-        for edge in (*plan.polygon, *plan.wholes, *inner):
+        for edge in (*plan.polygon, *plan.wholes, *plan.inner):
             found.setdefault(edge.tail, share)
             found.setdefault(edge.head, share)
     return found

@@ -210,9 +210,9 @@ class ForceReading(Remembering):
         parts = [(e.on, e.at) for e in self.shown(plan) if e.share is not Share.WHOLE]
         return [edge for edge in plan.wholes if (edge.on, edge.at) in parts]
 
-    def inner(self, plan: ForcePlan) -> Edge | None:
-        """Return the reaction in the inner joint, if it is something."""
-        return None if plan.inner is None or self.is_none(plan.inner) else plan.inner
+    def inner(self, plan: ForcePlan) -> list[Edge]:
+        """Return the reactions in the inner joints that are something."""
+        return [edge for edge in plan.inner if not self.is_none(edge)]
 
     def couples(self, plan: ForcePlan) -> list[CoupleOn]:
         """Return the couples that are something."""

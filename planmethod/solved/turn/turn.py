@@ -16,7 +16,7 @@ from msgspec import Struct
 
 from planmethod.construct.arithmetic import Float64
 from planmethod.construct.evaluate import TANGENT, evaluate
-from planmethod.construct.steps import MeetCircles, MeetLineCircle, Name, PointName, Touch
+from planmethod.construct.steps import Hold, MeetCircles, MeetLineCircle, Name, PointName, Touch
 from planmethod.errors import Fault, ProblemError
 from planmethod.languages import say
 from planmethod.plans.model import PlanKind
@@ -142,7 +142,7 @@ class Turn(Remembering):
             for section in self.unit.construction.sections
             if section.kind is PlanKind.POSITION
             for step in section.steps
-            if isinstance(step, MeetCircles | MeetLineCircle | Touch)
+            if isinstance(step, MeetCircles | MeetLineCircle | Touch | Hold)
         ]
 
     def _closed(self, reading: Reading) -> Flags:

@@ -12,7 +12,8 @@ from planmethod.note.narrate.forces.common import ForceContext, arm_symbol, clos
 from planmethod.note.narrate.given import point_name
 from planmethod.note.numbers import MINUS
 from planmethod.plans.forces.board import Force
-from planmethod.plans.forces.polygons import CoupleOn, Edge, ForcePlan, Moments
+from planmethod.plans.forces.polygons import CoupleOn, Edge, ForcePlan, Moments, Share
+from planmethod.plans.model import Direction, Relation
 from planmethod.solved.forces.guides import Guided, guide_of
 
 SIDES = ("right", "up", "left", "down")
@@ -113,17 +114,20 @@ class MomentNarrator:
         The third is how it was measured, where no given length tells it.
         """
         read, (first, *more) = self.reading.read_product(equation.arm), equation.arm
+        metres = self.short(abs(read))
         if edge.is_aslant:
             letters = arm_symbol(self.symbol(edge.symbol))
             ruled = self.context.ruled(abs(self.reading.read_number(first[0])))
-            metres = self.short(abs(read))
             told = f"{letters} = {self.context.on_drawing(ruled)} = {metres} {self.units['m']}"
             return letters, metres, told
-        metres = self.short(read)
         if not more:
             return self.context.names.symbol(first[0]), metres, ""
         letters = f"l_{{{edge.at}{equation.about}}}"
-        length = self.context.on_drawing(self.context.ruled(self.reading.read_number(first[0])))
+        own = Direction(Relation.ACROSS, (str(equation.about), str(edge.at)))
+        if edge.share is not Share.TANGENTIAL and edge.direction != own:  # not across its arm
+            letters = arm_symbol(edge.symbol)
+        read = abs(self.reading.read_number(first[0]))
+        length = self.context.on_drawing(self.context.ruled(read))
         return letters, metres, f"{letters} = {length} = {metres} {self.units['m']}"
 
     def _numbers(

@@ -53,7 +53,7 @@ class ForcePlanNarrator:
 
     @property
     def _edges(self) -> tuple[Edge, ...]:
-        return (*self.plan.polygon, *(() if self.plan.inner is None else (self.plan.inner,)))
+        return (*self.plan.polygon, *self.plan.inner)
 
     @property
     def is_nothing(self) -> bool:
@@ -150,7 +150,10 @@ class ForcePlanNarrator:
         """Tell the drawing of the plan and what is read off it."""
         for step in self._steps:
             if isinstance(step, LayOff):
-                yield self._tangential(self._side(step.origin, step.out))
+                edge = self._side(step.origin, step.out)
+                yield self._tangential(edge)
+                if edge in self.plan.inner:
+                    self._drawn.append(edge)
             elif isinstance(step, Carry):
                 yield self._carry(step)
             elif isinstance(step, MeetLines):
@@ -177,9 +180,14 @@ class ForcePlanNarrator:
 
     def _tangential(self, edge: Edge) -> list[str]:
         """Tell the laying off of a component, or of what balances a crank, that moments found."""
-        if edge.direction is not None and edge.direction.relation is Relation.ANGLED:
+        direction = edge.direction
+        if direction is not None and direction.relation is Relation.ANGLED:
             return self._lay(edge, self.context.way(self.reading.force(edge)))
-        return self._lay(edge, self.said.way_tangent.format(line=self._across(edge)))
+        if edge.share is Share.TANGENTIAL or direction is None:
+            return self._lay(edge, self.said.way_tangent.format(line=self._across(edge)))
+        along = direction.relation is Relation.ALONG
+        template = self.said.way_along if along else self.said.way_tangent
+        return self._lay(edge, template.format(line=self.context.base(edge)))
 
     def _across(self, edge: Edge) -> str:
         """Return the line that a tangential component is across."""
@@ -204,7 +212,7 @@ class ForcePlanNarrator:
 
     def _side(self, one: PointName, other: PointName) -> Edge:
         """Return the side of the polygon between two points, whichever way it points."""
-        return next(e for e in self.plan.polygon if {e.tail, e.head} == {one, other})
+        return next(e for e in self._edges if {e.tail, e.head} == {one, other})
 
     def _source(self, step: Carry) -> Reaction | None:
         """Return the reaction that a step carries over from the plan of another group."""
@@ -328,7 +336,7 @@ class ForcePlanNarrator:
                         link=edge.on, symbol=self.context.symbol(edge.symbol), same=same
                     )
                 ]
-            elif edge == self.plan.inner:
+            elif edge in self.plan.inner:
                 yield [self.said.inner.format(link=edge.on, **self._span(edge))]
             else:
                 yield [self.said.close.format(plan=self._plan_of(1), **self._span(edge))]

@@ -1,0 +1,82 @@
+"""What the leads of a group give to its force plan: shares of reactions, guides (поводки).
+
+The moment of a revolute lead's loads about its inner joint gives the tangential share of its outer
+reaction; a guide's reaction is across it, and the moment about the pin gives where it acts.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from msgspec.structs import replace
+
+from planmethod.construct.steps import PointName
+from planmethod.mechanism.groups import Lead
+from planmethod.mechanism.model import Revolute
+from planmethod.plans.forces.board import Force, ForceBoard
+from planmethod.plans.forces.polygons import (
+    Components,
+    CoupleOn,
+    Edge,
+    Moments,
+    as_known,
+    reaction_edge,
+    reaction_symbol,
+)
+from planmethod.plans.motion.leads import arm, track_direction
+from planmethod.plans.motion.position import lead_point, slide_of
+from planmethod.problem.model import Slide
+
+
+def tangent(
+    board: ForceBoard, lead: Lead, origin: PointName, middle: PointName
+) -> tuple[PointName, Components | None]:
+    """Lay off the tangential reaction of a revolute lead: its moment about the middle joint.
+
+    A guide has none: its reaction is across it.
+    """
+    if not isinstance(lead.joint, Revolute):
+        return origin, None
+    outer = lead_point(lead)
+    lever = arm(board.draft, lead.link, outer, middle)
+    moment = board.moment((lead.link,), middle)
+    end = board.across(origin, lever.line, moment, lever.length)
+    return end, Components(
+        lead, board.called(lead.to), PointName(outer), (outer, str(middle)), lever.length
+    )
+
+
+def guide_reaction(board: ForceBoard, lead: Lead, force: Force, inner: Edge) -> CoupleOn:
+    """Note the reaction of a guide: its moment about the pin balances those of all other forces.
+
+    ``inner`` is the reaction of the middle joint on the slider.
+    """
+    pin = PointName(slide_of(board.draft, lead.joint).pin)
+    acting = Force(inner.at, *inner.ends, inner.symbol)
+    couple = board.negative(board.moment((lead.link,), pin, acting))
+    return board.react_guide(pin, lead.link, lead.to, replace(force, at=pin), couple)
+
+
+def guide_edge(board: ForceBoard, lead: Lead, tail: PointName, head: PointName) -> Edge:
+    """Return the reaction of a guide, which is across it."""
+    slide = slide_of(board.draft, lead.joint)
+    direction = track_direction(slide, board.draft.problem, turned=True)
+    return reaction_edge(
+        lead.link, board.called(lead.to), PointName(slide.pin), tail, head, direction
+    )
+
+
+def of_guide(couple: CoupleOn, edges: Sequence[Edge], known: tuple[CoupleOn, ...]) -> Moments:
+    """Return the moments about the pin of a slider, which give the moment of its guide."""
+    assert couple.at is not None
+    return Moments((couple.on,), couple.at, tuple(map(as_known, edges)), known, couple=couple)
+
+
+def pressed_block(board: ForceBoard, slide: Slide, force: Force, loads: Sequence[Edge]) -> Moments:
+    """Note the reaction of a block on the bar through it, by the moments about its own joint."""
+    known = board.couples_on(slide.host)
+    held = board.negative(board.moment((slide.host,), force.at))
+    board.react_guide(slide.pin, slide.slider, slide.host, force, board.negative(held), inner=True)
+    symbol = reaction_symbol(slide.host, slide.slider, letter="M")
+    couple = CoupleOn(symbol, slide.host, held, force.at)
+    return of_guide(couple, loads, known)

@@ -1,0 +1,460 @@
+"""Assemblies of a triad, and one of them over the positions (сборки группы III класса).
+
+In one position: the base link is turned round as a virtual crank, two legs tell where it then is,
+and how far the third is off is a smooth function of the angle. Its zeros are bracketed and bisected
+and made exact by Newton's method. From position to position Newton's method goes on from where the
+motion so far leads, by steps as short as that needs.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any, TypeAlias
+
+import numpy as np
+from msgspec import Struct
+
+from planmethod.construct.arithmetic import Float64, Single
+from planmethod.construct.evaluate import Trace, evaluate
+from planmethod.construct.holding import held, place
+from planmethod.construct.program import Program
+from planmethod.construct.steps import Hold, Leg, PointName
+from planmethod.errors import Fault
+from planmethod.languages import say
+from planmethod.mechanism.groups import AssurGroup, Legs
+from planmethod.plans.closing import Closing, Followed
+from planmethod.plans.draft import Draft
+from planmethod.plans.motion.position import axis_of_link, base_points
+from planmethod.problem.model import Rule, Where
+from planmethod.problem.names import told_place
+from planmethod.solved.failures import Cause, Failure, Place, PositionError
+from planmethod.solved.reading import Complexes, Reading, Reals
+from planmethod.solved.rules import rule_text, score_of
+
+LOOKS = 1440
+"""How often the virtual crank is looked at over its turn."""
+
+DEAD = 1e-7
+"""Margin below which an assembly stands in a dead position: two of them are one there."""
+
+_HALVINGS, _ROUNDS = 50, 12
+Env: TypeAlias = dict[Any, Any]
+Read: TypeAlias = Callable[[Reals], Trace]
+"""Reads the plan up to a group in some positions."""
+
+
+class Assembly(Struct, frozen=True):
+    """One assembly (сборка): where the base link is.
+
+    Its origin, m, the direction of its axis, degrees, and the margin.
+    """
+
+    origin: complex
+    turn: float
+    margin: float
+
+
+def env_of(step: Hold, trace: Trace, index: int) -> Env:
+    """Return what a step needs of a reading in one position, in Python's own numbers."""
+    one = Single()
+    found: Env = {}
+    names = [name for leg in step.legs for name in (leg.centre, leg.line, leg.radius, leg.angle)]
+    names += [name for leg in step.legs for name in leg.at]
+    for name in names:
+        if name is None:
+            continue
+        value = trace.value[name]
+        parts = value if isinstance(value, tuple) else (value,)
+        alone = [one.lift(p[index] if np.ndim(p) else p) for p in parts]
+        found[name] = tuple(alone) if isinstance(value, tuple) else alone[0]
+    return found
+
+
+def assemblies(step: Hold, env: Env) -> list[Assembly]:
+    """Return every pose in which three legs hold a base link in one position, none of them dead.
+
+    Parameters
+    ----------
+    env : dict
+        Of `env_of`.
+    """
+    with np.errstate(all="ignore"):
+        starts = _starts([_ask(leg, env) for leg in step.legs])
+        pose, margin, _ = _settled(step, env, *starts)
+    size = sum(abs(place(leg.at, env)) for leg in step.legs)
+    found: list[Assembly] = []
+    for b, w, room in zip(*pose, margin, strict=True):
+        same = any(
+            abs(b - other.origin) + size * abs(w - np.exp(1j * np.radians(other.turn)))
+            < DEAD * size
+            for other in found
+        )
+        if room > DEAD and not same:
+            found.append(Assembly(complex(b), float(np.degrees(np.angle(w))), float(room)))
+    return sorted(found, key=lambda pose: pose.turn)
+
+
+def _settled(step: Hold, env: Env, b: Complexes, turn: Reals) -> tuple[Any, Any, Any]:
+    x, y, angle = step.start
+    data = {name: np.asarray(value) for name, value in env.items() if not isinstance(value, tuple)}
+    lines = {name: tuple(map(np.asarray, v)) for name, v in env.items() if isinstance(v, tuple)}
+    whole = {**data, **lines, x: b.real, y: b.imag, angle: np.degrees(turn)}
+    return held(step, whole, Float64(), _ROUNDS)
+
+
+def _ask(leg: Leg, env: Env) -> Callable[[Reals], tuple[Any, Any, Any, Any]]:
+    """Return what a leg asks of the origin when the link is turned so.
+
+    Either to be as far as a radius from a centre (centre, radius), or to have a coordinate along a
+    normal (normal, coordinate); the other two are None.
+    """
+    z = place(leg.at, env)
+
+    def asked(turn: Reals) -> tuple[Any, Any, Any, Any]:
+        w = np.exp(1j * turn)
+        if leg.line is not None:
+            p, u = env[leg.line]
+            normal = np.broadcast_to(1j * u / abs(u), w.shape)
+            return None, None, normal, (normal.conjugate() * (p - w * z)).real
+        centre = env[leg.centre] - w * z
+        if leg.radius is not None:
+            return centre, env[leg.radius], None, None
+        angle = 0.0 if leg.angle is None else env[leg.angle]
+        normal = w * (1j * np.exp(1j * np.radians(angle)))
+        return None, None, normal, (normal.conjugate() * centre).real
+
+    return asked
+
+
+class _Turned(Struct, frozen=True):
+    """What is known when the virtual crank stands somewhere, arrays of its angles.
+
+    ``off``: how far the third leg is off; ``places``: where the origin may be.
+    """
+
+    off: Reals
+    places: list[Complexes]
+
+
+def _turned(asks: list[Callable[[Reals], tuple[Any, Any, Any, Any]]], turn: Reals) -> _Turned:
+    """Turn the virtual crank: two circles have a straight line in common, and all is linear."""
+    circle: tuple[Any, Any] | None = None
+    rows: list[tuple[Any, Any]] = []
+    for ask in asks:
+        centre, radius, normal, along = ask(turn)
+        if normal is not None:
+            rows.append((normal, along))
+        elif circle is None:
+            circle = centre, radius
+        else:
+            apart = centre - circle[0]
+            power = abs(centre) ** 2 - abs(circle[0]) ** 2 - radius**2 + circle[1] ** 2
+            rows.append((apart, power / 2))
+    (m, f), (n, g) = rows[:2]
+    det = (m.conjugate() * n).imag
+    point = -1j * (f * n - g * m)  # by the determinant
+    if circle is None:
+        o, h = rows[2]
+        return _Turned(
+            np.asarray((o.conjugate() * point).real - h * det), [np.asarray(point / det)]
+        )
+    centre, radius = circle
+    places = [point / det]
+    for normal, along in rows:
+        long = abs(normal)
+        leg = (along - (normal.conjugate() * centre).real) / long
+        half = np.sqrt(np.maximum(radius**2 - leg**2, 0.0))
+        places += [centre + normal / long * (leg + side * 1j * half) for side in (1, -1)]
+    return _Turned(np.asarray(abs(point - centre * det) ** 2 - (radius * det) ** 2), places)
+
+
+def _starts(asks: list[Any]) -> tuple[Complexes, Reals]:
+    """Return places and angles near every assembly, also near those that nearly are one."""
+    looks = 0.3 + np.linspace(0.0, 2 * np.pi, LOOKS + 1)
+    off = _turned(asks, looks).off
+    size = np.abs(off)
+    crossed = np.flatnonzero(np.sign(off[:-1]) != np.sign(off[1:]))
+    low, high = looks[crossed], looks[crossed + 1]
+    sign = np.sign(off[crossed])
+    for _ in range(_HALVINGS):
+        middle = (low + high) / 2
+        before = np.sign(_turned(asks, middle).off) == sign
+        low, high = np.where(before, middle, low), np.where(before, high, middle)
+    # A double zero is a least value that touches zero, or crosses it twice between two looks.
+    around = np.concatenate([size[-2:-1], size, size[1:2]])
+    least = np.flatnonzero((size <= around[:-2]) & (size <= around[2:]))
+    step = looks[1] - looks[0]
+    fine = (looks[least][:, None] + np.linspace(-step, step, 33)).ravel()
+    turns = np.concatenate([(low + high) / 2, fine])
+    places = _turned(asks, turns).places
+    everywhere = [np.broadcast_to(p, turns.shape) for p in places]
+    return np.concatenate(everywhere), np.tile(turns, len(everywhere))
+
+
+# Which of them is meant ---------------------------------------------------------------------------
+
+
+class Assembled(Struct, frozen=True):
+    """A triad drawn up to its group, with nothing chosen yet (группа, ещё не собранная).
+
+    Attributes
+    ----------
+    draft, program
+        Of the position plan up to the group.
+    data : callable
+        Returns the plan's data at unit scales for some positions, ndarray of shape (n,).
+    """
+
+    draft: Draft
+    program: Program
+    data: Callable[[Reals], dict[str, Any]]
+    group: AssurGroup
+    triad: Legs
+
+    @property
+    def point(self) -> str:
+        """The point of the base link by which assemblies are told apart."""
+        return base_points(self.draft.problem, self.triad)[0]
+
+    @property
+    def step(self) -> Hold:
+        """The step that holds the base link."""
+        steps = (step for step in self.program.steps if isinstance(step, Hold))
+        return next(step for step in steps if step.out == axis_of_link(self.triad.base))
+
+    def read(self, positions: Reals) -> Trace:
+        """Read the plan in some positions."""
+        return evaluate(self.program, self.data(positions), Float64())
+
+    def posed(self, position: float, pose: Assembly) -> Reading:
+        """Read the plan in one position with the group in a certain pose."""
+        at = np.array([position])
+        told = (pose.origin.real, pose.origin.imag, pose.turn)
+        names = (f"start_{what}_{self.triad.base}" for what in ("x", "y", "turn"))
+        data = {**self.data(at), **{n: np.array([v]) for n, v in zip(names, told, strict=True)}}
+        return Reading(evaluate(self.program, data, Float64()), 1)
+
+
+def choose(made: Assembled, rules: list[Rule], positions: Reals) -> tuple[Closing, list[Fault]]:
+    """Return the assembly of a triad that its rules mean, followed, and what is wrong with them.
+
+    Raises
+    ------
+    PositionError
+        When the triad can be assembled in no asked position.
+    """
+    problem, trace = made.draft.problem, made.read(positions)
+    found = (assemblies(made.step, env_of(made.step, trace, k)) for k in range(len(positions)))
+    index, poses = next(((k, poses) for k, poses in enumerate(found) if poses), (-1, []))
+    if not poses:
+        place = Place.of(problem, positions, 0)
+        links, count = ", ".join(made.group.links), len(positions)
+        raise PositionError(Failure(Cause.NO_ASSEMBLY, place, links, alike=count - 1, count=count))
+    start = float(positions[index])
+    readings = [made.posed(start, pose) for pose in poses]
+    left = list(range(len(poses)))
+    for rule in (rule for rule in rules if rule.where is not Where.NEAR):
+        left = [k for k in left if score_of(rule, made.draft, readings[k])[0] > 0]
+    for rule in (rule for rule in rules if rule.where is Where.NEAR and left):
+        left = [max(left, key=lambda k: float(score_of(rule, made.draft, readings[k])[0]))]
+    point = rules[0].point if rules else made.point
+    places = [complex(one.point(PointName(point))[0]) + made.draft.origin for one in readings]
+    if len(left) != 1:
+        at = Place.of(problem, positions, index).driver
+        return Closing(), [_untold(made, rules, point, [places[k] for k in left] or places, at)]
+    (k,) = left
+    sizes = [abs(length) for _, _, length in problem.lengths]
+    reach = (min(positions) - sum(sizes), max(positions) + sum(sizes))
+    turn = problem.drive.coordinate.turn
+    path = follow(made.step, made.read, start, poses[k], reach, turn)
+    others = tuple(place for number, place in enumerate(places) if number != k)
+    return Closing(start=start, followed=path, others=others, point=point), []
+
+
+def _untold(
+    made: Assembled, rules: list[Rule], point: str, places: list[complex], at: str
+) -> Fault:
+    """Return the fault of rules that do not tell which of several assemblies is meant."""
+    unit = made.draft.problem.unit
+    told = [f"({told_place(place, unit)})" for place in places]
+    facts = ", ".join(made.group.links), len(told), at, point, say(" or ").join(told), say(unit)
+    if rules:
+        said = say(" and ").join(rule_text(rule, unit) for rule in rules)
+        text = say(
+            "'{}' does not tell the assemblies of links {} apart, of which there are {} at {}: "
+            "with {} at {} {}",
+            said,
+            *facts,
+        )
+    else:
+        text = say(
+            "links {} can be assembled in {} ways at {}, with {} at {} {}, and no rule says which",
+            *facts,
+        )
+    hint = say(
+        "Add {} = {{ near = [{}] }} to [assembly], or another of these places",
+        point,
+        told[0].strip("()"),
+    )
+    return Fault(f"assembly.{point}", text, hint)
+
+
+def best_third(made: Assembled, positions: Reals) -> int:
+    """Return the leg to leave out: the special point of the other two stays nearest to the link.
+
+    ``made`` has its assembly chosen.
+    """
+    trace = made.read(positions)
+    lines = made.draft.special[made.triad.base].lines
+    about = trace.value[PointName(made.point)]
+    far = []
+    with np.errstate(all="ignore"):
+        for third in range(3):
+            (p, u), (q, v) = (trace.value[line] for k, line in enumerate(lines) if k != third)
+            across = (np.conj(u) * v).imag
+            point = p + u * ((np.conj(q - p) * v).imag / across)
+            away = np.abs(point - about)
+            held = np.broadcast_to(np.isfinite(about), positions.shape)
+            away = np.broadcast_to(np.where(np.isfinite(away), away, np.inf), positions.shape)
+            far.append(float(np.max(away[held], initial=0.0)))
+    return min((2, 1, 0), key=far.__getitem__)
+
+
+# Over the positions -------------------------------------------------------------------------------
+
+_LONGEST = 1.0
+"""Degrees of a crank from one look to the next, at the most."""
+
+_SHORTEST = 1e-7
+"""Part of that at which a motion that does not go on has come to its end."""
+
+_AHEAD = 0.02
+"""How far Newton's method may be from where the motion so far leads, radians and sizes."""
+
+_FAR = 1e3
+"""How many sizes of a base link it may come away: a guide is not endless."""
+
+_TURNS = 6
+"""After so many turns each of six assemblies has come again, if they pass into one another."""
+
+
+class _Path(Struct):
+    """Poses that a motion has come through, and how it goes on (путь сборки)."""
+
+    step: Hold
+    read: Read
+    size: float
+    places: list[float]
+    origins: list[complex]
+    turns: list[float]
+    det: float = 0.0
+
+    def envs(self, positions: Reals) -> list[Env]:
+        """Return what the legs ask for in some positions."""
+        trace = self.read(positions)
+        return [env_of(self.step, trace, k) for k in range(len(positions))]
+
+    def goes_on(self, goal: float, env: Env) -> bool:
+        """Come to a position where the same assembly is near to where the motion leads."""
+        b, angle, patience = self.origins[-1], self.turns[-1], 5.0
+        if len(self.places) > 1:
+            share = (goal - self.places[-1]) / (self.places[-1] - self.places[-2])
+            b += (b - self.origins[-2]) * share
+            angle, patience = angle + (angle - self.turns[-2]) * share, 1.0
+        x, y, t = self.step.start
+        try:
+            (found, w), room, det = held(
+                self.step, {**env, x: b.real, y: b.imag, t: angle}, Single(), 4
+            )
+        except (ZeroDivisionError, OverflowError):
+            return False
+        turned = float(np.degrees(np.angle(w * np.exp(-1j * np.radians(angle)))))
+        away = abs(found - self.origins[0])
+        off = abs(found - b) / (self.size + away) + abs(np.radians(turned))
+        near = away < _FAR * self.size and off < patience * _AHEAD
+        if not (room > 0 and near and det * (self.det or det) > 0):
+            return False
+        self.places.append(goal)
+        self.origins.append(complex(found))
+        self.turns.append(angle + turned)
+        self.det = float(det)
+        return True
+
+    def comes_to(self, goal: float, env: Env) -> bool:
+        """Come to a position by as many steps as that needs; stop where the motion ends."""
+        if self.goes_on(goal, env):
+            return True
+        whole = goal - self.places[-1]
+        stride = whole / 4
+        while self.places[-1] != goal:
+            here = self.places[-1]
+            middle = goal if abs(goal - here) <= 1.5 * abs(stride) else here + stride
+            if self.goes_on(middle, self.envs(np.array([middle]))[0]):
+                stride *= 2
+                continue
+            stride /= 4
+            if abs(stride) < _SHORTEST * abs(whole):
+                return False
+        return True
+
+    def has_come_again(self) -> bool:
+        """Tell whether the pose is the first one again."""
+        turned = (self.turns[-1] - self.turns[0] + 180.0) % 360.0 - 180.0
+        return abs(self.origins[-1] - self.origins[0]) < 1e-6 * self.size and abs(turned) < 1e-4
+
+
+def follow(
+    step: Hold, read: Read, start: float, pose: Assembly, limits: tuple[float, float], turn: float
+) -> Followed:
+    """Follow an assembly from a position to both sides, until it ends or comes again.
+
+    Parameters
+    ----------
+    start : float
+        Position of the driver, degrees or m.
+    limits : (float, float)
+        Beyond which a slider cannot come.
+    turn : float
+        After which the driver stands as before: 360, or infinite.
+    """
+    crank = bool(np.isfinite(turn))
+    low, high = (start - _TURNS * turn, start + _TURNS * turn) if crank else limits
+    looks = round(turn / _LONGEST) if crank else LOOKS
+    pace = turn / looks if crank else (high - low) / looks
+    (env,) = [env_of(step, read(np.array([start])), 0)]
+    size = sum(abs(place(leg.at, env)) for leg in step.legs)
+    ways = []
+    with np.errstate(all="ignore"):
+        for sense, limit in ((1, high), (-1, low)):
+            path = _Path(step, read, size, [start], [pose.origin], [pose.turn])
+            path.goes_on(start, env)  # which sign its determinant has
+            del path.places[1:], path.origins[1:], path.turns[1:]
+            count = int(abs(limit - start) / pace + 1e-9)
+            goals = [start + sense * pace * k for k in range(1, 1 + count)]
+            for number, goal in enumerate(goals):
+                if number % _CHUNK == 0:
+                    ready = path.envs(np.array(goals[number : number + _CHUNK]))
+                if not path.comes_to(goal, ready[number % _CHUNK]):
+                    break
+                if crank and (number + 1) % looks == 0 and path.has_come_again():
+                    closed = path.places[-1] - start
+                    return _table(path, _Path(step, read, size, [start], [0j], [0.0]), closed)
+            ways.append(path)
+    span = ways[0].places[-1] - ways[1].places[-1]
+    return _table(ways[0], ways[1], turn if span < turn and crank else 0.0)
+
+
+_CHUNK = 60  # positions that are read at once
+
+
+def _table(ahead: _Path, back: _Path, period: float = 0.0) -> Followed:
+    def joined(forth: list[float], before: list[float]) -> tuple[float, ...]:
+        return (*before[:0:-1], *forth)
+
+    return Followed(
+        joined(ahead.places, back.places),
+        joined([b.real for b in ahead.origins], [b.real for b in back.origins]),
+        joined([b.imag for b in ahead.origins], [b.imag for b in back.origins]),
+        joined(ahead.turns, back.turns),
+        period,
+    )
