@@ -244,10 +244,16 @@ def _shared(
     from planmethod.commands.processes import in_processes
 
     for one, outcome in zip(todo, in_processes(act, todo, jobs), strict=True):
-        yield partial(_refuse_killed, one) if outcome is None else outcome.result
+        yield partial(refuse_killed, one) if outcome is None else outcome.result
 
 
-def _refuse_killed(one: Todo) -> NoReturn:
+def refuse_killed(one: Todo) -> NoReturn:
+    """Tell that every process that took a problem was killed.
+
+    Raises
+    ------
+    PlanMethodError
+    """
     raise PlanMethodError(
         "{}: the process at work on it was killed, twice; perhaps it needs more memory than there "
         "is. Ask for fewer positions at once.",
