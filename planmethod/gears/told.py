@@ -80,7 +80,7 @@ def ratios(motion: TrainMotion, words: Language) -> Iterator[str]:
         letters = fraction(*(f"{letter}{hat}_{{{label}}}" for label in asked.labels))
         value = fraction_text(one.exact)
         decimal = f" = {words.say.found(one.value)}" if "/" in value else ""
-        shown = re.sub(r"(\d+)/(\d+)", r"\\frac{\1}{\2}", value)
+        shown = re.sub(r"(?<!\d)(\d+)/(\d+)", r"\\frac{\1}{\2}", value)
         yield f"{asked.symbol} = {letters} = {shown}{decimal}"
 
 
