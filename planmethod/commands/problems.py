@@ -6,6 +6,7 @@ import functools
 import re
 import sys
 from collections.abc import Callable, Iterable, Iterator, Sequence
+from contextlib import contextmanager
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NoReturn, TypeVar, cast
@@ -14,7 +15,7 @@ import click
 from msgspec import Struct
 
 from planmethod.commands.output import is_terminal
-from planmethod.errors import AssemblyError, ExitCode, PlanMethodError
+from planmethod.errors import AssemblyError, ExitCode, PlanMethodError, ProblemError
 from planmethod.languages import say
 from planmethod.options import UsageError
 
@@ -66,6 +67,17 @@ def names_of(path: Path, name: str, variant: str | None) -> Sequence[str]:
     return (str(path), name) if variant is None else (f"{name}-{variant}",)
 
 
+@contextmanager
+def of_file(path: Path, name: str) -> Iterator[None]:
+    """Have the faults of a problem that are found late told of its file, as all others are."""
+    try:
+        yield
+    except ProblemError as error:
+        if error.source != name:
+            raise
+        raise type(error)(str(path), error.faults) from error
+
+
 def guarded(command: F) -> F:
     """Turn the package's errors into a message and an exit code."""
 
@@ -87,7 +99,8 @@ def load(path: Path, variant: str | None, all_variants: bool) -> list[Problem]:
         if problem.project is not None:
             from planmethod.project.settle import settled
 
-            problem = settled(problem)
+            with of_file(path, problem.name):
+                problem = settled(problem)
         found.append(problem)
     for table in left_out(found[0]) if found else ():
         if table == "point":
@@ -107,10 +120,11 @@ def _read(path: Path, variant: str | None, all_variants: bool) -> Iterator[Probl
     from planmethod.kinds import load_each
     from planmethod.problem.unlikely import unlikely
 
-    for problem in load_each(path, variants_of(path, variant, all_variants)):
-        for said in unlikely(problem):
-            warn(problem, said)
-        yield problem
+    with of_file(path, path.stem):
+        for problem in load_each(path, variants_of(path, variant, all_variants)):
+            for said in unlikely(problem):
+                warn(problem, said)
+            yield problem
 
 
 def left_out(problem: Problem) -> Iterator[str]:
@@ -217,7 +231,8 @@ def through(
             problem, is_one = one.problem, len(paths) + len(todo) == 2
             names = () if is_one else names_of(one.path, problem.name, problem.variant)
             try:
-                value = step()
+                with of_file(one.path, problem.name):
+                    value = step()
                 if take is not None and value is not None:
                     take(value)
             except PlanMethodError as error:
@@ -230,6 +245,7 @@ def through(
         if len(todo) > 1:
             told = say("Stopped: {} of {} problems are done; every file is whole.", done, len(todo))
             click.echo(f"\n{told}", err=True)
+            sys.exit(130)
         raise
     return codes[0] if codes else ExitCode.DONE
 

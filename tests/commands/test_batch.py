@@ -143,9 +143,8 @@ if __name__ == "__main__":
     from distributed import LocalCluster
     from distributed.security import Security
     from planmethod.cli import cli
-    with LocalCluster(
-        n_workers=2, threads_per_worker=1, dashboard_address=None, protocol="tls", security=Security()
-    ) as cluster:
+    more = {"dashboard_address": None, "protocol": "tls", "security": Security()}
+    with LocalCluster(n_workers=2, threads_per_worker=1, **more) as cluster:
         threading.Thread(target=kill, args=(cluster,), daemon=True).start()
         cli([*sys.argv[1:], "--scheduler", cluster.scheduler_address], standalone_mode=False)
 """

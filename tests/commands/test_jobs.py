@@ -150,6 +150,7 @@ def test_an_interrupt_is_told_with_what_is_done(
         yield lambda: None
         raise KeyboardInterrupt
 
-    with pytest.raises(KeyboardInterrupt):
+    with pytest.raises(SystemExit) as end:
         through((Path(files[0]),), None, True, steps, kinds=True)
+    assert end.value.code == 130
     assert "Stopped: 1 of 2 problems are done" in capsys.readouterr().err
