@@ -87,11 +87,11 @@ def killed_by_some(number: int, folder: Path) -> int:
 def slow(number: int, folder: Path) -> int:
     """Take a minute for each but 0; leave a file only while at work."""
     at_work = folder / str(number)
-    at_work.touch()
     try:
+        at_work.touch()
         time.sleep(60.0 * number)
     finally:
-        at_work.unlink()
+        at_work.unlink(missing_ok=True)
     return number
 
 
