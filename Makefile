@@ -42,7 +42,7 @@ test-lowest: $(VENV)/.ready
 	$(BIN)/python -m scripts.lowest > $(VENV)/lowest/requirements.txt
 	$(VENV)/lowest/bin/python -m pip install --quiet --disable-pip-version-check -r $(VENV)/lowest/requirements.txt
 	$(VENV)/lowest/bin/python -m pip install --quiet --disable-pip-version-check --no-deps -e .
-	$(VENV)/lowest/bin/python -m pytest -n 2 --dist loadfile -W ignore::DeprecationWarning
+	$(VENV)/lowest/bin/python -m pytest -n 2 --dist loadfile -W ignore::DeprecationWarning -W ignore::PendingDeprecationWarning
 
 # What differs from the outputs that were taken; SHOW=pattern shows how, TAKE=1 takes it.
 outputs: $(VENV)/.ready

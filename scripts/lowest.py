@@ -14,6 +14,9 @@ HERE = Path(__file__).parents[1]
 TOOLS = ("build", "import-linter", "mypy", "ruff")
 """What looks at the code, not at what it does."""
 
+BESIDE = ("pyparsing==3.1.0",)
+"""What libraries of that time need of their own, and newer ones would warn of."""
+
 
 def lowest() -> Iterator[str]:
     """Yield the requirements, each at the lowest version that `pyproject.toml` allows."""
@@ -21,6 +24,7 @@ def lowest() -> Iterator[str]:
     wanted = [*told["dependencies"]]
     for extra in ("dev", "dxf", "referee"):
         wanted += told["optional-dependencies"][extra]
+    yield from BESIDE
     for one in dict.fromkeys(wanted):
         name, _, version = one.partition(";")[0].partition(">=")
         if re.sub(r"\[.*\]", "", name) not in TOOLS:
