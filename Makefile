@@ -11,7 +11,7 @@ LINKAGES = $(sort $(filter-out $(TASKS) problems/point/% problems/gears/% proble
 # tree, also where the environment forbids it: to compile anew in every process is a tenth of the time.
 TESTS := PYTHONDONTWRITEBYTECODE= PYTHONPYCACHEPREFIX=$(CURDIR)/$(VENV)/bytecode $(BIN)/python -m pytest -n 2 --dist loadfile
 
-.PHONY: demo test test-every test-thorough outputs lint size format tables schema examples messages tasks gallery group bench dist clean
+.PHONY: demo test test-every test-thorough test-lowest outputs lint size format tables schema examples messages tasks gallery group bench attack dist clean
 
 # The compat mode is a plain path entry: the default finder costs every command a tenth of a second.
 $(VENV)/.ready: pyproject.toml
@@ -35,6 +35,14 @@ test-every: $(VENV)/.ready
 
 test-thorough: $(VENV)/.ready
 	$(TESTS) --thorough
+
+# The suite with the lowest versions that pyproject.toml names; what they are deprecated for is theirs.
+test-lowest: $(VENV)/.ready
+	$(PYTHON) -m venv $(VENV)/lowest
+	$(BIN)/python -m scripts.lowest > $(VENV)/lowest/requirements.txt
+	$(VENV)/lowest/bin/python -m pip install --quiet --disable-pip-version-check -r $(VENV)/lowest/requirements.txt
+	$(VENV)/lowest/bin/python -m pip install --quiet --disable-pip-version-check --no-deps -e .
+	$(VENV)/lowest/bin/python -m pytest -n 2 --dist loadfile -W ignore::DeprecationWarning -W ignore::PendingDeprecationWarning
 
 # What differs from the outputs that were taken; SHOW=pattern shows how, TAKE=1 takes it.
 outputs: $(VENV)/.ready
@@ -95,6 +103,10 @@ group: $(VENV)/.ready
 bench: $(VENV)/.ready
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --config-settings editable_mode=compat -e '.[bench]'
 	$(BIN)/python -m benchmarks $(LINKAGES)
+
+# What strangers may send at every door: about an hour of two cores; ATTACK='--problems 5000' takes fewer.
+attack: $(VENV)/.ready
+	$(BIN)/python -m benchmarks.attack $(ATTACK)
 
 # Source distribution and wheel in dist/, and the wheel tried in a clean environment.
 dist: $(VENV)/.ready

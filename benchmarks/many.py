@@ -26,28 +26,24 @@ LINEAR = 1.1
 """Exponent up to which cost is called linear."""
 
 SENT = 100
-"""Variants of the batch that loses a worker."""
+"""Variants of the batch that loses a process."""
 
 KILLED = """
-import os, signal, sys, threading, time
+import multiprocessing, os, signal, sys, threading, time
 from pathlib import Path
 
-def kill(cluster, out):
+def kill(out):
     while not list(out.glob("*.pdf")):
         time.sleep(0.01)
-    pids = [nanny.pid for nanny in cluster.workers.values()]
-    os.kill(pids[0], signal.SIGKILL)
+    os.kill(multiprocessing.active_children()[0].pid, signal.SIGKILL)
     print("killed", flush=True)
 
 if __name__ == "__main__":
-    from distributed import LocalCluster
     from planmethod.cli import cli
-    args = sys.argv[1:]
-    with LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None) as cluster:
-        threading.Thread(target=kill, args=(cluster, Path("out")), daemon=True).start()
-        cli([*args, "--scheduler", cluster.scheduler_address], standalone_mode=False)
+    threading.Thread(target=kill, args=(Path("out"),), daemon=True).start()
+    cli([*sys.argv[1:], "--jobs", "2"], standalone_mode=False)
 """
-"""A batch whose cluster loses a worker as soon as the first sheet is in the folder ``out``."""
+"""A batch that loses a process as soon as the first sheet is in the folder ``out``."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -160,7 +156,7 @@ def alike(one: Path, other: Path) -> bool:
 
 
 def killed(words: Sequence[str], folder: Path) -> str:
-    """Make a batch in ``out`` by a cluster that loses a worker, and return what it says."""
+    """Make a batch in ``out`` by two processes, one of which is lost; return what it says."""
     program = folder / "program.py"
     program.write_text(KILLED)
     done = subprocess.run(
@@ -222,10 +218,6 @@ def many_section(*, quick: bool) -> Table:
 
 def _lost(count: int, folder: Path) -> tuple[str, list[Bound]]:
     """Return what is said of a batch that loses a worker, and its bound."""
-    try:
-        import distributed  # noqa: F401
-    except ImportError:
-        return "; no batch, dask is missing: pip install 'dask[distributed]'", []
     sent = min(count, SENT)
     said = killed([*variants(sent, folder), "--format", "pdf"], folder)
     _run(
@@ -233,6 +225,6 @@ def _lost(count: int, folder: Path) -> tuple[str, list[Bound]]:
     )
     differ = 1.0 - ("killed" in said and alike(folder / "few", folder / "out"))
     return (
-        f", and {sent} of them by a batch of two workers, one of them killed at the first sheet",
+        f", and {sent} of them by a batch of two processes, one of them killed at the first sheet",
         [Bound("files of the batch that differ", differ, 0.0)],
     )

@@ -8,9 +8,7 @@ one, would wait a quarter of a second for NumPy, the sheets and what they stand 
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from typing import TYPE_CHECKING, Any
-
+TYPE_CHECKING = False  # not of typing: its import is a tenth of the way to the command line
 if TYPE_CHECKING:
     from planmethod.kinds import load as load
     from planmethod.kinds import loads as loads
@@ -20,6 +18,10 @@ if TYPE_CHECKING:
     from planmethod.solved.forces.statics import statics_of as statics
     from planmethod.solved.many.sweep import Sweep as Sweep
     from planmethod.solved.solution import Solution as Solution
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+    from typing import Any
 
 __all__ = [
     "Problem",

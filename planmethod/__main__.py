@@ -6,9 +6,27 @@ import os
 import sys
 import warnings
 
+INTERRUPTED = 130
+"""Exit code of a command that was stopped by Ctrl+C."""
+
 
 def main() -> None:
-    """Run the command line in a process of its own."""
+    """Run the command line in a process of its own; Ctrl+C ends it with one line at any time."""
+    try:
+        _run()
+    except KeyboardInterrupt:
+        import signal
+
+        signal.signal(signal.SIGINT, signal.SIG_IGN)
+        from planmethod.languages import say, speaking, spoken_to
+
+        with speaking(spoken_to(sys.argv[1:])):
+            told = say("Stopped; the files that are there are whole.")
+        sys.stderr.write(f"\n{told}\n")
+        sys.exit(INTERRUPTED)
+
+
+def _run() -> None:
     # A command lives a fraction of a second and makes few cycles: to look for them all the time
     # costs a twentieth, and once more at the end a tenth.
     gc.set_threshold(100_000)
@@ -17,6 +35,7 @@ def main() -> None:
     os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
     if not sys.warnoptions:  # -W and PYTHONWARNINGS: for who develops it
         warnings.simplefilter("ignore")
+    os.environ.pop("SOURCE_DATE_EPOCH", None)  # files have no date, whatever a library writes
     from planmethod.cli import main as run  # with click, and NumPy later, in a process set up
 
     run()

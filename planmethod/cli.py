@@ -117,6 +117,9 @@ def cli(ctx: click.Context, lang: str | None) -> None:
         click.echo(say(FIRST))
 
 
+LESS = "Ask for fewer positions at once."
+
+
 def main() -> None:
     """Run the command line; no traceback reaches a user."""
     for stream in (sys.stdout, sys.stderr):
@@ -128,13 +131,39 @@ def main() -> None:
 
 def _run() -> None:
     try:
-        cli()
+        code = cli(standalone_mode=False)  # else an interruption would be click's, and a finding
+        sys.exit(code if isinstance(code, int) else ExitCode.DONE)
     except SystemExit as end:
         # click exits with 1 when the reader closes the pipe: that is not a finding.
         closed = "PacifyFlushWrapper" in type(sys.stdout).__name__
         sys.exit(ExitCode.DONE if closed and end.code == 1 else end.code)
+    except click.ClickException as error:
+        error.show()
+        sys.exit(error.exit_code)
+    except click.Abort as end:
+        raise KeyboardInterrupt from end
     except BrokenPipeError:
         sys.exit(ExitCode.DONE)
+    except UnicodeEncodeError as error:
+        text = str(error.object)[max(0, error.start - 20) : error.end + 20]
+        told = say(
+            "Error: '{}': a word of the command line, or the name of a file, is not UTF-8. Type it "
+            "anew, or rename the file.",
+            text,
+        )
+        click.echo(told, err=True)
+        sys.exit(ExitCode.USAGE)
+    except MemoryError:
+        click.echo(say("Error: there is not enough memory. {}", LESS), err=True)
+        sys.exit(ExitCode.USAGE)
+    except ImportError as error:
+        told = say(
+            "Error: a part of the program cannot be loaded: {}. Install planmethod anew, with what "
+            "it needs; or there is not enough memory.",
+            (str(error).strip() or type(error).__name__).splitlines()[-1],
+        )
+        click.echo(told, err=True)
+        sys.exit(ExitCode.USAGE)
     except OSError as error:
         click.echo(say("Error: cannot write the output: {}.", error.strerror or error), err=True)
         sys.exit(ExitCode.USAGE)

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 KINDS: tuple[ProblemKind[Any], ...] = (GearTrains(), MovingPoints(), Meshings())
 """Kinds beside linkages; a file that has links is a linkage whatever else it has."""
 
-_HEAD = r"(?m)^[ \t]*\[?[ \t]*[\"']?(" + "|".join(k.table for k in KINDS) + r")\b"
+_HEAD = r"(?m)^[ \t]*(?:\[[ \t]*)?[\"']?(" + "|".join(k.table for k in KINDS) + r")\b"
 
 
 def kind_of(path: Path) -> ProblemKind[Any] | None:

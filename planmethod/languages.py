@@ -7,6 +7,7 @@ code in English, and in the folders of the other languages by that.
 from __future__ import annotations
 
 import os
+import re
 import sys
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
@@ -78,8 +79,19 @@ def say(sentence: str, *facts: object, **named: object) -> str:
         if _spoken != WRITTEN:  # one word may be a name
             facts = tuple(translated(f) if isinstance(f, str) and " " in f else f for f in facts)
         fill = _SENTENCES.format if ":|" in text else str.format
-        text = fill(text, *facts, **named)
+        text = visible(fill(text, *facts, **named))
     return _Said(text)
+
+
+HIDDEN = "[\0-\x08\x0b-\x1f\x7f-\x9f\u061c\u202a-\u202e\u2066-\u2069\ud800-\udfff]"
+"""What no text of a stranger has on a terminal, or in a file: orders, turned lines, halves."""
+
+
+def visible(text: str) -> str:
+    """Return a text with a sign in place of what would not be seen, but would be done."""
+    if text.isprintable():
+        return text
+    return re.sub(HIDDEN, "\ufffd", text)
 
 
 def translated(sentence: str) -> str:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import functools
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeAlias, TypeVar
 
@@ -133,11 +133,13 @@ def read_ruler(ctx: click.Context, param: click.Parameter, value: float | None) 
     return value
 
 
-def read_formats(ctx: click.Context, param: click.Parameter, value: str) -> tuple[str, ...]:
-    """Return the output formats of a comma-separated list, checked."""
+def read_formats(
+    ctx: click.Context, param: click.Parameter, value: Sequence[str]
+) -> tuple[str, ...]:
+    """Return the output formats of comma-separated lists, checked."""
     from planmethod.render.backends import BACKENDS, DXF_NEEDS, is_absent
 
-    names = tuple(dict.fromkeys(n.strip().lower() for n in value.split(",") if n.strip()))
+    names = tuple(dict.fromkeys(n.strip().lower() for n in ",".join(value).split(",") if n.strip()))
     for name in names:
         if name not in BACKENDS:
             raise BadParameter("{!r} is not one of {}", name, ", ".join(BACKENDS))
@@ -277,7 +279,8 @@ def format_option(default: str) -> Callable[[F], F]:
             "--format",
             "formats",
             callback=read_formats,
-            default=default,
+            multiple=True,
+            default=[default],
             show_default=True,
             help="svg,pdf,png,dxf.",
         )(command)

@@ -1,8 +1,8 @@
-"""Try a built wheel as a user has it: in a clean environment, away from the repository.
+"""Try what is built as a user has it: in clean environments, away from the repository.
 
-``make dist`` builds the source distribution and the wheel and runs this: the wheel is installed
-from its file, and the program is asked for its version, for a template and a shipped task, for
-their numbers and for a sheet.
+``make dist`` builds the source distribution and the wheel and runs this: each is installed from its
+file into an environment of its own, and the program is asked for its version, for a template and a
+shipped task, for their numbers and for a sheet.
 """
 
 from __future__ import annotations
@@ -10,6 +10,7 @@ from __future__ import annotations
 import os
 import subprocess
 import sys
+import tarfile
 import venv
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -27,8 +28,8 @@ COMMANDS = (
 _INSTALL = ("-m", "pip", "install", "--quiet")
 
 
-def tried(wheel: Path, folder: Path) -> None:
-    """Install a wheel into a clean environment in a folder, and run the commands there.
+def tried(package: Path, folder: Path) -> None:
+    """Install a package into a clean environment in a folder, and run the commands there.
 
     Raises
     ------
@@ -40,7 +41,7 @@ def tried(wheel: Path, folder: Path) -> None:
     programs = home / ("Scripts" if os.name == "nt" else "bin")
     # The repository, and what is set for work on it, must not be found there.
     clean = {key: value for key, value in os.environ.items() if not key.startswith("PYTHON")}
-    pip: list[str | Path] = [programs / "python", *_INSTALL, wheel.resolve()]
+    pip: list[str | Path] = [programs / "python", *_INSTALL, package.resolve()]
     calls: list[list[str | Path]] = [pip]
     calls += [[programs / "planmethod", *line.split()] for line in COMMANDS]
     for words in calls:
@@ -53,11 +54,16 @@ def tried(wheel: Path, folder: Path) -> None:
 
 
 def main(folder: str) -> None:
-    """Try the only wheel of a folder."""
-    (wheel,) = Path(folder).glob("*.whl")
-    with TemporaryDirectory(prefix="planmethod-") as name:
-        tried(wheel, Path(name))
-    print(f"{wheel.name} works")
+    """Try the only wheel of a folder, and the only source distribution, which has the tests."""
+    (wheel,), (source,) = Path(folder).glob("*.whl"), Path(folder).glob("*.tar.gz")
+    with tarfile.open(source) as archive:
+        names = archive.getnames()
+    if not any("/tests/test_house.py" in name for name in names):
+        sys.exit(f"{source.name} has no tests: see MANIFEST.in")
+    for package in (wheel, source):
+        with TemporaryDirectory(prefix="planmethod-") as name:
+            tried(package, Path(name))
+        print(f"{package.name} works")
 
 
 if __name__ == "__main__":

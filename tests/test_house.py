@@ -18,6 +18,7 @@ FILES = {
 }
 
 LATE_IN = (
+    "planmethod.__main__",
     "planmethod.commands.",
     "planmethod.gears.kind",
     "planmethod.gears.involute.kind",
@@ -27,10 +28,10 @@ LATE_IN = (
     "planmethod.render.backends",
     "planmethod.render.sheets.blocks",
 )
-"""Where imports stand in functions: of a command, a kind, a format or a block, used when it is."""
+"""Where imports stand in functions: of a command, a kind, a format or a block, used when it is; of
+the launcher, which is to know of Ctrl+C first."""
 
 LATE_OF = {
-    "planmethod.cli": "with its libraries, in a process that is settled",
     # Only problems with loads have forces, only some ask for the drafting errors.
     "planmethod.solved.selectors.forces": "forces",
     "planmethod.note.narrate.forces": "forces",

@@ -58,6 +58,7 @@ class Unread(Enum):
     KEY = "key"  # the same of a key in JSON or TOML
     FIELDS = "fields"  # a row with more fields than there are heads
     ROW = "row"  # a row of the form that is gone
+    TEXT = "text"  # halves of characters, which no file can have
 
 
 class WrittenAnswer(Struct, frozen=True):

@@ -1,4 +1,4 @@
-"""Command ``batch``: sheets and keys of all variants by a cluster of machines (рассылка)."""
+"""Command ``batch``: sheets and keys of all variants, also by a cluster of machines (рассылка)."""
 
 from __future__ import annotations
 
@@ -9,15 +9,15 @@ from collections import Counter, deque
 from collections.abc import Callable, Iterator, Mapping
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Literal
 
 import click
-from msgspec import Struct
-from msgspec.structs import replace
+from msgspec import Struct, convert
+from msgspec.structs import asdict, replace
 
 from planmethod.commands.asked import PaperRequest, sheet_options
 from planmethod.commands.helptext import Spoken, answering
-from planmethod.commands.problems import Todo, finish, guarded, stem, through
+from planmethod.commands.problems import Todo, finish, guarded, refuse_killed, stem, through
 from planmethod.commands.sheet import SheetOptions, draw
 from planmethod.errors import PlanMethodError
 from planmethod.languages import LANGUAGES, say, spoken
@@ -40,7 +40,7 @@ if TYPE_CHECKING:
     from planmethod.check.marks import Settings
     from planmethod.commands.processes import Outcome
 
-NEEDS = "batch needs dask: pip install 'dask[distributed]'"
+NEEDS = "--scheduler needs dask: pip install 'dask[distributed]'"
 
 MANIFEST = "batch.jsonl"
 """What was made and of what, in the folder of the files: a line for each variant."""
@@ -57,7 +57,7 @@ _ONE = threading.Lock()
 
 
 class VariantOrder(Struct, frozen=True):
-    """What a machine is asked to make of one variant (заказ); nothing in it names a file here.
+    """What a process is asked to make of one variant (заказ); nothing in it names a file here.
 
     Attributes
     ----------
@@ -82,13 +82,18 @@ class VariantOrder(Struct, frozen=True):
 
 def made(order: VariantOrder) -> Outcome[dict[str, bytes]]:
     """Make the files of an order: called on the machines of the cluster."""
-    from tempfile import TemporaryDirectory
-
     from planmethod.commands.processes import captured
 
-    with _ONE, answering(order.lang), TemporaryDirectory(prefix="planmethod-") as name:
-        outcome = captured(partial(_files, order, Path(name)))
-    return replace(outcome, output="")  # names of files there
+    with _ONE, answering(order.lang):
+        return replace(captured(partial(made_here, order)), output="")  # names of files there
+
+
+def made_here(order: VariantOrder) -> dict[str, bytes]:
+    """Make the files of an order: called in the processes of this machine."""
+    from tempfile import TemporaryDirectory
+
+    with TemporaryDirectory(prefix="planmethod-") as name:
+        return _files(order, Path(name))
 
 
 def _files(order: VariantOrder, folder: Path) -> dict[str, bytes]:
@@ -136,7 +141,7 @@ def installed() -> str:
     help="TOML of the department for the keys: tolerances, points, marks.",
 )
 @click.option(
-    "--scheduler", metavar="ADDRESS", help="Of dask, such as tcp://10.0.0.5:8786; its own if none."
+    "--scheduler", metavar="ADDRESS", help="Of dask, such as tls://10.0.0.5:8786; else --jobs here."
 )
 @jobs_option
 @guarded
@@ -162,15 +167,17 @@ def batch(
     scheduler: str | None,
     jobs: int,
 ) -> None:
-    """Make the sheets and keys of every variant on many machines; go on where it was left.
+    """Make the sheets and keys of every variant, also on many machines; go on where it was left.
 
     What the folder has already, made of the same problem file and options by the same version, is
-    not made again. The machines need planmethod, and no common folder.
+    not made again. The machines need planmethod, and no common folder; who reaches their scheduler
+    can run programs as you.
     """
-    try:
-        import distributed  # noqa: F401
-    except ImportError:
-        raise UsageError(NEEDS) from None
+    if scheduler is not None:
+        try:
+            import distributed  # noqa: F401
+        except ImportError:
+            raise UsageError(NEEDS) from None
     from planmethod.check.marks import DEFAULT, load_settings
     from planmethod.problem.sheet import Config
     from planmethod.render.sheets.composition.reader import composition
@@ -225,7 +232,10 @@ def batch(
         if all(manifest.has(order, key) for order, key in orders):
             yield from (partial(manifest.keep) for _ in orders)
             return
-        with _cluster(scheduler, jobs) as client:
+        if scheduler is None:
+            yield from _shared(orders, manifest, jobs)
+            return
+        with _cluster(scheduler) as client:
             yield from _sent(client, orders, manifest)
 
     code = through(problems, variant, all_variants or variant is None, steps, kinds=True)
@@ -260,19 +270,19 @@ class Manifest:
     def __init__(self, out: Path) -> None:
         self.out, self.path = out, out / MANIFEST
         self.made, self.kept = 0, 0
-        self._lines: dict[str, dict[str, Any]] = {}
+        self._lines: dict[str, _Line] = {}
         with contextlib.suppress(FileNotFoundError):
             for line in self.path.read_text("utf-8", errors="replace").splitlines():
-                with contextlib.suppress(ValueError, TypeError, KeyError):
-                    told = json.loads(line)
-                    self._lines[str(told["problem"])] = told
+                with contextlib.suppress(ValueError, RecursionError):  # msgspec's are ValueErrors
+                    told = convert(json.loads(line), _Line)
+                    self._lines[told.problem] = told
 
     def has(self, order: VariantOrder, key: str) -> bool:
         """Tell whether the files of an order are there as they were made."""
         told = self._lines.get(stem(order.todo.problem))
-        if told is None or told.get("key") != key:
+        if told is None or told.key != key:
             return False
-        files = [(self.out / name, digest) for name, digest in told["files"].items()]
+        files = [(self.out / Path(name).name, digest) for name, digest in told.files.items()]
         return all(path.is_file() and _digest(path.read_bytes()) == d for path, d in files)
 
     def keep(self) -> None:
@@ -288,7 +298,7 @@ class Manifest:
             click.echo(str(self.out / name))
         digests = {name: _digest(data) for name, data in files.items()}
         name = stem(order.todo.problem)
-        told = {"problem": name, "key": key, "files": digests}
+        told = _Line(name, key, digests)
         self._lines[name] = told
         with self.path.open("a", encoding="utf-8") as file:
             file.write("\n" * (not self.made) + _line(told))  # after a line cut short, a new one
@@ -304,8 +314,16 @@ class Manifest:
         click.echo(say("{} made, {} there already.", self.made, self.kept))
 
 
-def _line(told: Mapping[str, Any]) -> str:
-    return json.dumps(told, ensure_ascii=False) + "\n"
+class _Line(Struct, frozen=True):
+    """What a line of the manifest says of a variant."""
+
+    problem: str
+    key: str
+    files: dict[str, str]
+
+
+def _line(told: _Line) -> str:
+    return json.dumps(asdict(told), ensure_ascii=False) + "\n"
 
 
 def _digest(data: bytes) -> str:
@@ -314,25 +332,42 @@ def _digest(data: bytes) -> str:
     return hashlib.sha256(data).hexdigest()
 
 
+def _shared(
+    orders: list[tuple[VariantOrder, str]], manifest: Manifest, jobs: int
+) -> Iterator[Callable[[], None]]:
+    """Yield what takes in each order, made in processes of this machine: none of them listens."""
+    from planmethod.commands.processes import in_processes
+
+    wanted = [order for order, key in orders if not manifest.has(order, key)]
+    outcomes = in_processes(made_here, wanted, jobs)
+    for order, key in orders:
+        if manifest.has(order, key):
+            yield manifest.keep
+        else:
+            outcome = next(outcomes)
+            yield partial(_put, outcome, order, key, manifest)
+
+
+def _put(
+    outcome: Outcome[dict[str, bytes]] | None, order: VariantOrder, key: str, manifest: Manifest
+) -> None:
+    if outcome is None:
+        refuse_killed(order.todo)
+    manifest.add(order, key, replace(outcome, output="").result() or {})
+
+
 # The cluster -------------------------------------------------------------------------------------
 
 
 @contextlib.contextmanager
-def _cluster(scheduler: str | None, jobs: int) -> Iterator[Client]:
+def _cluster(scheduler: str) -> Iterator[Client]:
     """Give a cluster with workers of this version."""
     import logging
 
-    from distributed import Client, LocalCluster
+    from distributed import Client
 
-    quiet = logging.CRITICAL  # what matters is said here
-    logging.getLogger("distributed").setLevel(quiet)
+    logging.getLogger("distributed").setLevel(logging.CRITICAL)  # what matters is said here
     with contextlib.ExitStack() as open_ones:
-        if scheduler is None:
-            scheduler = open_ones.enter_context(
-                LocalCluster(
-                    n_workers=jobs, threads_per_worker=1, dashboard_address=None, silence_logs=quiet
-                )
-            ).scheduler_address
         try:
             client = open_ones.enter_context(Client(scheduler, timeout=PATIENCE))
             client.wait_for_workers(1, timeout=PATIENCE)

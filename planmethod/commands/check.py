@@ -222,7 +222,16 @@ def _write_results(
         checked = anonymous(checked, salt)
     keys, inputs = keys_of(variants, checked), [variants.path, *paths]
     with bar(len(checked), long=len(checked) >= MANY_WORKS) as done:
-        written = write_all(out, checked, keys, variants.settings, inputs, lang, done=done)
+        written = write_all(
+            out,
+            checked,
+            keys,
+            variants.settings,
+            inputs,
+            lang,
+            hidden=salt is not None,
+            done=done,
+        )
     for path in written:
         click.echo(str(path))
 

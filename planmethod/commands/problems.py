@@ -7,6 +7,7 @@ import functools
 import re
 import sys
 from collections.abc import Callable, Iterable, Iterator, Sequence
+from contextlib import contextmanager
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NoReturn, TypeVar, cast
@@ -15,7 +16,7 @@ import click
 from msgspec import Struct
 
 from planmethod.commands.output import is_terminal
-from planmethod.errors import AssemblyError, ExitCode, PlanMethodError
+from planmethod.errors import AssemblyError, ExitCode, PlanMethodError, ProblemError
 from planmethod.languages import say
 from planmethod.options import UsageError
 
@@ -70,6 +71,17 @@ def names_of(path: Path, name: str, variant: str | None) -> Sequence[str]:
     return (str(path), name) if variant is None else (f"{name}-{variant}",)
 
 
+@contextmanager
+def of_file(path: Path, name: str) -> Iterator[None]:
+    """Have the faults of a problem that are found late told of its file, as all others are."""
+    try:
+        yield
+    except ProblemError as error:
+        if error.source != name:
+            raise
+        raise type(error)(str(path), error.faults) from error
+
+
 def guarded(command: F) -> F:
     """Turn the package's errors into a message and an exit code."""
 
@@ -96,7 +108,8 @@ def load(
         if problem.project is not None:
             from planmethod.project.settle import in_positions, settled
 
-            problem = settled(problem) if drawn else in_positions(problem)
+            with of_file(path, problem.name):
+                problem = settled(problem) if drawn else in_positions(problem)
         found.append(problem)
     if found and found[0].project is None:  # who writes [project] knows what it is for
         tell_left_out(found[0])
@@ -113,12 +126,13 @@ def _read(path: Path, variant: str | None, all_variants: bool) -> Iterator[Probl
     from planmethod.kinds import load_each
     from planmethod.problem.unlikely import unlikely
 
-    for problem in load_each(path, variants_of(path, variant, all_variants)):
-        for said in unlikely(problem):
-            warn(problem, said)
-        if problem.cycle is not None and problem.cycle.working is not None:
-            _tell_working(problem)
-        yield problem
+    with of_file(path, path.stem):
+        for problem in load_each(path, variants_of(path, variant, all_variants)):
+            for said in unlikely(problem):
+                warn(problem, said)
+            if problem.cycle is not None and problem.cycle.working is not None:
+                _tell_working(problem)
+            yield problem
 
 
 def _tell_working(problem: Problem) -> None:
@@ -260,7 +274,8 @@ def through(
             problem, is_one = one.problem, len(paths) + len(todo) == 2
             names = () if is_one else names_of(one.path, problem.name, problem.variant)
             try:
-                value = step()
+                with of_file(one.path, problem.name):
+                    value = step()
                 if take is not None and value is not None:
                     take(value)
             except PlanMethodError as error:
@@ -273,6 +288,7 @@ def through(
         if len(todo) > 1:
             told = say("Stopped: {} of {} problems are done; every file is whole.", done, len(todo))
             click.echo(f"\n{told}", err=True)
+            sys.exit(130)
         raise
     return codes[0] if codes else ExitCode.DONE
 
@@ -287,10 +303,16 @@ def _shared(
     from planmethod.commands.processes import in_processes
 
     for one, outcome in zip(todo, in_processes(act, todo, jobs), strict=True):
-        yield partial(_refuse_killed, one) if outcome is None else outcome.result
+        yield partial(refuse_killed, one) if outcome is None else outcome.result
 
 
-def _refuse_killed(one: Todo) -> NoReturn:
+def refuse_killed(one: Todo) -> NoReturn:
+    """Tell that every process that took a problem was killed.
+
+    Raises
+    ------
+    PlanMethodError
+    """
     raise PlanMethodError(
         "{}: the process at work on it was killed, twice; perhaps it needs more memory than there "
         "is. Ask for fewer positions at once.",

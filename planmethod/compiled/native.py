@@ -1,13 +1,15 @@
 """A tape compiled by the system's C compiler and kept in the user's cache (машинный код).
 
-A library is found by the hash of its source, of the flags and of the machine. It is loaded only
-from a folder that nobody else can write to.
+A library is found by the hash of its source, of the flags and of the machine, and is called by that
+and by the hash of its own bytes. It is loaded only from a folder that nobody else can write to, and
+only if its bytes are those; one that a full disk or a crash has cut short is made anew.
 """
 
 from __future__ import annotations
 
 import ctypes
 import hashlib
+import itertools
 import os
 import platform
 import shutil
@@ -68,7 +70,7 @@ class Native:
     def __init__(self, source: Source, *, make: bool) -> None:
         self.source = source
         self._constants = np.array(source.constants)
-        self._run: Callable[[ctypes.c_void_p], Any] = _loaded(_library(source.text, make=make)).run
+        self._run: Callable[[ctypes.c_void_p], Any] = _library(source.text, make=make).run
         self._run.restype = None
 
     @staticmethod
@@ -150,7 +152,8 @@ def _folder() -> Path:
         if not base.is_absolute():
             base = Path.home() / ("Library/Caches" if sys.platform == "darwin" else ".cache")
         folder = base / "planmethod" / "native"
-        folder.mkdir(mode=0o700, parents=True, exist_ok=True)
+        for one in (*reversed(folder.parents), folder):
+            one.mkdir(mode=0o700, exist_ok=True)  # parents too, whatever the umask
         found = folder.lstat()
     except (OSError, RuntimeError) as error:
         raise NotCompiledError(f"there is no folder for it: {error}") from error
@@ -163,40 +166,67 @@ def _mine(found: os.stat_result, kind: Callable[[int], bool]) -> bool:
     return kind(found.st_mode) and found.st_uid == os.getuid() and not found.st_mode & 0o022
 
 
-def _library(text: str, *, make: bool) -> Path:
-    """Return the file of a library."""
+def _library(text: str, *, make: bool) -> ctypes.CDLL:
+    """Return a library: one that is kept, or one that is made."""
     if os.environ.get(SWITCH) == "0":
         raise NotCompiledError(f"{SWITCH}=0 leaves the compiler alone")
     folder = _folder()
     said = "\0".join((text, *FLAGS, OWN, _machine()))
-    path = folder / f"{hashlib.sha256(said.encode()).hexdigest()[:40]}.so"
-    if not path.exists():
-        if not make:
-            raise NotCompiledError("it has not been compiled yet")
-        _compile(text, path)
+    name = hashlib.sha256(said.encode()).hexdigest()[:40]
     try:
-        if not _mine(path.lstat(), stat.S_ISREG):
-            raise NotCompiledError(f"{path} is not a file of yours alone: remove it")
-        os.utime(path)
+        for path in sorted(folder.glob(f"{name}-*.so")):
+            library = _loaded(path)
+            if library is not None:
+                return library
+            path.unlink(missing_ok=True)
     except OSError as error:
         raise NotCompiledError(f"{path}: {error.strerror}") from error
-    return path
+    if not make:
+        raise NotCompiledError("it has not been compiled yet")
+    path = _compile(text, folder, name)
+    library = _loaded(path)
+    if library is None:
+        raise NotCompiledError(f"{path} is not what was written: is the disk full?")
+    return library
 
 
-def _loaded(path: Path) -> ctypes.CDLL:
-    try:
-        return ctypes.CDLL(str(path))
-    except OSError as error:
-        raise NotCompiledError(f"{path} was not loaded: {error}") from error
+_ALIASES = itertools.count(1)
 
 
-def _compile(text: str, path: Path) -> None:
-    """Compile a source to a file that is there whole or not at all."""
+def _loaded(path: Path) -> ctypes.CDLL | None:
+    """Load a library that is whole; None where its bytes are not those that its name tells.
+
+    What is looked at is what is loaded: both by one descriptor, on systems that can.
+    """
+    number = os.open(path, os.O_RDONLY | os.O_NOFOLLOW)
+    with open(number, "rb") as file:  # noqa: PTH123 - by its descriptor
+        if not _mine(os.fstat(number), stat.S_ISREG):
+            raise NotCompiledError(f"{path} is not a file of yours alone: remove it")
+        if hashlib.file_digest(file, "sha256").hexdigest()[:40] != path.stem.partition("-")[2]:
+            return None
+        os.utime(number)
+        own = f"/proc/self/fd/{number}"
+        if Path(own).exists():
+            # A name that was loaded once stays that library's: each time another one.
+            own = own.replace("fd/", "fd/" + bin(next(_ALIASES))[2:].translate(_SLASHES))
+        else:
+            own = str(path)
+        try:
+            return ctypes.CDLL(own)
+        except OSError as error:
+            raise NotCompiledError(f"{path} was not loaded: {error}") from error
+
+
+_SLASHES = {ord("0"): "/", ord("1"): "./"}
+
+
+def _compile(text: str, folder: Path, name: str) -> Path:
+    """Compile a source to a file that is there whole or not at all, and return it."""
     compiler = next(filter(None, map(shutil.which, COMPILERS)), None)
     if compiler is None:
         raise NotCompiledError(f"there is no C compiler ({', '.join(COMPILERS)})")
     try:
-        with tempfile.TemporaryDirectory(dir=path.parent, ignore_cleanup_errors=True) as place:
+        with tempfile.TemporaryDirectory(dir=folder, ignore_cleanup_errors=True) as place:
             made, said = Path(place) / "tape.so", ""
             for flags in ((*FLAGS, OWN), FLAGS):  # not every compiler knows the machine
                 done = subprocess.run(
@@ -206,12 +236,16 @@ def _compile(text: str, path: Path) -> None:
                 )  # fmt: skip
                 if done.returncode == 0:
                     made.chmod(0o700)
-                    made.replace(path)
+                    with made.open("rb") as file:
+                        os.fsync(file.fileno())
+                        own = hashlib.file_digest(file, "sha256").hexdigest()[:40]
+                    path = made.replace(folder / f"{name}-{own}.so")
                     break
                 said = (done.stderr.strip() or "no message").splitlines()[0]
             else:
                 raise NotCompiledError(f"{compiler} did not compile: {said}")
         _make_room(path)
+        return path
     except (OSError, subprocess.SubprocessError) as error:
         raise NotCompiledError(f"{compiler} did not compile: {error}") from error
 

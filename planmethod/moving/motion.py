@@ -121,9 +121,13 @@ def move(problem: PointProblem) -> Motion:
     return Motion(_whole(columns), _reasons(columns))
 
 
+LARGEST = 1e60
+"""From where on a number of a motion is none: powers of it are to be numbers, too."""
+
+
 def _reals(names: tuple[str, ...], found: list[Bounded]) -> dict[str, Reals]:
     pairs = zip(names, found, strict=True)
-    return {name: np.where(np.isfinite(one.value), one.value, np.nan) for name, one in pairs}
+    return {name: np.where(abs(one.value) < LARGEST, one.value, np.nan) for name, one in pairs}
 
 
 _LEVELS = {

@@ -9,7 +9,7 @@ from enum import Enum
 from typing import Any, TypeAlias, TypeGuard, TypeVar
 
 from planmethod.errors import Fault
-from planmethod.languages import say
+from planmethod.languages import HIDDEN, say
 from planmethod.problem.formula import FormulaError, work_out
 from planmethod.problem.mistyped import INSTEAD, value_hint
 from planmethod.problem.model import Drive
@@ -253,11 +253,11 @@ def read_text(faults: Faults, path: str, value: object, *, limit: int) -> str | 
             "Shorten it.",
         )
         return None
-    bad = next((c for c in value if ord(c) < 32 or 0x7F <= ord(c) < 0xA0), None)
+    bad = re.search(f"[\t\n]|{HIDDEN}", value)
     if bad is not None:
         faults.add(
             path,
-            say("the text has the control character U+{:04X}", ord(bad)),
+            say("the text has the control character U+{:04X}", ord(bad[0])),
             "Write it on one line, without tabs.",
         )
         return None

@@ -36,7 +36,7 @@ _POINT = rf"{_LETTER}[0-9]{{0,3}}'{{0,3}}"
 _POINT_RE = rf"{_POINT}\Z"
 _POINTS_RE = rf"(?:{_POINT})+\Z"
 _PAIR_RE = rf"({_POINT})({_POINT})\Z"
-_LABEL_RE = r"[^\W_]+(?:[- ]?[^\W_]+)*'{0,3}\Z"
+_LABEL_RE = r"[^\W_]+(?:[- ][^\W_]+)*'{0,3}\Z"
 
 
 _LENGTHS = {"m": "{} m", "cm": "{} cm", "mm": "{} mm"}

@@ -63,7 +63,7 @@ def read_source(path: Path) -> str:
                 name, say("the file is in {}, expected UTF-8", encoding), "Save it as UTF-8."
             )
     try:
-        return data.decode("utf-8-sig")  # Notepad's mark at the start is skipped
+        text = data.decode("utf-8-sig")  # Notepad's mark at the start is skipped
     except UnicodeDecodeError as error:
         line = data.count(b"\n", 0, error.start) + 1
         raise _fail(
@@ -71,6 +71,8 @@ def read_source(path: Path) -> str:
             say("line {}: byte 0x{:02X} is not UTF-8", line, data[error.start]),
             "Save the file as UTF-8; Russian text is often saved as Windows-1251 by mistake.",
         ) from None
+    _bounded(text, name)
+    return text
 
 
 def table_text(data: bytes) -> str:
@@ -94,9 +96,26 @@ def parse(text: str, *, name: str) -> Mapping[str, Any]:
     """
     if len(text.encode("utf-8", "replace")) > SIZE_LIMIT:
         raise _too_large(name)
-    text = re.sub(_VARIANT_HEADER, _quoted, text.removeprefix("\ufeff"))
-    lines = text.split("\n")
-    for number, line in enumerate(lines, 1):
+    text = text.removeprefix("\ufeff")
+    _bounded(text, name)
+    text = re.sub(_VARIANT_HEADER, _quoted, text)
+    try:
+        table = tomllib.loads(text)
+    except tomllib.TOMLDecodeError as error:
+        raise ProblemError(name, [_syntax_fault(str(error), text.split("\n"))]) from None
+    except RecursionError:
+        raise _fail(name, "lists or tables are nested too deeply", _DEPTH_HINT) from None
+    except ValueError as error:
+        # Python bounds the digits of an integer, and dates are checked late
+        raise _fail(name, say("a value cannot be read: {}", str(error)[:180])) from None
+    if _depth_exceeds(table, DEPTH_LIMIT):
+        raise _fail(name, say("tables are nested deeper than {} levels", DEPTH_LIMIT), _DEPTH_HINT)
+    return table
+
+
+def _bounded(text: str, name: str) -> None:
+    """Refuse what no parser, and no pattern, shall see."""
+    for number, line in enumerate(text.split("\n"), 1):
         if len(line) > LINE_LIMIT:
             raise _fail(
                 name,
@@ -107,18 +126,6 @@ def parse(text: str, *, name: str) -> Mapping[str, Any]:
             raise _fail(
                 name, say("line {}: a key has over {} parts", number, DOT_LIMIT), _DEPTH_HINT
             )
-    try:
-        table = tomllib.loads(text)
-    except tomllib.TOMLDecodeError as error:
-        raise ProblemError(name, [_syntax_fault(str(error), lines)]) from None
-    except RecursionError:
-        raise _fail(name, "lists or tables are nested too deeply", _DEPTH_HINT) from None
-    except ValueError as error:
-        # Python bounds the digits of an integer, and dates are checked late
-        raise _fail(name, say("a value cannot be read: {}", str(error)[:180])) from None
-    if _depth_exceeds(table, DEPTH_LIMIT):
-        raise _fail(name, say("tables are nested deeper than {} levels", DEPTH_LIMIT), _DEPTH_HINT)
-    return table
 
 
 _VARIANT_HEADER = r"(?m)^([ \t]*\[[ \t]*variants[ \t]*\.[ \t]*)([^\W\d_][\w-]*)"

@@ -136,7 +136,7 @@ class _Table(Struct):
     lines: list[str]
 
 
-_HEADER = r"\[{1,2}\s*([^\W\d][\w.\-\"' ]*?)\s*\]{1,2}\s*(?:#.*)?$"
+_HEADER = r"\[{1,2}\s*([^\W\d][\w.\-\"'\s]*)\]{1,2}\s*(?:#.*)?$"
 
 
 def _tables(text: str) -> list[_Table]:
@@ -195,7 +195,7 @@ def _entry(lines: list[str], start: int) -> tuple[int, str]:
             break
         except tomllib.TOMLDecodeError:
             continue
-    for mark in re.finditer(r"\s*#", whole):
+    for mark in re.finditer(r"(?<!\s)\s*#", whole):
         try:
             if tomllib.loads(whole[: mark.start()]) == value:
                 return end, whole[mark.start() :].rstrip("\n")

@@ -259,7 +259,7 @@ _SI = (
 )
 """Units that the file has them in: they change nothing."""
 
-_HEAD = r"(?P<name>[^,(\[]+?)\s*(?:[,(\[]\s*(?P<unit>[^)\]]*)[)\]]?)?\Z"
+_HEAD = r"(?P<name>[^,(\[]+)(?:[,(\[](?P<unit>[^)\]]*)[)\]]?)?\Z"
 _BETWEEN = r"^((?:φ|phi)_?\{?[0-9]+),([0-9]+)"
 """Angle between links, ``φ2,3``: its comma begins no unit."""
 _NUMBER = r"[-+−]?[0-9]+(?:[.,][0-9]*)?(?:[eE][-+]?[0-9]+)?\Z"
@@ -362,7 +362,7 @@ def _column(
 ) -> tuple[str, float] | None:
     """Return the dotted key of a column, and by what its numbers are multiplied."""
     match = re.match(_HEAD, re.sub(_BETWEEN, r"\1\2", head))
-    written = match["name"] if match else head
+    written = match["name"].rstrip() if match else head
     names = dict(_names(table))
     first = fold(written).split(".")[0]
     if "." in written and (first in table or first in keys.TOP):

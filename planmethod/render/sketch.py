@@ -26,6 +26,7 @@ from planmethod.render.ink.typeset import typeset
 from planmethod.render.labels import Label
 from planmethod.render.layout.block import Block, Column, Picture, Row, paragraph
 from planmethod.render.pictures.lettered import lettered
+from planmethod.render.pictures.scheme import extent
 from planmethod.render.pictures.schemeview import scheme_picture
 from planmethod.render.pictures.seriesview import series_picture
 from planmethod.render.symbols import fixed_pivot, unit
@@ -50,6 +51,12 @@ WAYS = Views.alone(WAYS_BOX)
 HEIGHT, SMALL, WIDTH, EDGE = 5.0, 3.5, 190.0, 6.0
 """Heights of letters, width of the text and white round all, mm."""
 
+_MOST_TIMES = 6.0
+"""So many times larger than its box a scheme may be at the scale of the file."""
+
+_MISSING = 3
+"""Points at which the number of a link that is not drawn stands."""
+
 _SAME = 1e-2  # degrees, or m: a position that is shown is the one that was asked
 _HALF = 60  # of a drawn arc, degrees
 _OUT = 6.0  # of the arc of possible positions beyond the crank's pin, mm
@@ -72,6 +79,9 @@ def sketch(part: MechanismPart, title: str, words: Language, said: Sequence[str]
     said : sequence of str
         Text about the file under the scheme, plain text, a paragraph each.
     """
+    if part.solution is not None and not _fits(part.solution):
+        scales = replace(part.solution.problem.scales, mu_l=None)
+        part = replace(part, solution=part.solution.filling(VIEWS, scales))
     ways = part.assemblies if len(part.assemblies) > 1 else ()
     if ways:
         picture, facts = _ways(part, words)
@@ -82,6 +92,12 @@ def sketch(part: MechanismPart, title: str, words: Language, said: Sequence[str]
     texts = [escape(line) for line in said]
     blocks: list[Block] = [picture] if not isinstance(picture, Picture) or picture.items else []
     return _set(title, [*blocks, *(paragraph(text, SMALL, WIDTH) for text in (*facts, *texts))])
+
+
+def _fits(solution: Solution) -> bool:
+    """Tell whether a sketch at the scale of the file is one that can be looked at."""
+    left, low, right, high = extent(solution, range(len(solution.positions)))
+    return max(right - left, high - low) <= _MOST_TIMES * BOX[0]
 
 
 def notice(text: str) -> Drawing:
@@ -128,7 +144,8 @@ def _ways(part: MechanismPart, words: Language) -> tuple[Block, list[str]]:
     shown: list[Block] = []
     facts: list[str] = []
     for way in part.assemblies:
-        one = replace(part, solution=way.solution.filling(WAYS), unsure=())
+        scales = None if _fits(way.solution) else replace(way.solution.problem.scales, mu_l=None)
+        one = replace(part, solution=way.solution.filling(WAYS, scales), unsure=())
         picture, facts = _scheme(one, words)
         rules = (f'{point} = "{rule}"' for point, rule in way.rules.items())
         told = words.sheets.assembled.format(rules="; ".join(map(escape, rules)))
@@ -175,12 +192,11 @@ def _at(solution: Solution, name: str) -> complex:
 def _mark_missing(marks: _Marks, part: MechanismPart, places: Mapping[str, complex]) -> None:
     """Put the numbers of links that are not drawn at those of their points that are."""
     for link, points in (part.links or {}).items():
-        for point in points:
-            if point in places:
-                text = typeset(f"{link}?", HEIGHT)
-                marks.labels.append(
-                    Label(text, places[point], prefer=1 - 1j, gap=4.0, name=f"missing {link}")
-                )
+        for point in [one for one in points if one in places][:_MISSING]:
+            text = typeset(f"{link}?", HEIGHT)
+            marks.labels.append(
+                Label(text, places[point], prefer=1 - 1j, gap=4.0, name=f"missing {link}")
+            )
     for point in part.unsure:
         if point in places:
             marks.labels.append(

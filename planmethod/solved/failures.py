@@ -282,7 +282,8 @@ class Doubt(Struct, frozen=True):
         It is next to a dead one.
     margin : float
     bound : float
-        Of the relative error of the worst result.
+        Of the error of the worst result, in parts of the largest of its kind in the position: one
+        that is nearly nothing has no digits of its own.
     """
 
     place: Place
@@ -296,7 +297,7 @@ class Doubt(Struct, frozen=True):
             if self.near
             else "badly conditioned (its results hang on small differences of large values)"
         )
-        told = "{} is {}: the worst of its results is good to about {:.0e} of its value."
+        told = "{} is {}: its results are good to about {:.0e} of the largest of their kind."
         return say(told, self.place, nature, self.bound)
 
 

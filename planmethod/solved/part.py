@@ -7,7 +7,7 @@ are joined to it one after the other, as long as what they say can be read and c
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
-from itertools import combinations
+from itertools import combinations, islice
 from typing import Any
 
 from msgspec import Struct
@@ -15,6 +15,7 @@ from msgspec.structs import replace
 
 from planmethod.construct.arithmetic import Float64
 from planmethod.errors import Fault, PlanMethodError, ProblemError
+from planmethod.problem import keys
 from planmethod.problem.fields import Faults
 from planmethod.problem.model import Problem
 from planmethod.problem.parts import TrainReader
@@ -29,9 +30,16 @@ from planmethod.solved.solution import Solution
 GUESSED = 60.0
 """Where a crank whose position is missing is shown, degrees."""
 
+LINKS, FIXED, TRIES = 30, 40, 150
+"""Links and fixed points that are looked at, and mechanisms of them that are tried."""
+
+SMALL = 12
+"""Links of a part whose assemblies are shown."""
+
 _SIZES = (2, 4)  # of structural groups that are tried, links
 _GEOMETRY = ("title", "source", "units", "sheet", "scales", "gears")
 _ASIDE = 1e-4  # of a dead position, degrees
+_FARTHEST = 1.0e6
 _FAR = [1.0e3, 1.7e3]  # nearest to it one of two closings is: which one does not matter
 
 
@@ -152,15 +160,17 @@ class _Growth:
         links = table.get("links")
         self.links = {
             str(link): body
-            for link, body in (links.items() if isinstance(links, Mapping) else ())
+            for link, body in islice(links.items() if isinstance(links, Mapping) else (), LINKS)
             if isinstance(body, Mapping)
         }
         self.unsure: list[str] = []
+        self.tries = 0
 
     def points(self, link: str) -> tuple[str, ...]:
         """Return the points that the file gives a link."""
         listed = self.links[link].get("points", ())
-        return tuple(p for p in listed if isinstance(p, str)) if isinstance(listed, list) else ()
+        named = (p for p in listed if isinstance(p, str)) if isinstance(listed, list) else ()
+        return tuple(islice(dict.fromkeys(named), keys.LINK_POINT_LIMIT))
 
     def part(self) -> MechanismPart:
         """Return the part."""
@@ -180,7 +190,7 @@ class _Growth:
                     found, kept, grows = bigger, (*kept, *more), True
                     break
         left = {link: self.points(link) for link in self.links if link not in kept}
-        ways = tuple(self._assemblies(kept)) if self.unsure else ()
+        ways = tuple(self._assemblies(kept)) if self.unsure and len(kept) <= SMALL else ()
         return MechanismPart(
             found, links=left, fixed=self._fixed(), unsure=tuple(self.unsure), assemblies=ways
         )
@@ -202,14 +212,17 @@ class _Growth:
         for point, place in frame.items() if isinstance(frame, Mapping) else ():
             match place:
                 case [int() | float() as x, int() | float() as y]:
-                    found[str(point)] = complex(x, y)
+                    if all(abs(one) <= _FARTHEST for one in (x, y)):  # NaN is not
+                        found[str(point)] = complex(x, y)
+            if len(found) == FIXED:
+                break
         return found
 
     def _groups(self, kept: tuple[str, ...]) -> Iterator[tuple[str, ...]]:
         """Yield sets of links that hang together, the small ones first."""
         rest = [link for link in self.links if link not in kept]
         for size in _SIZES:
-            for some in combinations(rest, size):
+            for some in combinations(rest if self.tries < TRIES else (), size):
                 if all(any(self._touch(one, two) for two in some if two != one) for one in some):
                     yield some
 
@@ -261,6 +274,9 @@ class _Growth:
 
     def _solved(self, links: tuple[str, ...]) -> Solution | None:
         """Return the mechanism of some links in the asked positions that exist, if there is one."""
+        self.tries += 1
+        if self.tries > TRIES:
+            return None
         points = {point for link in links for point in self.points(link)}
         table = self._table(links)
         unsure: list[str] = []

@@ -155,7 +155,7 @@ def test_a_rule_that_both_closings_satisfy_is_refused() -> None:
     result = run("solve", str(CASES / "ambiguous-rule.toml"))
     assert result.exit_code == 3
     assert result.stderr == (
-        "Error: ambiguous-rule: 1 fault in the problem file\n"
+        f"Error: {CASES / 'ambiguous-rule.toml'}: 1 fault in the problem file\n"
         "  assembly.C: 'C right of B' holds for both closings at phi = 60 deg: with C at (0.3251, "
         "0.2063) and at (0.1838, -0.1819) m. Say 'above A' for the first or 'below A' for the "
         "second\n"

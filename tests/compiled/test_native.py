@@ -241,6 +241,20 @@ def test_a_file_that_others_may_write_is_not_loaded(cache: Path) -> None:
     path.chmod(0o700)
 
 
+def test_folders_of_the_cache_are_the_users_alone(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "a/b"))
+    before = os.umask(0)
+    try:
+        folder = native_module._folder()
+    finally:
+        os.umask(before)
+    for one in (folder, *folder.parents[:4]):
+        if one != tmp_path:
+            assert one.stat().st_mode & 0o777 == 0o700, one
+
+
 def newest(cache: Path) -> float:
     return max(path.stat().st_mtime for path in cache.glob("*.so"))
 
@@ -254,3 +268,23 @@ def test_the_cache_is_bounded(cache: Path, monkeypatch: pytest.MonkeyPatch) -> N
     Native(c_source(tape, [tape.add(tape.input(0), 9.0)], [], [frozenset()]), make=True)
     assert not old.exists()
     assert list(cache.glob("*.so"))
+
+
+def test_a_library_that_was_cut_short_is_made_anew(cache: Path) -> None:
+    """To load one kills the process (SIGBUS)."""
+    tape = Tape()
+    source = c_source(tape, [tape.add(tape.input(0), 17.0)], [], [frozenset()])
+    Native(source, make=True)
+    (path,) = (p for p in cache.glob("*.so") if p.stat().st_mtime == newest(cache))
+    whole = path.read_bytes()
+    for spoilt in (whole[:5000], whole[:-1], b"", whole[:-1] + b"x"):
+        path.unlink()
+        path.write_bytes(spoilt)  # another file: the first one is at work
+        path.chmod(0o700)
+        with pytest.raises(NotCompiledError, match="not been compiled yet"):
+            Native(source, make=False)
+        assert not path.exists()
+        made, out = Native(source, make=True), np.empty((1, 2))
+        made.run([np.array([1.0, 2.0])], out)
+        assert out.tolist() == [[18.0, 19.0]]
+        (path,) = (p for p in cache.glob(f"{path.stem[:40]}*"))

@@ -62,6 +62,16 @@ def test_symbolic_link_is_followed(tmp_path: Path) -> None:
     assert (tmp_path / "real.svg").read_bytes() == b"new"
 
 
+def test_a_link_that_leads_nowhere_makes_nothing_outside(tmp_path: Path) -> None:
+    (tmp_path / "out").mkdir()
+    for name, target in (("a.svg", "else/new/a.svg"), ("b.svg", "b.svg"), ("pages", "else/pages")):
+        (tmp_path / "out" / name).symlink_to(tmp_path / target)
+    for name in ("a.svg", "b.svg", "pages/c.svg"):
+        with pytest.raises(OutputError, match=r"Remove the link|is a file, not a directory"):
+            write(tmp_path / "out" / name, b"new")
+    assert [path.name for path in tmp_path.iterdir()] == ["out"]
+
+
 def test_directory_is_refused(tmp_path: Path) -> None:
     with pytest.raises(OutputError, match="it is a directory") as caught:
         write(tmp_path, b"x")

@@ -6,7 +6,7 @@ import hashlib
 import json
 import re
 import unicodedata
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from typing import Any
@@ -30,8 +30,12 @@ from planmethod.solved.solution import Solution
 PACKAGES = ("planmethod", "numpy")
 
 
-def run_record(settings: Settings, inputs: Iterable[Path], lang: str, count: int) -> dict[str, Any]:
+def run_record(
+    settings: Settings, inputs: Sequence[Path], lang: str, count: int, *, hidden: bool = False
+) -> dict[str, Any]:
     """Return what a run was made of: versions, settings, the digests of its files.
+
+    Where names are ``hidden`` the files of works, those after the first, are called by number.
 
     Raises
     ------
@@ -43,7 +47,13 @@ def run_record(settings: Settings, inputs: Iterable[Path], lang: str, count: int
         "versions": {name: _version(name) for name in PACKAGES},
         "language": lang,
         "settings": asdict(settings),
-        "inputs": [{"name": path.name, "sha256": _digest(path)} for path in inputs],
+        "inputs": [
+            {
+                "name": f"works-{n}{path.suffix}" if hidden and n else path.name,
+                "sha256": _digest(path),
+            }
+            for n, path in enumerate(inputs)
+        ],
         "works": count,
     }
 
@@ -156,6 +166,7 @@ def write_all(
     inputs: Sequence[Path],
     lang: str,
     *,
+    hidden: bool = False,
     done: Callable[[int], None] = lambda works: None,
 ) -> list[Path]:
     """Write the tables of a group and a page for each student.
@@ -169,7 +180,9 @@ def write_all(
     keys : mapping
         By the variant of a work; a work without a key has no page.
     inputs : sequence of Path
-        Files that the marks came from.
+        Files that the marks came from: the problem, then the works.
+    hidden : bool
+        The names of the files of works are names of students.
     done : callable
         Is told of every work whose pages are written.
 
@@ -182,7 +195,7 @@ def write_all(
     ------
     OutputError
     """
-    run = run_record(settings, inputs, lang, len(checked))
+    run = run_record(settings, inputs, lang, len(checked), hidden=hidden)
     marks = [settings.mark(work.points / work.of) if work.of else "" for work in checked]
     words = language(lang)
     files = {

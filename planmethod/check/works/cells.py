@@ -10,6 +10,7 @@ from msgspec.structs import replace
 
 from planmethod.check.model import Sense, Unread, WrittenAnswer
 from planmethod.check.works.units import DASHES
+from planmethod.languages import visible
 from planmethod.note.wording import language
 from planmethod.problem.names import fold, short
 from planmethod.problem.selector import SelectorError, parse_selector
@@ -111,7 +112,7 @@ BLANK = Cell()
 
 def cut(text: str) -> str:
     """Return as much of a stranger's text as is looked at, in one line."""
-    return " ".join(text[:TEXT_LIMIT].split())
+    return visible(" ".join(text[:TEXT_LIMIT].split()))
 
 
 @lru_cache(maxsize=4096)

@@ -12,11 +12,16 @@ from planmethod.check.model import Work
 from planmethod.check.works.cells import Cell, cut
 from planmethod.check.works.faults import WorksError
 from planmethod.check.works.gather import Gathering
-from planmethod.check.works.table import HEAD_ROWS, Row, head_row, read_table
+from planmethod.check.works.table import (
+    CELL_LIMIT,
+    COLUMN_LIMIT,
+    HEAD_ROWS,
+    ROW_LIMIT,
+    Row,
+    head_row,
+    read_table,
+)
 from planmethod.problem.source import table_text
-
-ROW_LIMIT = 20_000
-COLUMN_LIMIT = 400
 
 _SEPARATORS = (";", "\t", ",")
 
@@ -79,14 +84,17 @@ def _separator(text: str, path: Path) -> str:
 
 def _rows(text: str, separator: str, path: Path) -> Iterator[Row]:
     reader = csv.reader(io.StringIO(text, newline=""), delimiter=separator, strict=True)
+    cells = 0
     for count, row in enumerate(reader, 1):
-        if count > ROW_LIMIT or len(row) > COLUMN_LIMIT:
+        cells += len(row)
+        if count > ROW_LIMIT or len(row) > COLUMN_LIMIT or cells > CELL_LIMIT:
             raise WorksError(
-                "{}: over {} rows, or over {} columns in row {}.",
+                "{}: over {} rows, over {} columns in row {}, or over {} cells.",
                 path,
                 ROW_LIMIT,
                 COLUMN_LIMIT,
                 count,
+                CELL_LIMIT,
             )
         where = f"{path.name}:{reader.line_num}"
         yield [Cell(cut(field), where) for field in row]

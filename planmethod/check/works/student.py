@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
@@ -86,7 +87,11 @@ def _work(whole: Any, path: Path, before: str) -> Work:
     answers = whole.get("answers")
     if not isinstance(answers, list) or len(answers) > ANSWER_LIMIT:
         raise WorksError("{}: 'answers' must be a list of at most {} objects.", where, ANSWER_LIMIT)
-    draft = WorkDraft(_cell(whole.get("student")).text or path.stem, str(path))
+    student = _cell(whole.get("student"), f"{before}student")
+    own = f"{path.stem} {before.rstrip('.')}".rstrip()
+    draft = WorkDraft(own if student.why is Unread.TEXT else student.text or path.stem, str(path))
+    if student.why is Unread.TEXT:
+        draft.remark(student.why, student.text, student.where)
     _note_unknown(draft, whole, _WORK, before)
     for field in ("variant", "problem", "ruler_mm"):
         draft.put_field(field, _cell(whole.get(field), f"{before}{field}"))
@@ -127,5 +132,6 @@ def _cell(value: Any, where: str = "") -> Cell:
     if value is None:
         return Cell("", where)
     plain = isinstance(value, str | int | float) and not isinstance(value, bool)
-    text = cut(str(value) if plain else json.dumps(value, default=str))
-    return Cell(text, where, why=None if plain else Unread.NUMBER)
+    whole = str(value) if plain else json.dumps(value, default=str)
+    text, why = cut(whole), None if plain else Unread.NUMBER
+    return Cell(text, where, why=Unread.TEXT if re.search("[\ud800-\udfff]", whole) else why)

@@ -15,6 +15,10 @@ from planmethod.check.works.cells import BLANK, HEADS, MM, POINT, Cell, cut, fou
 from planmethod.check.works.gather import Gathering, WorkDraft, scale_name
 from planmethod.check.works.units import read_unit
 
+ROW_LIMIT, COLUMN_LIMIT = 20_000, 400
+CELL_LIMIT = 200_000
+"""Of all sheets of a file; a group of thirty has a thousand."""
+
 ASPECTS = ("value", "mm", "sense", "unit", "segment")
 """What of an answer may stand in a column of its own."""
 

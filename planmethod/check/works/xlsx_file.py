@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
+import contextlib
 import datetime
 import io
 import re
 import warnings
 import zipfile
+import zlib
 from collections.abc import Iterator
 from itertools import product
 from pathlib import Path
-from typing import Any
-from xml.etree.ElementTree import iterparse
+from typing import IO, Any
+from xml.parsers.expat import ExpatError, ParserCreate
 
 from msgspec import Struct, field
 
@@ -19,23 +21,32 @@ from planmethod.check.model import Unread, Work
 from planmethod.check.works.cells import Cell, cut
 from planmethod.check.works.faults import WorksError
 from planmethod.check.works.gather import Gathering
-from planmethod.check.works.table import HEAD_ROWS, Row, read_table
+from planmethod.check.works.table import (
+    CELL_LIMIT,
+    COLUMN_LIMIT,
+    HEAD_ROWS,
+    ROW_LIMIT,
+    Row,
+    read_table,
+)
 
-ROW_LIMIT = 20_000
-COLUMN_LIMIT = 400
 SHEET_LIMIT = 400
 UNPACKED_LIMIT = 16 * 1024 * 1024
-"""Bytes of XML in a workbook; a group's answers are a hundredth of it."""
+"""Bytes of all parts of a workbook; a group's answers are a hundredth of it."""
 MEMBER_LIMIT = 2000
 MERGED_LIMIT = 20_000
+SPAN_LIMIT = 2000
+DEPTH_LIMIT = 64
+OTHERS_LIMIT = 60_000
+"""Elements of XML that are not of cells: styles, notes, rules."""
 
 META = "_meta"
 """Hidden sheet of the form."""
 
+_OF_CELLS = frozenset(("row", "c", "v", "f", "si", "t"))
 _DECIMALS = r"0\.(0+)"
 _PLACE = r"([A-Z]{1,3})([0-9]{1,7})\Z"
 _SPAN = r"([A-Z]{1,3})([0-9]{1,7}):([A-Z]{1,3})([0-9]{1,7})\Z"
-_MAIN = "{http://schemas.openxmlformats.org/spreadsheetml/2006/main}"
 
 
 def read_xlsx(data: bytes, path: Path) -> list[Work]:
@@ -78,24 +89,67 @@ def read_xlsx(data: bytes, path: Path) -> list[Work]:
 
 
 def _check_size(data: bytes, path: Path) -> None:
-    """Refuse what would unpack to more than a workbook of answers has."""
+    """Refuse what would unpack to more than a workbook of answers has, or has other things in it.
+
+    Raises
+    ------
+    WorksError
+    """
     try:
         with zipfile.ZipFile(io.BytesIO(data)) as archive:
             members = archive.infolist()
-    except (zipfile.BadZipFile, ValueError, NotImplementedError, EOFError, OSError):
+            unpacked = sum(m.file_size for m in members)  # whatever they are called
+            if len(members) > MEMBER_LIMIT or unpacked > UNPACKED_LIMIT:
+                raise WorksError(
+                    "{}: {} parts with {} MiB; the limits are {} and {} MiB. Save the answers "
+                    "alone.",
+                    path,
+                    len(members),
+                    unpacked // 2**20,
+                    MEMBER_LIMIT,
+                    UNPACKED_LIMIT // 2**20,
+                )
+            counts = _Counts(path)
+            for member in members:
+                with archive.open(member) as part:
+                    counts.count(part)
+    except (zipfile.BadZipFile, ValueError, NotImplementedError, EOFError, OSError, RuntimeError):
         raise WorksError(
             "{}: this is not an XLSX workbook. Save it as XLSX in the spreadsheet program.", path
         ) from None
-    unpacked = sum(m.file_size for m in members if m.filename.endswith((".xml", ".rels")))
-    if len(members) > MEMBER_LIMIT or unpacked > UNPACKED_LIMIT:
+
+
+class _Counts:
+    """Counts the elements of all parts before anything is made of them."""
+
+    def __init__(self, path: Path) -> None:
+        self.path, self.depth, self.cells, self.others = path, 0, 0, 0
+
+    def count(self, part: IO[bytes]) -> None:
+        """Count a part; what is no XML, nobody reads."""
+        parser, self.depth = ParserCreate(), 0
+        parser.StartElementHandler, parser.EndElementHandler = self._start, self._end
+        parser.EntityDeclHandler = self._refuse
+        with contextlib.suppress(ExpatError, zlib.error):
+            parser.ParseFile(part)
+
+    def _start(self, tag: str, _attributes: object) -> None:
+        self.depth += 1
+        if tag.rpartition(":")[2] in _OF_CELLS:
+            self.cells += 1
+        else:
+            self.others += 1
+        if self.depth > DEPTH_LIMIT or self.cells > 3 * CELL_LIMIT or self.others > OTHERS_LIMIT:
+            self._refuse()
+
+    def _end(self, _tag: str) -> None:
+        self.depth -= 1
+
+    def _refuse(self, *_: object) -> None:
         raise WorksError(
-            "{}: {} parts with {} MiB of tables; the limits are {} and {} MiB. Save the "
-            "answers alone.",
-            path,
-            len(members),
-            unpacked // 2**20,
-            MEMBER_LIMIT,
-            UNPACKED_LIMIT // 2**20,
+            "{}: besides cells there is too much in this workbook. Copy the answers into a new "
+            "one, and save that as XLSX.",
+            self.path,
         )
 
 
@@ -108,29 +162,32 @@ def _sheets(data: bytes, path: Path) -> tuple[dict[str, list[Row]], dict[str, li
     )
     sheets: dict[str, list[Row]] = {}
     meta: dict[str, list[str]] = {}
+    made = [0]
     try:
         if len(book.worksheets) > SHEET_LIMIT:
             raise WorksError("{}: over {} sheets. Part the file.", path, SHEET_LIMIT)
         for sheet in book.worksheets:
             if sheet.title == META:
+                with book._archive.open(sheet._worksheet_path) as stream:
+                    _Reader(path, META).read(stream)
                 for name, value in sheet.iter_rows(max_row=5000, max_col=2, values_only=True):
                     if value is not None:
                         meta.setdefault(str(name), []).append(cut(str(value)))
             elif sheet.sheet_state == "visible":
-                sheets[cut(sheet.title)] = list(_rows(book, sheet, path))
+                sheets[cut(sheet.title)] = list(_rows(book, sheet, path, made))
     finally:
         book.close()
     return sheets, meta
 
 
-def _rows(book: Any, sheet: Any, path: Path) -> Iterator[Row]:
-    """Yield the rows of a sheet down to the last that says something."""
+def _rows(book: Any, sheet: Any, path: Path, made: list[int]) -> Iterator[Row]:
+    """Yield the rows of a sheet down to the last that says something; ``made`` counts cells."""
     from openpyxl.utils import get_column_letter
 
     # A reader of single rows knows neither merged cells nor which of them are formulas.
-    with book._archive.open(sheet._worksheet_path) as stream:
-        there = _structure(stream)
     title = cut(sheet.title)
+    with book._archive.open(sheet._worksheet_path) as stream:
+        there = _Reader(path, title).read(stream)
     if there.rows > ROW_LIMIT or there.columns > COLUMN_LIMIT:
         raise WorksError(
             "{}: sheet {!r} has {} rows and {} columns; the limits are {} and {}. Save "
@@ -141,6 +198,17 @@ def _rows(book: Any, sheet: Any, path: Path) -> Iterator[Row]:
             there.columns,
             ROW_LIMIT,
             COLUMN_LIMIT,
+        )
+    made[0] += there.rows * there.columns
+    if made[0] > CELL_LIMIT:
+        raise WorksError(
+            "{}: sheet {!r} reaches to {}: with it there are {} cells, the limit is {}. Delete "
+            "what stands far from the table.",
+            path,
+            title,
+            there.last,
+            made[0],
+            CELL_LIMIT,
         )
     texts: dict[tuple[int, int], str] = {}
     rows = sheet.iter_rows(max_row=max(there.rows, 1), max_col=max(there.columns, 1))
@@ -170,39 +238,96 @@ class _Structure(Struct):
         Cells whose formula has no value.
     rows, columns : int
         How far there are values.
+    last : str
+        The cell furthest down that has one.
     """
 
     merged: dict[tuple[int, int], tuple[int, int]] = field(default_factory=dict)
     formulas: set[str] = field(default_factory=set)
     rows: int = 0
     columns: int = 0
+    last: str = ""
 
 
-def _structure(stream: Any) -> _Structure:
-    from openpyxl.utils import column_index_from_string
+class _Reader:
+    """Reads the XML of a sheet without keeping it: where there are values, what is merged."""
 
-    there = _Structure()
-    for _, element in iterparse(stream):
-        if element.tag == f"{_MAIN}row":
-            element.clear()
-        elif element.tag == f"{_MAIN}c":
-            name = element.get("r", "")
-            if element.find(f"{_MAIN}f") is not None and not element.findtext(f"{_MAIN}v"):
-                there.formulas.add(name)
-            if len(element) and (place := re.match(_PLACE, name)):
-                there.rows = max(there.rows, int(place[2]))
-                there.columns = max(there.columns, column_index_from_string(place[1]))
-        elif element.tag == f"{_MAIN}mergeCell" and (
-            span := re.match(_SPAN, element.get("ref", ""))
-        ):
-            top, bottom = int(span[2]), min(int(span[4]), ROW_LIMIT)
-            left, right = map(column_index_from_string, (span[1], span[3]))
-            columns = range(left, min(right, COLUMN_LIMIT) + 1)
-            for row, column in product(range(top, bottom + 1), columns):
-                if len(there.merged) >= MERGED_LIMIT:
-                    break
-                there.merged[row, column] = (top, left)
-    return there
+    def __init__(self, path: Path, title: str) -> None:
+        self.there = _Structure()
+        self.path, self.title, self.elements, self.spans = path, title, 0, 0
+        self.cell, self.filled, self.formula, self.value = "", False, False, ""
+        self.inside = ""
+
+    def read(self, stream: Any) -> _Structure:
+        parser = ParserCreate(namespace_separator=" ")
+        parser.StartElementHandler = self.start
+        parser.EndElementHandler = self.end
+        parser.CharacterDataHandler = self.text
+        parser.ParseFile(stream)
+        return self.there
+
+    def start(self, tag: str, attributes: dict[str, str]) -> None:
+        kind = tag.rpartition(" ")[2]
+        if kind in ("c", "row"):
+            self.elements += 1
+            if self.elements > CELL_LIMIT:
+                raise WorksError(
+                    "{}: sheet {!r} has over {} cells. Save the answers alone.",
+                    self.path,
+                    self.title,
+                    CELL_LIMIT,
+                )
+        if kind == "c":
+            self.cell, self.filled, self.formula = attributes.get("r", ""), False, False
+            self.value = self.inside = ""
+        elif self.cell and kind in ("v", "f", "is"):
+            self.filled, self.inside = True, kind
+            self.formula |= kind == "f"
+        elif kind == "mergeCell":
+            self.merge(attributes.get("ref", ""))
+
+    def text(self, data: str) -> None:
+        if self.inside == "v" and not self.value:
+            self.value = data
+
+    def end(self, tag: str) -> None:
+        from openpyxl.utils import column_index_from_string
+
+        kind = tag.rpartition(" ")[2]
+        if kind in ("v", "f"):
+            self.inside = ""
+        if kind != "c":
+            return
+        if self.formula and not self.value:
+            self.there.formulas.add(self.cell)
+        if self.filled and (place := re.match(_PLACE, self.cell)):
+            self.there.rows = max(self.there.rows, int(place[2]))
+            self.there.columns = max(self.there.columns, column_index_from_string(place[1]))
+            if self.there.rows == int(place[2]) or not self.there.last:
+                self.there.last = self.cell
+        self.cell = ""
+
+    def merge(self, told: str) -> None:
+        from openpyxl.utils import column_index_from_string
+
+        self.spans += 1
+        if self.spans > SPAN_LIMIT:
+            raise WorksError(
+                "{}: sheet {!r} has over {} merged ranges. Save the answers alone.",
+                self.path,
+                self.title,
+                SPAN_LIMIT,
+            )
+        span = re.match(_SPAN, told)
+        if span is None:
+            return
+        top, bottom = int(span[2]), min(int(span[4]), ROW_LIMIT)
+        left, right = map(column_index_from_string, (span[1], span[3]))
+        columns = range(left, min(right, COLUMN_LIMIT) + 1)
+        for row, column in product(range(top, bottom + 1), columns):
+            if len(self.there.merged) >= MERGED_LIMIT:
+                break
+            self.there.merged[row, column] = (top, left)
 
 
 def _text(cell: Any) -> tuple[str, Unread | None]:

@@ -24,7 +24,7 @@ from planmethod.solved.solution import Solution
 
 NBSP = "\u00a0"
 
-_POINTS = re.compile(r"(?<![_{\w\\])((?:[A-Z]\d*)*[A-Z]\d+(?:[A-Z]\d*)*)(?![\w}])")
+_POINTS = re.compile(r"(?<![_{\w\\])(?=[A-Z]+\d)(?:[A-Z]\d*)++(?![\w}])")
 """Names of points with numbers, which are no part of an index."""
 
 

@@ -90,7 +90,8 @@ def opened(path: Path | str) -> Iterator[BinaryIO]:
 
     The bytes go to a temporary file beside ``path``, which takes its place when the block ends: a
     reader sees the old file or the new one, and a failure leaves what was there. Missing
-    directories are made; a symbolic link is followed; an existing file keeps its permissions.
+    directories are made; a symbolic link is followed to a file that is there, and refused where
+    there is none; an existing file keeps its permissions.
 
     Raises
     ------
@@ -98,10 +99,17 @@ def opened(path: Path | str) -> Iterator[BinaryIO]:
         The file cannot be written; the message says why and what to do.
     """
     asked = Path(path)
-    target = Path(os.path.realpath(asked))
     try:
+        # Before links are followed: nothing is made where one of them leads.
+        asked.parent.mkdir(parents=True, exist_ok=True)
+        target = Path(os.path.realpath(asked))
+        if asked.is_symlink() and not target.exists():
+            raise OutputError(
+                "Cannot write {}: it is a link to {}, where there is nothing. Remove the link.",
+                asked,
+                target,
+            )
         mode = _mode_to_keep(target, asked)
-        target.parent.mkdir(parents=True, exist_ok=True)
         temporary = target.with_name(f".planmethod-{os.urandom(6).hex()}.tmp")
         try:
             # "x": never through a link or a file that somebody put there; permissions by umask.

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from planmethod.errors import LayoutError
 from planmethod.render.ink.drawing import Fill, Item
 from planmethod.render.ink.extent import ink_bounds
 from planmethod.render.labels import BESIDE, Label, Placed, place_labels, spare_labels
@@ -11,6 +12,26 @@ from planmethod.render.layout.block import Picture
 
 ROOMS = (26.0, 60.0)
 """Room around a picture for its letters, mm: more where they find no free place in less."""
+
+LONGEST = 5000.0
+"""Width or height of a picture that is begun at all, mm: the longest sheet has 2523."""
+
+
+def refuse_long(left: float, low: float, right: float, high: float) -> None:
+    """Refuse a picture that fits no paper before time and memory are spent on it.
+
+    Raises
+    ------
+    LayoutError
+        It is wider or higher than `LONGEST`, or is nowhere.
+    """
+    if not max(right - left, high - low) <= LONGEST:
+        raise LayoutError(
+            "a picture of {:.3g} × {:.3g} m fits no paper. Take coarser scales in [scales], or "
+            "leave them out.",
+            (right - left) / 1e3,
+            (high - low) / 1e3,
+        )
 
 
 def lettered(
@@ -26,6 +47,7 @@ def lettered(
     ``welcome`` are labels that are left out where they have no free place within the picture.
     """
     left, low, right, high = ink_bounds(items)
+    refuse_long(left, low, right, high)
     for hidden in (clear, ()) if clear else ((),):
         for room in ROOMS:
             bounds = (left - room, low - room, right + room, high + room)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 
 import numpy as np
 from msgspec import Struct, field
@@ -15,6 +16,7 @@ from planmethod.render import symbols
 from planmethod.render.ink.drawing import Disc, Ink, Item, Pen, Stroke
 from planmethod.render.ink.typeset import typeset
 from planmethod.render.labels import Label, segment_label
+from planmethod.render.pictures.lettered import refuse_long
 from planmethod.render.pictures.supports import Support, free_sides, stand
 from planmethod.render.symbols import SIZES
 from planmethod.render.symbols.axes import axis_line
@@ -25,6 +27,14 @@ AXIS = 15.0
 
 OVERHANG = 5.0
 """How far a bar goes on beyond the stone that slides on it, mm."""
+
+
+def extent(solution: Solution, positions: Sequence[int]) -> tuple[float, float, float, float]:
+    """Return left, low, right, high of all points in some positions, mm."""
+    names = solution.construction.draft.points()
+    points = np.array([solution.paper.point(PointName(name)) for name in names])
+    at = points[:, positions] if len(points) else np.zeros((1, 1), complex)
+    return at.real.min(), at.imag.min(), at.real.max(), at.imag.max()
 
 
 class Scheme(Struct):
@@ -329,6 +339,7 @@ class Scheme(Struct):
     def draw(self) -> None:
         """Draw links, sliders and joints."""
         problem = self.solution.problem
+        refuse_long(*extent(self.solution, [self.index]))
         for link in problem.mechanism.links:
             self.draw_link(link)
         # A stone pinned to a slider of the frame lies on it.

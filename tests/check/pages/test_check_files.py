@@ -15,7 +15,14 @@ from worked import path_of, problem_of
 from planmethod.check.key import Key
 from planmethod.check.marks import Settings
 from planmethod.check.model import CheckedWork
-from planmethod.check.pages.files import anonymous, file_names, hidden_name, write_all
+from planmethod.check.pages.files import (
+    anonymous,
+    file_names,
+    hidden_name,
+    run_record,
+    settings_rows,
+    write_all,
+)
 from planmethod.check.pages.overrides import OverridesError, overridden, read_overrides
 from planmethod.errors import PlanMethodError
 
@@ -115,6 +122,15 @@ def test_hidden_names_are_nowhere(tmp_path: Path) -> None:
     for data in files.values():
         assert "Иванов".encode() not in data
     assert works[0].answers[0].where == f"{stem}.json"
+
+
+def test_files_of_works_are_called_by_number_where_names_are_hidden(tmp_path: Path) -> None:
+    (tmp_path / "13-Иванов-Пётр.json").write_bytes(b"[]")
+    inputs = [path_of("linkages/ex3"), tmp_path / "13-Иванов-Пётр.json"]
+    names = [run_record(Settings(), inputs, "ru", 1, hidden=hidden) for hidden in (False, True)]
+    shown, told = ([one["name"] for one in record["inputs"]] for record in names)
+    assert (shown[1], told) == ("13-Иванов-Пётр.json", ["ex3.toml", "works-1.json"])
+    assert "works-1.json" in settings_rows(names[1])
 
 
 @given(st.lists(st.text(max_size=60), max_size=8))

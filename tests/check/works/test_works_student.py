@@ -152,6 +152,26 @@ def test_the_scale_of_lengths_may_be_a_ratio(tmp_path: Path) -> None:
     assert read_one(tmp_path, scales={"mu_v": "1:2"}).remarks[0].why is Unread.SCALE
 
 
+def test_halves_of_characters_are_told_by_their_place_and_stop_no_other(tmp_path: Path) -> None:
+    answers = [{"what": "v B", "value": 1}, {"what": "v C", "value": "2 \ud800"}]
+    whole = [{"student": "\ud800Ив", "answers": answers}, {"student": "B", "answers": []}]
+    first, second = read(tmp_path, whole)
+    assert (first.student, second.student) == ("s [0]", "B")
+    assert [(one.why, one.where) for one in first.remarks] == [(Unread.TEXT, "[0].student")]
+    assert [one.value for one in first.answers] == [1, None]
+    assert first.answers[1].where == "[0].answers[1].value"
+    for text in (first.student, *(one.fault + one.unreadable for one in first.answers)):
+        text.encode()
+
+
+def test_no_order_to_a_terminal_is_in_what_is_read(tmp_path: Path) -> None:
+    work = read_one(tmp_path, student="\x1b[2J\u202eИв", answers=[{"what": "\x1b]0;v", "value": 1}])
+    said = " ".join((work.student, *(a.what + a.id + a.raw + a.fault for a in work.answers)))
+    assert "\x1b" not in said
+    assert "\u202e" not in said
+    assert "Ив" in said
+
+
 def test_points_may_have_other_names(tmp_path: Path) -> None:
     answers = [{"what": "v K"}, {"id": "a_K3", "segment": "p k3"}, {"what": "v D K"}]
     work = read_one(tmp_path, answers=answers, names={"K": "B", "D": "E"})

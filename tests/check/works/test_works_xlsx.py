@@ -177,6 +177,34 @@ def test_an_empty_row_far_below_is_nothing(tmp_path: Path) -> None:
     assert [work.student for work in read(tmp_path, data)] == ["Иванов", "Петров"]
 
 
+def filled(place: str) -> Callable[[], bytes]:
+    cell = f'<row r="{place[-5:]}"><c r="{place}"><v>1</v></c></row></sheetData>'.encode()
+    return lambda: patched(saved(ROWS), SHEET, lambda part: part.replace(b"</sheetData>", cell))
+
+
+def with_many(what: bytes, count: int, where: bytes = b"</worksheet>") -> Callable[[], bytes]:
+    return lambda: patched(saved(ROWS), SHEET, lambda p: p.replace(where, what * count + where))
+
+
+def deep(part: bytes) -> bytes:
+    return part.replace(b"</worksheet>", b"<x>" * 100 + b"</x>" * 100 + b"</worksheet>")
+
+
+def bomb_by_another_name() -> bytes:
+    stream = io.BytesIO(saved(ROWS))
+    with zipfile.ZipFile(stream, "a", zipfile.ZIP_DEFLATED) as book:
+        book.writestr("xl/sheet.dat", b" " * (17 * 2**20))
+    return stream.getvalue()
+
+
+def three_far_sheets() -> bytes:
+    def add(sheet: Any) -> None:
+        for number in range(3):
+            sheet.parent.create_sheet(f"s{number}").cell(17_000, 4).value = 1
+
+    return saved(ROWS, add)
+
+
 def bomb() -> bytes:
     return patched(saved(ROWS), SHEET, lambda part: part + b" " * (17 * 2**20))
 
@@ -193,14 +221,38 @@ def entity() -> bytes:
         (lambda: b"PK\x03\x04 nothing", "not an XLSX"),
         (lambda: b"\xd0\xcf\x11\xe0" + b"\0" * 600, "old or encrypted"),
         (lambda: saved([["a", "b"], [1, 2]]), "no sheet has a head"),
-        (bomb, "MiB of tables"),
+        (bomb, "17 MiB"),
+        (bomb_by_another_name, "17 MiB"),
+        (filled("OJ20000"), "reaches to OJ20000: with it there are 8000000 cells"),
+        (three_far_sheets, "reaches to D17000: with it there are 204"),
+        (with_many(b'<row r="9"><c r="A9"/></row>', 100_001, b"</sheetData>"), "over 200000 cells"),
+        (with_many(b'<mergeCell ref="A1:B2"/>', 2001), "over 2000 merged ranges"),
+        (with_many(b"<x/>", 60_001), "too much in this workbook"),
+        (lambda: patched(saved(ROWS), SHEET, deep), "too much in this workbook"),
         (entity, "cannot be opened"),
         (lambda: patched(saved(ROWS), SHEET, lambda part: part[:-40]), "cannot be opened"),
         (lambda: saved([["student", "v_B"], *([n, 1] for n in range(2001))]), "2000 students"),
         (lambda: saved([["student", "v_B"], *([] for _ in range(20_000)), ["s", 1]]), "20002 rows"),
         (lambda: saved([["student", *([None] * 400), "v_B"], ["s", 1]]), "402 columns"),
     ],
-    ids=["zip", "xls", "head", "bomb", "entity", "cut", "students", "rows", "columns"],
+    ids=[
+        "zip",
+        "xls",
+        "head",
+        "bomb",
+        "dat",
+        "far",
+        "three",
+        "cells",
+        "spans",
+        "parts",
+        "deep",
+        "entity",
+        "cut",
+        "students",
+        "rows",
+        "columns",
+    ],
 )
 def test_a_fault_of_the_whole_file_is_an_error(
     tmp_path: Path, data: Callable[[], bytes], said: str

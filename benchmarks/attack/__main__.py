@@ -1,0 +1,281 @@
+"""``python -m benchmarks.attack``: every door of the program with what strangers may send.
+
+Files are made one after the other from seeds and given to commands in processes that have a limit
+of memory, and for every file one of processor time. What fails is kept in a folder with the words
+of its command. The number of a file is its seed: ``--only 1234`` does it again.
+"""
+
+from __future__ import annotations
+
+import argparse
+import contextlib
+import io
+import multiprocessing
+import os
+import random
+import signal
+import sys
+import tempfile
+import time
+import traceback
+import warnings
+from collections import Counter
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, field
+from multiprocessing.connection import Connection
+from pathlib import Path
+
+from benchmarks.attack import mutants
+from benchmarks.attack.patterns import LENGTH, patterns, slow
+
+SECONDS, MEGABYTES = 5.0, 500.0
+"""Processor time and memory that one file may take."""
+
+CHUNK = 250
+"""Files that one process is given."""
+
+EX3 = str(mutants.ROOT / "problems" / "linkages" / "ex3.toml")
+
+Made = tuple[list[str], dict[str, bytes], dict[str, str]]
+"""Words of a command, files by name, variables of the environment."""
+
+
+def problem(seed: int) -> Made:
+    """Return a command on a problem file."""
+    luck = random.Random(seed)
+    data = mutants.problem(luck)
+    commands = ["solve"] * 6 + ["sketch"] * 3 + ["solve --json", "structure --no-drawing", "audit"]
+    commands += ["protocol", "check --key", "form", "live"] if luck.random() < 0.3 else []
+    commands += ["sheet --format svg", "lint", "project", "note --format docx"] * (
+        luck.random() < 0.02
+    )
+    chosen, *rest = luck.choice(commands).split()
+    return [chosen, "p.toml", *rest, *_out(chosen)], {"p.toml": data}, {}
+
+
+def _out(command: str) -> list[str]:
+    return [] if command in ("solve", "structure", "audit", "protocol", "lint") else ["-o", "out"]
+
+
+def work(seed: int) -> Made:
+    """Return the check of a file of works."""
+    ending, data = mutants.work(random.Random(seed))
+    return ["check", EX3, f"w.{ending}", "--json"], {f"w.{ending}": data}, {}
+
+
+def department(seed: int) -> Made:
+    """Return a command with a layout, settings, a config file, or with odd numbers."""
+    luck = random.Random(seed)
+    kind = luck.choice(("layout", "settings", "config", "words"))
+    if kind == "words":
+        return mutants.words(luck), {}, {}
+    data = mutants.other(kind, luck)
+    if kind == "layout":
+        return (
+            ["sheet", EX3, "--layout", "l.toml", "--format", "svg", "-o", "out"],
+            {"l.toml": data},
+            {},
+        )
+    if kind == "settings":
+        return ["check", EX3, "w.csv", "--settings", "s.toml", "--json"], {
+            "s.toml": data, "w.csv": b"student;v B\nA;3\n",
+        }, {}  # fmt: skip
+    return ["sketch", EX3, "-o", "out"], {"planmethod/config.toml": data}, {"XDG_CONFIG_HOME": "."}
+
+
+DOORS: dict[str, Callable[[int], Made]] = {
+    "problem files": problem,
+    "works": work,
+    "layouts, settings, config, numbers": department,
+}
+
+
+@dataclass
+class Found:
+    """What came of the files of a door."""
+
+    door: str
+    files: int = 0
+    codes: Counter[object] = field(default_factory=Counter)
+    slowest: float = 0.0
+    largest: float = 0.0
+    bad: list[str] = field(default_factory=list)
+
+
+class _LateError(BaseException):
+    """A file took its processor time; no net of the program catches it."""
+
+
+def attempt(made: Made, folder: Path) -> tuple[object, float]:
+    """Run a command in this process, in a folder; return its exit code and processor time.
+
+    A fault inside is told by its traceback instead of the code.
+    """
+    from planmethod.__main__ import main
+
+    words, files, variables = made
+    for name, data in files.items():
+        (folder / name).parent.mkdir(parents=True, exist_ok=True)
+        (folder / name).write_bytes(data)
+    os.environ.pop("XDG_CONFIG_HOME", None)
+    os.environ.update(variables)
+    os.chdir(folder)
+    sys.argv = ["planmethod", *words]
+    code: object = None
+    began, raw = time.process_time(), io.BytesIO()
+    said = io.TextIOWrapper(raw, "utf-8", errors="replace", write_through=True)
+    with contextlib.redirect_stdout(said), contextlib.redirect_stderr(said):
+        try:
+            signal.setitimer(signal.ITIMER_VIRTUAL, SECONDS)
+            main()
+            code = 0
+        except SystemExit as end:
+            code = end.code
+        except _LateError:
+            code = f"over {SECONDS:g} s"
+        except BaseException:  # what the last net let through
+            code = traceback.format_exc(limit=-3)
+        finally:
+            signal.setitimer(signal.ITIMER_VIRTUAL, 0)
+    told = raw.getvalue().decode("utf-8", "replace")
+    if code not in (0, 1, 2, 3, 4) or "Traceback" in told:
+        code = f"{code}: {told[-300:].strip()}"
+    elif any((ord(c) < 32 and c not in "\n\t\r") or c in "\x7f\x9b\u202e" for c in told):
+        code = f"raw characters: {told[-300:]!r}"
+    return code, time.process_time() - began
+
+
+def _late(*_: object) -> None:
+    raise _LateError
+
+
+def _child(door: str, seeds: Sequence[int], pipe: Connection) -> None:
+    import resource
+
+    signal.signal(signal.SIGVTALRM, _late)
+    resource.setrlimit(resource.RLIMIT_AS, (4 * 2**30, 4 * 2**30))
+    warnings.simplefilter("ignore")
+    home = Path.cwd()
+    with tempfile.TemporaryDirectory() as name:
+        for seed in seeds:
+            folder = Path(name) / str(seed)
+            folder.mkdir()
+            pipe.send((seed, None, 0.0, 0.0))
+            code, seconds = attempt(DOORS[door](seed), folder)
+            os.chdir(home)
+            peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
+            pipe.send((seed, code, seconds, peak))
+            if peak > MEGABYTES:
+                break  # of the next file it would not be known
+            for path in sorted(folder.rglob("*"), reverse=True):
+                path.rmdir() if path.is_dir() and not path.is_symlink() else path.unlink()
+            folder.rmdir()
+    pipe.close()
+    os._exit(0)
+
+
+def attack(door: str, seeds: Sequence[int], *, jobs: int = 1) -> Found:
+    """Give files to a door and return what came of them."""
+    found = Found(door)
+    left = [list(seeds[start : start + CHUNK]) for start in range(0, len(seeds), CHUNK)]
+    running: list[tuple[Iterator[None], list[int]]] = []
+    while left or running:
+        while left and len(running) < jobs:
+            chunk = left.pop(0)
+            running.append((_watched(door, chunk, found), chunk))
+        for one in list(running):
+            try:
+                next(one[0])
+            except StopIteration:
+                running.remove(one)
+                if one[1]:
+                    left.append(one[1])
+    return found
+
+
+def _watched(door: str, seeds: list[int], found: Found) -> Iterator[None]:
+    """Run a process over files; those that are done are taken from the list."""
+    context = multiprocessing.get_context("fork")
+    ours, theirs = context.Pipe(duplex=False)
+    process = context.Process(target=_child, args=(door, seeds, theirs))
+    process.start()
+    theirs.close()
+    at_work: int | None = None
+    began = time.monotonic()
+    while True:
+        try:
+            if not ours.poll(0.2):
+                if time.monotonic() - began > 20 * SECONDS and at_work is not None:
+                    process.kill()  # hung in C
+                yield
+                continue
+            seed, code, seconds, peak = ours.recv()
+        except (EOFError, OSError):
+            break
+        began = time.monotonic()
+        at_work = seed
+        if code is None:
+            continue
+        at_work = None
+        seeds.remove(seed)
+        _count(found, seed, code, seconds, peak)
+    process.join()
+    if at_work is not None:
+        seeds.remove(at_work)
+        _count(found, at_work, f"killed ({process.exitcode})", 0.0, 0.0)
+
+
+def _count(found: Found, seed: int, code: object, seconds: float, peak: float) -> None:
+    found.files += 1
+    found.slowest, found.largest = max(found.slowest, seconds), max(found.largest, peak)
+    found.codes[code if isinstance(code, int) else "bad"] += 1
+    if not isinstance(code, int):
+        found.bad.append(f"{seed}: {code}")
+    elif peak > MEGABYTES:
+        found.bad.append(f"{seed}: {peak:.0f} MB")
+
+
+def row(found: Found) -> str:
+    """Return a row of the table of docs/security.md."""
+    codes = ", ".join(f"{code}: {n}" for code, n in sorted(found.codes.items(), key=str))
+    numbers = f"{found.slowest:.1f} s | {found.largest:.0f} MB | {len(found.bad)}"
+    return f"| {found.door} | {found.files} | {codes} | {numbers} |"
+
+
+def main() -> None:
+    """Attack every door and print the table; exit code 1 where something fell."""
+    parser = argparse.ArgumentParser(prog="python -m benchmarks.attack", description=__doc__)
+    parser.add_argument("--problems", type=int, default=100_000)
+    parser.add_argument("--works", type=int, default=10_000)
+    parser.add_argument("--others", type=int, default=1000)
+    parser.add_argument("--first", type=int, default=0, help="first seed")
+    parser.add_argument("--jobs", type=int, default=os.cpu_count() or 1)
+    parser.add_argument("--only", type=int, help="one seed, at every door, with what it says")
+    told = parser.parse_args()
+    if told.only is not None:
+        for door, make in DOORS.items():
+            folder = Path(tempfile.mkdtemp(prefix="attack-"))
+            signal.signal(signal.SIGVTALRM, _late)
+            print(door, make(told.only)[0], folder, *attempt(make(told.only), folder))
+        return
+    import planmethod.cli  # noqa: F401 - once, before the processes
+
+    print(
+        "| door | files | exit codes | slowest | largest | bad |",
+        "| --- | ---: | --- | ---: | ---: | ---: |",
+        sep="\n",
+    )
+    fell = False
+    for door, count in zip(DOORS, (told.problems, told.works, told.others), strict=True):
+        found = attack(door, range(told.first, told.first + count), jobs=told.jobs)
+        print(row(found), *found.bad[:20], sep="\n", flush=True)
+        fell = fell or bool(found.bad)
+    bad = [
+        f"{where}: {p!r} on {text!r}" for where, p, w in patterns() if (text := slow(p, w, LENGTH))
+    ]
+    print(f"| regular expressions | {len(list(patterns()))} | | | | {len(bad)} |", *bad, sep="\n")
+    sys.exit(bool(fell or bad))
+
+
+if __name__ == "__main__":
+    main()

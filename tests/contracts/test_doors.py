@@ -1,0 +1,235 @@
+"""What a stranger sends: no traceback, no exit 5, bounded work, nothing raw on the terminal."""
+
+from __future__ import annotations
+
+import os
+import re
+import signal
+import subprocess
+import sys
+import time
+import tomllib
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+import pytest
+from cases import some
+from click.testing import CliRunner, Result
+from worked import ROOT, path_of
+
+from benchmarks.attack.patterns import patterns, slow
+from planmethod.cli import cli
+from planmethod.note.wording import language
+from planmethod.problem.names import is_label
+from planmethod.render.ink.drawing import Drawing, Text
+from planmethod.render.sketch import VIEWS, sketch
+from planmethod.solved import part as part_module
+from planmethod.solved.part import largest_part
+
+EX3 = path_of("linkages/ex3")
+FOUR_BAR = """
+title = "x"
+[frame]
+O = [0, 0]
+C = {c}
+[links.1]
+points = ["O", "A"]
+OA = 0.1
+[links.2]
+points = [{points}]
+AB = {rod}
+[links.3]
+points = ["C", "B"]
+CB = 0.4
+[driver]
+link = "1"
+phi = 30
+omega = 10
+[assembly]
+B = "above C"
+"""
+
+
+def run(*words: str) -> Result:
+    return CliRunner().invoke(cli, words)
+
+
+def process(
+    *words: str | bytes, env: dict[str, str] | None = None, folder: Path = ROOT
+) -> subprocess.CompletedProcess[bytes]:
+    return subprocess.run(
+        [sys.executable, "-m", "planmethod", *words],
+        env={**os.environ, "PYTHONPATH": str(ROOT), **(env or {})},
+        cwd=folder,
+        capture_output=True,
+        timeout=120,
+    )
+
+
+# Patterns ----------------------------------------------------------------------------------------
+
+
+@pytest.mark.skipif(not hasattr(signal, "setitimer"), reason="no timer of processor time")
+def test_no_pattern_takes_a_power_of_the_length_of_its_text() -> None:
+    """One that does takes minutes for such a text, the others milliseconds."""
+    found = list(patterns())
+    assert len(found) > 100
+    every = some(1, few=0) or 8
+    bad = [(where, p, slow(p, anywhere, 1 << 14)) for where, p, anywhere in found[::every]]
+    assert not [one for one in bad if one[2]]
+    assert slow(r"(?m)^[ \t]*\[?[ \t]*x", True, 1 << 16)  # what it finds
+    assert slow(r"[^\W_]+(?:[- ]?[^\W_]+)*\Z", False, 100)
+
+
+def test_a_long_line_is_refused_before_anything_looks_at_it(tmp_path: Path) -> None:
+    path = tmp_path / "x.toml"
+    path.write_text(f'title = "x"\n{" " * 100_000}\n')
+    for command in ("solve", "sheet", "lint", "audit"):
+        result = run(command, str(path))
+        assert (result.exit_code, "line 2 has 100000 characters" in result.output) == (3, True)
+    assert not is_label("a" * 23 + "!")  # it took a second
+
+
+# Sketches ----------------------------------------------------------------------------------------
+
+
+def drawn(text: str) -> Drawing:
+    part = largest_part(tomllib.loads(text), source="x", name="x", views=VIEWS)
+    return sketch(part, "", language("en"), [])
+
+
+def four_bar(points: Sequence[str] = ("A", "B"), c: str = "[0.3, 0]", rod: str = "0.3") -> str:
+    return FOUR_BAR.format(points=", ".join(f'"{p}"' for p in points), c=c, rod=rod)
+
+
+@pytest.mark.parametrize(
+    "c", ["[nan, 0]", "[0.3, inf]", "[0.2, nan]", "[1e300, 0]", f"[0, 1{'0' * 400}]"]
+)
+def test_a_fixed_point_that_is_nowhere_is_not_drawn(c: str) -> None:
+    assert drawn(four_bar(c=c))
+
+
+def test_points_named_again_and_again_are_marked_once() -> None:
+    texts = [i.text for i in drawn(four_bar(["A", "B", "O"] * 100)).items if isinstance(i, Text)]
+    assert sum(text.startswith("2?") for text in texts) <= 3
+
+
+def test_a_scale_that_fits_no_paper_is_another_one_on_a_sketch(tmp_path: Path) -> None:
+    """At that of the file the axis of a guide is of a million strokes, and takes gigabytes."""
+    path = tmp_path / "x.toml"
+    path.write_text(re.sub("mu_l = .*", "mu_l = 1e-9", EX3.read_text("utf-8")), "utf-8")
+    out = str(tmp_path)
+    assert run("sketch", str(path), "-o", out).exit_code == 0
+    assert (tmp_path / "x-sketch.svg").stat().st_size < 100_000
+    for command in ("sheet", "project", "note"):
+        result = run(command, str(path), "-o", out)
+        assert result.exit_code == 2, result.output
+        assert "coarser scales" in result.output
+
+
+def test_a_sketch_tries_no_more_mechanisms_than_it_may(monkeypatch: pytest.MonkeyPatch) -> None:
+    tried: list[tuple[str, ...]] = []
+    table = part_module._Growth._table
+
+    def noted(self: Any, links: tuple[str, ...]) -> dict[str, Any]:
+        tried.append(links)
+        return table(self, links)
+
+    monkeypatch.setattr(part_module._Growth, "_table", noted)
+    links = "".join(f'[links.a{n}]\npoints = ["O", "P", "Q{n}"]\nOP = 0.2\n' for n in range(58))
+    drawn(four_bar() + links)
+    assert 0 < len(tried) <= part_module.TRIES + 1
+
+
+# The terminal ------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    "text",
+    ['title = "ok\x1b]0;owned\x07"', 'title = "ok"\n"a" \x1b[2J\u202etxt', "om\u202ega = 1",
+     'title = "x"\n"\\u001b[31m" = 1', 'title = "\\u202eab"\n[frame]', 'units = "\\u001b[2J"'],
+)  # fmt: skip
+def test_no_order_of_a_file_reaches_the_terminal(text: str, tmp_path: Path) -> None:
+    path = tmp_path / "x.toml"
+    path.write_text(text, "utf-8")
+    for lang in ("ru", "en"):
+        result = run("solve", str(path), "--lang", lang)
+        assert result.exit_code == 3
+        assert all(c.isprintable() or c in "\n\u00a0" for c in result.output), result.output
+
+
+@pytest.mark.parametrize("command", ["check --key -o {out}", "form -o {out}"])
+def test_a_number_beyond_all_bounds_is_none(command: str, tmp_path: Path) -> None:
+    path = tmp_path / "x.toml"
+    path.write_text('title = "x"\n[point]\nx = "18*t"\ny = "24*sh(t)"\nt = 360\n')
+    assert run(*command.format(out=tmp_path).split(), str(path)).exit_code == 3
+
+
+# Encodings, the environment, Ctrl+C --------------------------------------------------------------
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="file names are bytes")
+def test_words_that_are_not_utf8_are_told(tmp_path: Path) -> None:
+    path = os.fsencode(tmp_path) + b"/n\xff.toml"
+    with open(path, "wb") as file:  # noqa: PTH123 - no name in UTF-8
+        file.write(EX3.read_bytes())
+    for words in (
+        ("solve", "--json", path),
+        ("sheet", str(EX3), "--stamp", b"author=\xff", "-o", str(tmp_path / "out")),
+    ):
+        done = process(*words, "--lang", "en")
+        assert (done.returncode, b"is not UTF-8" in done.stderr) == (2, True), done.stderr
+    assert not (tmp_path / "out").exists()
+
+
+def test_a_date_of_the_environment_is_in_no_file(tmp_path: Path) -> None:
+    for number, date in enumerate(("abc", "1700000000")):
+        done = process(
+            "sheet", str(EX3), "--format", "svg", "--format", "pdf",
+            "-o", str(tmp_path / str(number)),
+            env={"SOURCE_DATE_EPOCH": date},
+        )  # fmt: skip
+        assert done.returncode == 0, done.stderr
+    made = [sorted((p.name, p.read_bytes()) for p in (tmp_path / n).iterdir()) for n in "01"]
+    assert made[0] == made[1]
+    assert [name for name, _ in made[0]] == ["ex3.pdf", "ex3.svg"]  # both --format count
+
+
+def test_a_library_that_is_not_there_is_told(tmp_path: Path) -> None:
+    (tmp_path / "reportlab.py").write_text("raise ImportError('libx.so: cannot open')")
+    done = process(
+        "sheet", str(EX3), "--format", "pdf", "--lang", "en", "-o", str(tmp_path / "out"),
+        env={"PYTHONPATH": f"{tmp_path}{os.pathsep}{ROOT}"},
+    )  # fmt: skip
+    assert (done.returncode, b"libx.so" in done.stderr) == (2, True), done.stderr
+
+
+@pytest.mark.skipif(os.name != "posix", reason="signals")
+@pytest.mark.parametrize("late", [0.0, 0.15])
+def test_ctrl_c_is_one_line_and_130(late: float, tmp_path: Path) -> None:
+    """As soon as there is anything of ours, and in the midst of the work."""
+    with subprocess.Popen(
+        [
+            sys.executable,
+            "-m",
+            "planmethod",
+            "sheet",
+            str(EX3),
+            "--lang",
+            "en",
+            "-o",
+            str(tmp_path / "out"),
+        ],
+        env={**os.environ, "PYTHONPATH": str(ROOT)},
+        stderr=subprocess.PIPE,
+        stdout=subprocess.DEVNULL,
+    ) as running:
+        time.sleep(0.06 + late)
+        running.send_signal(signal.SIGINT)
+        _, said = running.communicate(timeout=60)
+    if b"frozen" in said or running.returncode == -signal.SIGINT:
+        pytest.skip("the interpreter had not begun")
+    assert running.returncode == 130, said
+    assert said.decode().strip() == "Stopped; the files that are there are whole."
+    assert not list(tmp_path.rglob("*.tmp"))
