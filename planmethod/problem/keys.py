@@ -15,6 +15,7 @@ from planmethod.problem.head import (
     TITLE_BLOCK,
     TITLE_FORMS,
     AskedAnswer,
+    CamTable,
     GearWheelTable,
     MeshingTable,
     PictureTable,
@@ -32,7 +33,7 @@ from planmethod.problem.machine_records import (
 )
 from planmethod.problem.model import Scales
 
-OF_KINDS = ("gears", "point", "meshing")
+OF_KINDS = ("gears", "point", "meshing", "cam")
 """Tables by which a file is of another kind than linkages; those kinds read them."""
 
 TOP = (
@@ -95,7 +96,7 @@ FLAT: Mapping[str, type[object]] = {
     "load": LoadEntry, "phases": Phase, "machine": Machine, "flywheel": FlywheelTask,
     "motor": MotorTable, "kloss": KlossTable, "line": LineTable, "balancing": CounterweightTask,
     "wheel": GearWheelTable, "picture": PictureTable, "meshing": MeshingTable,
-    "project": ProjectTask,
+    "project": ProjectTask, "cam": CamTable,
 }  # fmt: skip
 """Records of flat tables by the kind of table."""
 
