@@ -11,7 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from functools import cached_property, partial
-from math import degrees, floor, sqrt, tan
+from math import floor, sqrt, tan
 from typing import NamedTuple, TypeAlias
 
 import numpy as np
@@ -306,14 +306,11 @@ class CamDesign(Struct, frozen=True, dict=True):
             return bare
         if one.roller is not None:
             return replace(bare, roller=one.roller)
-        most = min(OF_R_MIN * bare.r_min, OF_RHO * self.rho_min.value)
+        limits = [OF_RHO * self.rho_min.value]
         if one.closure is Closure.FORM:
-            most = min(most, OF_RHO * self.hollow.value)
-        if most <= 0:
-            what = say("no roller rolls over the corner of the profile at φ = {:g}°",
-                       degrees(self.rho_min.phi))  # fmt: skip
-            hint = "Take another law, blend the linear one, or give roller."
-            raise ProblemError(one.name, [Fault("cam.roller", what, hint)])
+            limits.append(OF_RHO * self.hollow.value)
+        # Over a corner no roller rolls: the undercut is told then.
+        most = min([OF_R_MIN * bare.r_min, *(limit for limit in limits if limit > 0)])
         return replace(bare, roller=floor(most / STEP + 1e-9) * STEP if most > 2 * STEP else most)
 
     def pressure(self, phase: CamPhase) -> Extreme:

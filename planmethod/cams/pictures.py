@@ -175,7 +175,7 @@ def _pressure(view: CamView) -> Picture:
         start, end = problem.starts[phase], problem.starts[phase] + problem.length(phase)
         height = sign * degrees(limit) / per_mm
         line = tuple(complex(degrees(x) / per, height) for x in (start, end))
-        curves.append(Curve(view.words.cam["limits"][phase.value], (line,), Pen.HIDDEN))
+        curves.append(Curve(view.words.cam["limits"][phase.value].format(), (line,), Pen.HIDDEN))
     return diagram_picture(
         _across(view), Ordinates("ϑ, °", per_mm, view.words.say), curves,
         letter_height=view.letter, name="cam pressure",

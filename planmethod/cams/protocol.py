@@ -102,7 +102,7 @@ def _diagrams(built: CamConstruction, drawn: CamReadings, words: Language) -> It
                 say.number(sigma_text(MM * scales.s * sigma)),
             )
         )
-    yield table_of(said.diagram_heads, rows, names=0)
+    yield table_of(said["diagram_heads"], rows, names=0)
 
 
 def _region(built: CamConstruction, drawn: CamReadings, words: Language) -> Iterator[Node]:
@@ -162,7 +162,7 @@ def _profile(built: CamConstruction, drawn: CamReadings, words: Language) -> Ite
                 say.number(sigma_text(sigma)),
             )
         )
-    yield table_of(said.profile_heads, rows, names=0)
+    yield table_of(said["profile_heads"], rows, names=0)
     yield Paragraph(drawn.deviation())
 
 

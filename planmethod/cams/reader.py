@@ -35,6 +35,9 @@ OF_LAW: Mapping[CamLawName, tuple[str, float, float]] = {
 }
 """Numbers that laws may have, with their bounds."""
 
+_NEEDED = {
+    "swing": "swing = 20 (degrees)", "arm": "arm = 0.12 (m)", "stroke": "stroke = 0.04 (m)",
+}  # fmt: skip
 _TABLE = 'law = { rise = { law = "table", values = [0, 1, 1, 0, -1, -1, 0] }, return = "sine" }'
 _POINTS = 'law = { law = "piecewise-linear", points = [[0, 1], [0.5, 1], [0.5, -1], [1, -1]] }'
 
@@ -156,7 +159,7 @@ def _check_keys(
     whose = "an oscillating follower" if oscillates else "a translating follower"
     for key in needed:
         if key not in body:
-            faults.add(f"cam.{key}", "missing", say("{} needs {}.", say(whose), " and ".join(needed)))
+            faults.add(f"cam.{key}", "missing", say("For example: {}", _NEEDED[key]))
     for key in alien:
         if key in body:
             faults.add(f"cam.{key}", say("{} has none", say(whose)), "Leave it out.")

@@ -65,7 +65,7 @@ class CamReadings(Struct, frozen=True, dict=True):
                 (symbols[name], say.found(MM * exact), say.number(shown),
                  say.number(sigma_text(MM * sigma)))
             )  # fmt: skip
-        return table_of(self.words.cam.region_heads, rows)
+        return table_of(self.words.cam["region_heads"], rows)
 
     def off(self, trace: Trace) -> float:
         """Return how far the profile of a reading is from the exact one at most, mm of the cam."""
