@@ -135,6 +135,11 @@ class CamProblem(KindProblem, frozen=True, kw_only=True, dict=True):
         """-1 of a clockwise cam, which is the mirror image, else 1."""
         return -1 if (self.n or 0.0) < 0 else 1
 
+    @property
+    def has_forces(self) -> bool:
+        """Whether the file tells what the forces on the follower come from."""
+        return bool(self.mass and self.n)
+
     @cached_property
     def starts(self) -> dict[CamPhase, float]:
         """Where phases begin, rad from the start of the rise."""

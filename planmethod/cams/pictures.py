@@ -6,7 +6,7 @@ Everything is millimetres of paper. A clockwise cam is drawn as the mirror image
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from math import degrees, radians
+from math import degrees
 
 import numpy as np
 from msgspec import Struct
@@ -163,7 +163,7 @@ def _pressure(view: CamView) -> Picture:
         np.degrees(design.geometry.points(x, problem.on(one, x)).pressure)
         for one, x in zip(problem.stretches, phi, strict=True)
     ]
-    per_mm = _per_mm(values, 40.0 * view.built.scales.phi / radians(1.0))
+    per_mm = _per_mm(values, 40.0 / per)
     for x, y in zip(phi, values, strict=True):
         found.append(tuple(complex(degrees(a) / per, b / per_mm) for a, b in zip(x, y, strict=True)))
     curves = [Curve("ϑ", tuple(found))]

@@ -13,7 +13,7 @@ from planmethod.cams.design import CamDesign
 from planmethod.cams.model import CamProblem, Contact
 from planmethod.cams.pictures import CamView, diagrams_picture, profile_picture, region_picture
 from planmethod.cams.readings import CamReadings
-from planmethod.cams.text import MM, checks, given, positions, sizes
+from planmethod.cams.text import MM, checks, forces, given, positions, sizes
 from planmethod.construct.drafting import PROFILES, Profile
 from planmethod.construct.scale import Scale
 from planmethod.errors import LayoutError
@@ -42,7 +42,7 @@ class CamTry(Struct, frozen=True):
 
 
 TRIES = (
-    CamTry(1.0, 180.0, 300.0, Sizes(5.0, 5.0, 3.5, TEXT_WIDTH, 6.0)),
+    CamTry(1.0, 180.0, 320.0, Sizes(5.0, 5.0, 3.5, TEXT_WIDTH, 6.0)),
     CamTry(0.9, 110.0, 300.0, Sizes(3.5, 5.0, 3.5, TEXT_WIDTH, 5.0)),
     CamTry(0.7, 90.0, 270.0, Sizes(3.5, 5.0, 3.5, TEXT_WIDTH, 5.0)),
     CamTry(1.0, 160.0, 230.0, Sizes(5.0, 5.0, 3.5, TEXT_WIDTH, 6.0)),
@@ -120,7 +120,7 @@ class _Cam(Struct, frozen=True):
         """Yield the blocks in reading order."""
         built, said, letters = construct(self.design, scales), self.words.cam, tried.sizes
         view = CamView(built, self.words, letters.letter)
-        yield Packed(self._viewed(diagrams_picture(view), "diagrams", built, letters, "avs"))
+        yield Packed(self._viewed(diagrams_picture(view), "diagrams", built, letters, "sva"))
         region = region_picture(view)
         if region is not None:
             plate = self.design.problem.contact is Contact.FLAT
@@ -129,6 +129,8 @@ class _Cam(Struct, frozen=True):
         yield Packed(self._viewed(profile_picture(view), "profile", built, letters, ("profile",)))
         facts = "; ".join(given(self.design.problem, self.words))
         texts = [self.words.note.given.format(given=facts), *checks(self.design, self.words)]
+        if self.design.problem.has_forces:
+            texts += forces(self.design, self.words)
         lines: list[Block] = [paragraph(text, letters.text, TEXT_WIDTH) for text in texts]
         lines.append(_table(sizes(self.design, self.words), letters, said.sizes))
         drawn = CamReadings(built, self.words, self.profile)
@@ -150,16 +152,16 @@ class _Cam(Struct, frozen=True):
 
         told = [inscribed(of) for of in scales]
         if name == "diagrams":
-            told.insert(0, said.scale_phi.format(degree=say.given(built.scales.degree)))
+            told.append(said.scale_phi.format(degree=say.given(built.scales.degree)))
         title: str = said["views"][name]
-        wide = max(picture.width, 70.0)
+        wide = max(picture.width, 110.0)
         lines: list[Block] = [
             heading(title, letters.title, width=wide),
             paragraph("; ".join(told), letters.text, wide),
             picture,
         ]
-        mu = Scale("mu_l", getattr(built.scales, scales[-1]), "m")
-        kind = "diagram" if name == "diagrams" else "cam"
+        kind, letter = ("diagram", "s") if name == "diagrams" else ("cam", "l")
+        mu = Scale(f"mu_{letter}", getattr(built.scales, scales[0]), "m")
         return Viewed(Column(lines, gap=2.5), kind, mu)
 
 

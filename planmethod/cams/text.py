@@ -32,7 +32,7 @@ def solved_document(problem: CamProblem, words: Language) -> Iterator[Node]:
     yield sizes(design, words)
     yield Caption(said.checked)
     yield from map(Item, checks(design, words))
-    if problem.mass and problem.n:
+    if problem.has_forces:
         yield Caption(said.forces)
         yield from map(Item, forces(design, words))
     yield Caption(said.positions)
