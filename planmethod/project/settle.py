@@ -180,7 +180,7 @@ def _parts(problem: Problem, path: Path | None) -> Iterator[ProjectPart]:
     for name in PartName:
         if name is PartName.NOTE or name not in asked or not there[name]:
             continue
-        if name not in (PartName.GEARS, PartName.MESHING):
+        if name not in (PartName.GEARS, PartName.MESHING, PartName.CAM):
             yield ProjectPart(name, problem)
         elif path is not None:
             yield _of_kind(problem, name, path, str(getattr(task, name.value)))
@@ -195,7 +195,7 @@ def _has(problem: Problem, task: ProjectTask, name: PartName) -> bool:
             return problem.dynamics is not None
         case PartName.FLYWHEEL:
             return problem.dynamics is not None and problem.machine is not None
-        case PartName.GEARS | PartName.MESHING:
+        case PartName.GEARS | PartName.MESHING | PartName.CAM:
             return bool(getattr(task, name.value)) or name.value in problem.tables
         case _:
             assert_never(name)

@@ -36,6 +36,12 @@ LINKS = ("n", "ω", "ε", "φ", "m", "J", "length")
 """Letters of quantities of links."""
 
 
+_OTHERS = (
+    PartName.FORCES, PartName.FLYWHEEL, PartName.GEARS, PartName.MESHING, PartName.CAM,
+)  # fmt: skip
+"""Parts that a file may have beside the analysis of its linkage."""
+
+
 def title_page(report: Report) -> TitlePage:
     """Return the first page: what ``[stamp]`` says."""
     problem, said = report.project.problem, report.said["front"]
@@ -99,7 +105,7 @@ def _tasks(report: Report) -> Iterator[Rich]:
     yield tasks.motion.format()
     if report.every.problem.cycle is not None:
         yield tasks.cycle.format()
-    for name in (PartName.FORCES, PartName.FLYWHEEL, PartName.GEARS, PartName.MESHING):
+    for name in _OTHERS:
         if report.has(name):
             balancing = report.said["balancing"][report.one.problem.drive.balancing.quantity]
             yield str(tasks[name.value]).format(balancing=balancing)
@@ -211,7 +217,7 @@ def _introduction(report: Report) -> Iterator[Node]:
     yield StructuralHeading(said.title.format())
     others = [
         str(said["kinds"][name.value]).format()
-        for name in (PartName.FORCES, PartName.FLYWHEEL, PartName.GEARS, PartName.MESHING)
+        for name in _OTHERS
         if report.has(name)
     ]
     yield sentences(
