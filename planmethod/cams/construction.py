@@ -85,17 +85,24 @@ def scales_of(
     design: CamDesign, share: float = 1.0, region: float = 150.0, profile: float = 220.0
 ) -> CamScales:
     """Return scales from the series: diagrams of a share, a region and a profile of so many mm."""
-    sizes = np.abs(np.concatenate([ends(design.problem, one) for one in design.problem.stretches], 1))
+    sizes = np.abs(
+        np.concatenate([ends(design.problem, one) for one in design.problem.stretches], 1)
+    )
     s, v, a = sizes.max(axis=1)
-    box = [series_near(float(x) / mm, up=True) for x, mm in ((s, share * BOX_S), (v, share * BOX_V), (a or s, share * BOX_A))]
+    boxes = ((s, share * BOX_S), (v, share * BOX_V), (a or s, share * BOX_A))
+    mu_s, mu_v, mu_a = (series_near(float(x) / mm, up=True) for x, mm in boxes)
     geometry = design.geometry
-    tall = geometry.r_min + s
+    room = max(geometry.r_min + s, 2 * (a if _is_plate(design) else v))
+    if design.problem.oscillates:
+        room = max(room, design.problem.arm + v)
     wide = 2 * geometry.centre + geometry.roller if design.problem.oscillates else 0.0
     line = outline(design)
-    wide = max(wide, *(float(np.ptp(part)) + 2 * geometry.roller for part in (line.real, line.imag)))
+    wide = max(
+        wide, *(float(np.ptp(part)) + 2 * geometry.roller for part in (line.real, line.imag))
+    )
     return CamScales(
-        angle_scale(180.0 / share), *box,
-        region=series_near(max(tall, 2 * (a if _is_plate(design) else v)) / region, up=True),
+        angle_scale(180.0 / share), mu_s, mu_v, mu_a,
+        region=series_near(float(room) / region, up=True),
         profile=series_near(wide / profile, up=True),
     )  # fmt: skip
 
@@ -106,7 +113,7 @@ def ends(problem: CamProblem, stretch: Stretch) -> Reals:
 
 
 def outline(design: CamDesign) -> Complexes:
-    """Return the theoretical profile, and the outer side of a groove, in the frame of the cam, m."""
+    """Return the theoretical profile and the outer side of a groove, in the frame of the cam, m."""
     at = design.geometry.at(np.linspace(0.0, TURN, 721))
     return np.concatenate([at.theoretical, at.outer])
 
@@ -186,7 +193,9 @@ class CamConstruction(Struct, frozen=True, dict=True):
     def exact_points(self) -> Complexes:
         """Return the exact theoretical profile in the divisions, mm of the drawing."""
         phi = np.array([node.phi for node in self.nodes])
-        at = self.design.geometry.points(phi, np.array([moved_in(self.design.problem, n) for n in self.nodes]).T)
+        at = self.design.geometry.points(
+            phi, np.array([moved_in(self.design.problem, n) for n in self.nodes]).T
+        )
         found = at.actual if _is_plate(self.design) else at.theoretical
         return np.asarray(found / self.scales.profile)
 
@@ -430,5 +439,12 @@ def construct(design: CamDesign, scales: CamScales | None = None) -> CamConstruc
     draft.profile()
     bounds = design.bounds if drawn and not _is_plate(design) else ()
     return CamConstruction(
-        design, draft.scales, draft.b.program(), draft.data, draft.nodes, draft.results, drawn, bounds
+        design,
+        draft.scales,
+        draft.b.program(),
+        draft.data,
+        draft.nodes,
+        draft.results,
+        drawn,
+        bounds,
     )

@@ -2,9 +2,9 @@
 
 A pressure angle is kept where the axis lies between two lines through the end D of the analogue of
 the velocity, laid off from the roller and turned by a right angle the way the cam turns. So the
-permissible places of the axis are what all these half-planes have in common, and the least cam has its axis
-in the place of them that is nearest to the roller at rest. Half-planes of the angles at which they
-bind are found exactly and added until none is violated anywhere.
+permissible places of the axis are what all these half-planes have in common, and the least cam has
+its axis in the place of them that is nearest to the roller at rest. Half-planes of the angles at
+which they bind are found exactly and added until none is violated anywhere.
 """
 
 from __future__ import annotations
@@ -84,8 +84,7 @@ class CamDesign(Struct, frozen=True, dict=True):
     def velocity_end(self, moved: Reals) -> tuple[Complexes, Complexes]:
         """Return D from the roller at rest, m, and what turns the follower's way upright.
 
-        The frame is that of the follower: at rest it moves along +y. Of a pivoted one the pivot is at
-        ``side·arm``.
+        The frame is that of the follower: at rest it moves along +y; the pivot is at ``side·arm``.
         """
         one = self.problem
         s, v, _ = moved
@@ -101,7 +100,7 @@ class CamDesign(Struct, frozen=True, dict=True):
         return CamGeometry(self.problem, 1.0).side
 
     def half_planes(self, stretch: Stretch, phi: Reals, sign: int) -> tuple[Reals, Reals, Reals]:
-        """Return ``a, b, c`` of ``a·x + b·y <= c`` for the axis at (x, y) from the roller at rest."""
+        """Return a, b, c of ``a·x + b·y <= c`` for the axis at (x, y) from the roller at rest."""
         limit = self.problem.limit(stretch.phase)
         assert limit is not None
         end, turn = self.velocity_end(self.problem.on(stretch, phi))
@@ -145,18 +144,22 @@ class CamDesign(Struct, frozen=True, dict=True):
         rows: list[tuple[float, ...]] = []
         for stretch, sign in self.limited():
             phi = np.linspace(stretch.start, stretch.end, 9)
-            rows += zip(*self.half_planes(stretch, phi, sign), strict=True)
+            planes = self.half_planes(stretch, phi, sign)
+            rows += [tuple(map(float, plane)) for plane in zip(*planes, strict=True)]
+        place = 0j
         for _ in range(ROUNDS):
             table = np.array(rows)
             point = nearest_to_origin(table[:, :2], table[:, 2])
             if point is None:
                 raise self._impossible()
-            most, worst = self.worst(*point)
+            place = complex(float(point[0]), float(point[1]))
+            most, worst = self.worst(place.real, place.imag)
             if most <= 1e-15 * self.problem.stroke:
                 break
-            for stretch, phi, sign in worst:
-                rows.append(tuple(map(float, self.half_planes(stretch, np.array(phi), sign))))
-        return complex(*point)
+            for stretch, angle, sign in worst:
+                plane = self.half_planes(stretch, np.array(angle), sign)
+                rows.append(tuple(map(float, plane)))
+        return place
 
     def _under(self, e: float) -> complex:
         """Return the highest permissible place at an offset of the follower's line."""
@@ -165,7 +168,9 @@ class CamDesign(Struct, frozen=True, dict=True):
             a, b, c = self.half_planes(stretch, phi, sign)
             return np.asarray((-a * e - c) / b)
 
-        deep = max(peak(partial(depth, *one), one[0].start, one[0].end)[1] for one in self.limited())
+        deep = max(
+            peak(partial(depth, *one), one[0].start, one[0].end)[1] for one in self.limited()
+        )
         return complex(-e, -max(deep, 0.0))
 
     def _around_pivot(self, centre: float) -> complex:

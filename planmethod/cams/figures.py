@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from functools import cached_property, partial
 from math import degrees, isfinite
 from typing import TYPE_CHECKING
@@ -125,7 +125,7 @@ def value_of(design: CamDesign, name: str, position: int) -> float | None:
         return float(moved[("s", "v_q", "a_q").index(name), 0])
     flat = problem.contact is Contact.FLAT
     phase = CamPhase.RISE if name == "theta_max" else CamPhase.RETURN
-    found = {
+    found: dict[str, Callable[[], float | None]] = {
         "r_min": lambda: geometry.r_min,
         "e": lambda: None if problem.oscillates or flat else geometry.e,
         "centre_distance": lambda: geometry.centre or None,
@@ -133,8 +133,8 @@ def value_of(design: CamDesign, name: str, position: int) -> float | None:
         "rho_min": lambda: design.rho_min.value if isfinite(design.rho_min.value) else None,
         "theta_max": lambda: None if flat else degrees(design.pressure(phase).value),
         "theta_max_return": lambda: None if flat else degrees(design.pressure(phase).value),
-    }.get(name)
-    return None if found is None else found()
+    }
+    return found[name]() if name in found else None
 
 
 asked_of = CamFigures

@@ -1,9 +1,9 @@
 """Geometry of a cam in place: roller, profile, pressure angle, curvature (геометрия кулачка).
 
 The cam turns counter-clockwise about the origin; a clockwise one is its mirror image. The
-resting frame has the line of a translating follower at ``x = e``, the pivot of an oscillating one on
-the x axis: on the right where it rises against the cam's turning, on the left else. Points are complex,
-metres; curvatures positive where the profile is convex.
+resting frame has the line of a translating follower at ``x = e``, the pivot of an oscillating one
+on the x axis: on the right where it rises against the cam's turning, on the left else. Points are
+complex, metres; curvatures positive where the profile is convex.
 """
 
 from __future__ import annotations

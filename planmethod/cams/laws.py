@@ -195,7 +195,11 @@ def law_of(
         case CamLawName.LINEAR:
             if not blend:
                 return UnitLaw(name, (Bit(0, 1, (0.0,)),), start=1.0)
-            told = (Bit(0, blend, (1.0,)), Bit(blend, 1 - blend, (0.0,)), Bit(1 - blend, 1, (-1.0,)))
+            told = (
+                Bit(0, blend, (1.0,)),
+                Bit(blend, 1 - blend, (0.0,)),
+                Bit(1 - blend, 1, (-1.0,)),
+            )
             return UnitLaw(name, told)
         case CamLawName.CUBIC:
             return UnitLaw(name, (Bit(0, 1, (0.0, 60.0, -180.0, 120.0)),))

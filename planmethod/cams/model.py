@@ -9,7 +9,6 @@ from math import pi
 from typing import NamedTuple
 
 import numpy as np
-from msgspec import Struct
 
 from planmethod.cams.laws import Reals, UnitLaw
 from planmethod.problem.head import KindProblem
@@ -219,4 +218,3 @@ class CamProblem(KindProblem, frozen=True, kw_only=True, dict=True):
     def angles(self) -> Reals:
         """Return the angles of the positions, rad."""
         return TURN * np.arange(self.count) / self.count
-

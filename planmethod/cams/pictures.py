@@ -57,11 +57,15 @@ class CamView(Struct, frozen=True):
 
     def seen(self, points: Complexes | Iterable[complex]) -> tuple[complex, ...]:
         """Return points as they are drawn: mirrored where the cam turns clockwise."""
-        return tuple(complex(self.mirror * p.real, p.imag) for p in points)
+        return tuple(map(self.spot, points))
+
+    def spot(self, point: complex) -> complex:
+        """Return a point as it is drawn."""
+        return complex(self.mirror * point.real, point.imag)
 
     def label(self, text: str, at: complex, prefer: complex = 0j, *, size: float = 0.0) -> Label:
         """Return a label at a point of the construction."""
-        (place,), (way,) = self.seen([at]), self.seen([prefer])
+        place, way = self.spot(at), self.spot(prefer)
         height = size or self.letter
         return Label(typeset(text, height), place, prefer=way, gap=1.6, name=text, manner=BUSY)
 
@@ -138,7 +142,9 @@ def _diagram(view: CamView, k: int) -> Picture:
         letter = "VS"[k - 1]
         for node in built.nodes:
             point = f"{letter}_{{{node.number}}}"
-            if any(isinstance(step, MeetLines) and step.out == point for step in built.program.steps):
+            if any(
+                isinstance(step, MeetLines) and step.out == point for step in built.program.steps
+            ):
                 place = view.at(point) - origin
                 construction.append(Disc(place, _DOT, Ink.BLACK, tag="drawn"))
     symbol = {"a": "a_{q}", "v": "v_{q}", "s": "s"}[name] + f", {view.words.say.units['mm']}"
@@ -165,7 +171,9 @@ def _pressure(view: CamView) -> Picture:
     ]
     per_mm = _per_mm(values, 40.0 / per)
     for x, y in zip(phi, values, strict=True):
-        found.append(tuple(complex(degrees(a) / per, b / per_mm) for a, b in zip(x, y, strict=True)))
+        found.append(
+            tuple(complex(degrees(a) / per, b / per_mm) for a, b in zip(x, y, strict=True))
+        )
     curves = [Curve("ϑ", tuple(found))]
     for phase in (CamPhase.RISE, CamPhase.RETURN):
         limit = problem.limit(phase)
@@ -207,7 +215,7 @@ def region_picture(view: CamView) -> Picture | None:
         foot = view.at(f"B_{{{node.number}}}'")
         if abs(end - foot) > _DOT:
             items.append(Stroke(view.seen((foot, end)), Pen.THIN, tag="aid"))
-        items.append(Disc(*view.seen([end]), _DOT, Ink.BLACK, tag="drawn"))
+        items.append(Disc(view.spot(end), _DOT, Ink.BLACK, tag="drawn"))
         if node.number % 2 == 0 and abs(end - foot) > 4.0:
             labels.append(view.label(str(node.number), end, end - foot, size=_SMALL))
     labels.append(view.label("B", start, 1 - 1j))
@@ -217,25 +225,25 @@ def region_picture(view: CamView) -> Picture | None:
     else:
         top = max(ends.imag.max(), 0.0) + _BEYOND
         items.append(Stroke(view.seen((start - 4j, start + 1j * top)), Pen.AXIS, tag="line"))
-        items += arrowhead(*view.seen([start + 1j * (top + 3.0)]), 1j, length=3.5, tag="line")
+        items += arrowhead(view.spot(start + 1j * (top + 3.0)), 1j, length=3.5, tag="line")
         labels.append(view.label("s", start + 1j * top, 1 + 0j))
     for number, k in built.drawn.items():
         items += _limit_line(view, number, k, axis, plate=plate)
     if plate:
         foot = view.at("K")
-        items += dimension(*view.seen((foot, start)), 12.0 + 0j, tag="dimension")
+        items += dimension(view.spot(foot), view.spot(start), 12.0 + 0j, tag="dimension")
         labels += [view.label("K", foot, -1 - 1j)]
         return lettered(items, labels)
     if axis is not None:
         items.append(Stroke(view.seen((axis, start)), Pen.MAIN, tag="r_min"))
-        items += revolute(*view.seen([axis]), factor=0.8)
+        items += revolute(view.spot(axis), factor=0.8)
         labels += [view.label("O_{1}", axis, -1 - 1j)]
         middle = (axis + start) / 2
         labels.append(view.label("r_{min}", middle, (start - axis) * 1j))
         if "E" in made and abs(view.at("E") - axis) > 3.0:
             low = min(axis.imag, view.at("E").imag)
             gap = complex(0.0, low - 9.0 - axis.imag)
-            items += dimension(*view.seen((axis, view.at("E"))), gap, tag="dimension")
+            items += dimension(view.spot(axis), view.spot(view.at("E")), gap, tag="dimension")
             items.append(Stroke(view.seen((start - 4j, view.at("E"))), Pen.THIN, tag="line"))
             labels.append(view.label("e", (axis + view.at("E")) / 2 + gap, 1j))
     return lettered(items, labels)
@@ -262,7 +270,7 @@ def _arm_lines(view: CamView, labels: list[Label]) -> list[Item]:
         items.append(
             Stroke(view.seen((pivot, view.at(f"B_{{{node.number}}}'"))), Pen.THIN, tag="arm")
         )
-    items += fixed_pivot(*view.seen([pivot]), factor=0.8)
+    items += fixed_pivot(view.spot(pivot), factor=0.8)
     labels.append(view.label("O_{2}", pivot, 1 + 1j))
     return items
 
@@ -350,8 +358,8 @@ def _inverted(view: CamView, node: CamNode, labels: list[Label]) -> list[Item]:
         items.append(Stroke(view.seen((origin, out if not problem.oscillates else point)), Pen.THIN,
                             tag="inverted"))  # fmt: skip
     if geometry.roller:
-        items.append(Arc(*view.seen([point]), geometry.roller / mm, pen=Pen.THIN, tag="roller"))
-    items.append(Disc(*view.seen([point]), _DOT, Ink.BLACK, tag="drawn"))
+        items.append(Arc(view.spot(point), geometry.roller / mm, pen=Pen.THIN, tag="roller"))
+    items.append(Disc(view.spot(point), _DOT, Ink.BLACK, tag="drawn"))
     labels.append(view.label(str(k), out if k else point, out, size=_SMALL))
     return items
 
@@ -361,10 +369,10 @@ def _follower(view: CamView, labels: list[Label]) -> list[Item]:
     design, mm = view.built.design, view.built.scales.profile
     problem, geometry = design.problem, design.geometry
     at = geometry.at(np.array([0.0]))
-    (point,) = view.seen(at.roller / mm)
+    point = view.spot(complex(at.roller[0]) / mm)
     items: list[Item] = []
     if problem.oscillates:
-        (pivot,) = view.seen([geometry.pivot / mm])
+        pivot = view.spot(geometry.pivot / mm)
         end = point
         if problem.contact is Contact.FLAT:
             way = (point - pivot) / abs(point - pivot)
@@ -387,4 +395,3 @@ def _follower(view: CamView, labels: list[Label]) -> list[Item]:
         items += [Disc(point, geometry.roller / mm), Arc(point, geometry.roller / mm, tag="roller")]
         items += revolute(point, factor=0.7)
     return items
-

@@ -2,15 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
-from functools import cached_property
+from collections.abc import Iterator
 from math import degrees
-from typing import Any
 
 import numpy as np
-from msgspec import Struct
 
-from planmethod.cams.construction import CamConstruction, CamNode, CamScales, construct, moved_in
+from planmethod.cams.construction import CamConstruction, CamNode, construct, moved_in
 from planmethod.cams.design import CamDesign
 from planmethod.cams.model import CamProblem, Contact
 from planmethod.cams.readings import CamReadings
@@ -18,21 +15,26 @@ from planmethod.cams.sheet import sheet_scales
 from planmethod.cams.text import MM, checks, head, positions, sizes
 from planmethod.construct import steps
 from planmethod.construct.drafting import Profile
-from planmethod.construct.evaluate import Trace
 from planmethod.construct.steps import NumberName, Step
-from planmethod.note.document import Caption, Chapter, Item, Node, Paragraph, Table, steps_of, table_of
+from planmethod.note.document import (
+    Caption,
+    Chapter,
+    Item,
+    Node,
+    Paragraph,
+    steps_of,
+    table_of,
+)
 from planmethod.note.formula import Rich, escape
 from planmethod.note.narrate.narrator import Line, Reading, StepNarrator
-from planmethod.note.rounding import rounded_to, sigma_text
+from planmethod.note.rounding import sigma_text
 from planmethod.note.wording import Language
 
 TOLD = 2
 """How many parts of the diagrams are told in full."""
 
 
-def protocol_document(
-    problem: CamProblem, words: Language, profile: Profile
-) -> Iterator[Node]:
+def protocol_document(problem: CamProblem, words: Language, profile: Profile) -> Iterator[Node]:
     """Yield the construction of a cam; the scales are those of the sheet.
 
     Raises
@@ -46,12 +48,12 @@ def protocol_document(
     if problem.source:
         yield Paragraph(words.note.source.format(source=escape(problem.source)))
     yield Paragraph(words.note.ruler.format(ruler=words.say.given(profile.ruler)))
-    yield from construction_nodes(construct(CamDesign(problem), sheet_scales(problem)), words, profile)
+    yield from construction_nodes(
+        construct(CamDesign(problem), sheet_scales(problem)), words, profile
+    )
 
 
-def construction_nodes(
-    built: CamConstruction, words: Language, profile: Profile
-) -> Iterator[Node]:
+def construction_nodes(built: CamConstruction, words: Language, profile: Profile) -> Iterator[Node]:
     """Yield the chapters of a construction, the exact solution after it."""
     said, drawn = words.cam, CamReadings(built, words, profile)
     yield Chapter(said["chapters"]["diagrams"], numbered=False)
@@ -131,7 +133,9 @@ def _profile(built: CamConstruction, drawn: CamReadings, words: Language) -> Ite
     """Yield the profile by inverted motion: one position in full, the others as a table."""
     said, say, design = words.cam, words.say, built.design
     problem, mm = design.problem, built.scales.profile
-    listed = "; ".join(f"{row[1]} = {row[2]} {say.units['mm']}" for row in sizes(design, words).rows)
+    listed = "; ".join(
+        f"{row[1]} = {row[2]} {say.units['mm']}" for row in sizes(design, words).rows
+    )
     yield Paragraph(said.told_profile.format(sizes=listed, scale=say.given(MM * mm)))
     plate = problem.contact is Contact.FLAT
     key = "oscillating" if problem.oscillates else "flat" if plate else "translating"

@@ -14,7 +14,7 @@ from planmethod.languages import say
 from planmethod.problem import fields
 from planmethod.problem.answers import Plain, read_answers
 from planmethod.problem.fields import Faults
-from planmethod.problem.flat import read_flat
+from planmethod.problem.flat import OwnReader, read_flat
 from planmethod.problem.head import CAM_EXAMPLE, CHOOSE, CamTable
 from planmethod.problem.names import short
 from planmethod.problem.reader import varied
@@ -86,13 +86,11 @@ def _speed(crank: object) -> float | None:
     return float(omega) * 30 / pi if fields.is_number(omega) else None
 
 
-def _read(
-    faults: Faults, body: Mapping[str, Any], speed: float | None
-) -> dict[str, Any] | None:
+def _read(faults: Faults, body: Mapping[str, Any], speed: float | None) -> dict[str, Any] | None:
     """Return the fields of a problem that stand in its table."""
     sizes = ("offset", "centre", "r_min", "roller")
-    own = dict.fromkeys(sizes, _read_size)
-    own |= {"law": _kept, "pressure": _kept}  # both need other keys
+    own: dict[str, OwnReader] = dict.fromkeys(sizes, _read_size)
+    own |= dict.fromkeys(("law", "pressure"), _kept)  # both need other keys
     found = read_flat(faults, "cam", body, CamTable, own, example=CAM_EXAMPLE)
     if faults:
         return None
@@ -150,9 +148,7 @@ def _read_size(faults: Faults, path: str, value: object) -> float | str | None:
     return fields.read_number(faults, path, value, "a length in metres", low=low, high=10.0)
 
 
-def _check_keys(
-    faults: Faults, body: Mapping[str, Any], *, oscillates: bool, contact: str
-) -> None:
+def _check_keys(faults: Faults, body: Mapping[str, Any], *, oscillates: bool, contact: str) -> None:
     """Note keys that the follower needs, and those that are another one's."""
     needed = ("swing", "arm") if oscillates else ("stroke",)
     alien = ("stroke", "offset") if oscillates else ("swing", "arm", "centre", "sense")
@@ -185,11 +181,12 @@ def _check_sizes(
         faults.add("cam.centre", "missing", "Under a plate the distance of the pivot is given.")
     elif flat and centre is not None and r_min is not None and r_min >= centre:
         faults.add("cam.r_min", say("{:g} m reach the pivot at {:g} m", r_min, centre))
-    elif not flat and centre is not None and r_min is not None:
-        if not abs(centre - arm) < r_min < centre + arm:
-            what = say("no triangle: r_min = {:g}, centre = {:g}, arm = {:g} m", r_min, centre, arm)
-            hint = say("r_min lies between {:g} and {:g} m.", abs(centre - arm), centre + arm)
-            faults.add("cam.r_min", what, hint)
+    elif flat or centre is None or r_min is None:
+        return
+    elif not abs(centre - arm) < r_min < centre + arm:
+        what = say("no triangle: r_min = {:g}, centre = {:g}, arm = {:g} m", r_min, centre, arm)
+        hint = say("r_min lies between {:g} and {:g} m.", abs(centre - arm), centre + arm)
+        faults.add("cam.r_min", what, hint)
 
 
 def _phases(faults: Faults, given: CamTable) -> tuple[float, float, float, float] | None:
@@ -275,7 +272,9 @@ def _read_law(faults: Faults, path: str, value: object) -> UnitLaw | None:
 
 def _read_values(faults: Faults, path: str, value: object) -> list[float] | None:
     if not isinstance(value, list) or not 3 <= len(value) <= 721:
-        faults.expected(path, "3 to 721 second derivatives at equal parts of the phase", value, _TABLE)
+        faults.expected(
+            path, "3 to 721 second derivatives at equal parts of the phase", value, _TABLE
+        )
         return None
     read = [fields.read_number(faults, f"{path}[{k}]", one) for k, one in enumerate(value)]
     found = [one for one in read if one is not None]

@@ -70,7 +70,8 @@ class CamReadings(Struct, frozen=True, dict=True):
     def off(self, trace: Trace) -> float:
         """Return how far the profile of a reading is from the exact one at most, mm of the cam."""
         places = [
-            np.ravel(trace.value[NumberName(f"B_{{{node.number}}}")])[0] for node in self.built.nodes
+            np.ravel(trace.value[NumberName(f"B_{{{node.number}}}")])[0]
+            for node in self.built.nodes
         ]
         most = np.max(np.abs(np.array(places) - self.built.exact_points()))
         return float(most * self.built.scales.profile * MM)

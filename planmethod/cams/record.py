@@ -27,7 +27,7 @@ LEGEND = (
 
 
 def rows(design: CamDesign, phi: Reals | None = None) -> list[dict[str, float]]:
-    """Return the positions, or others (rad), m and degrees; ``rho`` is of the theoretical profile."""
+    """Return the positions, or others (rad); m, degrees; ``rho`` is of the theoretical profile."""
     one = design.problem
     phi = one.angles() if phi is None else phi
     moved = one.at(phi)
@@ -36,7 +36,8 @@ def rows(design: CamDesign, phi: Reals | None = None) -> list[dict[str, float]]:
     with np.errstate(divide="ignore"):
         rho = 1 / at.curvature
     columns = (
-        360.0 * phi / TURN, *moved, np.degrees(at.pressure), mirror * at.actual.real, at.actual.imag,
+        360.0 * phi / TURN, *moved, np.degrees(at.pressure),
+        mirror * at.actual.real, at.actual.imag,
         mirror * at.theoretical.real, at.theoretical.imag, rho,
     )  # fmt: skip
     return [dict(zip(KEYS, map(float, row), strict=True)) for row in np.array(columns).T]

@@ -27,7 +27,15 @@ from planmethod.render.ink.drawing import Drawing
 from planmethod.render.layout.block import Block, Column, Picture, heading, paragraph
 from planmethod.render.layout.cuttings import Group, Packed
 from planmethod.render.layout.tables import TableColumn, table_block
-from planmethod.render.sheets.composer import Blank, Misfit, Packing, Sizes, Viewed, compose, composed
+from planmethod.render.sheets.composer import (
+    Blank,
+    Misfit,
+    Packing,
+    Sizes,
+    Viewed,
+    compose,
+    composed,
+)
 
 TEXT_WIDTH = STAMP_WIDTH - 5.0
 
@@ -154,7 +162,7 @@ class _Cam(Struct, frozen=True):
         if name == "diagrams":
             told.append(said.scale_phi.format(degree=say.given(built.scales.degree)))
         title: str = said["views"][name]
-        wide = max(picture.width, 110.0)
+        wide = max(picture.width, 140.0)
         lines: list[Block] = [
             heading(title, letters.title, width=wide),
             paragraph("; ".join(told), letters.text, wide),

@@ -66,7 +66,12 @@ def given(problem: CamProblem, words: Language) -> Iterator[Rich]:
         up, down = problem.allowed
         text = said.allowed.format(rise=say.given(degrees(up)))
         yield text + (said.allowed_back.format(back=say.given(degrees(down))) if down else "")
-    for name, symbol in (("r_min", "r_{min}"), ("offset", "e"), ("centre", "a"), ("roller", "r_{p}")):
+    for name, symbol in (
+        ("r_min", "r_{min}"),
+        ("offset", "e"),
+        ("centre", "a"),
+        ("roller", "r_{p}"),
+    ):
         value = getattr(problem, name)
         if value is not None:
             yield f"{symbol} = {say.given(MM * value)} {say.units['mm']}"
@@ -118,7 +123,11 @@ def checks(design: CamDesign, words: Language) -> Iterator[Rich]:
             break
         value, phi = design.pressure(phase)
         limit = problem.limit(phase)
-        fields = {"phase": said["phase"][phase.value], "value": say.found(degrees(value)), "phi": at(phi)}
+        fields = {
+            "phase": said["phase"][phase.value],
+            "value": say.found(degrees(value)),
+            "phi": at(phi),
+        }
         if limit is None:
             yield said.free.format(**fields)
         else:

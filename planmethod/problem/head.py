@@ -401,9 +401,7 @@ class CamTable(Struct, frozen=True, kw_only=True):
     ] = None
     swing: Annotated[
         float | None,
-        NumberKey(
-            "swing of an oscillating one", "an angle", "degrees", 0.1, 120.0, positive=True
-        ),
+        NumberKey("swing of an oscillating one", "an angle", "degrees", 0.1, 120.0, positive=True),
     ] = None
     arm: Annotated[
         float | None,
@@ -415,8 +413,8 @@ class CamTable(Struct, frozen=True, kw_only=True):
     sense: Annotated[
         str,
         ChoiceKey(
-            'whether an oscillating one rises `"opposite"` to the turning of the cam or the `"same"` '
-            "way",
+            'whether an oscillating one rises `"opposite"` to the turning of the cam or the '
+            '`"same"` way',
             ("opposite", "same"),
         ),
     ] = "opposite"
@@ -483,9 +481,7 @@ class CamTable(Struct, frozen=True, kw_only=True):
             "a length", "m", 0.0, 10.0,
         ),
     ] = 0.0  # fmt: skip
-    count: Annotated[
-        int, WholeKey("positions from the rise to the next rise", 3, 720)
-    ] = 24
+    count: Annotated[int, WholeKey("positions from the rise to the next rise", 3, 720)] = 24
     parts: Annotated[
         int, WholeKey("parts of rise and of return in the diagrams that are constructed", 4, 30)
     ] = 12
@@ -496,12 +492,8 @@ class CamTable(Struct, frozen=True, kw_only=True):
             absent="that of the crank of the file, if it has one",
         ),
     ] = None  # fmt: skip
-    mass: Annotated[
-        float, NumberKey("mass of the follower", "a mass", "kg", 0.0, 1e5)
-    ] = 0.0
-    load: Annotated[
-        float, NumberKey("force against the rise", "a force", "N", 0.0, 1e8)
-    ] = 0.0
+    mass: Annotated[float, NumberKey("mass of the follower", "a mass", "kg", 0.0, 1e5)] = 0.0
+    load: Annotated[float, NumberKey("force against the rise", "a force", "N", 0.0, 1e8)] = 0.0
     margin: Annotated[
         float,
         NumberKey("by how much the spring is stronger than it must be", "a factor", low=1.0,

@@ -11,8 +11,7 @@ from planmethod.cams.pictures import CamView, diagrams_picture, profile_picture,
 from planmethod.cams.protocol import construction_nodes
 from planmethod.cams.sheet import sheet_scales
 from planmethod.cams.text import given
-from planmethod.note.document import Chapter, Item, Node, Paragraph, Part, Table
-from planmethod.note.wording import Words
+from planmethod.note.document import Caption, Chapter, Item, Node, Paragraph, Part, Table
 from planmethod.project.report.context import Report, sentences
 from planmethod.project.report.figures import figure
 from planmethod.render.layout.block import Block
@@ -25,6 +24,8 @@ def cam_chapter(report: Report, problem: CamProblem) -> Iterator[Node]:
     built = construct(design, sheet_scales(problem))
     yield Chapter(said.title.format())
     yield sentences(said.about.format(facts="; ".join(given(problem, words))))
+    captions: dict[str, str] = said["figures"]
+    names: dict[str, str] = said["tables"]
     keys = iter(_keys(bool(built.results)))
 
     def drawn(make: Callable[[CamView], Block | None]) -> Callable[[float], Block]:
@@ -44,15 +45,15 @@ def cam_chapter(report: Report, problem: CamProblem) -> Iterator[Node]:
                 name = next(figures, None)
                 if name is not None:
                     yield sentences(said.shown.format(key=f"cam_{name}"))
-                    caption: Words = said["figures"]
-                    yield figure(drawn(pictures[name]), caption[name], f"cam_{name}", height=200.0)
+                    yield figure(drawn(pictures[name]), captions[name], f"cam_{name}", height=200.0)
             case Table():
                 name = next(keys)
-                yield sentences(said.table_text.format(key=f"cam_{name}"))
-                title: Words = said["tables"]
+                yield sentences(said.table_text.format(key=f"cam_table_{name}"))
                 yield Table(
-                    node.head, node.rows, node.names, name=title[name], key=f"cam_{name}"
+                    node.head, node.rows, node.names, name=names[name], key=f"cam_table_{name}"
                 )  # fmt: skip
+            case Caption():
+                pass  # the table has a name
             case Item(text):
                 yield sentences(text[:1].upper() + text[1:] + ".")
             case Paragraph(text):

@@ -215,11 +215,7 @@ def _introduction(report: Report) -> Iterator[Node]:
     many = structure.moving_links
     links = counts["links"][many] if many < len(counts["links"]) else counts.many.format(count=many)
     yield StructuralHeading(said.title.format())
-    others = [
-        str(said["kinds"][name.value]).format()
-        for name in _OTHERS
-        if report.has(name)
-    ]
+    others = [str(said["kinds"][name.value]).format() for name in _OTHERS if report.has(name)]
     yield sentences(
         said.object.format(roman=roman(structure.class_number), links=links),
         said.parts.format(parts=report.listed(others)) if others else "",
