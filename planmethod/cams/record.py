@@ -9,7 +9,6 @@ from typing import Any
 import numpy as np
 
 from planmethod.cams.design import CamDesign
-from planmethod.cams.laws import Reals
 from planmethod.cams.model import TURN, CamPhase, CamProblem
 from planmethod.note.numbers import finite_or_none
 from planmethod.note.records.legend import legend_record
@@ -26,17 +25,18 @@ LEGEND = (
 )  # fmt: skip
 
 
-def rows(design: CamDesign, phi: Reals | None = None) -> list[dict[str, float]]:
-    """Return the positions, or others (rad); m, degrees; ``rho`` is of the theoretical profile."""
+def rows(design: CamDesign, count: int = 0) -> list[dict[str, float]]:
+    """Return the positions, or so many others; m, degrees; ``rho`` is of the theoretical profile."""
     one = design.problem
-    phi = one.angles() if phi is None else phi
+    count = count or one.count
+    phi = TURN * np.arange(count) / count
     moved = one.at(phi)
     at = design.geometry.points(phi, moved)
     mirror = one.mirror
     with np.errstate(divide="ignore"):
         rho = 1 / at.curvature
     columns = (
-        360.0 * phi / TURN, *moved, np.degrees(at.pressure),
+        360.0 * np.arange(count) / count, *moved, np.degrees(at.pressure),
         mirror * at.actual.real, at.actual.imag,
         mirror * at.theoretical.real, at.theoretical.imag, rho,
     )  # fmt: skip
@@ -51,7 +51,7 @@ def spreadsheet(problem: CamProblem) -> SpreadsheetRows:
     """Return the profile as a table: every half degree, m and degrees; positions among them."""
     design = CamDesign(problem)
     count = PROFILE_ROWS * problem.count // gcd(PROFILE_ROWS, problem.count)
-    told = rows(design, TURN * np.arange(count) / count)
+    told = rows(design, count)
     values = [[row[key] + 0.0 for key in KEYS] for row in told]
     return SpreadsheetRows(problem, KEYS, len(values), partial(iter, [values]))
 
