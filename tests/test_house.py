@@ -18,6 +18,7 @@ FILES = {
 }
 
 LATE_IN = (
+    "planmethod.cams.kind",
     "planmethod.commands.",
     "planmethod.gears.kind",
     "planmethod.gears.involute.kind",

@@ -46,7 +46,7 @@ class Bound(NamedTuple):
     sign: int
 
 
-class Extreme(NamedTuple):
+class CamExtreme(NamedTuple):
     """A greatest or least value, and its angle of the cam, rad."""
 
     value: float
@@ -263,14 +263,14 @@ class CamDesign(Struct, frozen=True, dict=True):
             low, high = (low, middle) if broken(middle) <= 0 else (middle, high)
         return float(centre * np.sin(high))
 
-    def highest(self, of: Callable[[Stretch, Reals], Reals]) -> Extreme:
+    def highest(self, of: Callable[[Stretch, Reals], Reals]) -> CamExtreme:
         """Return the greatest value of a function over the turn."""
         found = [
             (value, phi)
             for stretch in self.problem.stretches
             for phi, value in [peak(partial(of, stretch), stretch.start, stretch.end)]
         ]
-        return Extreme(*max(found))
+        return CamExtreme(*max(found))
 
     def _rho(self, of: CamGeometry, stretch: Stretch, phi: Reals) -> Reals:
         with np.errstate(divide="ignore"):
@@ -280,16 +280,16 @@ class CamDesign(Struct, frozen=True, dict=True):
         return sign * self.bare.points(phi, self.problem.on(stretch, phi)).curvature
 
     @cached_property
-    def rho_min(self) -> Extreme:
+    def rho_min(self) -> CamExtreme:
         """Least radius of curvature of the convex theoretical profile, m; 0 at a corner."""
         if self.problem.contact is Contact.FLAT:
             low = self.highest(lambda stretch, phi: -self._rho(self.bare, stretch, phi))
-            return Extreme(-low.value, low.phi)
+            return CamExtreme(-low.value, low.phi)
         for jump in self.problem.jumps:
             if jump.order == 1 and self._turns(jump) < 0:
-                return Extreme(0.0, jump.phi)
+                return CamExtreme(0.0, jump.phi)
         value, phi = self.highest(partial(self._curvature, 1))
-        return Extreme(1 / value if value > 0 else float("inf"), phi)
+        return CamExtreme(1 / value if value > 0 else float("inf"), phi)
 
     def _turns(self, jump: Jump) -> float:
         """Return by how much the profile turns at a jump, rad; negative where it is convex."""
@@ -298,10 +298,10 @@ class CamDesign(Struct, frozen=True, dict=True):
         return float(np.angle(second / first))
 
     @cached_property
-    def hollow(self) -> Extreme:
+    def hollow(self) -> CamExtreme:
         """Least radius of curvature of the concave theoretical profile, m; infinite without."""
         value, phi = self.highest(partial(self._curvature, -1))
-        return Extreme(1 / value if value > 0 else float("inf"), phi)
+        return CamExtreme(1 / value if value > 0 else float("inf"), phi)
 
     @cached_property
     def geometry(self) -> CamGeometry:
@@ -318,7 +318,7 @@ class CamDesign(Struct, frozen=True, dict=True):
         most = min([OF_R_MIN * bare.r_min, *(limit for limit in limits if limit > 0)])
         return replace(bare, roller=floor(most / STEP + 1e-9) * STEP if most > 2 * STEP else most)
 
-    def pressure(self, phase: CamPhase) -> Extreme:
+    def pressure(self, phase: CamPhase) -> CamExtreme:
         """Return the greatest size of the pressure angle of rise or return, rad."""
         found = [
             (value, phi)
@@ -326,7 +326,7 @@ class CamDesign(Struct, frozen=True, dict=True):
             if stretch.phase is phase
             for phi, value in [peak(partial(self._pressure, stretch), stretch.start, stretch.end)]
         ]
-        return Extreme(*max(found))
+        return CamExtreme(*max(found))
 
     def _pressure(self, stretch: Stretch, phi: Reals) -> Reals:
         return np.abs(self.bare.points(phi, self.problem.on(stretch, phi)).pressure)

@@ -67,6 +67,12 @@ class Cams(ProblemKind["CamProblem"]):
 
         return drawings(problem, fields=fields, profile=profile, before=before, total=total)
 
+    def live_page(self, problem: CamProblem, lang: str) -> str:
+        """Return the page that ``live`` writes."""
+        from planmethod.cams.live import live_page
+
+        return live_page(problem, lang)
+
     def figures(self, problem: CamProblem) -> Figures:
         """Return what students can be asked for."""
         from planmethod.cams.figures import asked_of

@@ -26,7 +26,7 @@ LEGEND = (
 
 
 def rows(design: CamDesign, count: int = 0) -> list[dict[str, float]]:
-    """Return the positions, or so many others; m, degrees; ``rho`` is of the theoretical profile."""
+    """Return the positions, or so many; m, degrees; ``rho`` is of the theoretical profile."""
     one = design.problem
     count = count or one.count
     phi = TURN * np.arange(count) / count

@@ -8,7 +8,7 @@ from math import degrees, pi
 import numpy as np
 from msgspec import Struct
 
-from planmethod.cams.design import OF_R_MIN, OF_RHO, CamDesign, Extreme
+from planmethod.cams.design import OF_R_MIN, OF_RHO, CamDesign, CamExtreme
 from planmethod.cams.laws import CamLawName, Reals, UnitLaw
 from planmethod.cams.model import CamPhase, CamProblem, Closure, Contact, Stretch
 from planmethod.cams.record import rows
@@ -185,9 +185,9 @@ def positions(design: CamDesign, words: Language) -> Table:
 class CamForces(Struct, frozen=True):
     """Force of the spring that keeps contact, N, and the greatest reaction (силы)."""
 
-    needed: Extreme
+    needed: CamExtreme
     spring: float
-    normal: Extreme
+    normal: CamExtreme
 
 
 def forces_of(design: CamDesign) -> CamForces:

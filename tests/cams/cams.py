@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from math import hypot, pi, radians, tan
 from pathlib import Path
 from typing import Any
@@ -15,7 +16,9 @@ from planmethod.cams.reader import load
 
 SHIPPED = sorted((PROBLEMS / "cams").glob("*.toml"))
 
-LAWS = {
+Shape = Callable[[Reals], Reals]
+
+LAWS: dict[str, tuple[Shape, Shape]] = {
     "3-4-5": (
         lambda u: 10 * u**3 - 15 * u**4 + 6 * u**5,
         lambda u: 30 * u**2 * (1 - u) ** 2,

@@ -4,14 +4,18 @@ from __future__ import annotations
 
 import json
 import re
+from importlib import import_module
 from pathlib import Path
+from typing import Any
 
-import ezdxf
+import numpy as np
 import pytest
 from cams import SHIPPED
 from click.testing import CliRunner
 
+from planmethod.cams.design import CamDesign
 from planmethod.cams.figures import CamFigures
+from planmethod.cams.live import live_page
 from planmethod.cams.model import CamProblem
 from planmethod.cams.pictures import PROFILE
 from planmethod.cams.reader import load
@@ -82,7 +86,8 @@ def test_the_sheet_has_its_views_and_no_error(path: Path) -> None:
 def test_the_profile_in_dxf_is_a_closed_polyline_in_the_scale_of_the_sheet(tmp_path: Path) -> None:
     ran("sheet", BY_NAME["flat"], "--format", "dxf", "-o", tmp_path)
     (file,) = tmp_path.glob("*.dxf")
-    lines = [one for one in ezdxf.readfile(file).modelspace().query("LWPOLYLINE") if one.closed]
+    found: Any = import_module("ezdxf").readfile(file).modelspace()
+    lines = [one for one in found.query("LWPOLYLINE") if one.closed]
     (profile,) = (one for one in lines if len(one) == 720)
     xs, ys = zip(*((x, y) for x, y, *_ in profile.get_points()), strict=True)
     rows = json.loads(ran("solve", BY_NAME["flat"], "--json"))["positions"]
@@ -118,7 +123,8 @@ def test_a_mistake_is_known_by_its_numbers(
     ids = {name: f"{name}@{position}" if position else name for name in names}
     one = judged({ids[name]: value for name, value in told.items()}, position)
     assert [diagnosis.codes for diagnosis in one.diagnosis] == [(code,)]
-    right = {ids[name]: getattr(figures.figure(name, position), "value") for name in names}
+    exact = {name: figures.figure(name, position) for name in names}
+    right = {ids[name]: one.value for name, one in exact.items() if one is not None}
     assert not judged(right, position).diagnosis
 
 
@@ -154,3 +160,22 @@ def test_a_project_has_the_cam_as_a_part_of_its_own(tmp_path: Path) -> None:
     (part,) = settle(load_unsettled(path, None), path).parts
     assert isinstance(part.problem, CamProblem)
     assert not part.problem.oscillates
+
+
+# The page that moves -----------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("name", ["offset", "oscillating", "flat"])
+def test_the_live_page_has_the_exact_numbers(name: str) -> None:
+    problem = load(BY_NAME[name])
+    page = live_page(problem, "ru")
+    scene = json.loads(re.findall(r'id="scene">(.*?)</script>', page)[0])
+    geometry = CamDesign(problem).geometry
+    for k in (0, 121, 300, 719):
+        phi = np.radians([k / 2])
+        at, row = geometry.at(phi), scene["rows"][k]
+        assert row[:3] == pytest.approx(1000 * problem.at(phi)[:, 0], abs=1e-6)
+        assert row[3] == pytest.approx(np.degrees(at.pressure[0]), abs=1e-6)
+        touch = complex(row[6], row[7]) * np.exp(-1j * phi[0]) / 1000
+        assert touch == pytest.approx(complex(at.actual[0]), abs=1e-8)
+    assert "<script>alert" not in page and "default-src 'none'" in page

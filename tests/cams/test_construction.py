@@ -25,7 +25,7 @@ def number(built: CamConstruction, name: str) -> complex:
 
 @pytest.mark.parametrize("built", BUILT.values(), ids=BUILT)
 def test_what_is_drawn_is_near_what_is_exact(built: CamConstruction) -> None:
-    """Chords of 12 parts: s and the profile within 3 % of the stroke, sizes within 10 % of r_min."""
+    """By chords of 12 parts: s and profile within 3 % of the stroke, sizes 10 % of r_min."""
     problem, geometry = built.design.problem, built.design.geometry
     assert len(built.nodes) >= 24
     for node in built.nodes:

@@ -16,7 +16,9 @@ MORE: dict[CamLawName, list[dict[str, Any]]] = {
     CamLawName.MODIFIED: [{}, {"ramp": 0.25}],
     CamLawName.LINEAR: [{}, {"blend": 0.2}],
     CamLawName.TABLE: [{"values": [0, 0.5, 1, 0.7, 0, -0.5, -1, -0.8, 0]}],
-    CamLawName.PIECEWISE: [{"points": [(0, 1), (0.3, 1), (0.3, 0), (0.6, 0), (0.6, -1), (1, -0.5)]}],
+    CamLawName.PIECEWISE: [
+        {"points": [(0, 1), (0.3, 1), (0.3, 0), (0.6, 0), (0.6, -1), (1, -0.5)]}
+    ],
 }  # fmt: skip
 EVERY = [law_of(name, **keys) for name in CamLawName for keys in MORE.get(name, [{}])]
 
