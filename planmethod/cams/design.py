@@ -22,7 +22,7 @@ from numpy.typing import NDArray
 from planmethod.cams.geometry import CamGeometry, Complexes
 from planmethod.cams.laws import Reals
 from planmethod.cams.model import CamPhase, CamProblem, Closure, Contact, Jump, Stretch
-from planmethod.cams.peaks import least, nearest_to_origin, peak
+from planmethod.cams.peaks import first_kept, least, nearest_to_origin, peak
 from planmethod.errors import Fault, ProblemError
 from planmethod.languages import say
 
@@ -184,17 +184,20 @@ class CamDesign(Struct, frozen=True, dict=True):
             z = at(delta)
             return self.worst(z.real, z.imag)[0]
 
-        tried = np.linspace(0.0, np.pi, 361)[1:-1]
-        good = next((k for k, delta in enumerate(tried) if broken(delta) <= 0), None)
-        if good is None:
+        planes = [
+            self.half_planes(one, np.linspace(one.start, one.end, 65), sign)
+            for one, sign in self.limited()
+        ]
+        x, y, bound = (np.concatenate(part) for part in zip(*planes, strict=True))
+
+        def roughly(delta: float) -> float:
+            z = at(delta)
+            return float(np.max(x * z.real + y * z.imag - bound))
+
+        delta = first_kept(roughly, broken, np.linspace(0.0, np.pi, 361)[1:-1])
+        if delta is None:
             raise self._impossible()
-        low, high = (tried[good - 1] if good else 0.0), float(tried[good])
-        while high - low > 1e-15 * np.pi:
-            middle = (low + high) / 2
-            if middle in (low, high):
-                break
-            low, high = (low, middle) if broken(middle) <= 0 else (middle, high)
-        return at(high)
+        return at(delta)
 
     def _at_distance(self, r_min: float) -> complex:
         """Return the place at a distance from the roller: by offset or pivot, else the mildest."""
@@ -250,18 +253,21 @@ class CamDesign(Struct, frozen=True, dict=True):
                 lambda stretch, phi: one.least - self._rho(trial, stretch, phi)
             ).value
 
+        def roughly(delta: float) -> float:
+            trial = CamGeometry(one, centre * np.sin(delta), centre=centre)
+            rho = [
+                np.min(self._rho(trial, part, np.linspace(part.start, part.end, 33)))
+                for part in one.stretches
+            ]
+            return one.least - float(min(rho))
+
         most = np.pi / 2 - one.stroke / one.arm
-        tried = np.linspace(0.0, most, 181)[1:-1]
-        good = next((k for k, delta in enumerate(tried) if broken(delta) <= 0), None)
-        if good is None:
+        delta = first_kept(roughly, broken, np.linspace(0.0, most, 91)[1:-1])
+        if delta is None:
             what = say("no r_min keeps the profile convex under the plate")
             hint = "Take a larger centre, a smaller swing or longer phases."
             raise ProblemError(one.name, [Fault("cam.centre", what, hint)])
-        low, high = (tried[good - 1] if good else 0.0), float(tried[good])
-        for _ in range(60):
-            middle = (low + high) / 2
-            low, high = (low, middle) if broken(middle) <= 0 else (middle, high)
-        return float(centre * np.sin(high))
+        return float(centre * np.sin(delta))
 
     def highest(self, of: Callable[[Stretch, Reals], Reals]) -> CamExtreme:
         """Return the greatest value of a function over the turn."""

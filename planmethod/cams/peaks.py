@@ -69,6 +69,38 @@ def nearest_to_origin(normals: Reals, bounds: Reals) -> Reals | None:
     return None
 
 
+def first_kept(
+    rough: Callable[[float], float], exact: Callable[[float], float], tried: Reals
+) -> float | None:
+    """Return the first number at which a function is no longer positive; None where it stays so.
+
+    Parameters
+    ----------
+    rough, exact : callable
+        The function from below, and as it is: where the rough one is positive, so is the other.
+    tried : array of float
+        Numbers in order, the steps of the search.
+    """
+    for k, x in enumerate(tried):
+        if rough(float(x)) > 0 or exact(float(x)) > 0:
+            continue
+        if not k:
+            return float(x)
+        low, high = float(tried[k - 1]), float(x)
+        above, below = exact(low), exact(high)
+        for _ in range(100):  # regula falsi; an end that stays weighs half
+            middle = high - below * (high - low) / (below - above)
+            if not low < middle < high:
+                break
+            value = exact(middle)
+            if value <= 0:
+                high, below, above = middle, value, above / 2
+            else:
+                low, above, below = middle, value, below / 2
+        return high
+    return None
+
+
 def least(of: Callable[[float], float], start: float, end: float, *, samples: int = 121) -> float:
     """Return where a function of one number is least, by finer and finer grids."""
     for _ in range(14):

@@ -76,10 +76,16 @@ class CamReadings(Struct, frozen=True, dict=True):
         most = np.max(np.abs(np.array(places) - self.built.exact_points()))
         return float(most * self.built.scales.profile * MM)
 
+    @property
+    def _widest(self) -> float:
+        """The greatest drafting error of a radius, mm of the drawing."""
+        return max(self.sigma[f"R_{{{node.number}}}"] for node in self.built.nodes)
+
     def deviation(self) -> Rich:
         """Return how far the drawn profile is from the exact one."""
         say = self.words.say
         return self.words.cam.deviation.format(
             most=say.number(f"{self.off(self.ruled):.2f}"),
             method=say.number(f"{self.off(self.built.exact):.2f}"),
+            sigma=say.number(sigma_text(MM * self.built.scales.profile * self._widest)),
         )
