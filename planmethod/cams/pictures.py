@@ -232,7 +232,9 @@ def region_picture(view: CamView) -> Picture | None:
     if plate:
         foot = view.at("K")
         items += dimension(view.spot(foot), view.spot(start), 12.0 + 0j, tag="dimension")
+        name = "r_{0} − ρ" if built.design.problem.least else "r_{0}"
         labels += [view.label("K", foot, -1 - 1j)]
+        labels.append(view.label(name, (foot + start) / 2 + 12.0 * view.mirror, 1 + 0j))
         return lettered(items, labels)
     if axis is not None:
         items.append(Stroke(view.seen((axis, start)), Pen.MAIN, tag="r_min"))

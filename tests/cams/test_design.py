@@ -129,12 +129,25 @@ def test_the_centre_of_an_arm_that_is_given_is_kept(tmp_path: Path) -> None:
     assert at.r_min == pytest.approx(free.r_min, rel=1e-6)
 
 
-def test_the_roller_is_chosen_by_both_limits(tmp_path: Path) -> None:
+@pytest.mark.parametrize("sharp", [False, True])
+def test_the_roller_is_chosen_by_both_limits(sharp: bool, tmp_path: Path) -> None:
     keys = {name: value for name, value in WANTED.items() if name != "roller"}
+    if sharp:
+        keys |= {"law": {"law": "linear", "blend": 0.02}, "r_min": 0.06}
     design = designed(tmp_path, keys)
-    most = min(0.4 * design.bare.r_min, 0.8 * design.rho_min.value)
-    assert most - 0.0005 < design.geometry.roller <= most
+    by_size, by_bend = 0.4 * design.bare.r_min, 0.8 * design.rho_min.value
+    assert (by_bend < by_size) is sharp
+    assert min(by_size, by_bend) - 0.0005 < design.geometry.roller <= min(by_size, by_bend)
     assert design.undercut is None
+
+
+def test_the_roller_of_a_groove_keeps_its_outer_side_too(tmp_path: Path) -> None:
+    keys = {name: value for name, value in WANTED.items() if name != "roller"}
+    keys |= {"closure": "form", "law": {"law": "linear", "blend": 0.05}, "pressure": 45}
+    design = designed(tmp_path, keys)
+    assert 0.8 * design.hollow.value - 0.0005 < design.geometry.roller <= 0.8 * design.hollow.value
+    found = told(written(tmp_path, keys | {"roller": 1.2 * design.hollow.value}))
+    assert found["undercut"] is not None
 
 
 def test_undercut_is_named_with_its_place(tmp_path: Path) -> None:
