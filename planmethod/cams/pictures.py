@@ -22,7 +22,14 @@ from planmethod.render.ink.drawing import Arc, Disc, Ink, Item, Pen, Stroke, shi
 from planmethod.render.ink.typeset import typeset
 from planmethod.render.labels import BUSY, Label
 from planmethod.render.layout.block import Picture
-from planmethod.render.pictures.diagram import Abscissae, Curve, Ordinates, diagram_picture
+from planmethod.render.pictures.diagram import (
+    Abscissae,
+    Curve,
+    Mark,
+    Ordinates,
+    diagram_picture,
+    mark_items,
+)
 from planmethod.render.pictures.lettered import lettered
 from planmethod.render.symbols import arrowhead, fixed_pivot, guide_plates, revolute, turn_arrow
 from planmethod.render.symbols.dimensions import dimension
@@ -229,6 +236,12 @@ def region_picture(view: CamView) -> Picture | None:
         labels.append(view.label("s", start + 1j * top, 1 + 0j))
     for number, k in built.drawn.items():
         items += _limit_line(view, number, k, axis, plate=plate)
+        if not plate and axis is not None:
+            sign = view.words.cam["limits"][built.bounds[number].phase.value].format()
+            end = view.at(f"D_{{{k}}}")
+            labels.append(
+                view.label(f"90° − {sign.strip('−')}", 0.6 * axis + 0.4 * end, end - start)
+            )
     if plate:
         foot = view.at("K")
         items += dimension(view.spot(foot), view.spot(start), 12.0 + 0j, tag="dimension")
@@ -327,6 +340,9 @@ def profile_picture(view: CamView) -> Picture:
     for side in sides:
         items.append(Stroke(view.seen(side / mm), Pen.MAIN, closed=True, tag=PROFILE))
     items += _follower(view, labels)
+    if (cut := design.undercut) is not None:
+        items += mark_items(Mark.CROSS, view.spot(cut.point / mm))
+        labels.append(view.label("ρ_{min}", cut.point / mm, cut.point))
     items += fixed_pivot(0j, factor=0.9)
     labels.append(view.label("O", 0j, -1 - 0.4j))
     arrow = min(0.6 * size, 14.0)

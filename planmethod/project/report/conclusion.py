@@ -4,6 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
+from planmethod.cams.design import CamDesign
+from planmethod.cams.model import CamProblem
+from planmethod.cams.text import sizes
 from planmethod.gears.model import GearProblem
 from planmethod.mechanism.structure import roman
 from planmethod.note.document import Item, Node, References, StructuralHeading, Table
@@ -13,7 +16,7 @@ from planmethod.note.wording import Words
 from planmethod.plans.legend import kinds_on
 from planmethod.plans.model import RATES
 from planmethod.project.model import PartName, SheetEntry
-from planmethod.project.report.context import Report, sentences
+from planmethod.project.report.context import NBSP, Report, sentences
 from planmethod.project.report.flywheel import machine_of
 from planmethod.project.report.gears import failed_conditions, ratio_of
 from planmethod.project.report.position import has_equal_strokes, loads_drive
@@ -39,6 +42,7 @@ def conclusion(report: Report) -> Iterator[Node]:
         *(_forces(report, said) if report.has(PartName.FORCES) else ()),
         *(_flywheel(report, said) if report.has(PartName.FLYWHEEL) else ()),
         *_gears(report, said),
+        *_cam(report, said),
     ]
     for number, text in enumerate(filter(None, found), 1):
         yield Item(inlined(text), f"{number})")
@@ -144,6 +148,15 @@ def _gears(report: Report, said: Words) -> Iterator[Rich]:
     if failed:
         form = "one" if len(failed) == 1 else "many"
         yield str(said["failed"][form]).format(conditions="; ".join(failed))
+
+
+def _cam(report: Report, said: Words) -> Iterator[Rich]:
+    part = report.project.part(PartName.CAM)
+    if part is not None and isinstance(part.problem, CamProblem):
+        table = sizes(CamDesign(part.problem), report.words)
+        unit = report.unit("mm")
+        listed = ", ".join(f"{symbol} = {value}{NBSP}{unit}" for _, symbol, value in table.rows)
+        yield said.cam.format(sizes=listed)
 
 
 def back(report: Report, sheets: Sequence[SheetEntry]) -> Iterator[Node]:
