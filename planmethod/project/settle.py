@@ -7,12 +7,14 @@ the problem, so that every output has them without knowing of projects.
 from __future__ import annotations
 
 from collections.abc import Iterator
+from math import pi
 from pathlib import Path
 from typing import assert_never
 
 import numpy as np
 from msgspec.structs import replace
 
+from planmethod.cams.model import CamProblem
 from planmethod.errors import Fault, ProblemError
 from planmethod.kinds import KINDS
 from planmethod.languages import LANGUAGES, say
@@ -208,6 +210,9 @@ def _of_kind(problem: Problem, name: PartName, path: Path, beside: str) -> Proje
     if beside:
         _check_beside(problem, kind.table, file)
     found = kind.load(file, variant)
+    turns = problem.drive.pivot is not None and problem.drive.rate
+    if isinstance(found, CamProblem) and found.n is None and turns:
+        found = replace(found, n=turns * 30 / pi)  # on the shaft of the crank
     stamp = merged(problem.stamp, found.stamp) if beside else dict(problem.stamp)
     stamp.pop("title", None)
     title = found.title if beside else ""

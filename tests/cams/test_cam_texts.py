@@ -148,6 +148,7 @@ def test_a_project_has_the_cam_as_a_part_of_its_own(tmp_path: Path) -> None:
     (part,) = project.parts
     assert isinstance(part.problem, CamProblem)
     assert part.problem.oscillates
+    assert part.problem.n == pytest.approx(80.0)  # as the train turns the crank
     for lang in ("ru", "en"):
         nodes = list(cam_chapter(Report(project, language(lang)), part.problem))
         numbered = [one.key for one in nodes if isinstance(one, document.Figure | document.Table)]
