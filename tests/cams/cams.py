@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from itertools import product
 from math import hypot, pi, radians, tan
 from pathlib import Path
 from typing import Any
@@ -81,17 +82,19 @@ def random_cam(seed: int) -> dict[str, Any]:
     return keys
 
 
-def motion(keys: dict[str, Any], count: int) -> list[tuple[Reals, Reals, float]]:
-    """Return s, v_q (of an arm: angles) and tan of the limit for rise and return, on grids."""
+def phase_motion(keys: dict[str, Any], phase: str, u: Reals) -> tuple[Reals, Reals, float]:
+    """Return s, v_q (of an arm: angles) and tan of the limit at parts of rise or return."""
     size = radians(keys["swing"]) if "swing" in keys else keys["stroke"]
-    found = []
-    for phase, sign in (("rise", 1), ("return", -1)):
-        u = np.linspace(0.0, 1.0, count)
-        value, slope = LAWS[keys["law"][phase]]
-        s, v = size * value(u), sign * size * slope(u) / radians(keys[phase])
-        s = s if sign > 0 else size - s
-        found.append((s, v, tan(radians(keys["pressure"][phase]))))
-    return found
+    value, slope = LAWS[keys["law"][phase]]
+    sign = 1 if phase == "rise" else -1
+    s, v = size * value(u), sign * size * slope(u) / radians(keys[phase])
+    return (s if sign > 0 else size - s), v, tan(radians(keys["pressure"][phase]))
+
+
+def motion(keys: dict[str, Any], count: int) -> list[tuple[Reals, Reals, float]]:
+    """Return the same for rise and return on grids."""
+    u = np.linspace(0.0, 1.0, count)
+    return [phase_motion(keys, phase, u) for phase in ("rise", "return")]
 
 
 def least_translating(keys: dict[str, Any], count: int = 100_001) -> float:
@@ -111,17 +114,27 @@ def least_translating(keys: dict[str, Any], count: int = 100_001) -> float:
     return radius((low + high) / 2)
 
 
-def broken(keys: dict[str, Any], axis: complex, count: int = 20_001) -> float:
+def broken(keys: dict[str, Any], axis: complex) -> float:
     """Return by how much an axis breaks the limits of an arm, m, by sines and cosines of angles.
 
-    ``axis`` is from the roller at rest, the pivot ``arm`` beside it.
+    ``axis`` is from the roller at rest, the pivot ``arm`` beside it. The worst angle of a grid is
+    looked at on a finer one.
     """
     side = 1 if keys["sense"] == "opposite" else -1
     arm, most = keys["arm"], -1.0
     to = axis - side * arm
-    for s, v, t in motion(keys, count):
-        along = (to * np.conj(-side * np.exp(-1j * side * s))).real
-        across = np.abs((to * np.conj(-side * np.exp(-1j * side * s))).imag)
-        worst = (np.abs(arm * (1 + side * v) - along) - t * across) / hypot(1, t)
-        most = max(most, float(np.max(worst)))
+
+    def worst(phase: str, sign: int, u: Reals) -> Reals:
+        s, v, t = phase_motion(keys, phase, u)
+        seen = to * np.conj(-side * np.exp(-1j * side * s))
+        along = sign * (arm * (1 + side * v) - seen.real)
+        return np.asarray((along - t * np.abs(seen.imag)) / hypot(1, t))
+
+    for phase, sign in product(("rise", "return"), (1, -1)):
+        low, high = 0.0, 1.0
+        for _ in range(2):
+            u = np.linspace(low, high, 4001)
+            k = int(np.argmax(found := worst(phase, sign, u)))
+            most = max(most, float(found[k]))
+            low, high = u[max(k - 1, 0)], u[min(k + 1, 4000)]
     return most
