@@ -27,7 +27,7 @@ from planmethod.render.pictures.schemeview import scheme_picture
 from planmethod.solved.scaling import Views
 from planmethod.solved.solution import Solution
 
-KINDS = (LINKAGE, "gears", "meshing", "point")
+KINDS = (LINKAGE, "gears", "meshing", "cam", "point")
 DOCUMENT = Path("docs/tasks.md")
 PICTURES = Path("docs/tasks")
 

@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from planmethod.construct.drafting import Profile
     from planmethod.note.audit.audit import Audited
     from planmethod.note.document import Document
+    from planmethod.note.records.spreadsheet import SpreadsheetRows
     from planmethod.note.wording import Language
     from planmethod.problem.figures import Figures
     from planmethod.render.ink.drawing import Drawing
@@ -47,6 +48,10 @@ class ProblemKind(ABC, Generic[P]):
     @abstractmethod
     def solved_document(self, problem: P, words: Language) -> Document:
         """Return what ``solve`` prints."""
+
+    def spreadsheet(self, problem: P) -> SpreadsheetRows | None:
+        """Return what ``solve --csv`` prints; None for what has no table."""
+        return None
 
     def structure_record(self, problem: P) -> dict[str, Any] | None:
         """Return what ``structure --json`` prints; None for what has no structure."""

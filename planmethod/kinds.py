@@ -7,6 +7,7 @@ from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from planmethod.cams.kind import Cams
 from planmethod.errors import ProblemError
 from planmethod.gears.involute.kind import Meshings
 from planmethod.gears.kind import GearTrains
@@ -20,7 +21,7 @@ if TYPE_CHECKING:
     from planmethod.solved.part import MechanismPart
     from planmethod.solved.scaling import Views
 
-KINDS: tuple[ProblemKind[Any], ...] = (GearTrains(), MovingPoints(), Meshings())
+KINDS: tuple[ProblemKind[Any], ...] = (GearTrains(), MovingPoints(), Meshings(), Cams())
 """Kinds beside linkages; a file that has links is a linkage whatever else it has."""
 
 _HEAD = r"(?m)^[ \t]*(?:\[[ \t]*)?[\"']?(" + "|".join(k.table for k in KINDS) + r")\b"

@@ -70,6 +70,7 @@ PLACES: Mapping[str, tuple[str, ...]] = {
     "wheel": ("$defs", "gearWheel"),
     "picture": ("$defs", "gears", "properties", "picture"),
     "meshing": ("$defs", "meshing"),
+    "cam": ("$defs", "cam"),
     "project": ("$defs", "project"),
 }
 """Where the schema has a kind of table."""

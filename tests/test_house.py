@@ -19,6 +19,7 @@ FILES = {
 
 LATE_IN = (
     "planmethod.__main__",
+    "planmethod.cams.kind",
     "planmethod.commands.",
     "planmethod.gears.kind",
     "planmethod.gears.involute.kind",

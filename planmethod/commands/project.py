@@ -88,7 +88,7 @@ def read_parts(
     "--parts",
     callback=read_parts,
     metavar="LIST",
-    help="Only these parts: kinematics, forces, flywheel, balancing, gears, meshing, note.",
+    help="Only these parts: kinematics, forces, flywheel, balancing, gears, meshing, cam, note.",
 )
 @position_option
 @format_option("pdf")

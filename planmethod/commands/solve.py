@@ -289,9 +289,12 @@ def compute(
     kind, problem = todo.kind, todo.problem
     if kind is None:
         return _computed(todo.linkage, options)
+    table = kind.spreadsheet(problem) if options.csv else None
     for option, given in options.of_linkages().items():
-        if given:
+        if given and not (table is not None and option == "--csv"):
             raise UsageError("{} is for linkages, {} is none", option, problem.name)
+    if table is not None:
+        return table
     if options.as_json:
         return kind.record(problem, options.lang)
     from planmethod.note.wording import language

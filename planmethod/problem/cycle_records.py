@@ -139,7 +139,16 @@ class CycleTask(Struct, frozen=True):
     ] = Differentiation.CHORDS
 
 
-PROJECT_PARTS = ("kinematics", "forces", "flywheel", "balancing", "gears", "meshing", "note")
+PROJECT_PARTS = (
+    "kinematics",
+    "forces",
+    "flywheel",
+    "balancing",
+    "gears",
+    "meshing",
+    "cam",
+    "note",
+)
 """Parts of a project in the order of their sheets."""
 
 
@@ -168,6 +177,10 @@ class ProjectTask(Struct, frozen=True):
             'file of the wheels in mesh, beside this one: `"wheels.toml"`',
             absent="`[meshing]` of this file",
         ),
+    ] = ""
+    cam: Annotated[
+        str,
+        OwnKey('file of the cam, beside this one: `"cam.toml"`', absent="`[cam]` of this file"),
     ] = ""
     parts: Annotated[
         tuple[str, ...],

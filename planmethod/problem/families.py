@@ -19,6 +19,8 @@ OTHER_FAMILIES = (
     "differential-train",
     "meshing",
     "moving-point",
+    "cam",
+    "cam-oscillating",
 )
 """Names of those of the other kinds of problem."""
 

@@ -421,6 +421,151 @@ class MeshingTable(Struct, frozen=True, kw_only=True):
     ] = 1.2
 
 
+CAM_EXAMPLE = '[cam] follower = "translating", stroke = 0.04, rise = 120, return = 120'
+CHOOSE = "choose"
+"""Word in place of a size of the cam: it is chosen."""
+
+CAM_LAWS = (
+    "constant-acceleration", "cosine", "sine", "trapezoidal", "modified-trapezoidal", "linear",
+    "3-4-5", "4-5-6-7", "table", "piecewise-linear",
+)  # fmt: skip
+"""Laws of motion of a follower."""
+
+CamSize = float | str | None
+"""A size in metres, or ``choose``."""
+
+
+class CamTable(Struct, frozen=True, kw_only=True):
+    """``[cam]``: a cam and its follower (кулачковый механизм)."""
+
+    follower: Annotated[
+        str,
+        ChoiceKey(
+            'how the follower moves: `"translating"` or `"oscillating"`',
+            ("translating", "oscillating"),
+            required=True,
+        ),
+    ]
+    contact: Annotated[
+        str,
+        ChoiceKey(
+            'what touches the cam: `"roller"`, `"pointed"` or `"flat"`',
+            ("roller", "pointed", "flat"),
+        ),
+    ] = "roller"
+    closure: Annotated[
+        str,
+        ChoiceKey(
+            'what keeps them together: `"force"`, a spring, or `"form"`, a groove of two sides',
+            ("force", "form"),
+        ),
+    ] = "force"
+    stroke: Annotated[
+        float | None,
+        NumberKey("stroke of a translating follower", "a length", "m", 1e-4, 10.0, positive=True),
+    ] = None
+    swing: Annotated[
+        float | None,
+        NumberKey("swing of an oscillating one", "an angle", "degrees", 0.1, 120.0, positive=True),
+    ] = None
+    arm: Annotated[
+        float | None,
+        NumberKey(
+            "from the pivot of an oscillating one to its roller; to where its plate ends",
+            "a length", "m", 1e-3, 10.0, positive=True,
+        ),
+    ] = None  # fmt: skip
+    sense: Annotated[
+        str,
+        ChoiceKey(
+            'whether an oscillating one rises `"opposite"` to the turning of the cam or the '
+            '`"same"` way',
+            ("opposite", "same"),
+        ),
+    ] = "opposite"
+    rise: Annotated[
+        float,
+        NumberKey("angle of the rise", "an angle", "degrees", 1.0, 359.0, required=True),
+    ]
+    upper_dwell: Annotated[
+        float, NumberKey("angle of the upper dwell", "an angle", "degrees", 0.0, 358.0)
+    ] = 0.0
+    return_: Annotated[
+        float,
+        NumberKey(
+            "angle of the return", "an angle", "degrees", 1.0, 359.0, required=True, name="return"
+        ),
+    ]
+    lower_dwell: Annotated[
+        float | None,
+        NumberKey(
+            "angle of the lower dwell", "an angle", "degrees", 0.0, 358.0,
+            absent="what the others leave of a turn",
+        ),
+    ] = None  # fmt: skip
+    law: Annotated[
+        object,
+        OwnKey(
+            "law of motion, of both or `{ rise = .., return = .. }`: "
+            + ", ".join(f'`"{law}"`' for law in CAM_LAWS)
+            + ', or a table: `{ law = "table", values = [..] }`',
+            absent='`"3-4-5"`',
+        ),
+    ] = None
+    pressure: Annotated[
+        object,
+        OwnKey(
+            "allowed pressure angle, degrees, or `{ rise = 30, return = 45 }`",
+            absent="30 of the rise, 45 of an oscillating follower; of the return any, in a groove "
+            "that of the rise",
+        ),
+    ] = None
+    offset: Annotated[
+        CamSize,
+        OwnKey('offset e of the line of a translating follower, m, or `"choose"`; 0 under a plate'),
+    ] = None
+    centre: Annotated[
+        CamSize,
+        OwnKey('from the axis of the cam to the pivot of an oscillating one, m, or `"choose"`'),
+    ] = None
+    r_min: Annotated[
+        CamSize,
+        OwnKey('least radius of the theoretical profile, m, or `"choose"`'),
+    ] = None
+    roller: Annotated[
+        CamSize,
+        OwnKey(
+            'radius of the roller, m, or `"choose"`: at most 0.4 of `r_min` and 0.8 of the least '
+            "radius of curvature"
+        ),
+    ] = None
+    curvature: Annotated[
+        float,
+        NumberKey(
+            "least radius of curvature under a plate, by which `r_min` is chosen",
+            "a length", "m", 0.0, 10.0,
+        ),
+    ] = 0.0  # fmt: skip
+    count: Annotated[int, WholeKey("positions from the rise to the next rise", 3, 720)] = 24
+    parts: Annotated[
+        int, WholeKey("parts of rise and of return in the diagrams that are constructed", 4, 30)
+    ] = 12
+    n: Annotated[
+        float | None,
+        NumberKey(
+            "speed of the cam, counter-clockwise positive", "a speed", "rev/min", -1e5, 1e5,
+            absent="that of the crank of the file, if it has one",
+        ),
+    ] = None  # fmt: skip
+    mass: Annotated[float, NumberKey("mass of the follower", "a mass", "kg", 0.0, 1e5)] = 0.0
+    load: Annotated[float, NumberKey("force against the rise", "a force", "N", 0.0, 1e8)] = 0.0
+    margin: Annotated[
+        float,
+        NumberKey("by how much the spring is stronger than it must be", "a factor", low=1.0,
+                  high=10.0),
+    ] = 1.2  # fmt: skip
+
+
 class PictureTable(Struct, frozen=True):
     """``[gears.picture]``: scales of the pictures of velocities (масштабы картин скоростей)."""
 

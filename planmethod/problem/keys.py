@@ -15,6 +15,7 @@ from planmethod.problem.head import (
     TITLE_BLOCK,
     TITLE_FORMS,
     AskedAnswer,
+    CamTable,
     GearWheelTable,
     HigherPairTable,
     MeshingTable,
@@ -42,7 +43,7 @@ from planmethod.problem.machine_records import (
 )
 from planmethod.problem.model import Scales
 
-OF_KINDS = ("gears", "point", "meshing")
+OF_KINDS = ("gears", "point", "meshing", "cam")
 """Tables by which a file is of another kind than linkages; those kinds read them."""
 
 READING = ("reading", "other_readings")
@@ -110,7 +111,7 @@ FLAT: Mapping[str, type[object]] = {
     "motor": MotorTable, "kloss": KlossTable, "line": LineTable, "balancing": CounterweightTask,
     "wheel": GearWheelTable, "picture": PictureTable, "meshing": MeshingTable,
     "project": ProjectTask, "higher": HigherPairTable, "balancing_force": BalancingForceTask,
-    "friction": FrictionTask, "pair": PairFriction, "bearing": BearingTable,
+    "friction": FrictionTask, "pair": PairFriction, "bearing": BearingTable, "cam": CamTable,
 }  # fmt: skip
 """Records of flat tables by the kind of table."""
 

@@ -23,6 +23,7 @@ def read_project(faults: Faults, table: object) -> ProjectTask | None:
     own: dict[str, OwnReader] = {
         "gears": _read_beside,
         "meshing": _read_beside,
+        "cam": _read_beside,
         "parts": _read_parts,
     }
     found = read_flat(faults, "project", entries, ProjectTask, own)

@@ -25,6 +25,7 @@ class PartName(Enum):
     BALANCING = "balancing"
     GEARS = "gears"
     MESHING = "meshing"
+    CAM = "cam"
     NOTE = "note"
 
 
@@ -35,7 +36,7 @@ class ProjectPart(Struct, frozen=True):
     ----------
     name : PartName
     problem : KindProblem
-        What it is drawn and told of: the settled linkage, the train, the meshing.
+        What it is drawn and told of: the settled linkage, the train, the meshing, the cam.
     kind : ProblemKind or None
         Kind of the problem; None for the linkage.
     """

@@ -7,12 +7,14 @@ the problem, so that every output has them without knowing of projects.
 from __future__ import annotations
 
 from collections.abc import Iterator
+from math import pi
 from pathlib import Path
 from typing import assert_never
 
 import numpy as np
 from msgspec.structs import replace
 
+from planmethod.cams.model import CamProblem
 from planmethod.errors import Fault, ProblemError
 from planmethod.kinds import KINDS
 from planmethod.languages import LANGUAGES, say
@@ -181,7 +183,7 @@ def _parts(problem: Problem, path: Path | None) -> Iterator[ProjectPart]:
     for name in PartName:
         if name is PartName.NOTE or name not in asked or not there[name]:
             continue
-        if name not in (PartName.GEARS, PartName.MESHING):
+        if name not in (PartName.GEARS, PartName.MESHING, PartName.CAM):
             yield ProjectPart(name, problem)
         elif path is not None:
             yield _of_kind(problem, name, path, str(getattr(task, name.value)))
@@ -198,7 +200,7 @@ def _has(problem: Problem, task: ProjectTask, name: PartName) -> bool:
             return problem.dynamics is not None and problem.machine is not None
         case PartName.BALANCING:
             return problem.balancing is not None
-        case PartName.GEARS | PartName.MESHING:
+        case PartName.GEARS | PartName.MESHING | PartName.CAM:
             return bool(getattr(task, name.value)) or name.value in problem.tables
         case _:
             assert_never(name)
@@ -211,6 +213,9 @@ def _of_kind(problem: Problem, name: PartName, path: Path, beside: str) -> Proje
     if beside:
         _check_beside(problem, kind.table, file)
     found = kind.load(file, variant)
+    turns = problem.drive.pivot is not None and problem.drive.rate
+    if isinstance(found, CamProblem) and found.n is None and turns:
+        found = replace(found, n=turns * 30 / pi)  # on the shaft of the crank
     stamp = merged(problem.stamp, found.stamp) if beside else dict(problem.stamp)
     stamp.pop("title", None)
     title = found.title if beside else ""

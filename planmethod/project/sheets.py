@@ -67,7 +67,7 @@ def part_drawings(project: Project, part: ProjectPart, fields: Mapping[str, str]
             ]
         case PartName.BALANCING:
             return kinematics_sheets(problem, layout="balancing", fields=fields, furniture=around)
-        case PartName.GEARS | PartName.MESHING:
+        case PartName.GEARS | PartName.MESHING | PartName.CAM:
             assert part.kind is not None
             titled = replace(part.problem, title=words.project["titles"][part.name.value])
             drawn: list[Drawing] = part.kind.drawings(

@@ -15,6 +15,7 @@ from msgspec.structs import replace
 from planmethod.languages import WRITTEN, speaking
 from planmethod.plans.legend import TURNING
 from planmethod.plans.model import MOTION
+from planmethod.problem.head import KindProblem
 from planmethod.problem.model import Problem
 from planmethod.solved.many.positions import Gaps, blocks, common_scales, force_scale
 from planmethod.solved.many.variants import Batch
@@ -32,7 +33,7 @@ class SpreadsheetRows(Struct, frozen=True):
 
     Attributes
     ----------
-    problem : Problem
+    problem : KindProblem
     header : tuple of str
     count : int
         Rows.
@@ -40,7 +41,7 @@ class SpreadsheetRows(Struct, frozen=True):
         Returns an iterator over blocks of rows.
     """
 
-    problem: Problem
+    problem: KindProblem
     header: tuple[str, ...]
     count: int
     blocks: Callable[[], Iterator[Rows]]

@@ -59,6 +59,8 @@ class Language:
         The moving point, the turn of a crank, a machine and its flywheel, syntheses.
     gears, teeth, meshing : Words
         Gear trains, the choice of their teeth, two wheels in mesh.
+    cam : Words
+        A cam and its follower.
     live : Words
         The page of a moving mechanism.
     project : Words
@@ -86,6 +88,7 @@ class Language:
     cycle: Words
     machine: Words
     meshing: Words
+    cam: Words
     synthesis: Words
     teeth: Words
     live: Words

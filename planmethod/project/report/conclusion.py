@@ -4,6 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
+from planmethod.cams.design import CamDesign
+from planmethod.cams.model import CamProblem
+from planmethod.cams.text import sizes
 from planmethod.gears.involute.quantities import SolvedMeshing
 from planmethod.gears.involute.sizes import MeshingProblem
 from planmethod.gears.model import GearProblem
@@ -17,7 +20,7 @@ from planmethod.note.wording import Words
 from planmethod.plans.legend import kinds_on
 from planmethod.plans.model import RATES
 from planmethod.project.model import PartName, SheetEntry
-from planmethod.project.report.context import Report, sentences
+from planmethod.project.report.context import NBSP, Report, sentences
 from planmethod.project.report.flywheel import machine_of
 from planmethod.project.report.forces import largest_reactions
 from planmethod.project.report.gears import failed_conditions, failed_quality, ratios_of
@@ -46,6 +49,7 @@ def conclusion(report: Report) -> Iterator[Node]:
         *(_balancing(report, said) if report.has(PartName.BALANCING) else ()),
         *_gears(report, said),
         *_meshing(report, said),
+        *_cam(report, said),
     ]
     for number, text in enumerate(filter(None, found), 1):
         yield Item(inlined(text), f"{number})")
@@ -191,6 +195,15 @@ def _meshing(report: Report, said: Words) -> Iterator[Rich]:
     failed = failed_quality(part.problem, report)
     shifted = str(said["failed"]["shifted"]).format(conditions="; ".join(failed))
     yield f"{told} {shifted}" if failed else told
+
+
+def _cam(report: Report, said: Words) -> Iterator[Rich]:
+    part = report.project.part(PartName.CAM)
+    if part is not None and isinstance(part.problem, CamProblem):
+        table = sizes(CamDesign(part.problem), report.words)
+        unit = report.unit("mm")
+        listed = ", ".join(f"{symbol} = {value}{NBSP}{unit}" for _, symbol, value in table.rows)
+        yield said.cam.format(sizes=listed)
 
 
 def back(report: Report, sheets: Sequence[SheetEntry]) -> Iterator[Node]:

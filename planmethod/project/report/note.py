@@ -7,6 +7,7 @@ from collections.abc import Iterator, Sequence
 
 from msgspec.structs import replace
 
+from planmethod.cams.model import CamProblem
 from planmethod.gears.involute.sizes import MeshingProblem
 from planmethod.gears.model import GearProblem
 from planmethod.note import document
@@ -15,6 +16,7 @@ from planmethod.note.wording import Language
 from planmethod.plans.model import RATES
 from planmethod.project.model import PartName, Project, SheetEntry
 from planmethod.project.report.balancing import balancing_chapter
+from planmethod.project.report.cams import cam_chapter
 from planmethod.project.report.conclusion import back, conclusion
 from planmethod.project.report.context import NBSP, Report
 from planmethod.project.report.flywheel import flywheel_chapter
@@ -80,6 +82,8 @@ def _chapters(report: Report) -> Iterator[Node]:
             yield from train_chapter(report, part.problem)
         elif isinstance(part.problem, MeshingProblem):
             yield from meshing_chapter(report, part.problem)
+        elif isinstance(part.problem, CamProblem):
+            yield from cam_chapter(report, part.problem)
 
 
 def _tied(node: Node, tie: re.Pattern[str]) -> Node:

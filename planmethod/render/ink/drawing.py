@@ -127,7 +127,7 @@ class Span(Struct, frozen=True):
 
 VIEW_KINDS = (
     "position", "velocity", "acceleration", "forces", "balance", "reactions", "hodograph",
-    "structure", "flywheel", "diagram", "meshing", "trajectory",
+    "structure", "flywheel", "diagram", "meshing", "trajectory", "cam",
 )  # fmt: skip
 """Kinds of views: whoever tells of them has a word for each."""
 

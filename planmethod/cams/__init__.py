@@ -1,0 +1,1 @@
+"""Cams by the plan method (кулачковые механизмы)."""

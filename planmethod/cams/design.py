@@ -1,0 +1,385 @@
+"""The least cam that keeps the allowed pressure angles (синтез кулачка): exact, for every angle.
+
+A pressure angle is kept where the axis lies between two lines through the end D of the analogue of
+the velocity, laid off from the roller and turned by a right angle the way the cam turns. So the
+permissible places of the axis are what all these half-planes have in common, and the least cam has
+its axis in the place of them that is nearest to the roller at rest. Half-planes of the angles at
+which they bind are found exactly and added until none is violated anywhere.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from functools import cached_property, partial
+from math import floor, sqrt, tan
+from typing import NamedTuple, TypeAlias
+
+import numpy as np
+from msgspec import Struct
+from msgspec.structs import replace
+from numpy.typing import NDArray
+
+from planmethod.cams.geometry import CamGeometry, Complexes
+from planmethod.cams.laws import Reals
+from planmethod.cams.model import CamPhase, CamProblem, Closure, Contact, Jump, Stretch
+from planmethod.cams.peaks import first_kept, least, nearest_to_origin, peak
+from planmethod.errors import Fault, ProblemError
+from planmethod.languages import say
+
+Flags: TypeAlias = NDArray[np.bool_]
+
+ROUNDS = 40
+MOVING = (CamPhase.RISE, CamPhase.RETURN)
+
+OF_R_MIN, OF_RHO = 0.4, 0.8
+"""Shares of r_min and of the least radius of curvature that a chosen roller may have."""
+
+STEP = 0.0005
+"""Radius of a chosen roller is a multiple of this, m."""
+
+
+class Bound(NamedTuple):
+    """A limiting line that binds: phase, angle of the cam (rad), side (+1: ϑ at its limit)."""
+
+    phase: CamPhase
+    phi: float
+    sign: int
+
+
+class CamExtreme(NamedTuple):
+    """A greatest or least value, and its angle of the cam, rad."""
+
+    value: float
+    phi: float
+
+
+class Undercut(NamedTuple):
+    """Where a profile is cut away (подрез): the worst angle, from which to which, rad.
+
+    ``rho``: radius of curvature of the theoretical profile there, m; ``point`` in the frame of the
+    cam, m; ``outer``: on the outer side of a groove.
+    """
+
+    phi: float
+    start: float
+    end: float
+    rho: float
+    point: complex
+    outer: bool
+
+
+class CamDesign(Struct, frozen=True, dict=True):
+    """A solved cam (решение): its sizes, extremes, faults.
+
+    Raises
+    ------
+    ProblemError
+        On first use: no place of the axis keeps the allowed angles; sizes do not go together.
+    """
+
+    problem: CamProblem
+
+    # Places of the axis ---------------------------------------------------------------------------
+
+    def velocity_end(self, moved: Reals) -> tuple[Complexes, Complexes]:
+        """Return D from the roller at rest, m, and what turns the follower's way upright.
+
+        The frame is that of the follower: at rest it moves along +y; the pivot is at ``side·arm``.
+        """
+        one = self.problem
+        s, v, _ = moved
+        if not one.oscillates:
+            return 1j * s - v, np.ones_like(s) + 0j
+        side = self.side
+        turn = np.exp(-1j * side * s / one.arm)
+        return side * one.arm * (1 - turn) - v * turn, 1 / turn
+
+    @property
+    def side(self) -> int:
+        """1 where an arm has its pivot on the right: it rises against the cam's turning."""
+        return CamGeometry(self.problem, 1.0).side
+
+    def half_planes(self, stretch: Stretch, phi: Reals, sign: int) -> tuple[Reals, Reals, Reals]:
+        """Return a, b, c of ``a·x + b·y <= c`` for the axis at (x, y) from the roller at rest."""
+        limit = self.problem.limit(stretch.phase)
+        assert limit is not None
+        end, turn = self.velocity_end(self.problem.on(stretch, phi))
+        normal = np.conj(turn * (sign - 1j * tan(limit)))
+        return normal.real, normal.imag, np.real(end * np.conj(normal))
+
+    def limited(self) -> Iterator[tuple[Stretch, int]]:
+        """Yield the smooth parts with a limit, and its side."""
+        for stretch in self.problem.stretches:
+            if stretch.phase in MOVING and self.problem.limit(stretch.phase) is not None:
+                yield from ((stretch, 1), (stretch, -1))
+
+    def worst(self, x: float, y: float) -> tuple[float, list[tuple[Stretch, float, int]]]:
+        """Return by how much an axis breaks the limits, m, and the angle of each limit's worst."""
+
+        def broken(stretch: Stretch, sign: int, phi: Reals) -> Reals:
+            a, b, c = self.half_planes(stretch, phi, sign)
+            return np.asarray((a * x + b * y - c) / np.hypot(a, b))
+
+        found, most = [], -np.inf
+        for stretch, sign in self.limited():
+            phi, value = peak(partial(broken, stretch, sign), stretch.start, stretch.end)
+            found.append((stretch, phi, sign))
+            most = max(most, value)
+        return most, found
+
+    @cached_property
+    def axis(self) -> complex:
+        """Place of the axis from the roller at rest, m: as given, else the nearest permissible."""
+        one = self.problem
+        if one.r_min is not None:
+            return self._at_distance(one.r_min)
+        if one.oscillates and one.centre is not None:
+            return self._around_pivot(one.centre)
+        if not one.oscillates and one.offset is not None:
+            return self._under(one.offset)
+        return self._nearest()
+
+    def _nearest(self) -> complex:
+        """Return the permissible place that is nearest to the roller at rest."""
+        rows: list[tuple[float, ...]] = []
+        for stretch, sign in self.limited():
+            phi = np.linspace(stretch.start, stretch.end, 9)
+            planes = self.half_planes(stretch, phi, sign)
+            rows += [tuple(map(float, plane)) for plane in zip(*planes, strict=True)]
+        place = 0j
+        for _ in range(ROUNDS):
+            table = np.array(rows)
+            point = nearest_to_origin(table[:, :2], table[:, 2])
+            if point is None:
+                raise self._impossible()
+            place = complex(float(point[0]), float(point[1]))
+            most, worst = self.worst(place.real, place.imag)
+            if most <= 1e-15 * self.problem.stroke:
+                break
+            for stretch, angle, sign in worst:
+                plane = self.half_planes(stretch, np.array(angle), sign)
+                rows.append(tuple(map(float, plane)))
+        return place
+
+    def _under(self, e: float) -> complex:
+        """Return the highest permissible place at an offset of the follower's line."""
+
+        def depth(stretch: Stretch, sign: int, phi: Reals) -> Reals:
+            a, b, c = self.half_planes(stretch, phi, sign)
+            return np.asarray((-a * e - c) / b)
+
+        deep = max(
+            peak(partial(depth, *one), one[0].start, one[0].end)[1] for one in self.limited()
+        )
+        return complex(-e, -max(deep, 0.0))
+
+    def _around_pivot(self, centre: float) -> complex:
+        """Return the permissible place nearest to the roller at a distance from the pivot."""
+        pivot, side = self.side * self.problem.arm, self.side
+
+        def at(delta: float) -> complex:
+            return pivot - side * centre * complex(np.exp(1j * side * delta))
+
+        def broken(delta: float) -> float:
+            z = at(delta)
+            return self.worst(z.real, z.imag)[0]
+
+        planes = [
+            self.half_planes(one, np.linspace(one.start, one.end, 65), sign)
+            for one, sign in self.limited()
+        ]
+        x, y, bound = (np.concatenate(part) for part in zip(*planes, strict=True))
+
+        def roughly(delta: float) -> float:
+            z = at(delta)
+            return float(np.max(x * z.real + y * z.imag - bound))
+
+        delta = first_kept(roughly, broken, np.linspace(0.0, np.pi, 361)[1:-1])
+        if delta is None:
+            raise self._impossible()
+        return at(delta)
+
+    def _at_distance(self, r_min: float) -> complex:
+        """Return the place at a distance from the roller: by offset or pivot, else the mildest."""
+        one = self.problem
+        if one.oscillates and one.centre is not None:
+            arm, a = one.arm, one.centre
+            delta = float(np.arccos((a * a + arm * arm - r_min**2) / (2 * a * arm)))
+            return self.side * (arm - a * complex(np.exp(1j * self.side * delta)))
+        if not one.oscillates and one.offset is not None:
+            return complex(-one.offset, -sqrt(r_min**2 - one.offset**2))
+
+        def broken(angle: float) -> float:
+            return self.worst(r_min * np.cos(angle), r_min * np.sin(angle))[0]
+
+        angle = least(broken, -np.pi, 0.0)
+        return r_min * complex(np.exp(1j * angle))
+
+    def _impossible(self) -> ProblemError:
+        message = say("no place of the axis keeps the allowed pressure angles at every position")
+        hint = "Allow greater angles, take a smaller swing, longer phases or another centre."
+        return ProblemError(self.problem.name, [Fault("cam.pressure", message, hint)])
+
+    # Sizes ----------------------------------------------------------------------------------------
+
+    @cached_property
+    def bare(self) -> CamGeometry:
+        """The cam of the centre of the roller, or under the plate."""
+        one = self.problem
+        if one.contact is not Contact.FLAT:
+            z = self.axis
+            if one.oscillates:
+                return CamGeometry(one, abs(z), centre=abs(z - self.side * one.arm))
+            return CamGeometry(one, abs(z), e=-z.real)
+        e = one.offset or 0.0
+        if one.oscillates:
+            assert one.centre is not None
+            return CamGeometry(one, one.r_min or self._least_plate(one.centre), centre=one.centre)
+        if one.r_min is not None:
+            return CamGeometry(one, one.r_min, e=e)
+        found = self.highest(lambda stretch, phi: -np.sum(one.on(stretch, phi)[::2], axis=0))
+        if found.value + one.least <= 0:
+            what = say("any r_min leaves the profile convex")
+            raise ProblemError(one.name, [Fault("cam.r_min", what, "Give r_min, or curvature.")])
+        return CamGeometry(one, found.value + one.least, e=e)
+
+    def _least_plate(self, centre: float) -> float:
+        """Return the least distance of a swinging plate at which the profile is convex enough."""
+        one = self.problem
+
+        def broken(delta: float) -> float:
+            trial = CamGeometry(one, centre * np.sin(delta), centre=centre)
+            return self.highest(
+                lambda stretch, phi: one.least - self._rho(trial, stretch, phi)
+            ).value
+
+        def roughly(delta: float) -> float:
+            trial = CamGeometry(one, centre * np.sin(delta), centre=centre)
+            rho = [
+                np.min(self._rho(trial, part, np.linspace(part.start, part.end, 33)))
+                for part in one.stretches
+            ]
+            return one.least - float(min(rho))
+
+        most = np.pi / 2 - one.stroke / one.arm
+        delta = first_kept(roughly, broken, np.linspace(0.0, most, 91)[1:-1])
+        if delta is None:
+            what = say("no r_min keeps the profile convex under the plate")
+            hint = "Take a larger centre, a smaller swing or longer phases."
+            raise ProblemError(one.name, [Fault("cam.centre", what, hint)])
+        return float(centre * np.sin(delta))
+
+    def highest(self, of: Callable[[Stretch, Reals], Reals]) -> CamExtreme:
+        """Return the greatest value of a function over the turn."""
+        found = [
+            (value, phi)
+            for stretch in self.problem.stretches
+            for phi, value in [peak(partial(of, stretch), stretch.start, stretch.end)]
+        ]
+        return CamExtreme(*max(found))
+
+    def _rho(self, of: CamGeometry, stretch: Stretch, phi: Reals) -> Reals:
+        with np.errstate(divide="ignore"):
+            return 1 / of.points(phi, self.problem.on(stretch, phi)).curvature
+
+    def _curvature(self, sign: int, stretch: Stretch, phi: Reals) -> Reals:
+        return sign * self.bare.points(phi, self.problem.on(stretch, phi)).curvature
+
+    @cached_property
+    def rho_min(self) -> CamExtreme:
+        """Least radius of curvature of the convex theoretical profile, m; 0 at a corner."""
+        if self.problem.contact is Contact.FLAT:
+            low = self.highest(lambda stretch, phi: -self._rho(self.bare, stretch, phi))
+            return CamExtreme(-low.value, low.phi)
+        for jump in self.problem.jumps:
+            if jump.order == 1 and self._turns(jump) < 0:
+                return CamExtreme(0.0, jump.phi)
+        value, phi = self.highest(partial(self._curvature, 1))
+        return CamExtreme(1 / value if value > 0 else float("inf"), phi)
+
+    def _turns(self, jump: Jump) -> float:
+        """Return by how much the profile turns at a jump, rad; negative where it is convex."""
+        phi = np.array(jump.phi)
+        first, second = (self.bare.points(phi, at).normal for at in (jump.before, jump.after))
+        return float(np.angle(second / first))
+
+    @cached_property
+    def hollow(self) -> CamExtreme:
+        """Least radius of curvature of the concave theoretical profile, m; infinite without."""
+        value, phi = self.highest(partial(self._curvature, -1))
+        return CamExtreme(1 / value if value > 0 else float("inf"), phi)
+
+    @cached_property
+    def geometry(self) -> CamGeometry:
+        """The cam with its roller."""
+        one, bare = self.problem, self.bare
+        if one.contact is not Contact.ROLLER:
+            return bare
+        if one.roller is not None:
+            return replace(bare, roller=one.roller)
+        limits = [OF_RHO * self.rho_min.value]
+        if one.closure is Closure.FORM:
+            limits.append(OF_RHO * self.hollow.value)
+        # Over a corner no roller rolls: the undercut is told then.
+        most = min([OF_R_MIN * bare.r_min, *(limit for limit in limits if limit > 0)])
+        return replace(bare, roller=floor(most / STEP + 1e-9) * STEP if most > 2 * STEP else most)
+
+    def pressure(self, phase: CamPhase) -> CamExtreme:
+        """Return the greatest size of the pressure angle of rise or return, rad."""
+        found = [
+            (value, phi)
+            for stretch in self.problem.stretches
+            if stretch.phase is phase
+            for phi, value in [peak(partial(self._pressure, stretch), stretch.start, stretch.end)]
+        ]
+        return CamExtreme(*max(found))
+
+    def _pressure(self, stretch: Stretch, phi: Reals) -> Reals:
+        return np.abs(self.bare.points(phi, self.problem.on(stretch, phi)).pressure)
+
+    @cached_property
+    def bounds(self) -> tuple[Bound, ...]:
+        """The limiting lines that pass through the axis, at most two; none where all have room."""
+        z = self.axis
+        most = 1e-7 * abs(z)
+        found: list[Bound] = []
+        for stretch, phi, sign in self.worst(z.real, z.imag)[1]:
+            a, b, c = self.half_planes(stretch, np.array(phi), sign)
+            if abs(float((a * z.real + b * z.imag - c) / np.hypot(a, b))) < most:
+                found.append(Bound(stretch.phase, phi, sign))
+        return tuple({(one.phase, one.sign): one for one in found}.values())[:2]
+
+    # Faults ---------------------------------------------------------------------------------------
+
+    @cached_property
+    def undercut(self) -> Undercut | None:
+        """Where the profile is cut away: the roller, or the plate, does not touch it there."""
+        one, geometry = self.problem, self.geometry
+        if one.contact is Contact.POINTED:
+            return None
+        rho, phi = self.rho_min
+        if one.contact is Contact.FLAT:
+            if rho >= -1e-12:
+                return None
+            return self._cut(phi, rho, False, lambda k: k < 0)
+        size = geometry.roller
+        if rho < size * (1 - 1e-12):
+            return self._cut(phi, rho, False, lambda k: k * size > 1)
+        hollow, phi = self.hollow
+        if one.closure is Closure.FORM and hollow < size * (1 - 1e-12):
+            return self._cut(phi, -hollow, True, lambda k: -k * size > 1)
+        return None
+
+    def _cut(
+        self, phi: float, rho: float, outer: bool, is_cut: Callable[[Reals], Flags]
+    ) -> Undercut:
+        """Return an undercut with the angles between which it is."""
+        offsets = np.linspace(0.0, np.pi, 20001)
+
+        def reach(way: int) -> float:
+            cut = is_cut(self.geometry.at(phi + way * offsets).curvature)
+            return float(offsets[np.argmin(cut)]) if cut[1] else 0.0
+
+        at = self.geometry.at(np.array([phi]))
+        point = complex((at.outer if outer else at.actual)[0])
+        return Undercut(phi, phi - reach(-1), phi + reach(1), rho, point, outer)

@@ -1,0 +1,80 @@
+"""Cams (кулачковые механизмы), as a kind of problem."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from planmethod.kind import ProblemKind
+from planmethod.note.document import Document
+
+if TYPE_CHECKING:
+    from planmethod.cams.model import CamProblem
+    from planmethod.construct.drafting import Profile
+    from planmethod.note.records.spreadsheet import SpreadsheetRows
+    from planmethod.note.wording import Language
+    from planmethod.problem.figures import Figures
+    from planmethod.render.ink.drawing import Drawing
+
+
+class Cams(ProblemKind["CamProblem"]):
+    """Cams (кулачковые механизмы), as a kind of problem."""
+
+    table = "cam"
+
+    def load(self, path: Path, variant: str | None) -> CamProblem:
+        """Read a problem file."""
+        from planmethod.cams.reader import load
+
+        return load(path, variant=variant)
+
+    def record(self, problem: CamProblem, lang: str) -> dict[str, Any]:
+        """Return what ``solve --json`` prints."""
+        from planmethod.cams.record import record
+
+        return record(problem, lang)
+
+    def spreadsheet(self, problem: CamProblem) -> SpreadsheetRows:
+        """Return what ``solve --csv`` prints."""
+        from planmethod.cams.record import spreadsheet
+
+        return spreadsheet(problem)
+
+    def solved_document(self, problem: CamProblem, words: Language) -> Document:
+        """Return what ``solve`` prints."""
+        from planmethod.cams.text import solved_document
+
+        return Document.of(solved_document(problem, words))
+
+    def protocol_document(self, problem: CamProblem, words: Language, profile: Profile) -> Document:
+        """Return what ``protocol`` prints."""
+        from planmethod.cams.protocol import protocol_document
+
+        return Document.of(protocol_document(problem, words, profile))
+
+    def drawings(
+        self,
+        problem: CamProblem,
+        *,
+        fields: Mapping[str, str],
+        profile: Profile,
+        before: int = 0,
+        total: int | None = None,
+    ) -> list[Drawing]:
+        """Return the sheets."""
+        from planmethod.cams.sheet import drawings
+
+        return drawings(problem, fields=fields, profile=profile, before=before, total=total)
+
+    def live_page(self, problem: CamProblem, lang: str) -> str:
+        """Return the page that ``live`` writes."""
+        from planmethod.cams.live import live_page
+
+        return live_page(problem, lang)
+
+    def figures(self, problem: CamProblem) -> Figures:
+        """Return what students can be asked for."""
+        from planmethod.cams.figures import asked_of
+
+        return asked_of(problem)

@@ -1,0 +1,143 @@
+"""The page of a cam that turns: cam, follower, normal, pressure angle, the diagram with a cursor.
+
+Its numbers are rows of every half degree, between which the page goes straight: at a jump it has
+what is after it.
+"""
+
+from __future__ import annotations
+
+from html import escape
+from importlib.resources import files
+from typing import Any
+
+import numpy as np
+
+from planmethod.cams.construction import construct
+from planmethod.cams.design import CamDesign
+from planmethod.cams.model import TURN, CamProblem, Closure, Contact
+from planmethod.cams.pictures import CamView, diagrams_picture
+from planmethod.note.wording import language
+from planmethod.render.backends.canvas import Options
+from planmethod.render.backends.svg import SvgCanvas
+from planmethod.render.ink.lettering import in_use
+from planmethod.render.live.document import html_document, rich, speed_choice
+
+ROWS = 720
+LETTER = 5.0
+PACE = 60.0
+"""Degrees a second, where the file has no speed."""
+
+QUICK = 120.0
+"""Most degrees a second of the page."""
+
+TABLE = ("s", "v_q", "a_q", "pressure")
+
+
+def live_page(problem: CamProblem, lang: str) -> str:
+    """Return the page of a cam, an HTML document.
+
+    Raises
+    ------
+    ProblemError
+        No cam keeps what is asked.
+    """
+    words, design = language(lang), CamDesign(problem)
+    canvas = SvgCanvas(Options())
+    canvas.open(0.0, 0.0, "", in_use())
+    built = construct(design)
+    picture = diagrams_picture(CamView(built, words, LETTER))
+    left, low, right, high = picture.bounds
+    cursor = f'<path id="cursor" class="seg thin" d="M0 {-high:.2f}V{-low:.2f}"/>'
+    box = f"{left - 2:.2f} {-high - 2:.2f} {right - left + 4:.2f} {high - low + 4:.2f}"
+    views = _figure(words.cam["views"]["profile"], *_mechanism(design))
+    drawn = canvas.parts(picture.items)
+    views += _figure(words.cam["views"]["diagrams"], drawn + cursor, box)
+    said = words.live
+    scene: dict[str, Any] = {
+        "rows": _rows(design),
+        "mirror": problem.mirror,
+        "oscillates": problem.oscillates,
+        "line": None if problem.oscillates else 1000.0 * design.geometry.e,
+        "arm": problem.arm,
+        "pivot": design.geometry.centre * design.side,
+        "per_degree": 1 / built.scales.degree,
+        "pace": min(QUICK, abs(problem.n or 0.0) * 6.0) or PACE,
+        "decimal": words.say.decimal,
+        "words": {"play": said.play, "pause": said.pause},
+    }
+    bar = (
+        f'<div id="bar"><section><button id="play" aria-label="{escape(said.play)}">▶</button>'
+        f'<input id="slider" type="range" min="0" max="360" step="any" value="0" '
+        f'aria-label="{escape(said.driver)}"><label>φ = <input id="exact" type="number" '
+        f'step="any"> °</label>{speed_choice(said.speed)}</section></div>'
+    )
+    heads = dict(zip(TABLE, words.cam["heads"][2:6], strict=True))
+    cells = "".join(
+        f'<tr><th>{rich(heads[key])}</th><td><span id="{key}"></span></td></tr>' for key in TABLE
+    )
+    table = f'<section><div id="numbers"><table><tbody>{cells}</tbody></table></div></section>'
+    return html_document(
+        problem,
+        lang=lang,
+        body="\n".join((bar, f'<main id="views">{views}</main>', table)),
+        made=words.cam.made_live,
+        letters=canvas.letters(),
+        scene=scene,
+        script=files("planmethod.cams").joinpath("live.js").read_text("utf-8"),
+    )
+
+
+def _rows(design: CamDesign) -> list[list[float]]:
+    """Return s, v_q, a_q (mm), ϑ (degrees), roller and contact in the resting frame (mm)."""
+    phi = TURN * np.arange(ROWS + 1) / ROWS
+    moved = design.problem.at(phi)
+    at = design.geometry.points(phi, moved)
+    contact = at.actual * np.exp(1j * phi)
+    columns = [
+        *(1000.0 * moved), np.degrees(at.pressure), 1000.0 * at.roller.real,
+        1000.0 * at.roller.imag, 1000.0 * contact.real, 1000.0 * contact.imag,
+    ]  # fmt: skip
+    return [[round(float(x), 6) + 0.0 for x in row] for row in np.array(columns).T]
+
+
+def _figure(title: str, drawn: str, box: str) -> str:
+    return (
+        f'<figure><figcaption>{rich(title)}</figcaption><svg viewBox="{box}">{drawn}</svg></figure>'
+    )
+
+
+def _mechanism(design: CamDesign) -> tuple[str, str]:
+    """Return cam and follower as SVG, mm, y down, and the view box."""
+    problem, geometry = design.problem, design.geometry
+    at = geometry.at(TURN * np.arange(ROWS) / ROWS)
+    mm = 1000.0
+    sides = (at.actual, at.outer) if problem.closure is Closure.FORM else (at.actual,)
+    cam = "".join(
+        '<path class="seg" d="M'
+        + "L".join(f"{problem.mirror * mm * z.real:.3f} {-mm * z.imag:.3f}" for z in side)
+        + 'Z"/>'
+        for side in sides
+    )
+    # A mark shows that it turns.
+    cam += f'<path class="seg thin" d="M0 0V{-0.7 * mm * geometry.r_min:.3f}"/>'
+    cam += f'<circle class="seg" r="{0.06 * mm * geometry.r_min:.3f}"/>'
+    reach = mm * float(max(np.max(np.abs(side)) for side in sides)) + 4.0
+    wide, tall = reach, reach
+    if problem.oscillates:
+        wide = max(wide, mm * geometry.centre + 6.0)
+        if problem.contact is Contact.FLAT:
+            wide = max(wide, mm * abs(geometry.centre - problem.arm) + 6.0)
+    else:
+        tall = max(tall, mm * (geometry.r_min + problem.stroke + geometry.roller) + 20.0)
+    size = mm * geometry.roller
+    tall = max(tall, mm * float(np.max(at.roller.imag)) + size + 6.0)
+    plate = problem.contact is Contact.FLAT and not problem.oscillates
+    stem = f'<path class="seg" id="stem" d="M0 0V{-tall - 60:.2f}"/>'
+    half = mm * float(np.max(np.abs(problem.at(TURN * np.arange(ROWS) / ROWS)[1]))) + 3.0
+    face = f'<path class="seg" d="M{-half:.2f} 0H{half:.2f}"/>' if plate else ""
+    roller = f'<circle class="seg thin" r="{size:.3f}"/>' if size else ""
+    follower = '<path class="seg" id="arm"/>' if problem.oscillates else ""
+    follower += f'<g id="follower">{"" if problem.oscillates else stem + face}{roller}</g>'
+    normal = '<path class="seg thin" id="normal"/><circle id="contact" r="0.8"/>'
+    box = f"{-wide:.2f} {-tall:.2f} {2 * wide:.2f} {tall + reach:.2f}"
+    return f'<g id="cam">{cam}</g>{follower}{normal}', box

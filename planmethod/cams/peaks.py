@@ -1,0 +1,110 @@
+"""Greatest values of functions on an interval, and least points of many half-planes."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+
+from planmethod.cams.laws import Reals
+
+SAMPLES, FINER, ROUNDS = 257, 17, 12
+
+RealFunction = Callable[[Reals], Reals]
+
+
+def peak(of: RealFunction, start: float, end: float) -> tuple[float, float]:
+    """Return where a smooth function is greatest on an interval, and how great.
+
+    Every summit of the samples is looked at closer and closer, so that of two nearly equal ones
+    the greater is found.
+    """
+    x = np.linspace(start, end, SAMPLES)
+    with np.errstate(all="ignore"):
+        y = np.nan_to_num(of(x), nan=-np.inf)
+        padded = np.concatenate([[-np.inf], y, [-np.inf]])
+        tops = np.flatnonzero((y >= padded[:-2]) & (y >= padded[2:]))
+        tops = tops[np.argsort(-y[tops])][:8]
+        low, high = x[np.maximum(tops - 1, 0)], x[np.minimum(tops + 1, SAMPLES - 1)]
+        rows = np.arange(len(tops))
+        best, value = x[tops], y[tops]
+        for _ in range(ROUNDS):
+            fine = low[:, None] + (high - low)[:, None] * np.linspace(0.0, 1.0, FINER)
+            found = np.nan_to_num(of(fine), nan=-np.inf)
+            at = np.argmax(found, axis=1)
+            better = found[rows, at] > value
+            best = np.where(better, fine[rows, at], best)
+            value = np.maximum(value, found[rows, at])
+            low, high = fine[rows, np.maximum(at - 1, 0)], fine[rows, np.minimum(at + 1, FINER - 1)]
+    k = int(np.argmax(value))
+    return float(best[k]), float(value[k])
+
+
+def nearest_to_origin(normals: Reals, bounds: Reals) -> Reals | None:
+    """Return the point nearest to the origin that keeps ``normals @ z <= bounds``, or None.
+
+    Parameters
+    ----------
+    normals : array of float, shape (n, 2)
+    bounds : array of float, shape (n,)
+    """
+    length = np.hypot(*normals.T)
+    unit, off = normals / length[:, None], bounds / length
+    i, j = np.triu_indices(len(unit), 1)
+    det = unit[i, 0] * unit[j, 1] - unit[i, 1] * unit[j, 0]
+    with np.errstate(all="ignore"):
+        corners = np.array(
+            [
+                (off[i] * unit[j, 1] - off[j] * unit[i, 1]) / det,
+                (unit[i, 0] * off[j] - unit[j, 0] * off[i]) / det,
+            ]
+        ).T
+    tried = np.concatenate([np.zeros((1, 2)), unit * off[:, None], corners])
+    tried = tried[np.all(np.isfinite(tried), axis=1)]
+    size = np.hypot(*tried.T)
+    slack = 1e-12 * np.max(np.abs(off))
+    for k in np.argsort(size):
+        if np.all(unit @ tried[k] <= off + slack):
+            return np.asarray(tried[k])
+    return None
+
+
+def first_kept(
+    rough: Callable[[float], float], exact: Callable[[float], float], tried: Reals
+) -> float | None:
+    """Return the first number at which a function is no longer positive; None where it stays so.
+
+    Parameters
+    ----------
+    rough, exact : callable
+        The function from below, and as it is: where the rough one is positive, so is the other.
+    tried : array of float
+        Numbers in order, the steps of the search.
+    """
+    for k, x in enumerate(tried):
+        if rough(float(x)) > 0 or exact(float(x)) > 0:
+            continue
+        if not k:
+            return float(x)
+        low, high = float(tried[k - 1]), float(x)
+        above, below = exact(low), exact(high)
+        for _ in range(100):  # regula falsi; an end that stays weighs half
+            middle = high - below * (high - low) / (below - above)
+            if not low < middle < high:
+                break
+            value = exact(middle)
+            if value <= 0:
+                high, below, above = middle, value, above / 2
+            else:
+                low, above, below = middle, value, below / 2
+        return high
+    return None
+
+
+def least(of: Callable[[float], float], start: float, end: float, *, samples: int = 121) -> float:
+    """Return where a function of one number is least, by finer and finer grids."""
+    for _ in range(14):
+        x = np.linspace(start, end, samples)
+        k = int(np.argmin([of(float(one)) for one in x]))
+        start, end, samples = x[max(k - 1, 0)], x[min(k + 1, samples - 1)], 9
+    return float((start + end) / 2)

@@ -1,0 +1,301 @@
+"""Read a file with ``[cam]``: every fault at once (чтение файла задачи)."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from math import isclose, pi, radians
+from pathlib import Path
+from typing import Any
+
+from planmethod.cams.laws import CamLawName, UnitLaw, law_of
+from planmethod.cams.model import ArmSense, CamProblem, Closure, Contact, Follower
+from planmethod.errors import ProblemError
+from planmethod.languages import say
+from planmethod.problem import fields
+from planmethod.problem.answers import Plain, read_answers
+from planmethod.problem.fields import Faults
+from planmethod.problem.flat import OwnReader, read_flat
+from planmethod.problem.head import CAM_EXAMPLE, CHOOSE, CamTable
+from planmethod.problem.names import short
+from planmethod.problem.reader import varied
+from planmethod.problem.sheet import read_head
+
+TOP = ("title", "source", "stamp", "sheet", "answers", "compare", "variants", "cam")
+"""Tables of the file that a cam may have."""
+
+WHOLE = ("r_min", "e", "centre_distance", "roller", "theta_max", "theta_max_return", "rho_min")
+PLACED = ("s", "v_q", "a_q", "theta")
+"""What students are asked for: of the cam, and of each of its positions."""
+
+OF_LAW: Mapping[CamLawName, tuple[str, float, float]] = {
+    CamLawName.CONSTANT: ("ratio", 0.05, 20.0),
+    CamLawName.TRAPEZOIDAL: ("ramp", 0.001, 0.25),
+    CamLawName.MODIFIED: ("ramp", 0.001, 0.25),
+    CamLawName.LINEAR: ("blend", 0.0, 0.499),
+}
+"""Numbers that laws may have, with their bounds."""
+
+_NEEDED = {
+    "swing": "swing = 20 (degrees)", "arm": "arm = 0.12 (m)", "stroke": "stroke = 0.04 (m)",
+}  # fmt: skip
+_TABLE = 'law = { rise = { law = "table", values = [0, 1, 1, 0, -1, -1, 0] }, return = "sine" }'
+_POINTS = 'law = { law = "piecewise-linear", points = [[0, 1], [0.5, 1], [0.5, -1], [1, -1]] }'
+
+
+def load(path: str | Path, *, variant: str | None = None) -> CamProblem:
+    """Read a file with ``[cam]``; of one with a linkage, too, that table and the title block.
+
+    Raises
+    ------
+    ProblemError
+        With every fault of the file.
+    """
+    path = Path(path)
+    table, variants, faults = varied(path, variant)
+    crank = table.get("driver") if "links" in table else None
+    if "links" in table:
+        table = {key: value for key, value in table.items() if key in TOP and key != "answers"}
+    given = fields.read_keys(faults, "", table, TOP)
+    head = read_head(faults, given)
+    body = fields.read_table(faults, "cam", given.get("cam", {}), CAM_EXAMPLE)
+    told = None if body is None else _read(faults, body, _speed(crank))
+    count = 1 if told is None else told["count"]
+    answers = read_answers(faults, given, _scene(count))
+    if faults or told is None:
+        raise ProblemError(str(path), faults.found)
+    return CamProblem(
+        name=path.stem, variants=variants, variant=variant, answers=answers, **head, **told
+    )
+
+
+def _scene(count: int) -> Plain:
+    def fault(name: str) -> str:
+        return "" if name in (*WHOLE, *PLACED) else say("a cam has no '{}'", short(name))
+
+    hint = say("Known here: {}.", ", ".join((*WHOLE, *PLACED)))
+    return Plain(fault, lambda name: False, hint, count)
+
+
+def _speed(crank: object) -> float | None:
+    """Return the speed of the crank that a file has beside the cam, rev/min."""
+    if not isinstance(crank, Mapping):
+        return None
+    n, omega = crank.get("n"), crank.get("omega")
+    if fields.is_number(n):
+        return float(n)
+    return float(omega) * 30 / pi if fields.is_number(omega) else None
+
+
+def _read(faults: Faults, body: Mapping[str, Any], speed: float | None) -> dict[str, Any] | None:
+    """Return the fields of a problem that stand in its table."""
+    sizes = ("offset", "centre", "r_min", "roller")
+    own: dict[str, OwnReader] = dict.fromkeys(sizes, _read_size)
+    own |= dict.fromkeys(("law", "pressure"), _kept)  # both need other keys
+    found = read_flat(faults, "cam", body, CamTable, own, example=CAM_EXAMPLE)
+    if faults:
+        return None
+    given = CamTable(**found)
+    oscillates, flat = given.follower == "oscillating", given.contact == "flat"
+    _check_keys(faults, body, oscillates=oscillates, contact=given.contact)
+    laws = _read_laws(faults, given.law)
+    allowed = _read_pressure(faults, given)
+    phases = _phases(faults, given)
+    chosen = {
+        name: size if isinstance(size := getattr(given, name), float) else None for name in sizes
+    }
+    if faults:
+        return None
+    assert laws is not None and allowed is not None and phases is not None
+    arm = given.arm or 0.0
+    stroke = arm * radians(given.swing or 0.0) if oscillates else given.stroke or 0.0
+    _check_sizes(faults, chosen, oscillates=oscillates, flat=flat, arm=arm)
+    if flat and any(law.start for law in laws):
+        what = say("a plate cannot follow a jump of the velocity, which law '{}' has", "linear")
+        faults.add("cam.law", what, "Take another law, or linear with blend.")
+    return None if faults else {
+        "follower": Follower(given.follower),
+        "contact": Contact(given.contact),
+        "closure": Closure(given.closure),
+        "sense": ArmSense(given.sense),
+        "stroke": stroke,
+        "arm": arm,
+        "phases": phases,
+        "laws": laws,
+        "allowed": allowed,
+        **chosen,
+        "least": given.curvature,
+        "count": given.count,
+        "parts": given.parts,
+        "n": speed if given.n is None else given.n,
+        "mass": given.mass,
+        "load": given.load,
+        "margin": given.margin,
+    }  # fmt: skip
+
+
+def _kept(faults: Faults, path: str, value: object) -> object:
+    return value
+
+
+def _read_size(faults: Faults, path: str, value: object) -> float | str | None:
+    if value == CHOOSE:
+        return CHOOSE
+    if isinstance(value, str):
+        hint = f'{path.rpartition(".")[2]} = "{CHOOSE}"'
+        faults.expected(path, say("a length in metres, or '{}'", CHOOSE), value, hint)
+        return None
+    low = -10.0 if path.endswith("offset") else 1e-5
+    return fields.read_number(faults, path, value, "a length in metres", low=low, high=10.0)
+
+
+def _check_keys(faults: Faults, body: Mapping[str, Any], *, oscillates: bool, contact: str) -> None:
+    """Note keys that the follower needs, and those that are another one's."""
+    needed = ("swing", "arm") if oscillates else ("stroke",)
+    alien = ("stroke", "offset") if oscillates else ("swing", "arm", "centre", "sense")
+    whose = "an oscillating follower" if oscillates else "a translating follower"
+    for key in needed:
+        if key not in body:
+            faults.add(f"cam.{key}", "missing", say("For example: {}", _NEEDED[key]))
+    for key in alien:
+        if key in body:
+            faults.add(f"cam.{key}", say("{} has none", say(whose)), "Leave it out.")
+    if contact != "roller" and body.get("roller", CHOOSE) != CHOOSE:
+        faults.add("cam.roller", "goes with contact = 'roller'", "Leave it out.")
+    if contact != "flat" and "curvature" in body:
+        faults.add("cam.curvature", "goes with contact = 'flat'", "Leave it out.")
+    if contact != "roller" and body.get("closure") == "form":
+        faults.add("cam.closure", "only a roller runs in a groove", "contact = 'roller'")
+
+
+def _check_sizes(
+    faults: Faults, chosen: Mapping[str, float | None], *, oscillates: bool, flat: bool, arm: float
+) -> None:
+    """Note sizes that do not go together."""
+    r_min, offset, centre = (chosen[key] for key in ("r_min", "offset", "centre"))
+    if r_min is not None and offset is not None and abs(offset) >= r_min:
+        what = say("{:g} m, the least radius is {:g} m", offset, r_min)
+        faults.add("cam.offset", what, "The line of the follower meets the base circle.")
+    if not oscillates:
+        return
+    if flat and centre is None:
+        faults.add("cam.centre", "missing", "Under a plate the distance of the pivot is given.")
+    elif flat and centre is not None and r_min is not None and r_min >= centre:
+        faults.add("cam.r_min", say("{:g} m reach the pivot at {:g} m", r_min, centre))
+    elif flat or centre is None or r_min is None:
+        return
+    elif not abs(centre - arm) < r_min < centre + arm:
+        what = say("no triangle: r_min = {:g}, centre = {:g}, arm = {:g} m", r_min, centre, arm)
+        hint = say("r_min lies between {:g} and {:g} m.", abs(centre - arm), centre + arm)
+        faults.add("cam.r_min", what, hint)
+
+
+def _phases(faults: Faults, given: CamTable) -> tuple[float, float, float, float] | None:
+    """Return the phases, rad."""
+    told = given.rise + given.upper_dwell + given.return_
+    rest = 360.0 - told if given.lower_dwell is None else given.lower_dwell
+    if rest < -1e-9 or not isclose(told + rest, 360.0, abs_tol=1e-9):
+        what = say("the phases are {:g}° in all, a turn is 360°", told + max(rest, 0.0))
+        left = 360.0 - told
+        hint = say("lower_dwell = {:g}", left) if left >= 0 else say("Take shorter phases.")
+        faults.add("cam.lower_dwell", what, hint)
+        return None
+    one, two, three = (radians(x) for x in (given.rise, given.upper_dwell, given.return_))
+    four = 2 * pi - one - two - three
+    return one, two, three, four if four > 1e-9 else 0.0
+
+
+def _read_pressure(faults: Faults, given: CamTable) -> tuple[float, float | None] | None:
+    """Return the allowed angles of rise and return, rad."""
+    value = given.pressure
+    told = value if isinstance(value, Mapping) else {} if value is None else {"rise": value}
+    known = fields.read_keys(faults, "cam.pressure", told, ("rise", "return"))
+    read = {
+        key: fields.read_number(
+            faults, f"cam.pressure.{key}", one, "an angle in degrees", low=1.0, high=85.0
+        )
+        for key, one in known.items()
+    }
+    rise = read.get("rise", 45.0 if given.follower == "oscillating" else 30.0)
+    back = read.get("return", rise if given.closure == "form" else None)
+    return None if rise is None else (radians(rise), None if back is None else radians(back))
+
+
+def _read_laws(faults: Faults, value: object) -> tuple[UnitLaw, UnitLaw] | None:
+    """Return the laws of rise and return."""
+    usual = CamLawName.CUBIC.value
+    if isinstance(value, Mapping) and "law" not in value:
+        told = fields.read_keys(faults, "cam.law", value, ("rise", "return"))
+        rise = _read_law(faults, "cam.law.rise", told.get("rise", usual))
+        back = _read_law(faults, "cam.law.return", told.get("return", usual))
+    else:
+        rise = back = _read_law(faults, "cam.law", usual if value is None else value)
+    return None if rise is None or back is None else (rise, back)
+
+
+def _read_law(faults: Faults, path: str, value: object) -> UnitLaw | None:
+    told = value if isinstance(value, Mapping) else {"law": value}
+    known = ("law", "ratio", "ramp", "blend", "values", "points")
+    given = fields.read_keys(faults, path, told, known)
+    name = fields.read_member(faults, f"{path}.law", given.get("law"), CamLawName)
+    if name is None:
+        return None
+    own: dict[str, Any] = {}
+    key, low, high = OF_LAW.get(name, ("", 0.0, 0.0))
+    for other in given:
+        needed = {CamLawName.TABLE: "values", CamLawName.PIECEWISE: "points"}.get(name, key)
+        if other not in ("law", needed):
+            faults.add(f"{path}.{other}", say("law '{}' has none", name.value), "Leave it out.")
+    if key in given:
+        own[key] = fields.read_number(faults, f"{path}.{key}", given[key], low=low, high=high)
+        if own[key] is None:
+            return None
+    if name is CamLawName.TABLE:
+        own["values"] = _read_values(faults, f"{path}.values", given.get("values"))
+        points = own["values"] and [(0.0, y) for y in own["values"]]
+    elif name is CamLawName.PIECEWISE:
+        points = own["points"] = _read_points(faults, f"{path}.points", given.get("points"))
+    else:
+        return law_of(name, **own)
+    if not points:
+        return None
+    sizes = [y for _, y in points]
+    if min(sizes) >= 0 or max(sizes) <= 0:
+        what = say("the follower does not come to rest: accelerations of one sign only")
+        faults.add(f"{path}.law", what, "Give positive and negative ones.")
+        return None
+    law = law_of(name, **own)
+    if law.ends[-1, 1, 0] <= 0 or not isclose(float(law.ends[-1, 1, 0]), 1.0):
+        faults.add(f"{path}.law", "the follower does not rise by such accelerations")
+        return None
+    return law
+
+
+def _read_values(faults: Faults, path: str, value: object) -> list[float] | None:
+    if not isinstance(value, list) or not 3 <= len(value) <= 721:
+        faults.expected(
+            path, "3 to 721 second derivatives at equal parts of the phase", value, _TABLE
+        )
+        return None
+    read = [fields.read_number(faults, f"{path}[{k}]", one) for k, one in enumerate(value)]
+    found = [one for one in read if one is not None]
+    return found if len(found) == len(value) else None
+
+
+def _read_points(faults: Faults, path: str, value: object) -> list[tuple[float, float]] | None:
+    pairs = value if isinstance(value, list) else []
+    if not 2 <= len(pairs) <= 721 or not all(isinstance(p, list) and len(p) == 2 for p in pairs):
+        faults.expected(path, "points [part of the phase, second derivative]", value, _POINTS)
+        return None
+    read = [
+        fields.read_number(faults, f"{path}[{k}][{n}]", one)
+        for k, pair in enumerate(pairs)
+        for n, one in enumerate(pair)
+    ]
+    if None in read:
+        return None
+    found = [(float(x or 0.0), float(y or 0.0)) for x, y in zip(read[::2], read[1::2], strict=True)]
+    across = [x for x, _ in found]
+    if across != sorted(across) or across[0] != 0.0 or across[-1] != 1.0:
+        faults.add(path, "parts of the phase go from 0 to 1 and never back", _POINTS)
+        return None
+    return found

@@ -1,0 +1,181 @@
+"""Sheet of a cam (лист «Проектирование кулачкового механизма»)."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from itertools import product
+
+from msgspec import Struct
+from msgspec.structs import asdict
+
+from planmethod.cams.construction import CamConstruction, CamScales, construct, scales_of
+from planmethod.cams.design import CamDesign
+from planmethod.cams.model import CamProblem, Contact
+from planmethod.cams.pictures import CamView, diagrams_picture, profile_picture, region_picture
+from planmethod.cams.readings import CamReadings
+from planmethod.cams.text import MM, checks, forces, given, positions, sizes
+from planmethod.construct.drafting import PROFILES, Profile
+from planmethod.construct.scale import Scale
+from planmethod.errors import LayoutError
+from planmethod.languages import LANGUAGES, say
+from planmethod.note.document import Table
+from planmethod.note.formula import Rich
+from planmethod.note.wording import Language, language
+from planmethod.paper import STAMP_WIDTH
+from planmethod.render.frame.furniture import Furniture
+from planmethod.render.ink.drawing import Drawing
+from planmethod.render.layout.block import Block, Column, Picture, heading, paragraph
+from planmethod.render.layout.cuttings import Group, Packed
+from planmethod.render.layout.tables import TableColumn, table_block
+from planmethod.render.sheets.composer import (
+    Blank,
+    Misfit,
+    Packing,
+    Sizes,
+    Viewed,
+    compose,
+    composed,
+)
+
+TEXT_WIDTH = STAMP_WIDTH - 5.0
+
+
+class CamTry(Struct, frozen=True):
+    """How large things are tried: diagrams a share, region and profile mm; letters."""
+
+    share: float
+    region: float
+    profile: float
+    sizes: Sizes
+
+
+TRIES = (
+    CamTry(1.0, 180.0, 320.0, Sizes(5.0, 5.0, 3.5, TEXT_WIDTH, 6.0)),
+    CamTry(0.9, 110.0, 300.0, Sizes(3.5, 5.0, 3.5, TEXT_WIDTH, 5.0)),
+    CamTry(0.7, 90.0, 270.0, Sizes(3.5, 5.0, 3.5, TEXT_WIDTH, 5.0)),
+    CamTry(1.0, 160.0, 230.0, Sizes(5.0, 5.0, 3.5, TEXT_WIDTH, 6.0)),
+    CamTry(0.9, 130.0, 200.0, Sizes(3.5, 5.0, 3.5, TEXT_WIDTH, 5.0)),
+    CamTry(0.9, 110.0, 170.0, Sizes(3.5, 5.0, 2.5, TEXT_WIDTH, 4.5)),
+    CamTry(0.7, 90.0, 140.0, Sizes(3.5, 5.0, 2.5, TEXT_WIDTH, 4.5)),
+    CamTry(0.5, 70.0, 110.0, Sizes(3.5, 3.5, 2.5, TEXT_WIDTH, 4.0)),
+    CamTry(0.45, 45.0, 70.0, Sizes(2.5, 3.5, 2.5, TEXT_WIDTH, 3.8)),
+)
+"""Tried in turn until everything has room."""
+
+
+def drawings(
+    problem: CamProblem,
+    *,
+    fields: Mapping[str, str],
+    profile: Profile,
+    before: int = 0,
+    total: int | None = None,
+) -> list[Drawing]:
+    """Draw the diagrams, the region, the profile, the pressure angle and the tables of a cam.
+
+    Raises
+    ------
+    ProblemError
+        No cam keeps what is asked.
+    LayoutError
+        When all this has no room on the paper that is asked for.
+    """
+    words = language(problem.sheet.lang or LANGUAGES[0])
+    furniture = Furniture.of(problem.sheet, before=before, total=total)
+    strategy = _Cam(CamDesign(problem), words, profile)
+    title = problem.title or words.cam.sheet
+    misfit = _misfit(problem)
+    return compose(problem, strategy, misfit, fields=fields, furniture=furniture, title=title)
+
+
+def sheet_scales(problem: CamProblem) -> CamScales:
+    """Return the scales that the sheet is drawn at."""
+    words = language(problem.sheet.lang or LANGUAGES[0])
+    strategy = _Cam(CamDesign(problem), words, PROFILES["board"])
+    _, laid = composed(problem, strategy, _misfit(problem), Furniture.of(problem.sheet))
+    return CamScales(**laid.scales)
+
+
+def _misfit(problem: CamProblem) -> Misfit:
+    return Misfit(
+        lambda paper, advice: LayoutError(
+            "{}: the cam, its diagrams and its tables do not fit {}. {}",
+            problem.name,
+            paper,
+            advice,
+        ),
+        say("Ask fewer positions with count."),
+    )
+
+
+class _Cam(Struct, frozen=True):
+    """How the sheet of a cam is searched for: by smaller views and letters."""
+
+    design: CamDesign
+    words: Language
+    profile: Profile
+
+    formats = ("A1",)
+
+    def proposals(self, papers: Sequence[Blank]) -> Iterator[Packing]:
+        """Yield the blocks, smaller and smaller."""
+        for paper, tried in product(papers, TRIES):
+            scales = scales_of(self.design, tried.share, tried.region, tried.profile)
+            parts = tuple(self._parts(tried, scales))
+            yield Packing(paper, (Group(parts),), scales=asdict(scales))
+
+    def _parts(self, tried: CamTry, scales: CamScales) -> Iterator[Packed]:
+        """Yield the blocks in reading order."""
+        built, said, letters = construct(self.design, scales), self.words.cam, tried.sizes
+        view = CamView(built, self.words, letters.letter)
+        yield Packed(self._viewed(diagrams_picture(view), "diagrams", built, letters, "sva"))
+        region = region_picture(view)
+        if region is not None:
+            plate = self.design.problem.contact is Contact.FLAT
+            name = "plate" if plate else "region"
+            yield Packed(self._viewed(region, name, built, letters, ("region",)))
+        yield Packed(self._viewed(profile_picture(view), "profile", built, letters, ("profile",)))
+        facts = "; ".join(given(self.design.problem, self.words))
+        texts = [self.words.note.given.format(given=facts), *checks(self.design, self.words)]
+        if self.design.problem.has_forces:
+            texts += forces(self.design, self.words)
+        lines: list[Block] = [paragraph(text, letters.text, TEXT_WIDTH) for text in texts]
+        lines.append(_table(sizes(self.design, self.words), letters, said.sizes))
+        drawn = CamReadings(built, self.words, self.profile)
+        if built.results:
+            lines.append(_table(drawn.table(), letters, said.drawn))
+        lines.append(paragraph(drawn.deviation(), letters.text, TEXT_WIDTH))
+        yield Packed(Column(lines, gap=2.0), text=True)
+        yield Packed(_table(positions(self.design, self.words), letters, said.positions), text=True)
+
+    def _viewed(
+        self, picture: Picture, name: str, built: CamConstruction, letters: Sizes,
+        scales: Sequence[str],
+    ) -> Viewed:  # fmt: skip
+        said, say = self.words.cam, self.words.say
+
+        def inscribed(of: str) -> Rich:
+            symbol = f"μ_{{{of}}}" if of in "avs" else "μ_{l}"
+            return said.scale.format(symbol=symbol, value=say.given(MM * getattr(built.scales, of)))
+
+        told = [inscribed(of) for of in scales]
+        if name == "diagrams":
+            told.append(said.scale_phi.format(degree=say.given(built.scales.degree)))
+        title: str = said["views"][name]
+        wide = max(picture.width, 140.0)
+        lines: list[Block] = [
+            heading(title, letters.title, width=wide),
+            paragraph("; ".join(told), letters.text, wide),
+            picture,
+        ]
+        kind, letter = ("diagram", "s") if name == "diagrams" else ("cam", "l")
+        mu = Scale(f"mu_{letter}", getattr(built.scales, scales[0]), "m")
+        return Viewed(Column(lines, gap=2.5), kind, mu)
+
+
+def _table(told: Table, letters: Sizes, title: str) -> Block:
+    columns = [TableColumn(head, cells) for head, cells in told.columns()]
+    table = table_block(
+        columns, letters.text, width=TEXT_WIDTH, units="none", row_height=letters.row
+    )
+    return Column([heading(title, letters.text, width=TEXT_WIDTH), table], gap=2.0)

@@ -1,0 +1,224 @@
+"""A cam for the reader: what is given, sizes, checks, positions (данные, размеры, проверки)."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from math import degrees, pi
+
+import numpy as np
+from msgspec import Struct
+
+from planmethod.cams.design import OF_R_MIN, OF_RHO, CamDesign, CamExtreme
+from planmethod.cams.laws import CamLawName, Reals, UnitLaw
+from planmethod.cams.model import CamPhase, CamProblem, Closure, Contact, Stretch
+from planmethod.cams.record import rows
+from planmethod.note.document import Caption, Item, Node, Paragraph, Table, Title, table_of
+from planmethod.note.formula import Rich, escape
+from planmethod.note.wording import Language
+
+MM = 1000.0
+
+
+def solved_document(problem: CamProblem, words: Language) -> Iterator[Node]:
+    """Yield what is given, the sizes, what is checked, and the positions.
+
+    Raises
+    ------
+    ProblemError
+    """
+    design, said = CamDesign(problem), words.cam
+    yield from head(problem, words)
+    yield Caption(said.sizes)
+    yield sizes(design, words)
+    yield Caption(said.checked)
+    yield from map(Item, checks(design, words))
+    if problem.has_forces:
+        yield Caption(said.forces)
+        yield from map(Item, forces(design, words))
+    yield Caption(said.positions)
+    yield positions(design, words)
+
+
+def head(problem: CamProblem, words: Language) -> Iterator[Node]:
+    """Yield the title and what is given."""
+    variant = f" ({problem.variant})" if problem.variant else ""
+    yield Title(words.cam.title.format(title=escape((problem.title or problem.name) + variant)))
+    yield Paragraph(words.note.given.format(given="; ".join(given(problem, words))))
+
+
+def given(problem: CamProblem, words: Language) -> Iterator[Rich]:
+    """Yield what is given, part by part."""
+    said, say = words.cam, words.say
+    yield said["followers"][problem.follower.value][problem.contact.value]
+    if problem.oscillates:
+        swing = degrees(problem.stroke / problem.arm)
+        yield said.swing.format(swing=say.given(swing), arm=say.given(MM * problem.arm))
+        yield said["senses"][problem.sense.value]
+    else:
+        yield said.stroke.format(h=say.given(MM * problem.stroke))
+    yield said["closures"][problem.closure.value]
+    names = ("rise", "upper", "back", "lower")
+    shown = (say.given(degrees(x)) for x in problem.phases)
+    yield said.phases.format(**dict(zip(names, shown, strict=True)))
+    rise, back = (_law(law, words) for law in problem.laws)
+    yield (said.law if rise == back else said.two_laws).format(rise=rise, back=back)
+    if problem.contact is not Contact.FLAT:
+        up, down = problem.allowed
+        text = said.allowed.format(rise=say.given(degrees(up)))
+        yield text + (said.allowed_back.format(back=say.given(degrees(down))) if down else "")
+    for name, symbol in (
+        ("r_min", "r_{min}"),
+        ("offset", "e"),
+        ("centre", "a"),
+        ("roller", "r_{p}"),
+    ):
+        value = getattr(problem, name)
+        if value is not None:
+            yield f"{symbol} = {say.given(MM * value)} {say.units['mm']}"
+    if problem.n:
+        told = said["speed"]["ccw" if problem.n > 0 else "cw"]
+        yield told.format(n=say.given(abs(problem.n)))
+
+
+def _law(law: UnitLaw, words: Language) -> Rich:
+    name: str = words.cam["laws"][law.name.value]
+    if law.name is CamLawName.CONSTANT:
+        up, down = law.bits
+        ratio = up.powers[0] / -down.powers[0]
+        name += words.cam.ratio.format(ratio=words.say.given(ratio)) if ratio != 1 else ""
+    return name
+
+
+def sizes(design: CamDesign, words: Language) -> Table:
+    """Return the table of the sizes, mm."""
+    problem, geometry, said = design.problem, design.geometry, words.cam
+    flat = problem.contact is Contact.FLAT
+    told: list[tuple[str, str, float]] = [
+        ("r_plate" if flat else "r_min", "r_{0}" if flat else "r_{min}", geometry.r_min)
+    ]
+    if problem.oscillates:
+        told.append(("centre", "a", geometry.centre))
+    elif not flat:
+        told += [("e", "e", geometry.e), ("s0", "s_{0}", geometry.s0)]
+    if problem.contact is Contact.ROLLER:
+        told.append(("roller", "r_{p}", geometry.roller))
+    if np.isfinite(design.rho_min.value):
+        told.append(("rho", "ρ_{min}", design.rho_min.value))
+    rows = [(said["names"][name], symbol, words.say.found(MM * x)) for name, symbol, x in told]
+    return table_of(said["columns"], rows, names=2)
+
+
+def checks(design: CamDesign, words: Language) -> Iterator[Rich]:
+    """Yield what is to be said of pressure angles, undercut, the roller and impacts."""
+    problem, said, say = design.problem, words.cam, words.say
+
+    def mm(value: float) -> Rich:
+        return say.found(MM * value)
+
+    def at(phi: float) -> Rich:
+        return say.given(round(degrees(phi), 2) % 360.0)
+
+    for phase in (CamPhase.RISE, CamPhase.RETURN):
+        if problem.contact is Contact.FLAT:
+            break
+        value, phi = design.pressure(phase)
+        limit = problem.limit(phase)
+        fields = {
+            "phase": said["phase"][phase.value],
+            "value": say.found(degrees(value)),
+            "phi": at(phi),
+        }
+        if limit is None:
+            yield said.free.format(**fields)
+        else:
+            told = said.within if value <= limit * (1 + 1e-9) else said.exceeded
+            yield told.format(limit=say.given(degrees(limit)), **fields)
+    cut, (rho, phi) = design.undercut, design.rho_min
+    if cut is not None:
+        told = said.hollow if problem.contact is Contact.FLAT else said.undercut
+        yield told.format(
+            start=at(cut.start), end=at(cut.end), phi=at(cut.phi), rho=mm(cut.rho),
+            roller=mm(design.geometry.roller), x=mm(problem.mirror * cut.point.real),
+            y=mm(cut.point.imag),
+        )  # fmt: skip
+    elif not np.isfinite(rho):
+        yield said.straight
+    else:
+        yield said.no_undercut.format(rho=mm(rho), phi=at(phi))
+    if problem.contact is Contact.ROLLER and np.isfinite(rho):
+        share, curved = OF_R_MIN * design.geometry.r_min, OF_RHO * rho
+        yield said.roller_limits.format(
+            roller=mm(design.geometry.roller), share=mm(share), curved=mm(curved)
+        )
+    for jump in problem.jumps:
+        told = said.hard if jump.order == 1 else said.soft
+        before, after = jump.before[jump.order], jump.after[jump.order]
+        yield told.format(phi=at(jump.phi), before=mm(float(before)), after=mm(float(after)))
+    if not problem.jumps:
+        yield said.smooth
+    for law in dict.fromkeys(problem.laws):
+        if abs(law.balance - 1) > 1e-9:
+            yield said.balanced.format(factor=say.short(law.balance))
+
+
+def hundredths(value: float, words: Language) -> Rich:
+    """Return a number with two decimals, never a negative zero."""
+    return words.say.number(f"{round(value, 2) + 0.0:.2f}")
+
+
+def positions(design: CamDesign, words: Language) -> Table:
+    """Return the table of the positions, mm and degrees."""
+    say = words.say
+    told = []
+    for k, row in enumerate(rows(design)):
+        cells = [str(k), say.given(round(row["phi_deg"], 4))]
+        for key in ("s", "v_q", "a_q", "pressure_deg", "x", "y", "rho"):
+            value = row[key] if key == "pressure_deg" else MM * row[key]
+            cells.append(hundredths(value, words) if abs(value) < 1e5 else "∞")
+        told.append(cells)
+    return table_of(words.cam["heads"], told, names=0)
+
+
+# Forces -------------------------------------------------------------------------------------------
+
+
+class CamForces(Struct, frozen=True):
+    """Force of the spring that keeps contact, N, and the greatest reaction (силы)."""
+
+    needed: CamExtreme
+    spring: float
+    normal: CamExtreme
+
+
+def forces_of(design: CamDesign) -> CamForces:
+    """Return the forces on a follower; the mass of a pivoted one is that reduced to its roller."""
+    one = design.problem
+    omega = abs(one.n or 0.0) * pi / 30
+
+    def push(stretch: Stretch, phi: Reals) -> Reals:
+        load = one.load if stretch.phase is CamPhase.RISE else 0.0
+        return np.asarray(one.mass * omega**2 * one.on(stretch, phi)[2] + load)
+
+    needed = design.highest(lambda stretch, phi: -push(stretch, phi))
+    spring = one.margin * max(needed.value, 0.0) if one.closure is Closure.FORCE else 0.0
+
+    def normal(stretch: Stretch, phi: Reals) -> Reals:
+        at = design.geometry.points(phi, one.on(stretch, phi))
+        return np.abs((push(stretch, phi) + spring) / np.cos(at.pressure))
+
+    return CamForces(needed, spring, design.highest(normal))
+
+
+def forces(design: CamDesign, words: Language) -> Iterator[Rich]:
+    """Yield the force of the spring and the greatest reaction."""
+    told, said, say = forces_of(design), words.cam, words.say
+
+    def at(phi: float) -> Rich:
+        return say.given(round(degrees(phi), 2) % 360.0)
+
+    if design.problem.closure is Closure.FORCE:
+        yield said.spring.format(
+            spring=say.found(told.spring), needed=say.found(told.needed.value),
+            phi=at(told.needed.phi), margin=say.given(design.problem.margin),
+        )  # fmt: skip
+    yield said.normal.format(force=say.found(told.normal.value), phi=at(told.normal.phi))

@@ -1,0 +1,182 @@
+"""What a person gets of a cam: texts in both languages, the sheet, DXF, the key, a project."""
+
+from __future__ import annotations
+
+import json
+import re
+from importlib import import_module
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from cams import SHIPPED
+from click.testing import CliRunner
+
+from planmethod.cams.design import CamDesign
+from planmethod.cams.figures import CamFigures
+from planmethod.cams.live import live_page
+from planmethod.cams.model import CamProblem
+from planmethod.cams.pictures import PROFILE
+from planmethod.cams.reader import load
+from planmethod.cams.sheet import drawings
+from planmethod.check.checking import check
+from planmethod.check.group import Variants
+from planmethod.check.marks import DEFAULT
+from planmethod.check.model import CheckedWork, Work, WrittenAnswer
+from planmethod.cli import cli
+from planmethod.commands.problems import load_unsettled
+from planmethod.construct.drafting import PROFILES
+from planmethod.note import document
+from planmethod.note.wording import language
+from planmethod.problem.families import template
+from planmethod.project.report.cams import cam_chapter
+from planmethod.project.report.context import Report
+from planmethod.project.settle import settle
+from planmethod.render.ink.drawing import Drawing, Stroke
+
+BY_NAME = {path.stem: path for path in SHIPPED}
+
+
+def ran(*arguments: str | Path) -> str:
+    done = CliRunner().invoke(cli, [*map(str, arguments)])
+    assert done.exit_code == 0, done.output
+    return done.output
+
+
+def drawn(path: Path) -> Drawing:
+    (found,) = drawings(load(path), fields={}, profile=PROFILES["board"])
+    return found
+
+
+def test_solve_tells_sizes_checks_and_forces_in_both_languages() -> None:
+    english = ran("solve", BY_NAME["offset"], "--lang", "en")
+    assert "pressure angle of the rise: at most 30.00° at φ = 51.13°, allowed 30°" in english
+    assert "soft impact at φ = 130°: a_q jumps from 0 to −45.00 mm" in english
+    assert "spring that keeps contact: F_s = 23.02 N" in english
+    russian = ran("solve", BY_NAME["groove"], "--lang", "ru")
+    assert "замыкание геометрическое (паз)" in russian
+    assert "ударов нет: ускорение непрерывно" in russian
+    cut = ran("solve", BY_NAME["central"], "--variant", "undercut", "--lang", "ru")
+    assert re.search(r"ПОДРЕЗ от φ = 130,24° до 145,55°: ρ = 30,46 мм, ролик 33,00 мм", cut)
+
+
+@pytest.mark.parametrize("name", ["offset", "oscillating", "flat"])
+def test_the_protocol_tells_the_construction_step_by_step(name: str) -> None:
+    for lang, words in (("ru", ("параллельно ему", "обращённое")), ("en", ("chord", "inverted"))):
+        text = ran("protocol", BY_NAME[name], "--lang", lang)
+        steps = [int(n) for n in re.findall(r"(?m)^ *(\d+)\) ", text)]
+        assert steps == list(range(1, len(steps) + 1))
+        assert len(steps) > 20
+        assert all(word in text for word in words)
+
+
+@pytest.mark.parametrize("path", SHIPPED, ids=lambda path: path.stem)
+def test_the_sheet_has_its_views_and_no_error(path: Path) -> None:
+    sheet = drawn(path)
+    kinds = [view.kind for view in sheet.views]
+    assert kinds == ["diagram", "cam", "cam"]
+    outlines = [x for x in sheet.items if isinstance(x, Stroke) and x.tag == PROFILE]
+    assert len(outlines) == (2 if path.stem == "groove" else 1)
+    assert all(one.closed and len(one.points) == 720 for one in outlines)
+    done = CliRunner().invoke(cli, ["lint", str(path), "--lang", "en"])
+    assert "errors" not in done.output or ": 0 errors" in done.output, done.output
+
+
+def test_the_profile_in_dxf_is_a_closed_polyline_in_the_scale_of_the_sheet(tmp_path: Path) -> None:
+    ran("sheet", BY_NAME["flat"], "--format", "dxf", "-o", tmp_path)
+    (file,) = tmp_path.glob("*.dxf")
+    found: Any = import_module("ezdxf").readfile(file).modelspace()
+    lines = [one for one in found.query("LWPOLYLINE") if one.closed]
+    (profile,) = (one for one in lines if len(one) == 720)
+    xs, ys = zip(*((x, y) for x, y, *_ in profile.get_points()), strict=True)
+    rows = json.loads(ran("solve", BY_NAME["flat"], "--json"))["positions"]
+    wide = max(row["x"] for row in rows) - min(row["x"] for row in rows)
+    tall = max(row["y"] for row in rows) - min(row["y"] for row in rows)
+    assert (max(xs) - min(xs)) / (max(ys) - min(ys)) == pytest.approx(wide / tall, rel=0.02)
+
+
+# Checking ----------------------------------------------------------------------------------------
+
+
+def judged(told: dict[str, float], position: int = 0) -> CheckedWork:
+    answers = tuple(WrittenAnswer(id=n, value=v, position=position) for n, v in told.items())
+    return check(Variants(BY_NAME["offset"], DEFAULT).task(None), Work("s", answers))
+
+
+@pytest.mark.parametrize(
+    ("code", "names", "position"),
+    [
+        ("Q1", ("r_min", "e"), 0),
+        ("Q2", ("s", "v_q"), 11),
+        ("Q3", ("s", "v_q"), 11),
+        ("Q4", ("e", "theta_max"), 0),
+        ("Q5", ("v_q",), 11),
+    ],
+)
+def test_a_mistake_is_known_by_its_numbers(
+    code: str, names: tuple[str, ...], position: int
+) -> None:
+    figures = CamFigures(load(BY_NAME["offset"]))
+    (mistake,) = (one for one in figures.mistaken() if one.code == code)
+    told = {name: mistake.take(name, position) or 0.0 for name in names}
+    ids = {name: f"{name}@{position}" if position else name for name in names}
+    one = judged({ids[name]: value for name, value in told.items()}, position)
+    assert [diagnosis.codes for diagnosis in one.diagnosis] == [(code,)]
+    exact = {name: figures.figure(name, position) for name in names}
+    right = {ids[name]: one.value for name, one in exact.items() if one is not None}
+    assert not judged(right, position).diagnosis
+
+
+def test_what_is_read_on_the_drawing_has_its_sigma() -> None:
+    figures = CamFigures(load(BY_NAME["oscillating"]))
+    for name in ("r_min", "centre_distance", "s", "v_q"):
+        read = figures.read_off(name, 3, PROFILES["board"])
+        assert read is not None
+        assert read[0] > 1 and 0 < read[1] < 0.02
+    assert figures.read_off("roller", 0, PROFILES["board"]) is None
+
+
+# Project -----------------------------------------------------------------------------------------
+
+
+def test_a_project_has_the_cam_as_a_part_of_its_own(tmp_path: Path) -> None:
+    path = tmp_path / "mine.toml"
+    text = template("project").replace("[project] ", '[project]\nparts = ["cam"] ')
+    path.write_text(text, "utf-8")
+    project = settle(load_unsettled(path, None), path)
+    (part,) = project.parts
+    assert isinstance(part.problem, CamProblem)
+    assert part.problem.oscillates
+    assert part.problem.n == pytest.approx(80.0)  # as the train turns the crank
+    for lang in ("ru", "en"):
+        nodes = list(cam_chapter(Report(project, language(lang)), part.problem))
+        numbered = [one.key for one in nodes if isinstance(one, document.Figure | document.Table)]
+        assert len(set(numbered)) == len(numbered) == 8
+        texts = " ".join(one.text for one in nodes if isinstance(one, document.Paragraph))
+        assert sorted(re.findall(r"\\ref{(\w+)}", texts)) == sorted(numbered)
+    beside = tmp_path / "cam.toml"
+    beside.write_text(template("cam"), "utf-8")
+    path.write_text(text.replace('["cam"]', '["cam"]\ncam = "cam.toml"'), "utf-8")
+    (part,) = settle(load_unsettled(path, None), path).parts
+    assert isinstance(part.problem, CamProblem)
+    assert not part.problem.oscillates
+
+
+# The page that moves -----------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("name", ["offset", "oscillating", "flat"])
+def test_the_live_page_has_the_exact_numbers(name: str) -> None:
+    problem = load(BY_NAME[name])
+    page = live_page(problem, "ru")
+    scene = json.loads(re.findall(r'id="scene">(.*?)</script>', page)[0])
+    geometry = CamDesign(problem).geometry
+    for k in (0, 121, 300, 719):
+        phi = np.radians([k / 2])
+        at, row = geometry.at(phi), scene["rows"][k]
+        assert row[:3] == pytest.approx(1000 * problem.at(phi)[:, 0], abs=1e-6)
+        assert row[3] == pytest.approx(np.degrees(at.pressure[0]), abs=1e-6)
+        touch = complex(row[6], row[7]) * np.exp(-1j * phi[0]) / 1000
+        assert touch == pytest.approx(complex(at.actual[0]), abs=1e-8)
+    assert "<script>alert" not in page and "default-src 'none'" in page
