@@ -240,9 +240,9 @@ def solve(
     ahead = None
     if phi is None and referee is None and not swept:
         if as_json:
-            ahead = functools.partial(_together, hand=drawn_by(profile, ruler), table=False)
+            ahead = functools.partial(_together, hand=(profile, ruler), table=False)
         elif csv_file is not None and not partial:
-            ahead = functools.partial(_together, hand=drawn_by("board", ruler), table=True)
+            ahead = functools.partial(_together, hand=("board", ruler), table=True)
     if as_json:
         from planmethod.note.written import plain_of
 
@@ -305,15 +305,20 @@ def compute(
     return None
 
 
-def _together(todo: Sequence[Todo], hand: Profile, *, table: bool) -> dict[int, Any]:
-    """Return records or tables of problems that are solved together, by their numbers."""
+def _together(
+    todo: Sequence[Todo], hand: tuple[str | None, float | None], *, table: bool
+) -> dict[int, Any]:
+    """Return records or tables of problems that are solved together, by their numbers.
+
+    ``hand`` is the profile and the ruler of who draws.
+    """
     from planmethod.note.records.solution import batch_records
     from planmethod.note.records.spreadsheet import batch_tables
     from planmethod.solved.many.variants import in_batches
 
     linkages = [k for k, one in enumerate(todo) if one.kind is None]
     found: dict[int, Any] = {}
-    for batch, members in in_batches([todo[k].linkage for k in linkages], hand):
+    for batch, members in in_batches([todo[k].linkage for k in linkages], drawn_by(*hand)):
         made = batch_tables(batch) if table else batch_records(batch)
         found.update(zip([linkages[k] for k in members], made, strict=True))
     return found

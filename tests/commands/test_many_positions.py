@@ -509,6 +509,8 @@ def test_what_is_true_of_every_position_of_a_kind_has_no_number_of_one(cause: Ca
         cause, Place(7, 30.5, TURN, "m", alone=False), "C", ("A", "B"), (1.0, 2.0, 3.25, 4.5)
     )
     facts = replace(facts, margin=1e-9, problem="ex")
+    if cause is Cause.NOT_HELD:
+        facts = replace(facts, reach=(30.0, 10.0, 90.0))
     other = replace(facts, place=Place(8, 60.5, TURN, "m", alone=False), margin=2e-9)
     moved = (1.0, 2.0, 6.25, 7.5) if cause is not Cause.TANGENT else (1.0, 5.0)
     other = replace(other, lengths=moved)

@@ -93,7 +93,10 @@ def test_every_side_is_worth_its_result(path: Path) -> None:
 def test_random_trains_are_derived_to_the_speeds_of_their_makers(
     maker: Callable[[random.Random], Made], tmp_path: Path
 ) -> None:
-    """Ratios of all pairs: those of one input never fall back on the speeds."""
+    """Ratios of all pairs: those of one input never fall back on the speeds.
+
+    But for a planet of a closed differential, whose own speed no chain gives.
+    """
     rng = random.Random(34)
     for _ in range(some(60, few=8)):
         made = maker(rng)
@@ -106,8 +109,10 @@ def test_random_trains_are_derived_to_the_speeds_of_their_makers(
         assert check(asked) >= len(names) // 2
         lines = told(asked)
         if motion.structure.mobility == 1:
+            planets = {one for own in motion.roles.satellites.values() for one in own}
+            known = [b for b in moving if b not in planets]
             by_itself = [by_speeds(asked, SoughtQuantity("U", (a, b)), WORDS)
-                         for a in moving for b in moving if a != b]  # fmt: skip
+                         for a in known for b in known if a != b]  # fmt: skip
             assert not set(by_itself) & set(lines)
         for body in moving:
             if body not in motion.train.inputs and body in made.speeds:

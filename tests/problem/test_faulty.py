@@ -158,8 +158,8 @@ def test_too_large_a_file(tmp_path: Path) -> None:
             "links.1: 201 keys in a link, the limit is 200",
         ),
         (
-            "".join(f"[variants.v{n}]\n" for n in range(401)),
-            "variants: 401 variants, the limit is 400",
+            "".join(f"[variants.v{n}]\n" for n in range(10_001)),
+            "variants: 10001 variants, the limit is 10000",
         ),
         (
             "[links.1]\n[frame]\n[driver]\n[published]\n"

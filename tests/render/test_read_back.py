@@ -23,6 +23,7 @@ from planmethod.render.ink.drawing import Drawing, Stroke, View
 from planmethod.render.sheets.kinematics import kinematics_sheets
 from planmethod.solved.forces.reading import ForceReading
 from planmethod.solved.solution import Solution
+from planmethod.solved.turn.posed import pose
 
 LAID_OFF = re.compile(r"\(([^() ]+)\) = [^;]*?([\d.]+) мм")
 READ = re.compile(r"μ_?[va]·\(([^()]+)\) = [\d./]+·([\d.]+)")
@@ -41,7 +42,7 @@ CASES += [(name, "one-position") for name in thinned(OTHERS, 12)]
 @pytest.mark.parametrize(("name", "layout"), CASES)
 def test_a_ruler_finds_on_the_sheet_what_the_calculation_says(name: str, layout: str) -> None:
     """The vectors are found in the SVG, from tail to tip, and compared with every number."""
-    problem = problem_of(name)
+    problem = pose(problem_of(name))
     at = problem.drive.positions[:1]
     sheet = kinematics_sheets(problem, layout=layout, positions=at)[0]
     page = read_svg(render(sheet, "svg"))

@@ -189,7 +189,7 @@ def _bare(points: str, slides: str = "") -> Problem:
     ("points", "slides", "changes"),
     [
         ("A:01 B:12 C:23 D:34 E:04 F:35 G:05", "", 3),  # class III
-        ("A:01 B:13 C:23 D:24 E:25", "4/0@D 5/0@E", 4),
+        ("A:01 B:13 C:23 D:24 E:25", "4/0@D 5/0@E", 3),
         ("A:01 B:12 C:23 D:24 E:35 F:45 G:05", "", 3),  # class IV
         ("A:01 B:12 C:23 D:03 E:246 F:45 G:05 H:67 K:07", "", 6),  # two groups on one hinge
         ("A:01 D:05 B:14 C:245 E:23", "3/0@E", 4),  # the hinge closed by what the file has later

@@ -101,8 +101,8 @@ def expected(statics: Statics) -> Iterator[tuple[str, str, Array]]:
         yield f"F_{label}", f"F.{row}", np.abs(r.force)
         if planned.couple is not None:
             yield f"M_{label}", f"M.{row}", r.moment
-    crank = statics.solution.problem.drive.is_crank
-    letter, quantity = ("M", "moment") if crank else ("F", "force")
+    balancing = statics.solution.problem.drive.balancing
+    letter, quantity = "M" if balancing.turns else "F", balancing.quantity
     yield f"{letter}_dr", f"driving.{quantity}", statics.balance
     if statics.lever is not None:
         yield f"{letter}_lever", f"lever.{quantity}", statics.lever

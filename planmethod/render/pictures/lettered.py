@@ -13,8 +13,9 @@ from planmethod.render.layout.block import Picture
 ROOMS = (26.0, 60.0)
 """Room around a picture for its letters, mm: more where they find no free place in less."""
 
-LONGEST = 5000.0
-"""Width or height of a picture that is begun at all, mm: the longest sheet has 2523."""
+LONGEST = 50_000.0
+"""Width or height of a picture that is begun at all, mm. The longest sheet has 2523, but scales
+that are tried may be finer, and plans next to a dead position are many times larger."""
 
 
 def refuse_long(left: float, low: float, right: float, high: float) -> None:

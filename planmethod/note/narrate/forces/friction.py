@@ -50,7 +50,8 @@ class FrictionTeller:
         index, f = self._between(pair), self.context.short(pair.f)
         if pair.slide is not None:
             phi = self.find(pair.phi)
-            return f"φ_{{{index}}} = arctg f = arctg {f} = {phi}{self.units['deg']}"
+            arc, deg = self.said.arctangent.format(), self.units["deg"]
+            return f"φ_{{{index}}} = {arc} f = {arc} {f} = {phi}{deg}"
         rho, radius = self.find(1e3 * pair.rho), self.context.short(1e3 * pair.radius)
         return f"ρ_{{{index}}} = f'·r = {f}·{radius} = {rho} {self.units['mm']}"
 
