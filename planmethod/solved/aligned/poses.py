@@ -31,11 +31,15 @@ CLOSED = 1e-10
 
 
 class PlanePose(Struct, frozen=True):
-    """Places of the points, and a point and the direction of every slide (положение), m."""
+    """Places of the points, and a point and the direction of every slide (положение), m.
+
+    ``random``: not that of the file's sizes.
+    """
 
     mechanism: Mechanism
     places: dict[str, complex]
     lines: dict[Prismatic, tuple[complex, complex]]
+    random: bool = False
 
     def line(self, joint: Joint | HigherPair) -> tuple[complex, complex]:
         """Return a point and the direction of a joint: 0 of a hinge, the normal of profiles."""
@@ -277,4 +281,4 @@ def _random_pose(mechanism: Mechanism, rng: Random) -> PlanePose:
         pair: (places[pair.pin], cmath.exp(1j * rng.uniform(0, pi)))
         for pair in mechanism.prismatics
     }
-    return PlanePose(mechanism, places, lines)
+    return PlanePose(mechanism, places, lines, random=True)
