@@ -233,6 +233,7 @@ def test_sizes_that_close_nowhere_give_the_schemes_of_random_ones() -> None:
     assert found.random and aligned_record(found)["sizes"] == "random"
     told = next(aligned_lines(problem.mechanism, analyse(problem.mechanism), found, language("ru")))
     assert told.endswith("ранги найдены при случайных размерах.")
+    assert not aligned("linkages/2.1.15").random  # its position is found by an angle of links
     assert not aligned("linkages/ex1").random and "sizes" not in aligned_record(
         aligned("press/press")
     )

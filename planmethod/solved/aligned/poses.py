@@ -77,13 +77,14 @@ class _Sizes(Struct):
 
     def swept(self) -> list[PlanePose]:
         drive, rng = self.problem.drive, Random(1)
-        asked = drive.judged or drive.positions
+        # The output tells a position that nobody has looked for yet, and it is no number.
+        asked = (0.0,) if drive.posed is not None else drive.judged or drive.positions
         first = [radians(p) if drive.is_crank else p for p in asked]
         reach = max(first) - min(first) if len(first) > 1 else self.size
         step = STEP if drive.is_crank else reach / STEPS
         others = [first[0] + 3.7 * k * step for k in range(1, 10)]
         if drive.posed is not None:
-            first = []  # the output tells the position, which nobody has looked for yet
+            first = []
         for start in [*first[:1], *others, *first]:
             begun = self._closed(start, rng, STARTS if start in first else ELSEWHERE)
             if begun is None:
