@@ -8,6 +8,7 @@ from typing import assert_never
 from msgspec.structs import replace
 
 from planmethod.construct.drafting import PROFILES
+from planmethod.note.tables.forces import rubbed
 from planmethod.note.wording import Language, language
 from planmethod.paper import FORMATS
 from planmethod.project.first import PAPER, first_sheet
@@ -41,13 +42,15 @@ def part_drawings(project: Project, part: ProjectPart, fields: Mapping[str, str]
         case PartName.KINEMATICS:
             return first_sheet(problem, fields=fields, furniture=around)
         case PartName.FORCES:
-            found = kinematics_sheets(
-                problem,
-                layout=_of_position(composition("project-forces", words.lang), project, words),
-                paper=project.paper or PAPER,
-                fields=fields,
-                furniture=around,
-            )
+            found = []
+            for name in ("project-forces", *(["friction"] if rubbed(problem) else [])):
+                found += kinematics_sheets(
+                    problem,
+                    layout=_of_position(composition(name, words.lang), project, words),
+                    paper=project.paper or PAPER,
+                    fields=fields,
+                    furniture=around,
+                )
             if problem.cycle is not None:
                 found += kinematics_sheets(
                     problem, layout="forces-cycle", fields=fields, furniture=around
@@ -93,6 +96,7 @@ def _of_position(layout: Composition, project: Project, words: Language) -> Comp
 
     views = words.sheets["views"]
     names = {"loads": words.sheets.loads, "lever": words.sheets.lever}
+    names["friction-text"] = words.friction.title
     blocks = []
     for entry in layout.blocks:
         name = names.get(entry.kind)

@@ -267,6 +267,22 @@ def test_mistakes_that_give_the_same_sheet_are_told_together() -> None:
     assert not diagnosis.sure
 
 
+def test_another_assembly_of_a_triad_is_named_each_of_three() -> None:
+    task = task_of("linkages/triad")
+    others = [e for e in explanations(task) if e.code == "P1" and e.where == "3"]
+    # Found elsewhere: v_B, omega_3, a_B, epsilon_3 of one of the others.
+    known = {"v_B": 0.211776, "omega_3": -0.559066, "a_B": 8.30696, "epsilon_3": 23.33842}
+    assert [e for e in others if all(
+        e.values[name] == pytest.approx(value, rel=1e-5) for name, value in known.items()
+    )]  # fmt: skip
+    assert len(others) == 3
+    for other in others:
+        found = check(task, work_of(task, other.values))
+        assert [(d.codes, d.sure) for d in found.diagnosis] == [(("P1",), True)]
+    right = check(task, work_of(task, exact(task)))
+    assert not right.diagnosis and right.points == right.of == 12
+
+
 def test_another_scale_is_found_by_the_sharpest_answers() -> None:
     """v_S1 is exact, v_A3 read 2 % too long: the factor is 1.25 of the one, not between them."""
     task = task_of("press/press")

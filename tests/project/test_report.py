@@ -4,10 +4,12 @@ import re
 from collections.abc import Iterator
 from fractions import Fraction
 from functools import cache
+from io import BytesIO
 from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
+import openpyxl
 import pytest
 from msgspec.structs import replace
 from worked import ROOT, path_of
@@ -26,6 +28,7 @@ from planmethod.note.writers.plain import plain_document
 from planmethod.plans.legend import QuantityKind
 from planmethod.plans.model import RATES
 from planmethod.project.model import PartName, Project
+from planmethod.project.numbers import numbers_workbook
 from planmethod.project.report import note_document
 from planmethod.project.report.conclusion import conclusion
 from planmethod.project.report.context import Report
@@ -36,12 +39,14 @@ from planmethod.project.sheets import part_drawings, sheet_list
 from planmethod.project.train import meshed, train_apart
 from planmethod.render.ink.drawing import Text
 from planmethod.solved.cycle import cycle
+from planmethod.solved.forces.friction import friction_of
 from planmethod.solved.machine.drawing import drawing_of
 from planmethod.solved.machine.flywheel import flywheel_of
 
 FILES = {
     "shaper": ROOT / "tests/data/projects/shaper.toml",
     "engine": ROOT / "tests/data/projects/engine.toml",
+    "rubbing": ROOT / "tests/data/projects/rubbing.toml",
     "homework": path_of("linkages/ex3"),
     "forces": path_of("press/press"),
     "slider": path_of("levers/task-33"),
@@ -536,6 +541,59 @@ def test_the_list_of_sheets_has_the_numbers_titles_and_formats_of_the_title_bloc
     paper = one.paper.written("А")
     assert table.rows == (("1", one.title, paper), ("2", one.title, paper))
     assert len(listed) == len(sheets[0])
+
+
+def test_friction_has_a_sheet_beside_that_of_the_forces_and_is_told_of() -> None:
+    project = project_of("rubbing")
+    (forces,) = (part for part in project.parts if part.name is PartName.FORCES)
+    sheets = part_drawings(project, forces, {})
+    titles = ["Силовой расчёт механизма", "Силовой расчёт с учётом трения",
+              "Силовой расчёт механизма за цикл"]  # fmt: skip
+    assert [one.title for one in sheets] == titles
+    shown = {item.text for item in sheets[1].items if isinstance(item, Text)}
+    assert any("(положение 2)" in text for text in shown) and any("ρ" in text for text in shown)
+    assert not any("ρ" in i.text for i in sheets[0].items if isinstance(i, Text))
+    listed = sheet_list(project, [sheets if part is forces else [] for part in project.parts])
+    assert [one.title for one in listed] == titles
+    book = openpyxl.load_workbook(BytesIO(numbers_workbook(project)))
+    heads = [str(cell.value) for cell in book.worksheets[1][1]]
+    assert "R B.3-0 (с трением), Н" in heads and "КПД" in heads
+    assert not [head for head in heads if re.search(r"rubbed|once|friction|efficiency", head)]
+    rubbing = friction_of(project.loaded)
+    eta = float(rubbing.efficiency[0])
+    told = " ".join(text_of("rubbing").split())
+    assert f"= {language('ru').say.found(eta)}." in told and 0 < eta < 1
+    for lang, sentences in {
+        "ru": ("Уравновешивающая сила приложена в точке A перпендикулярно OA.",
+               "имеют на его оси координаты −0,04 м и 0,06 м",
+               "показаны на рисунках 15 и 16", "вычислены без графической погрешности, без учёта"),
+        "en": ("The balancing force acts at point A across OA.", "at −0.04 m and 0.06 m",
+               "shown in figures 15 and 16", "free of drafting error and without friction"),
+    }.items():  # fmt: skip
+        flat = " ".join(text_of("rubbing", lang).replace("\u00a0", " ").split())
+        assert [one for one in sentences if one not in flat] == []
+    assert "friction" not in " ".join(texts(note_of("forces"))).lower()
+
+
+def test_what_balances_has_the_size_that_the_equations_beside_it_have(tmp_path: Path) -> None:
+    path = tmp_path / "six.toml"
+    text = path_of("levers/six-link").read_text("utf-8")
+    rubs = "[friction]\nf = 0.1\nf_pin = 0.12\nradius = 0.01\n"
+    bearings = "[bearings.A]\nat = [-0.03, 0.02]\nplane = 0.04\n"
+    path.write_text(f"{text}\n{rubs}{bearings}", "utf-8")
+    project = settle(load(path), path)
+    friction = friction_of(project.loaded)
+    assert float(friction.without.balance[0]) < 0 and float(friction.converged.balance[0]) < 0
+    words = language("ru")
+    told = plain_document(note_document(project, words), words).replace("\u00a0", " ")
+    size = words.say.found(-float(friction.without.balance[0]))
+    assert told.count(f"Без трения M_ур = {size} Н·м") == 2
+    flat = " ".join(told.split())
+    # 10030 N at 0.04, the bearings at −0.03 and 0.02: moments about each give the other.
+    f = abs(complex(friction.statics.reactions[-1].force[0]))
+    for share in (f * 0.02 / 0.05, f * 0.07 / 0.05):
+        assert f"= {words.say.found(share)} Н" in flat
+    assert "(противоположно F₁₀); F''₁₀" in flat
 
 
 # Figures -----------------------------------------------------------------------------------------

@@ -227,9 +227,16 @@ def test_what_jams_in_the_position_of_the_file_is_left_out() -> None:
 
 def test_sizes_that_close_nowhere_give_the_schemes_of_random_ones() -> None:
     text = (PROBLEMS / "linkages/ex2.toml").read_text("utf-8")
-    problem = loads(re.sub(r"(?m)^(BC = )[0-9.]+", r"\g<1>0.0001", text), name="open")
+    problem = loads(re.sub(r"(?m)^((?:AB|BC) = )[0-9.]+", r"\g<1>0.0001", text), name="open")
     found = self_aligning(problem, analyse(problem.mechanism))
     assert len(found.schemes) == 6 and found.rank == 17
+    assert found.random and aligned_record(found)["sizes"] == "random"
+    told = next(aligned_lines(problem.mechanism, analyse(problem.mechanism), found, language("ru")))
+    assert told.endswith("ранги найдены при случайных размерах.")
+    assert not aligned("linkages/2.1.15").random  # its position is found by an angle of links
+    assert not aligned("linkages/ex1").random and "sizes" not in aligned_record(
+        aligned("press/press")
+    )
 
 
 TRIAD = """
@@ -276,6 +283,75 @@ def test_a_group_of_class_three_closes_and_has_schemes_in_its_own_pose() -> None
         places = {pair.key: pose.line(pair.joint) for pair in found.pairs}
         assert all(_is_true(rank_of(scheme, places)) for scheme in found.schemes)
     assert found.rank == found.rows == 29
+
+
+def _touched(text: str) -> str:
+    """Return a triad whose legs are profiles that touch: its base link lies on three of them."""
+    for link, ends, name, frame in (("2", "AB", "K", "1"), ("4", "EC", "L", "0"),
+                                    ("5", "FD", "M", "0")):  # fmt: skip
+        leg = rf'\[links.{link}\]\npoints = \["{ends[0]}", "{ends[1]}"\]\n{ends} = ([0-9.]+)\n'
+        pair = f'name = "{name}"\nlinks = ["{frame}", "3"]\ncentres = {list(ends)}\n'
+        text = re.sub(leg, rf"[[higher_pairs]]\n{pair}distance = \1\n", text)
+    return text.replace("'", '"')
+
+
+def test_a_link_on_three_profiles_keeps_a_local_mobility_which_is_told() -> None:
+    problem = loads(_touched(TRIAD), name="touched")
+    found = self_aligning(problem, structure := analyse(problem.mechanism))
+    assert structure.higher_pairs == 3 and [group.links for group in found.groups] == [("3",)]
+    keys = ("K 1-3", "L 0-3", "M 0-3")
+    judged = {}
+    for pose in poses(problem, structure)[:4]:
+        places = {pair.key: pose.line(pair.joint) for pair in found.pairs}
+        for classes in product(("4l", "5t"), repeat=3):
+            scheme = {"O 0-1": "1v", **dict(zip(keys, classes, strict=True))}
+            rank = rank_of(scheme, places)
+            judged[classes] = (rank.redundant, rank.mobility, classes.count("5t"))
+        # One point is enough: with more of them the link turns as well.
+        best = [one for one, told in judged.items() if told == (0, 2, 1)]
+        assert len(best) == 3 and judged["4l", "4l", "4l"] == (1, 2, 0)
+        assert {one for one, told in judged.items() if told[0] == 0 and told[1] < 3} == {*best}
+        assert {tuple(one[key] for key in keys) for one in found.schemes} == {*best}
+    assert found.local == (1, 1, 1) and found.rank == found.rows == 10
+    record = aligned_record(found)
+    assert record["valid"] and record["local_mobility"] == [1, 1, 1]
+    assert record["reason"] == "every scheme of the links 3 with q = 0 leaves a local mobility"
+    told = aligned_lines(problem.mechanism, structure, found, language("ru"))
+    lines = [line.replace("\u00a0", " ") for line in told]
+    assert "W_{пр} = 6·1 − 2·2 − 1·1 = 1, q = 0" in lines[0] and "W_{м} = 1" in lines[1]
+    assert "Схема без изменения пар не годится" in lines[3] and "меньше на 1" in lines[3]
+    assert "W_{пр} = 6·2 − 5·1 − 2·2 − 1·1 = 2; q = 1 + 1 − 2 = 0" in lines[5]
+    assert structure_sheet(problem, structure, found).items
+
+
+def test_schemes_with_a_local_mobility_are_those_of_an_exhaustive_search(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """As if no scheme were regular: what would be offered of each group then."""
+    monkeypatch.setattr("planmethod.solved.aligned.schemes._Search._good",
+                        lambda self, every: self._freer(every))  # fmt: skip
+    for points, slides in (("A:01 B:12 C:23 D:03", ""), ("A:01 B:12 C:23", "3/0@C"),
+                           ("A:01 B:13 C:23 D:24 E:25", "4/0@D 5/0@E")):  # fmt: skip
+        problem = _bare(points, slides)
+        found = self_aligning(problem, structure := analyse(problem.mechanism))
+        pose = poses(problem, structure)[2]
+        places = {pair.key: pose.line(pair.joint) for pair in found.pairs}
+        good = {}
+        for classes in product(*(pair.classes for pair in found.groups[0].pairs)):
+            named = dict(zip((pair.key for pair in found.groups[0].pairs), classes, strict=True))
+            rank = rank_of({found.driver.key: "1v", **named}, places)
+            if rank.redundant == 0 and rank.mobility > 1:
+                changes = sum(name[0] != "1" for name in classes)
+                good[classes] = (changes, rank.mobility - 1)
+        best = {
+            one for one, (changes, local) in good.items()
+            if not any(c <= changes and m <= local and (c, m) != (changes, local)
+                       for c, m in good.values())
+        }  # fmt: skip
+        schemes = found.groups[0].schemes
+        assert {one.classes for one in schemes} == best and best
+        assert all((one.changes, one.local) == good[one.classes] for one in schemes)
+        assert [one.changes for one in schemes] == sorted(one.changes for one in schemes)
 
 
 def test_where_nothing_is_found_the_links_are_named(monkeypatch: pytest.MonkeyPatch) -> None:

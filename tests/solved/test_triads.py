@@ -14,6 +14,7 @@ import pytest
 from cases import each, some
 from full_system import Answer, cross, loads_of, pose_of, slide_between, solve_all
 from loaded import loaded_problem
+from msgspec.structs import replace
 from newton import Motion
 from newton import solve as newton
 
@@ -23,6 +24,7 @@ from planmethod.construct.referee import Precise
 from planmethod.construct.steps import PointName
 from planmethod.errors import AssemblyError, ProblemError
 from planmethod.mechanism.groups import triad_of
+from planmethod.mechanism.model import FRAME
 from planmethod.mechanism.structure import analyse
 from planmethod.plans.build import draw_positions
 from planmethod.problem import loads
@@ -31,7 +33,7 @@ from planmethod.solved.assemblies import Assembled, assemblies, env_of
 from planmethod.solved.closings import choose_closings, drive_data
 from planmethod.solved.failures import PositionError
 from planmethod.solved.forces.statics import Statics
-from planmethod.solved.many.sweep import Sweep
+from planmethod.solved.many.sweep import Sweep, SweepError
 from planmethod.solved.selfcheck import verify
 from planmethod.solved.solution import Solution
 
@@ -493,6 +495,78 @@ link = "1"
 phi = 60
 omega = 10
 """
+
+
+def test_sizes_of_a_triad_are_not_varied_together_and_the_reason_is_told() -> None:
+    with pytest.raises(SweepError, match=r"assembly of a group of class III .* sweep every value"):
+        Sweep(fixture(), varied=["l_AB"])
+
+
+_PLACES = {
+    "A": 0j, "B": 0.1 + 0j, "C": 0.3 + 0.1j, "D": 0.28 - 0.12j, "E": 0.5 + 0.12j, "F": 0.47 - 0.1j,
+    "G": 0.6 + 0j, "H": 0.8 + 0.13j, "I": 0.83 - 0.1j, "J": 1.0 + 0.1j, "K": 1.05 - 0.12j,
+    "L": 1.2 + 0j, "M": 0.68 - 0.2j,
+}  # fmt: skip
+
+
+def _iv(links: str, fixed: str, slider: str = "") -> str:
+    """Return a file of the links, each by its points, in the places above; link 1 drives."""
+    lines = ['title = "IV"', "[frame]"]
+    lines += [f"{p} = [{_PLACES[p].real}, {_PLACES[p].imag}]" for p in fixed]
+    for number, points in enumerate(links.split(), 1):
+        lines += [f"[links.{number}]", f"points = {list(points)}".replace("'", '"')]
+        if len(points) == 1:
+            lines.append(slider)
+        pairs = [(p, q) for k, q in enumerate(points) for p in points[:k]]
+        lines += [f"{p}{q} = {abs(_PLACES[p] - _PLACES[q])!r}" for p, q in pairs]
+        if len(points) == 3:
+            a, b, c = (_PLACES[p] for p in points)
+            side = "left" if ((b - a).conjugate() * (c - a)).imag > 0 else "right"
+            lines.append(f'{points[2]}.side = "{side} of {points[:2]}"')
+    return "\n".join([*lines, '[driver]\nlink = "1"', "phi = 0", "omega = 10", ""])
+
+
+@pytest.mark.parametrize(
+    ("links", "fixed", "slider", "refused", "able"),
+    [
+        # Driven from its other end it is a triad: link 2 on the legs 1, 3 and 4.
+        ("AB BCD CE DF GEF", "AG", "", "class 4, order 2 (links 2, 3, 4, 5)", "5"),
+        (
+            "AB BCD C DF GEF",
+            "AG",
+            'slides = { on = "5", along = "EF" }',
+            "class 4, order 2 (links 2, 3, 4, 5)",
+            "5",
+        ),
+        # In a row they are triads from the far end; side by side one of class IV is left.
+        ("AB BCD CE DF GEF FHI HJ IK LJK", "AGL", "", "class 4, order 2 (links 2, 3, 4, 5)", "9"),
+        ("AB BCD CE DF GEF BHI HJ IK LJK", "AGL", "", "class 4, order 2 (links 2, 3, 4, 5)", ""),
+    ],
+)
+def test_groups_of_class_four_are_refused_with_what_is_true(
+    links: str, fixed: str, slider: str, refused: str, able: str
+) -> None:
+    problem = loads(_iv(links, fixed, slider), name="iv")
+    with pytest.raises(AssemblyError) as caught:
+        Solution(problem)
+    text, mechanism = str(caught.value), problem.mechanism
+    assert refused in text
+    assert ("where link" in text) == bool(able) and ("none makes it fall" in text) != bool(able)
+    assert f"where link {able} drives" in text or not able
+    for link in (x for x in mechanism.links if any({FRAME, x} <= {*j.links}
+                 for j in mechanism.revolutes)):  # fmt: skip
+        groups = analyse(replace(mechanism, driver=link)).groups
+        built = all(group.class_number == 2 or triad_of(group) for group in groups)
+        assert built == (link == able), (link, groups)
+    if (
+        able == "5" and not slider
+    ):  # a triad does close where link 5 drives, in the places of the file
+        turned = _iv(links, fixed).replace('link = "1"', f'link = "{able}"')
+        phi = math.degrees(cmath.phase(_PLACES["E"] - _PLACES["G"]))
+        turned = turned.replace("phi = 0", f"phi = {phi!r}")
+        solution = Solution(loads(f"{turned}[assembly]\nB = {{ near = [0.1, 0.0] }}", name="iii"))
+        assert abs(solution.points["B"].place[0] - _PLACES["B"]) < 1e-9
+        verify(solution)
 
 
 def test_a_refusal_names_the_links_that_may_drive_and_sends_nobody_in_a_circle() -> None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
+import numpy as np
 from msgspec.structs import replace
 
 from planmethod.check.mistakes.model import Change, MistakeContext
@@ -12,6 +13,8 @@ from planmethod.construct import steps
 from planmethod.construct.steps import Name, NumberName, Side, Step
 from planmethod.plans.dimensions import DimensionKind
 from planmethod.plans.model import FACTS, MOTION, PlanKind
+from planmethod.plans.motion.position import link_of_axis
+from planmethod.solved.assemblies import assemblies, env_of
 
 READ = (steps.Measure, steps.MeasureAlong)
 
@@ -123,9 +126,23 @@ def other_assembly(scene: MistakeContext) -> Iterator[Change]:
             case steps.MeetLineCircle():
                 way = steps.Way.BACKWARD if step.way is steps.Way.FORWARD else steps.Way.FORWARD
                 swapped = replace(step, way=way)
+            case steps.Hold():
+                yield from _other_poses(scene, step)
+                continue
             case _:
                 continue
         yield Change("P1", str(step.out), {step.out: (swapped,)})
+
+
+def _other_poses(scene: MistakeContext, step: steps.Hold) -> Iterator[Change]:
+    """P1: each of the other assemblies of a triad (сборки группы III класса)."""
+    mu_l = scene.exact(NumberName(FACTS[PlanKind.POSITION].scale))
+    here = complex(np.reshape(scene.sheet.trace.value[step.out][0], -1)[0])
+    poses = assemblies(step, env_of(step, scene.sheet.trace, 0))
+    for pose in sorted(poses, key=lambda pose: abs(pose.origin - here))[1:]:
+        told = (pose.origin.real * mu_l, pose.origin.imag * mu_l, pose.turn)
+        names = (f"start_{what}_{link_of_axis(step)}" for what in ("x", "y", "turn"))
+        yield Change("P1", link_of_axis(step), data=dict(zip(names, told, strict=True)))
 
 
 def other_angle(scene: MistakeContext) -> Iterator[Change]:

@@ -251,6 +251,8 @@ def aligned_lines(
 ) -> Iterator[Rich]:
     """Yield how each group loses its redundant constraints, and the whole (устранение связей)."""
     said = words.structure
+    if aligned.random:
+        yield said.aligned_random.format()
     for group in aligned.groups:
         if group.schemes:
             yield from aligned_group(mechanism, group, words)
@@ -278,7 +280,8 @@ def aligned_sums(
     """Yield the formulas of the scheme without redundant constraints, where there is one."""
     if not aligned.schemes or not structure.groups:
         return
-    n, counts, local = structure.moving_links, aligned.counts, structure.local_mobility
+    n, counts = structure.moving_links, aligned.counts
+    local = structure.local_mobility + aligned.local[0]
     _, numbers = spatial_sum(n, counts, notation)
     by_class = notation == "p5 p4"
     told = ", ".join(
@@ -312,14 +315,17 @@ def aligned_group(mechanism: Mechanism, group: AlignedGroup, words: Language) ->
             for pair, name in zip(group.pairs, scheme.classes, strict=True)
             if name != pair.classes[0]
         ]
-        return ", ".join(
+        told = ", ".join(
             f"{point}{NBSP}({links}){NBSP}– {named[name]}" for point, links, name in changed
         )
+        return told or said.aligned_unchanged.format()
 
     links = "–".join(group.links)
     yield said.aligned_group.format(
-        links=links, scheme=told(best), numbers=numbers.replace(" ", NBSP)
+        links=links, scheme=told(best), numbers=numbers.replace(" ", NBSP), w=best.local
     )
+    if best.local:
+        yield said.aligned_local.format(local=best.local)
     if others:
         yield said.aligned_others.format(schemes="; ".join(told(one) for one in others[:MOST_TOLD]))
     if not best.steady:

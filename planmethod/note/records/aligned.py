@@ -38,7 +38,9 @@ def aligned_record(aligned: SelfAligning) -> dict[str, Any]:
     """Return the schemes without redundant constraints, the best first; the reason where none is.
 
     Keys are a joint or pin and the links of the pair, the frame 0; values the classes of
-    `planmethod.solved.aligned.schemes`.
+    `planmethod.solved.aligned.schemes`. Where schemes leave local mobilities, ``local_mobility``
+    has how many, in the order of the schemes, and the reason; ``sizes`` is there where they are
+    random, as the file's close nowhere.
     """
     record: dict[str, Any] = {
         "valid": bool(aligned.schemes),
@@ -49,6 +51,12 @@ def aligned_record(aligned: SelfAligning) -> dict[str, Any]:
     if not aligned.schemes:
         links = "; ".join("-".join(group.links) for group in aligned.without)
         record["reason"] = f"no choice of pairs of the links {links} has full rank"
+    elif any(aligned.local):
+        links = "; ".join("-".join(one.links) for one in aligned.groups if one.schemes[0].local)
+        record["local_mobility"] = list(aligned.local)
+        record["reason"] = f"every scheme of the links {links} with q = 0 leaves a local mobility"
+    if aligned.random:
+        record["sizes"] = "random"
     return record
 
 

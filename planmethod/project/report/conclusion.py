@@ -14,8 +14,11 @@ from planmethod.mechanism.structure import roman
 from planmethod.note.document import Item, Node, References, StructuralHeading, Table
 from planmethod.note.formula import Rich, escape, inlined
 from planmethod.note.narrate.balancing import BalancingTeller
+from planmethod.note.narrate.forces.common import lettered as lettered_forces
+from planmethod.note.narrate.forces.friction import FrictionTeller
 from planmethod.note.narrate.forces.lever import both_balances, difference, expected
 from planmethod.note.numbers import with_unit
+from planmethod.note.tables.forces import rubbed
 from planmethod.note.wording import Words
 from planmethod.plans.legend import kinds_on
 from planmethod.plans.model import RATES
@@ -122,6 +125,9 @@ def _forces(report: Report, said: Words) -> Iterator[Rich]:
         balance=report.quantity(abs(plans), balancing.unit),
     )
     yield f"{told} {whole}".rstrip()
+    if rubbed(report.every.problem):
+        tell = FrictionTeller(lettered_forces(reading, report.words), sizes=True)
+        yield " ".join([said.friction.format(), *tell.results(), *tell.turn()])
     share, sigma = difference(reading), expected(reading)
     if lever is None or share is None or sigma is None or not plans:
         return

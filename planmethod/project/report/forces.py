@@ -24,6 +24,7 @@ from planmethod.note.narrate.letters import direction_text, mark
 from planmethod.note.narrate.scales import scale_inscription
 from planmethod.note.numbers import alike
 from planmethod.note.rounding import sigma_text
+from planmethod.note.tables.forces import rubbed
 from planmethod.note.tables.results import lead_columns
 from planmethod.note.wording import Words
 from planmethod.plans.forces.board import GivenLoad
@@ -306,7 +307,7 @@ class ForceChapter:
             name=said.reactions_table.format(position=report.in_position),
             key="reactions",
         )
-        yield sentences(*self._beside())
+        yield from map(sentences, self._beside())
         balancing, unit = self.reading.balancing, report.unit(self.reading.balancing.unit)
         plans, _ = both_balances(self.reading)
         yield sentences(
@@ -408,7 +409,9 @@ class ForceChapter:
         columns.append([f"{symbol}, {report.unit(drive.balancing.unit)}", *balance])
         yield Part(said.all.format())
         quantity = drive.balancing.quantity
-        yield sentences(str(said["all_text"][quantity]).format())
+        rubs = rubbed(report.every.problem)
+        without = said.all_without.format() if rubs else ""
+        yield sentences(str(said["all_text"][quantity]).format(without=without))
         table = table_of_columns([*lead, *columns], repeated=len(lead))
         name = str(said["all_table"][quantity]).format()
         yield Table(table.head, table.rows, 0, len(lead), name=name, key="all_reactions")

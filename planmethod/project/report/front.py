@@ -18,10 +18,14 @@ from planmethod.note.document import (
 )
 from planmethod.note.formula import Rich, escape
 from planmethod.note.narrate.forces.common import QUARTERS
+from planmethod.note.narrate.forces.common import lettered as lettered_forces
+from planmethod.note.narrate.forces.friction import FrictionTeller
 from planmethod.note.narrate.forces.statement import mass_lines
 from planmethod.note.narrate.given import given
+from planmethod.note.narrate.letters import mark
 from planmethod.note.narrate.machine import MachineTeller
 from planmethod.note.numbers import with_unit
+from planmethod.note.tables.forces import push_way, rubbed
 from planmethod.note.wording import Words
 from planmethod.problem.load_records import Against, Couple, Fixed, Load, SizeTable
 from planmethod.project.model import PartName
@@ -29,6 +33,7 @@ from planmethod.project.report.context import NBSP, Report, items, lettered, sen
 from planmethod.project.report.figures import figure
 from planmethod.project.train import meshed
 from planmethod.render.pictures.schemeview import scheme_picture
+from planmethod.solved.forces.reading import force_reading
 from planmethod.solved.machine.drawing import drawing_of
 from planmethod.solved.machine.flywheel import flywheel_of
 
@@ -90,8 +95,8 @@ def _assignment(report: Report) -> Iterator[Node]:
     )
     if further:
         yield sentences(said.further.format(facts="; ".join(further)))
-    if report.has(PartName.FORCES) and (loads := _loads(report)):
-        yield sentences(*loads)
+    if report.has(PartName.FORCES):
+        yield from (sentences(*told) for told in (_loads(report), [*_beside(report)]) if told)
     caption = said.scheme.format(position=report.in_position)
     yield figure(
         lambda letter: scheme_picture(report.one, 0, letter_height=letter), caption, "scheme"
@@ -109,6 +114,8 @@ def _tasks(report: Report) -> Iterator[Rich]:
         if report.has(name):
             balancing = report.said["balancing"][report.one.problem.drive.balancing.quantity]
             yield str(tasks[name.value]).format(balancing=balancing)
+            if name is PartName.FORCES and rubbed(report.every.problem):
+                yield tasks.friction.format()
 
 
 def _data(report: Report) -> tuple[list[tuple[Rich, Rich, Rich]], list[Rich]]:
@@ -234,6 +241,22 @@ def _loads(report: Report) -> list[Rich]:
     """Return the external loads as the file gives them, a sentence each."""
     dynamics = report.every.problem.dynamics
     return [] if dynamics is None else [_load(load, report) for load in dynamics.loads]
+
+
+def _beside(report: Report) -> Iterator[Rich]:
+    """Yield where a force balances the mechanism, what friction and bearings there are."""
+    said: Words = report.said["front"]
+    problem, say = report.every.problem, report.say
+    if problem.drive.pushed is not None:
+        way = push_way(problem, report.words.note)
+        yield said.pushed.format(point=mark(problem.drive.pushed.at), way=way)
+    if rubbed(problem):
+        tell = FrictionTeller(lettered_forces(force_reading(report.one, 0), report.words))
+        yield said.friction.format(given="; ".join(tell.given()))
+    for joint, bearing in problem.dynamics.bearings.items() if problem.dynamics else ():
+        first, second, plane = (with_unit(say.given(z), report.unit("m"))
+                                for z in (*bearing.at, bearing.plane))  # fmt: skip
+        yield said.bearings.format(joint=mark(joint), first=first, second=second, plane=plane)
 
 
 def _load(load: Load | Couple, report: Report) -> Rich:

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from planmethod.errors import LayoutError
 from planmethod.note.document import Caption, Paragraph
 from planmethod.note.narrate.forces.common import lettered
-from planmethod.note.narrate.forces.friction import FrictionTeller
+from planmethod.note.narrate.forces.friction import FrictionTeller, headed
 from planmethod.note.narrate.forces.statement import plan_title
 from planmethod.render.forces.friction import friction_picture, is_enlarged
 from planmethod.render.frame.frame import STAMP_WIDTH
@@ -37,7 +37,7 @@ def _reading(solution: Solution, indices: Sequence[int], manner: Manner) -> Rubb
 
 def _teller(solution: Solution, indices: Sequence[int], manner: Manner) -> FrictionTeller:
     index = _reading(solution, indices, manner).index
-    return FrictionTeller(lettered(force_reading(solution, index), manner.words))
+    return FrictionTeller(lettered(force_reading(solution, index), manner.words), sizes=True)
 
 
 def friction_text(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
@@ -75,13 +75,8 @@ def equations_block(solution: Solution, indices: Sequence[int], manner: Manner) 
 def friction_table(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
     """Return the reactions without friction, corrected, and converged."""
     tell = _teller(solution, indices, manner)
-    columns = [TableColumn(_headed(head), tuple(cells)) for head, *cells in tell.columns()]
+    columns = [TableColumn(headed(head), tuple(cells)) for head, *cells in tell.columns()]
     width, title = table_width(manner, STAMP_WIDTH), manner.entry.title or tell.said.sheet_table
     return table_block(
         columns, manner.text(manner.sizes.text), width=width, units="none", title=title
     )
-
-
-def _headed(head: str) -> str:
-    """Return a head of a table with a capital, if it is a word."""
-    return head if head.startswith(("ρ", "φ")) else head[:1].upper() + head[1:]

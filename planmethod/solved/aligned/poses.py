@@ -31,11 +31,15 @@ CLOSED = 1e-10
 
 
 class PlanePose(Struct, frozen=True):
-    """Places of the points, and a point and the direction of every slide (положение), m."""
+    """Places of the points, and a point and the direction of every slide (положение), m.
+
+    ``random``: not that of the file's sizes.
+    """
 
     mechanism: Mechanism
     places: dict[str, complex]
     lines: dict[Prismatic, tuple[complex, complex]]
+    random: bool = False
 
     def line(self, joint: Joint | HigherPair) -> tuple[complex, complex]:
         """Return a point and the direction of a joint: 0 of a hinge, the normal of profiles."""
@@ -73,13 +77,14 @@ class _Sizes(Struct):
 
     def swept(self) -> list[PlanePose]:
         drive, rng = self.problem.drive, Random(1)
-        asked = drive.judged or drive.positions
+        # The output tells a position that nobody has looked for yet, and it is no number.
+        asked = (0.0,) if drive.posed is not None else drive.judged or drive.positions
         first = [radians(p) if drive.is_crank else p for p in asked]
         reach = max(first) - min(first) if len(first) > 1 else self.size
         step = STEP if drive.is_crank else reach / STEPS
         others = [first[0] + 3.7 * k * step for k in range(1, 10)]
         if drive.posed is not None:
-            first = []  # the output tells the position, which nobody has looked for yet
+            first = []
         for start in [*first[:1], *others, *first]:
             begun = self._closed(start, rng, STARTS if start in first else ELSEWHERE)
             if begun is None:
@@ -277,4 +282,4 @@ def _random_pose(mechanism: Mechanism, rng: Random) -> PlanePose:
         pair: (places[pair.pin], cmath.exp(1j * rng.uniform(0, pi)))
         for pair in mechanism.prismatics
     }
-    return PlanePose(mechanism, places, lines)
+    return PlanePose(mechanism, places, lines, random=True)

@@ -11,7 +11,7 @@ so the whole is block-triangular, and regular when each group is.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from itertools import combinations
+from itertools import combinations, islice
 
 from msgspec import Struct, field
 from msgspec.structs import replace
@@ -79,11 +79,14 @@ class AlignedScheme(Struct, frozen=True):
         How many constraints are redundant yet, and as many motions loose; 0 of a true scheme.
     steady : bool
         Whether it is regular in all positions that were looked at; else links are loose in some.
+    local : int
+        Local mobilities (местные подвижности): motions out of the plane that it leaves, q = 0.
     """
 
     classes: tuple[str, ...]
     loose: int = 0
     steady: bool = True
+    local: int = 0
 
     @property
     def changes(self) -> int:
@@ -94,7 +97,8 @@ class AlignedScheme(Struct, frozen=True):
 class AlignedGroup(Struct, frozen=True):
     """Group with its schemes, the best first (группа и её схемы).
 
-    ``links`` are those of the group without what replaces higher pairs.
+    ``links`` are those of the group without what replaces higher pairs. Schemes that leave local
+    mobilities are there only where no other is regular.
     ``counted`` has those of a dyad that the formula takes for right, and the rank does not: as many
     constraints as its ``loose`` stay redundant, and as many motions are loose instead.
     """
@@ -115,16 +119,23 @@ class SelfAligning(Struct, frozen=True):
         The pair of the driver with the frame, which stays as it is.
     groups : tuple of AlignedGroup
     schemes : tuple of mapping of str to str
-        Class of every pair by its key, the best scheme first: fewest changes (the mobility is that
-        of the plane in all), then those that are regular in all positions; at most `MOST`.
+        Class of every pair by its key, the best scheme first: fewest changes, then least mobility
+        (that of the plane where there is such a scheme), then those that are regular in all
+        positions; at most `MOST`.
     rank : int
         Of the spatial constraint matrix of the first scheme, all links and pairs at once.
+    local : tuple of int
+        How many local mobilities each scheme leaves, beside those of rollers.
+    random : bool
+        Whether ranks are those of random sizes, as the file's close in no position.
     """
 
     driver: MovablePair
     groups: tuple[AlignedGroup, ...]
     schemes: tuple[Mapping[str, str], ...]
     rank: int = 0
+    local: tuple[int, ...] = ()
+    random: bool = False
 
     @property
     def pairs(self) -> tuple[MovablePair, ...]:
@@ -178,7 +189,9 @@ def self_aligning(problem: Problem, structure: Structure) -> SelfAligning:
     first = {pair.key: pair.classes[0]}
     first |= {f"{one.at} {one.links[1]}-{one.roller}": TURNING[0] for one in rollers}
     named = tuple({**first, **dict(one.classes)} for one in whole)
-    found = SelfAligning(pair, groups, named)
+    local = tuple(one.rank[1] for one in whole)
+    random = bool(problem.bodies) and any(one.random for one in places)
+    found = SelfAligning(pair, groups, named, local=local, random=random)
     if not places or not named:
         return replace(found, rank=5 if named else 0)
     generic = places[min(GENERIC, len(places) - 1)]
@@ -190,7 +203,7 @@ def self_aligning(problem: Problem, structure: Structure) -> SelfAligning:
 class _Whole(Struct, frozen=True):
     """Scheme of some groups: what it is compared by, and its classes."""
 
-    rank: tuple[int, ...] = (0, 0, 0)
+    rank: tuple[int, ...] = (0, 0, 0, 0)
     classes: tuple[tuple[str, str], ...] = ()
 
     def with_(self, group: AlignedGroup, scheme: AlignedScheme) -> _Whole:
@@ -200,9 +213,9 @@ class _Whole(Struct, frozen=True):
 
 
 def _rank(scheme: AlignedScheme) -> tuple[int, ...]:
-    """Return what schemes are compared by: changes, steadiness, pairs that textbooks seldom use."""
+    """Return what schemes are compared by: changes, mobility, steadiness, pairs seldom used."""
     unusual = sum(name == "3pl" for name in scheme.classes)
-    return scheme.changes, int(not scheme.steady), unusual
+    return scheme.changes, scheme.local, int(not scheme.steady), unusual
 
 
 def _pair(mechanism: Mechanism, joint: Joint | HigherPair, one: str, other: str) -> MovablePair:
@@ -342,14 +355,32 @@ class _Search(Struct):
                     good.append(AlignedScheme(classes, steady=self._steady(classes)))
         # One that jams where the problem is asked is left out as long as there is another.
         first = [one for one in good if self._measure(0, one.classes) >= REGULAR]
-        return first or good
+        return first or good or self._freer(every)
 
-    def _made(self, changes: Sequence[int]) -> Iterator[tuple[str, ...]]:
-        """Yield the schemes of so many changes that are right by their count."""
+    def _freer(self, every: Sequence[int]) -> list[AlignedScheme]:
+        """Return those that leave local mobilities: more changes only where that leaves fewer."""
+        good: list[AlignedScheme] = []
+        fewest = 1 + 2 * len(self.pairs)
+        tried = islice(
+            ((changes, more, classes) for changes in every for more in range(1, 1 + changes * 2)
+             for classes in self._made((changes,), more)),
+            TRIED,
+        )  # fmt: skip
+        for changes, more, classes in tried:
+            best = (good[-1].changes, good[-1].local) if good else ()
+            if more >= fewest and (changes, more) != best:
+                continue
+            if min(self._measure(k, classes) for k in (0, self.generic)) >= REGULAR:
+                good.append(AlignedScheme(classes, steady=self._steady(classes), local=more))
+                fewest = more
+        return good
+
+    def _made(self, changes: Sequence[int], more: int = 0) -> Iterator[tuple[str, ...]]:
+        """Yield the schemes of so many changes that are right by count, or have freedoms more."""
         touching, every = self.touching, range(len(self.pairs))
         for count in changes:
             # Of the changed pairs so many have one freedom more, the others two.
-            twos = 2 * count - self.need + 2 * len(touching)
+            twos = 2 * count - self.need - more + 2 * len(touching)
             if not 0 <= twos <= count:
                 continue
             for changed in combinations(every, count):
@@ -372,7 +403,10 @@ class _Search(Struct):
 
     def _steady(self, classes: tuple[str, ...]) -> bool:
         """Whether the matrix stays regular over the sweep: its determinant keeps its sign."""
-        values = [_determinant(self._vectors(k, classes)) for k in range(len(self.places))]
+        every = range(len(self.places))
+        if len(self._vectors(0, classes)) > self.need:  # it has none, and a sign tells nothing
+            return all(self._measure(k, classes) >= REGULAR for k in every)
+        values = [_determinant(self._vectors(k, classes)) for k in every]
         return len({0 if abs(value) < REGULAR else value > 0 for value in values}) == 1
 
     def _measure(self, k: int, classes: tuple[str, ...]) -> float:

@@ -14,6 +14,7 @@ from planmethod.construct.arithmetic import Float64
 from planmethod.construct.evaluate import evaluate
 from planmethod.construct.steps import Name
 from planmethod.errors import PlanMethodError
+from planmethod.plans.closing import Start
 from planmethod.plans.legend import ZERO, Quantity, QuantityKind
 from planmethod.plans.model import PlanKind
 from planmethod.problem.model import Problem
@@ -161,6 +162,11 @@ class Sweep:
         if unknown:
             known = ", ".join(sorted(self.parameters))
             raise SweepError(f"no parameter {', '.join(unknown)} to vary. Known: {known}.")
+        if varied and any(isinstance(branch, Start) for branch in self.branches.values()):
+            raise SweepError(
+                "the assembly of a group of class III was followed with these sizes, and others "
+                "may have another: sweep every value alone"
+            )
         if varied and self.branches:
             raise SweepError(
                 'parameters move the change points of keep = "continuous": sweep every value alone'

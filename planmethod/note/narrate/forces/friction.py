@@ -17,6 +17,11 @@ from planmethod.solved.efficiency import turn_efficiency
 from planmethod.solved.forces.friction import Rubbing, friction_of
 
 
+def headed(head: str) -> str:
+    """Return a head of a table with a capital, if it is a word."""
+    return head if head.startswith(("ρ", "φ")) else head[:1].upper() + head[1:]
+
+
 class FrictionTeller:
     """Tells the friction of one position.
 
@@ -24,9 +29,13 @@ class FrictionTeller:
     ----------
     context : ForceContext
         Of the forces without friction.
+    sizes : bool
+        Tell the size of what balances the driver, as equations beside it have it, as long as all
+        friction leaves it its sense; else it has its sign.
     """
 
-    def __init__(self, context: ForceContext) -> None:
+    def __init__(self, context: ForceContext, *, sizes: bool = False) -> None:
+        self.sizes = sizes
         self.context, self.index = context, context.reading.index
         self.friction = friction_of(context.solution)
         self.said, self.say = context.language.friction, context.notation
@@ -132,17 +141,17 @@ class FrictionTeller:
         balancing = self.context.reading.balancing
         unit = self.units[balancing.unit]
         symbol = self.symbol(balancing.symbol)
-        facts = {
-            "symbol": symbol,
-            "without": f"{self.find(float(friction.without.balance[i]))} {unit}",
-            "once": f"{self.find(float(once.balance[i]))} {unit}",
-        }
+        three = friction.without, once, friction.converged
+        balances = [float(one.balance[i]) for one in three[: 2 if jammed else 3]]
+        if self.sizes and max(balances) < 0:
+            balances = [-value for value in balances]
+        told = [f"{self.find(value)} {unit}" for value in balances]
+        facts = {"symbol": symbol, "without": told[0], "once": told[1]}
         if jammed:
             yield said.balance_jammed.format(**facts)
             yield said.jams
             return
-        end = f"{self.find(float(friction.converged.balance[i]))} {unit}"
-        yield said.balance.format(converged=end, **facts)
+        yield said.balance.format(converged=told[2], **facts)
         change, reactions = float(friction.change[i]), float(friction.reaction_change[i])
         if np.isfinite(change):
             yield said.change.format(
@@ -155,10 +164,12 @@ class FrictionTeller:
         powers = [float(one.power[i]) for one in (friction.without, friction.converged)]
         ideal, real = (f"{self.find(abs(power))}" for power in powers)
         drives = bool(friction.drives[i])
-        letters = ("P_{0}", "P") if drives else ("P", "P_{0}")
+        loads = self.context.solution.problem.dynamics
+        power = "N" if loads and any(one.name == "P" for one in loads.loads) else "P"
+        letters = (f"{power}_{{0}}", power) if drives else (power, f"{power}_{{0}}")
         numbers = (ideal, real) if drives else (self.find(-powers[1]), ideal)
-        told = f"η = {fraction(*letters)} = {fraction(*numbers)} = {self.find(eta)}"
-        yield (said.efficiency if drives else said.efficiency_back).format(eta=told)
+        quotient = f"η = {fraction(*letters)} = {fraction(*numbers)} = {self.find(eta)}"
+        yield (said.efficiency if drives else said.efficiency_back).format(eta=quotient)
         if eta <= 0:
             yield said.locks
 
