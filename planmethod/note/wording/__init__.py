@@ -59,6 +59,8 @@ class Language:
         The moving point, the turn of a crank, a machine and its flywheel, syntheses.
     gears, teeth, meshing : Words
         Gear trains, the choice of their teeth, two wheels in mesh.
+    vary : Words
+        Variants chosen by the program.
     live : Words
         The page of a moving mechanism.
     project : Words
@@ -95,6 +97,7 @@ class Language:
     layouts: Words
     families: Words
     tasks: Words
+    vary: Words
 
     def __init__(self, lang: str) -> None:
         self.lang = lang
