@@ -40,6 +40,7 @@ HELP = {
     "Checking": {
         "check": "answers of a student or of a group",
         "form": "the workbook that students fill in",
+        "variants": "variants of a task, chosen so that each is fair",
         "lint": "what a norm inspector would mark on the sheets",
         "audit": "what sources print beside the exact values",
     },

@@ -70,7 +70,17 @@ Terms = tuple[tuple[int, str], ...]
 
 
 def _coaxial(motion: TrainMotion) -> Iterator[Condition]:
-    """Tell each mesh that comes back to an axis already reached: the sums of both ways."""
+    for name, height, ways in coaxial_ways(motion):
+        sums = " = ".join(_sum(motion, way, height) for way in ways)
+        facts = {"sums": sums, "axis": name, "value": _shown(abs(height))}
+        yield Condition("coaxiality", True, facts)
+
+
+def coaxial_ways(motion: TrainMotion) -> Iterator[tuple[str, Fraction, tuple[Terms, Terms]]]:
+    """Yield each mesh that comes back to an axis already reached: the axis, its height, both ways.
+
+    The sums of sizes along both ways are the same.
+    """
     train, axes = motion.train, motion.axes
     left = [
         mesh
@@ -97,10 +107,7 @@ def _coaxial(motion: TrainMotion) -> Iterator[Condition]:
             if name not in reached:
                 reached[name] = terms
                 continue
-            height = axes.heights[train.ends(mesh)[far]]
-            sums = " = ".join(_sum(motion, way, height) for way in (reached[name], terms))
-            facts = {"sums": sums, "axis": name, "value": _shown(abs(height))}
-            yield Condition("coaxiality", True, facts)
+            yield name, axes.heights[train.ends(mesh)[far]], (reached[name], terms)
 
 
 def _axis(motion: TrainMotion, mesh: Mesh, end: int) -> str:

@@ -357,18 +357,25 @@ def _put(
     overrides[key] = place if part else value
 
 
+def key_of(table: Mapping[str, Any], written: str) -> tuple[str | None, Mapping[str, str]]:
+    """Return the dotted key that a text means, None of none, and the keys by their names.
+
+    ``frame.C[1]`` is the y of a fixed point.
+    """
+    names = dict(_names(table))
+    first = fold(written).split(".")[0]
+    if "." in written and (first in table or first in keys.TOP):
+        return written, names
+    return names.get(_plain(written)) or names.get(_plain(written).removeprefix("l")), names
+
+
 def _column(
     faults: Faults, table: Mapping[str, Any], head: str, name: str
 ) -> tuple[str, float] | None:
     """Return the dotted key of a column, and by what its numbers are multiplied."""
     match = re.match(_HEAD, re.sub(_BETWEEN, r"\1\2", head))
     written = match["name"].rstrip() if match else head
-    names = dict(_names(table))
-    first = fold(written).split(".")[0]
-    if "." in written and (first in table or first in keys.TOP):
-        key: str | None = written
-    else:
-        key = names.get(_plain(written)) or names.get(_plain(written).removeprefix("l"))
+    key, names = key_of(table, written)
     if key is None:
         hint = near_hint(_plain(written), names, say("Known: {}, and dotted keys.", listed(names)))
         faults.add("variants", say("{}: no column is called '{}'", name, short(head)), hint)

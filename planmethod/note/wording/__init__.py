@@ -61,6 +61,8 @@ class Language:
         Gear trains, the choice of their teeth, two wheels in mesh.
     cam : Words
         A cam and its follower.
+    vary : Words
+        Variants chosen by the program.
     live : Words
         The page of a moving mechanism.
     project : Words
@@ -98,6 +100,7 @@ class Language:
     layouts: Words
     families: Words
     tasks: Words
+    vary: Words
 
     def __init__(self, lang: str) -> None:
         self.lang = lang

@@ -1,0 +1,121 @@
+"""Command ``variants``: variants of a task chosen by the program (подбор вариантов)."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import click
+
+from planmethod.commands.helptext import Spoken
+from planmethod.commands.output import bar
+from planmethod.commands.problems import finish, guarded
+from planmethod.errors import ExitCode
+from planmethod.languages import say
+from planmethod.options import PathType, UsageError, lang_option
+
+MOST = 200
+LONG = 3
+"""Number of variants from which a bar is shown."""
+
+
+@click.command(cls=Spoken)
+@click.argument("problem", type=PathType(dir_okay=False), metavar="FILE")
+@click.option(
+    "--count",
+    type=click.IntRange(1, MOST),
+    default=30,
+    show_default=True,
+    help="How many variants.",
+)
+@click.option(
+    "--seed",
+    type=click.IntRange(0),
+    default=1,
+    show_default=True,
+    help="The same seed gives the same variants.",
+)
+@click.option(
+    "--vary",
+    default="",
+    metavar="KEY,…",
+    help="What is varied: links.1.OA,driver.phi=0..90; the usual numbers when absent.",
+)
+@click.option(
+    "--spread",
+    type=click.FloatRange(0.02, 0.9),
+    default=0.3,
+    show_default=True,
+    help="How far numbers without a range go from those of the file, a share of them.",
+)
+@click.option(
+    "--tries",
+    type=click.IntRange(1, 1_000_000),
+    help="Most candidates; 300 for each variant when absent.",
+)
+@click.option(
+    "--settings",
+    type=PathType(dir_okay=False),
+    metavar="FILE",
+    help="How the department judges: how far answers may be off.",
+)
+@click.option(
+    "-o",
+    "--out",
+    type=PathType(dir_okay=False),
+    metavar="FILE",
+    help="Write a table *.csv, or the file with its variants, *.toml; printed when absent.",
+)
+@lang_option
+@guarded
+def variants(
+    problem: Path,
+    count: int,
+    seed: int,
+    vary: str,
+    spread: float,
+    tries: int | None,
+    settings: Path | None,
+    out: Path | None,
+    lang: str,
+) -> None:
+    """Find variants of a task that are fair to all (подбор вариантов).
+
+    Lengths of links, place and speed of the driver, loads, teeth, numbers of formulas take round
+    values. Each variant assembles with a margin, its asked segments are long and well read, a
+    copied one loses most points, and the mistakes that the task shows are seen in each. What was
+    thrown away is told. Exit code 1 when there are fewer. More: docs/variants.md.
+    """
+    from planmethod.check.marks import DEFAULT, load_settings
+    from planmethod.note.document import Document
+    from planmethod.note.wording import language
+    from planmethod.note.writers.plain import plain_document
+    from planmethod.render.backends.output import write
+    from planmethod.varying.candidates import csv_of
+    from planmethod.varying.choice import choose
+    from planmethod.varying.told import told_document
+
+    if out is not None and out.suffix.lower() not in (".csv", ".toml"):
+        raise UsageError("{}: a table *.csv or a problem file *.toml is written", out)
+    if out is not None and out.exists() and out.samefile(problem):
+        raise UsageError("{} is the problem file itself; name another one", out)
+    judged = DEFAULT if settings is None else load_settings(settings)
+    with bar(count, long=count >= LONG) as done:
+        source, choice = choose(
+            problem, count=count, seed=seed, vary=vary, spread=spread, tries=tries,
+            settings=judged, done=done,
+        )  # fmt: skip
+    found = {one.name: one.own for one in choice.variants}
+    words = language(lang)
+    if out is None or out.suffix.lower() == ".csv":
+        text = csv_of(found, lang)
+    else:
+        text = source.with_variants(found)
+    if out is None:
+        click.echo(text, nl=False)
+    else:
+        write(out, text.encode())
+        click.echo(str(out))
+    click.echo(plain_document(Document.of(told_document(choice, words)), words), err=out is None)
+    if out is not None and out.suffix.lower() == ".csv":
+        click.echo(say('The file names it at its head: variants = "{}"', out.name))
+    finish(ExitCode.DONE if len(found) == count else ExitCode.FINDINGS)

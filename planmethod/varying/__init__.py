@@ -1,0 +1,1 @@
+"""Variants of a task found by the program: numbers varied, judged, chosen (варианты задания)."""

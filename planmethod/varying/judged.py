@@ -1,0 +1,265 @@
+"""Candidates judged: long enough, read well enough, mistakes told (годность варианта)."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Any, cast
+
+import numpy as np
+import numpy.typing as npt
+from msgspec import Struct
+from msgspec.structs import replace
+
+from planmethod.check.calculation import Calculation
+from planmethod.check.explain import Explanation
+from planmethod.check.marks import Settings
+from planmethod.check.questions import Sign
+from planmethod.check.task import Task, TaskItem
+from planmethod.check.tolerance import Tolerance, limit_of
+from planmethod.errors import PlanMethodError
+from planmethod.gears.conditions import conditions
+from planmethod.gears.model import GearProblem
+from planmethod.gears.motion import solve_motion
+from planmethod.kind import ProblemKind
+from planmethod.plans.model import FACTS, MOTION
+from planmethod.problem.head import KindProblem
+from planmethod.problem.model import Convention, Problem
+from planmethod.problem.selector import Selector
+from planmethod.solved.solution import Solution
+from planmethod.varying.sieve import LEAST_MM, WORST, Refusal, Refused, assembled
+
+NOTHING = 1e-9
+
+LEAST_SHARE = 0.3
+"""Answers that a mistake makes small are drawn no better than a third of the right one."""
+
+Place = tuple[str, str]
+"""Code of a mistake and where it is made; a condition and whose it is."""
+
+
+class JudgedVariant(Struct, frozen=True, eq=False):
+    """A candidate that may be a variant (годный вариант).
+
+    Attributes
+    ----------
+    exact, allowed : mapping of str to float
+        Answers and how far each may be off, by id.
+    signed : frozenset of str
+        Answers whose sense is asked, too.
+    points : mapping of str to float
+    told : frozenset of (str, str)
+        Mistakes that its answers tell from all others.
+    made : frozenset of (str, str)
+        Mistakes that can be made.
+    scales : mapping of str to float
+        Scales of the plans as the file would have them; empty of what is computed.
+    """
+
+    exact: Mapping[str, float]
+    allowed: Mapping[str, float]
+    signed: frozenset[str]
+    points: Mapping[str, float]
+    told: frozenset[Place]
+    made: frozenset[Place]
+    scales: Mapping[str, float]
+
+    def off(self, other: JudgedVariant, among: Sequence[str]) -> float:
+        """Return the share of the points that another variant's answers lose here."""
+        lost = sum(self.points[i] for i in among if self._beyond(i, other.exact.get(i, math.nan)))
+        whole = sum(self.points[i] for i in among)
+        return lost / whole if whole else 0.0
+
+    def _beyond(self, item: str, value: float) -> bool:
+        own = self.exact[item]
+        turned = item in self.signed and value * own < 0
+        return turned or not abs(abs(value) - abs(own)) <= self.allowed[item]
+
+
+class Judge:
+    """Judges candidates of one file (отбор).
+
+    Parameters
+    ----------
+    kind : ProblemKind or None
+        None of a linkage.
+    main : KindProblem
+        The file itself: what does not move there need not move in a variant, and a condition of
+        teeth that fails there may fail in a variant.
+    settings : Settings
+
+    Attributes
+    ----------
+    main : JudgedVariant or None
+        The file itself, however good; None where it cannot be solved.
+    """
+
+    def __init__(
+        self, kind: ProblemKind[Any] | None, main: KindProblem, settings: Settings
+    ) -> None:
+        self.kind, self.settings = kind, settings
+        self.excused = frozenset(_failing(main))
+        self.still: frozenset[str] = frozenset()
+        self.main: JudgedVariant | None = None
+        self._wanted: tuple[tuple[Selector, int, str], ...] = ()
+        self._look_at(main)
+
+    def judge(self, problems: Sequence[KindProblem]) -> Iterator[JudgedVariant | Refused]:
+        """Yield what each candidate is, in order."""
+        if self.kind is not None:
+            yield from map(self._computed, problems)
+            return
+        linkages = [freed(cast("Problem", problem)) for problem in problems]
+        solved = assembled(linkages, self._wanted, self.settings)
+        for problem, own in zip(linkages, solved, strict=True):
+            yield own if isinstance(own, Refused) else self._drawn(problem, own)
+
+    def _computed(self, problem: KindProblem) -> JudgedVariant | Refused:
+        assert self.kind is not None
+        try:
+            failing = next((one for one in _failing(problem) if one not in self.excused), None)
+            if failing is not None:
+                return Refused(Refusal.CONDITION, failing[0])
+            return self._judged(Calculation(self.kind, problem, self.settings), {})
+        except PlanMethodError:
+            return Refused(Refusal.FAULTY)
+
+    def _drawn(self, problem: Problem, solution: Solution) -> JudgedVariant | Refused:
+        try:
+            task = Task(solution, self.settings)
+            return self._judged(task, _scales_of(task, problem.scales.convention))
+        except PlanMethodError:
+            return Refused(Refusal.FAULTY)
+
+    def _judged(
+        self, task: Task, scales: Mapping[str, float], *, strictly: bool = True
+    ) -> JudgedVariant | Refused:
+        items = task.whole()
+        limits: dict[str, Tolerance] = {}
+        for item in items:
+            length = task.sheet(item.position).length(item.question)
+            short = length is not None and length < LEAST_MM
+            if strictly and short and name_of(item) not in self.still:
+                return Refused(Refusal.SHORT, item.name)
+        for item in items:
+            sheet, name = task.sheet(item.position), name_of(item)
+            limits[name] = limit = limit_of(sheet, item.question, task.settings, item.fixed)
+            if not math.isfinite(limit.exact):
+                return Refused(Refusal.NOTHING, item.name)
+            if name in self.still or not strictly:
+                continue
+            if abs(limit.exact) <= NOTHING:
+                return Refused(Refusal.NOTHING, item.name)
+            whole = 57.3 if item.question.unit == "deg" else abs(limit.exact)
+            if limit.sigma > WORST * whole:
+                return Refused(Refusal.UNSEEN, item.name)
+        told, made = distinct(task, items, limits)
+        return JudgedVariant(
+            {name: limit.exact for name, limit in limits.items()},
+            {name: limit.tolerance() for name, limit in limits.items()},
+            frozenset(name_of(item) for item in items if has_sign(item)),
+            {name_of(item): item.points for item in items},
+            told,
+            made,
+            scales,
+        )
+
+    def _look_at(self, main: KindProblem) -> None:
+        """Learn from the file itself what is asked, and which answers are nothing in it."""
+        try:
+            if self.kind is not None:
+                task: Task = Calculation(self.kind, main, self.settings)
+            else:
+                task = Task(Solution(cast("Problem", main)), self.settings)
+            items = task.whole()
+            exact = [task.sheet(item.position).exact[item.question.id] for item in items]
+            made = self._judged(task, {}, strictly=False)
+        except PlanMethodError:
+            return
+        self.main = made if isinstance(made, JudgedVariant) else None
+        pairs = zip(items, exact, strict=True)
+        self.still = frozenset(name_of(item) for item, value in pairs if abs(value) <= NOTHING)
+        moving = [item for item in items if name_of(item) not in self.still]
+        self._wanted = tuple((item.question.selector, item.position, item.name) for item in moving)
+
+
+def name_of(item: TaskItem) -> str:
+    """Return what an answer is called among those of all positions."""
+    return f"{item.name} #{item.position}" if item.position else item.name
+
+
+def has_sign(item: TaskItem) -> bool:
+    """Tell whether the sign of an answer counts."""
+    return item.asks_sense or item.question.sign is Sign.STRICT
+
+
+def freed(problem: Problem) -> Problem:
+    """Return a problem whose scales the program chooses, of the series."""
+    own = problem.scales
+    return replace(problem, scales=replace(own, mu_l=None, mu_v=None, mu_a=None, mu_F=None))
+
+
+def _scales_of(task: Task, convention: Convention) -> dict[str, float]:
+    """Return the scales of a task as its file would have them."""
+    whole = dict(task.scales({}, task.first))
+    found = {FACTS[kind].scale: whole[FACTS[kind].scale] for kind in MOTION}
+    found |= {name: value for name, value in whole.items() if name == "mu_F"}
+    if convention is not Convention.UNIT_PER_MM:
+        found = {name: 1.0 / value for name, value in found.items()}
+    return {name: float(f"{value:.9g}") for name, value in found.items()}
+
+
+def _failing(problem: KindProblem) -> Iterator[Place]:
+    """Yield the conditions of teeth that a train does not meet, and whose they are."""
+    if isinstance(problem, GearProblem):
+        for one in conditions(solve_motion(problem)):
+            if not one.holds:
+                yield one.name, one.facts.get("wheel") or one.facts.get("carrier", "")
+
+
+# Mistakes ---------------------------------------------------------------------------------------
+
+
+def distinct(
+    task: Task, items: Sequence[TaskItem], limits: Mapping[str, Tolerance]
+) -> tuple[frozenset[Place], frozenset[Place]]:
+    """Return the mistakes that answers tell from the right ones and from all others, and all.
+
+    Two are told apart where an answer of the one is off by more than its tolerance from that of
+    the other: larger of what a mistake makes larger.
+    """
+    told: set[Place] = set()
+    made: set[Place] = set()
+    for position in dict.fromkeys(item.position for item in items):
+        here = [item for item in items if item.position == position]
+        known = [limits[name_of(item)] for item in here]
+        named = task.named(task.sheet(position))
+        places = [(one.code, one.where) for one in named]
+        made.update(places)
+        told.update(
+            place for place, own in zip(places, _apart(here, known, named), strict=True) if own
+        )
+    return frozenset(told), frozenset(made)
+
+
+def _apart(
+    items: Sequence[TaskItem], limits: Sequence[Tolerance], named: Sequence[Explanation]
+) -> npt.NDArray[np.bool_]:
+    """Return which mistakes are like nothing else, shape (mistakes,)."""
+    right = np.array([limit.exact for limit in limits])
+    given = np.array([[e.values[item.question.id] for item in items] for e in named])
+    table = np.vstack([right, given.reshape(-1, len(items))])
+    signed = np.array([has_sign(item) for item in items])
+    measured = np.array([not limit.zero for limit in limits])
+    slack = np.array([max(limit.spread, limit.tolerance()) for limit in limits])
+    size = np.abs(right)
+    share = np.maximum(np.abs(table) / np.where(size > 0, size, 1.0), LEAST_SHARE)
+    codes = ["", *(e.code for e in named)]
+    found = np.ones(len(codes), dtype=bool)
+    for k in range(len(codes)):
+        off = np.abs(np.abs(table) - np.abs(table[k]))
+        turned = signed & (table * table[k] < 0)
+        apart = ((off > slack * np.maximum(share, share[k])) | turned) & measured
+        alike = ~apart.any(axis=1)
+        found[k] = not any(alike[m] and codes[m] != codes[k] for m in range(len(codes)))
+    return found[1:]

@@ -1,0 +1,158 @@
+"""Linkages sifted many at once: assembly, margins, segments, errors (отсев многих сразу)."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from enum import Enum
+
+import numpy as np
+from msgspec import Struct
+from msgspec.structs import replace
+
+from planmethod.check.marks import Settings
+from planmethod.check.questions import Question, Questions
+from planmethod.construct.arithmetic import Float64
+from planmethod.construct.drafting import PROFILES, Counted, Profile, Propagated
+from planmethod.construct.dual import as_dual
+from planmethod.construct.evaluate import evaluate
+from planmethod.errors import AssemblyError, PlanMethodError
+from planmethod.problem.model import Problem
+from planmethod.problem.selector import Selector
+from planmethod.solved.many.variants import Batch, in_batches
+from planmethod.solved.selectors.steps import NoValueError
+from planmethod.solved.selfcheck import changed_branches, verify, warnings
+from planmethod.solved.solution import Solution
+
+MARGIN = 0.1
+"""Least margin of a step: of two lines the sine of their angle, of arcs its square."""
+
+LEAST_MM = 5.0
+"""Least length of an asked segment on the sheet."""
+
+WORST = 0.1
+"""Largest σ of an asked answer as a share of it: beyond, a ruler does not stand the position."""
+
+LOOSELY = 1.25
+"""So many times larger a σ is let through here: where first order does not hold it is smaller."""
+
+Asked = tuple[Selector, int, str]
+"""A quantity, its position, and what it is called."""
+
+
+class Refusal(Enum):
+    """Why a candidate is thrown away (причина отказа)."""
+
+    FAULTY = "faulty"
+    COAXIAL = "coaxial"
+    ASSEMBLY = "assembly"
+    DOUBTFUL = "doubtful"
+    MARGIN = "margin"
+    SHORT = "short"
+    UNSEEN = "unseen"
+    NOTHING = "nothing"
+    CONDITION = "condition"
+    HIDDEN = "hidden"
+    ALIKE = "alike"
+    SPARE = "spare"
+
+
+class Refused(Struct, frozen=True):
+    """A candidate that is no variant: why, and what of it."""
+
+    why: Refusal
+    what: str = ""
+
+
+def assembled(
+    problems: Sequence[Problem], wanted: Sequence[Asked], settings: Settings
+) -> list[Solution | Refused]:
+    """Return the solution of every linkage that may be a variant; most are read together.
+
+    Loads and what is asked of a cycle do not move a linkage: it is sifted without them.
+
+    Parameters
+    ----------
+    wanted : sequence of (Selector, int, str)
+        What is asked, as far as it moves.
+    """
+    profile = PROFILES[settings.profile]
+    bare = [_bare(problem) for problem in problems]
+    found: dict[int, Solution | Refused] = {}
+    for batch, members in in_batches(bare, profile):
+        refused = _sifted(batch, wanted)
+        for number, (k, own) in enumerate(zip(members, batch.alone, strict=True)):
+            found[k] = refused.get(number) or _whole(problems[k], own)
+    for k, problem in enumerate(problems):
+        if k not in found:
+            found[k] = _alone(problem, bare[k], profile)
+    return [found[k] for k in range(len(problems))]
+
+
+def _bare(problem: Problem) -> Problem:
+    more = dict.fromkeys(("dynamics", "cycle", "machine", "balancing", "project"))
+    return replace(problem, **more) if any(getattr(problem, key) for key in more) else problem
+
+
+def _whole(problem: Problem, bare: Solution) -> Solution:
+    return bare if problem is bare.problem else Solution(problem, profile=bare.profile)
+
+
+def _alone(problem: Problem, bare: Problem, profile: Profile) -> Solution | Refused:
+    try:
+        solution = Solution(bare, profile=profile)
+        verify(solution)
+        if warnings(solution) or changed_branches(solution):
+            return Refused(Refusal.DOUBTFUL)
+        if not float(np.min(solution.margin)) >= MARGIN:
+            return Refused(Refusal.MARGIN)
+        return _whole(problem, solution)
+    except AssemblyError:
+        return Refused(Refusal.ASSEMBLY)
+    except PlanMethodError:
+        return Refused(Refusal.FAULTY)
+
+
+def _sifted(batch: Batch, wanted: Sequence[Asked]) -> dict[int, Refused]:
+    """Return which variants of a batch are refused at a look at all of them, by their numbers."""
+    margins = [float(np.min(batch.margin[rows])) for rows in batch.rows]
+    found = {k: Refused(Refusal.MARGIN) for k, least in enumerate(margins) if not least >= MARGIN}
+    starts = np.array([rows.start for rows in batch.rows])
+    seen = list(_seen(batch, wanted))
+    for why in (Refusal.SHORT, Refusal.UNSEEN):
+        for cause, position, name, bad in seen:
+            for k in np.flatnonzero(bad[starts + position]) if cause is why else ():
+                found.setdefault(int(k), Refused(why, name))
+    return found
+
+
+def _seen(
+    batch: Batch, wanted: Sequence[Asked]
+) -> Iterator[tuple[Refusal, int, str, np.ndarray[tuple[int, ...], np.dtype[np.bool_]]]]:
+    """Yield in which rows a quantity is too short, or errs too much to be read: to first order."""
+    questions = Questions(batch)
+    asked: list[tuple[Question, int, str]] = []
+    for selector, position, name in wanted:
+        try:
+            asked.append((questions.question(selector), position, name))
+        except NoValueError:
+            continue  # of forces
+    draft, known = questions.selecting.draft, batch.construction.draft
+    if set(draft.numbers) != set(known.numbers):
+        return  # numbers of one variant
+    program = questions.selecting.b.program()
+    program = program.needed_for({name for question, *_ in asked for name in question.needs})
+    data = batch.data(batch.per_mm)
+    free = frozenset(str(plan.pole) for plan in batch.construction.plans)
+    counted = Counted(batch.profile, free)
+    evaluate(program, data, counted)
+    exact = evaluate(program, data, Float64())
+    drawn = evaluate(program, data, Propagated(batch.profile, free, counted.causes))
+    for question, position, name in asked:
+        if question.length is not None:
+            mm = np.broadcast_to(np.abs(exact.value[question.length]), batch.positions.shape)
+            yield Refusal.SHORT, position, name, mm < LEAST_MM
+        if question.name is not None:
+            value = as_dual(drawn.value[question.name])
+            slope = 0.0 if value.slope is None else np.sqrt((value.slope**2).sum(axis=0))
+            bad = slope > LOOSELY * WORST * np.abs(exact.value[question.name])
+            yield Refusal.UNSEEN, position, name, np.broadcast_to(bad, batch.positions.shape)
