@@ -109,9 +109,9 @@ class Cell(Struct, frozen=True):
 BLANK = Cell()
 
 
-def cut(text: str) -> str:
+def cut(text: str, limit: int = TEXT_LIMIT) -> str:
     """Return as much of a stranger's text as is looked at, in one line."""
-    return " ".join(text[:TEXT_LIMIT].split())
+    return " ".join(text[:limit].split())
 
 
 @lru_cache(maxsize=4096)
