@@ -15,7 +15,7 @@ from msgspec import Struct
 from planmethod.check.exchange.quiz import GapName
 from planmethod.check.model import Unread, Work
 from planmethod.check.works.answer import read_answer
-from planmethod.check.works.cells import HEADS, Cell, cut, key
+from planmethod.check.works.cells import HEADS, MAILS, NUMBERED, Cell, cut, key
 from planmethod.check.works.csv_file import csv_rows
 from planmethod.check.works.faults import WorksError, read_bytes
 from planmethod.check.works.gather import Gathering, WorkDraft
@@ -24,9 +24,7 @@ from planmethod.errors import ProblemError
 from planmethod.note.wording import LANGUAGES, language
 from planmethod.problem.source import parse, read_source
 
-_ANSWERS = re.compile(r"(?:ответ|response)\s*\d+", re.IGNORECASE)
-_TEXTS = re.compile(r"(?:вопрос|question)\s*\d+", re.IGNORECASE)
-_MAILS = ("адресэлектроннойпочты", "электроннаяпочта", "emailaddress", "email", "почта")
+_NUMBERED = re.compile(r"([^\W\d]+)\s*\d+")
 _GAP = re.compile(r"(?:^|;\s*)[^\W\d]+ (\d+):[ ]?(.*?)(?=;\s*[^\W\d]+ \d+:|$)", re.DOTALL)
 GAPS = "parts"
 """What a column is told to be in which all gaps of a question stand."""
@@ -119,7 +117,7 @@ def read_responses(
     at = _head(rows, columns)
     if at is None:
         raise WorksError(
-            "{}: no head with columns of answers: 'Ответ 1' or 'Response 1'. It has {}. "
+            "{}: no head with columns of answers: 'Response 1', 'Response 2'. It has {}. "
             "Say what they are: --columns 'HEAD=v_B3'.",
             path,
             _told(rows[0] if rows else ()),
@@ -139,7 +137,7 @@ def _head(rows: Sequence[Row], columns: Mapping[str, str]) -> int | None:
     """Return the number of the row that is the head."""
     told = {key(one) for one in columns}
     for number, row in enumerate(rows[:HEAD_ROWS]):
-        if any(_ANSWERS.fullmatch(cell.text.strip()) or key(cell.text) in told for cell in row):
+        if any(_numbered(cell.text) == "answer" or key(cell.text) in told for cell in row):
             return number
     return None
 
@@ -154,13 +152,16 @@ def _column(text: str, told: Mapping[str, str]) -> Head:
     if what is not None:
         return Head(what) if what in FIELDS else read_quantity(what)
     name = key(text)
-    if _ANSWERS.fullmatch(text.strip()):
-        return Head("answer")
-    if _TEXTS.fullmatch(text.strip()):
-        return Head("question")
-    if name in _MAILS:
+    if name in MAILS:
         return Head("email")
-    return Head(HEADS[name]) if HEADS.get(name) in ("student", "variant") else Head()
+    field = HEADS.get(name, "")
+    return Head(field if field in ("student", "variant") else _numbered(text))
+
+
+def _numbered(text: str) -> str:
+    """Return what a head with a number is; nothing for any other."""
+    match = _NUMBERED.fullmatch(text.strip())
+    return NUMBERED.get(match[1].casefold(), "") if match else ""
 
 
 class _Export:
@@ -234,7 +235,7 @@ class _Export:
         elif any(not cell.is_blank for cell in cells):
             raise WorksError(
                 "{0}: {1} column{1:||s} of answers, but {2} gaps are asked: {3}. Say what each "
-                "column is: --columns 'Ответ 1=v_B3'.",
+                "column is: --columns 'Response 1=v_B3'.",
                 self.path,
                 len(cells),
                 len(names),

@@ -46,6 +46,16 @@ HEADS: Mapping[str, str] = {
 }
 """Which field a head is, by `key`; a ``note`` is not read."""
 
+NUMBERED: Mapping[str, str] = {
+    "ответ": "answer", "response": "answer", "вопрос": "question", "question": "question",
+}  # fmt: skip
+"""What a head with a number is in an export of a learning management system: ``Ответ 1``."""
+
+MAILS = frozenset(
+    ("адресэлектроннойпочты", "электроннаяпочта", "почта", "emailaddress", "email", "mail")
+)
+"""Heads of e-mails in such an export, by `key`."""
+
 MM = frozenset(("мм", "mm"))
 """What a head ends with when millimetres of the plan stand below it."""
 
