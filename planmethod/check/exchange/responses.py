@@ -127,6 +127,15 @@ def read_responses(
     missing = [one for one in columns if key(one) not in {key(cell.text) for cell in head}]
     if missing:
         raise WorksError("{}: no column '{}'. It has {}.", path, missing[0], _told(head))
+    for one, what in columns.items():
+        if _column(one, told) == Head() and what != "-":
+            raise WorksError(
+                "{}: column '{}' is told to be '{}', which is neither a quantity nor one of {}.",
+                path,
+                one,
+                what,
+                ", ".join(FIELDS),
+            )
     export = _Export(path, [_column(cell.text, told) for cell in head], names, gaps)
     for row in rows[at + 1 :]:
         export.read(row)

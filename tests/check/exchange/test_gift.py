@@ -14,7 +14,7 @@ from planmethod.check.exchange.gift import gift
 from planmethod.check.exchange.quiz import QuizPart
 from planmethod.check.exchange.variant import question_of
 from planmethod.check.group import Variants
-from planmethod.commands.check import check as command
+from planmethod.cli import cli
 from planmethod.note.wording import LANGUAGES, language
 
 _QUESTION = re.compile(
@@ -84,6 +84,6 @@ def test_both_files_are_written_in_place_of_the_key(tmp_path: Path) -> None:
         "--moodle",
         str(tmp_path / "a.xml"),
     ]
-    done = CliRunner().invoke(command, [*words, "-o", str(out)])
+    done = CliRunner().invoke(cli, ["check", *words, "-o", str(out)])
     assert done.exit_code == 0 and done.stdout.splitlines() == [words[5], words[3]]
     assert not out.exists() and sorted(p.name for p in tmp_path.iterdir()) == ["a.txt", "a.xml"]

@@ -23,7 +23,7 @@ from planmethod.check.group import Variants, task_of_problem
 from planmethod.check.key import key_of_task
 from planmethod.check.marks import DEFAULT
 from planmethod.check.model import KeyEntry
-from planmethod.commands.check import check as command
+from planmethod.cli import cli
 from planmethod.kinds import kind_of
 from planmethod.note.wording import LANGUAGES, language
 from planmethod.note.writers.html import markup
@@ -55,7 +55,7 @@ def ex3_of_thirty(folder: Path) -> Path:
 def thirty(folder: Path) -> tuple[list[dict[str, object]], list[Question]]:
     path = ex3_of_thirty(folder)
     out = folder / "thirty.xml"
-    run = CliRunner().invoke(command, ["--key", str(path), "--moodle", str(out), "--json"])
+    run = CliRunner().invoke(cli, ["check", "--key", str(path), "--moodle", str(out), "--json"])
     assert run.exit_code == 0, run.output
     keys = json.loads(run.stdout)
     [(category, questions)] = read_quiz(out.read_bytes()).items()

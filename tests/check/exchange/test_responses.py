@@ -19,7 +19,7 @@ from planmethod.check.exchange.responses import is_export, read_columns, read_re
 from planmethod.check.group import Variants
 from planmethod.check.model import CheckedWork, Sense, Work
 from planmethod.check.works import WorksError
-from planmethod.commands.check import check as command
+from planmethod.cli import cli
 from planmethod.note.wording import LANGUAGES, language
 
 EX3 = path_of("linkages/ex3-variants")
@@ -52,8 +52,8 @@ def written(path: Path, rows: Sequence[Sequence[str]], delimiter: str = ",") -> 
     return path
 
 
-def run(*words: object) -> Result:
-    return CliRunner().invoke(command, [str(word) for word in words])
+def run(*words: object, lang: str = "ru") -> Result:
+    return CliRunner().invoke(cli, ["--lang", lang, "check", *(str(word) for word in words)])
 
 
 def told(answers: Mapping[int, str], count: int, part: str) -> str:
@@ -164,12 +164,13 @@ def test_what_cannot_be_understood_is_told_in_one_sentence(
         ((EX3, two), "2"),
         ((EX3, two, "--columns", "Ответ 7=v_B3"), "Ответ 7"),
         ((EX3, none, "--columns", "Ответ 1=v_B3"), "v_B3"),
+        ((EX3, two, "--columns", "Ответ 1=чушь"), "чушь"),
         ((EX3, two, "--columns", bad), "Ответ 1"),
         ((EX3, two, "--columns", tmp_path / "absent.toml"), "absent"),
         ((EX3, two, "--moodle", tmp_path / "x.xml"), "--moodle"),
     )
     for words, said in cases:
-        done = run(*words, "--lang", lang)
+        done = run(*words, lang=lang)
         assert done.exit_code == 2, (words, done.output)
         assert said in done.output and "Traceback" not in done.output
 
