@@ -7,7 +7,9 @@ import random
 import re
 import struct
 from functools import cache
+from itertools import pairwise
 from pathlib import Path
+from typing import Any
 
 import pytest
 from click.testing import CliRunner
@@ -28,6 +30,8 @@ from planmethod.kinds import kind_of
 from planmethod.note.wording import LANGUAGES, language
 from planmethod.note.writers.html import markup
 from planmethod.problem import variant_names
+from planmethod.render.ink.drawing import Text
+from planmethod.render.sketch import assigned
 
 RU = language("ru")
 FINE = 2e-3
@@ -52,7 +56,7 @@ def ex3_of_thirty(folder: Path) -> Path:
 
 
 @cache
-def thirty(folder: Path) -> tuple[list[dict[str, object]], list[Question]]:
+def thirty(folder: Path) -> tuple[list[dict[str, Any]], list[Question]]:
     path = ex3_of_thirty(folder)
     out = folder / "thirty.xml"
     run = CliRunner().invoke(cli, ["check", "--key", str(path), "--moodle", str(out), "--json"])
@@ -66,14 +70,14 @@ def thirty(folder: Path) -> tuple[list[dict[str, object]], list[Question]]:
 @pytest.fixture(scope="module")
 def whole(
     tmp_path_factory: pytest.TempPathFactory,
-) -> tuple[list[dict[str, object]], list[Question]]:
+) -> tuple[list[dict[str, Any]], list[Question]]:
     return thirty(tmp_path_factory.mktemp("moodle"))
 
 
-def compare(answer: dict[str, object], gap: Gap) -> None:
+def compare(answer: dict[str, Any], gap: Gap) -> None:
     """Probe the borders of what a gap accepts against the tolerance of the key."""
-    value, per = float(answer["value"]) / float(answer["per"]), float(answer["per"])  # type: ignore[arg-type]
-    tolerance = float(answer["tolerance"]) / per  # type: ignore[arg-type]
+    value, per = float(answer["value"]) / float(answer["per"]), float(answer["per"])
+    tolerance = float(answer["tolerance"]) / per
     value = (
         value
         if answer["signed"] and not answer["asks_sense"] and answer["sense"] is None
@@ -87,17 +91,19 @@ def compare(answer: dict[str, object], gap: Gap) -> None:
         for side in (1, -1):
             off, feedback = gap.grade(value + side * tolerance * (1 + FINE))
             assert off == pytest.approx(DEFAULT.near_share) and feedback, answer["id"]
+            within = gap.grade(value + side * tolerance * DEFAULT.near * (1 - FINE))
+            assert within[0] == pytest.approx(DEFAULT.near_share), answer["id"]
             beyond = gap.grade(value + side * tolerance * DEFAULT.near * (1 + FINE))
             assert beyond[0] == 0.0, answer["id"]
     else:
-        spread = DEFAULT.k * float(answer["sigma"]) / per  # type: ignore[arg-type]
+        spread = DEFAULT.k * float(answer["sigma"]) / per
         for side in (1, -1):
             assert gap.grade(value + side * spread * (1 - FINE))[0] == 1.0, answer["id"]
             assert gap.grade(value + side * spread * (1 + FINE))[0] == 0.0, answer["id"]
 
 
 def test_thirty_variants_are_thirty_questions_of_one_category_and_all_intervals_are_the_keys(
-    whole: tuple[list[dict[str, object]], list[Question]],
+    whole: tuple[list[dict[str, Any]], list[Question]],
 ) -> None:
     keys, questions = whole
     assert len(keys) == len(questions) == 30
@@ -107,7 +113,7 @@ def test_thirty_variants_are_thirty_questions_of_one_category_and_all_intervals_
         assert str(question.name).endswith(f"Вариант {key['variant']}")
         numbers = iter(gap for gap in question.gaps if gap.kind == "NUMERICAL")
         senses = iter(gap for gap in question.gaps if gap.kind == "MULTICHOICE")
-        for answer in key["answers"]:  # type: ignore[attr-defined]
+        for answer in key["answers"]:
             compare(answer, next(numbers))
             compared += 1
             if answer["asks_sense"] and not answer["zero"]:
@@ -118,10 +124,10 @@ def test_thirty_variants_are_thirty_questions_of_one_category_and_all_intervals_
 
 
 def test_a_question_has_its_data_its_scheme_and_no_answer_in_its_text(
-    whole: tuple[list[dict[str, object]], list[Question]],
+    whole: tuple[list[dict[str, Any]], list[Question]],
 ) -> None:
     _, questions = whole
-    data = {re.search(r"φ<sub>1</sub> = \d+°.*?const", q.text)[0] for q in questions}  # type: ignore[index]
+    data = {re.search(r"φ<sub>1</sub> = \d+°.*?const", q.text)[0] for q in questions}
     assert len(data) == 30, "each has its own"
     for question in questions:
         [(name, png)] = question.files.items()
@@ -132,13 +138,13 @@ def test_a_question_has_its_data_its_scheme_and_no_answer_in_its_text(
 
 
 def test_a_mistake_that_has_a_name_gets_no_points_and_its_sentence(
-    whole: tuple[list[dict[str, object]], list[Question]],
+    whole: tuple[list[dict[str, Any]], list[Question]],
 ) -> None:
     keys, questions = whole
     shown, named = 0, 0
     for key, question in zip(keys, questions, strict=True):
         numbers = [gap for gap in question.gaps if gap.kind == "NUMERICAL"]
-        answers = {one["id"]: (one, gap) for one, gap in zip(key["answers"], numbers, strict=True)}  # type: ignore[call-overload]
+        answers = {one["id"]: (one, gap) for one, gap in zip(key["answers"], numbers, strict=True)}
         one, gap = answers["ak_B3_B"]
         if not one["zero"] and one["seen"]:
             # The factor 2 left out: half of the Coriolis acceleration.
@@ -181,9 +187,9 @@ def test_trains_forces_and_points_are_compared_as_well(name: str, lang: str) -> 
     assert bool(back.files) is (name != "point/k11-01")
 
 
-def compare_computed(answer: dict[str, object], gap: Gap) -> None:
-    value, per = float(answer["value"]), float(answer["per"])  # type: ignore[arg-type]
-    tolerance = float(answer["tolerance"])  # type: ignore[arg-type]
+def compare_computed(answer: dict[str, Any], gap: Gap) -> None:
+    value, per = float(answer["value"]), float(answer["per"])
+    tolerance = float(answer["tolerance"])
     for side in (1, -1):
         assert gap.grade((value + side * tolerance * (1 - FINE)) / per)[0] == 1.0, answer["id"]
         off = gap.grade((value + side * tolerance * (1 + FINE)) / per)[0]
@@ -218,3 +224,53 @@ def test_braces_of_a_title_open_no_gap() -> None:
     [(category, [back])] = read_quiz(moodle_xml([evil], RU)).items()
     assert len(back.gaps) == len(question.parts) and back.name == evil.title
     assert category == "$course$/top/a//b {1:NUMERICAL:=5:1} ]]> <i>"
+
+
+def test_wrong_intervals_meet_neither_each_other_nor_the_right_one(
+    whole: tuple[list[dict[str, Any]], list[Question]],
+) -> None:
+    for question in whole[1]:
+        for gap in question.gaps:
+            if gap.kind != "NUMERICAL":
+                continue
+            right = [c for c in gap.choices if c.fraction]
+            wrong = sorted((c for c in gap.choices if not c.fraction), key=lambda c: c.value)
+            for one, other in pairwise(wrong):
+                room = one.margin + other.margin
+                assert other.value - one.value >= room * (1 - 2 * FINE), (one, other)
+            for one in wrong:
+                for c in right:
+                    room = (c.margin + one.margin) * (1 - 2 * FINE)
+                    assert abs(one.value - c.value) >= room, (one, c)
+                assert abs(one.value - right[0].value) >= 2 * right[0].margin * (1 - FINE), one
+
+
+def test_the_scheme_and_the_data_show_nothing_that_is_asked() -> None:
+    task = Variants(path_of("linkages/ex3")).task(None)
+    letters = {item.text for item in assigned(task.solution).items if isinstance(item, Text)}
+    assert "ω" in letters and "ε" not in letters
+    assert [item.text for item in assigned(task.solution).items if isinstance(item, Text)].count(
+        "ω"
+    ) == 1
+    path = path_of("gears/gears-ex2")
+    kind = kind_of(path)
+    assert kind is not None
+    facts = kind.given(kind.load(path, None), RU)
+    assert any(fact.startswith("z_{1} ") for fact in facts)
+    assert not any(fact.startswith("z_{3} ") for fact in facts), "it is asked"
+
+
+def test_an_angle_is_right_a_whole_turn_off_and_mistakes_of_numbers_keep_their_signs(
+    tmp_path: Path,
+) -> None:
+    head = path_of("linkages/ex3").read_text("utf-8").partition("[[answers]]")[0]
+    path = tmp_path / "angle.toml"
+    asked = '[[answers]]\nwhat = "v B3"\nsense = "angle"\n[[answers]]\nwhat = "vx B3"\n'
+    path.write_text(head + asked, "utf-8")
+    question = question_of(Variants(path).task(None), None, RU)
+    [[back]] = read_quiz(moodle_xml([question], RU)).values()
+    [_, angle, across] = back.gaps
+    value = question.parts[1].entry.exact
+    assert [angle.grade(value + turn)[0] for turn in (0, 360, -360, 180)] == [1, 1, 1, 0]
+    assert question.parts[2].entry.exact < 0
+    assert any(c.value < 0 for c in across.choices if not c.fraction)

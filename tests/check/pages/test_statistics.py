@@ -17,6 +17,7 @@ from planmethod.check.pages.grouppage import bars, group_html
 from planmethod.check.pages.results import results_xlsx
 from planmethod.check.pages.statistics import statistics_of
 from planmethod.note.wording import LANGUAGES, language
+from planmethod.render.ink.drawing import Fill
 
 SCALE = ("5", "4", "3", "2")
 
@@ -120,6 +121,6 @@ def test_bars_are_as_long_as_what_they_stand_for() -> None:
     widths = [
         max(p.real for p in item.points) - min(p.real for p in item.points)
         for item in drawing.items
-        if type(item).__name__ == "Fill"
+        if isinstance(item, Fill)
     ]
     assert widths == pytest.approx([45.0, 90.0])
