@@ -127,7 +127,9 @@ def test_a_question_has_its_data_its_scheme_and_no_answer_in_its_text(
     whole: tuple[list[dict[str, Any]], list[Question]],
 ) -> None:
     _, questions = whole
-    data = {re.search(r"φ<sub>1</sub> = \d+°.*?const", q.text)[0] for q in questions}
+    data = {
+        found for q in questions for found in re.findall(r"φ<sub>1</sub> = \d+°.*?const", q.text)
+    }
     assert len(data) == 30, "each has its own"
     for question in questions:
         [(name, png)] = question.files.items()

@@ -229,9 +229,16 @@ def test_a_gap_that_nobody_asked_is_passed_over(tmp_path: Path) -> None:
 
 
 def test_a_variant_is_not_taken_for_one_whose_name_begins_alike(tmp_path: Path) -> None:
-    texts = ("Вариант 12 Дано", "Вариант 1 Дано", "Вариант 1.", "Вариант 123 Дано", "Variant 12")
+    texts = (
+        "Вариант 12 Дано",
+        "Вариант 1 Дано",
+        "Вариант 1.",
+        "Вариант 123 Дано",
+        "Variant 12",
+        "Вариант 1-а",
+    )
     rows = [["Ли", f"{n}@x.ru", text, "часть 1: 3"] for n, text in enumerate(texts)]
     path = written(tmp_path / "r.csv", [["Фамилия", "Email address", "Вопрос 1", "Ответ 1"], *rows])
     found = read_responses(path, {}, ("1", "12", "1-а"), lambda _: gaps_of(Variants(EX3).task("1")))
-    assert [work.variant for work in found.works] == ["12", "1", "1", None, "12"]
-    assert len({work.student for work in found.works}) == 5
+    assert [work.variant for work in found.works] == ["12", "1", "1", None, "12", "1-а"]
+    assert len({work.student for work in found.works}) == 6
