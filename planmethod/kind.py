@@ -97,6 +97,14 @@ class ProblemKind(ABC, Generic[P]):
         """
         raise self._without(problem, "audit")
 
+    def given(self, problem: P, words: Language) -> list[str]:
+        """Return what is given, as rich text, one fact each."""
+        return []
+
+    def scheme(self, problem: P) -> Drawing | None:
+        """Return the scheme without anything that is asked; None for what has none."""
+        return None
+
     def figures(self, problem: P) -> Figures:
         """Return what students can be asked for.
 

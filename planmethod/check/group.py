@@ -11,7 +11,7 @@ from msgspec.structs import replace
 
 from planmethod.check.calculation import Calculation
 from planmethod.check.checking import check, unknown_variant
-from planmethod.check.key import Key, key_of, key_of_task
+from planmethod.check.key import Key, key_of_task
 from planmethod.check.letters import plain
 from planmethod.check.marks import DEFAULT, Settings
 from planmethod.check.model import CheckedWork, Work
@@ -27,9 +27,16 @@ from planmethod.solved.solution import Solution
 
 def key_of_problem(kind: ProblemKind[Any] | None, problem: KindProblem, settings: Settings) -> Key:
     """Return the key of a problem; its kind is None for a linkage."""
+    return key_of_task(task_of_problem(kind, problem, settings))
+
+
+def task_of_problem(
+    kind: ProblemKind[Any] | None, problem: KindProblem, settings: Settings
+) -> Task:
+    """Return a problem with all that is asked of it; its kind is None for a linkage."""
     if kind is None:
-        return key_of(Solution(cast("Problem", problem)), settings)
-    return key_of_task(Calculation(kind, problem, settings))
+        return Task(Solution(cast("Problem", problem)), settings)
+    return Calculation(kind, problem, settings)
 
 
 class Variants:

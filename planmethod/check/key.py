@@ -7,9 +7,10 @@ from collections.abc import Iterable, Iterator, Mapping
 
 from msgspec import Struct
 
+from planmethod.check.letters import worded
 from planmethod.check.marks import DEFAULT, Settings
 from planmethod.check.model import KeyEntry
-from planmethod.check.questions import Sign
+from planmethod.check.questions import Question, Sign
 from planmethod.check.sheet import Sheet, scalar, sense_of
 from planmethod.check.task import Task, TaskItem
 from planmethod.check.tolerance import Tolerance, limit_of
@@ -146,6 +147,20 @@ def entry_of(
         hidden=hidden,
         asked=item.unit,
         per=item.per,
+        what=what_of(question),
+    )
+
+
+def what_of(question: Question) -> str:
+    """Return a quantity in words that a work may name it by: ``v B3``, ``angle v B3``, ``n 5``."""
+    selector = question.selector
+    if selector.kind in ("number", "read"):
+        return selector.names[0]
+    turned = (
+        question.sign is Sign.ANGLE and question.ends is None and question.id.startswith("angle_")
+    )
+    return (
+        f"angle {worded(selector)}" if turned and "angle" not in selector.kind else worded(selector)
     )
 
 

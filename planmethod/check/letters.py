@@ -69,3 +69,12 @@ def called(selector: Selector) -> tuple[str, str]:
         return own, f"{letter}_{{q{names[0]}}}"
     joined = "".join(names) if all(len(n) < 3 for n in names) else ",".join(names)
     return own, f"{letter}_{{{joined}}}" if names else letter
+
+
+def worded(selector: Selector) -> str:
+    """Return a quantity in the words of ``[published]``: what `parse_selector` reads as it."""
+    kind, names = selector.kind, list(selector.names)
+    if kind.startswith("arm "):
+        names.insert(-1, "about")
+    words = " ".join((kind, *names))
+    return words if selector.over is None else f"{words} / {worded(selector.over)}"

@@ -199,6 +199,8 @@ class KeyEntry(Struct, frozen=True):
         Codes of mistakes that this answer cannot show.
     signed : bool
         Whether the sign belongs to the number; of a size it tells nothing and is not shown.
+    what : str
+        The quantity in words of ``[published]``: ``v B3``.
     """
 
     id: str
@@ -221,6 +223,7 @@ class KeyEntry(Struct, frozen=True):
     signed: bool = True
     asked: str = ""
     per: float = 1.0
+    what: str = ""
 
 
 class Judged(Struct, frozen=True):

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
+from msgspec import Struct
 from msgspec.structs import replace
 
 from planmethod.commands.helptext import Spoken
@@ -18,6 +19,7 @@ from planmethod.languages import say, spoken
 from planmethod.options import PathType, UsageError, jobs_option, lang_option, out_option
 
 if TYPE_CHECKING:
+    from planmethod.check.exchange.cloze import QuizQuestion
     from planmethod.check.group import Variants
     from planmethod.check.key import Key
     from planmethod.check.marks import Settings
@@ -36,7 +38,32 @@ FORMATS = ("html", "pdf")
 @click.option("--key", "key_only", is_flag=True, help="Print and write the key of every PROBLEM.")
 @click.option("--variant", metavar="NAME", help="Variant of the works that name none.")
 @click.option("--all-variants", is_flag=True, help="With --key: of every variant.")
-@click.option("--json", "as_json", is_flag=True, help="Verdicts as JSON, and no files.")
+@click.option(
+    "--json", "as_json", is_flag=True, help="Verdicts, or the key, as JSON, and no files."
+)
+@click.option(
+    "--moodle",
+    type=PathType(dir_okay=False),
+    metavar="FILE",
+    help="With --key: a question for each variant for Moodle, in place of the key's files.",
+)
+@click.option(
+    "--gift",
+    type=PathType(dir_okay=False),
+    metavar="FILE",
+    help="With --key: the numbers as questions in GIFT, in place of the key's files.",
+)
+@click.option(
+    "--columns",
+    multiple=True,
+    metavar="HEAD=WHAT",
+    help="What a column of an export of a learning management system is; or a TOML file of such.",
+)
+@click.option(
+    "--gradebook",
+    is_flag=True,
+    help="Write gradebook.csv and feedback.zip too, as for works of such an export.",
+)
 @out_option
 @click.option(
     "--settings",
@@ -68,6 +95,10 @@ def check(
     variant: str | None,
     all_variants: bool,
     as_json: bool,
+    moodle: Path | None,
+    gift: Path | None,
+    columns: tuple[str, ...],
+    gradebook: bool,
     out: Path,
     settings_file: Path | None,
     policy: str | None,
@@ -86,8 +117,11 @@ def check(
     """
     settings = _settings(settings_file, policy, profile)
     if key_only:
-        _write_keys(files, variant, all_variants, settings, out, lang, jobs)
+        asked = KeyFiles(out, lang, as_json, moodle, gift)
+        _write_keys(files, variant, all_variants, settings, asked, jobs)
         return
+    if moodle or gift:
+        raise UsageError("--moodle and --gift go with --key: they ask, and answers are read back")
     if all_variants:
         raise UsageError("--all-variants goes with --key: every work names its own variant")
     problem, *paths = files
@@ -96,7 +130,8 @@ def check(
     from planmethod.check.group import Variants
 
     variants = Variants(problem, settings, variant)
-    checked, works = _checked(variants, paths, jobs)
+    works, addresses = _read(variants, paths, columns)
+    checked = _checked(variants, works, jobs)
     from planmethod.check.pages.compared import unread_lines
     from planmethod.check.pages.overrides import overridden, read_overrides
     from planmethod.note.wording import language
@@ -110,7 +145,10 @@ def check(
     if as_json:
         _print_json(checked, paths)
     else:
-        _write_results(variants, paths, checked, out, salt if anonymize else None, lang)
+        hidden = salt if anonymize else None
+        book = {} if anonymize else addresses or {}
+        also = book if gradebook or addresses is not None else None
+        _write_results(variants, paths, checked, out, hidden, lang, also)
     lost = False
     for line, is_lost in unread_lines(checked, language(spoken())):
         click.echo(line, err=True)
@@ -125,13 +163,35 @@ def _settings(file: Path | None, policy: str | None, profile: str | None) -> Set
     return replace(settings, policy=policy or settings.policy, profile=profile or settings.profile)
 
 
-def _checked(
-    variants: Variants, paths: list[Path], jobs: int
-) -> tuple[list[CheckedWork], list[Work]]:
-    from planmethod.check.group import check_works
+def _read(
+    variants: Variants, paths: list[Path], columns: tuple[str, ...]
+) -> tuple[list[Work], dict[str, str] | None]:
+    """Read the works of files; of exports also how the system knows the students, else None."""
+    from planmethod.check.exchange.quiz import gaps_of
+    from planmethod.check.exchange.responses import is_export, read_columns, read_responses
     from planmethod.check.works import read_works
 
-    works = [work for path in paths for work in read_works(path)]
+    told = read_columns(columns)
+    works: list[Work] = []
+    addresses: dict[str, str] | None = None
+    for path in paths:
+        if not told and not is_export(path):
+            works += read_works(path)
+            continue
+        found = read_responses(
+            path,
+            told,
+            variants.names,
+            lambda name: gaps_of(variants.task(name or variants.default)),
+        )
+        works += found.works
+        addresses = {**(addresses or {}), **found.addresses}
+    return works, addresses
+
+
+def _checked(variants: Variants, works: list[Work], jobs: int) -> list[CheckedWork]:
+    from planmethod.check.group import check_works
+
     if jobs > 1 and len(works) > jobs:
         parts = _in_processes(variants, works, jobs)
     else:
@@ -141,7 +201,7 @@ def _checked(
         for part in parts:
             checked += part
             done(len(part))
-    return checked, works
+    return checked
 
 
 def _in_processes(variants: Variants, works: list[Work], jobs: int) -> Iterator[list[CheckedWork]]:
@@ -214,7 +274,9 @@ def _write_results(
     out: Path,
     salt: str | None,
     lang: str,
+    addresses: dict[str, str] | None,
 ) -> None:
+    """Write the files of a group; those of a gradebook where there are addresses, even none."""
     from planmethod.check.group import keys_of
     from planmethod.check.pages.files import anonymous, write_all
 
@@ -232,8 +294,51 @@ def _write_results(
             hidden=salt is not None,
             done=done,
         )
+    if addresses is not None:
+        written += _write_gradebook(variants, checked, out, written, addresses, lang)
     for path in written:
         click.echo(str(path))
+
+
+def _write_gradebook(
+    variants: Variants,
+    checked: list[CheckedWork],
+    out: Path,
+    written: list[Path],
+    addresses: dict[str, str],
+    lang: str,
+) -> list[Path]:
+    from planmethod.check.exchange.gradebook import feedback_zip, gradebook_csv
+    from planmethod.note.wording import language
+    from planmethod.render.backends.output import write
+
+    mark = variants.settings.mark
+    marks = [mark(work.points / work.of) if work.of else "" for work in checked]
+    pages = [path for path in written if path.parent.name == "pages"]
+    files = {
+        "gradebook.csv": gradebook_csv(checked, marks, addresses, language(lang)),
+        "feedback.zip": feedback_zip(checked, pages),
+    }
+    for name, data in files.items():
+        write(out / name, data)
+    return [out / name for name in files]
+
+
+class KeyFiles(Struct, frozen=True):
+    """Where keys are written, and as what (файлы ключа)."""
+
+    out: Path
+    lang: str
+    as_json: bool
+    moodle: Path | None
+    gift: Path | None
+
+
+class Asked(Struct, frozen=True):
+    """The key of a variant, and its question where one is written (ключ и вопрос)."""
+
+    key: Key
+    question: QuizQuestion | None
 
 
 def _write_keys(
@@ -241,42 +346,80 @@ def _write_keys(
     variant: str | None,
     all_variants: bool,
     settings: Settings,
-    out: Path,
-    lang: str,
+    asked: KeyFiles,
     jobs: int,
 ) -> None:
-    from planmethod.check.pages.keypage import key_document
-    from planmethod.note.wording import language
-    from planmethod.note.writers.plain import plain_document
     from planmethod.problem import variant_names
-    from planmethod.render.backends.output import write
 
-    act = partial(key_of, settings=settings)
-    words = language(lang)
+    as_questions = bool(asked.moodle or asked.gift)
+    act = partial(asked_of, settings=settings, lang=asked.lang if as_questions else None)
     code = ExitCode.DONE
+    whole: list[Asked] = []
     for path in files:
-        keys: list[Key] = []
+        found: list[Asked] = []
         try:
             every = all_variants or (variant is None and bool(variant_names(path)))
         except OSError:
             every = False
-        code = each((path,), variant, every, act, jobs=jobs, take=keys.append) or code
-        if not keys:
-            continue
-        click.echo(plain_document(key_document(keys, words), words))
-        name = stem(keys[0].problem) if len(keys) == 1 else path.stem
-        for ending, data in key_files(keys, words):
-            target = out / f"{name}-key.{ending}"
-            write(target, data)
-            click.echo(str(target))
+        code = each((path,), variant, every, act, jobs=jobs, take=found.append) or code
+        whole += found
+        if found and not as_questions and not asked.as_json:
+            _write_key(path, [one.key for one in found], asked)
+    if asked.as_json:
+        from planmethod.check.exchange.keyrecord import key_record
+
+        click.echo(json_text([key_record(one.key) for one in whole]))
+    questions = [one.question for one in whole if one.question is not None]
+    if questions:
+        _write_questions(questions, asked)
     finish(code)
+
+
+def _write_questions(questions: list[QuizQuestion], asked: KeyFiles) -> None:
+    """Write the questions for a learning management system."""
+    from planmethod.check.exchange.cloze import moodle_xml
+    from planmethod.check.exchange.gift import gift
+    from planmethod.note.wording import language
+    from planmethod.render.backends.output import write
+
+    for path, written in ((asked.moodle, moodle_xml), (asked.gift, gift)):
+        if path is not None:
+            write(path, written(questions, language(asked.lang)))
+            click.echo(str(path), err=asked.as_json)
+
+
+def _write_key(path: Path, keys: list[Key], asked: KeyFiles) -> None:
+    from planmethod.check.pages.keypage import key_document
+    from planmethod.note.wording import language
+    from planmethod.note.writers.plain import plain_document
+    from planmethod.render.backends.output import write
+
+    words = language(asked.lang)
+    click.echo(plain_document(key_document(keys, words), words))
+    name = stem(keys[0].problem) if len(keys) == 1 else path.stem
+    for ending, data in key_files(keys, words):
+        target = asked.out / f"{name}-key.{ending}"
+        write(target, data)
+        click.echo(str(target))
+
+
+def asked_of(todo: Todo, settings: Settings, lang: str | None) -> Asked:
+    """Return the key of a problem of any kind, and its question in a language."""
+    from planmethod.check.group import task_of_problem
+    from planmethod.check.key import key_of_task
+
+    task = task_of_problem(todo.kind, todo.problem, settings)
+    if lang is None:
+        return Asked(key_of_task(task), None)
+    from planmethod.check.exchange.variant import question_of
+    from planmethod.note.wording import language
+
+    return Asked(key_of_task(task), question_of(task, todo.kind, language(lang)))
 
 
 def key_of(todo: Todo, settings: Settings) -> Key:
     """Return the key of a problem of any kind."""
-    from planmethod.check.group import key_of_problem
-
-    return key_of_problem(todo.kind, todo.problem, settings)
+    return asked_of(todo, settings, None).key
 
 
 def key_files(keys: list[Key], words: Language) -> Iterator[tuple[str, bytes]]:

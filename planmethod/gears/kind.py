@@ -88,6 +88,21 @@ class GearTrains(ProblemKind["GearProblem"]):
 
         return audited(problem, ruler)
 
+    def given(self, problem: GearProblem, words: Language) -> list[str]:
+        """Return what is given, as rich text, one fact each."""
+        from planmethod.gears.motion import solve_motion
+        from planmethod.gears.told import given
+
+        motion = solve_motion(problem)
+        found = tuple(f"z_{{{label}}} " for label in motion.train.unknown)
+        return [fact for fact in given(motion, words) if not fact.startswith(found)]
+
+    def scheme(self, problem: GearProblem) -> Drawing | None:
+        """Return the side view; None where it cannot be drawn."""
+        from planmethod.gears.drawn.alone import scheme_alone
+
+        return scheme_alone(problem)
+
     def figures(self, problem: GearProblem) -> Figures:
         """Return what students can be asked for."""
         from planmethod.gears.figures import asked_of

@@ -69,6 +69,14 @@ class MovingPoints(ProblemKind["PointProblem"]):
 
         return audited(problem, ruler)
 
+    def given(self, problem: PointProblem, words: Language) -> list[str]:
+        """Return what is given, as rich text, one fact each."""
+        from planmethod.moving.text import law
+
+        moments = "; ".join(map(words.say.given, sorted(set(problem.times))))
+        facts = [node.text for node in law(problem, words)]
+        return [*facts, words.point.moments.format(times=moments)]
+
     def figures(self, problem: PointProblem) -> Figures:
         """Return what students can be asked for."""
         from planmethod.moving.figures import asked_of

@@ -100,6 +100,19 @@ def _fits(solution: Solution) -> bool:
     return max(right - left, high - low) <= _MOST_TIMES * BOX[0]
 
 
+def assigned(solution: Solution) -> Drawing:
+    """Return the scheme with its loads as an assignment has it: without what is asked."""
+    marks, several = _Marks(), tuple(range(len(solution.positions)))
+    if several == (0,):
+        shown = scheme_picture(solution, 0, given=True)
+    else:
+        shown = series_picture(solution, 0, several)
+    _mark_loads(marks, solution)
+    if marks.items or marks.labels:
+        shown = lettered([*shown.items, *marks.items], marks.labels)
+    return _set("", [shown])
+
+
 def notice(text: str) -> Drawing:
     """Return a text alone: what stands in place of a picture that cannot be drawn."""
     return _set("", [paragraph(escape(line), SMALL, WIDTH) for line in text.splitlines()])

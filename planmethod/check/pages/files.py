@@ -16,9 +16,11 @@ from msgspec.structs import asdict, replace
 from planmethod.check.key import Key
 from planmethod.check.marks import Settings
 from planmethod.check.model import CheckedWork, Judged, WrittenAnswer
+from planmethod.check.pages.grouppage import group_html
 from planmethod.check.pages.listing import csv_bytes
 from planmethod.check.pages.overrides import HEAD
 from planmethod.check.pages.results import results_xlsx
+from planmethod.check.pages.statistics import statistics_of
 from planmethod.check.pages.student import student_html, student_page, student_pdf
 from planmethod.errors import OutputError
 from planmethod.note.wording import language
@@ -198,11 +200,16 @@ def write_all(
     run = run_record(settings, inputs, lang, len(checked), hidden=hidden)
     marks = [settings.mark(work.points / work.of) if work.of else "" for work in checked]
     words = language(lang)
+    group = statistics_of(checked, marks, [mark for _, mark in settings.marks])
+    told = settings_rows(run)
     files = {
-        "results.xlsx": results_xlsx(checked, words, marks=marks, settings=settings_rows(run)),
+        "results.xlsx": results_xlsx(checked, words, marks=marks, settings=told, group=group),
         "results.csv": csv_bytes(checked),
         "run.json": run_json(run),
     }
+    if group is not None:
+        title = next((key.problem.title for key in keys.values()), "")
+        files["group.html"] = group_html(group, checked, title, words).encode()
     if not (out / "overrides.csv").exists():
         files["overrides.csv"] = HEAD
     written = []

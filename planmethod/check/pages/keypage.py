@@ -92,21 +92,11 @@ class KeyPage(Struct, frozen=True):
             return ""
         whose: dict[str, list[str]] = {}
         for key in self.keys:
-            whose.setdefault(self._scales(key), []).append(key.variant or "")
+            whose.setdefault(scales_told(key.scales, self.words), []).append(key.variant or "")
         if len(whose) == 1:
             return self.say.scales.format(scales=next(iter(whose)))
         parts = (f"{', '.join(names)}: {told}" for told, names in whose.items())
         return self.say.scales.format(scales=". ".join(parts))
-
-    def _scales(self, key: Key) -> str:
-        say = self.words.say
-        units = {facts.scale: facts.unit for facts in FACTS.values()}
-        shown = []
-        for name, per_mm in key.scales.items():
-            unit = say.units.get(units.get(name, ""), "")
-            of = f"({unit})" if "/" in unit or "·" in unit else unit
-            shown.append(f"{scale_letters(name)} = {say.given(per_mm)} {of}/{say.units['mm']}")
-        return "; ".join(shown)
 
     def hidden(self) -> list[str]:
         """Return the mistakes that no answer shows, a line each: code, name, variants."""
@@ -190,6 +180,18 @@ class KeyPage(Struct, frozen=True):
     def is_single(self) -> bool:
         """Whether there is one variant in one position."""
         return len(self.rows()) == 1
+
+
+def scales_told(scales: Mapping[str, float], words: Language) -> str:
+    """Return scales as rich text: ``μ_{v} = 0,05 (м/с)/мм``."""
+    say = words.say
+    units = {facts.scale: facts.unit for facts in FACTS.values()}
+    shown = []
+    for name, per_mm in scales.items():
+        unit = say.units.get(units.get(name, ""), "")
+        of = f"({unit})" if "/" in unit or "·" in unit else unit
+        shown.append(f"{scale_letters(name)} = {say.given(per_mm)} {of}/{say.units['mm']}")
+    return "; ".join(shown)
 
 
 def key_document(keys: Sequence[Key], words: Language) -> Document:

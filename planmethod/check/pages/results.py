@@ -4,14 +4,18 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from planmethod.check.model import CheckedWork, Diagnosis, Judged, KeyEntry, Sense, Verdict
 from planmethod.check.pages.listing import codes_of
 from planmethod.check.pages.speech import Speech, told
+from planmethod.check.pages.statistics import GroupStatistics
 from planmethod.note.plaintext import plain_text
 from planmethod.note.wording import Language, Words
-from planmethod.note.writers.workbook import Filled, add_sheet, new_workbook, saved
+from planmethod.note.writers.workbook import Filled, add_bars, add_sheet, new_workbook, saved
+
+if TYPE_CHECKING:
+    from openpyxl import Workbook
 
 COLOURS: Mapping[Verdict, str] = {
     Verdict.OK: "D9EFDC",
@@ -32,6 +36,7 @@ def results_xlsx(
     *,
     marks: Sequence[str] = (),
     settings: Mapping[str, str | float] | None = None,
+    group: GroupStatistics | None = None,
 ) -> bytes:
     """Return the workbook of a group.
 
@@ -41,6 +46,8 @@ def results_xlsx(
         Of the works, one each; none where points are all there is.
     settings : mapping
         What the last sheet shows: settings of the run and its files.
+    group : GroupStatistics, optional
+        What a sheet of its own shows, with pictures; none when absent.
     """
     say: Words = words.check["results"]
     first, second, third, fourth = say["sheets"]
@@ -61,18 +68,37 @@ def results_xlsx(
         frozen=3,
         formats={5: VALUE, 6: VALUE, 7: VALUE, 9: LENGTH, 10: LENGTH, 13: VALUE, 14: POINTS},
     )
-    by_code = list(_by_code(works, words.check))
-    add_sheet(book, third, say["by_code"], by_code)
+    counted = list(by_code(works, words.check))
+    add_sheet(book, third, say["by_code"], counted)
     add_sheet(
         book,
         third,
         say["by_answer"],
         list(_by_answer(works)),
         formats={3: SHARE},
-        row=len(by_code) + 3,
+        row=len(counted) + 3,
     )
+    if group is not None:
+        _add_statistics(book, group, words)
     add_sheet(book, fourth, say["settings"], list((settings or {}).items()))
     return saved(book)
+
+
+def _add_statistics(book: Workbook, group: GroupStatistics, words: Language) -> None:
+    """Add the sheet of the statistics: marks and questions, each with its picture."""
+    say: Words = words.check["statistics"]
+    rows: list[list[Any]] = [list(row) for row in group.marks]
+    add_sheet(book, say.sheet, say["mark_columns"], rows, frozen=0)
+    facts = [[say.mean, group.mean], [say.median, group.median], [say.deviation, group.deviation]]
+    at = len(rows) + 3
+    add_sheet(book, say.sheet, [say.facts_head, "%"], facts, formats={1: SHARE}, row=at)
+    asked = [[one.label, one.asked, one.share, one.discrimination] for one in group.questions]
+    below = at + len(facts) + 2
+    formats = {2: SHARE, 3: "0.00"}
+    sheet = add_sheet(book, say.sheet, say["columns"], asked, formats=formats, row=below)
+    last = below + len(asked)
+    add_bars(sheet, say.marks, (1, 2), (1, len(rows) + 1), "F1")
+    add_bars(sheet, say.shares, (1, 3), (below, last), "F12", lying=True)
 
 
 def _summary(
@@ -171,7 +197,7 @@ def _sign(sense: Sense | None, say: Words) -> str:
     return "" if sense is None else say["senses"][sense.value][0]
 
 
-def _by_code(works: Sequence[CheckedWork], say: Words) -> Iterator[list[Any]]:
+def by_code(works: Sequence[CheckedWork], say: Words) -> Iterator[list[Any]]:
     """Yield the mistakes by how many made them, a student once for each."""
     sure: dict[str, list[str]] = {}
     perhaps: dict[str, list[str]] = {}

@@ -47,6 +47,16 @@ HEADS: Mapping[str, str] = {
 }
 """Which field a head is, by `key`; a ``note`` is not read."""
 
+NUMBERED: Mapping[str, str] = {
+    "ответ": "answer", "response": "answer", "вопрос": "question", "question": "question",
+}  # fmt: skip
+"""What a head with a number is in an export of a learning management system: ``Ответ 1``."""
+
+MAILS = frozenset(
+    ("адресэлектроннойпочты", "электроннаяпочта", "почта", "emailaddress", "email", "mail")
+)
+"""Heads of e-mails in such an export, by `key`."""
+
 MM = frozenset(("мм", "mm"))
 """What a head ends with when millimetres of the plan stand below it."""
 
@@ -110,9 +120,9 @@ class Cell(Struct, frozen=True):
 BLANK = Cell()
 
 
-def cut(text: str) -> str:
+def cut(text: str, limit: int = TEXT_LIMIT) -> str:
     """Return as much of a stranger's text as is looked at, in one line."""
-    return visible(" ".join(text[:TEXT_LIMIT].split()))
+    return visible(" ".join(text[:limit].split()))
 
 
 @lru_cache(maxsize=4096)

@@ -9,7 +9,7 @@ from itertools import islice
 from pathlib import Path
 
 from planmethod.check.model import Work
-from planmethod.check.works.cells import Cell, cut
+from planmethod.check.works.cells import TEXT_LIMIT, Cell, cut
 from planmethod.check.works.faults import WorksError
 from planmethod.check.works.gather import Gathering
 from planmethod.check.works.table import (
@@ -34,15 +34,7 @@ def read_csv(data: bytes, path: Path) -> list[Work]:
     WorksError
         It is no text, has no head, or is too long.
     """
-    text = decoded(data, path)
-    first, _, rest = text.partition("\n")
-    separator = ""
-    if first.lower().startswith("sep=") and len(first.strip()) == 5:  # a line of Excel's own
-        separator, text = first.strip()[4], "\n" + rest
-    try:
-        rows = list(_rows(text, separator or _separator(text, path), path))
-    except csv.Error as error:
-        raise WorksError("{}: this is not CSV: {}. Is a quote left open?", path, error) from None
+    rows = csv_rows(data, path)
     gathering = Gathering(str(path))
     if not read_table(rows, gathering, path.stem, closed=True):
         raise WorksError(
@@ -52,6 +44,25 @@ def read_csv(data: bytes, path: Path) -> list[Work]:
             HEAD_ROWS,
         )
     return gathering.works()
+
+
+def csv_rows(data: bytes, path: Path, limit: int = TEXT_LIMIT) -> list[Row]:
+    """Return the rows of a CSV file, each cell with its place and so many of its characters.
+
+    Raises
+    ------
+    WorksError
+        It is no text, or too long.
+    """
+    text = decoded(data, path)
+    first, _, rest = text.partition("\n")
+    separator = ""
+    if first.lower().startswith("sep=") and len(first.strip()) == 5:  # a line of Excel's own
+        separator, text = first.strip()[4], "\n" + rest
+    try:
+        return list(_rows(text, separator or _separator(text, path), path, limit))
+    except csv.Error as error:
+        raise WorksError("{}: this is not CSV: {}. Is a quote left open?", path, error) from None
 
 
 def decoded(data: bytes, path: Path) -> str:
@@ -82,7 +93,7 @@ def _separator(text: str, path: Path) -> str:
     return max(counts, key=lambda one: counts[one], default=";")
 
 
-def _rows(text: str, separator: str, path: Path) -> Iterator[Row]:
+def _rows(text: str, separator: str, path: Path, limit: int = TEXT_LIMIT) -> Iterator[Row]:
     reader = csv.reader(io.StringIO(text, newline=""), delimiter=separator, strict=True)
     cells = 0
     for count, row in enumerate(reader, 1):
@@ -97,4 +108,4 @@ def _rows(text: str, separator: str, path: Path) -> Iterator[Row]:
                 CELL_LIMIT,
             )
         where = f"{path.name}:{reader.line_num}"
-        yield [Cell(cut(field), where) for field in row]
+        yield [Cell(cut(field, limit), where) for field in row]

@@ -86,6 +86,46 @@ def add_sheet(
     return sheet
 
 
+def add_bars(
+    sheet: Any,
+    title: str,
+    columns: tuple[int, int],
+    rows: tuple[int, int],
+    corner: str,
+    *,
+    lying: bool = False,
+) -> None:
+    """Add a picture of bars to a sheet.
+
+    Parameters
+    ----------
+    columns : (int, int)
+        Of what stands under the bars, and of their lengths, from 1.
+    rows : (int, int)
+        The head of a table and its last row.
+    corner : str
+        Cell of the upper left corner.
+    lying : bool
+        Bars from left to right, the first at the top; else from below.
+    """
+    from openpyxl.chart import BarChart, Reference
+
+    chart = BarChart()
+    chart.type, chart.title, chart.legend = "bar" if lying else "col", title, None
+    head, last = rows
+    names, lengths = columns
+    chart.add_data(Reference(sheet, lengths, head, lengths, last), titles_from_data=True)
+    chart.set_categories(Reference(sheet, names, head + 1, names, last))
+    chart.gapWidth, chart.height = 40, 5.0
+    chart.x_axis.delete = chart.y_axis.delete = False
+    chart.y_axis.scaling.min = 0
+    if lying:
+        chart.x_axis.scaling.orientation = "maxMin"
+        chart.y_axis.scaling.max = 1
+        chart.height = max(5.0, 0.55 * (last - head))  # cm
+    sheet.add_chart(chart, corner)
+
+
 class _Looks:
     """Puts values into the cells of a sheet; every look is made once, since that is slow."""
 

@@ -92,12 +92,13 @@ def letter_axes(view: SchemeView, others: Sequence[complex] = ()) -> None:
 
 
 def letter_links(
-    view: SchemeView, others: Sequence[Item] = (), *, senses: bool = True
+    view: SchemeView, others: Sequence[Item] = (), *, senses: bool = True, given: bool = False
 ) -> list[Item]:
     """Put the links' numbers down, and circular arrows for the senses of omega and epsilon.
 
     Among the lines of ``others``, the other positions, only the driver has arrows; alone it has
-    its angle, too. Return what letters keep clear of.
+    its angle, too. ``given``: the driver alone has arrows in any case. Return what letters keep
+    clear of.
     """
     scheme, own = view.scheme, Senses(view.scheme, others)
     drive = scheme.solution.problem.drive.link
@@ -105,7 +106,7 @@ def letter_links(
         own.angle()
     for link in scheme.solution.problem.mechanism.links:
         view.labels.append(scheme.link_label(link, 5.5 * scheme.factor))
-        if senses and (not others or link == drive):
+        if senses and (link == drive or not (others or given)):
             own.of(link)
     view.arrows += own.arrows
     view.labels += own.labels
@@ -120,14 +121,16 @@ def scheme_picture(
     letter_height: float = 5.0,
     errors: bool = False,
     bare: bool = False,
+    given: bool = False,
     traces: Shown = False,
     added: tuple[tuple[Item, ...], tuple[Label, ...]] = ((), ()),
 ) -> Picture:
     """Return the scheme in one position as a picture, mm.
 
     ``errors`` draws the ellipses of the drafting error around the moving points. ``bare`` leaves
-    out what tells of the motion: arrows, the angle of the driver, letters of the axes. ``traces``
-    is told by `planmethod.render.pictures.traces`. ``added`` are more items and their letters.
+    out what tells of the motion: arrows, the angle of the driver, letters of the axes; ``given``,
+    the arrows of all links but the driver, which an assignment asks for. ``traces`` is told by
+    `planmethod.render.pictures.traces`. ``added`` are more items and their letters.
     """
     view = SchemeView.drawn(solution, index, letter_height, traces)
     special = special_points(view.scheme) if not bare else ([], [])
@@ -137,7 +140,7 @@ def scheme_picture(
     letter_points(view)
     if not bare:
         letter_axes(view)
-    clear = letter_links(view, senses=not bare)
+    clear = letter_links(view, senses=not bare, given=given)
     # The ellipses after the joints, whose white would cover them.
     items = [*view.items(), *added[0], *ellipses.strokes]
     return lettered(items, [*view.labels, *added[1]], clear=[*ellipses.grounds, *clear])

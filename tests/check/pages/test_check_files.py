@@ -39,8 +39,8 @@ def test_grading_again_gives_the_same_bytes(tmp_path: Path) -> None:
     works = [ex3_work.work("s01"), ex3_work.work("Иванов Пётр")]
     first = written(tmp_path / "a", works)
     assert set(first) == {
-        "results.xlsx", "results.csv", "run.json", "overrides.csv", "pages/s01.html",
-        "pages/s01.pdf", "pages/Иванов-Пётр.html", "pages/Иванов-Пётр.pdf",
+        "results.xlsx", "results.csv", "run.json", "group.html", "overrides.csv",
+        "pages/s01.html", "pages/s01.pdf", "pages/Иванов-Пётр.html", "pages/Иванов-Пётр.pdf",
     }  # fmt: skip
     assert written(tmp_path / "b", works) == first
     again = written(tmp_path / "a", works)

@@ -1,0 +1,189 @@
+"""Questions with embedded answers as Moodle reads them (вопросы со встроенными ответами, Cloze).
+
+The grammar is that of Moodle's ``qtype_multianswer``: ``{7:NUMERICAL:=2.24:0.11~%70%2.24:0.18#…}``.
+Margins are absolute, the first alternative whose interval holds the answer counts.
+"""
+
+from __future__ import annotations
+
+import html
+import math
+from base64 import b64encode
+from collections.abc import Iterable, Iterator, Mapping
+from xml.etree.ElementTree import Element, tostring
+
+from msgspec import Struct
+
+from planmethod.check.exchange.quiz import QuizPart, whole_points
+from planmethod.check.model import KeyEntry
+from planmethod.check.pages.keypage import scales_told
+from planmethod.check.pages.speech import Speech
+from planmethod.note.formula import escape
+from planmethod.note.wording import Language, Words
+from planmethod.note.writers.html import clean, markup
+
+PICTURE = "scheme.png"
+
+
+class QuizQuestion(Struct, frozen=True):
+    """One variant as a question of a learning management system (вопрос варианта).
+
+    Attributes
+    ----------
+    title : str
+        Of the problem, plain text: also the category.
+    variant : str or None
+    given : tuple of str
+        What is given, rich text.
+    scales : mapping of str to float
+        Of the plans, unit per mm; empty where nothing is drawn.
+    parts : tuple of QuizPart
+    picture : bytes
+        The scheme as PNG; empty where there is none.
+    """
+
+    title: str
+    variant: str | None
+    given: tuple[str, ...]
+    scales: Mapping[str, float]
+    parts: tuple[QuizPart, ...]
+    picture: bytes = b""
+
+    def name(self, words: Language) -> str:
+        """Return how the question is called in the bank."""
+        said: Words = words.check["key"]
+        return (
+            f"{self.title}. {said.variant.format(variant=self.variant)}"
+            if self.variant
+            else self.title
+        )
+
+
+def moodle_xml(questions: Iterable[QuizQuestion], words: Language) -> bytes:
+    """Return a file for Moodle: a question for each variant, a category for each problem."""
+    lines = ['<?xml version="1.0" encoding="UTF-8"?>', "<quiz>"]
+    category = None
+    for question in questions:
+        if question.title != category:
+            category = question.title
+            path = html.escape(clean(f"$course$/top/{category.replace('/', '//')}"))
+            lines += [
+                '<question type="category">',
+                f"<category><text>{path}</text></category>",
+                "</question>",
+            ]
+        lines += _question(question, words)
+    return "\n".join([*lines, "</quiz>", ""]).encode()
+
+
+def _question(question: QuizQuestion, words: Language) -> Iterator[str]:
+    text = "\n".join(_text(question, words))
+    yield '<question type="cloze">'
+    yield f"<name><text>{html.escape(clean(question.name(words)))}</text></name>"
+    yield '<questiontext format="html">'
+    yield f"<text>{_cdata(text)}</text>"
+    if question.picture:
+        data = b64encode(question.picture).decode()
+        yield _element("file", data, name=PICTURE, path="/", encoding="base64")
+    yield "</questiontext>"
+    yield '<generalfeedback format="html"><text></text></generalfeedback>'
+    yield "<penalty>0.3333333</penalty>"
+    yield "<hidden>0</hidden>"
+    yield "</question>"
+
+
+def _element(tag: str, text: str | None = None, **attributes: str) -> str:
+    made = Element(tag, attributes)
+    made.text = text
+    return tostring(made, encoding="unicode")
+
+
+def _cdata(text: str) -> str:
+    return f"<![CDATA[{text.replace(']]>', ']]]]><![CDATA[>')}]]>"
+
+
+def _text(question: QuizQuestion, words: Language) -> Iterator[str]:
+    """Yield the question as HTML with its gaps."""
+    say: Words = words.check["exchange"]
+    yield _paragraph(f"<strong>{_safe(markup(escape(question.name(words))))}</strong>")
+    if question.given:
+        given = words.note.given.format(given="; ".join(question.given))
+        yield _paragraph(_safe(markup(given)))
+    if question.picture:
+        yield _paragraph(_element("img", src=f"@@PLUGINFILE@@/{PICTURE}", alt=say.scheme))
+    if question.scales:
+        told = words.check["key"].scales.format(scales=scales_told(question.scales, words))
+        yield _paragraph(_safe(markup(told)))
+    several = len({part.entry.position for part in question.parts}) > 1
+    asked: KeyEntry | None = None
+    line = ""
+    for part, points in zip(question.parts, whole_points(question.parts), strict=True):
+        if part.entry is not asked and line:
+            yield _paragraph(line)
+        if several and (asked is None or part.entry.position != asked.position):
+            position = words.check["key"].position.format(position=part.entry.position)
+            yield _paragraph(f"<em>{_safe(markup(position))}</em>")
+        if part.entry is not asked:
+            line = _safe(markup(Speech(words).letters(part.entry)))
+            line += "" if part.choices else " ="
+        asked = part.entry
+        line += f" {gap(part, points)}"
+        unit = Speech(words).unit(part.entry)
+        if part.alternatives and unit:
+            line += f" {_safe(markup(unit))}"
+    if line:
+        yield _paragraph(line)
+    yield _paragraph(_safe(markup(say.how)))
+
+
+def gap(part: QuizPart, points: int) -> str:
+    """Return the gap of a part in the grammar of embedded answers."""
+    if part.choices:
+        told = (
+            ("=" if one.right else "") + escaped(one.text) + _feedback(one.feedback)
+            for one in part.choices
+        )
+        return f"{{{points}:MULTICHOICE:{'~'.join(told)}}}"
+    told = (
+        f"{_share(one.share)}{numbers(one.value, one.margin)}{_feedback(one.feedback)}"
+        for one in part.alternatives
+    )
+    return f"{{{points}:NUMERICAL:{'~'.join(told)}}}"
+
+
+def _share(share: float) -> str:
+    return "=" if share == 1.0 else f"%{100.0 * share:.5g}%"
+
+
+def numbers(value: float, margin: float) -> str:
+    """Return a number and how far it may be off, a thousandth of which is rounded away at most."""
+    places = max(0, 3 - math.floor(math.log10(margin))) if margin > 0 else 12
+    return f"{_decimal(value, places)}:{_decimal(margin, places + 1)}"
+
+
+def _decimal(value: float, places: int) -> str:
+    text = f"{value:.{places}f}"
+    text = text.rstrip("0").rstrip(".") if "." in text else text
+    return "0" if text in ("-0", "") else text
+
+
+def _feedback(rich: str) -> str:
+    return f"#{escaped(markup(rich))}" if rich else ""
+
+
+def escaped(text: str) -> str:
+    r"""Return HTML inside a gap: Moodle takes away entities once, then ``\}`` and ``\#``.
+
+    It leaves ``\~`` as it is, so a tilde is the sign of the same look.
+    """
+    text = html.escape(text, quote=False).replace("\\", "&#92;").replace("~", "\N{TILDE OPERATOR}")
+    return text.replace("}", "\\}").replace("#", "\\#").replace("&\\#92;", "&#92;")
+
+
+def _safe(text: str) -> str:
+    """Return HTML outside the gaps: what somebody else wrote opens none."""
+    return text.replace("{", "&#123;").replace("}", "&#125;")
+
+
+def _paragraph(text: str) -> str:
+    return f"<p>{text}</p>"

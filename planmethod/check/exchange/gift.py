@@ -1,0 +1,54 @@
+"""Numbers alone as GIFT, which many learning management systems read (вопросы в GIFT)."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+
+from planmethod.check.exchange.cloze import QuizQuestion, numbers
+from planmethod.check.exchange.quiz import QuizPart
+from planmethod.check.pages.speech import Speech
+from planmethod.note.plaintext import plain_text
+from planmethod.note.wording import Language
+from planmethod.note.writers.html import clean
+
+
+def gift(questions: Iterable[QuizQuestion], words: Language) -> bytes:
+    """Return numbers alone as GIFT, which many systems read: a question for each of them."""
+    lines = []
+    category = None
+    for question in questions:
+        if question.title != category:
+            category = question.title
+            lines += [f"$CATEGORY: $course$/top/{category.replace('/', '//')}", ""]
+        for part in question.parts:
+            if part.alternatives:
+                lines += [*_gift_question(question, part, words), ""]
+    return "\n".join(lines).encode()
+
+
+def _gift_question(question: QuizQuestion, part: QuizPart, words: Language) -> Iterator[str]:
+    speech = Speech(words)
+    entry = part.entry
+    letters = plain_text(speech.letters(entry))
+    unit = plain_text(speech.unit(entry))
+    asked = f"{letters}, {unit}" if unit else letters
+    given = plain_text("; ".join(question.given))
+    position = words.check["key"].position.format(position=entry.position)
+    name = ", ".join(
+        filter(None, (question.name(words), position if entry.position else "", letters))
+    )
+    text = " ".join(
+        filter(None, (question.name(words) + ".", given and f"{given}.", f"{asked} = ?"))
+    )
+    yield f"::{_gift(name)}::[plain]{_gift(text)} {{#"
+    for one in part.alternatives:
+        share = "=" if one.share == 1.0 else f"=%{100.0 * one.share:.5g}%"
+        said = f"#{_gift(plain_text(one.feedback))}" if one.feedback else ""
+        yield f"\t{share}{numbers(one.value, one.margin)}{said}"
+    yield "}"
+
+
+def _gift(text: str) -> str:
+    """Return a text of GIFT in one line."""
+    flat = " ".join(clean(text).split())
+    return "".join(f"\\{c}" if c in "\\~=#{}:" else c for c in flat)

@@ -1,0 +1,71 @@
+"""Marks for the gradebook of a learning management system, and pages by student (оценки в СДО)."""
+
+from __future__ import annotations
+
+import csv
+import io
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from zipfile import ZIP_DEFLATED, ZipFile, ZipInfo
+
+from planmethod.check.model import CheckedWork
+from planmethod.check.pages.files import file_names
+from planmethod.check.pages.listing import safe
+from planmethod.check.pages.results import told_mistakes
+from planmethod.note.wording import Language, Words
+
+
+def gradebook_csv(
+    works: Sequence[CheckedWork],
+    marks: Sequence[str],
+    addresses: Mapping[str, str],
+    words: Language,
+) -> bytes:
+    """Return the marks, a student a row: commas, decimal points, UTF-8.
+
+    Parameters
+    ----------
+    marks : sequence of str
+        Of the works, one each.
+    addresses : mapping of str to str
+        E-mail by student: what a gradebook knows him by; empty for none.
+    """
+    say: Words = words.check["exchange"]
+    heads = dict(say["gradebook"])
+    if not addresses:
+        del heads["email"]
+    text = io.StringIO(newline="")
+    writer = csv.writer(text, lineterminator="\r\n")
+    writer.writerow(heads.values())
+    for work, mark in zip(works, marks, strict=True):
+        cells = {
+            "student": work.work.student,
+            "email": addresses.get(work.work.student, ""),
+            "variant": work.variant or "",
+            "points": f"{work.points:.10g}",
+            "of": f"{work.of:.10g}",
+            "grade": f"{100.0 * work.points / work.of:.2f}" if work.of else "",
+            "mark": mark,
+            "feedback": "; ".join(filter(None, (told_mistakes(work, words.check), work.remark))),
+        }
+        writer.writerow(safe(cells[name]) for name in heads)
+    return text.getvalue().encode()
+
+
+def feedback_zip(works: Sequence[CheckedWork], pages: Sequence[Path]) -> bytes:
+    """Return the pages in a folder for each student; the same pages give the same bytes.
+
+    Parameters
+    ----------
+    pages : sequence of Path
+        Files that are called as the student's files are.
+    """
+    data = io.BytesIO()
+    with ZipFile(data, "w", ZIP_DEFLATED) as archive:
+        for name in file_names([work.work.student for work in works]):
+            for page in pages:
+                if page.stem == name:
+                    entry = ZipInfo(f"{name}/{page.name}")
+                    entry.compress_type = ZIP_DEFLATED
+                    archive.writestr(entry, page.read_bytes())
+    return data.getvalue()

@@ -1,0 +1,132 @@
+"""What a group's marks tell of it and of the questions (статистика группы)."""
+
+from __future__ import annotations
+
+import math
+import statistics
+from collections.abc import Sequence
+
+from msgspec import Struct
+
+from planmethod.check.model import CheckedWork, Verdict
+
+LEAST = 3
+"""Works from which on a correlation is told."""
+
+WEAK = 0.2
+"""Discrimination below which a question hardly tells the strong from the weak."""
+
+
+class QuestionStatistics(Struct, frozen=True):
+    """How a group answered one question (статистика вопроса).
+
+    Attributes
+    ----------
+    label, symbol : str
+        Letters as plain text, and as rich text.
+    asked : int
+        Works that it is judged in.
+    share : float
+        Mean share of its points, 0 to 1: the smaller, the harder.
+    discrimination : float or None
+        Correlation of its share with that of all other answers of a work, -1 to 1; None where it
+        has none: fewer than three works, or all alike.
+    """
+
+    label: str
+    symbol: str
+    asked: int
+    share: float
+    discrimination: float | None
+
+
+class GroupStatistics(Struct, frozen=True):
+    """Statistics of a group (статистика группы).
+
+    Attributes
+    ----------
+    marks : tuple of (str, int)
+        How many works have each mark, the best first.
+    shares : tuple of float
+        Of the points of each work, 0 to 1.
+    questions : tuple of QuestionStatistics
+        In the order in which they are asked.
+    """
+
+    marks: tuple[tuple[str, int], ...]
+    shares: tuple[float, ...]
+    questions: tuple[QuestionStatistics, ...]
+
+    @property
+    def mean(self) -> float:
+        """Mean share of the points."""
+        return statistics.fmean(self.shares)
+
+    @property
+    def median(self) -> float:
+        """Share of the points that half of the works reach."""
+        return statistics.median(self.shares)
+
+    @property
+    def deviation(self) -> float:
+        """Standard deviation of the shares of the group, which is no sample."""
+        return statistics.pstdev(self.shares)
+
+
+def statistics_of(
+    works: Sequence[CheckedWork], marks: Sequence[str], scale: Sequence[str]
+) -> GroupStatistics | None:
+    """Return the statistics of a group; None of fewer than two works that were judged.
+
+    Parameters
+    ----------
+    marks : sequence of str
+        Of the works, one each; empty of a work that was not judged.
+    scale : sequence of str
+        All marks that there are, the best first.
+    """
+    judged = [(work, mark) for work, mark in zip(works, marks, strict=True) if work.of]
+    if len(judged) < 2:
+        return None
+    order = list(dict.fromkeys([*scale, *(mark for _, mark in judged)]))
+    given = [mark for _, mark in judged]
+    found: dict[tuple[str, int], list[tuple[float, float | None]]] = {}
+    symbols: dict[str, str] = {}
+    for work, _ in judged:
+        for one in work.answers:
+            if one.key is None:
+                continue
+            symbols.setdefault(one.key.label, one.key.symbol)
+            pairs = found.setdefault((one.key.label, one.key.position), [])
+            if one.verdict is not Verdict.UNREADABLE and one.of:
+                rest = work.of - one.of
+                others = (work.points - one.points) / rest if rest > 0 else None
+                pairs.append((one.points / one.of, others))
+    several = len({position for _, position in found}) > 1
+    questions = tuple(
+        QuestionStatistics(
+            f"{label} [{position}]" if several else label,
+            f"{symbols[label]} [{position}]" if several else symbols[label],
+            len(pairs),
+            statistics.fmean(own for own, _ in pairs),
+            _correlation([(own, rest) for own, rest in pairs if rest is not None]),
+        )
+        for (label, position), pairs in found.items()
+        if pairs
+    )
+    return GroupStatistics(
+        tuple((mark, given.count(mark)) for mark in order),
+        tuple(work.points / work.of for work, _ in judged),
+        questions,
+    )
+
+
+def _correlation(pairs: Sequence[tuple[float, float]]) -> float | None:
+    """Return Pearson's correlation; None where it has no meaning."""
+    if len(pairs) < LEAST:
+        return None
+    own, rest = [one for one, _ in pairs], [one for _, one in pairs]
+    if max(own) - min(own) < 1e-9 or max(rest) - min(rest) < 1e-9:
+        return None
+    found = statistics.correlation(own, rest)
+    return found if math.isfinite(found) else None

@@ -1,0 +1,278 @@
+"""Questions for Moodle: read back by its grammar, every interval compared with the key."""
+
+from __future__ import annotations
+
+import json
+import random
+import re
+import struct
+from functools import cache
+from itertools import pairwise
+from pathlib import Path
+from typing import Any
+
+import pytest
+from click.testing import CliRunner
+from embedded import Gap, Question, gaps_of, read_quiz
+from msgspec.structs import replace
+from worked import path_of
+
+from planmethod.check.exchange.cloze import escaped, moodle_xml
+from planmethod.check.exchange.keyrecord import key_record
+from planmethod.check.exchange.quiz import QuizPart, whole_points
+from planmethod.check.exchange.variant import question_of
+from planmethod.check.group import Variants, task_of_problem
+from planmethod.check.key import key_of_task
+from planmethod.check.marks import DEFAULT
+from planmethod.check.model import KeyEntry
+from planmethod.cli import cli
+from planmethod.kinds import kind_of
+from planmethod.note.wording import LANGUAGES, language
+from planmethod.note.writers.html import markup
+from planmethod.problem import variant_names
+from planmethod.render.ink.drawing import Text
+from planmethod.render.sketch import assigned
+
+RU = language("ru")
+FINE = 2e-3
+"""Share of a tolerance that rounding may cost at either end."""
+
+
+def ex3_of_thirty(folder: Path) -> Path:
+    """Thirty variants of ex3: the angle, the crank and the rod are others in each."""
+    text = path_of("linkages/ex3-variants").read_text("utf-8")
+    head, _, tail = text.partition("[variants]")
+    asked = tail[tail.index("[[answers]]") :]
+    rng, rows = random.Random(7), []
+    for number in range(1, 31):
+        phi = 5 * rng.randrange(2, 31)
+        ab, de = 0.002 * rng.randrange(28, 36), 0.005 * rng.randrange(32, 41)
+        rows.append(
+            f'"{number}" = {{ driver.phi = {phi}, links.1.AB = {ab:.3f}, links.4.DE = {de:.3f} }}'
+        )
+    path = folder / "thirty.toml"
+    path.write_text("\n".join([f"{head}[variants]", *rows, "", asked]), "utf-8")
+    return path
+
+
+@cache
+def thirty(folder: Path) -> tuple[list[dict[str, Any]], list[Question]]:
+    path = ex3_of_thirty(folder)
+    out = folder / "thirty.xml"
+    run = CliRunner().invoke(cli, ["check", "--key", str(path), "--moodle", str(out), "--json"])
+    assert run.exit_code == 0, run.output
+    keys = json.loads(run.stdout)
+    [(category, questions)] = read_quiz(out.read_bytes()).items()
+    assert category == "$course$/top/Рычажный механизм"
+    return keys, questions
+
+
+@pytest.fixture(scope="module")
+def whole(
+    tmp_path_factory: pytest.TempPathFactory,
+) -> tuple[list[dict[str, Any]], list[Question]]:
+    return thirty(tmp_path_factory.mktemp("moodle"))
+
+
+def compare(answer: dict[str, Any], gap: Gap) -> None:
+    """Probe the borders of what a gap accepts against the tolerance of the key."""
+    value, per = float(answer["value"]) / float(answer["per"]), float(answer["per"])
+    tolerance = float(answer["tolerance"]) / per
+    value = (
+        value
+        if answer["signed"] and not answer["asks_sense"] and answer["sense"] is None
+        else abs(value)
+    )
+    for side in (1, -1):
+        assert gap.grade(value + side * tolerance * (1 - FINE))[0] == 1.0, (answer["id"], side)
+    if answer["zero"]:
+        assert gap.grade(0.0)[0] == 1.0
+    elif answer["seen"]:
+        for side in (1, -1):
+            off, feedback = gap.grade(value + side * tolerance * (1 + FINE))
+            assert off == pytest.approx(DEFAULT.near_share) and feedback, answer["id"]
+            within = gap.grade(value + side * tolerance * DEFAULT.near * (1 - FINE))
+            assert within[0] == pytest.approx(DEFAULT.near_share), answer["id"]
+            beyond = gap.grade(value + side * tolerance * DEFAULT.near * (1 + FINE))
+            assert beyond[0] == 0.0, answer["id"]
+    else:
+        spread = DEFAULT.k * float(answer["sigma"]) / per
+        for side in (1, -1):
+            assert gap.grade(value + side * spread * (1 - FINE))[0] == 1.0, answer["id"]
+            assert gap.grade(value + side * spread * (1 + FINE))[0] == 0.0, answer["id"]
+
+
+def test_thirty_variants_are_thirty_questions_of_one_category_and_all_intervals_are_the_keys(
+    whole: tuple[list[dict[str, Any]], list[Question]],
+) -> None:
+    keys, questions = whole
+    assert len(keys) == len(questions) == 30
+    assert len({question.name for question in questions}) == 30
+    compared = 0
+    for key, question in zip(keys, questions, strict=True):
+        assert str(question.name).endswith(f"Вариант {key['variant']}")
+        numbers = iter(gap for gap in question.gaps if gap.kind == "NUMERICAL")
+        senses = iter(gap for gap in question.gaps if gap.kind == "MULTICHOICE")
+        for answer in key["answers"]:
+            compare(answer, next(numbers))
+            compared += 1
+            if answer["asks_sense"] and not answer["zero"]:
+                right = [c.answer for c in next(senses).choices if c.fraction == 1.0]
+                assert right == [" ".join(RU.check["senses"][answer["sense"]])], answer["id"]
+        assert next(numbers, None) is None and next(senses, None) is None
+    assert compared == 30 * 19
+
+
+def test_a_question_has_its_data_its_scheme_and_no_answer_in_its_text(
+    whole: tuple[list[dict[str, Any]], list[Question]],
+) -> None:
+    _, questions = whole
+    data = {
+        found for q in questions for found in re.findall(r"φ<sub>1</sub> = \d+°.*?const", q.text)
+    }
+    assert len(data) == 30, "each has its own"
+    for question in questions:
+        [(name, png)] = question.files.items()
+        assert f'src="@@PLUGINFILE@@/{name}"' in question.text and png[:4] == b"\x89PNG"
+        width, height = struct.unpack(">II", png[16:24])
+        assert 300 < width < 1200 and 200 < height < 1200
+    assert len({question.files["scheme.png"] for question in questions}) > 20
+
+
+def test_a_mistake_that_has_a_name_gets_no_points_and_its_sentence(
+    whole: tuple[list[dict[str, Any]], list[Question]],
+) -> None:
+    keys, questions = whole
+    shown, named = 0, 0
+    for key, question in zip(keys, questions, strict=True):
+        numbers = [gap for gap in question.gaps if gap.kind == "NUMERICAL"]
+        answers = {one["id"]: (one, gap) for one, gap in zip(key["answers"], numbers, strict=True)}
+        one, gap = answers["ak_B3_B"]
+        if not one["zero"] and one["seen"]:
+            # The factor 2 left out: half of the Coriolis acceleration.
+            fraction, feedback = gap.grade(one["value"] / 2)
+            assert fraction == 0.0
+            known = RU.check["mistakes"]["A3"]
+            shown, named = (
+                shown + 1,
+                named + (markup(known.so) in feedback or known.name in feedback),
+            )
+    assert shown >= 9 and named == shown, (shown, named)
+
+
+def test_points_of_senses_and_numbers_keep_the_shares_of_the_department() -> None:
+    entry = KeyEntry("v", "v", "v", "m/s", 1.0, 0.0, 0.1)
+    assert whole_points([QuizPart(entry, 1.0), QuizPart(entry, 2.0)]) == [1, 2]
+    assert whole_points([QuizPart(entry, 0.7), QuizPart(entry, 0.3)]) == [7, 3]
+    assert whole_points([QuizPart(entry, 0.75), QuizPart(entry, 0.0)]) == [3, 0]
+
+
+@pytest.mark.parametrize("lang", LANGUAGES)
+@pytest.mark.parametrize(
+    "name", ["gears/gears-ex2", "gears/gears-ex5", "levers/task12", "point/k11-01"]
+)
+def test_trains_forces_and_points_are_compared_as_well(name: str, lang: str) -> None:
+    path = path_of(name)
+    kind, variants = kind_of(path), variant_names(path)
+    variant = variants[0] if variants else None
+    problem = kind.load(path, variant) if kind else Variants(path).task(variant).problem
+    task = task_of_problem(kind, problem, DEFAULT) if kind else Variants(path).task(variant)
+    words = language(lang)
+    question = question_of(task, kind, words)
+    [[back]] = read_quiz(moodle_xml([question], words)).values()
+    numbers = iter(gap for gap in back.gaps if gap.kind == "NUMERICAL")
+    answers = key_record(key_of_task(task))["answers"]
+    assert answers
+    for answer in answers:
+        compare_computed(answer, next(numbers)) if kind else compare(answer, next(numbers))
+    assert next(numbers, None) is None
+    assert bool(back.files) is (name != "point/k11-01")
+
+
+def compare_computed(answer: dict[str, Any], gap: Gap) -> None:
+    value, per = float(answer["value"]), float(answer["per"])
+    tolerance = float(answer["tolerance"])
+    for side in (1, -1):
+        assert gap.grade((value + side * tolerance * (1 - FINE)) / per)[0] == 1.0, answer["id"]
+        off = gap.grade((value + side * tolerance * (1 + FINE)) / per)[0]
+        assert off < 1.0, answer["id"]
+
+
+def test_a_negative_ratio_does_not_pass_with_the_other_sign() -> None:
+    path = path_of("gears/gears-ex2")
+    kind = kind_of(path)
+    assert kind is not None
+    question = question_of(task_of_problem(kind, kind.load(path, None), DEFAULT), kind, RU)
+    part = next(p for p in question.parts if p.entry.exact < 0 and p.entry.signed)
+    [[back]] = read_quiz(moodle_xml([question], RU)).values()
+    gap = back.gaps[question.parts.index(part)]
+    assert gap.grade(part.entry.exact)[0] == 1.0 and gap.grade(-part.entry.exact)[0] == 0.0
+
+
+@pytest.mark.parametrize(
+    "text", ["a}b", "a#b", "a\\}b", "{1:NUMERICAL:=1}", "&#35; &amp; <b>", "\\#", "a\\"]
+)
+def test_whatever_stands_in_feedback_comes_back_as_it_was(text: str) -> None:
+    gaps, rest = gaps_of("x {1:NUMERICAL:=1:0.1#" + escaped(text) + "~%0%2:0.1#z} y")
+    assert [c.feedback for c in gaps[0].choices] == [text, "z"] and rest == "x {#1} y"
+
+
+def test_braces_of_a_title_open_no_gap() -> None:
+    path = path_of("gears/gears-ex2")
+    kind = kind_of(path)
+    assert kind is not None
+    question = question_of(task_of_problem(kind, kind.load(path, None), DEFAULT), kind, RU)
+    evil = replace(question, title="a/b {1:NUMERICAL:=5:1} ]]> <i>")
+    [(category, [back])] = read_quiz(moodle_xml([evil], RU)).items()
+    assert len(back.gaps) == len(question.parts) and back.name == evil.title
+    assert category == "$course$/top/a//b {1:NUMERICAL:=5:1} ]]> <i>"
+
+
+def test_wrong_intervals_meet_neither_each_other_nor_the_right_one(
+    whole: tuple[list[dict[str, Any]], list[Question]],
+) -> None:
+    for question in whole[1]:
+        for gap in question.gaps:
+            if gap.kind != "NUMERICAL":
+                continue
+            right = [c for c in gap.choices if c.fraction]
+            wrong = sorted((c for c in gap.choices if not c.fraction), key=lambda c: c.value)
+            for one, other in pairwise(wrong):
+                room = one.margin + other.margin
+                assert other.value - one.value >= room * (1 - 2 * FINE), (one, other)
+            for one in wrong:
+                for c in right:
+                    room = (c.margin + one.margin) * (1 - 2 * FINE)
+                    assert abs(one.value - c.value) >= room, (one, c)
+                assert abs(one.value - right[0].value) >= 2 * right[0].margin * (1 - FINE), one
+
+
+def test_the_scheme_and_the_data_show_nothing_that_is_asked() -> None:
+    task = Variants(path_of("linkages/ex3")).task(None)
+    letters = {item.text for item in assigned(task.solution).items if isinstance(item, Text)}
+    assert "ω" in letters and "ε" not in letters
+    assert [item.text for item in assigned(task.solution).items if isinstance(item, Text)].count(
+        "ω"
+    ) == 1
+    path = path_of("gears/gears-ex2")
+    kind = kind_of(path)
+    assert kind is not None
+    facts = kind.given(kind.load(path, None), RU)
+    assert any(fact.startswith("z_{1} ") for fact in facts)
+    assert not any(fact.startswith("z_{3} ") for fact in facts), "it is asked"
+
+
+def test_an_angle_is_right_a_whole_turn_off_and_mistakes_of_numbers_keep_their_signs(
+    tmp_path: Path,
+) -> None:
+    head = path_of("linkages/ex3").read_text("utf-8").partition("[[answers]]")[0]
+    path = tmp_path / "angle.toml"
+    asked = '[[answers]]\nwhat = "v B3"\nsense = "angle"\n[[answers]]\nwhat = "vx B3"\n'
+    path.write_text(head + asked, "utf-8")
+    question = question_of(Variants(path).task(None), None, RU)
+    [[back]] = read_quiz(moodle_xml([question], RU)).values()
+    [_, angle, across] = back.gaps
+    value = question.parts[1].entry.exact
+    assert [angle.grade(value + turn)[0] for turn in (0, 360, -360, 180)] == [1, 1, 1, 0]
+    assert question.parts[2].entry.exact < 0
+    assert any(c.value < 0 for c in across.choices if not c.fraction)
