@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping, Sequence
 
+from planmethod.check.copied import copied
 from planmethod.check.explain import Explanation, Explanations, Fact, Fit, OwnNumbers
 from planmethod.check.judge import Examined, distance, facts_of, put_in, usable
 from planmethod.check.mistakes.model import MistakeContext
@@ -53,6 +54,9 @@ def diagnose(task: Task, sheet: Sheet, found: list[Examined]) -> list[Diagnosis]
 
     The verdicts of the answers that follow from a recognised mistake become `Verdict.INHERITED`.
     """
+    other = copied(task, sheet, found)
+    if other is not None:
+        return [passed_on(task, sheet, found, [Fit(other, 0.0, 0.0, len(found))])]
     wrong = [one for one in found if one.verdict is Verdict.WRONG]
     if not wrong:
         return []
@@ -204,13 +208,8 @@ def _share(one: Examined) -> float:
 def _of_others(task: Task, sheet: Sheet, facts: list[Fact], own: OwnNumbers) -> Iterator[Fit]:
     """Yield how the numbers of the other variants fit."""
     explained = task.explanations(sheet)
-    for other in task.others():
-        position = sheet.questions.position
-        theirs = task.asked_of(other, position)
-        if theirs is None:
-            continue
-        values, trace = theirs.exact, theirs.trace
-        made = Explanation("P2", other.variant or "", values, trace, theirs, prior=COPIED)
+    for variant, theirs in task.theirs(sheet):
+        made = Explanation("P2", variant, theirs.exact, theirs.trace, theirs, prior=COPIED)
         yield explained.fit(made, facts, own)
 
 
@@ -222,20 +221,21 @@ def passed_on(task: Task, sheet: Sheet, found: list[Examined], fits: Sequence[Fi
     best = fits[0].explanation
     codes = tuple(dict.fromkeys(fit.explanation.code for fit in fits))
     sure = len(codes) == 1 and bool(codes[0])
+    if sure and best.code == "P2":
+        _disinherit(found)
     wrong = [one for one in found if one.verdict is Verdict.WRONG]
     begins = [one for one in wrong if one.item.id in best.begins]
-    moved = [one for one in wrong if not _idle(sheet, one, best)]
-    root = begins[0] if begins else min(moved or wrong, key=lambda one: _rank(sheet, one))
+    changed = [one for one in wrong if not _idle(sheet, one, best)]
+    root = begins[0] if begins else min(changed or wrong, key=lambda one: _rank(sheet, one))
     if begins:
         best = completed(best, root)
     for one in found:
-        if sure and best.code == "P2" and one.verdict is Verdict.INHERITED:
-            one.verdict, one.source = Verdict.WRONG, ""  # that they agree earns nothing
         if one is root or one.verdict is not Verdict.WRONG or best.code == "P2":
             continue
         if best.free and not usable(root):  # nobody can draw on with that
             continue
-        if _follows(one, best, task.settings.near):
+        moved = not _idle(sheet, one, best) or _vector_turned(one)
+        if moved and _follows(one, best, task.settings.near):
             one.verdict, one.source = Verdict.INHERITED, root.item.id
     _repoint(found)
     if "" in codes:  # nothing is better than that it is just wrong
@@ -244,6 +244,15 @@ def passed_on(task: Task, sheet: Sheet, found: list[Examined], fits: Sequence[Fi
     roots = [root.item.id, *(one.item.id for one in wrong if one.verdict is Verdict.WRONG)]
     told, places = _told(found, best), _places(best)
     return Diagnosis(codes, sure, tuple(dict.fromkeys(roots)), best.where, told, places)
+
+
+def _disinherit(found: list[Examined]) -> None:
+    """Let the numbers of another variant earn what is right for one's own, and nothing else."""
+    for one in found:
+        one.follows, one.source = False, ""  # that they agree with one another is no work of his
+        lost = (Verdict.INHERITED, Verdict.UNSEEN, Verdict.NEAR)
+        if one.verdict in lost and not (one.right and one.sense_right is not False):
+            one.verdict = Verdict.WRONG
 
 
 def _told(found: list[Examined], explanation: Explanation) -> dict[str, float]:
@@ -344,9 +353,14 @@ def _one_by_one(
 
 
 def _idle(sheet: Sheet, one: Examined, explanation: Explanation) -> bool:
-    """Tell whether an explanation leaves an answer as it is."""
-    given = abs(explanation.values[one.item.question.id])
-    return abs(given - abs(sheet.exact[one.item.question.id])) <= one.limit.tolerance()
+    """Tell whether an explanation leaves an answer as it is, its size and its sense."""
+    given, exact = explanation.values[one.item.question.id], sheet.exact[one.item.question.id]
+    turned = one.item.question.sign is Sign.TURN and one.signed and given * exact < 0
+    return not turned and abs(abs(given) - abs(exact)) <= one.limit.tolerance()
+
+
+def _vector_turned(one: Examined) -> bool:
+    return one.sense_right is False and one.item.question.sign is Sign.SIZE
 
 
 def _turned(one: Examined) -> bool:

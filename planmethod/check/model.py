@@ -302,11 +302,30 @@ class Diagnosis(Struct, frozen=True):
     places: Mapping[str, complex] = field(default_factory=dict)
 
 
+class Stroke(Struct, frozen=True):
+    """What the pencil left in one reading, when the earlier numbers are given (след карандаша).
+
+    Attributes
+    ----------
+    off : float
+        How far it is off what the plans give then, in sigmas.
+    step : float
+        Unit of its last digit, in sigmas.
+    """
+
+    off: float
+    step: float
+
+
 class CheckedWork(Struct, frozen=True):
     """One work, judged (проверенная работа).
 
     Attributes
     ----------
+    strokes : mapping of (str, int) to Stroke
+        By answer and position: the fingerprint of a hand.
+    alike : tuple of str
+        Students whose readings are nearer to these than two pencils come: a finding, never a mark.
     suspicious : bool
         Closer to the exact values than any pencil comes: they are not off the drawing.
     remark : str
@@ -324,3 +343,5 @@ class CheckedWork(Struct, frozen=True):
     suspicious: bool = False
     remark: str = ""
     by_hand: bool = False
+    strokes: Mapping[tuple[str, int], Stroke] = field(default_factory=dict)
+    alike: tuple[str, ...] = ()

@@ -378,15 +378,23 @@ class Task:
             )
         return self._sheets[key]
 
-    def asked_of(self, other: Task, position: int) -> Sheet | None:
+    def theirs(self, sheet: Sheet) -> Iterator[tuple[str, Sheet]]:
+        """Yield the other variants that have all that is asked on a sheet, at its scales."""
+        for other in self.others():
+            their = self.asked_of(other, sheet)
+            if their is not None:
+                yield other.variant or "", their
+
+    def asked_of(self, other: Task, mine: Sheet) -> Sheet | None:
         """Return the sheet of another variant with what is asked here; None if it has not all."""
+        position = mine.questions.position
         try:
             questions = other.questions(position)
             for question in self._asked.get(position, {}).values():
                 other.ask(questions.question(question.selector), position)
         except NoValueError:
             return None
-        sheet = other.sheet(position)
+        sheet = other.sheet(position, mine.scales)
         return sheet if set(self._asked.get(position, {})) <= set(sheet.exact) else None
 
     def named(self, sheet: Sheet) -> list[Explanation]:

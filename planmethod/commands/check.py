@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import click
 from msgspec.structs import replace
@@ -80,9 +80,9 @@ def check(
 ) -> None:
     """Check answers: key first, then one student's work or a whole group's.
 
-    PROBLEM asks what its [[answers]] say, else whatever the works answer. WORK is one student's
-    JSON or TOML, a group's CSV or XLSX, or a form filled in. Writes results.xlsx, results.csv,
-    run.json and a page for each student.
+    PROBLEM asks what its [[answers]] say, else what the key lists. WORK is one student's JSON or
+    TOML, a group's CSV or XLSX, or a form filled in. Writes results.xlsx, results.csv, run.json
+    and a page for each student.
     """
     settings = _settings(settings_file, policy, profile)
     if key_only:
@@ -108,7 +108,7 @@ def check(
             click.echo(say("Warning: {}: no such work or answer.", where), err=True)
     _warn_of_others(problem, works)
     if as_json:
-        _print_json(checked, paths)
+        _print_json(checked)
     else:
         _write_results(variants, paths, checked, out, salt if anonymize else None, lang)
     lost = False
@@ -128,6 +128,7 @@ def _settings(file: Path | None, policy: str | None, profile: str | None) -> Set
 def _checked(
     variants: Variants, paths: list[Path], jobs: int
 ) -> tuple[list[CheckedWork], list[Work]]:
+    from planmethod.check.copied import compared
     from planmethod.check.group import check_works
     from planmethod.check.works import read_works
 
@@ -141,7 +142,7 @@ def _checked(
         for part in parts:
             checked += part
             done(len(part))
-    return checked, works
+    return compared(checked), works
 
 
 def _in_processes(variants: Variants, works: list[Work], jobs: int) -> Iterator[list[CheckedWork]]:
@@ -155,7 +156,6 @@ def _in_processes(variants: Variants, works: list[Work], jobs: int) -> Iterator[
         problem=variants.path,
         variant=variants.default,
         settings=variants.settings,
-        among=works,
     )
     for part, outcome in zip(parts, in_processes(act, parts, jobs), strict=True):
         if outcome is None:
@@ -174,12 +174,11 @@ def check_part(
     problem: Path,
     variant: str | None,
     settings: Settings,
-    among: list[Work],
 ) -> list[CheckedWork]:
     """Check some of the works of a group."""
     from planmethod.check.group import Variants, check_works
 
-    return list(check_works(Variants(problem, settings, variant), part, among=among))
+    return list(check_works(Variants(problem, settings, variant), part))
 
 
 def _warn_of_others(problem: Path, works: list[Work]) -> None:
@@ -198,13 +197,10 @@ def _warn_of_others(problem: Path, works: list[Work]) -> None:
             )
 
 
-def _print_json(checked: list[CheckedWork], paths: list[Path]) -> None:
+def _print_json(checked: list[CheckedWork]) -> None:
     from planmethod.check.pages.listing import record
 
-    records = [record(one) for one in checked]
-    alone = len(records) == 1 and paths[0].suffix.lower() in (".json", ".toml")
-    whole: Any = records[0] if alone else records
-    click.echo(json_text(whole))
+    click.echo(json_text([record(one) for one in checked]))
 
 
 def _write_results(

@@ -123,7 +123,8 @@ def _anonymous(checked: CheckedWork, salt: str) -> CheckedWork:
         answers=tuple(map(rewritten, work.answers)),
         remarks=tuple(map(rewritten, work.remarks)),
     )
-    return replace(checked, work=told, answers=answers, remark=bare(checked.remark))
+    alike = tuple(hidden_name(name, salt) for name in checked.alike)
+    return replace(checked, work=told, answers=answers, remark=bare(checked.remark), alike=alike)
 
 
 LONGEST = 40
