@@ -205,7 +205,7 @@ class Calculation(Task):
         written = super().written(item, written)
         per = ratio(written, item.question.unit)
         if per is None:
-            return refused(Unread.UNIT, written.unit, written.where, base=written)
+            return refused(Unread.OTHER, written.unit, written.where, base=written)
         per = 1.0 if item.question.is_mm else per  # the judge makes millimetres himself
         value, sense = written.value, written.sense
         if value is not None and sense is not None and sense.turns:

@@ -141,7 +141,11 @@ def _unjudged(
 
 def _judged(task: Task, sheet: Sheet, one: Examined) -> Judged:
     item, settings = one.item, task.settings
-    entry = replace(entry_of(task, item, one.limit), mm=sheet.length(item.question))  # on his plan
+    entry = replace(
+        entry_of(task, item, one.limit),
+        mm=sheet.length(item.question),  # on his plan
+        per=item.per(sheet.scales),
+    )
     share = share_of(one, settings)
     return Judged(
         item.id,

@@ -145,7 +145,7 @@ def entry_of(
         position=item.position,
         hidden=hidden,
         asked=item.unit,
-        per=item.per,
+        per=item.per(sheet.scales),
     )
 
 

@@ -46,6 +46,7 @@ class Unread(Enum):
 
     NUMBER = "number"
     UNIT = "unit"
+    OTHER = "other"  # a unit of another quantity
     SENSE = "sense"
     POSITION = "position"
     DATE = "date"  # the spreadsheet program made a date of a number

@@ -12,7 +12,6 @@ from collections.abc import Iterator, Mapping
 from planmethod.check.judge import Examined, distance
 from planmethod.check.questions import RATES, Sign
 from planmethod.check.sheet import Sheet
-from planmethod.mechanism.model import FRAME
 from planmethod.problem.selector import Selector
 
 Powers = Mapping[str, int]
@@ -148,25 +147,10 @@ def _roles(sheet: Sheet, selector: Selector) -> Iterator[Role]:
         return
     if kind not in ("v", "a", "an", "at", "v_q"):
         return
-    for link, points in _links(sheet).items():
+    for link, points in sheet.questions.links().items():
         if not {*names} <= {*points}:
             continue
         free = tuple(sorted(name for name in names if not points[name]))
         turns = any(points.values()) and bool(free)
         if turns or len(names) == 2:
             yield kind, link, free
-
-
-def _links(sheet: Sheet) -> dict[str, dict[str, bool]]:
-    """Return the points of the links by their letters, and which of them stand still."""
-    construction, problem = sheet.questions.construction, sheet.questions.solution.problem
-    frame = problem.bodies[FRAME].points
-    found: dict[str, dict[str, bool]] = {}
-    for link, body in problem.bodies.items():
-        if link != FRAME:
-            found[link] = {point: point in frame for point in body.points}
-    for link, place in construction.kinematics.velocity.point:
-        if link in found:
-            label = construction.kinematics.velocity.label(link, place)
-            found[link].setdefault(label, False)
-    return found

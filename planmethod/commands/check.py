@@ -115,7 +115,30 @@ def check(
     for line, is_lost in unread_lines(checked, language(spoken())):
         click.echo(line, err=True)
         lost |= is_lost
+    for line in _unread_tables(works):
+        click.echo(line, err=True)
+        lost = True
     finish(ExitCode.FINDINGS if lost else ExitCode.DONE)
+
+
+def _unread_tables(works: list[Work]) -> Iterator[str]:
+    """Yield a line on each file of which no answer was read, with the columns it has."""
+    from planmethod.check.model import Unread
+
+    files: dict[str, list[Work]] = {}
+    for work in works:
+        files.setdefault(work.where, []).append(work)
+    for where, found in files.items():
+        if any(work.answers for work in found):
+            continue
+        columns = [r.fault for work in found for r in work.remarks if r.why is Unread.COLUMN]
+        told = ", ".join(dict.fromkeys(columns)) or "—"
+        yield say(
+            "{}: no answer was read. Columns that nobody understands: {}. Name them: student, "
+            "what, value, unit, mm, sense; or student and the quantities: v_B, omega_3.",
+            where,
+            told,
+        )
 
 
 def _settings(file: Path | None, policy: str | None, profile: str | None) -> Settings:

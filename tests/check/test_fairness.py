@@ -17,8 +17,16 @@ from planmethod.check.checking import check
 from planmethod.check.copied import compared, likeness
 from planmethod.check.drawn import drawn_works
 from planmethod.check.group import Variants, check_works
-from planmethod.check.model import CheckedWork, Sense, Verdict, Work, WrittenAnswer
+from planmethod.check.key import key_of_task
+from planmethod.check.letters import called
+from planmethod.check.model import CheckedWork, KeyEntry, Sense, Verdict, Work, WrittenAnswer
+from planmethod.check.pages.keypage import KeyPage
+from planmethod.check.task import Task
 from planmethod.check.works.student import read_json
+from planmethod.note.wording import language
+from planmethod.problem.head import AskedAnswer
+from planmethod.problem.selector import Selector
+from planmethod.solved.solution import Solution
 
 TASK13 = ROOT / "problems/levers/task-13.toml"
 
@@ -119,6 +127,56 @@ def test_what_nobody_asked_costs_nobody() -> None:
     found, usual = check(task, Work("s", more)), check(task, right)
     assert found.answers[0].verdict is Verdict.WRONG
     assert (found.points, found.of) == (usual.points, usual.of)
+
+
+# Names and units -----------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("name", "value"),
+    [("l_CB3", 72.477), ("an_B", 160.0), ("at_B", 0.0), ("an_B3", 34.72), ("at_D", 65.96)],
+)
+def test_names_that_pages_print_are_understood(name: str, value: float) -> None:
+    found = answered("linkages/ex3", **{name: value}).answers[0]
+    assert found.verdict in (Verdict.OK, Verdict.UNSEEN)
+    assert found.key is not None and abs(found.key.exact - value) < 0.01
+
+
+def test_a_unit_of_another_quantity_is_said_and_costs_nothing() -> None:
+    written = WrittenAnswer(id="v_B", value=3.2, unit="м/с²", step=0.1)
+    found = check(task_of("linkages/ex3"), Work("s", (written,))).answers[0]
+    assert found.verdict is Verdict.UNREADABLE and found.of == 0.0
+    assert found.written is not None and found.written.unit == "м/с²"
+
+
+def test_a_length_in_metres_is_told_in_metres() -> None:
+    """l_CB of example 3 is 0.145 m, 72.5 mm of the plan; the key said 0.0725 m."""
+    problem = task_of("linkages/ex3").solution.problem
+    asked = AskedAnswer(id="l", what="length C B", unit="м")
+    task = Task(Solution(replace(problem, answers=(asked,))))
+    (entry,) = key_of_task(task).entries
+    assert entry.exact / entry.per == pytest.approx(0.14495, abs=1e-5)
+    for scales in ({}, {"mu_l": 0.001}):
+        work = Work("s", (WrittenAnswer(id="l", value=0.145, step=0.001),), scales=scales)
+        found = check(task, work).answers[0]
+        assert found.verdict is Verdict.OK and found.key is not None
+        assert (found.value or 0.0) / found.key.per == pytest.approx(0.145)
+
+
+def test_senses_stand_one_way_in_a_key() -> None:
+    """ω, ε and moments that turn clockwise had a minus and an arrow, or an arrow alone."""
+    words = language("ru")
+    for name in ("levers/task12", "linkages/ex3"):
+        for line in map(KeyPage((key_of_task(task_of(name)),), words).line, entries(name)):
+            assert not (line[5] in "↺↻" and line[5] and line[1].startswith("−")), line
+
+
+def entries(name: str) -> tuple[KeyEntry, ...]:
+    return key_of_task(task_of(name)).entries
+
+
+def test_letters_of_an_inertia_couple_have_no_underscore_of_their_own() -> None:
+    assert called(Selector("inertia couple", ("2",)))[1] == "M_{Φ2}"
 
 
 # Routes --------------------------------------------------------------------------------------

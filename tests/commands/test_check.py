@@ -176,3 +176,18 @@ def test_several_processes_give_the_same(tmp_path: Path) -> None:
     ]
     path = written(tmp_path, "\n".join(rows), "group.csv")
     assert told(run(TASK12, path, "--json")) == told(run(TASK12, path, "--json", "--jobs", "2"))
+
+
+def test_a_table_of_which_nothing_is_read_says_which_columns_it_has(tmp_path: Path) -> None:
+    """Before: exit code 0, and two pages of blanks."""
+    path = written(tmp_path, "Студент;Скорость;Ускорение\nИ;3,2;160\n", "group.csv")
+    result = run(EX3, path, "-o", str(tmp_path / "out"))
+    assert result.exit_code == 1
+    assert "Скорость, Ускорение" in result.stderr
+
+
+def test_one_work_and_many_are_lists(tmp_path: Path) -> None:
+    one = written(tmp_path, WORK)
+    two = written(tmp_path, {**WORK, "student": "s03"}, "two.json")
+    assert [w["student"] for w in told(run(EX3, one, "--json"))] == ["s02"]
+    assert [w["student"] for w in told(run(EX3, one, two, "--json"))] == ["s02", "s03"]
