@@ -161,6 +161,7 @@ def _judged(task: Task, sheet: Sheet, one: Examined) -> Judged:
         one.slip,
         round(item.points * share, 6),
         item.points,
+        miscomputed=one.miscomputed and one.verdict is Verdict.WRONG,
     )
 
 

@@ -139,7 +139,7 @@ def _fits(
         close = [fit.explanation for fit in rough if fit.score <= most]
         fits += [explained.fit(e, facts, own, closely=True) for e in close]
     for one in judged:
-        code = "slip" if one.slip or one.miscomputed else ""
+        code = "slip" if one.slip else ""  # his millimetres tell it; else nobody knows which
         made = put_explanation(sheet, one, code, "", one.value, UNNAMED, free=True)
         fits.append(explained.fit(made, facts, own))
     return _different(sorted(fits, key=lambda fit: fit.score), facts)
@@ -376,11 +376,12 @@ def _alone(sheet: Sheet, one: Examined, *, many: bool) -> Diagnosis:
     roots = (one.item.id,)
     if _turned(one):
         return Diagnosis(("sign",), True, roots)
-    near = (s for s in slips(sheet, one) if abs(abs(one.value / s.value) - 1.0) <= ALONE)
+    near = [s for s in slips(sheet, one) if abs(abs(one.value / s.value) - 1.0) <= ALONE]
     codes = dict.fromkeys(slip.code for slip in near)
-    if not codes and (one.slip or one.miscomputed):
+    if not codes and one.slip:
         codes = {"slip": None}
     elif many and not one.slip:
         codes = {}
     named = tuple(codes)
-    return Diagnosis(named, len(named) == 1, roots)
+    where = near[0].where if named == ("slip",) and near else ""
+    return Diagnosis(named, len(named) == 1, roots, where)

@@ -32,6 +32,9 @@ FELT = 1e-6
 DRAWN = 0.004
 """Share of a number that is drawn which its sigma is at least."""
 
+ARM = 0.015
+"""The same of ω and ε, for which nothing but the arm is measured."""
+
 MILLIMETRES = ("mm", "мм")
 
 
@@ -305,7 +308,8 @@ def replay(task: Task, sheet: Sheet, found: list[Examined]) -> None:
         written = settings.floor_share * abs(local) + rounding + one.step / 2
         one.closely = one.follows and apart <= written
         one.contradicts = apart > tolerance * settings.near or turned
-        one.computed = sigma < DRAWN * abs(local)
+        least = ARM if one.item.question.selector.kind in RATES else DRAWN
+        one.computed = sigma < least * abs(local)
 
 
 def _stroke(one: Examined, local: float, sigma: float) -> Stroke | None:

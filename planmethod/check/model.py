@@ -252,6 +252,8 @@ class Judged(Struct, frozen=True):
         Of the instructor, by hand.
     by_hand : bool
         Whether the instructor set the points.
+    miscomputed : bool
+        His own numbers make another value, and nothing is drawn in between.
     """
 
     id: str
@@ -269,6 +271,7 @@ class Judged(Struct, frozen=True):
     of: float = 0.0
     remark: str = ""
     by_hand: bool = False
+    miscomputed: bool = False
 
     @property
     def where(self) -> str:

@@ -21,10 +21,13 @@ from planmethod.check.key import key_of_task
 from planmethod.check.letters import called
 from planmethod.check.model import CheckedWork, KeyEntry, Sense, Verdict, Work, WrittenAnswer
 from planmethod.check.pages.keypage import KeyPage
+from planmethod.check.pages.remarks import Remarks
+from planmethod.check.pages.speech import Speech
 from planmethod.check.task import Task
 from planmethod.check.works.student import read_json
 from planmethod.note.wording import language
 from planmethod.problem.head import AskedAnswer
+from planmethod.problem.model import Problem
 from planmethod.problem.selector import Selector
 from planmethod.solved.solution import Solution
 
@@ -244,3 +247,48 @@ def test_an_answer_that_a_mistake_leaves_alone_does_not_follow_from_it() -> None
     turned = tuple(replace(a, sense=Sense.CW) if a.id == "omega_3" else a for a in work.answers)
     found = check(task, replace(work, answers=turned))
     assert verdicts(found)["omega_3"] is not Verdict.INHERITED
+
+
+# What pages say ------------------------------------------------------------------------------
+
+
+def sentences(found: CheckedWork, hidden: tuple[str, ...] = ()) -> tuple[str, list[str]]:
+    told = Remarks(Speech(language("ru")), found, {"mu_v": 0.05, "mu_a": 1.0}, hidden)
+    return " ".join(told.sentences()), told.redraw()
+
+
+@pytest.mark.parametrize(
+    ("written", "codes", "said"),
+    [
+        ((17.9, "ccw"), (), "Из ваших же чисел выходит 15,5"),
+        ((0.325, "ccw"), ("slip",), "v·l вместо v/l"),
+        ((0.0647, "ccw"), ("slip",), "l/v вместо v/l"),
+        ((154.5, "ccw"), ("S4",), "сдвинуть запятую"),
+    ],
+)
+def test_a_slip_is_said_where_it_can_be_told_which_and_nothing_is_drawn_anew(
+    written: tuple[float, str], codes: tuple[str, ...], said: str
+) -> None:
+    found = answered("linkages/ex3", v_B3=2.24, omega_3=written)
+    told, again = sentences(found)
+    assert [d.codes for d in found.diagnosis] == [codes]
+    assert said in told and again == []
+    assert "проверьте построение" not in told
+
+
+def test_v_over_l_for_v_squared_over_l_is_a_mistake_not_a_slip() -> None:
+    found = answered("linkages/ex3", v_B3=2.24, omega_3=(15.5, "ccw"), an_B3_C=15.5)
+    assert [(d.codes, d.sure) for d in found.diagnosis] == [(("N3",), True)]
+
+
+def test_what_no_answer_shows_is_said_on_the_page() -> None:
+    """Lengths alone do not show the crank turned the other way: V2 in task 12 В."""
+    group = variants(ROOT / "problems/levers/task12-variants.toml")
+    task = group.task("В")
+    assert isinstance(task.problem, Problem)
+    lengths = tuple(AskedAnswer(id=w.replace(" ", "_"), what=w) for w in ("v B", "v D", "a B"))
+    task = Task(Solution(replace(task.problem, answers=lengths)))
+    key = key_of_task(task)
+    assert "V2" in key.hidden
+    told, _ = sentences(check(task, work_of(task, exact(task))), tuple(key.hidden))
+    assert language("ru").check["mistakes"]["V2"].name in told

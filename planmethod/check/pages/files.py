@@ -222,7 +222,9 @@ def _pages(
             found = Solution(problem) if isinstance(problem, Problem) else problem
             solutions[work.variant] = found
         solved = solutions[work.variant]
-        page = student_page(work, solved, words, scales=key.scales, mark=mark)
+        page = student_page(
+            work, solved, words, scales=key.scales, mark=mark, hidden=tuple(key.hidden)
+        )
         yield {
             "html": student_html(page, solved, words).encode(),
             "pdf": student_pdf(page, solved, words),

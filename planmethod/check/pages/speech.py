@@ -132,6 +132,8 @@ class Speech(Struct, frozen=True):
             sense = Sense.CCW if value > 0 else Sense.CW
             value = abs(value)
         allowed = judged.tolerance or key.tolerance
+        if abs(value) < abs(key.exact) / 3:  # the tolerance is that of a greater number
+            allowed = min(allowed, abs(value) / 20 or allowed)
         number = self.rounded(told(value, key) / key.per, allowed / key.per)
         return self._pointed(self.with_unit(number, key), sense)
 
