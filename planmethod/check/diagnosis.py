@@ -4,9 +4,18 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
+from itertools import combinations
 
 from planmethod.check.copied import copied
-from planmethod.check.explain import Explanation, Explanations, Fact, Fit, OwnNumbers
+from planmethod.check.explain import (
+    ONE_MISTAKE,
+    WIDE,
+    Explanation,
+    Explanations,
+    Fact,
+    Fit,
+    OwnNumbers,
+)
 from planmethod.check.judge import Examined, distance, facts_of, put_in, usable
 from planmethod.check.mistakes.model import MistakeContext
 from planmethod.check.mistakes.scales import scale_by
@@ -29,6 +38,12 @@ CLEARLY = 6.0
 
 TRIED = 6
 """Named explanations that are compared."""
+
+PAIRED = 10
+"""Mistakes of which any two are tried together."""
+
+OFF = 9.0
+"""Sigmas squared from which an answer is surely not what a mistake gives."""
 
 CLOSE = 15.0
 """How much worse one may be than the best, to be compared with the errors of its own plans."""
@@ -70,6 +85,9 @@ def diagnose(task: Task, sheet: Sheet, found: list[Examined]) -> list[Diagnosis]
             return [_alone(sheet, alone, many=False)]
     if whole is not None:
         return [passed_on(task, sheet, found, whole)]
+    two = _two(task.explanations(sheet), sheet, found, facts, own)
+    if two:
+        return two
     return _one_by_one(task, sheet, found, wrong, facts, own)
 
 
@@ -211,6 +229,87 @@ def _of_others(task: Task, sheet: Sheet, facts: list[Fact], own: OwnNumbers) -> 
     for variant, theirs in task.theirs(sheet):
         made = Explanation("P2", variant, theirs.exact, theirs.trace, theirs, prior=COPIED)
         yield explained.fit(made, facts, own)
+
+
+# Two at once ---------------------------------------------------------------------------------
+
+
+def _two(
+    explained: Explanations,
+    sheet: Sheet,
+    found: list[Examined],
+    facts: list[Fact],
+    own: OwnNumbers,
+) -> list[Diagnosis]:
+    """Name two mistakes that together explain a sheet, each a part of it; none where it is open.
+
+    What one leaves unexplained is compared, too, with numbers that are wrong for no known reason.
+    """
+    singles = [e for e in explained.named if e.change is not None and not e.change.of_scale]
+    rough = sorted((explained.fit(e, facts, own) for e in singles), key=lambda fit: fit.score)
+    best = [fit.explanation for fit in rough[:PAIRED]]
+    left = {id(e): _unexplained(explained, e, facts, own) for e in best}
+    pairs: list[tuple[float, Explanation, Explanation, Explanation]] = []
+    for one, two in combinations(best, 2):
+        mine, theirs = left[id(one)], left[id(two)]
+        if one.code == two.code or mine <= theirs or theirs <= mine:
+            continue
+        made = explained.of_both(one, two)
+        if made is None or not (fit := explained.fit(made, facts, own)).likely:
+            continue
+        fit = explained.fit(made, facts, own, closely=True)
+        alone = min(
+            (
+                explained.fit(e, [f for f in facts if f.id not in rest], own, closely=True).score
+                + sum(_unnamed(sheet, f) for f in facts if f.id in rest)
+                for e, rest in ((one, mine), (two, theirs))
+            )
+        )
+        if fit.likely and fit.score + CLEARLY < alone:
+            pairs.append((fit.score, one, two, made))
+    pairs.sort(key=lambda pair: pair[0])
+    if not pairs:
+        return []
+    score, one, two, made = pairs[0]
+    if any({a.code, b.code} != {one.code, two.code} for s, a, b, _ in pairs if s < score + CLEARLY):
+        return []
+    wrong = [o for o in found if o.verdict is Verdict.WRONG]
+    told = []
+    for mistake, other in ((one, two), (two, one)):
+        begins = [o for o in wrong if o.item.question.id in left[id(other)]]
+        if not begins:
+            return []
+        told.append((mistake, min(begins, key=lambda o: _rank(sheet, o))))
+    if told[0][1] is told[1][1]:
+        return []
+    roots = [root for _, root in told]
+    for answer in wrong:
+        if answer not in roots and _follows(answer, made, 1.0) and not _idle(sheet, answer, made):
+            answer.verdict, answer.source = Verdict.INHERITED, roots[0].item.id
+    _repoint(found)
+    values = _told(found, made)
+    return [
+        Diagnosis((mistake.code,), True, (root.item.id,), mistake.where, values)
+        for mistake, root in told
+    ]
+
+
+def _unexplained(
+    explained: Explanations, explanation: Explanation, facts: list[Fact], own: OwnNumbers
+) -> set[str]:
+    """Return what is surely off, or turned, where a mistake is made."""
+    return {
+        fact.id
+        for fact in facts
+        if explained.fit(explanation, [fact], own).chi2 > OFF
+        or (fact.sense is not None and fact.sense(explanation.trace) is False)
+    }
+
+
+def _unnamed(sheet: Sheet, fact: Fact) -> float:
+    """Return what a number costs that is wrong and nobody knows why."""
+    size = max(abs(fact.value), abs(sheet.exact[fact.id]), fact.least)
+    return 2 * math.log(size * WIDE) + ONE_MISTAKE - 2 * math.log(UNNAMED)
 
 
 # What follows --------------------------------------------------------------------------------

@@ -16,6 +16,7 @@ from worked import ROOT
 from planmethod.check.checking import check
 from planmethod.check.copied import compared, likeness
 from planmethod.check.drawn import drawn_works
+from planmethod.check.explain import Explanation
 from planmethod.check.group import Variants, check_works
 from planmethod.check.key import key_of_task
 from planmethod.check.letters import called
@@ -292,3 +293,38 @@ def test_what_no_answer_shows_is_said_on_the_page() -> None:
     assert "V2" in key.hidden
     told, _ = sentences(check(task, work_of(task, exact(task))), tuple(key.hidden))
     assert language("ru").check["mistakes"]["V2"].name in told
+
+
+# Two at once ---------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("name", "codes"),
+    [("linkages/ex3", "A1 V5"), ("linkages/ex3", "A2 V3"), ("levers/task12", "A3 N2")],
+)
+def test_two_mistakes_at_once_are_both_named(name: str, codes: str) -> None:
+    """Each explains a part; alone neither does the whole. Of 60 works 35 are named, before 0."""
+    task = task_of(name)
+    task.usual()
+    sheet = task.sheet(0)
+    tried = 0
+    for one, two in itertools.product(task.named(sheet), repeat=2):
+        if f"{one.code} {two.code}" != codes:
+            continue
+        both = task.explanations(sheet).of_both(one, two)
+        if both is None or not _differ(task, both, one, 3) or not _differ(task, both, two, 3):
+            continue
+        tried += 1
+        (work,) = drawn_works(task, both.change, 1, 4)
+        found = check(task, work)
+        assert {d.codes for d in found.diagnosis if d.sure} == {(c,) for c in codes.split()}
+        assert len({d.roots[0] for d in found.diagnosis}) == 2
+        break
+    assert tried
+
+
+def _differ(task: Task, one: Explanation, two: Explanation, least: int) -> bool:
+    """Tell whether some answers are surely others."""
+    limits = {e.id: max(3 * e.sigma, e.tolerance) for e in key_of_task(task).entries}
+    pairs = [(limits[i.id], *(e.values[i.question.id] for e in (one, two))) for i in task.usual()]
+    return sum(abs(abs(a) - abs(b)) > limit for limit, a, b in pairs) >= least
