@@ -6,6 +6,8 @@ import math
 from collections.abc import Iterator, Mapping, Sequence
 from itertools import combinations
 
+from msgspec.structs import replace
+
 from planmethod.check.copied import copied
 from planmethod.check.explain import (
     ONE_MISTAKE,
@@ -82,13 +84,22 @@ def diagnose(task: Task, sheet: Sheet, found: list[Examined]) -> list[Diagnosis]
     if alone is not None and _turned(alone):
         codes = {fit.explanation.code for fit in whole or ()}
         if "sign" not in codes or codes <= {"sign", ""}:  # else it may be more than the sense
-            return [_alone(sheet, alone, many=False)]
+            told = _alone(sheet, alone, many=False)
+            return [_or_driver(told, task.named(sheet), facts)]
     if whole is not None:
         return [passed_on(task, sheet, found, whole)]
     two = _two(task.explanations(sheet), sheet, found, facts, own)
     if two:
         return two
     return _one_by_one(task, sheet, found, wrong, facts, own)
+
+
+def _or_driver(told: Diagnosis, named: Sequence[Explanation], facts: list[Fact]) -> Diagnosis:
+    """Return that a sense is wrong, or the driver turns the other way: V2 where it gives all."""
+    for made in (e for e in named if e.code == "V2"):
+        if all(fact.sense is None or fact.sense(made.trace) is not False for fact in facts):
+            return replace(told, codes=("sign", "V2"), sure=False)
+    return told
 
 
 def _explains(sheet: Sheet, wrong: list[Examined], explanation: Explanation) -> bool:

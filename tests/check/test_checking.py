@@ -119,8 +119,8 @@ def test_the_sense_is_an_answer_of_its_own() -> None:
         return found.answers[0].verdict, found.answers[0].points, codes
 
     assert judged(Sense.CCW) == (Verdict.OK, 1.0, ())
-    assert judged(Sense.CW) == (Verdict.WRONG, 0.7, ("sign",))
-    assert judged(None, -15.5) == (Verdict.WRONG, 0.7, ("sign",))
+    assert judged(Sense.CW) == (Verdict.WRONG, 0.7, ("sign", "V2"))
+    assert judged(None, -15.5) == (Verdict.WRONG, 0.7, ("sign", "V2"))
     assert judged(None) == (Verdict.OK, 0.7, ())  # it is asked, and not told
 
 
