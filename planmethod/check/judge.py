@@ -13,7 +13,7 @@ from functools import partial
 from msgspec import Struct, field
 
 from planmethod.check.explain import Fact
-from planmethod.check.model import Stroke, Verdict, WrittenAnswer
+from planmethod.check.model import PencilTrace, Verdict, WrittenAnswer
 from planmethod.check.questions import RATES, Sign
 from planmethod.check.sheet import Own, Sheet, is_right, scalar
 from planmethod.check.task import Task, TaskItem
@@ -87,7 +87,7 @@ class Examined(Struct):
     verdict: Verdict = Verdict.WRONG
     source: str = ""
     computed: bool = False
-    stroke: Stroke | None = None
+    stroke: PencilTrace | None = None
     routed: bool = False
     closely: bool = False
 
@@ -312,12 +312,12 @@ def replay(task: Task, sheet: Sheet, found: list[Examined]) -> None:
         one.computed = sigma < least * abs(local)
 
 
-def _stroke(one: Examined, local: float, sigma: float) -> Stroke | None:
+def _stroke(one: Examined, local: float, sigma: float) -> PencilTrace | None:
     """Return what the pencil left in a reading; None of what is computed, or is nothing."""
     if sigma < DRAWN * abs(local) or not sigma or one.limit.zero:
         return None
     apart = abs(one.value) - abs(local) if not one.signed else one.value - local
-    return Stroke(apart / sigma, one.step / sigma)
+    return PencilTrace(apart / sigma, one.step / sigma)
 
 
 # Verdicts ------------------------------------------------------------------------------------

@@ -306,7 +306,7 @@ class Diagnosis(Struct, frozen=True):
     places: Mapping[str, complex] = field(default_factory=dict)
 
 
-class Stroke(Struct, frozen=True):
+class PencilTrace(Struct, frozen=True):
     """What the pencil left in one reading, when the earlier numbers are given (след карандаша).
 
     Attributes
@@ -326,7 +326,7 @@ class CheckedWork(Struct, frozen=True):
 
     Attributes
     ----------
-    strokes : mapping of (str, int) to Stroke
+    strokes : mapping of (str, int) to PencilTrace
         By answer and position: the fingerprint of a hand.
     alike : tuple of str
         Students whose readings are nearer to these than two pencils come: a finding, never a mark.
@@ -347,5 +347,5 @@ class CheckedWork(Struct, frozen=True):
     suspicious: bool = False
     remark: str = ""
     by_hand: bool = False
-    strokes: Mapping[tuple[str, int], Stroke] = field(default_factory=dict)
+    strokes: Mapping[tuple[str, int], PencilTrace] = field(default_factory=dict)
     alike: tuple[str, ...] = ()
