@@ -13,6 +13,7 @@ from typing import Any
 
 from msgspec.structs import replace
 
+from planmethod.check.copied import copied
 from planmethod.check.diagnosis import passed_on
 from planmethod.check.explain import Explanation, Fit
 from planmethod.check.judge import Examined, decide, distance
@@ -204,7 +205,7 @@ class Calculation(Task):
         written = super().written(item, written)
         per = ratio(written, item.question.unit)
         if per is None:
-            return refused(Unread.UNIT, written.unit, written.where, base=written)
+            return refused(Unread.OTHER, written.unit, written.where, base=written)
         per = 1.0 if item.question.is_mm else per  # the judge makes millimetres himself
         value, sense = written.value, written.sense
         if value is not None and sense is not None and sense.turns:
@@ -237,14 +238,17 @@ class Calculation(Task):
             found.append(Explanation(code, where, values, _NOTHING, sheet))
         return found
 
+    def asked_of(self, other: Task, mine: Sheet) -> Sheet | None:
+        """Return the numbers of another variant with what is asked here; None if none is there."""
+        assert isinstance(other, Calculation) and isinstance(mine, CalculationSheet)
+        for (name, at, drawn, turns), _ in list(self._found.items()):
+            if at == mine.position and other._question(name, at, drawn=drawn, turns=turns) is None:
+                return None
+        return other.sheet(mine.position)
+
     def _copied(self, sheet: CalculationSheet) -> Iterator[Explanation]:
-        for other in self.others():
-            assert isinstance(other, Calculation)
-            values = {}
-            for question in sheet.asked:
-                figure = other.figures.figure(question.selector.names[0], sheet.position)
-                values[question.id] = math.nan if figure is None else figure.value
-            yield Explanation("P2", other.variant or "", values, _NOTHING, sheet)
+        for variant, theirs in self.theirs(sheet):
+            yield Explanation("P2", variant, theirs.exact, _NOTHING, sheet)
 
     # Judging ---------------------------------------------------------------------------------
 
@@ -253,6 +257,9 @@ class Calculation(Task):
         self._replay(sheet, found)
         decide(sheet, found, self.settings.near)
         diagnoses: list[Diagnosis] = []
+        other = copied(self, sheet, found)
+        if other is not None:
+            return [passed_on(self, sheet, found, [Fit(other, 0.0, 0.0, len(found))])]
         left = [one for one in found if one.verdict is Verdict.WRONG]
         if not left:
             return []
@@ -300,6 +307,7 @@ class Calculation(Task):
                 one.parents[parent.item.id] = abs(value)
                 apart = distance(one.item, one.value, value, signed=one.signed)
                 one.follows, one.contradicts = apart <= slack, apart > slack * self.settings.near
+                one.closely = one.follows
 
 
 def _question_of(name: str, figure: AnswerValue, *, drawn: bool, turns: bool) -> Question:

@@ -14,6 +14,7 @@ from planmethod.check.key import entry_of
 from planmethod.check.marks import Settings
 from planmethod.check.model import CheckedWork, Diagnosis, Judged, Verdict, Work, WrittenAnswer
 from planmethod.check.questions import Sign
+from planmethod.check.routes import follow_routes
 from planmethod.check.sheet import Sheet
 from planmethod.check.task import Task, TaskItem
 from planmethod.check.tolerance import limit_of
@@ -26,14 +27,13 @@ TOO_NEAR = 1e-4
 """Chance with which a hand comes as near to the exact values as some answers do."""
 
 
-def check(task: Task, work: Work, also: Sequence[TaskItem] = ()) -> CheckedWork:
+def check(task: Task, work: Work) -> CheckedWork:
     """Judge a work: a pure function of a task and what was written.
 
-    Parameters
-    ----------
-    also : sequence of TaskItem
-        What the others of the group were asked, where the problem file asks nothing.
+    What nobody asked is judged, and counts neither for nor against.
     """
+    asked = task.usual()
+    names = {(item.name, item.position) for item in asked}
     found: dict[int, list[tuple[WrittenAnswer, TaskItem]]] = {}
     numbers: dict[int, int] = {}
     judged: dict[int, Judged] = {}
@@ -44,6 +44,8 @@ def check(task: Task, work: Work, also: Sequence[TaskItem] = ()) -> CheckedWork:
         except NoValueError:
             judged[number] = Judged(name, Verdict.UNREADABLE, written=written)
             continue
+        if (item.name, item.position) not in names:
+            item = replace(item, points=0.0)
         read = task.written(item, written)
         if read.unreadable:
             judged[number] = _unjudged(task, item, Verdict.UNREADABLE, read)
@@ -67,6 +69,7 @@ def check(task: Task, work: Work, also: Sequence[TaskItem] = ()) -> CheckedWork:
             diagnosis += task.judge(sheet, ready)
         else:
             replay(task, sheet, ready)
+            follow_routes(sheet, ready, task.settings.floor_share)
             decide(sheet, ready, task.settings.near)
             diagnosis += diagnose(task, sheet, ready)
         for one in ready:
@@ -76,7 +79,7 @@ def check(task: Task, work: Work, also: Sequence[TaskItem] = ()) -> CheckedWork:
         examined += ready
     answers = [judged[number] for number in sorted(judged)]
     given = {(answer.key.id, answer.key.position) for answer in answers if answer.key}
-    for item in (*task.declared, *also):
+    for item in asked:
         if (item.name, item.position) not in given:
             answers.append(_unjudged(task, item, Verdict.BLANK, None))
             given.add((item.name, item.position))
@@ -90,6 +93,11 @@ def check(task: Task, work: Work, also: Sequence[TaskItem] = ()) -> CheckedWork:
         round(points, 6),
         round(whole, 6),
         _suspicious(examined),
+        strokes={
+            (one.item.name, one.item.position): one.stroke
+            for one in examined
+            if one.stroke is not None
+        },
     )
 
 
@@ -133,7 +141,11 @@ def _unjudged(
 
 def _judged(task: Task, sheet: Sheet, one: Examined) -> Judged:
     item, settings = one.item, task.settings
-    entry = replace(entry_of(task, item, one.limit), mm=sheet.length(item.question))  # on his plan
+    entry = replace(
+        entry_of(task, item, one.limit),
+        mm=sheet.length(item.question),  # on his plan
+        per=item.per(sheet.scales),
+    )
     share = share_of(one, settings)
     return Judged(
         item.id,
@@ -149,6 +161,7 @@ def _judged(task: Task, sheet: Sheet, one: Examined) -> Judged:
         one.slip,
         round(item.points * share, 6),
         item.points,
+        miscomputed=one.miscomputed and one.verdict is Verdict.WRONG,
     )
 
 

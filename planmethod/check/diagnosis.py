@@ -4,8 +4,20 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
+from itertools import combinations
 
-from planmethod.check.explain import Explanation, Explanations, Fact, Fit, OwnNumbers
+from msgspec.structs import replace
+
+from planmethod.check.copied import copied
+from planmethod.check.explain import (
+    ONE_MISTAKE,
+    WIDE,
+    Explanation,
+    Explanations,
+    Fact,
+    Fit,
+    OwnNumbers,
+)
 from planmethod.check.judge import Examined, distance, facts_of, put_in, usable
 from planmethod.check.mistakes.model import MistakeContext
 from planmethod.check.mistakes.scales import scale_by
@@ -28,6 +40,12 @@ CLEARLY = 6.0
 
 TRIED = 6
 """Named explanations that are compared."""
+
+PAIRED = 10
+"""Mistakes of which any two are tried together."""
+
+OFF = 9.0
+"""Sigmas squared from which an answer is surely not what a mistake gives."""
 
 CLOSE = 15.0
 """How much worse one may be than the best, to be compared with the errors of its own plans."""
@@ -53,6 +71,9 @@ def diagnose(task: Task, sheet: Sheet, found: list[Examined]) -> list[Diagnosis]
 
     The verdicts of the answers that follow from a recognised mistake become `Verdict.INHERITED`.
     """
+    other = copied(task, sheet, found)
+    if other is not None:
+        return [passed_on(task, sheet, found, [Fit(other, 0.0, 0.0, len(found))])]
     wrong = [one for one in found if one.verdict is Verdict.WRONG]
     if not wrong:
         return []
@@ -63,10 +84,22 @@ def diagnose(task: Task, sheet: Sheet, found: list[Examined]) -> list[Diagnosis]
     if alone is not None and _turned(alone):
         codes = {fit.explanation.code for fit in whole or ()}
         if "sign" not in codes or codes <= {"sign", ""}:  # else it may be more than the sense
-            return [_alone(sheet, alone, many=False)]
+            told = _alone(sheet, alone, many=False)
+            return [_or_driver(told, task.named(sheet), facts)]
     if whole is not None:
         return [passed_on(task, sheet, found, whole)]
+    two = _two(task.explanations(sheet), sheet, found, facts, own)
+    if two:
+        return two
     return _one_by_one(task, sheet, found, wrong, facts, own)
+
+
+def _or_driver(told: Diagnosis, named: Sequence[Explanation], facts: list[Fact]) -> Diagnosis:
+    """Return that a sense is wrong, or the driver turns the other way: V2 where it gives all."""
+    for made in (e for e in named if e.code == "V2"):
+        if all(fact.sense is None or fact.sense(made.trace) is not False for fact in facts):
+            return replace(told, codes=("sign", "V2"), sure=False)
+    return told
 
 
 def _explains(sheet: Sheet, wrong: list[Examined], explanation: Explanation) -> bool:
@@ -135,7 +168,7 @@ def _fits(
         close = [fit.explanation for fit in rough if fit.score <= most]
         fits += [explained.fit(e, facts, own, closely=True) for e in close]
     for one in judged:
-        code = "slip" if one.slip or one.miscomputed else ""
+        code = "slip" if one.slip else ""  # his millimetres tell it; else nobody knows which
         made = put_explanation(sheet, one, code, "", one.value, UNNAMED, free=True)
         fits.append(explained.fit(made, facts, own))
     return _different(sorted(fits, key=lambda fit: fit.score), facts)
@@ -204,14 +237,90 @@ def _share(one: Examined) -> float:
 def _of_others(task: Task, sheet: Sheet, facts: list[Fact], own: OwnNumbers) -> Iterator[Fit]:
     """Yield how the numbers of the other variants fit."""
     explained = task.explanations(sheet)
-    for other in task.others():
-        position = sheet.questions.position
-        theirs = task.asked_of(other, position)
-        if theirs is None:
-            continue
-        values, trace = theirs.exact, theirs.trace
-        made = Explanation("P2", other.variant or "", values, trace, theirs, prior=COPIED)
+    for variant, theirs in task.theirs(sheet):
+        made = Explanation("P2", variant, theirs.exact, theirs.trace, theirs, prior=COPIED)
         yield explained.fit(made, facts, own)
+
+
+# Two at once ---------------------------------------------------------------------------------
+
+
+def _two(
+    explained: Explanations,
+    sheet: Sheet,
+    found: list[Examined],
+    facts: list[Fact],
+    own: OwnNumbers,
+) -> list[Diagnosis]:
+    """Name two mistakes that together explain a sheet, each a part of it; none where it is open.
+
+    What one leaves unexplained is compared, too, with numbers that are wrong for no known reason.
+    """
+    singles = [e for e in explained.named if e.change is not None and not e.change.of_scale]
+    rough = sorted((explained.fit(e, facts, own) for e in singles), key=lambda fit: fit.score)
+    best = [fit.explanation for fit in rough[:PAIRED]]
+    left = {id(e): _unexplained(explained, e, facts, own) for e in best}
+    pairs: list[tuple[float, Explanation, Explanation, Explanation]] = []
+    for one, two in combinations(best, 2):
+        mine, theirs = left[id(one)], left[id(two)]
+        if one.code == two.code or mine <= theirs or theirs <= mine:
+            continue
+        made = explained.of_both(one, two)
+        if made is None or not (fit := explained.fit(made, facts, own)).likely:
+            continue
+        fit = explained.fit(made, facts, own, closely=True)
+        alone = min(
+            (
+                explained.fit(e, [f for f in facts if f.id not in rest], own, closely=True).score
+                + sum(_unnamed(sheet, f) for f in facts if f.id in rest)
+                for e, rest in ((one, mine), (two, theirs))
+            )
+        )
+        if fit.likely and fit.score + CLEARLY < alone:
+            pairs.append((fit.score, one, two, made))
+    pairs.sort(key=lambda pair: pair[0])
+    if not pairs:
+        return []
+    score, one, two, made = pairs[0]
+    if any({a.code, b.code} != {one.code, two.code} for s, a, b, _ in pairs if s < score + CLEARLY):
+        return []
+    wrong = [o for o in found if o.verdict is Verdict.WRONG]
+    told = []
+    for mistake, other in ((one, two), (two, one)):
+        begins = [o for o in wrong if o.item.question.id in left[id(other)]]
+        if not begins:
+            return []
+        told.append((mistake, min(begins, key=lambda o: _rank(sheet, o))))
+    if told[0][1] is told[1][1]:
+        return []
+    roots = [root for _, root in told]
+    for answer in wrong:
+        if answer not in roots and _follows(answer, made, 1.0) and not _idle(sheet, answer, made):
+            answer.verdict, answer.source = Verdict.INHERITED, roots[0].item.id
+    _repoint(found)
+    values = _told(found, made)
+    return [
+        Diagnosis((mistake.code,), True, (root.item.id,), mistake.where, values)
+        for mistake, root in told
+    ]
+
+
+def _unexplained(
+    explained: Explanations, explanation: Explanation, facts: list[Fact], own: OwnNumbers
+) -> set[str]:
+    """Return what is surely off, or turned, where a mistake is made."""
+    return {
+        fact.id
+        for fact in facts
+        if explained.fit(explanation, [fact], own).chi2 > OFF
+        or (fact.sense is not None and fact.sense(explanation.trace) is False)
+    }
+
+
+def _unnamed(sheet: Sheet, fact: Fact) -> float:
+    """Return what a number costs that is wrong and nobody knows why."""
+    size = max(abs(fact.value), abs(sheet.exact[fact.id]), fact.least)
+    return 2 * math.log(size * WIDE) + ONE_MISTAKE - 2 * math.log(UNNAMED)
 
 
 # What follows --------------------------------------------------------------------------------
@@ -222,20 +331,21 @@ def passed_on(task: Task, sheet: Sheet, found: list[Examined], fits: Sequence[Fi
     best = fits[0].explanation
     codes = tuple(dict.fromkeys(fit.explanation.code for fit in fits))
     sure = len(codes) == 1 and bool(codes[0])
+    if sure and best.code == "P2":
+        _disinherit(found)
     wrong = [one for one in found if one.verdict is Verdict.WRONG]
     begins = [one for one in wrong if one.item.id in best.begins]
-    moved = [one for one in wrong if not _idle(sheet, one, best)]
-    root = begins[0] if begins else min(moved or wrong, key=lambda one: _rank(sheet, one))
+    changed = [one for one in wrong if not _idle(sheet, one, best)]
+    root = begins[0] if begins else min(changed or wrong, key=lambda one: _rank(sheet, one))
     if begins:
         best = completed(best, root)
     for one in found:
-        if sure and best.code == "P2" and one.verdict is Verdict.INHERITED:
-            one.verdict, one.source = Verdict.WRONG, ""  # that they agree earns nothing
         if one is root or one.verdict is not Verdict.WRONG or best.code == "P2":
             continue
         if best.free and not usable(root):  # nobody can draw on with that
             continue
-        if _follows(one, best, task.settings.near):
+        moved = not _idle(sheet, one, best) or _vector_turned(one)
+        if moved and _follows(one, best, task.settings.near):
             one.verdict, one.source = Verdict.INHERITED, root.item.id
     _repoint(found)
     if "" in codes:  # nothing is better than that it is just wrong
@@ -244,6 +354,15 @@ def passed_on(task: Task, sheet: Sheet, found: list[Examined], fits: Sequence[Fi
     roots = [root.item.id, *(one.item.id for one in wrong if one.verdict is Verdict.WRONG)]
     told, places = _told(found, best), _places(best)
     return Diagnosis(codes, sure, tuple(dict.fromkeys(roots)), best.where, told, places)
+
+
+def _disinherit(found: list[Examined]) -> None:
+    """Let the numbers of another variant earn what is right for one's own, and nothing else."""
+    for one in found:
+        one.follows, one.source = False, ""  # that they agree with one another is no work of his
+        lost = (Verdict.INHERITED, Verdict.UNSEEN, Verdict.NEAR)
+        if one.verdict in lost and not (one.right and one.sense_right is not False):
+            one.verdict = Verdict.WRONG
 
 
 def _told(found: list[Examined], explanation: Explanation) -> dict[str, float]:
@@ -344,9 +463,14 @@ def _one_by_one(
 
 
 def _idle(sheet: Sheet, one: Examined, explanation: Explanation) -> bool:
-    """Tell whether an explanation leaves an answer as it is."""
-    given = abs(explanation.values[one.item.question.id])
-    return abs(given - abs(sheet.exact[one.item.question.id])) <= one.limit.tolerance()
+    """Tell whether an explanation leaves an answer as it is, its size and its sense."""
+    given, exact = explanation.values[one.item.question.id], sheet.exact[one.item.question.id]
+    turned = one.item.question.sign is Sign.TURN and one.signed and given * exact < 0
+    return not turned and abs(abs(given) - abs(exact)) <= one.limit.tolerance()
+
+
+def _vector_turned(one: Examined) -> bool:
+    return one.sense_right is False and one.item.question.sign is Sign.SIZE
 
 
 def _turned(one: Examined) -> bool:
@@ -362,11 +486,12 @@ def _alone(sheet: Sheet, one: Examined, *, many: bool) -> Diagnosis:
     roots = (one.item.id,)
     if _turned(one):
         return Diagnosis(("sign",), True, roots)
-    near = (s for s in slips(sheet, one) if abs(abs(one.value / s.value) - 1.0) <= ALONE)
+    near = [s for s in slips(sheet, one) if abs(abs(one.value / s.value) - 1.0) <= ALONE]
     codes = dict.fromkeys(slip.code for slip in near)
-    if not codes and (one.slip or one.miscomputed):
+    if not codes and one.slip:
         codes = {"slip": None}
     elif many and not one.slip:
         codes = {}
     named = tuple(codes)
-    return Diagnosis(named, len(named) == 1, roots)
+    where = near[0].where if named == ("slip",) and near else ""
+    return Diagnosis(named, len(named) == 1, roots, where)

@@ -222,6 +222,21 @@ class Explanations:
             program=program,
         )
 
+    def of_both(self, one: Explanation, two: Explanation) -> Explanation | None:
+        """Return what two mistakes give together; None where they change the same."""
+        first, second = one.change, two.change
+        if first is None or second is None:
+            return None
+        if first.steps.keys() & second.steps.keys() or first.data.keys() & second.data.keys():
+            return None
+        both = replace(
+            first,
+            steps={**first.steps, **second.steps},
+            data={**first.data, **second.data},
+            prior=first.prior * second.prior / math.exp(ONE_MISTAKE / 2),
+        )
+        return self.of_change(both)
+
     def of_slip(self, change: Change, question: str, item: str) -> Explanation | None:
         """Return what a mistake in one number gives; worked out once for all who make it."""
         key = (change.code, change.where, item, *change.steps.values(), change.prior)

@@ -15,13 +15,12 @@ from planmethod.check.key import Key, key_of_task
 from planmethod.check.letters import plain
 from planmethod.check.marks import DEFAULT, Settings
 from planmethod.check.model import CheckedWork, Work
-from planmethod.check.task import Task, TaskItem
+from planmethod.check.task import Task
 from planmethod.kind import ProblemKind
 from planmethod.kinds import kind_of, load
 from planmethod.problem import Problem, variant_names
 from planmethod.problem.head import KindProblem
 from planmethod.project.settle import settled
-from planmethod.solved.selectors.steps import NoValueError
 from planmethod.solved.solution import Solution
 
 
@@ -105,42 +104,15 @@ class CheckedGroup(Struct, frozen=True):
     keys: dict[str | None, Key]
 
 
-def check_works(
-    variants: Variants, works: Sequence[Work], among: Sequence[Work] | None = None
-) -> Iterator[CheckedWork]:
-    """Yield the works, each checked by its own variant.
-
-    Where the problem file asks nothing, everybody of one file was asked what any of them answered.
-
-    Parameters
-    ----------
-    among : sequence of Work, optional
-        All works of the group, where only some of them are checked here.
-    """
-    asked: dict[tuple[str, str | None], dict[tuple[str, int], TaskItem]] = {}
-    for work in among or works:
-        try:
-            name = variants.name_of(work)
-        except KeyError:
-            continue
-        task = variants.task(name)
-        for written in work.answers:
-            try:
-                item = task.find(written)
-            except NoValueError:
-                continue
-            if not task.declared:
-                asked.setdefault((work.where, name), {}).setdefault(
-                    (item.name, item.position), replace(item, id=item.name)
-                )
+def check_works(variants: Variants, works: Sequence[Work]) -> Iterator[CheckedWork]:
+    """Yield the works, each checked by its own variant, whoever else is in the group."""
     for work in works:
         try:
             name = variants.name_of(work)
         except KeyError:
             yield unknown_variant(work)
             continue
-        also = asked.get((work.where, name), {})
-        yield check(variants.task(name), work, tuple(also.values()))
+        yield check(variants.task(name), work)
 
 
 def keys_of(variants: Variants, checked: Sequence[CheckedWork]) -> dict[str | None, Key]:
@@ -149,13 +121,15 @@ def keys_of(variants: Variants, checked: Sequence[CheckedWork]) -> dict[str | No
     names = dict.fromkeys(work.variant for work in checked)
     for name in (name for name in names if name is None or name in variants.names):
         task = variants.task(name)
-        items = {(item.id, item.position): item for item in task.declared}
+        items = {(item.id, item.position): item for item in task.usual()}
         for one in checked:
             if one.variant != name:
                 continue
             for judged in one.answers:
                 if judged.key is not None and judged.written is not None:
                     item = task.find(judged.written)
-                    items.setdefault((item.name, item.position), replace(item, id=item.name))
+                    items.setdefault(
+                        (item.name, item.position), replace(item, id=item.name, points=0.0)
+                    )
         found[name] = key_of_task(task, items.values())
     return found

@@ -7,13 +7,13 @@ wrong one that follows from an earlier one is not held against him twice.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from functools import partial
 
 from msgspec import Struct, field
 
 from planmethod.check.explain import Fact
-from planmethod.check.model import Verdict, WrittenAnswer
+from planmethod.check.model import PencilTrace, Verdict, WrittenAnswer
 from planmethod.check.questions import RATES, Sign
 from planmethod.check.sheet import Own, Sheet, is_right, scalar
 from planmethod.check.task import Task, TaskItem
@@ -28,6 +28,12 @@ USABLE = 3.0
 
 FELT = 1e-6
 """Share of an answer that a change of an earlier one by as much of itself must move it by."""
+
+DRAWN = 0.004
+"""Share of a number that is drawn which its sigma is at least."""
+
+ARM = 0.015
+"""The same of ω and ε, for which nothing but the arm is measured."""
 
 MILLIMETRES = ("mm", "мм")
 
@@ -81,6 +87,9 @@ class Examined(Struct):
     verdict: Verdict = Verdict.WRONG
     source: str = ""
     computed: bool = False
+    stroke: PencilTrace | None = None
+    routed: bool = False
+    closely: bool = False
 
     @property
     def off(self) -> float:
@@ -269,6 +278,7 @@ def replay(task: Task, sheet: Sheet, found: list[Examined]) -> None:
         if slot is None or slot not in came or not math.isfinite(came[slot]):
             continue
         local = came[slot] * one.per_slot
+        one.stroke = _stroke(one, local, left.sigma[slot] * one.per_slot)
         rounding = 0.0
         for (name, earlier), slope in left.slopes.items():
             if name != slot:
@@ -295,8 +305,19 @@ def replay(task: Task, sheet: Sheet, found: list[Examined]) -> None:
         apart = distance(one.item, one.value, local, signed=one.signed)
         turned = one.signed and one.value * local < 0 and one.item.question.sign is Sign.TURN
         one.follows = apart <= tolerance and not turned
+        written = settings.floor_share * abs(local) + rounding + one.step / 2
+        one.closely = one.follows and apart <= written
         one.contradicts = apart > tolerance * settings.near or turned
-        one.computed = sigma < 0.004 * abs(local)
+        least = ARM if one.item.question.selector.kind in RATES else DRAWN
+        one.computed = sigma < least * abs(local)
+
+
+def _stroke(one: Examined, local: float, sigma: float) -> PencilTrace | None:
+    """Return what the pencil left in a reading; None of what is computed, or is nothing."""
+    if sigma < DRAWN * abs(local) or not sigma or one.limit.zero:
+        return None
+    apart = abs(one.value) - abs(local) if not one.signed else one.value - local
+    return PencilTrace(apart / sigma, one.step / sigma)
 
 
 # Verdicts ------------------------------------------------------------------------------------
@@ -315,21 +336,42 @@ def decide(sheet: Sheet, found: list[Examined], near: float) -> None:
     def order(one: Examined) -> int:
         return sheet.order.get(one.slot, len(sheet.order)) if one.slot else len(sheet.order)
 
-    for one in sorted(found, key=order):
+    for one in _parents_first(sorted(found, key=order), by_id):
+        earlier = sorted(one.parents.items(), key=lambda pair: -pair[1])
+        parents = [by_id[name] for name, _ in earlier]
         wrong = [
-            by_id[name]
-            for name, _ in sorted(one.parents.items(), key=lambda pair: -pair[1])
-            if by_id[name].verdict in (Verdict.WRONG, Verdict.INHERITED, Verdict.NEAR)
+            parent
+            for parent in parents
+            if parent.verdict in (Verdict.WRONG, Verdict.INHERITED, Verdict.NEAR)
         ]
-        one.verdict = _verdict(one, wrong, near)
+        unseen = [p for p in parents if p.verdict is Verdict.UNSEEN and not p.right]
+        one.verdict = _verdict(one, wrong, unseen, near)
         if one.verdict is Verdict.INHERITED:
-            worst = sorted(wrong, key=lambda parent: parent.verdict is Verdict.NEAR)
-            parent = next(p for p in worst if usable(p))
+            worst = [*sorted(wrong, key=lambda parent: parent.verdict is Verdict.NEAR), *unseen]
+            parent = next((p for p in worst if usable(p)), worst[0])
             one.source = parent.source or parent.item.id
 
 
-def _verdict(one: Examined, wrong: list[Examined], near: float) -> Verdict:
-    inherits = bool(one.follows) and any(map(usable, wrong))
+def _parents_first(found: list[Examined], by_id: dict[str, Examined]) -> Iterator[Examined]:
+    """Yield answers, each after those that it follows from."""
+    done: set[str] = set()
+
+    def reached(one: Examined) -> Iterator[Examined]:
+        if one.item.id not in done:
+            done.add(one.item.id)
+            for name in one.parents:
+                yield from reached(by_id[name])
+            yield one
+
+    for one in found:
+        yield from reached(one)
+
+
+def _verdict(one: Examined, wrong: list[Examined], unseen: list[Examined], near: float) -> Verdict:
+    # What follows to the digits written follows from whatever; to draw on, it must be usable.
+    inherits = bool(one.follows) and (
+        any(map(usable, wrong)) or (one.closely and bool(wrong)) or bool(unseen)
+    )
     sense = one.sense_right is not False
     if not one.limit.seen:
         within = one.off <= max(one.limit.spread, one.limit.most)
@@ -362,7 +404,7 @@ def facts_of(sheet: Sheet, found: list[Examined], k: float) -> list[Fact]:
     facts: dict[str, Fact] = {}
     for one in found:
         question = one.item.question
-        if question.sign is Sign.ANGLE or (one.limit.zero and one.right):
+        if question.sign is Sign.ANGLE or one.routed or (one.limit.zero and one.right):
             continue
         strict = question.sign is Sign.STRICT
         sense: Callable[[Trace], bool | None] | None = None

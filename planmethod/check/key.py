@@ -146,7 +146,7 @@ def entry_of(
         position=item.position,
         hidden=hidden,
         asked=item.unit,
-        per=item.per,
+        per=item.per(sheet.scales),
         what=what_of(question),
     )
 

@@ -45,7 +45,6 @@ def called(selector: Selector) -> tuple[str, str]:
         "Fn": "F^{n}",
         "weight": "G",
         "inertia": "Φ",
-        "inertia couple": "M_Φ",
         "length": "l",
         "v_q": "v",
         "a_q": "a",
@@ -67,6 +66,8 @@ def called(selector: Selector) -> tuple[str, str]:
         return own, names[0]
     if kind.endswith("_q"):
         return own, f"{letter}_{{q{names[0]}}}"
+    if kind == "inertia couple":
+        return own, f"M_{{Φ{names[0]}}}"
     joined = "".join(names) if all(len(n) < 3 for n in names) else ",".join(names)
     return own, f"{letter}_{{{joined}}}" if names else letter
 

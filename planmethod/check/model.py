@@ -46,6 +46,7 @@ class Unread(Enum):
 
     NUMBER = "number"
     UNIT = "unit"
+    OTHER = "other"  # a unit of another quantity
     SENSE = "sense"
     POSITION = "position"
     DATE = "date"  # the spreadsheet program made a date of a number
@@ -255,6 +256,8 @@ class Judged(Struct, frozen=True):
         Of the instructor, by hand.
     by_hand : bool
         Whether the instructor set the points.
+    miscomputed : bool
+        His own numbers make another value, and nothing is drawn in between.
     """
 
     id: str
@@ -272,6 +275,7 @@ class Judged(Struct, frozen=True):
     of: float = 0.0
     remark: str = ""
     by_hand: bool = False
+    miscomputed: bool = False
 
     @property
     def where(self) -> str:
@@ -306,11 +310,30 @@ class Diagnosis(Struct, frozen=True):
     places: Mapping[str, complex] = field(default_factory=dict)
 
 
+class PencilTrace(Struct, frozen=True):
+    """What the pencil left in one reading, when the earlier numbers are given (след карандаша).
+
+    Attributes
+    ----------
+    off : float
+        How far it is off what the plans give then, in sigmas.
+    step : float
+        Unit of its last digit, in sigmas.
+    """
+
+    off: float
+    step: float
+
+
 class CheckedWork(Struct, frozen=True):
     """One work, judged (проверенная работа).
 
     Attributes
     ----------
+    strokes : mapping of (str, int) to PencilTrace
+        By answer and position: the fingerprint of a hand.
+    alike : tuple of str
+        Students whose readings are nearer to these than two pencils come: a finding, never a mark.
     suspicious : bool
         Closer to the exact values than any pencil comes: they are not off the drawing.
     remark : str
@@ -328,3 +351,5 @@ class CheckedWork(Struct, frozen=True):
     suspicious: bool = False
     remark: str = ""
     by_hand: bool = False
+    strokes: Mapping[tuple[str, int], PencilTrace] = field(default_factory=dict)
+    alike: tuple[str, ...] = ()

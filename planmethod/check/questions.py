@@ -171,6 +171,28 @@ class Questions:
             place = relative.point
             yield relative.name, (label(relative.of, place), label(relative.to, place))
 
+    def links(self) -> dict[str, dict[str, bool]]:
+        """Return the points of the links by their letters, and which of them stand still."""
+        bodies, velocity = self.solution.problem.bodies, self.construction.kinematics.velocity
+        frame = bodies[FRAME].points
+        found = {
+            link: {point: point in frame for point in body.points}
+            for link, body in bodies.items()
+            if link != FRAME
+        }
+        for link, place in velocity.point:
+            if link in found:
+                found[link].setdefault(velocity.label(link, place), False)
+        return found
+
+    def arms(self) -> Iterator[tuple[str, str]]:
+        """Yield the points of links that turn about a fixed one, and that point."""
+        for points in self.links().values():
+            fixed = [name for name, still in points.items() if still]
+            for name, still in points.items():
+                if not still and len(fixed) == 1:
+                    yield name, fixed[0]
+
     def vectors(self) -> Iterator[tuple[Selector, PlanKind, Ends]]:
         """Yield the vectors of the plans between two points of a link: v_ED, aⁿ_ED, aᵗ_ED."""
         words = {

@@ -109,6 +109,9 @@ def slips(sheet: Sheet, one: Examined) -> Iterator[Slip]:
     for swapped in _swaps(one):
         if abs(abs(swapped / base) - 1.0) <= min(slack, 0.05) and abs(ratio - 1.0) > slack:
             yield Slip("S4", "", base * one.value / swapped, 0.2, base)
+    for where, factor in _operations(sheet, one):
+        if near(factor):
+            yield Slip("slip", where, base * factor, 0.5, base)
     yield from _scales(sheet, one, base)
     if not one.slip:
         yield from _segments(sheet, one, base, min(slack, 0.05))
@@ -117,6 +120,31 @@ def slips(sheet: Sheet, one: Examined) -> Iterator[Slip]:
         true = sheet.scales[FACTS[PlanKind.POSITION].scale] * 1000.0
         if near(true):
             yield Slip("true_mm", "", base * true, 1.0, base)
+
+
+OPERATIONS = {"omega": ("v", "/"), "epsilon": ("a^{τ}", "/"), "v": ("ω", "·")}
+"""What is multiplied with an arm, or divided by it: the letter, and the right operation."""
+
+
+def _operations(sheet: Sheet, one: Examined) -> Iterator[tuple[str, float]]:
+    """Yield what one wrong operation with the arm makes of a number: ``v·l ≠ v/l``, factor."""
+    kind = one.item.question.selector.kind
+    name = one.item.question.name
+    step = None if name is None else sheet.made.get(name)
+    if kind not in OPERATIONS or not isinstance(step, Compute) or len(step.powers) < 2:
+        return
+    letter, operation = OPERATIONS[kind]
+    (first, power), *arm = step.powers
+    right = math.prod(abs(scalar(sheet.trace.value[n])) ** p for n, p in arm)
+    if power != 1 or not right or (kind == "v" and not first.startswith("omega")):
+        return
+    length = right if operation == "·" else 1.0 / right
+    value = abs(one.local or one.limit.exact) / right
+    other = {"·": "/", "/": "·"}[operation]
+    told = f"{letter}{operation}l"
+    yield f"{letter}{other}l ≠ {told}", right**-2
+    if value:
+        yield f"l/{letter} ≠ {told}", length / value / (value * right)
 
 
 def _swaps(one: Examined) -> Iterator[float]:

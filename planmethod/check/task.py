@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping
-from itertools import chain
+from itertools import chain, permutations
 
 from msgspec import Struct
 from msgspec.structs import replace
@@ -11,15 +11,17 @@ from msgspec.structs import replace
 from planmethod.check.explain import Explanation, Explanations
 from planmethod.check.letters import plain
 from planmethod.check.marks import DEFAULT, Settings
-from planmethod.check.model import WrittenAnswer
+from planmethod.check.model import Unread, WrittenAnswer
 from planmethod.check.questions import Question, Questions, Sign
 from planmethod.check.sheet import Sheet
-from planmethod.check.works.units import ratio_of, read_unit
+from planmethod.check.works.cells import refused
+from planmethod.check.works.units import ratio, ratio_of, read_unit
 from planmethod.construct.drafting import PROFILES, Profile
 from planmethod.errors import Fault, ProblemError
 from planmethod.languages import say
 from planmethod.plans.forces.board import SCALE
 from planmethod.plans.forces.loads import LoadKind
+from planmethod.plans.model import PlanKind
 from planmethod.problem.head import AskedAnswer, AskedSense, KindProblem
 from planmethod.problem.selector import Selector, SelectorError, is_force, parse_selector
 from planmethod.solved.selectors.steps import NoValue, NoValueError
@@ -84,6 +86,12 @@ def _forms(questions: Questions) -> Iterator[tuple[str, Selector]]:
                 yield f"{letter}_{pair[0]}{pair[1]}", Selector(word, pair)
                 yield f"{letter}_{pair[1]}{pair[0]}", Selector(word, pair)
                 yield f"{letter}_{pair[0]}_{pair[1]}", Selector(word, pair)
+    for word in ("an", "at"):  # of a point of a link that turns about a fixed one
+        for one, two in questions.arms():
+            for letter in {"an": ("an", "aн"), "at": ("at", "aτ", "aт")}[word]:
+                yield f"{letter}_{one}", Selector(word, (one, two))
+    for one, two in permutations(kin.velocity.named, 2):
+        yield f"l_{one}{two}", Selector("length", (one, two))
     for selector, _, _ in questions.vectors():
         one, two = selector.names
         ways = {"at": ("at", "aτ", "aт"), "an": ("an", "aн")}.get(selector.kind, ("v",))
@@ -148,10 +156,13 @@ class TaskItem(Struct, frozen=True):
     name: str = ""
     unit: str = ""
 
-    @property
-    def per(self) -> float:
-        """What one of its unit is of that of the key."""
-        return (ratio_of(self.unit, self.question.unit) or 1.0) if self.unit else 1.0
+    def per(self, scales: Mapping[str, float]) -> float:
+        """Return what one of its unit is of that of the key: of a true length, mm of the plan."""
+        if not self.unit:
+            return 1.0
+        per = ratio_of(self.unit, self.question.unit) or 1.0
+        true = self.question.is_mm and self.question.plan is PlanKind.POSITION and per != 1.0
+        return per / (scales[self.question.scale] * 1000.0) if true else per
 
 
 class Task:
@@ -341,6 +352,8 @@ class Task:
 
     def written(self, item: TaskItem, written: WrittenAnswer) -> WrittenAnswer:
         """Return an answer as it is judged: a bare number is in the unit that is asked."""
+        if written.value is not None and ratio(written, item.question.unit) is None:
+            return refused(Unread.OTHER, written.unit, written.where, base=written)
         unit = read_unit(item.unit) if item.unit and not written.unit else None
         if unit is None or written.value is None:
             return written
@@ -378,15 +391,23 @@ class Task:
             )
         return self._sheets[key]
 
-    def asked_of(self, other: Task, position: int) -> Sheet | None:
+    def theirs(self, sheet: Sheet) -> Iterator[tuple[str, Sheet]]:
+        """Yield the other variants that have all that is asked on a sheet, at its scales."""
+        for other in self.others():
+            their = self.asked_of(other, sheet)
+            if their is not None:
+                yield other.variant or "", their
+
+    def asked_of(self, other: Task, mine: Sheet) -> Sheet | None:
         """Return the sheet of another variant with what is asked here; None if it has not all."""
+        position = mine.questions.position
         try:
             questions = other.questions(position)
             for question in self._asked.get(position, {}).values():
                 other.ask(questions.question(question.selector), position)
         except NoValueError:
             return None
-        sheet = other.sheet(position)
+        sheet = other.sheet(position, mine.scales)
         return sheet if set(self._asked.get(position, {})) <= set(sheet.exact) else None
 
     def named(self, sheet: Sheet) -> list[Explanation]:

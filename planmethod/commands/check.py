@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import click
 from msgspec import Struct
@@ -111,9 +111,9 @@ def check(
 ) -> None:
     """Check answers: key first, then one student's work or a whole group's.
 
-    PROBLEM asks what its [[answers]] say, else whatever the works answer. WORK is one student's
-    JSON or TOML, a group's CSV or XLSX, or a form filled in. Writes results.xlsx, results.csv,
-    run.json and a page for each student.
+    PROBLEM asks what its [[answers]] say, else what the key lists. WORK is one student's JSON or
+    TOML, a group's CSV or XLSX, or a form filled in. Writes results.xlsx, results.csv, run.json
+    and a page for each student.
     """
     settings = _settings(settings_file, policy, profile)
     if key_only:
@@ -143,7 +143,7 @@ def check(
             click.echo(say("Warning: {}: no such work or answer.", where), err=True)
     _warn_of_others(problem, works)
     if as_json:
-        _print_json(checked, paths)
+        _print_json(checked)
     else:
         hidden = salt if anonymize else None
         book = {} if anonymize else addresses or {}
@@ -153,7 +153,30 @@ def check(
     for line, is_lost in unread_lines(checked, language(spoken())):
         click.echo(line, err=True)
         lost |= is_lost
+    for line in _unread_tables(works):
+        click.echo(line, err=True)
+        lost = True
     finish(ExitCode.FINDINGS if lost else ExitCode.DONE)
+
+
+def _unread_tables(works: list[Work]) -> Iterator[str]:
+    """Yield a line on each file of which no answer was read, with the columns it has."""
+    from planmethod.check.model import Unread
+
+    files: dict[str, list[Work]] = {}
+    for work in works:
+        files.setdefault(work.where, []).append(work)
+    for where, found in files.items():
+        if any(work.answers for work in found):
+            continue
+        columns = [r.fault for work in found for r in work.remarks if r.why is Unread.COLUMN]
+        told = ", ".join(dict.fromkeys(columns)) or "—"
+        yield say(
+            "{}: no answer was read. Columns that nobody understands: {}. Name them: student, "
+            "what, value, unit, mm, sense; or student and the quantities: v_B, omega_3.",
+            where,
+            told,
+        )
 
 
 def _settings(file: Path | None, policy: str | None, profile: str | None) -> Settings:
@@ -190,6 +213,7 @@ def _read(
 
 
 def _checked(variants: Variants, works: list[Work], jobs: int) -> list[CheckedWork]:
+    from planmethod.check.copied import compared
     from planmethod.check.group import check_works
 
     if jobs > 1 and len(works) > jobs:
@@ -201,7 +225,7 @@ def _checked(variants: Variants, works: list[Work], jobs: int) -> list[CheckedWo
         for part in parts:
             checked += part
             done(len(part))
-    return checked
+    return compared(checked)
 
 
 def _in_processes(variants: Variants, works: list[Work], jobs: int) -> Iterator[list[CheckedWork]]:
@@ -215,7 +239,6 @@ def _in_processes(variants: Variants, works: list[Work], jobs: int) -> Iterator[
         problem=variants.path,
         variant=variants.default,
         settings=variants.settings,
-        among=works,
     )
     for part, outcome in zip(parts, in_processes(act, parts, jobs), strict=True):
         if outcome is None:
@@ -234,12 +257,11 @@ def check_part(
     problem: Path,
     variant: str | None,
     settings: Settings,
-    among: list[Work],
 ) -> list[CheckedWork]:
     """Check some of the works of a group."""
     from planmethod.check.group import Variants, check_works
 
-    return list(check_works(Variants(problem, settings, variant), part, among=among))
+    return list(check_works(Variants(problem, settings, variant), part))
 
 
 def _warn_of_others(problem: Path, works: list[Work]) -> None:
@@ -258,13 +280,10 @@ def _warn_of_others(problem: Path, works: list[Work]) -> None:
             )
 
 
-def _print_json(checked: list[CheckedWork], paths: list[Path]) -> None:
+def _print_json(checked: list[CheckedWork]) -> None:
     from planmethod.check.pages.listing import record
 
-    records = [record(one) for one in checked]
-    alone = len(records) == 1 and paths[0].suffix.lower() in (".json", ".toml")
-    whole: Any = records[0] if alone else records
-    click.echo(json_text(whole))
+    click.echo(json_text([record(one) for one in checked]))
 
 
 def _write_results(

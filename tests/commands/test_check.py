@@ -58,8 +58,8 @@ def told(result: Result) -> Any:
     return json.loads(result.stdout)
 
 
-def test_one_student_is_one_object_of_the_contract(tmp_path: Path) -> None:
-    found = told(run(EX3, written(tmp_path, WORK), "--json"))
+def test_one_student_is_a_list_of_one_object_of_the_contract(tmp_path: Path) -> None:
+    (found,) = told(run(EX3, written(tmp_path, WORK), "--json"))
     assert {"student", "variant", "answers", "diagnosis", "points", "of"} <= set(found)
     assert (found["student"], found["variant"], found["diagnosis"]) == ("s02", None, [])
     for answer in found["answers"]:
@@ -113,7 +113,7 @@ def test_marks_set_by_hand_survive(tmp_path: Path) -> None:
     override = "student;id;points;remark\ns02;v_E;1;показано у доски\ns99;;5;\n"
     path = written(tmp_path, override, "overrides.csv")
     result = run(EX3, work, "--json", "--overrides", path)
-    found = told(result)
+    (found,) = told(result)
     assert found["points"] == 4.0
     assert "overrides.csv:3" in result.stderr.replace(", row ", ":")
 
@@ -162,7 +162,9 @@ def test_another_problem_is_warned_of_and_an_unknown_quantity_is_unreadable(tmp_
     result = run(TASK12, written(tmp_path, work), "--json")
     assert result.exit_code == 1
     assert "ex1" in result.stderr
-    assert [a["verdict"] for a in json.loads(result.stdout)["answers"]] == ["unreadable"] * 2
+    (found,) = json.loads(result.stdout)
+    assert [a["verdict"] for a in found["answers"][:2]] == ["unreadable"] * 2
+    assert {a["verdict"] for a in found["answers"][2:]} == {"blank"}
 
 
 def test_several_processes_give_the_same(tmp_path: Path) -> None:
@@ -174,3 +176,18 @@ def test_several_processes_give_the_same(tmp_path: Path) -> None:
     ]
     path = written(tmp_path, "\n".join(rows), "group.csv")
     assert told(run(TASK12, path, "--json")) == told(run(TASK12, path, "--json", "--jobs", "2"))
+
+
+def test_a_table_of_which_nothing_is_read_says_which_columns_it_has(tmp_path: Path) -> None:
+    """Before: exit code 0, and two pages of blanks."""
+    path = written(tmp_path, "Студент;Скорость;Ускорение\nИ;3,2;160\n", "group.csv")
+    result = run(EX3, path, "-o", str(tmp_path / "out"))
+    assert result.exit_code == 1
+    assert "Скорость, Ускорение" in result.stderr
+
+
+def test_one_work_and_many_are_lists(tmp_path: Path) -> None:
+    one = written(tmp_path, WORK)
+    two = written(tmp_path, {**WORK, "student": "s03"}, "two.json")
+    assert [w["student"] for w in told(run(EX3, one, "--json"))] == ["s02"]
+    assert [w["student"] for w in told(run(EX3, one, two, "--json"))] == ["s02", "s03"]

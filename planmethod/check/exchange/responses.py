@@ -24,7 +24,7 @@ from planmethod.errors import ProblemError
 from planmethod.note.wording import LANGUAGES, language
 from planmethod.problem.source import parse, read_source
 
-_NUMBERED = re.compile(r"([^\W\d]+)\s*\d+")
+_NUMBERED = re.compile(r"([^\W\d]{1,40})\s{0,4}\d+")
 _GAP = re.compile(r"(?:^|;\s*)[^\W\d]+ (\d+):[ ]?(.*?)(?=;\s*[^\W\d]+ \d+:|$)", re.DOTALL)
 GAPS = "parts"
 """What a column is told to be in which all gaps of a question stand."""

@@ -260,7 +260,7 @@ def normal_by_factor(scene: MistakeContext) -> Iterator[Change]:
 
 
 def normal_by_wrong_formula(scene: MistakeContext) -> Iterator[Change]:
-    """N3: aⁿ = ω²/l, ω·l, v·l, v²·l, or with the ω of another link; hardly any only if asked."""
+    """N3: aⁿ = ω²/l, ω·l, v·l, v²·l, v/l, or with another ω; hardly any only if asked."""
     asked = {question.name for question in scene.sheet.asked}
     for where, step, _ in _normals(scene):
         rate, length = step.powers[0][0], step.powers[1:]
@@ -268,6 +268,7 @@ def normal_by_wrong_formula(scene: MistakeContext) -> Iterator[Change]:
         wrong: list[Powers] = [
             ((rate, 2), *inverse),
             ((rate, 1), *length),
+            ((rate, 1),),
             ((rate, 1), *length, *length),
             ((rate, 2), *length, *length, *length),
         ]

@@ -132,6 +132,22 @@ def other_assembly(scene: MistakeContext) -> Iterator[Change]:
             case _:
                 continue
         yield Change("P1", str(step.out), {step.out: (swapped,)})
+    for step in scene.steps:  # an arm laid off on the other side of the pivot
+        if isinstance(step, steps.LayOff) and _is_arm(scene, step):
+            back = NumberName(f"{step.out} back")
+            made = (
+                steps.Compute(back, -1.0, ((step.length, 1),)),
+                replace(step, length=back),
+            )
+            yield Change("P1", str(step.out), {step.out: made})
+
+
+def _is_arm(scene: MistakeContext, step: steps.LayOff) -> bool:
+    """Tell whether a joint of a link is laid off from its pivot by the line of its guide."""
+    line = scene.made.get(step.along)
+    guided = isinstance(line, steps.Parallel | steps.AtAngle) and line.to is not None
+    bodies = scene.problem.bodies.values()
+    return guided and sum(str(step.out) in body.points for body in bodies) > 1
 
 
 def _other_poses(scene: MistakeContext, step: steps.Hold) -> Iterator[Change]:

@@ -135,7 +135,8 @@ def _anonymous(checked: CheckedWork, salt: str) -> CheckedWork:
         answers=tuple(map(rewritten, work.answers)),
         remarks=tuple(map(rewritten, work.remarks)),
     )
-    return replace(checked, work=told, answers=answers, remark=bare(checked.remark))
+    alike = tuple(hidden_name(name, salt) for name in checked.alike)
+    return replace(checked, work=told, answers=answers, remark=bare(checked.remark), alike=alike)
 
 
 LONGEST = 40
@@ -241,7 +242,9 @@ def _pages(
             found = Solution(problem) if isinstance(problem, Problem) else problem
             solutions[work.variant] = found
         solved = solutions[work.variant]
-        page = student_page(work, solved, words, scales=key.scales, mark=mark)
+        page = student_page(
+            work, solved, words, scales=key.scales, mark=mark, hidden=tuple(key.hidden)
+        )
         yield {
             "html": student_html(page, solved, words).encode(),
             "pdf": student_pdf(page, solved, words),

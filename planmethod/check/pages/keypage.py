@@ -11,7 +11,7 @@ from planmethod.check.key import Key
 from planmethod.check.model import KeyEntry
 from planmethod.check.pages.overlayview import LETTERING
 from planmethod.check.pages.remarks import place_letters, scale_letters, segment_letters
-from planmethod.check.pages.speech import Speech, told
+from planmethod.check.pages.speech import Speech, told, unsigned
 from planmethod.note.document import (
     Caption,
     Document,
@@ -253,7 +253,7 @@ def key_xlsx(keys: Sequence[Key], words: Language) -> bytes:
                     row.key.variant,
                     row.position,
                     entry.label,
-                    told(entry.exact, entry) / entry.per,
+                    told(unsigned(entry), entry) / entry.per,
                     entry.tolerance / entry.per,
                     cells[2],
                     cells[3],

@@ -30,6 +30,7 @@ def record(checked: CheckedWork) -> dict[str, Any]:
         "points": finite_or_none(checked.points),
         "of": finite_or_none(checked.of),
         "suspicious": checked.suspicious,
+        "alike": list(checked.alike),
         "remark": checked.remark or None,
         "by_hand": checked.by_hand,
         "unreadable": [

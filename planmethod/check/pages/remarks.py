@@ -14,6 +14,9 @@ from planmethod.plans.model import FACTS, RATES
 PLANS = {FACTS[kind].scale: kind for kind in RATES}
 OFF = (Verdict.WRONG, Verdict.NEAR)
 
+ON_PAPER = {"slip", "scale", "S1", "S2", "S3", "S4"}
+"""Mistakes in a number: the segment that it was read off is right."""
+
 
 class Remarks(Struct, frozen=True):
     """Remarks on one work, rich text.
@@ -24,11 +27,14 @@ class Remarks(Struct, frozen=True):
     checked : CheckedWork
     scales : mapping of str to float
         Those of the key, where the student names none of his own.
+    hidden : tuple of str
+        Codes of the mistakes that none of the answers can show.
     """
 
     speech: Speech
     checked: CheckedWork
     scales: Mapping[str, float]
+    hidden: tuple[str, ...] = ()
 
     @property
     def say(self) -> Words:
@@ -40,18 +46,27 @@ class Remarks(Struct, frozen=True):
         """Return all remarks; one that all is right where it is."""
         told = [*self._by_hand(), *self._causes(), *self._unexplained(), *self._inherited()]
         told += [*self._singly(), *self._missing()]
-        return told or [self.say.all_right]
+        return [*(told or [self.say.all_right]), *self._hidden()]
+
+    def _hidden(self) -> Iterator[str]:
+        """Yield which mistakes may be there and do not show."""
+        names = [self.speech.say["mistakes"][c].name for c in self.hidden if c in self._codes]
+        if names:
+            yield self.say.hidden.format(names="; ".join(names))
 
     def redraw(self) -> list[str]:
         """Return the segments to be drawn anew: those that mistakes begin at, else wrong ones."""
-        roots = [judged for d in self.checked.diagnosis for judged in self._known(d.roots)]
+        drawn = [d for d in self.checked.diagnosis if not d.codes or {*d.codes} - ON_PAPER]
+        roots = [judged for d in drawn for judged in self._known(d.roots)]
+        if self.checked.diagnosis and not roots:
+            return []
         off = [judged for judged in self.checked.answers if judged.verdict in OFF]
         lines: dict[tuple[str, str], str] = {}
         for judged in roots or off:
             key = judged.key
             if key is None or key.mm is None or not key.segment or judged.verdict not in OFF:
                 continue
-            if judged.slip:  # the segment is another matter
+            if judged.slip or judged.miscomputed:  # the segment is another matter
                 continue
             plan = PLANS.get(key.scale)
             # A number that follows from a segment does not tell that the segment is wrong.
@@ -79,14 +94,16 @@ class Remarks(Struct, frozen=True):
             if diagnosis.codes == ("slip",) and first.slip and not others:
                 continue  # said with his own numbers
             parts = [self._compared(first), self._why(diagnosis, first)]
-            if others:
+            if others:  # of which the same is said
                 parts.append(self.say.also.format(answers=self._listed(others)))
-            yield " ".join(parts)
+            yield " ".join(filter(None, parts))
 
     def _why(self, diagnosis: Diagnosis, root: Judged) -> str:
         words = [self.speech.say["mistakes"][c] for c in diagnosis.codes if c in self._codes]
         if not words:
             return self._not_known(root)
+        if diagnosis.codes == ("slip",) and not diagnosis.where:
+            return ""  # said with his own numbers
         if not diagnosis.sure or len(words) > 1:
             names = "; ".join(word.name for word in words)
             end = self.say.one_of_end.format(answer=self.speech.symbol(root))
@@ -104,11 +121,16 @@ class Remarks(Struct, frozen=True):
     def _where(self, where: str) -> str:
         if not where:
             return ""
+        if " ≠ " in where:  # a formula in place of another one
+            wrong, right = where.split(" ≠ ")
+            return str(self.say.mistake_instead.format(wrong=wrong, right=right))
         kind = "pair" if "/" in where else "link" if where.isdigit() else ""
         said: str = self.say["mistake_here"][kind]
         return said.format(where=place_letters(where))
 
     def _not_known(self, judged: Judged) -> str:
+        if judged.miscomputed and judged.local is not None:
+            return self.say.recompute.format(local=self.speech.close_to(judged.local, judged))
         if judged.key is None or judged.key.mm is None or not judged.key.segment:
             return self.say.unknown_computed
         return self.say.unknown.format(segment=segment_letters(judged.key.segment))

@@ -151,6 +151,8 @@ def _notes(checked: CheckedWork, words: Language) -> Iterator[str]:
     say = words.check
     if checked.suspicious:
         yield say["results"].suspicious
+    if checked.alike:
+        yield say["results"].alike.format(students=", ".join(checked.alike))
     if checked.by_hand or any(judged.by_hand for judged in checked.answers):
         yield say["results"].by_hand
     if checked.remark:

@@ -32,6 +32,11 @@ def shows_turn(key: KeyEntry) -> bool:
     return key.asks_sense and key.sense is not None and key.sense.turns
 
 
+def unsigned(key: KeyEntry) -> float:
+    """Return the exact value, without its sign where an arrow of turning stands beside it."""
+    return abs(key.exact) if key.sense is not None and key.sense.turns else key.exact
+
+
 class Speech(Struct, frozen=True):
     """How answers are told in a language."""
 
@@ -85,8 +90,11 @@ class Speech(Struct, frozen=True):
         return self._pointed(self.with_unit(number, key), key.sense if key.asks_sense else None)
 
     def value(self, key: KeyEntry) -> str:
-        """Return the exact value with its tolerance, up to the last digit of it."""
-        return self._within(key.exact, key, key.tolerance)
+        """Return the exact value with its tolerance, up to the last digit of it.
+
+        The sense of what turns stands beside it, in one way: as an arrow.
+        """
+        return self._within(unsigned(key), key, key.tolerance)
 
     def _within(self, value: float, key: KeyEntry, tolerance: float) -> str:
         number = self.rounded(told(value, key) / key.per, tolerance / key.per)
@@ -124,6 +132,8 @@ class Speech(Struct, frozen=True):
             sense = Sense.CCW if value > 0 else Sense.CW
             value = abs(value)
         allowed = judged.tolerance or key.tolerance
+        if abs(value) < abs(key.exact) / 3:  # the tolerance is that of a greater number
+            allowed = min(allowed, abs(value) / 20 or allowed)
         number = self.rounded(told(value, key) / key.per, allowed / key.per)
         return self._pointed(self.with_unit(number, key), sense)
 

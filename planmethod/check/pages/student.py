@@ -155,6 +155,7 @@ def student_page(
     *,
     scales: Mapping[str, float],
     mark: str = "",
+    hidden: tuple[str, ...] = (),
 ) -> Page:
     """Return the page of a work.
 
@@ -166,12 +167,14 @@ def student_page(
         Those of the key, unit per mm.
     mark : str
         Empty where points are all there is.
+    hidden : tuple of str
+        Codes of the mistakes that none of the answers can show.
     """
     speech = Speech(words)
     say: Words = words.check["student"]
     solution = solved if isinstance(solved, Solution) else None
     problem = solved.problem if isinstance(solved, Solution) else solved
-    remarks = Remarks(speech, checked, scales)
+    remarks = Remarks(speech, checked, scales, hidden)
     facts = [f"{say.student}: {quoted(checked.work.student)}"]
     if checked.variant:
         facts.append(f"{say.variant}: {quoted(checked.variant)}")

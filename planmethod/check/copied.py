@@ -1,0 +1,157 @@
+"""Copied work: the numbers of another variant, and two works by one hand (списанные работы)."""
+
+from __future__ import annotations
+
+import math
+from collections import defaultdict
+from collections.abc import Iterable, Iterator, Mapping
+from itertools import combinations
+
+from msgspec.structs import replace
+
+from planmethod.check.explain import Explanation, exceeds
+from planmethod.check.judge import Examined, distance
+from planmethod.check.model import CheckedWork
+from planmethod.check.questions import Sign
+from planmethod.check.sheet import Sheet
+from planmethod.check.task import Task
+
+FEW = 2
+"""Answers that must be off before another variant is thought of."""
+
+MOST = 0.75
+"""Share of the answers that tell two variants apart which those of the other one must give."""
+
+USUAL = math.log(9.0)
+"""Wrong numbers are between a third and three times of the right one, anywhere."""
+
+BY_CHANCE = 0.005
+"""How rarely the answers of another variant may come by chance, to be called so."""
+
+LEAST_SHARE = 0.3
+"""A small number of another variant is drawn no better than a third of the right one."""
+
+ALIKE = 0.01
+"""How rarely two works of a whole group may be so near each other by chance."""
+
+STROKES = 4
+"""Readings by which two works are compared, at least."""
+
+BOUND = 4.0
+"""Sigmas beyond which a reading is a mistake, not the pencil: mistakes may be made by two."""
+
+HAND = 0.15
+"""Nobody errs less than this share of what the profile says: that is how far works differ."""
+
+
+def copied(task: Task, sheet: Sheet, found: list[Examined]) -> Explanation | None:
+    """Return that the numbers are those of another variant; None where they are not surely.
+
+    What they give is compared as it was written, and nothing follows from anything: who copies
+    has all plans of the other variant, wherever one's own numbers would lead.
+    """
+    if sum(not one.right for one in found) < FEW:
+        return None
+    best: tuple[float, float, str, Sheet] | None = None
+    count, named = 0, task.named(sheet)
+    for variant, theirs in task.theirs(sheet):
+        count += 1
+        apart = [one for one in found if _tells_apart(one, theirs.exact)]
+        hits = [one for one in apart if _gives(one, theirs.exact)]
+        if len(hits) < max(FEW, MOST * len(apart)):
+            continue
+        rivals = (e for e in named if not (e.code == "P1" and e.change and e.change.data))
+        if any(all(_gives(one, rival.values) for one in hits) for rival in rivals):
+            continue  # a mistake in his own variant does as well; another angle is the other one
+        free = [one for one in hits if not (one.follows and one.parents)]
+        chance = math.fsum(math.log(min(1.0, _chance(one, theirs.exact))) for one in free)
+        off = math.fsum(_off(one, theirs.exact) for one in hits) / len(hits)
+        if best is None or (chance, off) < best[:2]:
+            best = chance, off, variant, theirs
+    if best is None or best[0] + math.log(count) > math.log(BY_CHANCE):
+        return None
+    return Explanation("P2", best[2], best[3].exact, best[3].trace, best[3])
+
+
+def _tolerance(one: Examined, value: float) -> float:
+    share = max(abs(value / one.limit.exact), LEAST_SHARE) if one.limit.exact else 1.0
+    return math.hypot(max(one.limit.tolerance(), one.limit.spread) * share, one.step / 2)
+
+
+def _tells_apart(one: Examined, values: Mapping[str, float]) -> bool:
+    value = values[one.item.question.id]
+    if not math.isfinite(value):
+        return False
+    own = max(one.limit.tolerance(one.step), one.limit.spread)
+    if one.signed and one.item.question.sign is Sign.TURN and value * one.limit.exact < 0:
+        return not one.limit.zero
+    return distance(one.item, value, one.limit.exact, signed=one.signed) > own + _tolerance(
+        one, value
+    )
+
+
+def _gives(one: Examined, values: Mapping[str, float]) -> bool:
+    value = values[one.item.question.id]
+    turned = one.signed and one.item.question.sign is Sign.TURN and one.value * value < 0
+    return not turned and _off(one, values) <= 1.0
+
+
+def _off(one: Examined, values: Mapping[str, float]) -> float:
+    value = values[one.item.question.id]
+    return distance(one.item, one.value, value, signed=one.signed) / _tolerance(one, value)
+
+
+def _chance(one: Examined, values: Mapping[str, float]) -> float:
+    value = values[one.item.question.id]
+    return 2.0 * _tolerance(one, value) / (abs(value) or one.step or 1.0) / USUAL
+
+
+# In a group ----------------------------------------------------------------------------------
+
+
+def compared(works: Iterable[CheckedWork]) -> list[CheckedWork]:
+    """Return works with those told whose readings are nearer to theirs than two pencils come.
+
+    Every stroke errs by itself. What is left of a reading when the earlier numbers are given is
+    the fingerprint of a hand: that of two honest works of one task differ by √2 of a sigma.
+    """
+    whole = list(works)
+    alike: dict[int, list[str]] = defaultdict(list)
+    same: dict[str | None, list[int]] = defaultdict(list)
+    for number, checked in enumerate(whole):
+        same[checked.variant].append(number)
+    pairs = [pair for numbers in same.values() for pair in combinations(numbers, 2)]
+    for one, two in pairs:
+        chance = likeness(whole[one], whole[two])
+        if chance * len(pairs) < ALIKE:
+            alike[one].append(whole[two].work.student)
+            alike[two].append(whole[one].work.student)
+    return [replace(w, alike=tuple(alike[n])) if n in alike else w for n, w in enumerate(whole)]
+
+
+def likeness(one: CheckedWork, two: CheckedWork) -> float:
+    """Return how often two honest works come as near each other in all readings as these (Fisher).
+
+    Each reading gives the chance that two pencils agree so well; twice the negative logarithms add
+    up to chi-squared with two degrees of freedom each.
+    """
+    hands = _hand(one), _hand(two)
+    logs = list(_agreements(one, two, math.hypot(*hands)))
+    if len(logs) < STROKES:
+        return 1.0
+    return exceeds(-2.0 * math.fsum(logs), 2 * len(logs))
+
+
+def _agreements(one: CheckedWork, two: CheckedWork, hand: float) -> Iterator[float]:
+    for key in one.strokes.keys() & two.strokes.keys():
+        a, b = one.strokes[key], two.strokes[key]
+        if max(abs(a.off), abs(b.off)) <= BOUND:
+            step = max(a.step, b.step) / 2
+            yield math.log(min(1.0, math.erf((abs(a.off - b.off) + step) / hand / math.sqrt(2.0))))
+
+
+def _hand(checked: CheckedWork) -> float:
+    """Return how well somebody draws, as a share of what the profile says."""
+    found = [stroke.off for stroke in checked.strokes.values() if abs(stroke.off) <= BOUND]
+    rms = math.sqrt(math.fsum(off**2 for off in found) / len(found)) if found else 1.0
+    return min(1.0, max(HAND, rms))
