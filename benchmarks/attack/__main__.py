@@ -28,7 +28,7 @@ from pathlib import Path
 from benchmarks.attack import mutants
 from benchmarks.attack.patterns import LENGTH, patterns, slow
 
-SECONDS, MEGABYTES = 5.0, 500.0
+SECONDS, MEGABYTES, OWN = 5.0, 500.0, 100.0
 """Processor time and memory that one file may take."""
 
 CHUNK = 250
@@ -155,6 +155,8 @@ def _child(door: str, seeds: Sequence[int], pipe: Connection) -> None:
     signal.signal(signal.SIGVTALRM, _late)
     resource.setrlimit(resource.RLIMIT_AS, (4 * 2**30, 4 * 2**30))
     warnings.simplefilter("ignore")
+    # What the process that forks has kept is none of the file's.
+    before = max(0.0, resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024 - OWN)
     home = Path.cwd()
     with tempfile.TemporaryDirectory() as name:
         for seed in seeds:
@@ -163,7 +165,7 @@ def _child(door: str, seeds: Sequence[int], pipe: Connection) -> None:
             pipe.send((seed, None, 0.0, 0.0))
             code, seconds = attempt(DOORS[door](seed), folder)
             os.chdir(home)
-            peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024
+            peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024 - before
             pipe.send((seed, code, seconds, peak))
             if peak > MEGABYTES:
                 break  # of the next file it would not be known

@@ -224,6 +224,8 @@ def test_ctrl_c_is_one_line_and_130(late: float, tmp_path: Path) -> None:
         env={**os.environ, "PYTHONPATH": str(ROOT)},
         stderr=subprocess.PIPE,
         stdout=subprocess.DEVNULL,
+        # Who runs the tests in the background may have left the signal ignored.
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL),
     ) as running:
         time.sleep(0.06 + late)
         running.send_signal(signal.SIGINT)
