@@ -147,6 +147,18 @@ def moved_in(problem: CamProblem, node: CamNode) -> Reals:
     return problem.on(stretch_of(problem, node), np.array(node.phi))
 
 
+def step_between(problem: CamProblem, start: float, end: float) -> float:
+    """Return the height of the step that stands for a_q between two divisions, m.
+
+    The ordinate in the middle; where a_q jumps between them, that of the same area.
+    """
+    slack = 1e-9
+    inside = [one.start for one in problem.stretches if start + slack < one.start < end - slack]
+    places = np.array([start, *inside, end])
+    heights = problem.at((places[1:] + places[:-1]) / 2)[2]
+    return float((heights * np.diff(places)).sum() / (end - start))
+
+
 class CamConstruction(Struct, frozen=True, dict=True):
     """Construction of a cam (построение).
 
@@ -253,7 +265,7 @@ class _Draft(Struct):
                 end["s"] = b.meet_lines(f"S_{{{k}}}", line, flat) if last else feet[1]
             else:
                 middle = (last.phi + node.phi) / 2
-                size = float(problem.at(np.array([middle]))[2, 0])
+                size = step_between(problem, last.phi, node.phi)
                 up = b.lay_off(
                     f"m_{{{k}}}", origins[0], ups[0], self.known(f"y {k}", size / scales.a)
                 )
