@@ -465,7 +465,9 @@ def _one_by_one(
 def _idle(sheet: Sheet, one: Examined, explanation: Explanation) -> bool:
     """Tell whether an explanation leaves an answer as it is, its size and its sense."""
     given, exact = explanation.values[one.item.question.id], sheet.exact[one.item.question.id]
-    turned = one.item.question.sign is Sign.TURN and one.signed and given * exact < 0
+    sign = one.item.question.sign
+    told = one.signed if sign is Sign.TURN else sign is Sign.STRICT
+    turned = told and given * exact < 0
     return not turned and abs(abs(given) - abs(exact)) <= one.limit.tolerance()
 
 
