@@ -4,10 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from enum import Enum
-from types import MappingProxyType
 from typing import Annotated
 
-from msgspec import Struct
+from msgspec import Struct, field
 
 from planmethod.problem.declared import (
     AngleKey,
@@ -282,7 +281,7 @@ class FrictionTask(Struct, frozen=True):
             "a table for each pair that has other values, named by its joint and its two links: "
             '`"B 3-0" = { f = 0.2 }`, a sliding pair by its pin, the frame is 0'
         ),
-    ] = MappingProxyType({})
+    ] = field(default_factory=dict)
 
 
 class BearingTable(Struct, frozen=True):
@@ -351,4 +350,4 @@ class Dynamics(Struct, frozen=True):
         ),
     ] = False
     friction: FrictionTask | None = None
-    bearings: Mapping[str, BearingTable] = MappingProxyType({})
+    bearings: Mapping[str, BearingTable] = field(default_factory=dict)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+import pickle
 import re
 import subprocess
 import sys
@@ -16,6 +17,7 @@ from cases import each, thinned
 from worked import every_file, every_task
 
 import planmethod
+from planmethod.kinds import kind_of
 from planmethod.problem import FAMILIES, keys, load, loads, template, variant_names
 from planmethod.problem.declared import (
     AngleKey,
@@ -295,3 +297,11 @@ def test_reading_needs_no_heavy_modules() -> None:
         check=True,
     )
     assert run.stdout.split() == []
+
+
+@each("path", PROBLEMS)
+def test_a_problem_goes_to_another_process_and_comes_back(path: Path) -> None:
+    """So do all that is read of a file: `--jobs` sends it."""
+    kind = kind_of(path)
+    problem = load(path) if kind is None else kind.load(path, None)
+    assert type(pickle.loads(pickle.dumps(problem))) is type(problem)
