@@ -1,4 +1,4 @@
-"""A crank mechanism and one with a driving slider, for tests of what is added to them."""
+"""Texts of a crank mechanism, of one with a driving slider and of a triad, for tests to add to."""
 
 from __future__ import annotations
 
@@ -49,6 +49,37 @@ v = 1
 [assembly]
 B = "above C"
 """
+
+TRIAD = """
+title = "III"
+[frame]
+O = [0.0, 0.0]
+E = [0.30, 0.02]
+F = [0.16, 0.30]
+[links.1]
+points = ["O", "A"]
+OA = 0.06
+[links.2]
+points = ["A", "B"]
+AB = 0.20
+[links.3]
+points = ["B", "C", "D"]
+BC = 0.16
+BD = 0.14
+CD = 0.13
+D.side = "left of BC"
+[links.4]
+points = ["E", "C"]
+EC = 0.15
+[links.5]
+points = ["F", "D"]
+FD = 0.14
+[driver]
+link = "1"
+phi = 50
+omega = 10
+"""
+"""A base link on three legs, which can be assembled in four ways."""
 
 
 LOADED = """

@@ -221,16 +221,19 @@ class Solution(Remembering):
         chosen: npt.NDArray[np.intp] | slice = EVERY,
     ) -> dict[str, Any]:
         """Return the data of the program at given scales (unit per mm), for some positions."""
-        draft = self.construction.draft
-        own, positions = at_positions(scales, chosen), self.positions[chosen]
-        data: dict[str, Any] = {**drive_data(self.problem, draft, positions), **own}
-        if len(positions) <= FEW_ROWS:
+        data: dict[str, Any] = {**self._given_at(chosen), **at_positions(scales, chosen)}
+        count = len(self.positions[chosen])
+        if count <= FEW_ROWS:
             # As of variants that are read together (`planmethod.solved.many.variants`), to the last
             # bit: NumPy multiplies a column by one complex number in another way than by a column.
-            data = {name: np.full(len(positions), value) for name, value in data.items()}
-        for name in draft.places:
+            data = {name: np.full(count, value) for name, value in data.items()}
+        for name in self.construction.draft.places:
             data[name] = data[name] / data["mu_l"]
         return data
+
+    def _given_at(self, chosen: npt.NDArray[np.intp] | slice) -> Mapping[str, Any]:
+        """Return what is given, for some positions, at unit scales."""
+        return drive_data(self.problem, self.construction.draft, self.positions[chosen])
 
     def read(self, arithmetic: Arithmetic, scales: Mapping[str, Number] = UNIT_SCALES) -> Reading:
         """Read the whole program in an arithmetic at given scales (unit per mm)."""

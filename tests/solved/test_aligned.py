@@ -11,6 +11,7 @@ from itertools import combinations, product
 
 import pytest
 from cases import each, some
+from mechanisms import TRIAD
 from msgspec.structs import replace
 from newton import solve as newton
 from spatial import Rank, rank_of
@@ -237,38 +238,6 @@ def test_sizes_that_close_nowhere_give_the_schemes_of_random_ones() -> None:
     assert not aligned("linkages/ex1").random and "sizes" not in aligned_record(
         aligned("press/press")
     )
-
-
-TRIAD = """
-title = "t"
-[frame]
-O = [0, 0]
-E = [0.30, 0.02]
-F = [0.16, 0.30]
-[links.1]
-points = ["O", "A"]
-OA = 0.06
-[links.2]
-points = ["A", "B"]
-AB = 0.20
-[links.3]
-points = ["B", "C", "D"]
-BC = 0.16
-BD = 0.14
-CD = 0.13
-D = { side = "left of BC" }
-[links.4]
-points = ["E", "C"]
-EC = 0.15
-[links.5]
-points = ["F", "D"]
-FD = 0.14
-[driver]
-link = "1"
-phi = 50
-omega = 10
-epsilon = 0
-"""
 
 
 def test_a_group_of_class_three_closes_and_has_schemes_in_its_own_pose() -> None:

@@ -8,6 +8,7 @@ import math
 import numpy as np
 import pytest
 from cases import each
+from mechanisms import SLIDER
 from msgspec.structs import replace
 from worked import path_of
 
@@ -120,32 +121,12 @@ def test_what_it_refuses(table: str, told: str) -> None:
         stone(f"\n[balancing_force]\n{table}\n")
 
 
+MASS = '[dynamics.links.3]\nmass = 1\ncentre = "C"\n'
+
+
 def test_a_driving_slider_has_none() -> None:
     with pytest.raises(ProblemError, match="slides and has no turn"):
-        loads(SLIDER + '\n[balancing_force]\nat = "A"\n', name="slider")
-
-
-SLIDER = """
-[frame]
-O = [0.0, 0.0]
-guides.x-x = { through = [0.0, 0.0], angle = 0 }
-guides.y-y = { through = [0.0, 0.0], angle = 90 }
-[links.1]
-points = ["A"]
-slides = { on = "x-x" }
-[links.2]
-points = ["A", "B"]
-AB = 1.0
-[links.3]
-points = ["B"]
-slides = { on = "y-y" }
-[driver]
-link = "1"
-s = 0.5
-v = -0.1
-[dynamics]
-links.3 = { mass = 1, centre = "B" }
-"""
+        loads(SLIDER + MASS + '\n[balancing_force]\nat = "B"\n', name="slider")
 
 
 # Bearings ----------------------------------------------------------------------------------------

@@ -14,6 +14,7 @@ import pytest
 from cases import each, some
 from full_system import Answer, cross, loads_of, pose_of, slide_between, solve_all
 from loaded import loaded_problem
+from mechanisms import TRIAD
 from msgspec.structs import replace
 from newton import Motion
 from newton import solve as newton
@@ -40,36 +41,7 @@ from planmethod.solved.solution import Solution
 SEEDS = range(some(200, few=25))
 LIMIT = 1e-9
 
-TEXT = """
-title = "III"
-[frame]
-O = [0.0, 0.0]
-E = [0.30, 0.02]
-F = [0.16, 0.30]
-[links.1]
-points = ["O", "A"]
-OA = 0.06
-[links.2]
-points = ["A", "B"]
-AB = 0.20
-[links.3]
-points = ["B", "C", "D"]
-BC = 0.16
-BD = 0.14
-CD = 0.13
-D.side = "left of BC"
-[links.4]
-points = ["E", "C"]
-EC = 0.15
-[links.5]
-points = ["F", "D"]
-FD = 0.14
-[driver]
-link = "1"
-phi = 50
-omega = 10
-[assembly]
-"""
+TEXT = TRIAD + "[assembly]\n"
 
 
 def fixture(rule: str = "B = { near = [0.2356, 0.0801] }", text: str = TEXT) -> Problem:
@@ -318,7 +290,7 @@ def test_the_referee_has_the_same_to_fifty_digits() -> None:
 
 def test_parallel_legs_have_another_special_point() -> None:
     """Legs 2 and 4 are parallel: the point is of two others, and the numbers are Newton's."""
-    text = TEXT.replace("E = [0.30, 0.02]", "E = [0.16, -0.05]").replace("D.side", "D.side")
+    text = TEXT.replace("E = [0.30, 0.02]", "E = [0.16, -0.05]")
     b, a = 0.03 + 0.2j, 0.06 * cmath.rect(1, math.radians(50))
     e = b + 0.16 - (b - a) / abs(b - a) * 0.15
     text = text.replace("E = [0.16, -0.05]", f"E = [{e.real!r}, {e.imag!r}]")

@@ -31,7 +31,7 @@ from planmethod.solved.enlarging import SHORT, SMALL
 from planmethod.solved.impossible import failing
 from planmethod.solved.reading import Flags, Reading, Reals
 from planmethod.solved.selfcheck import changed_branches, refused
-from planmethod.solved.solution import EVERY, FEW_ROWS, UNIT_SCALES, Solution, at_positions, even
+from planmethod.solved.solution import FEW_ROWS, Solution, at_positions, even
 
 
 class Batch(Solution):
@@ -56,21 +56,12 @@ class Batch(Solution):
         super().__init__(problems[0], positions=positions, profile=profile, construction=first)
         self.problems, self.constructions = problems, constructions
         counts = [len(problem.drive.positions) for problem in problems]
-        ends = np.cumsum([0, *counts]).tolist()
-        self.rows = [slice(start, end) for start, end in pairwise(ends)]
+        self.rows = _rows(counts)
         self._counts, self._of = counts, np.repeat(np.arange(len(problems)), counts)
 
-    def data(
-        self,
-        scales: Mapping[str, Number] = UNIT_SCALES,
-        chosen: npt.NDArray[np.intp] | slice = EVERY,
-    ) -> dict[str, Any]:
-        """Return the data of the program at given scales (unit per mm), for some rows."""
-        own = at_positions(scales, chosen)
-        data: dict[str, Any] = {**at_positions(self._given, chosen), **own}
-        for name in self.construction.draft.places:
-            data[name] = data[name] / own["mu_l"]
-        return data
+    def _given_at(self, chosen: npt.NDArray[np.intp] | slice) -> Mapping[str, Any]:
+        """Return what is given, for some rows, at unit scales."""
+        return at_positions(self._given, chosen)
 
     @cached_property
     def _given(self) -> dict[str, Number]:
@@ -250,12 +241,13 @@ def _read_together(wanted: Mapping[int, Wanted]) -> list[tuple[int, Reading]]:
         ]
         trace = evaluate(wanted[members[0]][1], _columns(own, counts), Float64())
         whole = Reading(trace, sum(counts))
-        ends = np.cumsum([0, *counts]).tolist()
-        found += [
-            (k, whole.part(slice(start, end)))
-            for k, (start, end) in zip(members, pairwise(ends), strict=True)
-        ]
+        found += [(k, whole.part(own)) for k, own in zip(members, _rows(counts), strict=True)]
     return found
+
+
+def _rows(counts: Sequence[int]) -> list[slice]:
+    """Return the rows of each variant that has so many positions, in order."""
+    return [slice(start, end) for start, end in pairwise(np.cumsum([0, *counts]).tolist())]
 
 
 def _columns(own: Sequence[Mapping[str, Number]], counts: Sequence[int]) -> dict[str, Number]:
