@@ -11,7 +11,7 @@ LINKAGES = $(sort $(filter-out $(TASKS) problems/point/% problems/gears/% proble
 # tree, also where the environment forbids it: to compile anew in every process is a tenth of the time.
 TESTS := PYTHONDONTWRITEBYTECODE= PYTHONPYCACHEPREFIX=$(CURDIR)/$(VENV)/bytecode $(BIN)/python -m pytest -n 2 --dist loadfile
 
-.PHONY: demo test test-every test-thorough test-lowest outputs lint size format tables schema examples messages tasks gallery group bench attack dist clean
+.PHONY: demo test test-every test-thorough test-lowest outputs lint size format tables schema examples messages tasks gallery docs group bench attack dist clean
 
 # The compat mode is a plain path entry: the default finder costs every command a tenth of a second.
 $(VENV)/.ready: pyproject.toml
@@ -85,15 +85,14 @@ messages: $(VENV)/.ready
 tasks: $(VENV)/.ready
 	$(BIN)/python -m benchmarks.tasks
 
-# The pictures of the documentation; the resolutions keep each below 150 kB.
+# The pictures of the documentation; PICTURES='ex3 note' draws some.
 gallery: $(VENV)/.ready
-	$(BIN)/planmethod sheet --format png --dpi 62 -o docs/gallery problems/linkages/ex3.toml problems/levers/task12.toml
-	$(BIN)/planmethod sheet --format png --dpi 90 -o docs/gallery problems/linkages/ex1.toml
-	$(BIN)/planmethod sheet --layout forces --format png --dpi 45 -o docs/gallery problems/levers/six-link.toml
-	$(BIN)/planmethod sheet --layout forces-cycle --phi 98.918918918919:429:30 --format png --dpi 45 -o docs/gallery problems/press/press.toml
-	$(BIN)/planmethod specimen symbols --format png --dpi 70 -o docs/gallery
-	$(BIN)/planmethod specimen lines --format png --dpi 90 -o docs/gallery
-	$(BIN)/planmethod specimen lettering --format png --dpi 45 -o docs/gallery
+	$(BIN)/python -m scripts.gallery $(PICTURES)
+
+# The book, into site/: the pages of docs/, the reference of docstrings. A link that leads nowhere fails it.
+docs: $(VENV)/.ready
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check --config-settings editable_mode=compat -e '.[docs]'
+	NO_MKDOCS_2_WARNING=1 $(BIN)/mkdocs build --quiet --site-dir site
 
 # The works of thirty invented students: problems/groups/ex3.csv.
 group: $(VENV)/.ready

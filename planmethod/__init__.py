@@ -1,9 +1,10 @@
 """The graphical plan method of the theory of mechanisms (метод планов).
 
 Public names: `load` and `loads` read a problem file, `solve` computes it, `Sweep` computes many
-positions of it, `draw` makes its sheets. They are imported when they are first asked for (PEP 562):
-Python imports this package before any module of it, and a command that needs none of these, or only
-one, would wait a quarter of a second for NumPy, the sheets and what they stand on.
+positions of it, `draw` makes its sheets, `document` tells its construction. They are imported when
+they are first asked for (PEP 562): Python imports this package before any module of it, and a
+command that needs none of these, or only one, would wait a quarter of a second for NumPy, the
+sheets and what they stand on.
 """
 
 from __future__ import annotations
@@ -12,6 +13,7 @@ TYPE_CHECKING = False  # not of typing: its import is a tenth of the way to the 
 if TYPE_CHECKING:
     from planmethod.kinds import load as load
     from planmethod.kinds import loads as loads
+    from planmethod.note.protocol import document_of as document
     from planmethod.problem import Problem as Problem
     from planmethod.render.sheets.kinematics import kinematics_sheets as draw
     from planmethod.solved.errors.motion import drafting_of as drafting
@@ -27,6 +29,7 @@ __all__ = [
     "Problem",
     "Solution",
     "Sweep",
+    "document",
     "drafting",
     "draw",
     "load",
@@ -39,6 +42,7 @@ _HOMES = {
     "Problem": "planmethod.problem:Problem",
     "Solution": "planmethod.solved.solution:Solution",
     "Sweep": "planmethod.solved.many.sweep:Sweep",
+    "document": "planmethod.note.protocol:document_of",
     "drafting": "planmethod.solved.errors.motion:drafting_of",
     "draw": "planmethod.render.sheets.kinematics:kinematics_sheets",
     "load": "planmethod.kinds:load",
@@ -68,6 +72,16 @@ def solve(
     ------
     PlanMethodError
         When the mechanism cannot be analysed or assembled.
+
+    Examples
+    --------
+    >>> import planmethod
+    >>> solution = planmethod.solve(planmethod.load("problems/linkages/ex3.toml"))
+    >>> print(f"{abs(solution.points['E'].velocity[0]):.4f} m/s")
+    3.9157 m/s
+    >>> turn = planmethod.solve(solution.problem, positions=range(0, 360, 30))
+    >>> print(f"{turn.links['3'].omega.min():.3f} to {turn.links['3'].omega.max():.3f} 1/s")
+    -69.565 to 18.391 1/s
     """
     from planmethod.construct.drafting import PROFILES
     from planmethod.solved.solution import Solution

@@ -46,6 +46,7 @@ HELP = {
     },
     "The rest": {
         "layouts": "the shipped layouts of sheets",
+        "schema": "the keys of problem files, for editors",
         "specimen": "all symbols and lines at working size",
         "batch": "sheets and keys of all variants, on many machines",
         "bench": "speed beside error of your problems",

@@ -53,6 +53,13 @@ def load(path: str | Path, *, variant: str | None = None) -> Problem:
     Raises
     ------
     ProblemError
+
+    Examples
+    --------
+    >>> import planmethod
+    >>> problem = planmethod.load("problems/linkages/ex3-variants.toml", variant="2")
+    >>> problem.drive.positions
+    (40.0,)
     """
     (problem,) = load_each(path, (variant,))
     return problem

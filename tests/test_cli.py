@@ -128,7 +128,7 @@ def test_every_command_has_help(command: str) -> None:
 def test_version() -> None:
     shown = run("--version")
     assert shown.exit_code == 0
-    assert "0.1.0" in shown.output
+    assert "0.2.0" in shown.output
 
 
 def test_the_launcher_is_the_same_command() -> None:

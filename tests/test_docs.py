@@ -3,25 +3,35 @@
 from __future__ import annotations
 
 import ast
+import doctest
+import json
 import re
 import shlex
 import shutil
+import sys
 import tomllib
 from pathlib import Path
+from pkgutil import resolve_name
+from types import ModuleType, SimpleNamespace
+from typing import cast
 
 import click
+import matplotlib
 import pytest
 from cases import each, some
 from click.testing import CliRunner
+from matplotlib.figure import Figure
 from worked import PROBLEMS, ROOT
 
 from planmethod.cli import COMMANDS as NAMES
 from planmethod.cli import cli, command_of
 from planmethod.errors import ExitCode
+from planmethod.note.document import Document
 from planmethod.problem import loads
+from planmethod.render.ink.drawing import Drawing
 from planmethod.solved.selfcheck import verify
 from planmethod.solved.solution import Solution
-from scripts import examples
+from scripts import examples, gallery
 
 READMES = ("README.md", "README.ru.md")
 COMMANDS = ("docs/commands.md", "docs/ru/commands.md")
@@ -135,6 +145,56 @@ def test_python_examples_run(name: str, desk: Path, capsys: pytest.CaptureFixtur
     assert isinstance(pdf, bytes)
     assert pdf.startswith(b"%PDF-")
     assert "275°: 16.021" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize("name", ("docs/how-it-works.md", "docs/ru/how-it-works.md"))
+def test_what_the_page_about_its_working_shows_is_so(name: str, desk: Path) -> None:
+    pytest.importorskip("mpmath")
+    text = "\n".join(blocks(name, "pycon"))
+    test = doctest.DocTestParser().get_doctest(text, {}, name, name, 0)
+    failed, tried = doctest.DocTestRunner().run(test)
+    assert tried > 10
+    assert not failed
+
+
+@pytest.mark.parametrize("name", re.findall(r"(?m)^::: (.*)$", text_of("docs/api.md")))
+def test_examples_of_docstrings_run(name: str, desk: Path) -> None:
+    thing = resolve_name(name)
+    shown = dict(vars(sys.modules[thing.__module__]))
+    (test,) = doctest.DocTestFinder(recurse=False).find(thing, name, globs=shown)
+    failed, tried = doctest.DocTestRunner().run(test)
+    assert tried > 1
+    assert not failed
+
+
+def test_the_notebook_of_a_lecture_runs(desk: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Without Jupyter: what a cell ends with shows itself as it would there."""
+    matplotlib.use("agg")
+    moved: list[Drawing] = []
+    widgets = SimpleNamespace(
+        IntSlider=lambda **options: options["value"],
+        interact=lambda draw, **names: moved.append(draw(**names)),
+    )
+    monkeypatch.setitem(sys.modules, "ipywidgets", cast("ModuleType", widgets))
+    names: dict[str, object] = {}
+    shown: list[object] = []
+    for cell in json.loads(text_of("examples/lecture.ipynb"))["cells"]:
+        if cell["cell_type"] != "code":
+            continue
+        tree = ast.parse("".join(cell["source"]))
+        last = tree.body.pop() if isinstance(tree.body[-1], ast.Expr) else None
+        exec(compile(tree, "lecture", "exec"), names)
+        if isinstance(last, ast.Expr):
+            shown.append(eval(compile(ast.Expression(last.value), "lecture", "eval"), names))
+    solution, sheet, _, told, figure = shown
+    assert isinstance(solution, Solution)
+    assert "15.53" in solution._repr_html_().replace(",", ".")
+    assert isinstance(sheet, Drawing)
+    assert sheet._repr_svg_().startswith("<?xml")
+    assert isinstance(told, Document)
+    assert told._repr_html_().count("<li") > 20
+    assert isinstance(figure, Figure)
+    assert [one.width for one in moved] == [sheet.width]
 
 
 @each("page", examples.pages())
@@ -279,11 +339,7 @@ def test_the_changelog_has_its_form() -> None:
 
 def test_pictures_are_small_and_made_by_make() -> None:
     assert PICTURES
-    recipe = text_of("Makefile").partition("\ngallery:")[2].partition("\n\n")[0]
-    assert "planmethod sheet" in recipe
-    drawn = re.findall(r"problems/\w+/([\w-]+)\.toml", recipe)
-    drawn += [f"specimen-{name}" for name in re.findall(r"planmethod specimen (\w+) ", recipe)]
-    assert sorted(drawn) == sorted(path.stem for path in PICTURES)
+    assert sorted(one.name for one in gallery.PICTURES) == [path.stem for path in PICTURES]
     for path in PICTURES:
         data = path.read_bytes()
         assert data.startswith(b"\x89PNG")

@@ -105,7 +105,20 @@ class CheckedGroup(Struct, frozen=True):
 
 
 def check_works(variants: Variants, works: Sequence[Work]) -> Iterator[CheckedWork]:
-    """Yield the works, each checked by its own variant, whoever else is in the group."""
+    """Yield the works, each checked by its own variant, whoever else is in the group.
+
+    Examples
+    --------
+    >>> from pathlib import Path
+    >>> from planmethod.check.works import read_works
+    >>> variants = Variants(Path("problems/linkages/ex3-variants.toml"))
+    >>> works = read_works(Path("problems/groups/ex3.csv"))
+    >>> for one in check_works(variants, works[:3]):
+    ...     print(f"{one.work.student}: {one.points:g} of {one.of:g}")
+    Абрамова Дарья: 19 of 19
+    Белов Никита: 17.7 of 19
+    Васильев Олег: 19 of 19
+    """
     for work in works:
         try:
             name = variants.name_of(work)

@@ -15,6 +15,7 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from planmethod.errors import LayoutError
+from planmethod.languages import spoken_to
 from planmethod.note.formula import Rich
 
 _REFERENCE = r"\\ref\{([^{}]*)\}"
@@ -300,6 +301,14 @@ class Document(Struct, frozen=True):
     def of(cls, nodes: Iterable[Node]) -> Document:
         """Return a document of nodes."""
         return cls(tuple(nodes))
+
+    def _repr_html_(self) -> str:
+        """Return what a notebook shows, in the language of the environment, else in Russian."""
+        from pkgutil import resolve_name
+
+        # A document knows no writer: the page asks for one by name (ADR 0049).
+        shown: str = resolve_name("planmethod.note.writers.html:html_part")(self, spoken_to(()))
+        return shown
 
 
 def within(written: Document) -> Iterator[Node]:

@@ -31,11 +31,41 @@ from planmethod.note.narrate.structure import group_title
 from planmethod.note.narrate.transfers import TransferNarrator
 from planmethod.note.plaintext import given
 from planmethod.note.tables.results import position_line, position_tables, scale_texts
-from planmethod.note.wording import Language
+from planmethod.note.wording import Language, language
 from planmethod.plans.build import Section
 from planmethod.plans.model import PlanKind
 from planmethod.solved.solution import Solution
 from planmethod.solved.transfers import transfers_of
+
+
+def document_of(solution: Solution, *, lang: str = "ru", position: int = 0) -> Document:
+    """Tell the construction of a position step by step (протокол построения).
+
+    Parameters
+    ----------
+    solution : Solution
+    lang : str
+        ``ru`` or ``en``.
+    position : int
+        Index into ``solution.positions``.
+
+    Raises
+    ------
+    IndexError
+        When there is no such position.
+
+    Examples
+    --------
+    >>> import planmethod
+    >>> problem = planmethod.load("problems/linkages/ex3.toml")
+    >>> told = planmethod.document(planmethod.solve(problem), lang="en")
+    >>> from planmethod.note.document import Chapter
+    >>> [node.title for node in told.nodes if isinstance(node, Chapter)][:3]
+    ['Scales', 'Position plan', 'Velocity plan']
+
+    Its writers are in `planmethod.note.writers`; a notebook shows it as it is.
+    """
+    return protocol_document(solution, language(lang), position)
 
 
 def protocol_document(solution: Solution, words: Language, position: int = 0) -> Document:

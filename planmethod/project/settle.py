@@ -57,6 +57,15 @@ def settle(problem: Problem, path: Path | None = None) -> Project:
         ``[project]`` names a position that there is not, or a part is faulty.
     StructureError, AssemblyError, LayoutError
         As of a sheet.
+
+    Examples
+    --------
+    >>> import planmethod
+    >>> decided = settle(planmethod.load("problems/press/press.toml"))
+    >>> decided.scales.mu_l, decided.scales.mu_v
+    (0.004, 0.02)
+    >>> [part.name.value for part in decided.parts]
+    ['kinematics', 'forces']
     """
     asked = problem.drive.positions
     problem = in_positions(problem)

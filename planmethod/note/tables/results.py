@@ -6,6 +6,7 @@ import math
 from collections.abc import Iterator, Sequence
 from itertools import chain
 
+from planmethod.languages import spoken_to
 from planmethod.note.document import (
     Caption,
     Chapter,
@@ -24,7 +25,8 @@ from planmethod.note.narrate.scales import scale_inscription
 from planmethod.note.numbers import with_unit
 from planmethod.note.plaintext import fixed, found, given, spoken
 from planmethod.note.tables.sigmas import Sigmas, levelled
-from planmethod.note.wording import Language, Words
+from planmethod.note.wording import Language, Words, language
+from planmethod.note.writers.html import html_part
 from planmethod.plans.legend import TURNING, TURNINGS, Quantity, QuantityKind, kinds_on
 from planmethod.plans.model import FACTS, MOTION, PlanKind
 from planmethod.problem.model import Problem
@@ -49,6 +51,12 @@ def results_document(solution: Solution, words: Language, *, sigma: bool = False
         most to it in each of a few positions.
     """
     return Document.of(_results(solution, words, Sigmas(solution, words.note, asked=sigma)))
+
+
+def results_part(solution: Solution) -> str:
+    """Return the results as a notebook shows them, in the language of the environment."""
+    lang = spoken_to(())
+    return html_part(results_document(solution, language(lang)), lang)
 
 
 def _results(solution: Solution, words: Language, sigmas: Sigmas) -> Iterator[Node]:

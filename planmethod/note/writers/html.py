@@ -83,6 +83,12 @@ def html_document(written: Document, *, title: str, lang: str, style: str = "") 
     )
 
 
+def html_part(written: Document, lang: str) -> str:
+    """Return a document as an element for a page that is not ours, its style kept to itself."""
+    body = "\n".join(_body(document.referred(written), language(lang).document))
+    return f"<div><style>@scope {{{STYLE}{NOTE_STYLE}}}</style>\n{body}\n</div>"
+
+
 def _body(written: Document, words: Words) -> Iterator[str]:
     """Yield the elements; items that follow one another are a list, figures stand side by side."""
     for kind, run in groupby(document.numbers_of(written), lambda pair: type(pair[0])):

@@ -173,6 +173,14 @@ class Drawing(Struct):
     is_cut_down: bool = False
     goes_on: bool = False
 
+    def _repr_svg_(self) -> str:
+        """Return what a notebook shows."""
+        from pkgutil import resolve_name
+
+        # Ink knows no format: the page asks for one by name (ADR 0049).
+        data: bytes = resolve_name("planmethod.render.backends:render")(self, "svg")
+        return data.decode()
+
     def add(self, *items: Item) -> None:
         """Append items."""
         self.items.extend(items)

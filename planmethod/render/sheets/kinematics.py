@@ -96,6 +96,16 @@ def kinematics_sheets(
         When the blocks fit no format, or not the asked one, or when more sheets than that follow.
     CompositionError
         When the composition is faulty.
+
+    Examples
+    --------
+    >>> import planmethod
+    >>> from planmethod.render.backends import render
+    >>> (sheet,) = planmethod.draw(planmethod.load("problems/linkages/ex3.toml"), paper="A2")
+    >>> sheet.width, sheet.height
+    (594, 420)
+    >>> render(sheet, "pdf")[:5]
+    b'%PDF-'
     """
     if paper:
         problem = replace(problem, sheet=replace(problem.sheet, paper=paper_format(paper).name))

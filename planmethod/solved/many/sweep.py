@@ -81,6 +81,15 @@ class Sweep:
     Raises
     ------
     StructureError, ProblemError, AssemblyError, UnknownQuantityError, SweepError
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import planmethod
+    >>> problem = planmethod.load("problems/linkages/ex3.toml")
+    >>> table = planmethod.Sweep(problem, ["omega_3"]).table(np.linspace(0.0, 360.0, 10_001))
+    >>> print(f"{table['3.omega'].min():.3f} to {table['3.omega'].max():.3f} 1/s")
+    -69.565 to 18.391 1/s
     """
 
     def __init__(

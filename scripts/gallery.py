@@ -1,0 +1,101 @@
+"""Pictures of the documentation, each made by the commands that its page tells.
+
+``make gallery`` draws them all. Pages of PDF and HTML are turned into pictures by pdftoppm and
+Chromium: pictures of what is not there are left as they are, and that is said.
+"""
+
+from __future__ import annotations
+
+import shlex
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import NamedTuple
+
+from PIL import Image
+
+ROOT = Path(__file__).resolve().parent.parent
+SHADES = 64
+"""Colours of a picture: more are not seen, and cost."""
+GALLERY = ROOT / "docs" / "gallery"
+CHROMIUM = ("chromium", "--headless", "--no-sandbox", "--hide-scrollbars", "--disable-gpu")
+
+
+class Picture(NamedTuple):
+    """A picture, what draws it, and for pages what of them is seen."""
+
+    name: str
+    command: str
+    made: str = ""
+    """File that the command makes, where that is not the picture itself."""
+    shown: str = ""
+    """Of a PDF page and resolution, of HTML width and height in pixels."""
+
+
+PICTURES = (
+    Picture("ex3", "sheet problems/linkages/ex3.toml --format png --dpi 62"),
+    Picture("task12", "sheet problems/levers/task12.toml --format png --dpi 62"),
+    Picture("ex1", "sheet problems/linkages/ex1.toml --format png --dpi 90"),
+    Picture(
+        "six-link", "sheet problems/levers/six-link.toml --layout forces --format png --dpi 45"
+    ),
+    Picture(
+        "press",
+        "sheet problems/press/press.toml --layout forces-cycle --phi 98.918918918919:429:30"
+        " --format png --dpi 45",
+    ),
+    Picture("offset", "sheet problems/cams/offset.toml --format png --dpi 50"),
+    Picture("specimen-symbols", "specimen symbols --format png --dpi 70"),
+    Picture("specimen-lines", "specimen lines --format png --dpi 90"),
+    Picture("specimen-lettering", "specimen lettering --format png --dpi 45"),
+    Picture("note", "note problems/press/press.toml", "press-note.pdf", "12 60"),
+    Picture(
+        "checking",
+        "check problems/linkages/ex3-variants.toml problems/groups/ex3.csv",
+        "pages/Белов-Никита.html",
+        "900 1000",
+    ),
+)
+
+
+def drawn(picture: Picture, folder: Path) -> Path | str:
+    """Draw a picture and return its file; a sentence where a program is missing."""
+    words = ["-m", "planmethod", "--lang", "ru", *shlex.split(picture.command), "-o", str(folder)]
+    run = subprocess.run([sys.executable, *words], cwd=ROOT, capture_output=True, text=True)
+    if run.returncode not in (0, 1):  # a check has findings
+        raise SystemExit(run.stderr)
+    if not picture.made:
+        return next(folder.glob("*.png"))
+    page, target = sorted(folder.rglob(picture.made))[0], folder / f"{picture.name}.png"
+    if page.suffix == ".pdf":
+        program, (number, dpi) = "pdftoppm", picture.shown.split()
+        options = ["-png", "-singlefile", "-gray", "-r", dpi, "-f", number, "-l", number]
+        line = [program, *options, str(page), str(target.with_suffix(""))]
+    else:
+        program, size = CHROMIUM[0], picture.shown.replace(" ", ",")
+        line = [*CHROMIUM, f"--screenshot={target}", f"--window-size={size}", page.as_uri()]
+    if shutil.which(program) is None:
+        return f"{picture.name}: {program} is missing, the picture stays as it is"
+    subprocess.run(line, check=True, capture_output=True)
+    return target
+
+
+def main(names: list[str]) -> None:
+    """Draw the named pictures, or all."""
+    for picture in PICTURES:
+        if names and picture.name not in names:
+            continue
+        with TemporaryDirectory() as folder:
+            made = drawn(picture, Path(folder))
+            if isinstance(made, Path):
+                Image.open(made).quantize(SHADES).save(
+                    GALLERY / f"{picture.name}.png", optimize=True
+                )
+                made = f"docs/gallery/{picture.name}.png"
+        print(made)
+
+
+if __name__ == "__main__":
+    main(sys.argv[1:])
