@@ -359,7 +359,8 @@ def test_a_norm_controller_marks_nothing(name: str, tmp_path: Path) -> None:
     drawing = drawn(path, variant)
     assert [f"{one.code} {one.message}" for one in inspect(drawing)] == []
     curved = [item for item in drawing.items if isinstance(item, Stroke) and CURVE in item.tag]
-    assert len(curved) == 2 * 3 * 4  # flanks and fillets of three teeth of both wheels
+    # Flanks and fillets of three teeth of both wheels, and of wheel 1 as it is cut.
+    assert len(curved) == 3 * 3 * 4
     assert all(item.smooth for item in curved)
 
 
@@ -398,7 +399,7 @@ def test_splines_of_the_dxf_are_the_exact_profile_between_their_points(tmp_path:
                     break
             else:
                 pytest.fail("a spline that is no flank")
-    assert flanks == 12
+    assert flanks == 12 + 6  # of both wheels in mesh, and of wheel 1 as it is cut
 
 
 def test_both_languages_tell_the_same_formulas() -> None:

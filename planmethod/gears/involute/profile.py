@@ -110,7 +110,8 @@ class Tooth(Struct, frozen=True, dict=True):
             return last
         tried = np.linspace(0.0, last, _SCANNED)
         cut = np.flatnonzero(self._inside(tried) > 0)
-        k = int(cut[-1]) if len(cut) else _SCANNED - 2
+        # A trace of undercut may be between the last place and the end.
+        k = min(int(cut[-1]), _SCANNED - 2) if len(cut) else _SCANNED - 2
         return halved(lambda at: float(self._inside(np.array(at))) > 0, tried[k], tried[k + 1])
 
     @cached_property

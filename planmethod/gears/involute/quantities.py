@@ -11,6 +11,7 @@ from msgspec.structs import replace
 
 from planmethod.gears.angles import involute
 from planmethod.gears.involute.blocking import BlockingLimit, LimitKind, limits
+from planmethod.gears.involute.generation import RackCutting
 from planmethod.gears.involute.profile import LineOfAction, Tooth
 from planmethod.gears.involute.sizes import MeshingProblem, Pair, Reals
 from planmethod.note.formula import Rich
@@ -139,6 +140,15 @@ _OF_WHEELS = (
         "m·(\\frac{π}{2} + 2·x_{#}·{tan} α)",
         "{m}·(\\frac{{π}}{{2}} + 2·{x#}·{tan_alpha})",
     ),
+    GearSize("e", "e_{#}", Unit.MM, "p − s_{#}", "{p} − {s#}", False),
+    GearSize(
+        "h",
+        "h_{#}",
+        Unit.MM,
+        "\\frac{d_{a#} − d_{f#}}{2}",
+        "\\frac{{{d_a#} − {d_f#}}}{{2}}",
+        False,
+    ),
     GearSize(
         "alpha_a",
         "α_{a#}",
@@ -235,6 +245,7 @@ _RING: dict[str, tuple[tuple[str, str] | None, tuple[str, str] | None]] = {
             "{d_a2}·(\\frac{{{s2}}}{{{d2}}} − {inv_alpha} + {inv_alpha_a2})",
         ),
     ),
+    "h": (None, ("\\frac{d_{f2} − d_{a2}}{2}", "\\frac{{{d_f2} − {d_a2}}}{{2}}")),
     "rho_p": (
         ("ρ_{a2} − a_{w}·sin α_{w}", "{rho_a2} − {a_w}·{sin_w}"),
         ("ρ_{a1} + a_{w}·sin α_{w}", "{rho_a1} + {a_w}·{sin_w}"),
@@ -284,6 +295,7 @@ class SolvedMeshing:
         self.problem = problem
         self.pair = pair = Pair.of(problem)
         self.teeth = (Tooth(pair, 0), Tooth(pair, 1))
+        self.cuttings = tuple(RackCutting(t) if t.side > 0 else None for t in self.teeth)
         self.contact = LineOfAction.of(*self.teeth)
         self.limits = limits(problem.tip, problem.overlap, internal=bool(problem.cutter))
 

@@ -24,6 +24,17 @@ def record(problem: MeshingProblem, lang: str) -> dict[str, Any]:
     told["k"] = [int(k) for k in told["k"]]
     told["z"] = list(problem.z)
     told["undercut"] = [tooth.is_cut for tooth in solved.teeth]
+    told["cutting"] = [
+        one
+        and {
+            "displacement": one.displacement,
+            "clearance": one.clearance,
+            "boundary_rho": one.boundary,
+            "undercut_displacement": one.least,
+            "undercut_diameter": one.cut_diameter,
+        }
+        for one in solved.cuttings
+    ]
     told["conditions"] = [
         {
             "name": limit.kind.value,

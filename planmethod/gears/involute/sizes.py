@@ -265,6 +265,16 @@ class Pair(Struct, frozen=True, dict=True):
         return np.asarray(self.m * (pi / 2 + 2 * self.x * np.tan(self.rack.alpha)))
 
     @cached_property
+    def e(self) -> Reals:
+        """Width of the space on the pitch circle, mm (ширина впадины)."""
+        return np.asarray(self.p - self.s)
+
+    @cached_property
+    def h(self) -> Reals:
+        """Height of the tooth, mm."""
+        return np.asarray(np.abs(self.d_a - self.d_f) / 2)
+
+    @cached_property
     def alpha_a(self) -> Reals:
         """Profile angle at the tip, rad; NaN where the tip is within the base circle."""
         share = self.d_b / self.d_a

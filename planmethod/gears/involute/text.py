@@ -20,8 +20,30 @@ def solved_document(problem: MeshingProblem, words: Language) -> Iterator[Node]:
     yield table([*pair, *contact], words, (*say["columns"][:2], ""))
     yield Caption(say.wheels)
     yield table(wheels, words, say["columns"])
+    yield Caption(say.cutting)
+    yield from map(Item, cutting(solved, words))
     yield Caption(say.checked)
     yield from map(Item, quality(solved, words))
+
+
+def cutting(solved: SolvedMeshing, words: Language) -> Iterator[Rich]:
+    """Return where the rack stands that cuts each wheel, and where undercut begins or would."""
+    say = words.meshing
+    for k, one in enumerate(solved.cuttings):
+        if one is None:
+            yield say.cut_by_cutter.format(wheel=k + 1)
+            continue
+        numbers = {
+            "moved": one.displacement,
+            "c": one.clearance,
+            "rho": abs(one.boundary),
+            "least": one.least,
+        }
+        cut = one.cut_diameter
+        key = "whole" if cut is None else "cut"
+        if cut is not None:
+            numbers["d"] = cut
+        yield say["cut_by_rack"][key].format(wheel=k + 1, **_shown(numbers, words))
 
 
 def head(solved: SolvedMeshing, words: Language) -> Iterator[Node]:
