@@ -585,6 +585,31 @@ class PictureTable(Struct, frozen=True):
     ] = None  # fmt: skip
 
 
+class PlanetaryTask(Struct, frozen=True, kw_only=True):
+    """``[gears.design]``: what a planetary train was to be (проектирование передачи)."""
+
+    U: Annotated[
+        float | None,
+        NumberKey(
+            "ratio that was asked, with its sign: U_1H, of a set with two like rows U_H1",
+            "a ratio", low=-1e6, high=1e6, hint="A ratio is a number: U = 6.5.",
+            absent="that of the train",
+        ),
+    ] = None  # fmt: skip
+    within: Annotated[
+        float,
+        NumberKey(
+            "allowed share of U, both ways", "a share", low=0.0, high=0.5, hint="2 % are 0.02."
+        ),
+    ] = 0.02
+    z_min: Annotated[int, WholeKey("least number of teeth", 6, 400)] = 17
+    z_max: Annotated[int, WholeKey("most teeth of wheels with external teeth", 6, 400)] = 120
+    ring_max: Annotated[int, WholeKey("most teeth of wheels with internal teeth", 6, 400)] = 250
+    k_min: Annotated[int, WholeKey("least number of satellites that is compared", 1, 24)] = 3
+    k_max: Annotated[int, WholeKey("most satellites that are compared", 1, 24)] = 6
+    count: Annotated[int, WholeKey("how many variants of each number are shown", 1, 10)] = 3
+
+
 class GearWheelTable(Struct, frozen=True):
     """A wheel of ``[gears]`` that is a table (колесо)."""
 

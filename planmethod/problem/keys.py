@@ -20,6 +20,7 @@ from planmethod.problem.head import (
     HigherPairTable,
     MeshingTable,
     PictureTable,
+    PlanetaryTask,
     Published,
     SheetSettings,
 )
@@ -101,7 +102,7 @@ MOTOR_FORMS = {
 """Numbers of each way to give a motor's characteristic."""
 GEARS = (
     "wheels", "meshes", "bodies", "fixed", "n", "omega", "unknown", "coaxial", "module",
-    "satellites", "output", "ask", "picture",
+    "satellites", "output", "ask", "picture", "design",
 )  # fmt: skip
 MESH = ("of", "kind", "carrier", "eta", "hand")
 FLAT: Mapping[str, type[object]] = {
@@ -109,7 +110,8 @@ FLAT: Mapping[str, type[object]] = {
     "published": Published, "answer": AskedAnswer, "dynamics": Dynamics, "mass": Mass,
     "load": LoadEntry, "phases": Phase, "machine": Machine, "flywheel": FlywheelTask,
     "motor": MotorTable, "kloss": KlossTable, "line": LineTable, "balancing": CounterweightTask,
-    "wheel": GearWheelTable, "picture": PictureTable, "meshing": MeshingTable,
+    "wheel": GearWheelTable, "picture": PictureTable, "design": PlanetaryTask,
+    "meshing": MeshingTable,
     "project": ProjectTask, "higher": HigherPairTable, "balancing_force": BalancingForceTask,
     "friction": FrictionTask, "pair": PairFriction, "bearing": BearingTable, "cam": CamTable,
 }  # fmt: skip

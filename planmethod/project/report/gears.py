@@ -10,6 +10,7 @@ from msgspec.structs import replace
 
 from planmethod.gears.answers import answer
 from planmethod.gears.asked import parse
+from planmethod.gears.comparison import compare
 from planmethod.gears.conditions import conditions, judgement, sentence
 from planmethod.gears.construction import construct, read
 from planmethod.gears.derivation import DerivedLine, by_speeds
@@ -21,7 +22,12 @@ from planmethod.gears.model import GearProblem, Mesh, MeshKind
 from planmethod.gears.motion import TrainMotion, mesh_row, solve_motion
 from planmethod.gears.picture import draw
 from planmethod.gears.sheet import pictures
-from planmethod.gears.text import equation_of, fraction_text
+from planmethod.gears.text import (
+    compared_sentences,
+    compared_table,
+    equation_of,
+    fraction_text,
+)
 from planmethod.gears.told import given, indexed, ratios, results
 from planmethod.note.document import Chapter, Node, Part, Table
 from planmethod.note.formula import Rich, fraction
@@ -62,8 +68,21 @@ def train_chapter(report: Report, problem: GearProblem) -> Iterator[Node]:
     yield from _structure(report, problem, motion, said)
     yield Part(said.analysis.format())
     yield from _ratios(report, motion, said)
+    yield from _compared(report, problem, motion)
     yield Part(said.pictures.format())
     yield from _pictures(report, problem, motion, said)
+
+
+def _compared(report: Report, problem: GearProblem, motion: TrainMotion) -> Iterator[Node]:
+    """Yield the variants of a planetary train that was designed."""
+    compared = compare(problem, motion)
+    if compared is None:
+        return
+    title = report.words.teeth["compared"]["title"]
+    yield Part(title)
+    yield sentences(*compared_sentences(compared, report.words))
+    told = compared_table(compared, report.words)
+    yield Table(told.head, told.rows, name=title, key="train_variants")
 
 
 def _module(report: Report, motion: TrainMotion, said: Words) -> Rich:
