@@ -70,8 +70,8 @@ POINT_FORMS = {
 }
 """The key that tells how a third point is given, and the keys that go with it."""
 POINT = tuple(dict.fromkeys(key for form in POINT_FORMS.values() for key in form))
-CRANK = ("phi", "omega", "n", "train", "epsilon")
-SLIDER = ("s", "v", "a")
+CRANK = ("phi", "omega", "n", "train", "epsilon", "cam")
+SLIDER = ("s", "v", "a", "cam")
 POSED = ("x", "y", "phi")
 """Keys of the driver that tell a position by the output, each with a name: ``x_B``, ``phi_3``."""
 GOING = {
@@ -83,7 +83,7 @@ GOING = {
 """Which way the output goes: forward of its coordinate, and back."""
 EXTREMES = ("left", "right", "upper", "lower")
 PLACES = ("phi", "s", "stroke", "at")
-DRIVER = ("link", *CRANK, *SLIDER, "stroke", "at", "root")
+DRIVER = ("link", *dict.fromkeys((*CRANK, *SLIDER)), "stroke", "at", "root")
 SPAN = ("from", "to", "step", "count")
 RULE = ("near", "rule", "keep")
 KEEP = ("parallel", "continuous")

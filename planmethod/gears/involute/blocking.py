@@ -55,7 +55,7 @@ class BlockingLimit(Struct, frozen=True):
             case LimitKind.UNDERCUT:
                 return np.asarray(pair.x[self.wheel])
             case LimitKind.TIP:
-                return np.asarray(pair.s_a[self.wheel] / pair.m)
+                return np.asarray(pair.s_na[self.wheel] / pair.m)
             case LimitKind.OVERLAP:
                 return pair.epsilon
             case LimitKind.INTERFERENCE:

@@ -53,7 +53,7 @@ class CuttingView(Struct, frozen=True):
     @property
     def pitch(self) -> float:
         """Pitch of the rack."""
-        return pi * self.cutting.m * self.scale
+        return self.cutting.pitch * self.scale
 
     def size(self, name: str) -> float:
         """Return the radius of a circle of the wheel by its name in `Pair`."""
@@ -71,7 +71,7 @@ class CuttingView(Struct, frozen=True):
 
     def of_rack(self, points: Points, number: int = 0) -> Points:
         """Return points of the rack as it stands; its tooth number 0 is to the right of P₀."""
-        along = 1j * (self.cutting.at_pole + number * pi * self.cutting.m)
+        along = 1j * (self.cutting.at_pole + number * self.cutting.pitch)
         return np.asarray(1j * (points + along) * self.scale)
 
     def of_line(self, rho: float) -> complex:
@@ -89,7 +89,7 @@ def cutting_view(cutting: RackCutting, width: float, height: float) -> CuttingVi
     rack, tooth = cutting.tooth.pair.rack, cutting.tooth
     high = (tooth.size("d_a") - tooth.size("d_f")) / 2
     tall = 4.0 * (rack.ha + rack.c) * cutting.m + abs(cutting.displacement)
-    wide = 3.3 * pi * cutting.m
+    wide = 3.3 * cutting.pitch
     most = min(_HIGHEST / high, (width - 70.0) / wide, (height - 45.0) / tall)
     return CuttingView(cutting, nearest_scale(max(most, 1e-9)))
 
@@ -246,7 +246,7 @@ def _dimensions(
     rack, tooth = cutting.tooth.pair.rack, cutting.tooth
     x, number = cutting.displacement / cutting.m, tooth.wheel + 1
     left, right = _ends(view)
-    flank = view.of_rack(np.array([cutting.displacement + 0.25j * pi * cutting.m]))[0]
+    flank = view.of_rack(np.array([cutting.displacement + 0.25j * cutting.pitch]))[0]
 
     def told(symbol: str, value: float) -> str:
         return f"{symbol} = {words.say.number(f'{value:.3f}')}"
@@ -258,7 +258,7 @@ def _dimensions(
     one, two = complex(flank), complex(flank) + view.pitch
     yield (
         dimension(one, two, lift, gap=1.0, tag="dimension"),
-        label(told("p", pi * cutting.m), one + lift, two + lift, 1j),
+        label(told("p", cutting.pitch), one + lift, two + lift, 1j),
     )
     low, high = (view.level(x - part, right, right)[0] for part in (rack.ha + rack.c, rack.ha))
     text = told("c", rack.c * cutting.m)
@@ -291,7 +291,7 @@ def _arcs(view: CuttingView) -> Iterator[tuple[str, float, float, float]]:
     half = tooth.size("s") / tooth.size("d")
     right = view.angle(-1)
     yield "s", tooth.size("s"), right - half, right + half
-    yield "e", pi * view.cutting.m - tooth.size("s"), right + half, right + step - half
+    yield "e", view.cutting.pitch - tooth.size("s"), right + half, right + step - half
 
 
 def _arc_dimension(view: CuttingView, low: float, high: float) -> tuple[list[Item], complex]:

@@ -31,6 +31,11 @@ class RackCutting(Struct, frozen=True):
         return self.tooth.size("d") / 2
 
     @property
+    def pitch(self) -> float:
+        """Pitch of the rack in the transverse section."""
+        return self.tooth.pair.p
+
+    @property
     def displacement(self) -> float:
         """Distance x·m of the rack's reference line from the pitch circle, outwards positive."""
         return float(self.tooth.pair.x[self.tooth.wheel]) * self.m
@@ -70,6 +75,7 @@ class RackCutting(Struct, frozen=True):
         lower = np.concatenate([[-(rack.ha + rack.c) + 0j], round_tip])
         middle = 0.25j * pi
         whole = np.concatenate([lower, (2 * middle - lower)[::-1]])
+        whole = whole.real + 1j * whole.imag / cos(self.tooth.pair.beta)  # the transverse section
         return np.asarray(whole * self.m + self.displacement)
 
     def rack_tooth(self, count: int) -> Points:
@@ -85,11 +91,11 @@ class RackCutting(Struct, frozen=True):
     @property
     def at_pole(self) -> float:
         """Shift of the rack at which its flank goes through P₀."""
-        return self.displacement * tan(self.tooth.pair.rack.alpha) - pi * self.m / 4
+        return self.displacement * tan(self.tooth.pair.alpha_t) - self.pitch / 4
 
     def shifts(self, count: int) -> Reals:
         """Return shifts that cut a space from its fillets to the tips, evenly spaced."""
-        alpha, tooth = self.tooth.pair.rack.alpha, self.tooth
+        alpha, tooth = self.tooth.pair.alpha_t, self.tooth
         ends = np.array([tooth.rho_low, tooth.rho_high])
         first, last = self.at_pole + (self.radius * sin(alpha) - ends) / cos(alpha)
         far = max(abs(last), abs(first))
@@ -97,5 +103,5 @@ class RackCutting(Struct, frozen=True):
 
     def on_line(self, rho: float) -> complex:
         """Return a point of the line of action from P₀, by its distance from N."""
-        alpha = self.tooth.pair.rack.alpha
+        alpha = self.tooth.pair.alpha_t
         return (self.radius * sin(alpha) - rho) * complex(-sin(alpha), cos(alpha))
