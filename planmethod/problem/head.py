@@ -366,6 +366,21 @@ class MeshingTable(Struct, frozen=True, kw_only=True):
             "profile angle of the rack", "an angle", "degrees", 10.0, 30.0, hint=MESHING_HINT
         ),
     ] = 20.0
+    beta: Annotated[
+        float,
+        NumberKey(
+            "helix angle of both wheels (угол наклона зуба); m, alpha, ha, c, x are then those of "
+            "the normal section",
+            "an angle", "degrees", 0.0, 45.0, hint=MESHING_HINT,
+        ),
+    ] = 0.0  # fmt: skip
+    b: Annotated[
+        float | None,
+        NumberKey(
+            "working width of the rims, for the overlap ratio of helical wheels",
+            "a width", "mm", 0.05, 1e4, hint=MESHING_HINT, absent="not known",
+        ),
+    ] = None  # fmt: skip
     ha: Annotated[
         float,
         NumberKey(
@@ -383,8 +398,8 @@ class MeshingTable(Struct, frozen=True, kw_only=True):
     x: Annotated[
         tuple[float, float] | None,
         OwnKey(
-            'shifts of the rack in modules, `[0.5, 0.3]`; or `"blocking"`: chosen by the blocking '
-            "limits"
+            "shifts of the rack in modules, `[0.5, 0.3]`; or how they are chosen within the "
+            'blocking limits: `"blocking"`, `"equal-sliding"`, `"contact-ratio"`'
         ),
     ] = None
     x1: Annotated[

@@ -13,7 +13,7 @@ import pytest
 from cases import each, some
 from click.testing import CliRunner
 from shapely import MultiPolygon, Point, Polygon, union_all
-from shapely.affinity import rotate, translate
+from shapely.affinity import rotate, scale, translate
 from worked import PROBLEMS
 
 from planmethod.cli import cli
@@ -85,12 +85,15 @@ def test_drawn_flanks_are_the_involute_to_a_nanometre(x: float) -> None:
     assert flanks == 6
 
 
-def swept(x: float, count: int, *, m: float = 5.0, z: int = 12) -> Polygon | MultiPolygon:
+def swept(
+    x: float, count: int, *, m: float = 5.0, z: int = 12, beta: float = 0.0
+) -> Polygon | MultiPolygon:
     """Return the space of a wheel: the rack's tooth, rounded by shapely, in many positions.
 
-    The wheel's centre is the origin, the axis of the space points to +y.
+    The wheel's centre is the origin, the axis of the space points to +y. The rack of a helical
+    wheel is that of the normal section, stretched along itself.
     """
-    alpha, radius = radians(20), m * z / 2
+    alpha, radius = radians(20), m * z / 2 / cos(beta)
     low, high = -1.25 * m, 2.0 * m
 
     def half(y: float) -> float:
@@ -100,6 +103,7 @@ def swept(x: float, count: int, *, m: float = 5.0, z: int = 12) -> Polygon | Mul
     rho = 0.25 * m / (1 - sin(alpha))
     tooth = sharp.buffer(-rho, quad_segs=400).buffer(rho, quad_segs=400)
     tooth = tooth.union(sharp.intersection(Polygon([(-9, 0), (9, 0), (99, high), (-99, high)])))
+    tooth = scale(tooth, xfact=1 / cos(beta), origin=(0, 0))
     tooth = translate(tooth, 0.0, x * m + radius)
     rolls = np.linspace(-1.0, 1.0, count)
     return union_all([
@@ -115,6 +119,18 @@ def test_flank_and_fillet_bound_what_a_swept_rack_leaves(x: float) -> None:
     cut = swept(x, count)
     tooth, tolerance = cutting_of(x).tooth, 6.0 * (2.0 / (count - 1)) ** 2 * 30
     turn = np.exp(1j * (pi / 2 + pi / tooth.z))
+    for points in (tooth.fillet_points(60), tooth.flank_points(60)):
+        for one in points[1:-1] * turn:
+            assert cut.boundary.distance(Point(one.real, one.imag)) < tolerance, (x, one)
+
+
+@each("x, degrees", [(0.3, 15.0), (-0.1, 30.0), (0.0, 35.0)])
+def test_a_helical_rack_leaves_its_own_fillet(x: float, degrees: float) -> None:
+    """The rounded tip is an ellipse in the transverse section; without shift it undercuts."""
+    count, beta = some(2001, few=501), radians(degrees)
+    cut = swept(x, count, beta=beta)
+    tooth = Tooth(Pair((12, 30), 5.0, Rack(radians(20)), np.array([x, 0.0]), 0, beta), 0)
+    tolerance, turn = 6.0 * (2.0 / (count - 1)) ** 2 * 40, np.exp(1j * (pi / 2 + pi / tooth.z))
     for points in (tooth.fillet_points(60), tooth.flank_points(60)):
         for one in points[1:-1] * turn:
             assert cut.boundary.distance(Point(one.real, one.imag)) < tolerance, (x, one)

@@ -314,14 +314,14 @@ def test_the_distance_of_the_axes_tells_the_shifts(tmp_path: Path) -> None:
         ("z = [12, -40]\nm = 5\nx = [0, 0]", "internal pair"),
         ("z = [12, 3]\nm = 5\nx = [0, 0]", "meshing.z[1]: expected a whole number from 5"),
         ("z = [12, 30]\nm = 5\nx = [0, 0]\na_w = 110", "both shifts are given in x"),
-        ('z = [12, 30]\nm = 5\nx = "best"', "or 'blocking'"),
+        ('z = [12, 30]\nm = 5\nx = "best"', "'blocking', 'equal-sliding' or 'contact-ratio'"),
         ("z = [12, 30]\nm = 5\na_w = 90", "base circles meet at a·cos α = 98.668"),
         ("z = [12, 30]\nm = 5\nx = [-1, -1]", "must be at least -0.8599"),
         ("z = [5, 30]\nm = 5\nx = [-0.9, 0.9]", "cuts the tooth of wheel 1 off"),
         ("z = [5, 30]\nm = 5\nx = [3, 1]", "pointed below its involute: x1 = 3"),
         ("z = [8, 25]\nm = 5\nx = 'blocking'", "ε_α is at most 1.1"),
         ("z = [12, 30]\nm = 5\nx = [0, 0]\nalpha = 30\nha = 1.3", "ends before its tip"),
-        ("z = [12, 30]\nm = nan\nx = [0, 0]\nbeta = 3", "unknown key"),
+        ("z = [12, 30]\nm = nan\nx = [0, 0]\ngamma = 3", "unknown key"),
     ],
 )
 def test_a_faulty_file_says_what_to_do(tmp_path: Path, body: str, said: str) -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from enum import Enum
+from math import pi, sin
 
 import numpy as np
 from msgspec import Struct
@@ -268,9 +269,144 @@ _RING: dict[str, tuple[tuple[str, str] | None, tuple[str, str] | None]] = {
 """Formulas of an internal pair (GOST 19274) where they are others: of wheel 1 or the pair, and of
 wheel 2; None for the same."""
 
+
+def _helical(
+    key: str, symbol: str = "", formula: str = "", numbers: str = ""
+) -> tuple[str, tuple[str, str, str]]:
+    return key, (symbol, formula, numbers)
+
+
+_HELICAL = dict((
+    _helical(
+        "z_min", "",
+        "\\frac{2·h_{l}^{*}·cos β}{sin^{2}α_{t}}",
+        "\\frac{{2·{h_l}·{cos_beta}}}{{{sin}^{{2}}}}",
+    ),
+    _helical("inv_alpha", "inv α_{t}", "{tan} α_{t} − α_{t}", "{tan_t} − {rad_alpha}"),
+    _helical(
+        "inv_alpha_w", "inv α_{tw}",
+        "inv α_{t} + \\frac{2·x_{Σ}·{tan} α}{z_{1} + z_{2}}",
+    ),
+    _helical("alpha_w", "α_{tw}"),
+    _helical(
+        "a", "",
+        "\\frac{m·(z_{1} + z_{2})}{2·cos β}", "\\frac{{{m}·({z1} + {z2})}}{{2·{cos_beta}}}",
+    ),
+    _helical("a_w", "", "\\frac{a·cos α_{t}}{cos α_{tw}}"),
+    _helical("p", "p_{t}", "\\frac{π·m}{cos β}", "\\frac{{π·{m}}}{{{cos_beta}}}"),
+    _helical("p_b", "p_{bt}", "p_{t}·cos α_{t}"),
+    _helical(
+        "x_min", "",
+        "h_{l}^{*} − \\frac{z_{#}·sin^{2}α_{t}}{2·cos β}",
+        "{h_l} − \\frac{{{z#}·{sin}^{{2}}}}{{2·{cos_beta}}}",
+    ),
+    _helical("d", "", "\\frac{m·z_{#}}{cos β}", "\\frac{{{m}·{z#}}}{{{cos_beta}}}"),
+    _helical("d_b", "", "d_{#}·cos α_{t}"),
+    _helical("d_w", "", "\\frac{d_{b#}}{cos α_{tw}}"),
+    _helical(
+        "s", "s_{t#}",
+        "\\frac{m}{cos β}·(\\frac{π}{2} + 2·x_{#}·{tan} α)",
+        "\\frac{{{m}}}{{{cos_beta}}}·(\\frac{{π}}{{2}} + 2·{x#}·{tan_alpha})",
+    ),
+    _helical("e", "e_{t#}", "p_{t} − s_{t#}"),
+    _helical("alpha_a", "α_{ta#}"),
+    _helical("s_a", "s_{ta#}", "d_{a#}·(\\frac{s_{t#}}{d_{#}} + inv α_{t} − inv α_{ta#})"),
+    _helical(
+        "W", "",
+        "m·cos α·(π·(k_{#} − 0,5) + 2·x_{#}·{tan} α + z_{#}·inv α_{t})",
+        "{m}·{cos_n}·(π·({k#} − 0,5) + 2·{x#}·{tan_alpha} + {z#}·{inv_alpha})",
+    ),
+    _helical("rho_a", "", "\\frac{d_{b#}·{tan} α_{ta#}}{2}"),
+    _helical("rho_p", "", "a_{w}·sin α_{tw} − ρ_{a@}"),
+    _helical(
+        "rho_l", "", "\\frac{d_{#}·sin α_{t}}{2} − \\frac{m·(h_{l}^{*} − x_{#})}{sin α_{t}}"
+    ),
+    _helical(
+        "epsilon_alpha", "", "\\frac{ρ_{a1} + ρ_{a2} − a_{w}·sin α_{tw}}{p_{bt}}"
+    ),
+))  # fmt: skip
+"""Symbols, formulas and numbers of helical wheels where they are others; empty for the same."""
+
+_OF_HELIX = (
+    GearSize("beta", "β", Unit.DEGREE),
+    GearSize("m_t", "m_{t}", Unit.MM, "\\frac{m}{cos β}", "\\frac{{{m}}}{{{cos_beta}}}"),
+    GearSize(
+        "alpha_t",
+        "α_{t}",
+        Unit.DEGREE,
+        "arctg(\\frac{{tan} α}{cos β})",
+        "arctg(\\frac{{{tan_alpha}}}{{{cos_beta}}})",
+    ),
+    GearSize(
+        "beta_b",
+        "β_{b}",
+        Unit.DEGREE,
+        "arcsin(sin β·cos α)",
+        "arcsin({sin_beta}·{cos_n})",
+        False,
+    ),
+)
+_OF_TEETH = (
+    GearSize(
+        "z_v",
+        "z_{v#}",
+        Unit.NONE,
+        "\\frac{z_{#}}{cos^{3}β}",
+        "\\frac{{{z#}}}{{{cos_beta}^{{3}}}}",
+    ),
+    GearSize(
+        "s_na",
+        "s_{na#}",
+        Unit.MM,
+        "s_{ta#}·cos β_{a#}",
+        "{s_a#}·{cos_beta_a#}",
+        False,
+    ),
+)
+_OF_WIDTH = (
+    GearSize("width", "b_{w}", Unit.MM, in_table=False),
+    GearSize(
+        "epsilon_beta",
+        "ε_{β}",
+        Unit.NONE,
+        "\\frac{b_{w}·sin β}{π·m}",
+        "\\frac{{{width}·{sin_beta}}}{{π·{m}}}",
+    ),
+    GearSize(
+        "epsilon_gamma", "ε_{γ}", Unit.NONE, "ε_{α} + ε_{β}", "{epsilon_alpha} + {epsilon_beta}"
+    ),
+)
+"""What helical wheels have beside; the last ones where the width is known."""
+
+
+def _sizes(problem: MeshingProblem) -> tuple[list[GearSize], list[GearSize], list[GearSize]]:
+    """Return the quantities of the pair, of both wheels, and of their contact."""
+    if not problem.beta:
+        return list(_OF_PAIR), list(_OF_WHEELS), list(_OF_CONTACT)
+
+    def own(one: GearSize) -> GearSize:
+        symbol, formula, numbers = _HELICAL.get(one.key, ("", "", ""))
+        return replace(
+            one,
+            symbol=symbol or one.symbol,
+            formula=formula or one.formula,
+            numbers=numbers or one.numbers,
+        )
+
+    at = next(k for k, one in enumerate(_OF_PAIR) if one.key == "z_min")
+    pair = (*_OF_PAIR[:at], *_OF_HELIX, *_OF_PAIR[at:])
+    contact = (*_OF_CONTACT, *(_OF_WIDTH if problem.width is not None else ()))
+    one, two, three = (list(map(own, group)) for group in (pair, _OF_WHEELS + _OF_TEETH, contact))
+    return one, two, three
+
+
 _SIGNED = ("x_sum", "a", "a_w", "y", "delta_y")
 _SIGNED_2 = ("z", "x", "d", "d_b", "d_w", "d_a", "d_f", "rho_a", "rho_p", "rho_l", "rho_low")
 """What is negative in `Pair` of an internal pair, and of its wheel 2."""
+
+
+_ANGLES = ("alpha_w", "alpha_a", "beta", "alpha_t", "beta_b")
+"""What `Pair` has in radians."""
 
 
 class Told(Struct, frozen=True):
@@ -299,34 +435,42 @@ class SolvedMeshing:
         self.contact = LineOfAction.of(*self.teeth)
         self.limits = limits(problem.tip, problem.overlap, internal=bool(problem.cutter))
 
+    @property
+    def epsilon_beta(self) -> float:
+        """Overlap ratio ε_β (коэффициент осевого перекрытия); 0 where the width is not known."""
+        return (self.problem.width or 0.0) * sin(self.pair.beta) / (pi * self.pair.m)
+
     def _value(self, key: str) -> Reals:
-        pair, rack = self.pair, self.pair.rack
+        problem, pair, rack = self.problem, self.pair, self.pair.rack
         own = {
             "m": pair.m,
             "alpha": np.degrees(rack.alpha),
             "ha": rack.ha,
             "c": rack.c,
             "rho_f": rack.rho,
-            "inv_alpha": involute(rack.alpha),
+            "inv_alpha": involute(pair.alpha_t),
             "z": np.array(pair.z, dtype=float),
             "W": pair.base_tangent,
             "rho_low": np.array([tooth.rho_low for tooth in self.teeth]),
             "g_alpha": pair.rho_a[0] - pair.rho_p[0],
             "epsilon_alpha": pair.epsilon,
             "epsilon_active": self.contact.overlap(pair),
+            "width": np.nan if problem.width is None else problem.width,
+            "epsilon_beta": self.epsilon_beta,
+            "epsilon_gamma": float(pair.epsilon) + self.epsilon_beta,
         }
         found = own[key] if key in own else getattr(pair, key)
         if key in _SIGNED_2:
             found = found * np.array([1, pair.side])
         elif key in _SIGNED:
             found = found * pair.side
-        return np.asarray(np.degrees(found) if key in ("alpha_w", "alpha_a") else found)
+        return np.asarray(np.degrees(found) if key in _ANGLES else found)
 
     def told(self) -> tuple[list[Told], list[Told], list[Told]]:
         """Return the quantities of the pair, of both wheels, and of their contact."""
         one, two, three = (
             [Told(q, tuple(float(v) for v in np.atleast_1d(self._value(q.key)))) for q in group]
-            for group in (_OF_PAIR, _OF_WHEELS, _OF_CONTACT)
+            for group in _sizes(self.problem)
         )
         if self.problem.cutter:
             at = next(k for k, t in enumerate(one) if t.quantity.key == "x_sum")
@@ -336,12 +480,17 @@ class SolvedMeshing:
     def fields(self, say: Notation) -> dict[str, str]:
         """Return the numbers that formulas are filled with, by their names; ``x1`` of a wheel."""
         rack, alpha_w = self.pair.rack, float(self.pair.alpha_w)
+        alpha_t, beta = self.pair.alpha_t, self.pair.beta
         values = {
             "h_l": rack.straight,
-            "rad_alpha": rack.alpha,
+            "rad_alpha": alpha_t,
             "tan_alpha": np.tan(rack.alpha),
-            "cos": np.cos(rack.alpha),
-            "sin": np.sin(rack.alpha),
+            "tan_t": np.tan(alpha_t),
+            "cos": np.cos(alpha_t),
+            "cos_n": np.cos(rack.alpha),
+            "sin": np.sin(alpha_t),
+            "cos_beta": np.cos(beta),
+            "sin_beta": np.sin(beta),
             "cos_w": np.cos(alpha_w),
             "sin_w": np.sin(alpha_w),
         }
@@ -356,7 +505,9 @@ class SolvedMeshing:
         for k, angle in enumerate(self.pair.alpha_a):
             values[f"inv_alpha_a{k + 1}"] = float(involute(angle))
             values[f"tan_alpha_a{k + 1}"] = np.tan(angle)
-        return {
+            values[f"cos_beta_a{k + 1}"] = float(self.pair.s_na[k] / self.pair.s_a[k])
+        angle = {"angle": "α_{tw}" if beta else "α_{w}"}
+        return angle | {
             name: f"({shown})" if value < 0 else shown
             for name, value in values.items()
             for shown in [say.number(trimmed(float(value), 6))]
@@ -416,6 +567,9 @@ class SolvedMeshing:
             holds = value >= bound
             turned = self.shown(one, 1.0, 1.0)[0] < 0
             sign = ("≤" if turned else "≥") if holds else (">" if turned else "<")
-            text = say["conditions"][one.kind.value].format(wheel=number, sign=sign, **shown)
+            name = one.kind.value
+            if self.pair.beta and one.kind is LimitKind.TIP:
+                name = "tip_helical"
+            text = say["conditions"][name].format(wheel=number, sign=sign, **shown)
             found.append((one, holds, text))
         return found

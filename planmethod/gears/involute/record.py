@@ -17,6 +17,7 @@ def record(problem: MeshingProblem, lang: str) -> dict[str, Any]:
     """Return one object for a problem: the standard's names, mm and degrees, full precision."""
     solved, words = SolvedMeshing(problem), language(lang)
     told: dict[str, Any] = {"length": "mm", "angle": "deg", "shifts_chosen": problem.chosen}
+    told["criterion"] = None if problem.aim is None else problem.aim.value
     for group in solved.told():
         for one in group:
             values = [finite_or_none(value) for value in one.values]

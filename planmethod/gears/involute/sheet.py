@@ -155,7 +155,8 @@ def _checks(solved: SolvedMeshing, words: Language, title: float, text: float) -
     """Yield what is given and what the limits say, in letters of a height, mm."""
     say = words.meshing
     yield heading(say.checked, title, width=TEXT_WIDTH)
-    for line in (*quality(solved, words), shifts(solved, words)):
+    section = (say.helical,) if solved.problem.beta else ()
+    for line in (*section, *quality(solved, words), shifts(solved, words)):
         yield paragraph(line, text, TEXT_WIDTH)
 
 

@@ -13,6 +13,7 @@ the shape (2, ...), those of the pair the shape (...). Lengths are millimetres, 
 
 from __future__ import annotations
 
+from enum import Enum
 from functools import cached_property
 from math import asin, atan, cos, pi, sin, tan
 from typing import TypeAlias
@@ -68,6 +69,14 @@ class Rack(Struct, frozen=True):
         return complex(pi / 4 - depth * tan(self.alpha) - self.rho / cos(self.alpha), -depth)
 
 
+class ShiftAim(Enum):
+    """What shifts are chosen for among those that keep the limits (критерий выбора смещений)."""
+
+    BLOCKING = "blocking"  # the least of the greater specific sliding
+    SLIDING = "equal-sliding"  # the same for both wheels, and the least such
+    OVERLAP = "contact-ratio"  # the greatest contact ratio
+
+
 class MeshingProblem(KindProblem, frozen=True, kw_only=True):
     """A pair of wheels to be drawn in mesh (лист «Синтез эвольвентного зацепления»).
 
@@ -79,8 +88,8 @@ class MeshingProblem(KindProblem, frozen=True, kw_only=True):
         Module.
     x : (float, float)
         Shifts of the rack, in modules.
-    chosen : bool
-        They were chosen by the blocking limits, not given.
+    aim : ShiftAim or None
+        By what they were chosen within the blocking limits; None where they were given.
     cutter : int
         Teeth of the pinion cutter (долбяк) of an internal wheel 2; 0 where both are external.
     beta : float, rad
@@ -99,13 +108,18 @@ class MeshingProblem(KindProblem, frozen=True, kw_only=True):
     m: float
     rack: Rack
     x: tuple[float, float]
-    chosen: bool
+    aim: ShiftAim | None
     a_w: float | None
     tip: float
     overlap: float
     cutter: int = 0
     beta: float = 0.0
     width: float | None = None
+
+    @property
+    def chosen(self) -> bool:
+        """Whether the shifts were chosen, not given."""
+        return self.aim is not None
 
 
 class Pair(Struct, frozen=True, dict=True):

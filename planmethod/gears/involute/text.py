@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from math import degrees
 
 from planmethod.gears.involute.quantities import SolvedMeshing, Told, Unit
 from planmethod.gears.involute.sizes import MeshingProblem
@@ -51,6 +52,8 @@ def head(solved: SolvedMeshing, words: Language) -> Iterator[Node]:
     title = escape(solved.problem.title or solved.problem.name)
     yield Title(words.meshing.title.format(title=title))
     yield Paragraph(_given(solved, words))
+    if solved.problem.beta:
+        yield Paragraph(words.meshing.helical)
     yield Paragraph(shifts(solved, words))
 
 
@@ -59,6 +62,11 @@ def _given(solved: SolvedMeshing, words: Language) -> Rich:
     further = ""
     if problem.a_w is not None:
         further = f", a_{{w}} = {words.say.given(problem.a_w)} {say['units']['mm']}"
+    if problem.beta:
+        beta = words.say.given(round(degrees(problem.beta), 9))
+        further += f", β = {beta}{words.say.units['deg']}"
+    if problem.width is not None:
+        further += f", b_{{w}} = {words.say.given(problem.width)} {say['units']['mm']}"
     if problem.cutter:
         further += say.ring.format(cutter=problem.cutter)
     return say.given.format(further=further, **_bare(solved, words))
@@ -66,7 +74,7 @@ def _given(solved: SolvedMeshing, words: Language) -> Rich:
 
 def shifts(solved: SolvedMeshing, words: Language) -> Rich:
     """Return which shifts there are, and whether they were chosen."""
-    key = "chosen" if solved.problem.chosen else "given"
+    key = "given" if solved.problem.aim is None else solved.problem.aim.value
     sentence: str = words.meshing["shifts"][key]
     return sentence.format(**_bare(solved, words))
 

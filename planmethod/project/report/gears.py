@@ -277,10 +277,12 @@ def meshing_chapter(report: Report, problem: MeshingProblem) -> Iterator[Node]:
     say: Words = words.meshing
     fields, ends = solved.fields(words.say), wheels_of(report)
     yield Chapter(said.title.format())
+    form = "internal" if problem.cutter else "helical" if problem.beta else "external"
     told = {name: text.strip("()") for name, text in fields.items()}  # in no product
-    way = "distance" if problem.a_w is not None else "blocking" if problem.chosen else "given"
+    way = "given" if problem.aim is None else problem.aim.value
+    way = "distance" if problem.a_w is not None else way
     yield sentences(
-        str(said["about"]["internal" if problem.cutter else "external"]).format(**told),
+        str(said["about"][form]).format(**told),
         said.wheels.format(one=ends[0], other=ends[1]) if ends is not None else "",
         str(said["shifts"][way]).format(**told),
     )
