@@ -14,10 +14,11 @@ from planmethod.gears.comparison import compare
 from planmethod.gears.conditions import conditions, judgement, sentence
 from planmethod.gears.construction import construct, read
 from planmethod.gears.derivation import DerivedLine, by_speeds
+from planmethod.gears.involute.cuttingpicture import cutting_picture, cutting_view
 from planmethod.gears.involute.meshpicture import meshing_picture, view_for
 from planmethod.gears.involute.quantities import SolvedMeshing
 from planmethod.gears.involute.sizes import MeshingProblem
-from planmethod.gears.involute.text import quality, table
+from planmethod.gears.involute.text import cutting, quality, table
 from planmethod.gears.model import GearProblem, Mesh, MeshKind
 from planmethod.gears.motion import TrainMotion, mesh_row, solve_motion
 from planmethod.gears.picture import draw
@@ -314,6 +315,14 @@ def meshing_chapter(report: Report, problem: MeshingProblem) -> Iterator[Node]:
         lambda letter: meshing_picture(view_for(solved, 300.0, 240.0), words, letter),
         said.figure.format(),
         "meshing_picture",
+    )
+    pinion = solved.cuttings[0]
+    assert pinion is not None  # only wheel 2 may be a ring
+    yield sentences(said.cutting_text.format(), *cutting(solved, words))
+    yield figure(
+        lambda letter: cutting_picture(cutting_view(pinion, 260.0, 200.0), words, letter),
+        said.cutting_figure.format(),
+        "cutting_picture",
     )
 
 
