@@ -157,6 +157,7 @@ def test_the_sheet_and_the_protocol(lang: str, tmp_path: Path) -> None:
     text = run.output.replace(",", ".")
     assert "m_t = m/cos β = 4/0.965926 = 4.141" in text
     assert "ε_β" in text
+    assert ("arctg(tg α" if lang == "ru" else "arctan(tan α") in text
     assert "α_tw = " in text
 
 

@@ -10,7 +10,8 @@ import pytest
 from cases import each
 from worked import PROBLEMS
 
-from planmethod.gears.involute.quantities import SolvedMeshing, Unit
+from planmethod.gears.involute.formulas import Unit
+from planmethod.gears.involute.quantities import SolvedMeshing
 from planmethod.gears.involute.reader import load
 from planmethod.gears.involute.text import solved_document
 from planmethod.note.document import Document

@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from math import degrees
 
-from planmethod.gears.involute.quantities import SolvedMeshing, Told, Unit
+from planmethod.gears.involute.formulas import Unit
+from planmethod.gears.involute.quantities import SolvedMeshing, Told
 from planmethod.gears.involute.sizes import MeshingProblem
 from planmethod.note.document import Caption, Item, Node, Paragraph, Table, Title, table_of
 from planmethod.note.formula import Rich, escape
