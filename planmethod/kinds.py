@@ -17,7 +17,7 @@ from planmethod.problem.source import parse, read_source
 
 if TYPE_CHECKING:
     from planmethod.problem.fields import Faults
-    from planmethod.problem.model import Geared, Problem
+    from planmethod.problem.model import Geared, Lifted, Problem
     from planmethod.solved.part import MechanismPart
     from planmethod.solved.scaling import Views
 
@@ -48,7 +48,7 @@ def kind_of(path: Path) -> ProblemKind[Any] | None:
 
 
 def load(path: str | Path, *, variant: str | None = None) -> Problem:
-    """Read the file of a linkage; a crank may be driven by the train of the same file.
+    """Read the file of a linkage; a train or a cam of the same file may drive it.
 
     Raises
     ------
@@ -122,7 +122,13 @@ def _posed(problem: Problem) -> Problem:
     return problem
 
 
-def _driven(faults: Faults, table: Mapping[str, Any], label: object) -> Geared | None:
-    from planmethod.gears.driving import driven
+def _driven(
+    faults: Faults, given: Mapping[str, Any], driver: Mapping[str, Any]
+) -> Geared | Lifted | None:
+    if "train" in driver:
+        from planmethod.gears.driving import driven
 
-    return driven(faults, table, label)
+        return driven(faults, given["gears"], driver["train"])
+    from planmethod.cams.driving import followed
+
+    return followed(faults, given["cam"], driver["cam"])

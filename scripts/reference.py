@@ -69,6 +69,7 @@ PLACES: Mapping[str, tuple[str, ...]] = {
     "bearing": ("$defs", "bearing"),
     "wheel": ("$defs", "gearWheel"),
     "picture": ("$defs", "gears", "properties", "picture"),
+    "design": ("$defs", "gears", "properties", "design"),
     "meshing": ("$defs", "meshing"),
     "cam": ("$defs", "cam"),
     "project": ("$defs", "project"),

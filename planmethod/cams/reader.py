@@ -68,6 +68,12 @@ def load(path: str | Path, *, variant: str | None = None) -> CamProblem:
     )
 
 
+def read_cam(faults: Faults, table: object) -> dict[str, Any] | None:
+    """Return the fields of a cam whose follower drives a linkage; None after noting a fault."""
+    body = fields.read_table(faults, "cam", table, CAM_EXAMPLE)
+    return None if body is None else _read(faults, body, None)
+
+
 def _scene(count: int) -> Plain:
     def fault(name: str) -> str:
         return "" if name in (*WHOLE, *PLACED) else say("a cam has no '{}'", short(name))

@@ -161,7 +161,7 @@ def tell_left_out(problem: Problem) -> None:
     for table in problem.tables:
         if table == "point":
             warn(problem, "[point] is left out; give it a file of its own.")
-        elif table != "gears" or problem.drive.geared is None:
+        elif {"gears": problem.drive.geared, "cam": problem.drive.followed}.get(table) is None:
             warn(problem, say("[{}] is left out; planmethod project draws it.", table))
 
 

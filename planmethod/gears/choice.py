@@ -170,6 +170,29 @@ def choose(wanted: Wanted, *, first: int | None = None) -> Chosen:
     return Chosen(wanted, looked, len(order), tuple(sets))
 
 
+def set_of(wanted: Wanted, teeth: tuple[int, ...]) -> TeethSet:
+    """Return the set of certain teeth, whatever conditions it meets.
+
+    Raises
+    ------
+    ValueError
+        It has no ratio.
+    """
+    scheme, z = wanted.scheme, dict(zip(wanted.scheme.wheels, teeth, strict=True))
+    z.setdefault("2'", z["2"])
+    z.setdefault("3", z["2"])
+    held = Fraction(z["2"] * z["3"], z["1"] * z["2'"])
+    ratio = _asked(scheme, held if len(scheme.kinds) > 1 else Fraction(z["2"], z["1"]))
+    if ratio is None:
+        raise ValueError(teeth)
+    arrays = {label: np.array(count) for label, count in z.items()}
+    side = 1 if scheme.kinds[0] is _OUT else -1
+    distance = wanted.rows[0] * (arrays["1"] + side * arrays["2"])
+    doubled = int(_doubled_size(wanted, arrays, distance))
+    size = Fraction(doubled, 2 * wanted.rows[0])
+    return TeethSet(teeth, ratio, ratio / wanted.ratio - 1, size)
+
+
 def _grids(wanted: Wanted) -> Iterator[tuple[int, Ints, Ints]]:
     """Yield z_1 with all z_2 and z_2', arrays of shapes (n, 1) and (1, m)."""
     scheme = wanted.scheme

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Any
 
-from planmethod.gears.choice import Chosen, TeethSet
+from planmethod.gears.choice import Chosen, TeethSet, Wanted
 from planmethod.gears.conditions import RING_LESS
 from planmethod.note.document import Node, Paragraph, table_of
 from planmethod.note.formula import escape
@@ -114,8 +114,19 @@ def problem_text(chosen: Chosen, number: int, lang: str) -> str:
     if wanted.modules is not None and len(set(wanted.modules)) == 1:
         lines.append(f"module = {float(wanted.modules[0]):g}")
     source = scheme.asked.split("_")[1]
-    lines += [f"n = {{ {source} = 1 }}", f'ask = ["W", "{scheme.asked}"]', ""]
+    lines += [f"n = {{ {source} = 1 }}", f'ask = ["W", "{scheme.asked}"]', *_design(wanted), ""]
     return "\n".join(lines)
+
+
+def _design(wanted: Wanted) -> list[str]:
+    """Return what was asked, so that the sheet compares variants; nothing of what it cannot."""
+    if not wanted.scheme.carried or len(set(wanted.rows)) != 1:
+        return []
+    k = wanted.satellites
+    bounds = f"z_min = {wanted.least}, z_max = {wanted.most}, ring_max = {wanted.ring_most}"
+    shown = f"k_min = {max(1, k - 1)}, k_max = {min(24, k + 2)}"
+    asked = f"U = {float(wanted.ratio)!r}, within = {min(float(wanted.within), 0.5)!r}"
+    return [f"design = {{ {asked}, {bounds}, {shown} }}"]
 
 
 def _wheels(chosen: Chosen, one: TeethSet) -> str:

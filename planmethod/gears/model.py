@@ -9,7 +9,7 @@ from fractions import Fraction
 
 from msgspec import Struct
 
-from planmethod.problem.head import KindProblem
+from planmethod.problem.head import KindProblem, PlanetaryTask
 
 
 class MeshKind(Enum):
@@ -149,6 +149,7 @@ class Train(Struct, frozen=True):
     output: str | None
     ask: tuple[str, ...]
     picture: PictureSettings
+    design: PlanetaryTask | None = None
 
     @property
     def unit_m(self) -> Fraction:

@@ -8,6 +8,7 @@ from planmethod.construct import steps
 from planmethod.construct.drafting import Profile
 from planmethod.gears.answers import answer
 from planmethod.gears.asked import parse
+from planmethod.gears.comparison import compare
 from planmethod.gears.construction import (
     POLE,
     DrawnPoint,
@@ -20,6 +21,7 @@ from planmethod.gears.construction import (
 from planmethod.gears.model import GearProblem
 from planmethod.gears.motion import solve_motion
 from planmethod.gears.picture import ContactKind, draw
+from planmethod.gears.text import compared_sentences, compared_table
 from planmethod.gears.told import calculation, given, unit_of
 from planmethod.note.document import Chapter, Item, Node, Paragraph, Step, Title
 from planmethod.note.formula import Rich, escape, fraction
@@ -46,6 +48,11 @@ def protocol_document(problem: GearProblem, words: Language, profile: Profile) -
     yield Paragraph("; ".join(given(motion, words)) + ".")
     yield Chapter(say.calculation)
     yield from (Item(line) for line in calculation(motion, words, notation))
+    compared = compare(problem, motion)
+    if compared is not None:
+        yield Chapter(words.teeth["compared"]["title"])
+        yield from (Paragraph(line) for line in compared_sentences(compared, words))
+        yield compared_table(compared, words)
     picture = draw(motion)
     if picture is None:
         yield Chapter(words.gears.picture)

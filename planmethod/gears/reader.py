@@ -23,7 +23,7 @@ from planmethod.problem import fields, keys
 from planmethod.problem.answers import Plain, read_answers
 from planmethod.problem.fields import Faults
 from planmethod.problem.flat import read_flat
-from planmethod.problem.head import PictureTable, Published
+from planmethod.problem.head import PictureTable, PlanetaryTask, Published
 from planmethod.problem.names import fold, is_label, joined, segment
 from planmethod.problem.reader import varied
 from planmethod.problem.selector import read_published
@@ -113,6 +113,7 @@ def read_train(faults: Faults, table: Mapping[str, Any]) -> Train | None:
             if output is not None and body_of[output] in {body_of[label] for label in held}:
                 faults.add("gears.output", say("{} is {}, no power comes out of it", output, what))
     picture = _read_picture(faults, given.get("picture", {}))
+    design = _read_design(faults, given["design"]) if "design" in given else None
     ask = _read_ask(faults, given.get("ask", []), known)
     if len(faults) != before:
         return None
@@ -138,6 +139,7 @@ def read_train(faults: Faults, table: Mapping[str, Any]) -> Train | None:
         output=None if output is None else body_of[output],
         ask=ask,
         picture=picture,
+        design=design,
     )
 
 
@@ -217,6 +219,20 @@ def _read_picture(faults: Faults, value: object) -> PictureSettings:
     table = fields.read_table(faults, "gears.picture", value, "picture = { pole_mm = 40 }") or {}
     found = read_flat(faults, "gears.picture", table, PictureTable)
     return PictureSettings(**{key: fraction(value) for key, value in found.items()})
+
+
+def _read_design(faults: Faults, value: object) -> PlanetaryTask:
+    example = "design = { U = 6.5, k_min = 3, k_max = 5 }"
+    table = fields.read_table(faults, "gears.design", value, example) or {}
+    design = PlanetaryTask(**read_flat(faults, "gears.design", table, PlanetaryTask))
+    if design.U == 0:
+        faults.add("gears.design.U", "the ratio is 0", "Leave it out, or give another one.")
+    for low, high in (("z_min", "z_max"), ("k_min", "k_max")):
+        least, most = getattr(design, low), getattr(design, high)
+        if least > most:
+            what = say("{} = {} is more than {} = {}", low, least, high, most)
+            faults.add(f"gears.design.{low}", what, "Exchange them.")
+    return design
 
 
 def _read_ask(faults: Faults, value: object, known: tuple[str, ...]) -> tuple[str, ...]:

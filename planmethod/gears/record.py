@@ -9,6 +9,7 @@ from typing import Any
 
 from planmethod.gears.answers import Answer, answer, named, rack_speed
 from planmethod.gears.asked import parse
+from planmethod.gears.comparison import PlanetaryComparison, compare
 from planmethod.gears.conditions import conditions, sentence
 from planmethod.gears.model import GearProblem
 from planmethod.gears.motion import TrainMotion, analyse, solve_motion
@@ -50,6 +51,8 @@ def record(problem: GearProblem, lang: str) -> dict[str, Any]:
         ],
         "picture": _picture(motion),
     }
+    if (compared := compare(problem, motion)) is not None:
+        told["design"] = _compared(compared)
     if told["picture"] is None:
         told["picture_reason"] = words.no_picture
     told["published"] = [
@@ -60,6 +63,31 @@ def record(problem: GearProblem, lang: str) -> dict[str, Any]:
     known = tuple(train.body_of)
     legend = ((x, parse(x, known).symbol, answer(motion, x).unit) for x in named(motion))
     return {**head(problem), "gears": told, "legend": legend_record(legend)}
+
+
+def _compared(compared: PlanetaryComparison) -> dict[str, Any]:
+    """Return the variants that the train is compared with."""
+    place = compared.place
+    return {
+        "scheme": compared.scheme.name,
+        "ratio": {"name": compared.scheme.asked, "value": float(compared.ratio)},
+        "found": {str(k): count for k, count in compared.found.items()},
+        "satellites": compared.satellites,
+        "place": None if place is None else place.place,
+        "error": float(compared.own.error),
+        "variants": [
+            {
+                "satellites": one.satellites,
+                "teeth": dict(zip(compared.scheme.wheels, one.chosen.teeth, strict=True)),
+                "value": float(one.chosen.ratio),
+                "error": float(one.chosen.error),
+                "size": float(one.chosen.size),
+                "size_mm": compared.diameter(one.chosen),
+                "is_own": one.is_own,
+            }
+            for one in compared.variants
+        ],
+    }
 
 
 def structure_record(problem: GearProblem) -> dict[str, Any]:

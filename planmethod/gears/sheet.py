@@ -13,6 +13,7 @@ from planmethod.construct.drafting import Profile
 from planmethod.construct.scale import Scale, series_near
 from planmethod.errors import LayoutError
 from planmethod.gears.arrangement import ColumnOrder, arrange, best_order
+from planmethod.gears.comparison import PlanetaryComparison, compare
 from planmethod.gears.construction import GearDrawing, GearReading, construct, read
 from planmethod.gears.drawn.pictures import angular, angular_spans, front, linear, linear_spans
 from planmethod.gears.drawn.side import SideView
@@ -20,6 +21,7 @@ from planmethod.gears.model import GearProblem, PictureSettings
 from planmethod.gears.motion import TrainMotion, solve_motion
 from planmethod.gears.picture import draw
 from planmethod.gears.scheme import SchemeData
+from planmethod.gears.text import compared_sentences, compared_table
 from planmethod.gears.told import calculation, given, results
 from planmethod.languages import LANGUAGES, say
 from planmethod.note.numbers import half_up
@@ -137,12 +139,14 @@ class _Train(Struct, frozen=True):
         """Yield the blocks at a scale in several orders of reading, paper by paper."""
         made: dict[tuple[PictureSettings, Sizes], list[tuple[Packed, ...]]] = {}
         words = language(self.problem.sheet.lang or LANGUAGES[0])
-        train = self.motion.train
+        train, compared = self.motion.train, compare(self.problem, self.motion)
         plain = SchemeData(self.motion, float(train.unit_m / train.picture.mu_l))
         order = None if plain.undrawn else best_order(plain)
         for paper, settings, sizes in self._scales(papers):
             notation = self.problem.sheet.notation
-            sheet = _Sheet(self.motion, settings, self.profile, words, sizes, order, notation)
+            sheet = _Sheet(
+                self.motion, settings, self.profile, words, sizes, order, notation, compared
+            )
             if (settings, sizes) not in made:
                 made[settings, sizes] = list(sheet.orders())
             for parts in made[settings, sizes]:
@@ -234,6 +238,7 @@ class _Sheet(Struct, frozen=True):
     sizes: Sizes
     order: ColumnOrder | None
     notation: str | None
+    compared: PlanetaryComparison | None = None
 
     def orders(self) -> Iterator[tuple[Packed, ...]]:
         """Yield the blocks in orders of reading; the last stands on the title block."""
@@ -248,11 +253,13 @@ class _Sheet(Struct, frozen=True):
         for view, width in product(self._fronts(), WIDTHS):
             views = [strip] if view is None else [strip, Packed(view)]
             texts = [Packed(self._told(width), text=True)]
+            if self.compared is not None:
+                texts.append(Packed(self._compared(self.compared), text=True))
             if not shown:
                 yield (*views, *texts, last)
                 continue
             rays = shown[0]
-            texts.append(shown[1])
+            texts.insert(1, shown[1])
             yield (*views, rays, *texts, last)
             yield (*views, *texts, rays, last)
             yield (strip, *texts, *views[1:], rays, last)
@@ -338,8 +345,12 @@ class _Sheet(Struct, frozen=True):
             scheme = SchemeData(self.motion, float(self.motion.train.unit_m) / mu_l)
             title = self.words.gears["sheet"].front
             scales = [self._scale("mu_l", mu_l)]
-            view = front(scheme, self.sizes.letter)
+            view = front(scheme, self.sizes.letter, self._satellites())
             yield self._titled(view, title, "position", Scale("mu_l", mu_l, "m"), scales)
+
+    def _satellites(self) -> int:
+        """Return how many satellites the view along the axes has: all where they are compared."""
+        return 1 if self.compared is None else self.compared.satellites
 
     def _is_turned(self) -> bool:
         scheme = SchemeData(self.motion, 1.0)
@@ -385,6 +396,17 @@ class _Sheet(Struct, frozen=True):
         lines = calculation(self.motion, self.words, self.notation)
         blocks += [formula_block(line, self.sizes.text, width=width) for line in lines]
         return Column(blocks, gap=2.4)
+
+    def _compared(self, compared: PlanetaryComparison) -> Block:
+        """Return the variants that the train is compared with."""
+        lines = [
+            paragraph(line, self.sizes.text, STAMP_WIDTH)
+            for line in compared_sentences(compared, self.words)
+        ]
+        told = compared_table(compared, self.words)
+        table = _table(told.head, told.rows, STAMP_WIDTH, self.sizes)
+        title = heading(self.words.teeth["compared"]["title"], self.sizes.text)
+        return Column([title, *lines, table], gap=2.5)
 
     def _segments(self, drawn: GearDrawing, seen: GearReading) -> Block:
         say, rows = self.words.say, []

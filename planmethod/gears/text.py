@@ -9,6 +9,7 @@ from msgspec import Struct
 
 from planmethod.errors import PlanMethodError
 from planmethod.gears.answers import answer, rack_speed
+from planmethod.gears.comparison import PlanetaryComparison, compare
 from planmethod.gears.conditions import conditions, judgement
 from planmethod.gears.derivation import derivation
 from planmethod.gears.model import GearProblem, Mesh, MeshKind
@@ -72,11 +73,71 @@ def solved_document(problem: GearProblem, words: Language) -> Iterator[Node]:
         yield Caption(say.checked)
     for one in judged:
         yield Item(escape(judgement(one, words)))
+    compared = compare(problem, motion)
+    if compared is not None:
+        yield Caption(words.teeth["compared"]["title"])
+        yield from (Paragraph(line) for line in compared_sentences(compared, words))
+        yield compared_table(compared, words)
     yield Caption(say.picture)
     yield from _picture(motion, words)
     if problem.published:
         yield Caption(say.published)
         yield from _published(problem, motion, words)
+
+
+def compared_sentences(compared: PlanetaryComparison, words: Language) -> Iterator[Rich]:
+    """Yield what is asked, how many sets there are, and where the train of the file stands."""
+    say, task, number = words.teeth["compared"], compared.task, words.say.given
+    scheme: str = words.teeth["schemes"][compared.scheme.name]
+    yield say["asked"].format(
+        scheme=escape(scheme.partition(";")[0]),
+        ratio=words.say.found(float(compared.ratio)),
+        symbol=compared.scheme.asked[0] + "_{" + compared.scheme.asked[2:].replace("_", "") + "}",
+        within=number(100 * task.within),
+        least=task.z_min,
+        most=task.z_max,
+        ring=task.ring_max,
+    )
+    yield say["found"].format(
+        found="; ".join(f"k = {k}: {count}" for k, count in compared.found.items())
+    )
+    own, place = compared.own, compared.place
+    facts = {
+        "teeth": ", ".join(
+            f"z_{{{label}}} = {z}"
+            for label, z in zip(compared.scheme.wheels, own.teeth, strict=True)
+        ),
+        "k": compared.satellites,
+        "size": number(float(own.size)),
+        "error": words.say.number(f"{100 * float(own.error) + 0.0:.2f}"),
+    }
+    if place is None:
+        yield say["outside"].format(**facts)
+    elif place.place == 1:
+        yield say["best"].format(**facts)
+    else:
+        yield say["chosen"].format(place=place.place, **facts)
+
+
+def compared_table(compared: PlanetaryComparison, words: Language) -> Table:
+    """Return the variants: satellites, teeth, ratio, deviation, size; the file's with a star."""
+    say, number = words.teeth["compared"], words.say.given
+    first, *others = say["columns"]
+    has_mm = compared.module_m is not None
+    heads = [first, *(f"z_{{{label}}}" for label in compared.scheme.wheels), *others[:3]]
+    rows = []
+    for one in compared.variants:
+        size = compared.diameter(one.chosen)
+        star = " *" if one.is_own else ""
+        row = [
+            f"{one.satellites}{star}",
+            *map(str, one.chosen.teeth),
+            words.say.found(float(one.chosen.ratio)),
+            words.say.number(f"{100 * float(one.chosen.error) + 0.0:.2f}"),
+            number(float(one.chosen.size)),
+        ]
+        rows.append(row if size is None else [*row, number(size)])
+    return table_of([*heads, *(others[3:] if has_mm else [])], rows, names=0)
 
 
 def structure_document(problem: GearProblem, words: Language) -> Iterator[Node]:

@@ -13,7 +13,16 @@ from planmethod.problem import fields, keys
 from planmethod.problem.fields import Faults, Table
 from planmethod.problem.flat import read_flat
 from planmethod.problem.links import LinkText
-from planmethod.problem.model import ANYWHERE, Convention, Drive, Geared, Rule, Scales, Where
+from planmethod.problem.model import (
+    ANYWHERE,
+    Convention,
+    Drive,
+    Geared,
+    Lifted,
+    Rule,
+    Scales,
+    Where,
+)
 from planmethod.problem.names import is_point_name, listed, near, segment, split_pair
 from planmethod.problem.posed import is_length, is_place, is_posed, is_rate, read_posed
 
@@ -26,10 +35,10 @@ def read_drive(
     links: Mapping[str, LinkText],
     fixed: Collection[str],
     hosts: Mapping[str, str],
-    geared: Geared | None = None,
+    leading: Geared | Lifted | None = None,
     numbered: int = 0,
 ) -> Drive | None:
-    """Read ``[driver]``; ``hosts`` maps each slider to its host, ``geared`` is its train.
+    """Read ``[driver]``; ``hosts`` maps each slider to its host, ``leading`` its train or cam.
 
     ``numbered`` is the number of positions of ``[cycle]``: of a crank they outrank several that
     the driver lists, and stand for what is left out.
@@ -62,7 +71,7 @@ def read_drive(
     own, other = (keys.CRANK, keys.SLIDER) if pivots else (keys.SLIDER, keys.CRANK)
     kind = "a crank" if pivots else "a driving slider"
     for key in given:
-        if key in other:
+        if key in other and key not in own:
             hint = say("Link {} is {}: {}.", link.name, kind, listed(own))
             faults.add(f"driver.{key}", say("does not go with {}", kind), hint)
     posed = read_posed(faults, given, link, links, fixed, crank=bool(pivots))
@@ -70,17 +79,21 @@ def read_drive(
     required: tuple[str, ...] = () if any(map(is_place, given)) else ("phi" if pivots else "s",)
     if counted:
         required = ()
-    acted = any(is_rate(key) or is_length(key) for key in given)
+    lifted = "cam" in given
+    acted = lifted or any(is_rate(key) or is_length(key) for key in given)
     if not pivots and not acted:
         required += ("v",)
     if pivots and not acted and not {"n", "train"} & {*given}:
         required += ("omega",)
     for key in given:
         if acted and key in ("omega", "n", "train", "epsilon", "v", "a"):
-            faults.add(f"driver.{key}", "does not go with an actuator, whose rate drives")
+            faults.add(f"driver.{key}", _LIFTED if lifted else _ACTED)
     for key in required:
         if key not in given and whole:
             faults.add(f"driver.{key}", "missing", _EXAMPLES[key])
+    geared, led = (None, None) if leading is None else _split(leading)
+    if lifted:
+        _check_follower(faults, given, led, crank=bool(pivots), numbered=numbered)
     if pivots:
         _check_crank_axis(faults, link, pivots[0])
         positions = _read_positions(faults, given, "phi")
@@ -90,6 +103,9 @@ def read_drive(
         positions = _read_positions(faults, given, "s")
         rate = _read_rate(faults, given, "v", "a velocity in m/s")
         acceleration = _read_rate(faults, given, "a", "an acceleration in m/s²")
+    if led is not None and positions is not None:
+        positions = tuple(place + led.moved for place in positions)
+        rate, acceleration = led.rate, led.acceleration
     if posed is not None:
         positions = (math.nan,) * len(posed.values)  # found when the mechanism is assembled
     judged: Span = ()
@@ -100,7 +116,37 @@ def read_drive(
         return None
     turns = rate * 30.0 / math.pi if "n" in given else None
     pivot, geared = (pivots[0], geared) if pivots else (None, None)
-    return Drive(link.name, pivot, positions, rate, acceleration, geared, turns, posed, judged)
+    return Drive(
+        link.name, pivot, positions, rate, acceleration, geared, turns, posed, judged, followed=led
+    )
+
+
+def _split(leading: Geared | Lifted) -> tuple[Geared | None, Lifted | None]:
+    """Return the train, or the cam."""
+    return (leading, None) if isinstance(leading, Geared) else (None, leading)
+
+
+def _check_follower(
+    faults: Faults, given: Table, led: Lifted | None, *, crank: bool, numbered: int
+) -> None:
+    """Note what keeps a cam's follower from driving: its kind, several places, a cycle."""
+    key = "phi" if crank else "s"
+    if led is not None and led.turns is not crank:
+        what = "a translating follower moves a slider, an oscillating one a crank"
+        faults.add("driver.cam", what, "Change follower of [cam], or the driving link.")
+    if isinstance(given.get(key), list | Mapping):
+        what = "one place is expected: that of the link while the follower is lowest"
+        faults.add(f"driver.{key}", what, "Other angles of the cam are variants.")
+    for other in ("stroke", "at", "root", *filter(is_posed, given)):
+        if other in given:
+            faults.add(f"driver.{other}", _LIFTED)
+    if numbered:
+        what = "[cycle] is of a crank that turns, not of a cam's follower"
+        faults.add("driver.cam", what, "Leave [cycle] out.")
+
+
+_ACTED = "does not go with an actuator, whose rate drives"
+_LIFTED = "does not go with a cam, whose follower drives"
 
 
 def _read_link(faults: Faults, given: Table, links: Mapping[str, LinkText]) -> LinkText | None:
@@ -244,8 +290,8 @@ def _read_rate(faults: Faults, given: Table, key: str, what: str) -> float | Non
 
 def _read_turning(faults: Faults, given: Table, geared: Geared | None) -> float | None:
     """Angular velocity, 1/s, from omega, n or the train."""
-    if any(map(is_length, given)):
-        return 0.0  # found with the position
+    if "cam" in given or any(map(is_length, given)):
+        return 0.0  # found with the position, or by the cam
     one, *others = [key for key in ("omega", "n", "train") if key in given] or ["omega"]
     for other in others:
         faults.add(

@@ -366,6 +366,21 @@ class MeshingTable(Struct, frozen=True, kw_only=True):
             "profile angle of the rack", "an angle", "degrees", 10.0, 30.0, hint=MESHING_HINT
         ),
     ] = 20.0
+    beta: Annotated[
+        float,
+        NumberKey(
+            "helix angle of both wheels (угол наклона зуба); m, alpha, ha, c, x are then those of "
+            "the normal section",
+            "an angle", "degrees", 0.0, 45.0, hint=MESHING_HINT,
+        ),
+    ] = 0.0  # fmt: skip
+    b: Annotated[
+        float | None,
+        NumberKey(
+            "working width of the rims, for the overlap ratio of helical wheels",
+            "a width", "mm", 0.05, 1e4, hint=MESHING_HINT, absent="not known",
+        ),
+    ] = None  # fmt: skip
     ha: Annotated[
         float,
         NumberKey(
@@ -383,8 +398,8 @@ class MeshingTable(Struct, frozen=True, kw_only=True):
     x: Annotated[
         tuple[float, float] | None,
         OwnKey(
-            'shifts of the rack in modules, `[0.5, 0.3]`; or `"blocking"`: chosen by the blocking '
-            "limits"
+            "shifts of the rack in modules, `[0.5, 0.3]`; or how they are chosen within the "
+            'blocking limits: `"blocking"`, `"equal-sliding"`, `"contact-ratio"`'
         ),
     ] = None
     x1: Annotated[
@@ -583,6 +598,31 @@ class PictureTable(Struct, frozen=True):
             1.0, 1e4, absent="from a round scale",
         ),
     ] = None  # fmt: skip
+
+
+class PlanetaryTask(Struct, frozen=True, kw_only=True):
+    """``[gears.design]``: what a planetary train was to be (проектирование передачи)."""
+
+    U: Annotated[
+        float | None,
+        NumberKey(
+            "ratio that was asked, with its sign: U_1H, of a set with two like rows U_H1",
+            "a ratio", low=-1e6, high=1e6, hint="A ratio is a number: U = 6.5.",
+            absent="that of the train",
+        ),
+    ] = None  # fmt: skip
+    within: Annotated[
+        float,
+        NumberKey(
+            "allowed share of U, both ways", "a share", low=0.0, high=0.5, hint="2 % are 0.02."
+        ),
+    ] = 0.02
+    z_min: Annotated[int, WholeKey("least number of teeth", 6, 400)] = 17
+    z_max: Annotated[int, WholeKey("most teeth of wheels with external teeth", 6, 400)] = 120
+    ring_max: Annotated[int, WholeKey("most teeth of wheels with internal teeth", 6, 400)] = 250
+    k_min: Annotated[int, WholeKey("least number of satellites that is compared", 1, 24)] = 3
+    k_max: Annotated[int, WholeKey("most satellites that are compared", 1, 24)] = 6
+    count: Annotated[int, WholeKey("how many variants of each number are shown", 1, 10)] = 3
 
 
 class GearWheelTable(Struct, frozen=True):

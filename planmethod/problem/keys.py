@@ -20,6 +20,7 @@ from planmethod.problem.head import (
     HigherPairTable,
     MeshingTable,
     PictureTable,
+    PlanetaryTask,
     Published,
     SheetSettings,
 )
@@ -69,8 +70,8 @@ POINT_FORMS = {
 }
 """The key that tells how a third point is given, and the keys that go with it."""
 POINT = tuple(dict.fromkeys(key for form in POINT_FORMS.values() for key in form))
-CRANK = ("phi", "omega", "n", "train", "epsilon")
-SLIDER = ("s", "v", "a")
+CRANK = ("phi", "omega", "n", "train", "epsilon", "cam")
+SLIDER = ("s", "v", "a", "cam")
 POSED = ("x", "y", "phi")
 """Keys of the driver that tell a position by the output, each with a name: ``x_B``, ``phi_3``."""
 GOING = {
@@ -82,7 +83,7 @@ GOING = {
 """Which way the output goes: forward of its coordinate, and back."""
 EXTREMES = ("left", "right", "upper", "lower")
 PLACES = ("phi", "s", "stroke", "at")
-DRIVER = ("link", *CRANK, *SLIDER, "stroke", "at", "root")
+DRIVER = ("link", *dict.fromkeys((*CRANK, *SLIDER)), "stroke", "at", "root")
 SPAN = ("from", "to", "step", "count")
 RULE = ("near", "rule", "keep")
 KEEP = ("parallel", "continuous")
@@ -101,7 +102,7 @@ MOTOR_FORMS = {
 """Numbers of each way to give a motor's characteristic."""
 GEARS = (
     "wheels", "meshes", "bodies", "fixed", "n", "omega", "unknown", "coaxial", "module",
-    "satellites", "output", "ask", "picture",
+    "satellites", "output", "ask", "picture", "design",
 )  # fmt: skip
 MESH = ("of", "kind", "carrier", "eta", "hand")
 FLAT: Mapping[str, type[object]] = {
@@ -109,7 +110,8 @@ FLAT: Mapping[str, type[object]] = {
     "published": Published, "answer": AskedAnswer, "dynamics": Dynamics, "mass": Mass,
     "load": LoadEntry, "phases": Phase, "machine": Machine, "flywheel": FlywheelTask,
     "motor": MotorTable, "kloss": KlossTable, "line": LineTable, "balancing": CounterweightTask,
-    "wheel": GearWheelTable, "picture": PictureTable, "meshing": MeshingTable,
+    "wheel": GearWheelTable, "picture": PictureTable, "design": PlanetaryTask,
+    "meshing": MeshingTable,
     "project": ProjectTask, "higher": HigherPairTable, "balancing_force": BalancingForceTask,
     "friction": FrictionTask, "pair": PairFriction, "bearing": BearingTable, "cam": CamTable,
 }  # fmt: skip

@@ -208,6 +208,29 @@ class Geared(Struct, frozen=True):
     rate: float
 
 
+class Lifted(Struct, frozen=True):
+    """Follower of a cam that drives a linkage (привод от толкателя кулачка).
+
+    Attributes
+    ----------
+    angle : float, degrees
+        Of the cam from the start of the rise, in its sense.
+    turns : bool
+        The follower oscillates: it turns a crank.
+    n : float, rev/min
+        Of the cam, counter-clockwise positive.
+    moved, rate, acceleration : float
+        From its lowest place, m or degrees; m/s or 1/s; m/s² or 1/s².
+    """
+
+    angle: float
+    turns: bool
+    n: float
+    moved: float
+    rate: float
+    acceleration: float
+
+
 class PosedBy(Enum):
     """What tells a position of the mechanism beside the driver's own coordinate."""
 
@@ -299,6 +322,8 @@ class Drive(Struct, frozen=True):
         those that the file lists, else `ANYWHERE`; empty where they are the positions themselves.
     pushed : BalancingForceTask or None
         The force at a point of a crank that balances it, in place of a couple.
+    followed : Lifted or None
+        The cam's follower that it is, or is moved by: its place, rate and acceleration are from it.
     """
 
     link: str
@@ -311,6 +336,7 @@ class Drive(Struct, frozen=True):
     posed: Posed | None = None
     judged: tuple[float, ...] = ()
     pushed: BalancingForceTask | None = None
+    followed: Lifted | None = None
 
     @property
     def is_crank(self) -> bool:

@@ -17,15 +17,17 @@ from planmethod.problem.drive import read_assembly, read_drive, read_scales
 from planmethod.problem.fields import Faults, read_keys, read_word
 from planmethod.problem.joints import coincident_points, join
 from planmethod.problem.links import LinkText, check_arcs, read_links
-from planmethod.problem.model import Body, Geared, Problem, Slide
+from planmethod.problem.model import Body, Geared, Lifted, Problem, Slide
 from planmethod.problem.names import UNITS, listed
 from planmethod.problem.project import read_project
 from planmethod.problem.selector import check_what, read_published, read_tables
 from planmethod.problem.sheet import read_head
 from planmethod.problem.slides import FrameText, find_host, order_hosts, read_frame, read_slide
 
-TrainReader: TypeAlias = Callable[[Faults, Mapping[str, Any], object], Geared | None]
-"""What reads ``[gears]`` for the driver's ``train``: faults, that table, the label."""
+TrainReader: TypeAlias = Callable[
+    [Faults, Mapping[str, Any], Mapping[str, Any]], Geared | Lifted | None
+]
+"""What reads ``[gears]`` or ``[cam]`` for the driver: faults, the file, ``[driver]``."""
 
 
 def read_parts(
@@ -38,7 +40,7 @@ def read_parts(
     name : str
         Name of the problem.
     train : callable, optional
-        Reads the train that drives the crank.
+        Reads the train, or the cam, that drives.
     """
     given = read_keys(faults, "", table, keys.TOP)
     if "units" in given:
@@ -210,19 +212,22 @@ def _report_no_links(faults: Faults, given: Mapping[str, Any]) -> None:
 
 def _read_geared(
     faults: Faults, given: Mapping[str, Any], train: TrainReader | None
-) -> Geared | None:
-    """Read the train that the driver names."""
+) -> Geared | Lifted | None:
+    """Read the train that the driver names, or the cam whose follower drives."""
     driver = given["driver"]
-    if not isinstance(driver, Mapping) or "train" not in driver:
+    if not isinstance(driver, Mapping):
         return None
-    if not isinstance(given.get("gears"), Mapping):
+    if "train" in driver and not isinstance(given.get("gears"), Mapping):
         faults.add("driver.train", "the file has no train", "Describe it in [gears].")
-        return None
-    if train is None:
+    elif "cam" in driver and not isinstance(given.get("cam"), Mapping):
+        faults.add("driver.cam", "the file has no cam", "Describe it in [cam].")
+    elif ("train" in driver or "cam" in driver) and train is None:
+        key = "train" if "train" in driver else "cam"
         hint = "Read the file by planmethod.load or planmethod.loads."
-        faults.add("driver.train", "trains are not read here", hint)
-        return None
-    return train(faults, given["gears"], driver["train"])
+        faults.add(f"driver.{key}", "trains and cams are not read here", hint)
+    elif ("train" in driver or "cam" in driver) and train is not None:
+        return train(faults, given, driver)
+    return None
 
 
 def _drivers(given: Mapping[str, Any]) -> list[Mapping[str, Any]]:

@@ -314,14 +314,14 @@ def test_the_distance_of_the_axes_tells_the_shifts(tmp_path: Path) -> None:
         ("z = [12, -40]\nm = 5\nx = [0, 0]", "internal pair"),
         ("z = [12, 3]\nm = 5\nx = [0, 0]", "meshing.z[1]: expected a whole number from 5"),
         ("z = [12, 30]\nm = 5\nx = [0, 0]\na_w = 110", "both shifts are given in x"),
-        ('z = [12, 30]\nm = 5\nx = "best"', "or 'blocking'"),
+        ('z = [12, 30]\nm = 5\nx = "best"', "'blocking', 'equal-sliding' or 'contact-ratio'"),
         ("z = [12, 30]\nm = 5\na_w = 90", "base circles meet at a·cos α = 98.668"),
         ("z = [12, 30]\nm = 5\nx = [-1, -1]", "must be at least -0.8599"),
         ("z = [5, 30]\nm = 5\nx = [-0.9, 0.9]", "cuts the tooth of wheel 1 off"),
         ("z = [5, 30]\nm = 5\nx = [3, 1]", "pointed below its involute: x1 = 3"),
         ("z = [8, 25]\nm = 5\nx = 'blocking'", "ε_α is at most 1.1"),
         ("z = [12, 30]\nm = 5\nx = [0, 0]\nalpha = 30\nha = 1.3", "ends before its tip"),
-        ("z = [12, 30]\nm = nan\nx = [0, 0]\nbeta = 3", "unknown key"),
+        ("z = [12, 30]\nm = nan\nx = [0, 0]\ngamma = 3", "unknown key"),
     ],
 )
 def test_a_faulty_file_says_what_to_do(tmp_path: Path, body: str, said: str) -> None:
@@ -359,7 +359,8 @@ def test_a_norm_controller_marks_nothing(name: str, tmp_path: Path) -> None:
     drawing = drawn(path, variant)
     assert [f"{one.code} {one.message}" for one in inspect(drawing)] == []
     curved = [item for item in drawing.items if isinstance(item, Stroke) and CURVE in item.tag]
-    assert len(curved) == 2 * 3 * 4  # flanks and fillets of three teeth of both wheels
+    # Flanks and fillets of three teeth of both wheels, and of wheel 1 as it is cut.
+    assert len(curved) == 3 * 3 * 4
     assert all(item.smooth for item in curved)
 
 
@@ -398,7 +399,7 @@ def test_splines_of_the_dxf_are_the_exact_profile_between_their_points(tmp_path:
                     break
             else:
                 pytest.fail("a spline that is no flank")
-    assert flanks == 12
+    assert flanks == 12 + 6  # of both wheels in mesh, and of wheel 1 as it is cut
 
 
 def test_both_languages_tell_the_same_formulas() -> None:

@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 import re
-from math import acos, degrees, pi
+from collections.abc import Callable
+from math import acos, asin, atan, degrees, pi
 from pathlib import Path
 
 import pytest
 from cases import each
 from worked import PROBLEMS
 
-from planmethod.gears.involute.quantities import SolvedMeshing, Unit
+from planmethod.gears.involute.formulas import Unit
+from planmethod.gears.involute.quantities import SolvedMeshing
 from planmethod.gears.involute.reader import load
 from planmethod.gears.involute.text import solved_document
 from planmethod.note.document import Document
@@ -23,6 +25,7 @@ BODIES = {
     "shifted": "z = [12, 30]\nm = 5\nx = [0.59, 0.53]",
     "cut": "z = [9, 14]\nm = 2\nx = [0, 0]",
     "negative": "z = [40, 60]\nm = 3\nx = [-0.2, 0.35]",
+    "helical": "z = [17, 40]\nm = 4\nbeta = 15\nb = 40\nx = [0.3, 0.2]",
 }
 
 
@@ -34,11 +37,17 @@ def solved_of(name: str, folder: Path) -> SolvedMeshing:
     return SolvedMeshing(load(path))
 
 
+def _in_degrees(of: Callable[[float], float]) -> Callable[[float], float]:
+    return lambda x: degrees(of(x))
+
+
 def value_of(text: str) -> float:
     """Return what a formula with numbers gives, angles in degrees."""
     text = re.sub(r"\^\{(\d)\}", r"**\1", inlined(text))
     text = text.replace("·", "*").replace("−", "-").replace("π", str(pi))
-    return float(eval(text, {"arccos": lambda x: degrees(acos(x))}))
+    return float(
+        eval(text, {f"arc{one.__name__[1:]}": _in_degrees(one) for one in (acos, asin, atan)})
+    )
 
 
 @each("name", [*BODIES, "ring"])
@@ -52,14 +61,14 @@ def test_formulas_with_their_numbers_give_what_stands_after_them(name: str, tmp_
         value = float(re.sub(r"( mm|°)$", "", shown).replace("−", "-"))
         assert value_of(numbers) == pytest.approx(value, rel=1e-3, abs=6e-3), line
         assert shown.endswith(" mm") == (key in LENGTHS), line
-        assert shown.endswith("°") == key.startswith("alpha"), line
+        assert shown.endswith("°") == key.startswith(("alpha", "beta")), line
         count += 1
     assert count > 25
 
 
 LENGTHS = {
     "a", "a_w", "p", "p_b", "d", "d_b", "d_w", "d_a", "d_f", "s", "s_a", "W", "rho_a", "rho_p",
-    "rho_l", "g_alpha",
+    "rho_l", "g_alpha", "e", "h", "m_t", "s_na",
 }  # fmt: skip
 
 

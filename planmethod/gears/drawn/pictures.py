@@ -39,8 +39,11 @@ _ANGLES = (205.0, 330.0, 155.0, 25.0, 240.0, 300.0, 180.0, 0.0)
 """Where the arrows stand, degrees, one wheel after another: off the line of centres."""
 
 
-def front(scheme: SchemeData, height: float) -> Picture:
-    """Return the view along the axes; letters are ``height`` mm high."""
+def front(scheme: SchemeData, height: float, satellites: int = 1) -> Picture:
+    """Return the view along the axes; letters are ``height`` mm high.
+
+    Of a set so many ``satellites`` are drawn, evenly around the main axis.
+    """
     items: list[Item] = []
     labels: list[Label] = []
     rims = {rim.label: rim for column in scheme.columns for rim in column}
@@ -62,6 +65,7 @@ def front(scheme: SchemeData, height: float) -> Picture:
                   name=f"front {carrier} {body}", manner=BUSY)
         )  # fmt: skip
     items += _straight(scheme, rims)
+    items += _around(scheme, rims, satellites)
     levels = {round(rim.centre, 6) for rim in rims.values()}
     beyond = [rim.centre + way * (_rim(rim) + 4.0) for rim in rims.values() for way in (1, -1)]
     items += axis_line(1j * min(beyond), 1j * max(beyond), *(1j * level for level in levels))
@@ -69,6 +73,23 @@ def front(scheme: SchemeData, height: float) -> Picture:
         items += revolute(1j * level)
     unique = {label.inscription.markup: label for label in labels}
     return lettered(items, list(unique.values()))
+
+
+def _around(scheme: SchemeData, rims: Mapping[str, Rim], satellites: int) -> Iterator[Item]:
+    """Yield the other satellites of a set with their arms."""
+    carried = {body for body in scheme.over if scheme.heights[body]}
+    for number in range(1, satellites):
+        turn = cmath.exp(2j * cmath.pi * number / satellites)
+        for rim in rims.values():
+            if rim.body in carried:
+                centre = 1j * rim.centre * turn
+                touch = centre + 1j * turn * rim.ways[0] * rim.radius
+                yield from pitch_circle(centre, rim.radius, touch=touch)
+                yield from centre_lines(centre, rim.radius, directions=(turn, 1j * turn))
+        for body in sorted(carried):
+            start = 1j * scheme.heights[scheme.over[body]] * turn
+            yield from link(start, 1j * scheme.heights[body] * turn, tag=f"link {body} {number}")
+            yield from revolute(1j * scheme.heights[body] * turn)
 
 
 def _straight(scheme: SchemeData, rims: Mapping[str, Rim]) -> Iterator[Item]:

@@ -11,13 +11,16 @@ from enum import Enum
 import numpy as np
 from msgspec import Struct
 
-from planmethod.gears.involute.sizes import Pair, Reals
+from planmethod.gears.involute.sizes import Pair, Reals, ShiftAim
 
 STEP = 0.01
 """Chosen shifts are multiples of it."""
 
 LOW, HIGH = -1.0, 1.5
 """Between them shifts are looked for."""
+
+_HALVINGS = 60
+_SAME = 1e-9  # difference of equal specific slidings
 
 
 class LimitKind(Enum):
@@ -55,7 +58,7 @@ class BlockingLimit(Struct, frozen=True):
             case LimitKind.UNDERCUT:
                 return np.asarray(pair.x[self.wheel])
             case LimitKind.TIP:
-                return np.asarray(pair.s_a[self.wheel] / pair.m)
+                return np.asarray(pair.s_na[self.wheel] / pair.m)
             case LimitKind.OVERLAP:
                 return pair.epsilon
             case LimitKind.INTERFERENCE:
@@ -113,18 +116,22 @@ def tried(total: float | None, side: int = 1) -> Reals:
 
 
 def choose(
-    pair: Pair, asked: tuple[BlockingLimit, ...], total: float | None = None
+    pair: Pair,
+    asked: tuple[BlockingLimit, ...],
+    total: float | None = None,
+    aim: ShiftAim = ShiftAim.BLOCKING,
 ) -> tuple[float, float] | None:
-    """Return shifts that keep all limits, with the least of the greatest specific sliding.
+    """Return the shifts that keep all limits and are the best for an aim.
 
-    All multiples of `STEP` from `LOW` to `HIGH` are compared, so that nothing is missed; of the
-    greater ones at the lower points the least wins.
+    All multiples of `STEP` from `LOW` to `HIGH` are compared, so that nothing is missed: of the
+    greater specific sliding at the lower points the least wins, or the greatest contact ratio. For
+    equal sliding x₁ is a multiple and x₂ follows from it.
 
     Parameters
     ----------
     total : float, optional
         Sum of the shifts, x₂ − x₁ of an internal pair, where the distance of the axes is given;
-        then x₁ alone is a multiple.
+        then x₁ alone is a multiple; for equal sliding neither is.
 
     Returns
     -------
@@ -132,12 +139,39 @@ def choose(
         None where no shifts keep all limits.
     """
     x = tried(total, pair.side)
+    if aim is ShiftAim.SLIDING:
+        x = _equal(pair, x)
     every = pair.shifted(x)
     with np.errstate(all="ignore"):
         worst = np.max(np.abs(every.theta_p), axis=0)
+        if aim is ShiftAim.OVERLAP:
+            worst = -every.epsilon
         worst = np.where(is_kept(every, asked), worst, np.inf)
     worst = np.where(np.isnan(worst), np.inf, worst)
-    best = np.unravel_index(int(np.argmin(worst)), worst.shape)
-    if not np.isfinite(worst[best]):
+    if not np.any(np.isfinite(worst)):
         return None
+    best = np.unravel_index(int(np.argmin(worst)), worst.shape)
     return float(x[0][best]), float(x[1][best])
+
+
+def _equal(pair: Pair, x: Reals) -> Reals:
+    """Return the shifts of equal sliding between neighbours of a grid, shape (2, n).
+
+    Along the first axis of the grid the difference of the slidings changes its sign there.
+    """
+
+    def apart(at: Reals) -> Reals:
+        with np.errstate(all="ignore"):
+            one, two = np.abs(pair.shifted(at).theta_p)
+        return np.asarray(one - two)
+
+    here = apart(x)
+    between = here[1:] * here[:-1] <= 0  # of NaN it is not
+    low, high = x[:, :-1][:, between], x[:, 1:][:, between]
+    start = apart(low)
+    for _ in range(_HALVINGS):
+        middle = (low + high) / 2
+        is_low = apart(middle) * start > 0
+        low, high = np.where(is_low, middle, low), np.where(is_low, high, middle)
+    found = (low + high) / 2
+    return np.asarray(found[:, np.abs(apart(found)) < _SAME])  # no jump through infinity

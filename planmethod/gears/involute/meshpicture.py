@@ -388,7 +388,8 @@ def _letters(view: MeshView, height: float) -> list[Label]:
         for letters, at, way in named
     ]
     middle = _angle_radius(view) * np.exp(0.5j * float(view.solved.pair.alpha_w))
-    labels.append(Label(typeset("α_{w}", height), complex(middle), prefer=1 + 0j, name="α_w"))
+    angle = "α_{tw}" if view.solved.pair.beta else "α_{w}"
+    labels.append(Label(typeset(angle, height), complex(middle), prefer=1 + 0j, name="α_w"))
     for wheel in (0, 1):
         at = view.drawn_centre(wheel) + 11 * view.up(wheel)
         sign = typeset(f"ω_{{{wheel + 1}}}", height)

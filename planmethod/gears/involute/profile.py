@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from functools import cached_property
-from math import pi
+from math import cos, pi
 
 import numpy as np
 from msgspec import Struct
@@ -47,7 +47,7 @@ class Tooth(Struct, frozen=True, dict=True):
     def half(self, rho: Reals | float) -> Reals:
         """Return half of the angle of the tooth where its profile has a radius of curvature."""
         roll = np.asarray(rho) / (self.size("d_b") / 2)
-        whole = self.size("s") / self.size("d") + involute(self.pair.rack.alpha)
+        whole = self.size("s") / self.size("d") + involute(self.pair.alpha_t)
         return np.asarray(self.side * (whole - (roll - np.arctan(roll))))
 
     def flank(self, rho: Reals | float) -> Points:
@@ -61,23 +61,26 @@ class Tooth(Struct, frozen=True, dict=True):
         Parameters
         ----------
         theta : array of float, rad
-            Between the normal of the rack's rounded tip and the axis of the rack's tooth: 0 where
-            the root circle begins, π/2 − α where the involute does.
+            Between the normal of the rack's rounded tip and the axis of the rack's tooth, in the
+            normal section: 0 where the root circle begins, π/2 − α where the involute does.
 
         Notes
         -----
         The normal at the point of contact goes through the pitch point, the rolling of the rack's
-        line on the pitch circle turning about it. With the centre of the rounded tip at the depth
-        D below that line this is where it stands D·tan θ beside the pitch point.
+        line on the pitch circle turning about it. A point of the rounded tip at the depth D below
+        that line stands there D·tan θ·cos β beside the pitch point: in the transverse section the
+        rack is wider by 1/cos β.
         """
         if self.side < 0:
             return self._fillet_of_cutter(np.asarray(theta))
         m, radius = self.pair.m, self.size("d") / 2
         corner, rho = self.pair.rack.corner * m, self.pair.rack.rho * m
         depth = -corner.imag - float(self.pair.x[self.wheel]) * m
-        beside = depth * np.tan(theta)
-        place = radius - depth - rho * np.cos(theta) + 1j * (beside + rho * np.sin(theta))
-        turned = (beside - corner.real) / radius
+        narrow = cos(self.pair.beta)
+        low = depth + rho * np.cos(theta)
+        beside = low * np.tan(theta) * narrow
+        place = radius - low + 1j * beside
+        turned = (beside - (corner.real + rho * np.sin(theta)) / narrow) / radius
         return np.asarray(place * np.exp(-1j * (turned + pi / self.z)))
 
     def _fillet_of_cutter(self, chi: Reals) -> Points:
@@ -110,7 +113,8 @@ class Tooth(Struct, frozen=True, dict=True):
             return last
         tried = np.linspace(0.0, last, _SCANNED)
         cut = np.flatnonzero(self._inside(tried) > 0)
-        k = int(cut[-1]) if len(cut) else _SCANNED - 2
+        # A trace of undercut may be between the last place and the end.
+        k = min(int(cut[-1]), _SCANNED - 2) if len(cut) else _SCANNED - 2
         return halved(lambda at: float(self._inside(np.array(at))) > 0, tried[k], tried[k + 1])
 
     @cached_property

@@ -8,7 +8,7 @@ from itertools import groupby
 from planmethod.construct.drafting import Profile
 from planmethod.gears.involute.quantities import SolvedMeshing
 from planmethod.gears.involute.sizes import MeshingProblem
-from planmethod.gears.involute.text import head, quality
+from planmethod.gears.involute.text import cutting, head, quality
 from planmethod.note.document import Caption, Chapter, Formula, Item, Node, Paragraph
 from planmethod.note.wording import Language
 
@@ -24,5 +24,7 @@ def protocol_document(problem: MeshingProblem, words: Language, profile: Profile
         if key in say["beside"]:
             yield Paragraph(say["beside"][key].format(**fields))
         yield from (Formula(formula) for _, formula in formulas)
+    yield Chapter(say.cutting)
+    yield from map(Item, cutting(solved, words))
     yield Caption(say.checked)
     yield from map(Item, quality(solved, words))

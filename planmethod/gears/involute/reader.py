@@ -13,7 +13,7 @@ from planmethod.errors import ProblemError
 from planmethod.gears.angles import involute
 from planmethod.gears.involute.blocking import HIGH, LOW, LimitKind, choose, is_kept, limits, tried
 from planmethod.gears.involute.profile import Tooth
-from planmethod.gears.involute.sizes import MeshingProblem, Pair, Rack
+from planmethod.gears.involute.sizes import MeshingProblem, Pair, Rack, ShiftAim
 from planmethod.languages import say
 from planmethod.problem import fields
 from planmethod.problem.fields import Faults
@@ -25,8 +25,8 @@ from planmethod.problem.sheet import read_head
 TOP = ("title", "source", "stamp", "sheet", "variants", "meshing")
 """Tables of the file that a meshing may have."""
 
-BLOCKING = "blocking"
-"""Word in place of the shifts: they are chosen by the blocking limits."""
+AIMS = tuple(aim.value for aim in ShiftAim)
+"""Words in place of the shifts: by what they are chosen within the blocking limits."""
 
 CUTTER = 20
 """Teeth of the pinion cutter where the file does not say."""
@@ -85,16 +85,26 @@ def _read(faults: Faults, body: Mapping[str, Any]) -> dict[str, Any] | None:
     if cutter is None:
         return None
     z = given.z
-    pair = Pair((z[0], -z[1] if cutter else z[1]), given.m, rack, np.zeros(2), cutter)
-    settled = _settle(faults, pair, given)
+    if cutter and given.beta:
+        what = "the internal pairs that are computed here are spur"
+        faults.add("meshing.beta", what, "Leave beta out.")
+        return None
+    beta = radians(given.beta)
+    pair = Pair((z[0], -z[1] if cutter else z[1]), given.m, rack, np.zeros(2), cutter, beta)
+    aim = None
+    if x is None and given.x1 is given.x2 is None:
+        aim = ShiftAim(body.get("x", ShiftAim.BLOCKING.value))
+    settled = _settle(faults, pair, given, aim or ShiftAim.BLOCKING)
     return settled and {
         "z": z,
         "m": given.m,
         "rack": rack,
         "x": settled,
-        "chosen": x is None and given.x1 is given.x2 is None,
+        "aim": aim,
         "a_w": given.a_w,
         "cutter": cutter,
+        "beta": beta,
+        "width": given.b,
         "tip": given.s_a_min,
         "overlap": given.epsilon_min,
     }
@@ -150,11 +160,13 @@ def _read_shifts(faults: Faults, given: Mapping[str, Any]) -> tuple[float, float
         ]
         one, two = found
         return None if one is None or two is None else (one, two)
-    if "x" in given and value != BLOCKING:
-        faults.expected("meshing.x", "two shifts or 'blocking'", value, _WAYS)
+    if "x" in given and not (isinstance(value, str) and value in AIMS):
+        wanted = "two shifts, 'blocking', 'equal-sliding' or 'contact-ratio'"
+        faults.expected("meshing.x", wanted, value, _WAYS)
     elif "x" in given:
         for key in alone:
-            faults.add(f"meshing.{key}", 'both shifts are chosen by x = "blocking"', _WAYS)
+            what = say('both shifts are chosen by x = "{}"', value)
+            faults.add(f"meshing.{key}", what, _WAYS)
     elif "a_w" not in given:
         faults.add("meshing.x", "missing", _WAYS)
     elif len(alone) == 2:
@@ -162,28 +174,33 @@ def _read_shifts(faults: Faults, given: Mapping[str, Any]) -> tuple[float, float
     return None
 
 
-def _settle(faults: Faults, pair: Pair, given: MeshingTable) -> tuple[float, float] | None:
+def _settle(
+    faults: Faults, pair: Pair, given: MeshingTable, aim: ShiftAim
+) -> tuple[float, float] | None:
     """Return the shifts: as given, from the distance of the axes, or chosen."""
     if given.x is not None:
         return given.x
     tip, overlap, a_w = given.s_a_min, given.epsilon_min, given.a_w
     total = None
     if a_w is not None:
-        least = abs(pair.a) * cos(pair.rack.alpha)
+        least = abs(pair.a) * cos(pair.alpha_t)
         if a_w <= least:
             what = say("{:g} mm, the base circles meet at a·cos α = {:.3f} mm", a_w, least)
             faults.add("meshing.a_w", what, say("Without shifts it is a = {:g} mm.", abs(pair.a)))
             return None
         alpha_w = float(np.arccos(least / a_w))
-        grown = float(involute(alpha_w) - involute(pair.rack.alpha))
+        grown = float(involute(alpha_w) - involute(pair.alpha_t))
         total = grown * abs(sum(pair.z)) / (2 * float(np.tan(pair.rack.alpha)))
         if given.x1 is not None:
             return given.x1, total - pair.side * given.x1
         if given.x2 is not None:
             return pair.side * (total - given.x2), given.x2
     asked = limits(tip, overlap, internal=bool(pair.cutter))
-    found = choose(pair, asked, total)
-    if found is None:
+    found = choose(pair, asked, total, aim)
+    if found is None and aim is not ShiftAim.BLOCKING and choose(pair, asked, total) is not None:
+        what = "no shifts that keep all limits have equal specific sliding"
+        faults.add("meshing.x", what, 'Take x = "blocking", or another a_w.')
+    elif found is None:
         faults.add("meshing.x", *_why_none(pair, total, tip, overlap))
     return found
 
@@ -211,7 +228,7 @@ def _check_teeth(faults: Faults, pair: Pair) -> None:
     """Note what keeps the wheels from being cut or from meshing."""
     total = float(pair.x_sum)
     if not float(pair.inv_alpha_w) >= 0:
-        least = abs(sum(pair.z)) * float(involute(pair.rack.alpha)) / (2 * np.tan(pair.rack.alpha))
+        least = abs(sum(pair.z)) * float(involute(pair.alpha_t)) / (2 * np.tan(pair.rack.alpha))
         sum_of = "x2 - x1" if pair.cutter else "x1 + x2"
         what = say(
             "{} = {:g}: such wheels cannot come so near to each other", sum_of, pair.side * total

@@ -17,6 +17,7 @@ def record(problem: MeshingProblem, lang: str) -> dict[str, Any]:
     """Return one object for a problem: the standard's names, mm and degrees, full precision."""
     solved, words = SolvedMeshing(problem), language(lang)
     told: dict[str, Any] = {"length": "mm", "angle": "deg", "shifts_chosen": problem.chosen}
+    told["criterion"] = None if problem.aim is None else problem.aim.value
     for group in solved.told():
         for one in group:
             values = [finite_or_none(value) for value in one.values]
@@ -24,6 +25,17 @@ def record(problem: MeshingProblem, lang: str) -> dict[str, Any]:
     told["k"] = [int(k) for k in told["k"]]
     told["z"] = list(problem.z)
     told["undercut"] = [tooth.is_cut for tooth in solved.teeth]
+    told["cutting"] = [
+        one
+        and {
+            "displacement": one.displacement,
+            "clearance": one.clearance,
+            "boundary_rho": one.boundary,
+            "undercut_displacement": one.least,
+            "undercut_diameter": one.cut_diameter,
+        }
+        for one in solved.cuttings
+    ]
     told["conditions"] = [
         {
             "name": limit.kind.value,

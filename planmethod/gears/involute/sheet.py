@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 from msgspec import Struct
 
 from planmethod.errors import LayoutError
+from planmethod.gears.involute.cuttingpicture import cutting_picture, cutting_view
 from planmethod.gears.involute.diagrams import (
     Contour,
     contour_picture,
@@ -119,12 +120,17 @@ class _Meshing(Struct, frozen=True):
         view = view_for(solved, share * 0.6 * free, share * high)
         mesh = meshing_picture(view, words, sizes.letter)
         width = share * (free - mesh.width)
-        plane = contour_picture(contour, words, width, share * 0.55 * high, sizes.letter)
-        sliding = sliding_picture(solved, words, width, share * 0.3 * high, sizes.letter)
+        plane = contour_picture(contour, words, width, share * 0.36 * high, sizes.letter)
+        sliding = sliding_picture(solved, words, width, share * 0.2 * high, sizes.letter)
+        pinion = solved.cuttings[0]
+        assert pinion is not None  # only wheel 2 may be a ring
+        cutting = cutting_view(pinion, width, share * 0.36 * high)
+        cut = cutting_picture(cutting, words, sizes.letter)
         scale = _scale(sliding_scale(solved, width), words.say)
         title = say.meshing.format(scale=_scale(view.scale, words.say))
         blocks: list[Block] = [
             Viewed(_titled(title, mesh, sizes), "meshing", None),
+            _titled(say.cut.format(scale=_scale(cutting.scale, words.say)), cut, sizes),
             _titled(say.contour, plane, sizes),
             _titled(say.sliding.format(scale=scale), sliding, sizes),
             told,
@@ -149,7 +155,8 @@ def _checks(solved: SolvedMeshing, words: Language, title: float, text: float) -
     """Yield what is given and what the limits say, in letters of a height, mm."""
     say = words.meshing
     yield heading(say.checked, title, width=TEXT_WIDTH)
-    for line in (*quality(solved, words), shifts(solved, words)):
+    section = (say.helical,) if solved.problem.beta else ()
+    for line in (*section, *quality(solved, words), shifts(solved, words)):
         yield paragraph(line, text, TEXT_WIDTH)
 
 

@@ -1,6 +1,7 @@
 """Two involute wheels as a file states them, and their sizes (эвольвентное зацепление).
 
-The sizes of a spur pair are by the formulas of GOST 16532 and GOST 19274 (геометрический расчёт).
+The sizes are by the formulas of GOST 16532 and GOST 19274 (геометрический расчёт), of spur and of
+helical wheels.
 
 An internal wheel has a negative number of teeth, as ISO 21771 has it: its shift, its diameters and
 radii of curvature and the distance of the axes are negative too, and the same formulas hold. Its
@@ -12,8 +13,9 @@ the shape (2, ...), those of the pair the shape (...). Lengths are millimetres, 
 
 from __future__ import annotations
 
+from enum import Enum
 from functools import cached_property
-from math import cos, pi, sin, tan
+from math import asin, atan, cos, pi, sin, tan
 from typing import TypeAlias
 
 import numpy as np
@@ -67,6 +69,14 @@ class Rack(Struct, frozen=True):
         return complex(pi / 4 - depth * tan(self.alpha) - self.rho / cos(self.alpha), -depth)
 
 
+class ShiftAim(Enum):
+    """What shifts are chosen for among those that keep the limits (критерий выбора смещений)."""
+
+    BLOCKING = "blocking"  # the least of the greater specific sliding
+    SLIDING = "equal-sliding"  # the same for both wheels, and the least such
+    OVERLAP = "contact-ratio"  # the greatest contact ratio
+
+
 class MeshingProblem(KindProblem, frozen=True, kw_only=True):
     """A pair of wheels to be drawn in mesh (лист «Синтез эвольвентного зацепления»).
 
@@ -78,10 +88,14 @@ class MeshingProblem(KindProblem, frozen=True, kw_only=True):
         Module.
     x : (float, float)
         Shifts of the rack, in modules.
-    chosen : bool
-        They were chosen by the blocking limits, not given.
+    aim : ShiftAim or None
+        By what they were chosen within the blocking limits; None where they were given.
     cutter : int
         Teeth of the pinion cutter (долбяк) of an internal wheel 2; 0 where both are external.
+    beta : float, rad
+        Helix angle at the pitch cylinder (угол наклона линии зуба); 0 of spur wheels.
+    width : float or None, mm
+        Working width of the rims, which the overlap ratio ε_β needs.
     a_w : float or None, mm
         Distance of the axes where the file gives it.
     tip : float
@@ -94,11 +108,18 @@ class MeshingProblem(KindProblem, frozen=True, kw_only=True):
     m: float
     rack: Rack
     x: tuple[float, float]
-    chosen: bool
+    aim: ShiftAim | None
     a_w: float | None
     tip: float
     overlap: float
     cutter: int = 0
+    beta: float = 0.0
+    width: float | None = None
+
+    @property
+    def chosen(self) -> bool:
+        """Whether the shifts were chosen, not given."""
+        return self.aim is not None
 
 
 class Pair(Struct, frozen=True, dict=True):
@@ -113,6 +134,9 @@ class Pair(Struct, frozen=True, dict=True):
         Shifts of the rack, in modules. What does not exist for them is NaN.
     cutter : int
         Teeth of the pinion cutter of an internal wheel 2; 0 where both are external.
+    beta : float, rad
+        Helix angle. Module, rack and shifts are those of the normal section, diameters, angles
+        and thicknesses without a further word of the transverse one (торцовое сечение).
     """
 
     z: tuple[int, int]
@@ -120,18 +144,20 @@ class Pair(Struct, frozen=True, dict=True):
     rack: Rack
     x: Reals
     cutter: int = 0
+    beta: float = 0.0
 
     @classmethod
     def of(cls, problem: MeshingProblem) -> Pair:
         """Return the pair of a problem."""
         z = (problem.z[0], -problem.z[1] if problem.cutter else problem.z[1])
-        return cls(z, problem.m, problem.rack, np.zeros(2), problem.cutter).shifted(problem.x)
+        pair = cls(z, problem.m, problem.rack, np.zeros(2), problem.cutter, problem.beta)
+        return pair.shifted(problem.x)
 
     def shifted(self, x: Reals | tuple[float, float]) -> Pair:
         """Return the same wheels cut with other shifts, with the signs of the standard."""
         one, two = np.asarray(x)
         x = np.stack([one, -two if self.cutter else two])
-        return Pair(self.z, self.m, self.rack, x, self.cutter)
+        return Pair(self.z, self.m, self.rack, x, self.cutter, self.beta)
 
     @property
     def side(self) -> int:
@@ -176,19 +202,34 @@ class Pair(Struct, frozen=True, dict=True):
     # The pair ---------------------------------------------------------------------------------
 
     @property
+    def m_t(self) -> float:
+        """Transverse module, mm (торцовый модуль)."""
+        return self.m / cos(self.beta)
+
+    @property
+    def alpha_t(self) -> float:
+        """Transverse profile angle, rad (угол профиля в торцовом сечении)."""
+        return atan(tan(self.rack.alpha) / cos(self.beta)) if self.beta else self.rack.alpha
+
+    @property
+    def beta_b(self) -> float:
+        """Helix angle at the base cylinder, rad (основной угол наклона)."""
+        return asin(sin(self.beta) * cos(self.rack.alpha))
+
+    @property
     def a(self) -> float:
         """Distance of the axes without shifts, mm (делительное межосевое расстояние)."""
-        return self.m * sum(self.z) / 2
+        return self.m_t * sum(self.z) / 2
 
     @property
     def p(self) -> float:
         """Pitch on the pitch circles, mm (шаг)."""
-        return pi * self.m
+        return pi * self.m_t
 
     @property
     def p_b(self) -> float:
         """Pitch on the base circles, mm (основной шаг)."""
-        return self.p * float(np.cos(self.rack.alpha))
+        return self.p * float(np.cos(self.alpha_t))
 
     @cached_property
     def x_sum(self) -> Reals:
@@ -199,7 +240,7 @@ class Pair(Struct, frozen=True, dict=True):
     def inv_alpha_w(self) -> Reals:
         """Involute of the working pressure angle."""
         by_shift = 2 * self.x_sum * np.tan(self.rack.alpha) / sum(self.z)
-        return np.asarray(involute(self.rack.alpha) + by_shift)
+        return np.asarray(involute(self.alpha_t) + by_shift)
 
     @cached_property
     def alpha_w(self) -> Reals:
@@ -209,7 +250,7 @@ class Pair(Struct, frozen=True, dict=True):
     @cached_property
     def a_w(self) -> Reals:
         """Distance of the axes, mm (межосевое расстояние)."""
-        return np.asarray(self.a * np.cos(self.rack.alpha) / np.cos(self.alpha_w))
+        return np.asarray(self.a * np.cos(self.alpha_t) / np.cos(self.alpha_w))
 
     @cached_property
     def y(self) -> Reals:
@@ -236,12 +277,17 @@ class Pair(Struct, frozen=True, dict=True):
     @cached_property
     def d(self) -> Reals:
         """Pitch diameters, mm (делительные)."""
-        return self._both(self.m * np.array(self.z, dtype=float))
+        return self._both(self.m_t * np.array(self.z, dtype=float))
+
+    @property
+    def z_v(self) -> Reals:
+        """Teeth of the equivalent spur wheels (эквивалентные числа зубьев)."""
+        return np.array(self.z) / cos(self.beta) ** 3
 
     @cached_property
     def d_b(self) -> Reals:
         """Base diameters, mm (основные)."""
-        return np.asarray(self.d * np.cos(self.rack.alpha))
+        return np.asarray(self.d * np.cos(self.alpha_t))
 
     @cached_property
     def d_w(self) -> Reals:
@@ -262,7 +308,17 @@ class Pair(Struct, frozen=True, dict=True):
     @cached_property
     def s(self) -> Reals:
         """Tooth thickness on the pitch circle, mm."""
-        return np.asarray(self.m * (pi / 2 + 2 * self.x * np.tan(self.rack.alpha)))
+        return np.asarray(self.m_t * (pi / 2 + 2 * self.x * np.tan(self.rack.alpha)))
+
+    @cached_property
+    def e(self) -> Reals:
+        """Width of the space on the pitch circle, mm (ширина впадины)."""
+        return np.asarray(self.p - self.s)
+
+    @cached_property
+    def h(self) -> Reals:
+        """Height of the tooth, mm."""
+        return np.asarray(np.abs(self.d_a - self.d_f) / 2)
 
     @cached_property
     def alpha_a(self) -> Reals:
@@ -273,8 +329,14 @@ class Pair(Struct, frozen=True, dict=True):
     @cached_property
     def s_a(self) -> Reals:
         """Tooth thickness at the tip, mm; negative where the tooth is pointed below it."""
-        half = self.s / self.d + involute(self.rack.alpha) - involute(self.alpha_a)
+        half = self.s / self.d + involute(self.alpha_t) - involute(self.alpha_a)
         return np.asarray(self.d_a * half)
+
+    @cached_property
+    def s_na(self) -> Reals:
+        """Thickness at the tip in the section across the tooth, mm (нормальная)."""
+        lean = np.arctan(self.d_a / self.d * tan(self.beta))
+        return np.asarray(self.s_a * np.cos(lean))
 
     @cached_property
     def rho_a(self) -> Reals:
@@ -289,7 +351,7 @@ class Pair(Struct, frozen=True, dict=True):
     @cached_property
     def rho_l(self) -> Reals:
         """Radius of curvature where the fillet begins, mm (граничная точка); negative: undercut."""
-        sine = np.sin(self.rack.alpha)
+        sine = np.sin(self.alpha_t)
         by_rack = self.d / 2 * sine - self.m * (self.rack.straight - self.x) / sine
         if not self.cutter:
             return np.asarray(by_rack)
@@ -299,23 +361,24 @@ class Pair(Struct, frozen=True, dict=True):
     @cached_property
     def x_min(self) -> Reals:
         """Least shift without undercut."""
-        sine = np.sin(self.rack.alpha)
-        least = self.rack.straight - self._both(np.array(self.z) * sine**2 / 2)
+        sine = np.sin(self.alpha_t)
+        least = self.rack.straight - self._both(np.array(self.z) * sine**2 / 2 / cos(self.beta))
         return self._of_ring(least, np.asarray(np.nan)) if self.cutter else least
 
     @property
     def z_min(self) -> float:
         """Least number of teeth without undercut and without shift."""
-        return float(2 * self.rack.straight / np.sin(self.rack.alpha) ** 2)
+        return float(2 * self.rack.straight * cos(self.beta) / np.sin(self.alpha_t) ** 2)
 
     @cached_property
     def k(self) -> Reals:
         """Number of teeth spanned by the base tangent (число зубьев в длине общей нормали)."""
         z = self._both(np.array(self.z))
-        share = z * np.cos(self.rack.alpha) / (z + 2 * self.x)
+        share = z * np.cos(self.alpha_t) / (z + 2 * self.x * cos(self.beta))
         near = np.where(share < 1, np.tan(np.arccos(np.minimum(share, 1.0))), 0.0)
+        near = near / cos(self.beta_b) ** 2
         shift = 2 * self.x * np.tan(self.rack.alpha) / z
-        count = np.abs(z) / pi * (near - shift - involute(self.rack.alpha)) + 0.5
+        count = np.abs(z) / pi * (near - shift - involute(self.alpha_t)) + 0.5
         # The tables take the smaller of two equally near ones: 2 of 18 teeth, not 3.
         return np.asarray(np.maximum(2.0, np.ceil(count - 0.5 - 1e-9)))
 
@@ -323,7 +386,7 @@ class Pair(Struct, frozen=True, dict=True):
     def base_tangent(self) -> Reals:
         """Length W of the base tangent, mm (длина общей нормали)."""
         z = self._both(np.array(self.z))
-        by_shift = 2 * self.x * np.tan(self.rack.alpha) + z * involute(self.rack.alpha)
+        by_shift = 2 * self.x * np.tan(self.rack.alpha) + z * involute(self.alpha_t)
         by_shift = by_shift * np.sign(z)
         return np.asarray(self.m * np.cos(self.rack.alpha) * (pi * (self.k - 0.5) + by_shift))
 

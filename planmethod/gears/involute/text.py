@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from math import degrees
 
-from planmethod.gears.involute.quantities import SolvedMeshing, Told, Unit
+from planmethod.gears.involute.formulas import Unit
+from planmethod.gears.involute.quantities import SolvedMeshing, Told
 from planmethod.gears.involute.sizes import MeshingProblem
 from planmethod.note.document import Caption, Item, Node, Paragraph, Table, Title, table_of
 from planmethod.note.formula import Rich, escape
@@ -20,8 +22,30 @@ def solved_document(problem: MeshingProblem, words: Language) -> Iterator[Node]:
     yield table([*pair, *contact], words, (*say["columns"][:2], ""))
     yield Caption(say.wheels)
     yield table(wheels, words, say["columns"])
+    yield Caption(say.cutting)
+    yield from map(Item, cutting(solved, words))
     yield Caption(say.checked)
     yield from map(Item, quality(solved, words))
+
+
+def cutting(solved: SolvedMeshing, words: Language) -> Iterator[Rich]:
+    """Return where the rack stands that cuts each wheel, and where undercut begins or would."""
+    say = words.meshing
+    for k, one in enumerate(solved.cuttings):
+        if one is None:
+            yield say.cut_by_cutter.format(wheel=k + 1)
+            continue
+        numbers = {
+            "moved": one.displacement,
+            "c": one.clearance,
+            "rho": abs(one.boundary),
+            "least": one.least,
+        }
+        cut = one.cut_diameter
+        key = "whole" if cut is None else "cut"
+        if cut is not None:
+            numbers["d"] = cut
+        yield say["cut_by_rack"][key].format(wheel=k + 1, **_shown(numbers, words))
 
 
 def head(solved: SolvedMeshing, words: Language) -> Iterator[Node]:
@@ -29,6 +53,8 @@ def head(solved: SolvedMeshing, words: Language) -> Iterator[Node]:
     title = escape(solved.problem.title or solved.problem.name)
     yield Title(words.meshing.title.format(title=title))
     yield Paragraph(_given(solved, words))
+    if solved.problem.beta:
+        yield Paragraph(words.meshing.helical)
     yield Paragraph(shifts(solved, words))
 
 
@@ -37,6 +63,11 @@ def _given(solved: SolvedMeshing, words: Language) -> Rich:
     further = ""
     if problem.a_w is not None:
         further = f", a_{{w}} = {words.say.given(problem.a_w)} {say['units']['mm']}"
+    if problem.beta:
+        beta = words.say.given(round(degrees(problem.beta), 9))
+        further += f", β = {beta}{words.say.units['deg']}"
+    if problem.width is not None:
+        further += f", b_{{w}} = {words.say.given(problem.width)} {say['units']['mm']}"
     if problem.cutter:
         further += say.ring.format(cutter=problem.cutter)
     return say.given.format(further=further, **_bare(solved, words))
@@ -44,7 +75,7 @@ def _given(solved: SolvedMeshing, words: Language) -> Rich:
 
 def shifts(solved: SolvedMeshing, words: Language) -> Rich:
     """Return which shifts there are, and whether they were chosen."""
-    key = "chosen" if solved.problem.chosen else "given"
+    key = "given" if solved.problem.aim is None else solved.problem.aim.value
     sentence: str = words.meshing["shifts"][key]
     return sentence.format(**_bare(solved, words))
 

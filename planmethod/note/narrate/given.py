@@ -15,7 +15,7 @@ from planmethod.note.wording import Language
 from planmethod.plans.legend import MOTION_KINDS, TURNINGS, Quantity, QuantityKind
 from planmethod.plans.motion.leads import slot_name
 from planmethod.problem.head import KindProblem
-from planmethod.problem.model import Body, Geared, Posed, PosedBy, Problem, Slide
+from planmethod.problem.model import Body, Drive, Geared, Lifted, Posed, PosedBy, Problem, Slide
 from planmethod.problem.names import UNITS, split_names
 from planmethod.solved.solution import Solution
 
@@ -82,6 +82,8 @@ def given(problem: Problem, words: Language, positions: Sequence[float] | None =
             lines.append(f"e_{{{name}}} = {offset}")
     if drive.posed is not None and drive.posed.by is PosedBy.LENGTH:
         return lines
+    if drive.followed is not None:
+        return [*lines, *_lifted(drive, drive.followed, text)]
     if drive.is_crank:
         lines += [] if drive.geared is None else _through(drive.geared, words)
         constant = "" if drive.acceleration else " = const"
@@ -264,6 +266,20 @@ def _through(geared: Geared, words: Language) -> list[str]:
         source, ratio = geared.inputs[0][0], words.say.given(float(geared.ratio))
         lines.append(f"U_{{{source}-{geared.label}}} = {ratio}")
     return lines
+
+
+def _lifted(drive: Drive, led: Lifted, text: As) -> list[str]:
+    """Return which angle of the cam it is, and the motion that its follower has there."""
+    say = text.say
+    turn = f"{say.given(led.angle)}{say.units['deg']}"
+    lines = [text.words.note.given_cam.format(n=text.number(led.n, "rev/min", "cam.n"), phi=turn)]
+    names = (f"ω_{{{drive.link}}}", f"ε_{{{drive.link}}}") if drive.is_crank else ("v", "a")
+    units = ("1/s", "1/s²") if drive.is_crank else ("m/s", "m/s²")
+    rates = zip(names, (drive.rate, drive.acceleration), units, strict=True)
+    return [
+        *lines,
+        *(f"{name} = {say.found(rate)} {say.units[unit]}" for name, rate, unit in rates),
+    ]
 
 
 def _third_points(link: str, body: Body, named: set[str], text: As) -> list[str]:

@@ -10,18 +10,25 @@ from msgspec.structs import replace
 
 from planmethod.gears.answers import answer
 from planmethod.gears.asked import parse
+from planmethod.gears.comparison import compare
 from planmethod.gears.conditions import conditions, judgement, sentence
 from planmethod.gears.construction import construct, read
 from planmethod.gears.derivation import DerivedLine, by_speeds
+from planmethod.gears.involute.cuttingpicture import cutting_picture, cutting_view
 from planmethod.gears.involute.meshpicture import meshing_picture, view_for
 from planmethod.gears.involute.quantities import SolvedMeshing
 from planmethod.gears.involute.sizes import MeshingProblem
-from planmethod.gears.involute.text import quality, table
+from planmethod.gears.involute.text import cutting, quality, table
 from planmethod.gears.model import GearProblem, Mesh, MeshKind
 from planmethod.gears.motion import TrainMotion, mesh_row, solve_motion
 from planmethod.gears.picture import draw
 from planmethod.gears.sheet import pictures
-from planmethod.gears.text import equation_of, fraction_text
+from planmethod.gears.text import (
+    compared_sentences,
+    compared_table,
+    equation_of,
+    fraction_text,
+)
 from planmethod.gears.told import given, indexed, ratios, results
 from planmethod.note.document import Chapter, Node, Part, Table
 from planmethod.note.formula import Rich, fraction
@@ -62,8 +69,21 @@ def train_chapter(report: Report, problem: GearProblem) -> Iterator[Node]:
     yield from _structure(report, problem, motion, said)
     yield Part(said.analysis.format())
     yield from _ratios(report, motion, said)
+    yield from _compared(report, problem, motion)
     yield Part(said.pictures.format())
     yield from _pictures(report, problem, motion, said)
+
+
+def _compared(report: Report, problem: GearProblem, motion: TrainMotion) -> Iterator[Node]:
+    """Yield the variants of a planetary train that was designed."""
+    compared = compare(problem, motion)
+    if compared is None:
+        return
+    title = report.words.teeth["compared"]["title"]
+    yield Part(title)
+    yield sentences(*compared_sentences(compared, report.words))
+    told = compared_table(compared, report.words)
+    yield Table(told.head, told.rows, name=title, key="train_variants")
 
 
 def _module(report: Report, motion: TrainMotion, said: Words) -> Rich:
@@ -258,10 +278,12 @@ def meshing_chapter(report: Report, problem: MeshingProblem) -> Iterator[Node]:
     say: Words = words.meshing
     fields, ends = solved.fields(words.say), wheels_of(report)
     yield Chapter(said.title.format())
+    form = "internal" if problem.cutter else "helical" if problem.beta else "external"
     told = {name: text.strip("()") for name, text in fields.items()}  # in no product
-    way = "distance" if problem.a_w is not None else "blocking" if problem.chosen else "given"
+    way = "given" if problem.aim is None else problem.aim.value
+    way = "distance" if problem.a_w is not None else way
     yield sentences(
-        str(said["about"]["internal" if problem.cutter else "external"]).format(**told),
+        str(said["about"][form]).format(**told),
         said.wheels.format(one=ends[0], other=ends[1]) if ends is not None else "",
         str(said["shifts"][way]).format(**told),
     )
@@ -293,6 +315,14 @@ def meshing_chapter(report: Report, problem: MeshingProblem) -> Iterator[Node]:
         lambda letter: meshing_picture(view_for(solved, 300.0, 240.0), words, letter),
         said.figure.format(),
         "meshing_picture",
+    )
+    pinion = solved.cuttings[0]
+    assert pinion is not None  # only wheel 2 may be a ring
+    yield sentences(said.cutting_text.format(), *cutting(solved, words))
+    yield figure(
+        lambda letter: cutting_picture(cutting_view(pinion, 260.0, 200.0), words, letter),
+        said.cutting_figure.format(),
+        "cutting_picture",
     )
 
 

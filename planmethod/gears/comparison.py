@@ -1,0 +1,142 @@
+"""Variants of a planetary train compared by size and satellites (сравнение вариантов)."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from fractions import Fraction
+
+from msgspec import Struct
+
+from planmethod.errors import Fault, ProblemError
+from planmethod.gears.choice import SCHEMES, TeethSet, TrainScheme, Wanted, choose, set_of
+from planmethod.gears.conditions import satellites_held
+from planmethod.gears.meshes import fraction
+from planmethod.gears.model import GearProblem, Train
+from planmethod.gears.motion import TrainMotion
+from planmethod.languages import say
+from planmethod.problem.head import PlanetaryTask
+
+
+class PlanetaryVariant(Struct, frozen=True):
+    """A set of teeth for a number of satellites (вариант).
+
+    Attributes
+    ----------
+    satellites : int
+    place : int
+        Its place among all sets for as many satellites, from 1, the smallest first.
+    chosen : TeethSet
+    is_own : bool
+        It is the train of the file.
+    """
+
+    satellites: int
+    place: int
+    chosen: TeethSet
+    is_own: bool
+
+
+class PlanetaryComparison(Struct, frozen=True):
+    """What the train of a file is compared with (сравнение).
+
+    Attributes
+    ----------
+    found : mapping of int to int
+        How many sets there are for each number of satellites.
+    own : TeethSet
+        The train of the file.
+    satellites : int
+        Its satellites: as the file says, else the most that go in.
+    """
+
+    scheme: TrainScheme
+    task: PlanetaryTask
+    ratio: Fraction
+    module_m: Fraction | None
+    found: Mapping[int, int]
+    variants: tuple[PlanetaryVariant, ...]
+    own: TeethSet
+    satellites: int
+
+    @property
+    def place(self) -> PlanetaryVariant | None:
+        """The train of the file among the variants; None where it does not meet what is asked."""
+        return next((one for one in self.variants if one.is_own), None)
+
+    def diameter(self, one: TeethSet) -> float | None:
+        """Return the diameter over the pitch circles, mm; None without a module."""
+        return None if self.module_m is None else float(one.size * self.module_m * 1000)
+
+
+def planetary_labels(train: Train) -> tuple[TrainScheme, tuple[str, ...]] | None:
+    """Return the scheme of a train with a carrier, and its wheels in the order of a set.
+
+    None where it is none of those that teeth are chosen for.
+    """
+    if len(train.meshes) != 2 or not train.toothed:
+        return None
+    carriers = {train.carrier(mesh) for mesh in train.meshes}
+    held = [one for one in train.meshes if set(train.ends(one)) & train.fixed]
+    if len(carriers) != 1 or None in carriers or len(held) != 1:
+        return None
+    last = held[0]
+    first = next(one for one in train.meshes if one is not last)
+    at = 0 if train.ends(last)[0] in train.fixed else 1
+    satellite = train.ends(last)[1 - at]
+    if satellite not in train.ends(first):
+        return None
+    labels = (last.first, last.second)
+    near = (first.first, first.second)
+    own = train.ends(first).index(satellite)
+    wheels = (near[1 - own], near[own], labels[1 - at], labels[at])
+    single = wheels[1] == wheels[2]
+    for scheme in SCHEMES:
+        if scheme.carried and scheme.kinds == (first.kind, last.kind) and scheme.single is single:
+            return scheme, (wheels[:2] + wheels[3:]) if single else wheels
+    return None
+
+
+def compare(problem: GearProblem, motion: TrainMotion) -> PlanetaryComparison | None:
+    """Return the variants for every number of satellites; None where nothing is to be compared.
+
+    Raises
+    ------
+    ProblemError
+        The train is none of the planetary schemes that teeth are chosen for.
+    """
+    train, task = motion.train, motion.train.design
+    if task is None:
+        return None
+    known = planetary_labels(train)
+    sizes = motion.axes.sizes
+    if known is None or any(sizes[label].denominator != 1 for label in known[1]):
+        names = ", ".join(one.name for one in SCHEMES if one.carried)
+        told = "the train is none of the planetary schemes that are compared"
+        hint = say("They are: {}; the last wheel held, sizes in teeth.", names)
+        raise ProblemError(problem.source_file, [Fault("gears.design", told, hint)])
+    scheme, labels = known
+    teeth = tuple(int(sizes[label]) for label in labels)
+    ratio = fraction(task.U) if task.U is not None else None
+    own = set_of(_wanted(scheme, task, ratio or Fraction(1), 1), teeth)
+    ratio = ratio or own.ratio
+    (carrier,) = {train.carrier(mesh) for mesh in train.meshes}
+    assert carrier is not None
+    count = train.satellites.get(carrier) or satellites_held(motion, carrier) or 1
+    found, variants = {}, list[PlanetaryVariant]()
+    for k in sorted({*range(task.k_min, task.k_max + 1), count}):
+        chosen = choose(_wanted(scheme, task, ratio, k))
+        found[k] = chosen.found
+        variants += [
+            PlanetaryVariant(k, place, one, k == count and one.teeth == teeth)
+            for place, one in enumerate(chosen.sets, 1)
+            if place <= task.count or (k == count and one.teeth == teeth)
+        ]
+    own = set_of(_wanted(scheme, task, ratio, count), teeth)
+    return PlanetaryComparison(
+        scheme, task, ratio, train.module, found, tuple(variants), own, count
+    )
+
+
+def _wanted(scheme: TrainScheme, task: PlanetaryTask, ratio: Fraction, count: int) -> Wanted:
+    within = fraction(task.within)
+    return Wanted(scheme, ratio, within, count, task.z_min, task.z_max, task.ring_max)
