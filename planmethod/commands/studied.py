@@ -209,15 +209,17 @@ def sheets(asked: Asked, _: Tell) -> Found:
             (_file(asked),), asked.get("variant"), False,
             lambda todo: drawn_for(settled_for(todo, options), options), take=made.append,
         )  # fmt: skip
-    pages = [_page(drawing) for drawings in made for drawing in drawings]
+    pages = [_page(drawing, asked["lang"]) for drawings in made for drawing in drawings]
     return {"code": int(code), "errors": errors.getvalue(), "pages": pages}
 
 
-def _page(drawing: Any) -> dict[str, Any]:
+def _page(drawing: Any, lang: str) -> dict[str, Any]:
     from planmethod.note.plaintext import plain_text
+    from planmethod.note.wording import language
     from planmethod.plans.model import FACTS
 
-    units = {fact.scale.removeprefix("mu_"): fact.unit for fact in FACTS.values()}
+    known = language(lang).say.units
+    units = {f.scale.removeprefix("mu_"): plain_text(known[f.unit]) for f in FACTS.values()}
     views = [
         {
             "kind": view.kind, "box": list(view.box), "per_mm": view.per_mm,
