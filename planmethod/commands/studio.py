@@ -122,6 +122,7 @@ def _serve(settings: StudioSettings, host: str, port: int, shown: bool) -> None:
         listening.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
     try:
         listening.bind((host, port))
+        listening.listen(PLACES)  # who opens the page at once waits for the first answer
     except OSError as error:
         raise UsageError(
             "--port {} at {}: {}. Give another one, or 0 for any that is free.",

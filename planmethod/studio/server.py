@@ -346,9 +346,10 @@ class _Studio:
         self._put_beside(asked["text"], str(told.get("file", "")), folder)
         seconds = limits.trusted_seconds if session.trusted else limits.seconds
         lines = self.queue.run(asked, session=session.key, quick=do in QUICK, seconds=seconds)
+        first = await anext(lines)
         headers = {"Cache-Control": "no-store", "X-Accel-Buffering": "no", **_SAFE}
         return StreamingResponse(
-            self._lines(lines, session, number, lang),
+            self._lines(first, lines, session, number, lang),
             media_type="application/x-ndjson",
             headers=headers,
         )
@@ -392,11 +393,13 @@ class _Studio:
 
     async def _lines(
         self,
+        first: Mapping[str, Any],
         told: AsyncIterator[Mapping[str, Any]],
         session: StudioSession,
         number: int,
         lang: str,
     ) -> AsyncIterator[bytes]:
+        yield json.dumps(first).encode() + b"\n"
         async for one in told:
             line: dict[str, Any] = dict(one)
             if "found" in line:

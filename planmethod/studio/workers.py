@@ -8,7 +8,7 @@ import multiprocessing
 import signal
 import sys
 import time
-from collections.abc import AsyncIterator, Callable, Mapping
+from collections.abc import AsyncGenerator, AsyncIterator, Callable, Mapping
 from multiprocessing.connection import Connection
 from typing import Any, TypeAlias
 
@@ -183,18 +183,22 @@ class StudioQueue:
 
     async def run(
         self, asked: Asked, *, session: str, quick: bool, seconds: float
-    ) -> AsyncIterator[Mapping[str, Any]]:
-        """Yield what becomes of it: ``place`` in the queue, ``share`` that is done, ``found``."""
+    ) -> AsyncGenerator[Mapping[str, Any], None]:
+        """Yield what becomes of it: ``place`` in the queue, ``share`` that is done, ``found``.
+
+        The first thing comes at once: then it stands in the queue, and leaves it with its reader.
+        """
         ticket = _Ticket(quick, session)
         self._own[session] = self._own.get(session, 0) + 1
         self._waiting.append(ticket)
         self._waiting.sort(key=lambda one: not one.quick)
         self._give()
         try:
+            yield {"place": self._place(ticket)}
             while not ticket.given.done():
                 await asyncio.wait([ticket.given], timeout=PAUSE)
                 if not ticket.given.done():
-                    yield {"place": self._waiting.index(ticket) + 1}
+                    yield {"place": self._place(ticket)}
         except BaseException:  # who asked has gone
             self._leave(ticket)
             raise
@@ -231,6 +235,9 @@ class StudioQueue:
         self.done += 1
         self.refused += "refused" in found
         yield {"found": found}
+
+    def _place(self, ticket: _Ticket) -> int:
+        return self._waiting.index(ticket) + 1 if ticket in self._waiting else 0
 
     def _give(self) -> None:
         for ticket in [*self._waiting]:

@@ -5,11 +5,8 @@ const STEP = 24;
 let tasks = [], shown = 0, asked = 0;
 
 export async function bank(take) {
-  for (const [name, meaning] of Object.entries(D.families)) {
-    const button = made(byId("families"), "button", name, { title: meaning });
-    button.addEventListener("click", () => start(name, "", take));
-    button.append(made(button, "span", `: ${meaning}`, { class: "hint" }));
-  }
+  for (const [name, meaning] of Object.entries(D.families)) made(byId("families"), "option", `${meaning} (${name})`, { value: name });
+  byId("family").addEventListener("click", () => start(byId("families").value, "", take));
   byId("more").addEventListener("click", () => more(take));
   let pause = 0;
   byId("search").addEventListener("input", () => { clearTimeout(pause); pause = setTimeout(() => find(take), 200); });
