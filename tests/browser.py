@@ -84,7 +84,8 @@ class Page:
     def wait(self, expression: str, seconds: float = 60.0) -> Any:
         """Return the value of an expression as soon as it is one that counts."""
         end = time.monotonic() + seconds
-        while not (value := self.ask(expression)):
+        plain = f"(found => found instanceof Node || found)({expression})"
+        while not (value := self.ask(plain)):
             assert time.monotonic() < end, (expression, self.said)
             time.sleep(0.05)
         return value
