@@ -36,13 +36,13 @@ def act(asked: Asked, tell: Tell) -> Found:
     """Do what is asked; what is wrong with it is said in what is returned."""
     with answering(asked.get("lang", "ru")):
         try:
-            return ACTS[asked["do"]](asked, tell)
+            return _cleaned(ACTS[asked["do"]](asked, tell), asked)
         except ProblemError as error:
             return _told(asked, error.faults)
         except PlanMethodError as error:
-            return _told(asked, [Fault("", str(error))])
+            return _told(asked, [Fault("", str(error))], placed=False)
         except click.ClickException as error:
-            return _told(asked, [Fault("", error.format_message())])
+            return _told(asked, [Fault("", error.format_message())], placed=False)
         except (MemoryError, RecursionError):
             raise
         except Exception as error:  # the last safety net, as that of the command line
@@ -52,20 +52,34 @@ def act(asked: Asked, tell: Tell) -> Found:
                 type(error).__name__,
                 error,
             )
-            return _told(asked, [Fault("", said)])
+            return _told(asked, [Fault("", said)], placed=False)
 
 
-def _told(asked: Asked, faults: Any) -> Found:
+def _told(asked: Asked, faults: Any, *, placed: bool = True) -> Found:
     from planmethod.studio.places import place_of
 
     text, told = asked.get("text", ""), []
     for fault in faults:
-        line, column = place_of(text, fault) or (None, None)
+        line, column = (place_of(text, fault) if placed else None) or (None, None)
         told.append(
             {"path": fault.path, "message": fault.message, "hint": fault.hint,
              "choices": list(fault.choices), "line": line, "column": column}
         )  # fmt: skip
-    return {"faults": told}
+    return _cleaned({"faults": told}, asked)
+
+
+def _cleaned(found: Found, asked: Asked) -> Found:
+    """Return what was found without where the server keeps files."""
+    if "folder" not in asked:
+        return found
+    home = re.escape(str(Path(asked["folder"]).parent))
+    place = rf"{home}[/\\](?:\d+[/\\](?:{OUT}[/\\])?|works[/\\])?"
+    for key in ("output", "errors"):
+        if key in found:
+            found[key] = re.sub(place, "", found[key])
+    for fault in found.get("faults", ()):
+        fault["message"] = re.sub(place, "", fault["message"])
+    return found
 
 
 def _file(asked: Asked) -> Path:
@@ -97,7 +111,7 @@ def sketched(asked: Asked, _: Tell) -> Found:
     if trouble is None and part.failure is not None:
         trouble = PositionError(part.failure)
     if trouble is not None and not part.faults:
-        found = _told(asked, [Fault("", str(trouble))])
+        found = _told(asked, [Fault("", str(trouble))], placed=False)
     ways = len(part.assemblies)
     return found | {
         "svg": _svg(drawn(part, title, language(asked["lang"]), [])),
@@ -323,16 +337,7 @@ def command(asked: Asked, tell: Tell) -> Found:
     if asked.get("variant"):
         args += ["--variant", asked["variant"]]
     found = _run(name, *args, *folder, str(path), tell=tell)
-    return _cleaned(found, asked) | {"files": _listed(out)}
-
-
-def _cleaned(found: Found, asked: Asked) -> Found:
-    """Return what was printed without where the server keeps it."""
-    folder = asked["folder"].rstrip("/\\")
-    return found | {
-        key: re.sub(rf"{re.escape(folder)}[/\\]?(?:{OUT}[/\\])?", "", found[key])
-        for key in ("output", "errors")
-    }
+    return {**found, "files": _listed(out)}
 
 
 # Answers -----------------------------------------------------------------------------------------
@@ -382,7 +387,7 @@ def verdicts(asked: Asked, tell: Tell) -> Found:
         "check", str(path), str(work), "-o", str(folder / OUT), "--lang", asked["lang"], *variant,
         tell=tell,
     )  # fmt: skip
-    return _cleaned(found, asked) | {"files": _listed(folder / OUT)}
+    return found | {"files": _listed(folder / OUT)}
 
 
 # The instructor ----------------------------------------------------------------------------------
@@ -402,7 +407,7 @@ def checked(asked: Asked, tell: Tell) -> Found:
         "check", str(path), *asked["works"], "-o", str(out), "--gradebook",
         "--overrides", str(by_hand), "--lang", asked["lang"], *variant, tell=tell,
     )  # fmt: skip
-    return _cleaned(found, asked) | {
+    return found | {
         "files": _listed(out),
         "marks": _table(out / "gradebook.csv"),
         "answers": _table(out / "results.csv"),
@@ -444,7 +449,7 @@ def varied(asked: Asked, tell: Tell) -> Found:
         quiz = out / f"{asked['name']}-moodle.xml"
         more = _run("check", "--key", "--moodle", str(quiz), *lang, str(written), tell=tell)
         found = {**found, "errors": f"{found['errors']}\n{more['errors']}".strip()}
-    return _cleaned(found, asked) | {"files": _listed(out)}
+    return found | {"files": _listed(out)}
 
 
 def warm(_: Asked, tell: Tell) -> Found:

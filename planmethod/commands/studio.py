@@ -18,8 +18,11 @@ if TYPE_CHECKING:
 
 LOOPBACK = ("127.0.0.1", "localhost")
 NEEDS = "studio needs starlette and uvicorn: pip install 'planmethod[studio]'"
-PLACES = 64
+PLACES = 128
 """Connections that wait to be taken."""
+
+KEPT = 75
+"""Seconds that a connection is kept for who thinks between two letters."""
 
 
 @click.command(cls=Spoken)
@@ -143,6 +146,7 @@ def _serve(settings: StudioSettings, host: str, port: int, shown: bool) -> None:
             access_log=False,
             server_header=False,
             backlog=PLACES,
+            timeout_keep_alive=KEPT,
             timeout_graceful_shutdown=2,
         )
         uvicorn.Server(config).run(sockets=[listening])

@@ -20,7 +20,7 @@ def place_of(text: str, fault: Fault) -> tuple[int, int] | None:
     numbers = re.fullmatch(r"\D*(\d+)\D+(\d+)\D*", fault.path)
     if numbers is not None and " " in fault.path:
         return int(numbers[1]), int(numbers[2])
-    said = re.match(r"\D*(\d+)", fault.message) if not fault.path else None
+    said = re.match(r"\w+ (\d+)\b", fault.message) if not fault.path else None
     if said is not None:
         return int(said[1]), 1
     wanted = _parts(fault.path.split(" ")[0].replace("[", ".").replace("]", ""))
