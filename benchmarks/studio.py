@@ -95,7 +95,17 @@ def main() -> int:
     parser.add_argument("--changes", type=int, default=8)
     parser.add_argument("--pause", type=float, default=4.0)
     asked = parser.parse_args()
-    command = [sys.executable, "-m", "planmethod", "studio", "--serve", "--port", "0", "--jobs", "2"]
+    command = [
+        sys.executable,
+        "-m",
+        "planmethod",
+        "studio",
+        "--serve",
+        "--port",
+        "0",
+        "--jobs",
+        "2",
+    ]
     with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as served:
         assert served.stdout is not None
         address = re.findall(r"http://\S+", served.stdout.readline())[0]
@@ -103,7 +113,9 @@ def main() -> int:
             warm = TypingStudent(address, 0, 4, 0.1)
             warm.run()
             print(f"load average at the start: {os.getloadavg()[0]:.1f}")
-            print("students  asked  drawn  refused  lost  median, s  95 %, s  longest, s  memory, MB  CPU, ms")
+            print(
+                "students  asked  drawn  refused  lost  median, s  95 %, s  longest, s  memory, MB  CPU, ms"
+            )
             for count in map(int, asked.students.split(",")):
                 all_of_them = [
                     TypingStudent(address, k, asked.changes, asked.pause) for k in range(count)

@@ -9,8 +9,7 @@ from __future__ import annotations
 import io
 import json
 import re
-import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from contextlib import redirect_stderr, redirect_stdout
 from importlib import import_module
 from pathlib import Path
@@ -19,7 +18,7 @@ from typing import Any
 import click
 
 from planmethod.commands.helptext import answering
-from planmethod.errors import ExitCode, Fault, PlanMethodError, ProblemError
+from planmethod.errors import Fault, PlanMethodError, ProblemError
 from planmethod.languages import say
 
 Asked = dict[str, Any]

@@ -31,8 +31,8 @@ from planmethod.languages import LANGUAGES, say, speaking
 from planmethod.note.wording import language
 from planmethod.problem import FAMILIES, OTHER_FAMILIES, template
 from planmethod.problem.tasks import tasks, text_for
-from planmethod.studio.limits import StudioLimits
 from planmethod.studio.document import POLICY, asset, page_of
+from planmethod.studio.limits import StudioLimits
 from planmethod.studio.sessions import Desk, Sessions, StudioSession, mark_of
 from planmethod.studio.workers import Act, Asked, StudioQueue
 
@@ -288,7 +288,9 @@ class _Studio:
             if there is None:
                 raise HTTPException(404)
             text, mark = there
-            told = {"mark": mark} if "mark" in request.query_params else {"text": text, "mark": mark}
+            told = (
+                {"mark": mark} if "mark" in request.query_params else {"text": text, "mark": mark}
+            )
             return JSONResponse(told)
         asked = self._object(await _body(request, self.limits.text), request)
         text, over = str(asked.get("text", "")), asked.get("over") is True
@@ -354,9 +356,7 @@ class _Studio:
             headers=headers,
         )
 
-    def _asked(
-        self, do: str, told: Mapping[str, Any], session: StudioSession, lang: str
-    ) -> Asked:
+    def _asked(self, do: str, told: Mapping[str, Any], session: StudioSession, lang: str) -> Asked:
         """Return what a process is asked: of a stranger's words those that are known."""
         what, layout, variant = (told.get(key) for key in ("what", "layout", "variant"))
         if do == "command" and what not in (*WHATS, *TRUSTED_WHATS):

@@ -77,7 +77,7 @@ def bound(memory: int | None, written: int) -> None:
 
 
 class StudioWorker:
-    """One process at work, and another one in its place where it is spent."""
+    """One process at work (рабочий процесс), and another one in its place where it is spent."""
 
     def __init__(self, act: Act, limits: StudioLimits) -> None:
         self.act, self.limits = act, limits
@@ -147,7 +147,7 @@ class _Ticket:
 
 
 class StudioQueue:
-    """Computations that wait for a process: quick ones first, and one process for them alone.
+    """Computations that wait for a process (очередь расчётов): quick ones first, one for them alone.
 
     Attributes
     ----------
@@ -172,9 +172,7 @@ class StudioQueue:
 
     def is_full_for(self, session: str) -> bool:
         """Tell whether one more of a session cannot wait."""
-        return self.waiting >= self.limits.waiting or (
-            self._own.get(session, 0) >= self.limits.own
-        )
+        return self.waiting >= self.limits.waiting or (self._own.get(session, 0) >= self.limits.own)
 
     def stop(self) -> None:
         """End the processes."""

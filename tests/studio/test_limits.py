@@ -88,7 +88,9 @@ def test_who_waits_is_told_the_place_and_quick_things_go_first(client: TestClien
     told: dict[str, list[Any]] = {}
 
     def ask(name: str, do: str) -> None:
-        told[name] = [(time.monotonic(), one) for one in lines(client, enter(client), "sleep 0.8", do)]
+        told[name] = [
+            (time.monotonic(), one) for one in lines(client, enter(client), "sleep 0.8", do)
+        ]
 
     slow = [threading.Thread(target=ask, args=(f"slow {k}", "sheets")) for k in range(3)]
     for one in slow:
@@ -185,7 +187,13 @@ def test_a_served_studio_has_no_file_of_the_machine(client: TestClient) -> None:
 
 
 def test_names_of_files_are_plain(client: TestClient) -> None:
-    told = {"../../x": "x", "/etc/passwd": "passwd", "--out": "out", "": "problem", "Иванов 1": "Иванов-1"}
+    told = {
+        "../../x": "x",
+        "/etc/passwd": "passwd",
+        "--out": "out",
+        "": "problem",
+        "Иванов 1": "Иванов-1",
+    }
     for typed, plain in told.items():
         answer = client.post(
             "/api/do/sketched", headers=enter(client), json={"text": "x", "name": typed}
@@ -277,4 +285,6 @@ def test_a_folder_shows_its_problem_files_alone(tmp_path: Path) -> None:
     desk = Desk(tmp_path)
     assert desk.names == ["a.toml", "b.toml"]
     assert desk.at("a.toml") == tmp_path / "a.toml"
-    assert [desk.at(name) for name in ("../a.toml", ".a.toml", "c.txt", "x/a.toml", "a\0.toml")] == [None] * 5
+    assert [
+        desk.at(name) for name in ("../a.toml", ".a.toml", "c.txt", "x/a.toml", "a\0.toml")
+    ] == [None] * 5

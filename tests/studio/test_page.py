@@ -82,7 +82,9 @@ def take(page: Page, words: str) -> None:
         f" box.value = {words!r}; box.dispatchEvent(new Event('input')); }}"
     )
     button = f"#tasks button[aria-label$=': {words}']"
-    page.wait(f"document.querySelectorAll('#tasks li').length < 9 && !!document.querySelector({button!r})")
+    page.wait(
+        f"document.querySelectorAll('#tasks li').length < 9 && !!document.querySelector({button!r})"
+    )
     click(page, button)
     page.wait(DRAWN)
 
@@ -210,7 +212,8 @@ def test_an_instructor_comes_from_a_table_to_marks(page: Page, address: str) -> 
         "document.querySelector('#by-hand button').click()"
     )
     page.wait(f"document.querySelector('#marks tbody tr').textContent !== {before!r}", 300)
-    page.wait("document.querySelector('#statistics iframe') && document.querySelector('#page iframe')")
+    for box in ("#statistics", "#page"):
+        page.wait(f"document.querySelector('{box} iframe')")
 
 
 @pytest.mark.parametrize("width", [360, 1360])
@@ -229,8 +232,8 @@ def test_no_room_is_wider_than_the_window(page: Page, address: str, width: int) 
 def test_everything_has_a_name_and_tabs_are_turned_by_arrows(page: Page, address: str) -> None:
     begin(page, address)
     nameless = page.ask(
-        "[...document.querySelectorAll('button, input, select, img, iframe, progress')].filter(one =>"
-        " !one.hidden && one.type !== 'file' && !one.textContent.trim() && !one.ariaLabel"
+        "[...document.querySelectorAll('button, input, select, img, iframe, progress')]"
+        ".filter(one => !one.hidden && one.type !== 'file' && !one.textContent.trim() && !one.ariaLabel"
         " && !one.title && !one.labels?.length && one.alt === undefined).map(one => one.id)"
     )
     assert nameless == []

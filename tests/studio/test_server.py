@@ -36,7 +36,8 @@ FAULTY = sorted((ROOT / "tests/problem/faulty").glob("*.toml"))
 @pytest.fixture(scope="module")
 def client(tmp_path_factory: pytest.TempPathFactory) -> Iterator[TestClient]:
     settings = settings_of(None, False, None, 2)
-    with TestClient(application(settings, act, tmp_path_factory.mktemp("s") / "sessions")) as client:
+    root = tmp_path_factory.mktemp("studio") / "sessions"
+    with TestClient(application(settings, act, root)) as client:
         client.headers["x-studio"] = client.post("/api/session", json={}).json()["key"]
         yield client
 
@@ -68,7 +69,8 @@ def test_the_page_is_in_a_language_and_lets_nothing_else_in(client: TestClient, 
     assert f'<html lang="{lang}">' in answer.text
     assert words["bank"] in answer.text
     assert not re.search(r"\{\{|\[\[", answer.text)
-    assert not re.search(r"<script(?! type=\"module\" src| type=\"application/json\")|\son\w+=|style=", answer.text)
+    inline = r"<script(?! type=\"module\" src| type=\"application/json\")|\son\w+=|style="
+    assert not re.search(inline, answer.text)
 
 
 def test_every_word_of_the_page_is_used_and_every_word_it_uses_is_there() -> None:
@@ -210,7 +212,7 @@ def test_most_faults_of_faulty_files_are_placed_at_a_key_of_their_path() -> None
             where = place_of(text, fault)
             if where is None:
                 continue
-            line, column = where
+            line, _ = where
             assert 1 <= line <= len(lines)
             placed += 1
             if fault.path and " " not in fault.path:
