@@ -114,7 +114,8 @@ def main() -> int:
             warm.run()
             print(f"load average at the start: {os.getloadavg()[0]:.1f}")
             print(
-                "students  asked  drawn  refused  lost  median, s  95 %, s  longest, s  memory, MB  CPU, ms"
+                "students  asked  drawn  refused  lost  median, s  95 %, s  longest, s  "
+                "memory, MB  CPU, ms"
             )
             for count in map(int, asked.students.split(",")):
                 all_of_them = [

@@ -160,15 +160,11 @@ def assemblies(asked: Asked, _: Tell) -> Found:
     return {
         "faults": [],
         "ways": [
-            {
-                "rules": dict(way.rules),
-                "svg": _svg(
-                    drawn(replace(part, solution=way.solution, assemblies=(), unsure=()), "", words, [])
-                ),
-            }
+            {"rules": dict(way.rules), "svg": _svg(drawn(one, "", words, []))}
             for way in part.assemblies
+            for one in [replace(part, solution=way.solution, assemblies=(), unsure=())]
         ],
-    }  # fmt: skip
+    }
 
 
 def _without_assembly(text: str) -> str:
@@ -364,7 +360,7 @@ def questions(asked: Asked, _: Tell) -> Found:
         "rows": [
             {
                 "id": row.id, "letters": row.letters, "mm": row.mm, "unit": row.unit,
-                "units": {unit: unit_factor(unit) for unit in dict.fromkeys((row.unit, *row.units))},
+                "units": {one: unit_factor(one) for one in dict.fromkeys((row.unit, *row.units))},
                 "senses": dict(row.senses), "scale": row.scale, "position": row.position,
             }
             for row in asked_rows(entries, words)

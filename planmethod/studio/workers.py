@@ -18,7 +18,7 @@ Asked: TypeAlias = dict[str, Any]
 """What is asked of a process: plain data."""
 
 Found: TypeAlias = dict[str, Any]
-"""What it answers: plain data; ``refused`` is the sentence, with its facts, why there is nothing."""
+"""What it answers: plain data; ``refused``: the sentence, with its facts, why there is nothing."""
 
 Tell: TypeAlias = Callable[[float], None]
 """Gets the share that is done, 0 to 1."""
@@ -50,10 +50,8 @@ def work(pipe: Connection, act: Act, memory: int | None, written: int) -> None:
         while True:
             asked = pipe.recv()
             found: Found | None = None
-            try:
+            with contextlib.suppress(MemoryError, RecursionError):
                 found = act(asked, lambda share: pipe.send(("share", share)))
-            except (MemoryError, RecursionError):
-                pass
             if found is None:  # outside, where what the work had is gone
                 pipe.send(("spent", None))
                 return
@@ -147,7 +145,9 @@ class _Ticket:
 
 
 class StudioQueue:
-    """Computations that wait for a process (очередь расчётов): quick ones first, one for them alone.
+    """Computations that wait for a process (очередь расчётов): quick ones first.
+
+    The long ones never take all processes.
 
     Attributes
     ----------

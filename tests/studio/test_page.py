@@ -233,7 +233,8 @@ def test_everything_has_a_name_and_tabs_are_turned_by_arrows(page: Page, address
     begin(page, address)
     nameless = page.ask(
         "[...document.querySelectorAll('button, input, select, img, iframe, progress')]"
-        ".filter(one => !one.hidden && one.type !== 'file' && !one.textContent.trim() && !one.ariaLabel"
+        ".filter(one => !one.hidden && one.type !== 'file' && !one.textContent.trim()"
+        " && !one.ariaLabel"
         " && !one.title && !one.labels?.length && one.alt === undefined).map(one => one.id)"
     )
     assert nameless == []
