@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from planmethod.studio.server import StudioSettings
 
 LOOPBACK = ("127.0.0.1", "localhost")
-NEEDS = "studio needs starlette and uvicorn: pip install 'planmethod[studio]'"
+NEEDS = "studio needs starlette and uvicorn: pip install starlette uvicorn"
 PLACES = 128
 """Connections that wait to be taken."""
 
