@@ -155,7 +155,7 @@ def assemblies(asked: Asked, _: Tell) -> Found:
     path = _file(asked)
     bare = _without_assembly(asked["text"])
     path.write_bytes(bare.encode("utf-8", "replace"))
-    _, part = part_of(path, variant=asked.get("variant"), views=WAYS)
+    part = part_of(path, variant=asked.get("variant"), views=WAYS)[1]
     words = language(asked["lang"])
     return {
         "faults": [],
@@ -256,7 +256,7 @@ class _Watched(io.StringIO):
 
     def __init__(self, tell: Tell) -> None:
         super().__init__()
-        self.tell = tell
+        self._told = tell
 
     def isatty(self) -> bool:
         """Say that somebody watches."""
@@ -266,7 +266,7 @@ class _Watched(io.StringIO):
         """Tell how far the bar is; keep all else."""
         text = _ORDERS.sub("", text)
         for share in _BAR.findall(text):
-            self.tell(int(share) / 100)
+            self._told(int(share) / 100)
         super().write(_BAR.sub("", text).replace("\r", ""))
         return len(text)
 
