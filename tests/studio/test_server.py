@@ -284,3 +284,12 @@ def test_variants_are_made_with_questions(client: TestClient) -> None:
     assert {"ex3-variants.toml", "ex3-moodle.xml"} <= {*names}
     made = client.get(found["files_at"] + "ex3-variants.toml").text
     assert len(tomllib.loads(made)["variants"]) == 2
+
+
+def test_no_message_tells_where_the_server_keeps_files(client: TestClient) -> None:
+    client.put("/api/works/bad.json", content=b"{")
+    found = do(client, "checked", EX3, by_hand=[])
+    client.delete("/api/works/all")
+    assert "bad.json" in found["errors"]
+    assert "sessions" not in json.dumps(found["errors"])
+    assert "/tmp" not in found["errors"]
