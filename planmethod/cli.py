@@ -33,6 +33,7 @@ HELP = {
     "More of a mechanism": {
         "structure": "mobility and Assur groups",
         "live": "a page on which all moves after a slider",
+        "studio": "all this on one page in a browser",
         "animate": "the motion for slides: GIF and SVG",
         "synthesize": "sizes of a mechanism, by construction",
         "teeth": "numbers of teeth for a ratio",

@@ -8,6 +8,7 @@ import json
 import os
 import shutil
 import subprocess
+import time
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -61,14 +62,16 @@ class Page:
         self._loaded |= told.get("method") == "Page.loadEventFired"
         return told
 
-    def open(self, file: Path, *, width: int = 1200, height: int = 900, dark: bool = False) -> None:
-        """Open a file in a window of so many pixels."""
+    def open(
+        self, page: Path | str, *, width: int = 1200, height: int = 900, dark: bool = False
+    ) -> None:
+        """Open a file, or an address, in a window of so many pixels."""
         self.call("Emulation.setDeviceMetricsOverride", width=width, height=height,
                   deviceScaleFactor=1, mobile=width < 600)  # fmt: skip
         scheme = {"name": "prefers-color-scheme", "value": "dark" if dark else "light"}
         self.call("Emulation.setEmulatedMedia", features=[scheme])
         self._loaded = False
-        self.call("Page.navigate", url=file.resolve().as_uri())
+        self.call("Page.navigate", url=page if isinstance(page, str) else page.resolve().as_uri())
         while not self._loaded:
             self._next()
 
@@ -77,6 +80,15 @@ class Page:
         told = self.call("Runtime.evaluate", expression=expression, returnByValue=True)
         assert "exceptionDetails" not in told, told["exceptionDetails"]
         return told["result"].get("value")
+
+    def wait(self, expression: str, seconds: float = 60.0) -> Any:
+        """Return the value of an expression as soon as it is one that counts."""
+        end = time.monotonic() + seconds
+        plain = f"(found => found instanceof Node || found)({expression})"
+        while not (value := self.ask(plain)):
+            assert time.monotonic() < end, (expression, self.said)
+            time.sleep(0.05)
+        return value
 
     def look(self, file: Path) -> None:
         """Write a picture of the whole page."""

@@ -74,6 +74,7 @@ LATE_OF = {
     "mpmath": "the referee",
     "openpyxl": "workbooks",
     "pkgutil": "public names",
+    "resource": "limits of processes; some systems have none",
     "shapely": "areas",
     "tomllib": "descriptions of compositions",
 }

@@ -78,11 +78,10 @@ def form_of(
     book = openpyxl.Workbook()
     sheet = book.active
     sheet.title = words.sheet
-    asked = (entry.asked for entry in entries)
-    units = [unit for unit in dict.fromkeys((*words["units"], *asked)) if unit and read_unit(unit)]
+    units = offered_units(entries, words)
     _write_meta(book, entries, units, problem, variant, fingerprint)
     scales = _write_head(sheet, entries, words, problem, variant, student, title)
-    _write_rows(sheet, entries, words, units, scales)
+    _write_rows(sheet, entries, words, scales)
     for number, width in enumerate(_WIDTHS, 1):
         sheet.column_dimensions[openpyxl.utils.get_column_letter(number)].width = width
     sheet.page_setup.orientation = "landscape"
@@ -161,14 +160,14 @@ def _write_rows(
     sheet: Any,
     entries: Sequence[KeyEntry],
     words: Words,
-    units: Sequence[str],
     scales: Mapping[str, str],
 ) -> None:
     """Write a row for each answer."""
     from openpyxl.styles import Font
     from openpyxl.worksheet.datavalidation import DataValidation
 
-    positions = any(entry.position for entry in entries)
+    rows = asked_rows(entries, words)
+    positions = any(row.position for row in rows)
     sheet.append([])
     sheet.append([*words["columns"], *([words.position] if positions else [])])
     head = sheet.max_row
@@ -176,21 +175,14 @@ def _write_rows(
         cell.font = Font(bold=True)
     sheet.freeze_panes = f"A{head + 1}"
     lists: dict[tuple[str, ...], Any] = {}
-    for number, entry in enumerate(entries, 1):
+    for number, one in enumerate(rows, 1):
         row = head + number
-        fitting = tuple(unit for unit in units if ratio_of(unit, entry.unit) is not None)
-        usual = next((unit for unit in fitting if ratio_of(unit, entry.unit) == 1.0), entry.unit)
-        own = entry.asked or usual
-        for column, text in ((1, number), (2, entry.id), (3, entry.label), (7, own)):
+        for column, text in ((1, number), (2, one.id), (3, one.letters), (7, one.unit)):
             _write(sheet.cell(row, column), text)
         for column in (4, 6):
-            if column == 6 or entry.mm is not None:
+            if column == 6 or one.mm:
                 _open(sheet.cell(row, column))
-        offered = [(7, fitting)]
-        if entry.asks_sense:
-            turns = entry.unit in _TURNING
-            senses = list(words["senses"].values())
-            offered.append((8, tuple(senses[:2] if turns else senses[2:])))
+        offered = [(7, one.units), (8, tuple(one.senses.values()))]
         for column, choices in offered:
             if not choices:
                 continue
@@ -200,8 +192,8 @@ def _write_rows(
                 lists[choices] = DataValidation(type="list", formula1=formula, error=words.refused)
                 sheet.add_data_validation(lists[choices])
             lists[choices].add(f"{'ABCDEFGH'[column - 1]}{row}")
-        scale = scales.get(entry.scale)
-        if scale and is_of(entry.unit, entry.scale):  # ω is not its millimetres times μ
+        scale = scales.get(one.scale)
+        if scale:
             sheet.cell(row, 5, f'=IF({scale}="","",{scale})')
             # The first unit stands for SI where a unit is none of the list.
             worth = f"F{row}*IFERROR(VLOOKUP(G{row},{META}!$D:$E,2,FALSE),1)"
@@ -212,7 +204,70 @@ def _write_rows(
                 f'-ABS({worth}))<={_AGREE}*ABS({worth}),"{words.agrees}","{words.differs}"),""))',
             )
         if positions:
-            sheet.cell(row, 10, entry.position)
+            sheet.cell(row, 10, one.position)
+
+
+class FormRow(Struct, frozen=True):
+    """One answer that is asked for, without what it is (строка бланка).
+
+    Attributes
+    ----------
+    id, letters : str
+    mm : bool
+        Whether a segment is measured for it.
+    unit : str
+        In which it is asked; ``units``: which may stand there.
+    senses : mapping of str to str
+        Those that may stand there, by their codes; none where none is asked.
+    scale : str
+        Whose product with the segment it is, ``mu_v``; empty where it is none.
+    position : int
+    """
+
+    id: str
+    letters: str
+    mm: bool
+    unit: str
+    units: tuple[str, ...]
+    senses: Mapping[str, str]
+    scale: str
+    position: int
+
+
+def offered_units(entries: Sequence[KeyEntry], words: Words) -> list[str]:
+    """Return the units that a form offers."""
+    asked = (entry.asked for entry in entries)
+    return [unit for unit in dict.fromkeys((*words["units"], *asked)) if unit and read_unit(unit)]
+
+
+def asked_rows(entries: Sequence[KeyEntry], words: Words) -> tuple[FormRow, ...]:
+    """Return what a form asks for; of the entries nothing but that."""
+    units = offered_units(entries, words)
+    return tuple(_asked_row(entry, units, words) for entry in entries)
+
+
+def _asked_row(entry: KeyEntry, units: Sequence[str], words: Words) -> FormRow:
+    fitting = tuple(unit for unit in units if ratio_of(unit, entry.unit) is not None)
+    usual = next((unit for unit in fitting if ratio_of(unit, entry.unit) == 1.0), entry.unit)
+    senses = list(words["senses"].items())
+    senses = senses[:2] if entry.unit in _TURNING else senses[2:]
+    return FormRow(
+        entry.id,
+        entry.label,
+        entry.mm is not None,
+        entry.asked or usual,
+        fitting,
+        dict(senses if entry.asks_sense else ()),
+        # ω is not its millimetres times μ
+        entry.scale if is_of(entry.unit, entry.scale) else "",
+        entry.position,
+    )
+
+
+def unit_factor(unit: str) -> float | None:
+    """Return how many SI units a unit is; None of what is none."""
+    found = read_unit(unit)
+    return found.factor if found else None
 
 
 _TURNING = ("1/s", "1/s²", "N·m")

@@ -206,16 +206,16 @@ def sheet(
     whole: list[tuple[Todo, int, list[Drawing]]] = []
 
     def keep(todo: Todo) -> None:
-        todo = _settled(todo, options)
+        todo = settled_for(todo, options)
         before = sum(len(drawings) for *_, drawings in whole)
-        whole.append((todo, before, _drawn(todo, options, before=before)))
+        whole.append((todo, before, drawn_for(todo, options, before=before)))
 
     code = each(problems, variant, all_variants, keep)
     if whole:
         # The first sheet says how many there are, which is known only now.
         total = sum(len(drawings) for *_, drawings in whole)
         first = whole[0][0]
-        whole[0] = (first, 0, _drawn(first, options, total=total))
+        whole[0] = (first, 0, drawn_for(first, options, total=total))
         apart = [fmt for fmt in formats if fmt != "pdf"]
         for todo, before, drawings in whole:
             named = total if todo is first else None
@@ -229,12 +229,12 @@ def sheet(
 
 def draw(todo: Todo, options: SheetOptions) -> Path:
     """Draw and write the sheets of a problem; return the file to look at, a PDF if there is one."""
-    todo = _settled(todo, options)
+    todo = settled_for(todo, options)
     files = _write(todo, options, options.formats, None)
     return next((file for file in files if file.suffix == ".pdf"), files[0])
 
 
-def _settled(todo: Todo, options: SheetOptions) -> Todo:
+def settled_for(todo: Todo, options: SheetOptions) -> Todo:
     """Return a problem with all that is asked of its sheets."""
     todo = replace(todo, problem=options.settled.over(todo.problem))
     if todo.kind is not None:
@@ -295,7 +295,7 @@ def _has_flywheel(layout: str | None) -> bool:
     )
 
 
-def _drawn(
+def drawn_for(
     todo: Todo,
     options: SheetOptions,
     *,
@@ -365,9 +365,9 @@ def _write(
     files: list[Path] = []
     if formats:
         files += write(
-            drawings or _drawn(todo, options, before=before, total=total), formats=formats
+            drawings or drawn_for(todo, options, before=before, total=total), formats=formats
         )
     if cad is not None:
-        drawings = _drawn(todo, options, before=before, total=total, hand=cad)
+        drawings = drawn_for(todo, options, before=before, total=total, hand=cad)
         files += write(drawings, formats=["dxf"])
     return files

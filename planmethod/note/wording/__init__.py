@@ -69,6 +69,8 @@ class Language:
         The course project.
     document, report : Words
         What a note puts around its figures, tables and names; the explanatory note itself.
+    studio : Words
+        The page of the studio.
     layouts, families, tasks : Words
         Of the shipped layouts by the places of their files, the families of ready problem files,
         the list of shipped tasks.
@@ -101,6 +103,7 @@ class Language:
     families: Words
     tasks: Words
     vary: Words
+    studio: Words
 
     def __init__(self, lang: str) -> None:
         self.lang = lang

@@ -1,0 +1,152 @@
+"""Command ``studio``: one page in a browser that does what the commands do."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+from msgspec.structs import replace
+
+from planmethod.commands.helptext import Spoken
+from planmethod.commands.problems import guarded
+from planmethod.languages import say
+from planmethod.options import PathType, UsageError, lang_option
+
+if TYPE_CHECKING:
+    from planmethod.studio.server import StudioSettings
+
+LOOPBACK = ("127.0.0.1", "localhost")
+NEEDS = "studio needs starlette and uvicorn: pip install starlette uvicorn"
+PLACES = 128
+"""Connections that wait to be taken."""
+
+KEPT = 75
+"""Seconds that a connection is kept for who thinks between two letters."""
+
+
+@click.command(cls=Spoken)
+@click.argument("file", required=False, type=PathType(), metavar="[FILE|FOLDER]")
+@click.option("--host", default="127.0.0.1", show_default=True, help="Address to listen at.")
+@click.option(
+    "--port", type=click.IntRange(0, 65535), default=8765, show_default=True, help="Its port."
+)
+@click.option("--open", "shown", is_flag=True, help="Show the page in the browser.")
+@click.option(
+    "--serve",
+    "served",
+    is_flag=True,
+    help="For strangers: limits of time, memory and size; instructor's pages by a token.",
+)
+@click.option(
+    "--time",
+    "seconds",
+    type=click.FloatRange(1.0, 600.0),
+    help="Longest computation, s; with --serve 10 when absent.",
+)
+@click.option(
+    "--jobs", type=click.IntRange(1, 64), help="Processes at work; one for each core when absent."
+)
+@lang_option
+@guarded
+def studio(
+    file: Path | None,
+    host: str,
+    port: int,
+    shown: bool,
+    served: bool,
+    seconds: float | None,
+    jobs: int | None,
+    lang: str,
+) -> None:
+    """Open the studio: tasks, editor, plans, sheets, answers and checking on one page.
+
+    FILE is edited, or the problem files of FOLDER; without them nothing is written but what is
+    downloaded. Stop it with Ctrl+C. More: docs/studio.md.
+    """
+    if not served and host not in LOOPBACK:
+        raise UsageError(
+            "--host {}: without --serve only this machine is listened to, at 127.0.0.1; others can "
+            "ask for anything. Give --serve.",
+            host,
+        )
+    if served and file is not None:
+        raise UsageError("--serve shows nobody a file of this machine: leave out {}", file)
+    if file is not None and not file.exists():
+        raise UsageError("{}: there is no such file or folder. planmethod new writes one.", file)
+    try:
+        import starlette  # noqa: F401
+        import uvicorn  # noqa: F401
+    except ImportError:
+        raise UsageError(NEEDS) from None
+    _serve(settings_of(file, served, seconds, jobs), host, port, shown)
+
+
+def settings_of(
+    file: Path | None, served: bool, seconds: float | None, jobs: int | None
+) -> StudioSettings:
+    """Return how the studio is started."""
+    import os
+    import secrets
+
+    from planmethod.render.sheets.compositions import SHIPPED
+    from planmethod.studio.limits import OWN, STRANGERS
+    from planmethod.studio.server import StudioSettings
+    from planmethod.studio.sessions import Desk
+
+    limits = STRANGERS if served else OWN
+    if seconds is not None:
+        limits = replace(limits, seconds=seconds)
+    return StudioSettings(
+        limits=limits,
+        served=served,
+        token=secrets.token_urlsafe(18) if served else "",
+        processes=jobs or max(2, os.cpu_count() or 1),
+        desk=None if file is None else Desk(file.resolve()),
+        layouts=tuple(SHIPPED),
+    )
+
+
+def _serve(settings: StudioSettings, host: str, port: int, shown: bool) -> None:
+    """Listen until somebody stops it."""
+    import os
+    import socket
+    import tempfile
+
+    import uvicorn
+
+    from planmethod.commands.studied import act
+    from planmethod.studio.server import application
+
+    for name in ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS"):  # threads would take the memory
+        os.environ.setdefault(name, "1")
+    listening = socket.socket(socket.AF_INET6 if ":" in host else socket.AF_INET)
+    if os.name != "nt":
+        listening.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+    try:
+        listening.bind((host, port))
+        listening.listen(PLACES)  # who opens the page at once waits for the first answer
+    except OSError as error:
+        raise UsageError(
+            "--port {} at {}: {}. Give another one, or 0 for any that is free.",
+            port,
+            host,
+            error.strerror or error,
+        ) from None
+    with tempfile.TemporaryDirectory(prefix="planmethod-studio-") as root, listening:
+        address = f"http://{host}:{listening.getsockname()[1]}/"
+        click.echo(say("The studio is at {}  Ctrl+C stops it.", address))
+        if settings.token:
+            click.echo(say("Instructor's pages: {}", f"{address}#token={settings.token}"))
+        if shown:
+            click.launch(address)
+        config = uvicorn.Config(
+            application(settings, act, Path(root) / "sessions"),
+            log_level="warning",
+            access_log=False,
+            server_header=False,
+            backlog=PLACES,
+            timeout_keep_alive=KEPT,
+            timeout_graceful_shutdown=2,
+        )
+        uvicorn.Server(config).run(sockets=[listening])

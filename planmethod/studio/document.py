@@ -1,0 +1,51 @@
+"""The page of the studio: its HTML in a language, its scripts and its style (страница)."""
+
+from __future__ import annotations
+
+import json
+import re
+import secrets
+from collections.abc import Mapping
+from functools import cache
+from html import escape
+from importlib.resources import files
+from typing import Any
+
+from planmethod.languages import LANGUAGES
+from planmethod.note.wording import language
+
+POLICY = (
+    "default-src 'none'; script-src 'self'; style-src 'self' 'nonce-{nonce}'; "
+    "img-src 'self' blob: data:; connect-src 'self'; frame-src 'self'; base-uri 'none'; "
+    "form-action 'none'; frame-ancestors 'none'"
+)
+"""What the page may do: run its own scripts and talk to its own host."""
+
+KINDS = {".js": "text/javascript", ".css": "text/css", ".txt": "text/plain; charset=utf-8"}
+
+
+@cache
+def asset(name: str) -> tuple[bytes, str] | None:
+    """Return a file of the page and its type; None where there is none of that name."""
+    if re.fullmatch(r"[\w-]+\.(?:js|css|txt)", name) is None:
+        return None
+    path = files("planmethod.studio").joinpath("page", name)
+    if not path.is_file():
+        return None
+    return path.read_bytes(), KINDS[name[name.rindex(".") :]]
+
+
+def page_of(lang: str, told: Mapping[str, Any]) -> tuple[str, str]:
+    """Return the page in a language, and the word by which its editor may set its style.
+
+    Parameters
+    ----------
+    told : mapping
+        What its script reads, plain data.
+    """
+    words, nonce = language(lang).studio["page"], secrets.token_urlsafe(16)
+    text = files("planmethod.studio").joinpath("page", "studio.html").read_text("utf-8")
+    text = re.sub(r"\{\{(\w+)\}\}", lambda place: escape(words[place[1]]), text)
+    data = {**told, "lang": lang, "langs": LANGUAGES, "nonce": nonce, "words": words}
+    whole = json.dumps(data, ensure_ascii=False).replace("<", "\\u003c")
+    return text.replace("[[lang]]", lang).replace("[[data]]", whole), nonce

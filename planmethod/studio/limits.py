@@ -1,0 +1,73 @@
+"""Limits of what a stranger may ask of the server (пределы)."""
+
+from __future__ import annotations
+
+from msgspec import Struct
+
+MB = 1 << 20
+
+
+class StudioLimits(Struct, frozen=True, kw_only=True):
+    """How much may be asked (пределы студии).
+
+    Attributes
+    ----------
+    seconds, trusted_seconds : float
+        Time of one computation; of one that an instructor asks for.
+    memory : int or None
+        Address space of a process at work, bytes; where the system can bound it.
+    text, upload, uploads : int
+        Bytes of a problem file with what is asked of it, of one work, of all works of a session.
+    written : int
+        Bytes of a file that a computation writes.
+    waiting, own : int
+        Computations that wait, of all and of one session.
+    sessions : int
+        Sessions at a time.
+    idle : float
+        After so many seconds without a request a session is cleaned away.
+    kept : int
+        Computations of a session whose files are kept.
+    rate, burst : float
+        Computations a second that a session gets in the long run, and at once.
+    entries : float
+        Sessions a second that one address gets in the long run; ``entered``: at once.
+    """
+
+    seconds: float = 10.0
+    trusted_seconds: float = 120.0
+    memory: int | None = 500 * MB
+    text: int = 512 * 1024
+    upload: int = 5 * MB
+    uploads: int = 20 * MB
+    written: int = 64 * MB
+    waiting: int = 200
+    own: int = 4
+    sessions: int = 500
+    idle: float = 2 * 3600.0
+    kept: int = 6
+    rate: float = 4.0
+    burst: float = 40.0
+    entries: float = 1.0
+    entered: float = 120.0
+
+
+STRANGERS = StudioLimits()
+OWN = StudioLimits(seconds=600.0, trusted_seconds=600.0, memory=None, idle=1e9, rate=50.0)
+"""On one's own machine: what is too long is stopped by who waits for it."""
+
+
+class Bucket(Struct):
+    """Leaky bucket: so many at once, so many a second in the long run (частота запросов)."""
+
+    level: float = 0.0
+    then: float = 0.0
+
+    def takes(self, now: float, *, rate: float, burst: float) -> bool:
+        """Take one more at a time, s, unless it is too soon."""
+        self.level = max(0.0, self.level - (now - self.then) * rate)
+        self.then = now
+        if self.level + 1 > burst:
+            return False
+        self.level += 1
+        return True

@@ -1,0 +1,171 @@
+// What the page asks of its server, and how it tells what becomes of it.
+export const D = JSON.parse(document.getElementById("data").textContent);
+export const W = D.words;
+export const byId = id => document.getElementById(id);
+export const say = (key, facts = {}) => W[key].replace(/\{(\w+)\}/g, (_, name) => facts[name]);
+export const made = (parent, tag, text = "", more = {}) => {
+  const node = parent.appendChild(document.createElement(tag));
+  node.textContent = text;
+  for (const [key, value] of Object.entries(more)) node.setAttribute(key, value);
+  return node;
+};
+
+const token = new URLSearchParams(location.hash.slice(1)).get("token") || sessionStorage.getItem("token") || "";
+if (token) { sessionStorage.setItem("token", token); history.replaceState(null, "", location.pathname + location.search); }
+let session = null;
+
+export function enter() {
+  session ??= fetch("/api/session", { method: "POST", body: JSON.stringify({ token }) }).then(async answer => {
+    if (!answer.ok) throw new Error(await answer.text());
+    return answer.json();
+  }).catch(error => { session = null; throw error; });
+  return session;
+}
+
+export async function call(path, options = {}) {  // with the key of the session; a new one where it has ended
+  for (let turn = 0; ; turn++) {
+    const { key } = await enter();
+    const mark = path.includes("?") ? "&" : "?";
+    const answer = await fetch(`${path}${mark}lang=${D.lang}`,
+      { ...options, headers: { ...options.headers, "x-studio": key } });
+    if (answer.status !== 401 || turn) return answer;
+    session = null;
+    note(W.session_gone);
+  }
+}
+
+const PATIENCE = [1000, 2000, 4000, 8000];  // ms: what is typed is asked again until it is answered
+
+export async function compute(act, body, { signal, told = () => {}, tries = 0 } = {}) {
+  for (let turn = 0; ; turn++) {
+    let answer;
+    try {
+      answer = await call(`/api/do/${act}`, { method: "POST", body: JSON.stringify(body), signal });
+    } catch (error) {
+      if (signal?.aborted || turn >= tries) throw error;
+      answer = null;
+    }
+    if (answer?.ok) {
+      const found = await lines(answer, told);
+      if (found) return found;
+      if (turn >= tries) throw new Error(W.gone);
+    } else if (turn >= tries || (answer && ![429, 502, 503].includes(answer.status))) {
+      throw new Error(answer ? await answer.text() : W.gone);
+    }
+    await new Promise(done => setTimeout(done, PATIENCE[Math.min(turn, PATIENCE.length - 1)]));
+  }
+}
+
+async function lines(answer, told) {
+  const reader = answer.body.pipeThrough(new TextDecoderStream()).getReader();
+  let left = "", found = null;
+  for (;;) {
+    const { done, value } = await reader.read();
+    if (done) return found;
+    left += value;
+    const parts = left.split("\n");
+    left = parts.pop();
+    for (const part of parts) {
+      const one = JSON.parse(part);
+      if (one.found) found = one.found; else told(one);
+    }
+  }
+}
+
+// One long computation at a time, with its place, its share and a way to stop it ------------------
+
+let stopping = null;
+byId("stop").addEventListener("click", () => stopping?.abort());
+
+export async function long(act, body, told) {  // null where it is stopped or refused; told: where it is said
+  stopping?.abort();
+  const own = stopping = new AbortController();
+  const status = byId("status"), share = byId("share");
+  const show = one => {
+    status.hidden = false;
+    byId("told").textContent = one.place ? say("waiting", one) : W.working;
+    if (one.share === undefined) share.removeAttribute("value"); else share.value = one.share;
+  };
+  told.textContent = "";
+  show({});
+  try {
+    const found = await compute(act, body, { signal: own.signal, told: show });
+    const faults = (found.faults || []).map(one => faultText(one));
+    told.textContent = [found.refused, found.errors, ...faults].filter(Boolean).join("\n");
+    return found.refused || faults.length ? null : found;
+  } catch (error) {
+    if (!own.signal.aborted) told.textContent = error.message === "Failed to fetch" ? W.gone : error.message;
+    return null;
+  } finally {
+    if (stopping === own) { stopping = null; status.hidden = true; }
+  }
+}
+
+export const faultText = one => [one.path && `${one.path}: `, one.message, one.hint && `. ${one.hint}`].filter(Boolean).join("");
+
+export function note(text, doing = {}) {  // tells something, with what can be done about it
+  byId("note").hidden = !text;
+  byId("said").textContent = text;
+  byId("said-do").replaceChildren();
+  for (const [label, act] of Object.entries(doing)) {
+    made(byId("said-do"), "button", label).addEventListener("click", () => { note(""); act(); });
+  }
+  if (text && !Object.keys(doing).length) setTimeout(() => { if (byId("said").textContent === text) note(""); }, 8000);
+}
+
+export function fileList(list, found) {  // what was made, to download
+  list.replaceChildren();
+  for (const one of found.files) {
+    const item = made(list, "li");
+    made(item, "a", one.name, { href: `${found.files_at}${encodeURI(one.name)}?download`, download: one.name.split("/").pop() });
+    item.append(` ${Math.max(1, Math.round(one.bytes / 1024))} КБ`.replace("КБ", D.lang === "ru" ? "КБ" : "kB"));
+  }
+  if (found.files.length > 1) made(made(list, "li"), "a", W.zip, { href: `${found.files_at}all.zip`, download: "" });
+}
+
+export function framed(box, address, title, live = false) {  // a page that was made, kept apart from this one
+  const frame = document.createElement("iframe");
+  frame.title = title;
+  frame.setAttribute("sandbox", live ? "allow-scripts" : "");
+  frame.src = address;
+  box.querySelector("iframe")?.remove();
+  box.append(frame);
+}
+
+export function download(name, text, type) {
+  const link = document.createElement("a");
+  link.href = URL.createObjectURL(new Blob([text], { type }));
+  link.download = name;
+  link.click();
+  setTimeout(() => URL.revokeObjectURL(link.href), 1000);
+}
+
+export function picture(image, svg) {
+  const old = image.src;
+  image.src = URL.createObjectURL(new Blob([svg], { type: "image/svg+xml" }));
+  if (old.startsWith("blob:")) URL.revokeObjectURL(old);
+}
+
+export function tabs(list, shown) {  // by click and by arrows
+  const all = [...list.querySelectorAll("[role=tab]")];
+  const open = name => {
+    for (const tab of all) {
+      const panel = tab.getAttribute("aria-controls"), is = panel === name;
+      tab.setAttribute("aria-selected", is);
+      tab.tabIndex = is ? 0 : -1;
+      byId(panel).hidden = !is;
+    }
+    shown(name);
+  };
+  for (const [k, tab] of all.entries()) {
+    tab.addEventListener("click", () => open(tab.getAttribute("aria-controls")));
+    tab.addEventListener("keydown", event => {
+      const step = { ArrowRight: 1, ArrowLeft: -1 }[event.key];
+      if (!step) return;
+      const other = all[(k + step + all.length) % all.length];
+      other.focus();
+      open(other.getAttribute("aria-controls"));
+    });
+  }
+  return open;
+}

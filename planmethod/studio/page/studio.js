@@ -1,0 +1,264 @@
+// The page: rooms, the text and where it is kept, the scheme redrawn while one types.
+import { D, W, byId, call, compute, download, enter, faultText, fileList, framed, long, made, note, picture, say, tabs } from "./api.js";
+import { ask, handIn, judge } from "./answers.js";
+import { bank } from "./bank.js";
+import { editor } from "./editor.js";
+import { group } from "./group.js";
+import * as sheets from "./sheets.js";
+
+const PAUSE = 250, REST = 900;  // ms without a letter: the scheme; what moves
+const HOME = "planmethod.text";
+const kept = JSON.parse(localStorage.getItem(HOME) || "null") || { name: "problem", text: "", variant: "", file: "", mark: "" };
+const problem = () => ({ name: kept.name, text: kept.text, variant: kept.variant, file: kept.file, layout: layout() });
+let view = "scheme", sketched = {}, stale = new Set(), quietly = false;
+
+function keep() {
+  try { localStorage.setItem(HOME, JSON.stringify(kept)); } catch (error) { note(String(error)); }
+}
+
+// Rooms -------------------------------------------------------------------------------------------
+
+document.documentElement.dataset.theme = localStorage.getItem("planmethod.theme") || "";
+if (!document.documentElement.dataset.theme) delete document.documentElement.dataset.theme;
+byId("theme").addEventListener("click", () => {
+  const dark = document.documentElement.dataset.theme ? document.documentElement.dataset.theme === "dark" : matchMedia("(prefers-color-scheme: dark)").matches;
+  document.documentElement.dataset.theme = dark ? "light" : "dark";
+  localStorage.setItem("planmethod.theme", document.documentElement.dataset.theme);
+});
+for (const lang of D.langs) made(byId("lang"), "option", lang === "ru" ? "Русский" : "English", { value: lang });
+byId("lang").value = D.lang;
+byId("lang").addEventListener("change", event => { location.search = `?lang=${event.target.value}`; });
+
+const room = tabs(byId("rooms"), name => { if (name === "group") byId("works-of").textContent = say("works_of", { title: kept.name }); });
+const turnTo = tabs(byId("views"), name => { view = name; refresh(); });
+
+// The text ----------------------------------------------------------------------------------------
+
+const typed = editor(byId("editor"), kept.text, text => {
+  if (quietly) return;
+  kept.text = text;
+  keep();
+  unsaved();
+  soon();
+});
+
+function take(name, text, { file = "", mark = "" } = {}) {  // another text; the one before can be had back
+  const before = { ...kept };
+  Object.assign(kept, { name: name.replace(/\.toml$/, ""), variant: "", file, mark, text });
+  quietly = true;
+  typed.put(text);
+  quietly = false;
+  keep();
+  sheets.forget();
+  byId("ways").replaceChildren();
+  byId("name").value = kept.name;
+  byId("answering").hidden = true;
+  byId("save").hidden = !kept.file;
+  room("work");
+  turnTo("scheme");
+  unsaved();
+  soon(0);
+  if (before.text.trim() && before.text !== text) {
+    note(say("replaced", { name: before.name }), { [W.back]: () => take(before.name, before.text, before) });
+  }
+}
+
+byId("name").value = kept.name;
+byId("name").addEventListener("input", event => { kept.name = event.target.value.trim() || "problem"; keep(); });
+byId("fetch").addEventListener("click", () => download(`${kept.name}.toml`, kept.text, "application/toml"));
+byId("open").addEventListener("click", () => byId("opened").click());
+byId("opened").addEventListener("change", async event => {
+  const [file] = event.target.files;
+  if (file) take(file.name, await file.text());
+  event.target.value = "";
+});
+byId("variant").addEventListener("change", event => { kept.variant = event.target.value; keep(); soon(0); });
+
+// A file of this machine: saved on demand, and what another editor does to it is told ---------------
+
+let savedText = null;
+const unsaved = () => { byId("saved").textContent = kept.file ? kept.text === savedText ? W.saved : W.unsaved : W.kept; };
+
+async function openFile(name) {
+  const answer = await call(`/api/file/${encodeURIComponent(name)}`);
+  if (!answer.ok) return;
+  const { text, mark } = await answer.json();
+  savedText = text;
+  if (kept.file === name && kept.text.trim() && kept.text !== text) {  // typed here, not saved yet
+    byId("save").hidden = false;
+    room("work");
+    if (kept.mark === mark) { unsaved(); soon(0); } else conflict(text, mark);
+    return;
+  }
+  take(name, text, { file: name, mark });
+}
+
+const conflict = (text, mark) => note(W.conflict, {
+  [W.keep_mine]: () => { kept.mark = mark; keep(); save(); },
+  [W.take_theirs]: () => { savedText = text; take(kept.file, text, { file: kept.file, mark }); },
+});
+
+async function save() {
+  if (!kept.file) return;
+  const text = kept.text;
+  const answer = await call(`/api/file/${encodeURIComponent(kept.file)}`, { method: "POST", body: JSON.stringify({ text, mark: kept.mark }) });
+  const told = answer.headers.get("content-type")?.includes("json") ? await answer.json() : { said: await answer.text() };
+  if (answer.ok) { kept.mark = told.mark; savedText = text; keep(); unsaved(); }
+  else if (told.mark) conflict(told.text, told.mark);
+  else note(told.said);
+}
+byId("save").addEventListener("click", save);
+addEventListener("keydown", event => {
+  if ((event.ctrlKey || event.metaKey) && event.key === "s" && kept.file) { event.preventDefault(); save(); }
+});
+setInterval(async () => {
+  if (!kept.file || document.hidden || !byId("note").hidden) return;
+  const answer = await call(`/api/file/${encodeURIComponent(kept.file)}?mark`).catch(() => null);
+  if (!answer?.ok || (await answer.json()).mark === kept.mark) return;
+  const { text, mark } = await (await call(`/api/file/${encodeURIComponent(kept.file)}`)).json();
+  if (mark !== kept.mark) conflict(text, mark);
+}, 3000);
+
+// The scheme --------------------------------------------------------------------------------------
+
+let pause = 0, rest = 0, running = false, again = false;
+
+function soon(wait = PAUSE) {
+  for (const name of ["motion", "sheets", "tables", "protocol", "structure", "assemblies"]) stale.add(name);
+  byId("scheme").classList.add("old");
+  clearTimeout(pause);
+  clearTimeout(rest);
+  pause = setTimeout(sketch, wait);
+  if (["motion", "tables", "structure", "protocol"].includes(view)) rest = setTimeout(refresh, REST);
+}
+
+async function sketch() {  // one at a time; what was typed meanwhile is drawn next
+  if (running) { again = true; return; }
+  if (!kept.text.trim()) { show({ faults: [] }); byId("sketch").removeAttribute("src"); return; }
+  running = true;
+  const text = kept.text, began = performance.now();
+  try {
+    const found = await compute("sketched", problem(), { tries: 5 });
+    if (found.refused) note(found.refused);
+    byId("scheme").dataset.ms = Math.round(performance.now() - began);
+    if (kept.text === text || found.svg) show(found);
+    if (kept.text === text) byId("scheme").classList.remove("old");
+  } catch (error) {
+    note(error.message === "Failed to fetch" ? W.gone : error.message, { [W.again]: () => soon(0) });
+  }
+  running = false;
+  if (again || kept.text !== text) { again = false; soon(0); }
+}
+
+function show(found) {
+  sketched = found;
+  if (found.svg) { picture(byId("sketch"), found.svg); byId("sketch").alt = `${W.scheme}: ${found.title || kept.name}`; }
+  typed.faults(found.faults || []);
+  const list = byId("faults");
+  list.replaceChildren();
+  for (const one of found.faults || []) {
+    const item = made(list, "li");
+    if (one.line) made(item, "button", say("line", one)).addEventListener("click", () => typed.go(one.line, one.column));
+    item.append(` ${faultText(one)}`);
+  }
+  if (!list.children.length) made(list, "li", W.no_faults, { class: "good" });
+  const variant = byId("variant"), names = found.variants || [];
+  if (names.length || !(found.faults || []).length) {
+    byId("variant-of").hidden = !names.length;
+    variant.replaceChildren();
+    made(variant, "option", W.main_part, { value: "" });
+    for (const name of names) made(variant, "option", name, { value: name });
+    if (!names.includes(kept.variant)) kept.variant = "";
+    variant.value = kept.variant;
+  }
+  if (found.ways > 1 && view === "scheme") { stale.add("assemblies"); turnTo("assemblies"); }
+}
+
+// What is beside it -------------------------------------------------------------------------------
+
+const layout = () => document.querySelector("select.layout").value || null;
+for (const select of document.querySelectorAll("select.layout")) {
+  made(select, "option", W.usual, { value: "" });
+  for (const name of D.layouts) made(select, "option", name, { value: name });
+  select.addEventListener("change", () => {
+    for (const other of document.querySelectorAll("select.layout")) other.value = select.value;
+    if (view === "sheets") sheets.draw(problem());
+  });
+}
+byId("draw").addEventListener("click", () => sheets.draw(problem()));
+
+async function refresh() {
+  if (!kept.text.trim() || !stale.has(view)) return;
+  stale.delete(view);
+  const panel = byId(view), told = panel.querySelector(".told");
+  if (view === "sheets") return void await sheets.draw(problem());
+  if (view === "assemblies") return void await ways();
+  if (view === "motion") {
+    const found = await long("command", { ...problem(), what: "live" }, told);
+    const page = found?.files.find(one => one.name.endsWith(".html"));
+    if (page) framed(panel, found.files_at + encodeURI(page.name), W.motion, true);
+  }
+  if (["tables", "protocol", "structure"].includes(view)) {
+    const found = await long("command", { ...problem(), what: view }, told);
+    if (found) panel.querySelector("pre").textContent = found.output;
+  }
+}
+
+async function ways() {
+  const box = byId("ways"), found = await long("assemblies", problem(), byId("assemblies").querySelector(".told"));
+  box.replaceChildren();
+  byId("ways-told").textContent = found?.ways?.length > 1 ? W.choose_way : W.one_way;
+  for (const way of found?.ways || []) {
+    const rules = Object.entries(way.rules).map(([point, rule]) => `${point} = "${rule}"`);
+    const button = made(box, "button", "", { "aria-label": say("way", { rules: rules.join("; ") }) });
+    picture(made(button, "img", "", { alt: "" }), way.svg);
+    made(button, "code", rules.join("; "));
+    button.addEventListener("click", () => { typed.put(ruled(kept.text, way.rules)); turnTo("scheme"); });
+  }
+}
+
+export function ruled(text, rules) {  // the text with these rules in [assembly]
+  const lines = text.split("\n");
+  let head = lines.findIndex(line => /^\s*\[\s*assembly\s*\]/.test(line));
+  if (head < 0) { lines.push("", "[assembly]"); head = lines.length - 1; }
+  let end = lines.findIndex((line, k) => k > head && /^\s*\[/.test(line));
+  if (end < 0) end = lines.length;
+  for (const [point, rule] of Object.entries(rules)) {
+    const at = lines.findIndex((line, k) => k > head && k < end && line.split("=")[0].trim().replace(/"/g, "") === point);
+    if (at > 0) lines[at] = `${point} = "${rule}"`;
+    else { lines.splice(head + 1, 0, `${point} = "${rule}"`); end++; }
+  }
+  return `${lines.join("\n").replace(/\n+$/, "")}\n`;
+}
+
+for (const button of byId("makes").querySelectorAll("button")) {
+  button.addEventListener("click", async () => {
+    const found = await long("command", { ...problem(), what: button.dataset.what }, byId("files").querySelector(".told"));
+    if (found) fileList(byId("files").querySelector(".made"), found);
+  });
+}
+
+byId("ask").addEventListener("click", () => ask(problem()));
+byId("judge").addEventListener("click", () => judge(problem()));
+byId("work-file").addEventListener("click", () => handIn(problem()));
+byId("answering").addEventListener("submit", event => event.preventDefault());
+
+// The beginning -----------------------------------------------------------------------------------
+
+globalThis.studio = { put: text => typed.put(text), text: () => kept.text, typed };
+byId("save").hidden = !kept.file;
+unsaved();
+room(kept.text.trim() ? "work" : "task");
+turnTo("scheme");
+if (D.files.length) {
+  byId("folder-of").hidden = false;
+  made(byId("folder"), "option", "", { value: "" });
+  for (const name of D.files) made(byId("folder"), "option", name, { value: name });
+  byId("folder").addEventListener("change", event => { if (event.target.value) openFile(event.target.value); });
+}
+enter().then(() => {
+  if (D.one) openFile(D.files[0]);
+  else if (kept.text.trim()) soon(0);
+  group(problem);
+}, error => note(error.message));
+bank(take);

@@ -1,0 +1,290 @@
+"""What the studio's processes, queue and sessions do to those who ask too much."""
+
+from __future__ import annotations
+
+import json
+import sys
+import threading
+import time
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import odd_acts
+import pytest
+from msgspec.structs import replace
+
+pytest.importorskip("starlette", reason="the studio's extra is not installed")
+pytest.importorskip("httpx2", reason="starlette's test client needs httpx2")
+
+from starlette.testclient import TestClient
+
+from planmethod.studio.limits import MB, STRANGERS, Bucket
+from planmethod.studio.server import StudioSettings, application
+from planmethod.studio.sessions import Desk, Sessions
+
+LIMITS = replace(
+    STRANGERS, seconds=1.0, trusted_seconds=5.0, memory=500 * MB, text=4096, upload=2000,
+    uploads=3000, waiting=6, own=2, sessions=40, rate=0.001, burst=30.0, kept=3,
+)  # fmt: skip
+TOKEN = "a token of the instructor"
+
+
+@pytest.fixture(scope="module")
+def client(tmp_path_factory: pytest.TempPathFactory) -> Iterator[TestClient]:
+    settings = StudioSettings(limits=LIMITS, served=True, token=TOKEN, processes=2)
+    root = tmp_path_factory.mktemp("studio") / "sessions"
+    with TestClient(application(settings, odd_acts.act, root)) as client:
+        yield client
+    assert not root.exists()  # nothing is left behind
+
+
+def enter(client: TestClient, token: str = "") -> dict[str, str]:
+    return {"x-studio": client.post("/api/session", json={"token": token}).json()["key"]}
+
+
+def lines(client: TestClient, who: dict[str, str], text: str, do: str = "sketched") -> list[Any]:
+    answer = client.post(f"/api/do/{do}?lang=en", headers=who, json={"text": text})
+    assert answer.status_code == 200, answer.text
+    return [json.loads(line) for line in answer.text.splitlines()]
+
+
+def found(client: TestClient, who: dict[str, str], text: str, do: str = "sketched") -> Any:
+    return lines(client, who, text, do)[-1]["found"]
+
+
+def test_what_takes_too_long_is_stopped_and_another_process_goes_on(client: TestClient) -> None:
+    who = enter(client)
+    before = time.monotonic()
+    assert found(client, who, "sleep 30")["refused"].startswith("This takes longer than 1 s")
+    assert time.monotonic() - before < 15
+    assert found(client, who, "good morning")["said"] == "good morning"
+
+
+def test_an_instructor_has_more_time(client: TestClient) -> None:
+    told = lines(client, enter(client, TOKEN), "sleep 1.5")
+    assert told[-1]["found"]["said"] == "sleep 1.5"
+    shares = [one["share"] for one in told if "share" in one]
+    assert shares == sorted(shares)
+    assert len(shares) == 10
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="this system bounds no process")
+def test_memory_is_bounded(client: TestClient) -> None:
+    who = enter(client, TOKEN)
+    assert "more memory" in found(client, who, "fill 600")["refused"]
+    assert found(client, who, "fill 40")["held"] == 40
+
+
+def test_a_process_that_dies_is_replaced(client: TestClient) -> None:
+    who = enter(client)
+    first = found(client, who, "a")["process"]
+    assert "refused" in found(client, who, "die")
+    assert found(client, who, "b")["said"] == "b"
+    assert isinstance(first, int)
+
+
+def test_who_waits_is_told_the_place_and_quick_things_go_first(client: TestClient) -> None:
+    told: dict[str, list[Any]] = {}
+
+    def ask(name: str, do: str) -> None:
+        told[name] = [
+            (time.monotonic(), one) for one in lines(client, enter(client), "sleep 0.8", do)
+        ]
+
+    slow = [threading.Thread(target=ask, args=(f"slow {k}", "sheets")) for k in range(3)]
+    for one in slow:
+        one.start()
+        time.sleep(0.1)
+    began = time.monotonic()
+    quick = found(client, enter(client), "at once")
+    assert quick["said"] == "at once"
+    assert client.get("/health").json()["waiting"] >= 1  # the long ones have one process
+    for one in slow:
+        one.join()
+    places = [one["place"] for _, one in told["slow 2"] if one.get("place")]
+    assert places[0] == 2
+    assert places == sorted(places, reverse=True)
+    assert max(moment for moment, _ in told["slow 2"]) > began
+    assert all("said" in told[name][-1][1]["found"] for name in told)  # none is lost
+
+
+def test_one_session_cannot_fill_the_queue(client: TestClient) -> None:
+    who = enter(client)
+    codes: list[int] = []
+
+    def ask() -> None:
+        answer = client.post("/api/do/sheets?lang=en", headers=who, json={"text": "sleep 0.5"})
+        codes.append(answer.status_code)
+
+    asking = [threading.Thread(target=ask) for _ in range(5)]
+    for one in asking:
+        one.start()
+    for one in asking:
+        one.join()
+    assert sorted(codes) == [200, 200, 503, 503, 503]
+
+
+def test_who_asks_too_often_is_told_to_wait(client: TestClient) -> None:
+    who = enter(client)
+    codes = [
+        client.post("/api/do/sketched?lang=en", headers=who, json={"text": "x"}).status_code
+        for _ in range(31)
+    ]
+    assert codes.count(200) == 30
+    assert set(codes[30:]) == {429}
+
+
+def test_sizes_are_bounded(client: TestClient) -> None:
+    who = enter(client, TOKEN)
+    answer = client.post("/api/do/sketched?lang=en", headers=who, json={"text": "x" * 5000})
+    assert (answer.status_code, answer.text) == (413, "This is larger than 4 KiB. Send less.")
+    put = [
+        client.put(f"/api/works/{name}?lang=en", headers=who, content=b"x" * size).status_code
+        for name, size in (("a.csv", 2001), ("a.csv", 1900), ("b.csv", 1900), ("c.exe", 10))
+    ]
+    assert put == [413, 200, 413, 415]
+
+
+@pytest.mark.parametrize(
+    "address",
+    ["/files/{key}/1/../../x", "/files/{key}/../1/x", "/files/{key}/1/%2e%2e/%2e%2e/works/a.csv",
+     "/files/{key}/1//etc/passwd", "/files/nobody/1/x", "/files/{key}/0x1/all.zip",
+     "/static/..%2fserver.py", "/static/studio.html", "/api/start/..%2f..%2fsetup"],
+)  # fmt: skip
+def test_no_address_leads_out(client: TestClient, address: str) -> None:
+    who = enter(client)
+    found(client, who, "something")
+    assert client.get(address.format(key=who["x-studio"])).status_code == 404
+
+
+def test_nothing_is_done_without_a_key_and_nothing_for_instructors_without_the_token(
+    client: TestClient,
+) -> None:
+    assert client.post("/api/do/sketched", json={"text": ""}).status_code == 401
+    assert client.post("/api/do/sketched", headers={"x-studio": "guess"}).status_code == 401
+    for token in ("", "wrong"):
+        who = enter(client, token)
+        for do, more in (("checked", {}), ("varied", {}), ("command", {"what": "key"})):
+            answer = client.post(f"/api/do/{do}", headers=who, json={"text": "", **more})
+            assert answer.status_code == 403
+        assert client.put("/api/works/a.csv", headers=who, content=b"").status_code == 403
+    for do in ("warm", "act", "nothing"):
+        assert client.post(f"/api/do/{do}", headers=enter(client), json={}).status_code == 404
+    answer = client.post("/api/do/command", headers=enter(client), json={"what": "batch"})
+    assert answer.status_code == 404
+
+
+def test_bodies_that_are_no_object_are_refused(client: TestClient) -> None:
+    who = enter(client)
+    for body in (b"[]", b"{", b"[" * 4000, b"\xff"):
+        answer = client.post("/api/do/sketched", headers=who, content=body)
+        assert answer.status_code == 400
+
+
+def test_a_served_studio_has_no_file_of_the_machine(client: TestClient) -> None:
+    assert client.get("/api/file/ex3.toml", headers=enter(client)).status_code == 404
+
+
+def test_names_of_files_are_plain(client: TestClient) -> None:
+    told = {
+        "../../x": "x",
+        "/etc/passwd": "passwd",
+        "--out": "out",
+        "": "problem",
+        "Иванов 1": "Иванов-1",
+    }
+    for typed, plain in told.items():
+        answer = client.post(
+            "/api/do/sketched", headers=enter(client), json={"text": "x", "name": typed}
+        )
+        assert json.loads(answer.text.splitlines()[-1])["found"]["name"] == plain
+
+
+# Sessions ----------------------------------------------------------------------------------------
+
+
+def test_sessions_end_and_leave_nothing(tmp_path: Path) -> None:
+    now = [0.0]
+    sessions = Sessions(tmp_path, replace(LIMITS, idle=100.0), clock=lambda: now[0])
+    first, second = sessions.enter("a", trusted=False), sessions.enter("a", trusted=False)
+    assert first is not None
+    assert second is not None
+    assert first.folder != second.folder
+    assert first.key not in str(first.folder)
+    (first.folder / "1").mkdir()
+    now[0] = 90.0
+    assert sessions.of(second.key) is second
+    now[0] = 120.0
+    sessions.clean()
+    assert sessions.of(first.key) is None
+    assert [path.name for path in tmp_path.iterdir()] == [second.folder.name]
+
+
+def test_old_computations_go(tmp_path: Path) -> None:
+    session = Sessions(tmp_path, LIMITS).enter("a", trusted=False)
+    assert session is not None
+    for _ in range(7):
+        session.new_folder(LIMITS.kept)
+    assert sorted(path.name for path in session.folder.iterdir()) == ["5", "6", "7", "works"]
+
+
+def test_one_address_enters_no_more_than_a_class_does(tmp_path: Path) -> None:
+    limits = replace(LIMITS, sessions=1000, entries=1.0, entered=5.0)
+    now = [0.0]
+    sessions = Sessions(tmp_path, limits, clock=lambda: now[0])
+    let = [sessions.enter("a", trusted=False) is not None for _ in range(8)]
+    assert let == [True] * 5 + [False] * 3
+    assert sessions.enter("b", trusted=False) is not None
+    now[0] = 2.5
+    assert [sessions.enter("a", trusted=False) is not None for _ in range(3)] == [True, True, False]
+
+
+def test_a_bucket_leaks() -> None:
+    bucket = Bucket()
+    taken = [bucket.takes(k * 0.1, rate=2.0, burst=3.0) for k in range(30)]
+    assert all(taken[:3])
+    assert 3 + 2 * 2.9 - 1 <= sum(taken) <= 3 + 2 * 2.9 + 1
+
+
+# One's own file ----------------------------------------------------------------------------------
+
+
+def test_what_another_editor_wrote_is_not_written_over(tmp_path: Path) -> None:
+    path = tmp_path / "my.toml"
+    path.write_text("a = 1\n")
+    settings = StudioSettings(limits=LIMITS, processes=1, desk=Desk(path))
+    with TestClient(application(settings, odd_acts.act, tmp_path / "sessions")) as client:
+        who = enter(client)
+        there = client.get("/api/file/my.toml", headers=who).json()
+        assert there["text"] == "a = 1\n"
+        saved = client.post(
+            "/api/file/my.toml", headers=who, json={"text": "a = 2\n", "mark": there["mark"]}
+        )
+        assert path.read_text() == "a = 2\n"
+        assert client.get("/api/file/my.toml?mark", headers=who).json() == saved.json()
+        path.write_text("a = 3\n")  # an editor outside
+        refused = client.post(
+            "/api/file/my.toml", headers=who, json={"text": "a = 4\n", "mark": saved.json()["mark"]}
+        )
+        assert refused.status_code == 409
+        assert refused.json()["text"] == path.read_text() == "a = 3\n"
+        again = {"text": "a = 4\n", "mark": refused.json()["mark"]}
+        assert client.post("/api/file/my.toml", headers=who, json=again).status_code == 200
+        assert path.read_text() == "a = 4\n"
+        for other in ("other.toml", "..%2fmy.toml", "my.txt", ".toml"):
+            assert client.get(f"/api/file/{other}", headers=who).status_code == 404
+        elsewhere = client.get("/health", headers={"host": "evil.example"})
+        assert elsewhere.status_code == 400
+
+
+def test_a_folder_shows_its_problem_files_alone(tmp_path: Path) -> None:
+    for name in ("b.toml", "a.toml", "c.txt"):
+        (tmp_path / name).write_text("")
+    (tmp_path / "d.toml").mkdir()
+    desk = Desk(tmp_path)
+    assert desk.names == ["a.toml", "b.toml"]
+    assert desk.at("a.toml") == tmp_path / "a.toml"
+    assert [
+        desk.at(name) for name in ("../a.toml", ".a.toml", "c.txt", "x/a.toml", "a\0.toml")
+    ] == [None] * 5

@@ -1,0 +1,278 @@
+"""The ways of a student and of an instructor through the studio, in headless Chromium."""
+
+from __future__ import annotations
+
+import contextlib
+import re
+import subprocess
+import sys
+import urllib.request
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+from browser import PROGRAM, Page, browsing
+from worked import PROBLEMS, ROOT
+
+pytest.importorskip("starlette", reason="the studio's extra is not installed")
+pytest.importorskip("uvicorn", reason="the studio's extra is not installed")
+pytestmark = pytest.mark.skipif(PROGRAM is None, reason="Chromium looks at the page")
+
+DRAWN = (
+    "document.querySelector('#sketch').naturalWidth > 0 &&"
+    " !document.querySelector('#scheme').classList.contains('old')"
+)
+
+
+@contextlib.contextmanager
+def studio(*args: str) -> Iterator[list[str]]:
+    """Start a studio at a free port; its address, and the instructor's where it is served."""
+    command = [sys.executable, "-m", "planmethod", "studio", "--port", "0", "--lang", "en", *args]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, text=True, cwd=ROOT) as running:
+        assert running.stdout is not None
+        lines = [running.stdout.readline() for _ in range(1 + ("--serve" in args))]
+        try:
+            yield [re.findall(r"http://\S+", line)[0] for line in lines]
+        finally:
+            running.terminate()
+            running.wait(20)
+
+
+@pytest.fixture(scope="module")
+def address() -> Iterator[str]:
+    with studio() as (address,):
+        yield address
+
+
+@pytest.fixture(scope="module")
+def page(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Page]:
+    with browsing(tmp_path_factory.mktemp("browser")) as page:
+        yield page
+
+
+def click(page: Page, name: str) -> None:
+    page.ask(f"document.querySelector({name!r}).click()")
+
+
+def text(page: Page, name: str) -> str:
+    return str(page.ask(f"document.querySelector({name!r}).textContent"))
+
+
+def at(page: Page, words: str, replaced: str) -> None:
+    """Select words in the editor as a reader would, and type others in their place."""
+    page.ask(
+        "{ const view = studio.typed.view, at = studio.text().indexOf(" + repr(words) + ");"
+        f" view.dispatch({{ selection: {{ anchor: at, head: at + {len(words)} }} }});"
+        " view.focus(); }"
+    )
+    page.call("Input.insertText", text=replaced)
+
+
+def begin(page: Page, address: str, width: int = 1360) -> None:
+    page.open(f"{address}?lang=ru", width=width, height=900 if width > 600 else 740)
+    page.ask("localStorage.clear()")
+    page.open(f"{address}?lang=ru", width=width, height=900 if width > 600 else 740)
+    page.said.clear()
+    page.wait("document.querySelectorAll('#tasks li').length > 3")
+
+
+def take(page: Page, words: str) -> None:
+    page.ask(
+        "{ const box = document.querySelector('#search');"
+        f" box.value = {words!r}; box.dispatchEvent(new Event('input')); }}"
+    )
+    button = f"#tasks button[aria-label$=': {words}']"
+    page.wait(
+        f"document.querySelectorAll('#tasks li').length < 9 && !!document.querySelector({button!r})"
+    )
+    click(page, button)
+    page.wait(DRAWN)
+
+
+def test_a_student_comes_from_an_empty_page_to_a_pdf(page: Page, address: str) -> None:
+    begin(page, address)
+    take(page, "linkages-ex3")
+    assert "Замечаний нет" in text(page, "#faults")
+    at(page, "DE = 0.18", "DE = 0.18 m")
+    page.wait("document.querySelector('.cm-lintRange-error')")
+    assert "строка 23" in text(page, "#faults")
+    assert page.ask("studio.text().split('\\n')[22]") == "DE = 0.18 m"
+    at(page, "DE = 0.18 m", "DE = 0.18")
+    page.wait("document.querySelector('#faults').textContent.includes('Замечаний нет')")
+    assert not page.ask("!!document.querySelector('.cm-lintRange-error')")
+    click(page, "#to-files")
+    click(page, "[data-what=pdf]")
+    link = page.wait("document.querySelector('#files .made a')?.href")
+    with urllib.request.urlopen(link) as answer:
+        assert answer.read(5) == b"%PDF-"
+    # what was typed is there when the page is opened again
+    page.ask("studio.put(studio.text() + '# kept\\n')")
+    page.open(f"{address}?lang=en", width=1360)
+    page.wait(DRAWN)
+    assert str(page.ask("studio.text()")).endswith("# kept\n")
+    # Chromium itself gives letters that replace coloured ones a style, which the policy takes away.
+    assert [one for one in page.said if "Applying inline style" not in one] == []
+
+
+def test_keys_are_completed_from_the_schema(page: Page, address: str) -> None:
+    begin(page, address)
+    take(page, "linkages-ex3")
+    page.ask("studio.put('[driver]\\n')")
+    page.ask("studio.typed.view.dispatch({ selection: { anchor: 9 } }); studio.typed.view.focus()")
+    page.call("Input.insertText", text="om")
+    page.wait("document.querySelector('.cm-tooltip-autocomplete')")
+    assert "omega" in text(page, ".cm-tooltip-autocomplete")
+
+
+def test_the_other_assembly_is_chosen_by_a_click(page: Page, address: str) -> None:
+    begin(page, address)
+    take(page, "linkages-ex3")
+    click(page, "#to-assemblies")
+    page.wait("document.querySelectorAll('#ways button').length === 2")
+    click(page, "#ways button:nth-child(2)")
+    page.wait(DRAWN)
+    assert 'E = "left of D"' in page.ask("studio.text()")
+    assert page.ask("studio.text()").count("[assembly]") == 1
+
+
+def test_a_segment_is_measured_in_mm_and_in_its_unit(page: Page, address: str) -> None:
+    begin(page, address)
+    take(page, "linkages-ex3")
+    click(page, "#to-sheets")
+    page.wait("document.querySelector('#sheet img')?.naturalWidth > 0")
+    page.ask(
+        "{ const all = document.querySelector('#spans');"
+        " all.value = [...all.options].find(one => /^p-?b +μ_v/.test(one.text)).value;"
+        " all.dispatchEvent(new Event('change')); }"
+    )
+    assert re.search(r"= 64 мм × μ_v 0,05 = 3,2 м/с$", text(page, "#measured"))
+    # the same by two clicks near its ends
+    ends = page.ask(
+        "[...document.querySelectorAll('#sheet circle')].map(one => {"
+        " const box = one.getBoundingClientRect();"
+        " return [box.x + box.width / 2 + 2, box.y + box.height / 2 - 2]; })"
+    )
+    click(page, "#ruler")
+    for x, y in ends:
+        page.ask(
+            "document.querySelector('#sheet').dispatchEvent(new MouseEvent('click',"
+            f" {{ clientX: {x}, clientY: {y}, bubbles: true }}))"
+        )
+    assert "64 мм × μ_v 0,05 = 3,2 м/с" in text(page, "#measured")
+
+
+def test_positions_move_with_their_plans(page: Page, address: str) -> None:
+    begin(page, address)
+    take(page, "linkages-ex3")
+    click(page, "#to-motion")
+    page.wait("document.querySelector('#motion iframe')")
+    click(page, "#to-tables")
+    page.wait("document.querySelector('#tables pre').textContent.includes('Масштабы')")
+    assert page.said == []
+
+
+def test_answers_are_compared_while_one_types_and_judged(page: Page, address: str) -> None:
+    begin(page, address)
+    take(page, "linkages-ex3")
+    click(page, "#to-answers")
+    click(page, "#ask")
+    page.wait("document.querySelectorAll('#rows tr').length > 5")
+
+    def fill(name: str, value: str) -> None:
+        page.ask(
+            f"{{ const box = document.querySelector({name!r}); box.value = {value!r};"
+            " box.dispatchEvent(new Event('input', { bubbles: true })); }"
+        )
+
+    fill("#scales label:nth-of-type(1) input", "0,05")
+    fill("#rows tr:nth-child(1) td:nth-of-type(1) input", "64")
+    fill("#rows tr:nth-child(1) td:nth-of-type(3) input", "3,3")
+    assert "≠" in text(page, "#rows tr:nth-child(1)")
+    fill("#rows tr:nth-child(1) td:nth-of-type(3) input", "3,2")
+    assert "сходится" in text(page, "#rows tr:nth-child(1)")
+    click(page, "#judge")
+    page.wait("document.querySelector('#verdicts iframe')")
+    assert page.said == []
+
+
+def test_an_instructor_comes_from_a_table_to_marks(page: Page, address: str) -> None:
+    begin(page, address)
+    take(page, "linkages-ex3-variants")
+    click(page, "#to-group")
+    root = page.call("DOM.getDocument")["root"]["nodeId"]
+    node = page.call("DOM.querySelector", nodeId=root, selector="#chosen")["nodeId"]
+    works = PROBLEMS / "groups/ex3.csv"
+    page.call("DOM.setFileInputFiles", nodeId=node, files=[str(works)])
+    page.wait("document.querySelector('#works li')")
+    click(page, "#check")
+    page.wait("document.querySelectorAll('#marks tbody tr').length === 30", 300)
+    before = text(page, "#marks tbody tr")
+    page.ask(
+        "document.querySelector('#points').value = '0';"
+        "document.querySelector('#by-hand button').click()"
+    )
+    page.wait(f"document.querySelector('#marks tbody tr').textContent !== {before!r}", 300)
+    for box in ("#statistics", "#page"):
+        page.wait(f"document.querySelector('{box} iframe')")
+
+
+@pytest.mark.parametrize("width", [360, 1360])
+def test_no_room_is_wider_than_the_window(page: Page, address: str, width: int) -> None:
+    begin(page, address, width)
+    take(page, "linkages-ex3")
+    for room in ("task", "work", "answers", "group"):
+        click(page, f"#to-{room}")
+        assert page.ask("document.documentElement.scrollWidth") <= width, room
+    click(page, "#to-work")
+    for view in ("scheme", "sheets", "files", "motion"):
+        click(page, f"#to-{view}")
+        assert page.ask("document.documentElement.scrollWidth") <= width, view
+
+
+def test_everything_has_a_name_and_tabs_are_turned_by_arrows(page: Page, address: str) -> None:
+    begin(page, address)
+    nameless = page.ask(
+        "[...document.querySelectorAll('button, input, select, img, iframe, progress')]"
+        ".filter(one => !one.hidden && one.type !== 'file' && !one.textContent.trim()"
+        " && !one.ariaLabel"
+        " && !one.title && !one.labels?.length && one.alt === undefined).map(one => one.id)"
+    )
+    assert nameless == []
+    page.ask("document.querySelector('#to-task').focus()")
+    page.call("Input.dispatchKeyEvent", type="keyDown", key="ArrowRight", code="ArrowRight")
+    assert page.ask("document.activeElement.id") == "to-work"
+    assert page.ask("document.querySelector('#work').hidden") is False
+
+
+def test_a_file_is_saved_and_another_editor_is_told_of(page: Page, tmp_path: Path) -> None:
+    file = tmp_path / "my.toml"
+    file.write_text("title = 'a'\n")
+    with studio(str(file)) as (address,):
+        page.open(f"{address}?lang=en", width=1000)
+        page.wait("studio.text().includes('title')")
+        at(page, "'a'", "'b'")
+        click(page, "#save")
+        page.wait("document.querySelector('#saved').textContent === 'Saved'")
+        assert file.read_text() == "title = 'b'\n"
+        at(page, "'b'", "'mine'")
+        file.write_text("title = 'theirs'\n")
+        click(page, "#save")
+        page.wait("document.querySelectorAll('#said-do button').length === 2")
+        assert file.read_text() == "title = 'theirs'\n"
+        click(page, "#said-do button")
+        page.wait("document.querySelector('#saved').textContent === 'Saved'")
+        assert file.read_text() == "title = 'mine'\n"
+
+
+def test_strangers_have_no_instructors_pages_without_the_token(page: Page) -> None:
+    with studio("--serve", "--jobs", "2") as (address, instructors):
+        page.open(f"{address}?lang=en", width=1000)
+        page.ask("sessionStorage.clear(); localStorage.clear()")
+        page.open(f"{address}?lang=en", width=1000)
+        page.wait("!document.querySelector('#no-token').hidden")
+        assert page.ask("document.querySelector('#desk').hidden")
+        page.open("about:blank")
+        page.open(instructors, width=1000)
+        page.wait("document.querySelector('#works-of').textContent")
+        assert not page.ask("document.querySelector('#desk').hidden")
+        assert "token" not in page.ask("location.href")

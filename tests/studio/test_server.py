@@ -1,0 +1,295 @@
+"""The studio does what the commands do, by the same code; faults are told at their place."""
+
+from __future__ import annotations
+
+import json
+import re
+import tomllib
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+from cases import each
+from click.testing import CliRunner
+from worked import PROBLEMS, ROOT
+
+pytest.importorskip("starlette", reason="the studio's extra is not installed")
+pytest.importorskip("httpx2", reason="starlette's test client needs httpx2")
+
+from starlette.testclient import TestClient
+
+from planmethod.cli import cli
+from planmethod.commands.studied import act
+from planmethod.commands.studio import settings_of
+from planmethod.errors import Fault, ProblemError
+from planmethod.kinds import kind_of, load
+from planmethod.note.wording import language
+from planmethod.problem.tasks import tasks
+from planmethod.studio.places import place_of
+from planmethod.studio.server import application
+
+EX3 = (PROBLEMS / "linkages/ex3.toml").read_text("utf-8")
+FAULTY = sorted((ROOT / "tests/problem/faulty").glob("*.toml"))
+
+
+@pytest.fixture(scope="module")
+def client(tmp_path_factory: pytest.TempPathFactory) -> Iterator[TestClient]:
+    settings = settings_of(None, False, None, 2)
+    root = tmp_path_factory.mktemp("studio") / "sessions"
+    with TestClient(application(settings, act, root)) as client:
+        client.headers["x-studio"] = client.post("/api/session", json={}).json()["key"]
+        yield client
+
+
+def do(client: TestClient, do: str, text: str, lang: str = "ru", **more: Any) -> dict[str, Any]:
+    told = {"text": text, "name": "ex3", **more}
+    answer = client.post(f"/api/do/{do}?lang={lang}", json=told)
+    assert answer.status_code == 200, answer.text
+    found: dict[str, Any] = json.loads(answer.text.splitlines()[-1])["found"]
+    return found
+
+
+def run(folder: Path, *args: str) -> str:
+    done = CliRunner().invoke(cli, args, catch_exceptions=False)
+    assert done.exit_code in (0, 1), done.output
+    return done.stdout
+
+
+# The page ----------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("lang", ["ru", "en"])
+def test_the_page_is_in_a_language_and_lets_nothing_else_in(client: TestClient, lang: str) -> None:
+    answer = client.get(f"/?lang={lang}")
+    words = language(lang).studio["page"]
+    policy = answer.headers["content-security-policy"]
+    assert "default-src 'none'" in policy
+    assert "unsafe" not in policy
+    assert f'<html lang="{lang}">' in answer.text
+    assert words["bank"] in answer.text
+    assert not re.search(r"\{\{|\[\[", answer.text)
+    inline = r"<script(?! type=\"module\" src| type=\"application/json\")|\son\w+=|style="
+    assert not re.search(inline, answer.text)
+
+
+def test_every_word_of_the_page_is_used_and_every_word_it_uses_is_there() -> None:
+    folder = ROOT / "planmethod/studio/page"
+    scripts = "".join(
+        path.read_text("utf-8") for path in folder.glob("*.js") if path.stem != "codemirror"
+    )
+    html = (folder / "studio.html").read_text("utf-8")
+    used = {*re.findall(r"\{\{(\w+)\}\}", html), *re.findall(r"\bW\.(\w+)", scripts)}
+    used |= {*re.findall(r'say\("(\w+)"', scripts)}
+    known = {*language("ru").studio["page"]}
+    assert (used - known, known - used) == (set(), set())
+
+
+def test_the_scripts_ask_no_other_host_and_make_no_source_of_text() -> None:
+    for path in (ROOT / "planmethod/studio/page").glob("*.*"):
+        text = path.read_text("utf-8")
+        if path.name.startswith("codemirror"):
+            continue
+        assert not re.search(r"https?://(?!www\.w3\.org/2000/svg)", text), path
+        assert not re.search(r"innerHTML|outerHTML|insertAdjacent|document\.write|\beval\b", text)
+
+
+def test_the_bundle_names_its_licences(client: TestClient) -> None:
+    told = client.get("/static/codemirror-licences.txt").text
+    locked = json.loads((ROOT / "scripts/editor/package-lock.json").read_text("utf-8"))
+    asked = locked["packages"][""]["dependencies"]
+    for name, version in asked.items():
+        assert f"{name} {version}" in told
+    assert told.count("Permission is hereby granted") >= len(asked)
+
+
+# The same code -----------------------------------------------------------------------------------
+
+
+def test_the_scheme_is_that_of_the_command(client: TestClient, tmp_path: Path) -> None:
+    (tmp_path / "ex3.toml").write_text(EX3, "utf-8")
+    run(tmp_path, "sketch", str(tmp_path / "ex3.toml"), "-o", str(tmp_path))
+    found = do(client, "sketched", EX3)
+    assert found["faults"] == []
+    assert found["svg"] == (tmp_path / "ex3-sketch.svg").read_text("utf-8")
+
+
+def test_sheets_and_tables_are_those_of_the_commands(client: TestClient, tmp_path: Path) -> None:
+    path = tmp_path / "ex3.toml"
+    path.write_text(EX3, "utf-8")
+    run(tmp_path, "sheet", str(path), "--format", "svg,pdf", "-o", str(tmp_path / "out"))
+    (page,) = do(client, "sheets", EX3)["pages"]
+    assert page["svg"] == (tmp_path / "out/ex3.svg").read_text("utf-8")
+    made = do(client, "command", EX3, what="pdf")
+    assert [one["name"] for one in made["files"]] == ["ex3.pdf"]
+    data = client.get(made["files_at"] + "ex3.pdf").content
+    assert data == (tmp_path / "out/ex3.pdf").read_bytes()
+    tables = do(client, "command", EX3, what="tables")
+    assert tables["output"] == run(tmp_path, "solve", "--lang", "ru", str(path))
+
+
+def test_the_ruler_knows_the_segments_of_the_plans(client: TestClient) -> None:
+    (page,) = do(client, "sheets", EX3)["pages"]
+    view = next(view for view in page["views"] if view["kind"] == "velocity")
+    assert (view["per_mm"], view["unit"], view["scale"]) == (0.05, "м/с", "μ_v")
+    span = next(span for span in view["spans"] if span["name"] in ("pb", "p-b"))
+    x, y, z, t = span["ends"]
+    assert abs(complex(z - x, t - y)) * view["per_mm"] == pytest.approx(3.2, abs=1e-9)
+
+
+def test_a_project_tells_how_far_it_is_and_is_one_archive(client: TestClient) -> None:
+    told = {"text": EX3, "name": "ex3", "what": "project"}
+    lines = client.post("/api/do/command?lang=ru", json=told).text.splitlines()
+    shares = [one["share"] for one in map(json.loads, lines) if "share" in one]
+    assert shares == sorted(shares)
+    assert {0.2, 0.4, 0.6, 0.8, 1.0} <= {*shares}
+    found = json.loads(lines[-1])["found"]
+    assert "planmethod  [" not in found["errors"]
+    assert {"ex3/note.docx", "ex3/project.pdf"} <= {one["name"] for one in found["files"]}
+    whole = client.get(found["files_at"] + "all.zip")
+    assert whole.content[:2] == b"PK"
+
+
+@each("task", [*{task.kind: task for task in tasks()}.values()])
+def test_every_kind_of_task_is_drawn(client: TestClient, task: Any) -> None:
+    assert client.get(f"/picture/{task.name}.svg").text.startswith("<?xml")
+    found = do(client, "sketched", client.get(f"/api/start/{task.name}").json()["text"])
+    assert found["faults"] == []
+    assert found["svg"].startswith("<?xml")
+
+
+def test_both_assemblies_are_offered(client: TestClient) -> None:
+    ways = do(client, "assemblies", EX3)["ways"]
+    assert [way["rules"] for way in ways] == [{"E": "right of D"}, {"E": "left of D"}]
+    assert ways[0]["svg"] != ways[1]["svg"]
+    bare = EX3.replace('[assembly]\nE = "right of D"\n', "")
+    assert do(client, "sketched", bare)["ways"] == 2
+
+
+# Faults at their place ---------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "line", "column"),
+    [
+        ("DE = 0.18", "DE = 0.18 m", 24, 11),
+        ('on = "3"', 'on = "7"', 15, 12),
+        ("omega = 50", "omega = fast", 32, 9),
+        ('E = "right of D"', 'E = "beside D"', 37, 1),
+        ("mu_v = 0.05", "mu_v = -1", 40, 1),
+        ('what = "v B3"', 'what = "v Q3"', 56, 1),
+        ('\n[driver]\nlink = "1"', '\n[driver]\nlink = "9"', 31, 1),
+        ("epsilon = 0", "epsilom = 0", 33, 1),
+    ],
+)
+def test_a_fault_is_told_where_it_stands(
+    client: TestClient, old: str, new: str, line: int, column: int
+) -> None:
+    assert EX3.count(old) == 1
+    for lang in ("ru", "en"):
+        faults = do(client, "sketched", EX3.replace(old, new), lang)["faults"]
+        assert (faults[0]["line"], faults[0]["column"]) == (line, column), faults
+        assert bool(re.search("[а-яё]{3}", faults[0]["message"])) == (lang == "ru")
+    assert do(client, "sketched", EX3)["faults"] == []
+
+
+def faults_of(path: Path) -> list[Fault]:
+    try:
+        kind = kind_of(path)
+        _ = load(path) if kind is None else kind.load(path, None)
+    except ProblemError as error:
+        return [*error.faults]
+    return []
+
+
+def test_most_faults_of_faulty_files_are_placed_at_a_key_of_their_path() -> None:
+    placed, all_of_them = 0, 0
+    for path in FAULTY:
+        text = path.read_bytes().decode("utf-8", "replace")
+        lines = text.split("\n")
+        for fault in faults_of(path):
+            all_of_them += 1
+            where = place_of(text, fault)
+            if where is None:
+                continue
+            line, _ = where
+            assert 1 <= line <= len(lines)
+            placed += 1
+            if fault.path and " " not in fault.path:
+                parts = [part for part in re.split(r"[.\[\]\"]+", fault.path) if part]
+                assert any(part in lines[line - 1] for part in parts) or "[[" in lines[line - 1]
+    assert placed > 0.8 * all_of_them
+
+
+def test_an_array_is_counted_from_nought() -> None:
+    text = '[[answers]]\nwhat = "a"\n\n[[answers]]\nwhat = "b"\n[answers.inner]\nc = 1\n'
+    assert place_of(text, Fault("answers.1.what", "m")) == (5, 1)
+    assert place_of(text, Fault("answers[1]", "m")) == (4, 1)
+    assert place_of(text, Fault("answers.1.inner.c", "m")) == (7, 1)
+    assert place_of(text, Fault("driver.phi", "m")) is None
+
+
+# Answers and works -------------------------------------------------------------------------------
+
+
+def test_the_form_asks_and_does_not_answer(client: TestClient) -> None:
+    found = do(client, "questions", EX3)
+    first = found["rows"][0]
+    assert (first["id"], first["unit"], first["scale"], first["mm"]) == ("v_B", "м/с", "mu_v", True)
+    assert first["units"]["мм/с"] == 0.001
+    assert "3.2" not in json.dumps(found["rows"])
+    assert [*found["scales"]] == ["mu_v", "mu_a"]
+
+
+def test_a_work_is_judged_with_reasons(client: TestClient) -> None:
+    work = {"student": "Я", "answers": [{"id": "v_B", "value": "3,2"}, {"id": "v_E", "value": "2"}]}
+    found = do(client, "verdicts", EX3, work=work)
+    page = next(one["name"] for one in found["files"] if one["name"].endswith(".html"))
+    answer = client.get(found["files_at"] + page)
+    assert "sandbox" in answer.headers["content-security-policy"]
+    assert "allow-scripts" not in answer.headers["content-security-policy"]
+    assert re.search('class="[^"]*wrong', answer.text)
+    assert re.search('class="[^"]*ok', answer.text)
+
+
+GROUP = "student;what;value;unit\nИванов;v B;3,2;м/с\nИванов;v E;3,9;м/с\nПетров;v B;3,3;м/с\n"
+
+
+def test_marks_are_those_of_the_command_and_change_by_hand(
+    client: TestClient, tmp_path: Path
+) -> None:
+    (tmp_path / "ex3.toml").write_text(EX3, "utf-8")
+    (tmp_path / "group.csv").write_text(GROUP, "utf-8")
+    files = [str(tmp_path / name) for name in ("ex3.toml", "group.csv")]
+    run(tmp_path, "check", *files, "--gradebook", "--lang", "ru", "-o", str(tmp_path / "out"))
+    assert client.put("/api/works/group.csv", content=GROUP.encode()).json() == ["group.csv"]
+    found = do(client, "checked", EX3, by_hand=[])
+    text = (tmp_path / "out/gradebook.csv").read_text("utf-8-sig")
+    assert [";".join(row) for row in found["marks"]] == text.splitlines() or [
+        ",".join(row) for row in found["marks"]
+    ] == text.splitlines()
+    by_hand = [{"student": "Петров", "id": "v_B", "points": "0,5", "remark": "=1+1"}]
+    again = do(client, "checked", EX3, by_hand=by_hand)
+    rows = {(row[0], row[2]): row for row in again["answers"]}
+    before = {(row[0], row[2]): row for row in found["answers"]}
+    points = again["answers"][0].index("points")
+    assert rows["Петров", "v_B"][points] == "0.5" != before["Петров", "v_B"][points]
+    assert rows["Иванов", "v_B"] == before["Иванов", "v_B"]
+    assert client.delete("/api/works/all").json() == []
+
+
+def test_variants_are_made_with_questions(client: TestClient) -> None:
+    found = do(client, "varied", EX3, count=2, seed=3, moodle=True)
+    names = [one["name"] for one in found["files"]]
+    assert {"ex3-variants.toml", "ex3-moodle.xml"} <= {*names}
+    made = client.get(found["files_at"] + "ex3-variants.toml").text
+    assert len(tomllib.loads(made)["variants"]) == 2
+
+
+def test_no_message_tells_where_the_server_keeps_files(client: TestClient) -> None:
+    client.put("/api/works/bad.json", content=b"{")
+    found = do(client, "checked", EX3, by_hand=[])
+    client.delete("/api/works/all")
+    assert "bad.json" in found["errors"]
+    assert "sessions" not in json.dumps(found["errors"])
+    assert "/tmp" not in found["errors"]
