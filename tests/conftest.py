@@ -62,6 +62,12 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
     items[:] = [item for item in items if id(item) not in left]
 
 
+def pytest_collection_finish() -> None:
+    """Let what was collected alone: else the garbage of every file is looked for in all of it."""
+    gc.collect()
+    gc.freeze()
+
+
 @pytest.fixture(scope="module", autouse=True)
 def _what_a_file_has_kept_goes_with_it(request: pytest.FixtureRequest) -> Iterator[None]:
     """Solutions and drawings that the tests of a file share: of all files they are a gigabyte."""
