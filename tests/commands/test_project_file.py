@@ -15,7 +15,7 @@ from planmethod.cli import cli
 from planmethod.kinds import load
 from planmethod.problem.model import Problem, Scales
 from planmethod.project.first import first_scales
-from planmethod.project.model import Project, ProjectPart
+from planmethod.project.model import PartName, Project, ProjectPart
 from planmethod.project.settle import settle
 from planmethod.project.sheets import part_drawings
 from planmethod.render.ink.drawing import Drawing
@@ -90,7 +90,7 @@ def test_solve_prints_one_position_at_the_scales_of_all() -> None:
 
 
 def test_lint_looks_over_the_sheets_of_the_project(monkeypatch: pytest.MonkeyPatch) -> None:
-    drawn: dict[str, list[Drawing]] = {}
+    drawn: dict[PartName, list[Drawing]] = {}
 
     def noted(project: Project, part: ProjectPart, fields: Mapping[str, str]) -> list[Drawing]:
         drawn[part.name] = part_drawings(project, part, fields)
