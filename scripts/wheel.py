@@ -1,8 +1,8 @@
 """Try what is built as a user has it: in clean environments, away from the repository.
 
 ``make dist`` builds the source distribution and the wheel and runs this: each is installed from its
-file into an environment of its own, and the program is asked for its version, for a template and a
-shipped task, for their numbers and for a sheet.
+file into an environment of its own, and the program is asked for its version and, by the commands
+of the README, for a template, a sketch, numbers, sheets and a protocol; then for a shipped task.
 """
 
 from __future__ import annotations
@@ -17,13 +17,18 @@ from tempfile import TemporaryDirectory
 
 COMMANDS = (
     "--version",
-    "new shaper mine.toml",
-    "solve mine.toml",
+    "new six-link my.toml",
+    "sketch my.toml",
+    "solve my.toml",
+    "sheet my.toml --stamp author=Иванов",
+    "protocol my.toml -o out",
     "new linkages-2.1.45 task.toml",
     "solve task.toml --json",
-    "sheet task.toml --format svg,pdf",
 )
-"""What must work of an installed program; each begins where the one before ended."""
+"""What must work of an installed program: the five commands of the README, and a shipped task.
+
+Each begins where the one before ended.
+"""
 
 _INSTALL = ("-m", "pip", "install", "--quiet")
 

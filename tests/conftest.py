@@ -62,6 +62,22 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
     items[:] = [item for item in items if id(item) not in left]
 
 
+def pytest_collection_finish() -> None:
+    """Let what was collected alone: else the garbage of every file is looked for in all of it."""
+    gc.collect()
+    gc.freeze()
+
+
+@pytest.fixture(scope="module", autouse=True)
+def _what_a_file_has_kept_goes_with_it(request: pytest.FixtureRequest) -> Iterator[None]:
+    """Solutions and drawings that the tests of a file share: of all files they are a gigabyte."""
+    yield
+    for kept in vars(request.module).values():
+        if getattr(kept, "__module__", None) == request.module.__name__:
+            getattr(kept, "cache_clear", int)()
+    gc.collect()  # with what hangs together in circles
+
+
 @pytest.fixture(scope="session", autouse=True)
 def _no_config_of_the_developer(tmp_path_factory: pytest.TempPathFactory) -> Iterator[None]:
     """The tests read an empty config file and no cache of who runs them; no warning is let pass."""

@@ -36,6 +36,15 @@ def test_what_is_tried_of_a_wheel_is_a_command(line: str) -> None:
 
 
 @pytest.mark.parametrize("name", ["README.md", "README.ru.md"])
+def test_what_is_tried_of_a_wheel_are_the_first_commands_of_the_readme(name: str) -> None:
+    text = (ROOT / name).read_text("utf-8")
+    told = [line for line in re.findall(r"(?m)^planmethod (.*?) *#", text) if "my.toml" in line]
+    assert len(told) >= 5
+    # Nothing is opened where nobody looks.
+    assert tuple(line.replace(" --open", "") for line in told[:5]) == COMMANDS[1:6]
+
+
+@pytest.mark.parametrize("name", ["README.md", "README.ru.md"])
 def test_the_readme_names_the_wheel_that_is_built(name: str) -> None:
     version = PACKAGE["project"]["version"]
     text = (ROOT / name).read_text("utf-8")

@@ -53,7 +53,7 @@ def drawn_sheets(
     return _drawn(name, variant, at, tuple(sorted(asked.items())))
 
 
-@lru_cache(maxsize=64)
+@lru_cache(maxsize=16)
 def _drawn(
     name: str,
     variant: str | None,

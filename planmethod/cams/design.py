@@ -326,13 +326,16 @@ class CamDesign(Struct, frozen=True, dict=True):
 
     def pressure(self, phase: CamPhase) -> CamExtreme:
         """Return the greatest size of the pressure angle of rise or return, rad."""
-        found = [
-            (value, phi)
-            for stretch in self.problem.stretches
-            if stretch.phase is phase
-            for phi, value in [peak(partial(self._pressure, stretch), stretch.start, stretch.end)]
-        ]
-        return CamExtreme(*max(found))
+        return CamExtreme(*max(found for part, found in self._steepest if part is phase))
+
+    @cached_property
+    def _steepest(self) -> tuple[tuple[CamPhase, tuple[float, float]], ...]:
+        """Greatest pressure angle of every part of the motion, and where it is, rad."""
+        return tuple(
+            (part.phase, peak(partial(self._pressure, part), part.start, part.end)[::-1])
+            for part in self.problem.stretches
+            if part.phase in MOVING
+        )
 
     def _pressure(self, stretch: Stretch, phi: Reals) -> Reals:
         return np.abs(self.bare.points(phi, self.problem.on(stretch, phi)).pressure)

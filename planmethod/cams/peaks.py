@@ -10,6 +10,9 @@ from planmethod.cams.laws import Reals
 
 SAMPLES, FINER, ROUNDS = 257, 17, 12
 
+AT_ONCE = 256
+"""Points that are looked at together: thousands, one by one, take minutes of a key."""
+
 RealFunction = Callable[[Reals], Reals]
 
 
@@ -61,11 +64,13 @@ def nearest_to_origin(normals: Reals, bounds: Reals) -> Reals | None:
         ).T
     tried = np.concatenate([np.zeros((1, 2)), unit * off[:, None], corners])
     tried = tried[np.all(np.isfinite(tried), axis=1)]
-    size = np.hypot(*tried.T)
+    tried = tried[np.argsort(np.hypot(*tried.T))]
     slack = 1e-12 * np.max(np.abs(off))
-    for k in np.argsort(size):
-        if np.all(unit @ tried[k] <= off + slack):
-            return np.asarray(tried[k])
+    for start in range(0, len(tried), AT_ONCE):
+        some = tried[start : start + AT_ONCE]
+        kept = np.flatnonzero(np.all(some @ unit.T <= off + slack, axis=1))
+        if kept.size:
+            return np.asarray(some[kept[0]])
     return None
 
 

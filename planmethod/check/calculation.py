@@ -32,7 +32,7 @@ from planmethod.errors import Fault, ProblemError
 from planmethod.kind import ProblemKind
 from planmethod.languages import say
 from planmethod.plans.model import Plan
-from planmethod.problem.figures import AnswerValue, Figures
+from planmethod.problem.figures import AnswerValue, Figures, Mistaken
 from planmethod.problem.head import AnswerForm, AskedAnswer, KindProblem
 from planmethod.problem.selector import Selector
 from planmethod.solved.selectors.steps import NoValue, NoValueError
@@ -225,12 +225,16 @@ class Calculation(Task):
             self._numbers[key] = CalculationSheet(self.figures, position, asked.values(), profile)
         return self._numbers[key]
 
+    @cached_property
+    def _mistaken(self) -> tuple[Mistaken, ...]:
+        """The usual mistakes, computed once for all positions: each may be another cam."""
+        return tuple(self.figures.mistaken())
+
     def named(self, sheet: Sheet) -> list[Explanation]:
         """Return the usual mistakes, and the numbers of the other variants."""
         assert isinstance(sheet, CalculationSheet)
-        told = [(code, where, take) for code, where, take in self.figures.mistaken()]
         found = []
-        for code, where, take in told:
+        for code, where, take in self._mistaken:
             values = {}
             for question in sheet.asked:
                 value = take(question.selector.names[0], sheet.position)

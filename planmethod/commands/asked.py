@@ -129,12 +129,20 @@ def read_fields(
     ctx: click.Context, param: click.Parameter, value: tuple[str, ...]
 ) -> dict[str, str]:
     """Return the fields of the title block given as ``author=Иванов``."""
-    fields = {}
+    if not value:
+        return {}
+    from planmethod.problem.fields import Faults, read_text
+    from planmethod.problem.head import STAMP_LIMIT
+
+    fields, faults = {}, Faults()
     for field in value:
-        key, sign, text = field.partition("=")
-        if not sign or not key.strip():
+        key, sign, text = (part.strip() for part in field.partition("="))
+        if not sign or not key:
             raise BadParameter("{!r} is not key=text, such as author=Иванов", field)
-        fields[key.strip()] = text.strip()
+        fields[key] = text
+        read_text(faults, key, text, limit=STAMP_LIMIT)
+    if faults.found:
+        raise click.BadParameter(" ".join(map(str, faults.found)))
     return fields
 
 

@@ -291,7 +291,7 @@ class Manifest:
 
     def add(self, order: VariantOrder, key: str, files: Mapping[str, bytes]) -> None:
         """Write the files of an order, then its line."""
-        from planmethod.render.backends.output import write
+        from planmethod.render.backends.output import whither, write
 
         for name, data in files.items():
             write(self.out / name, data)
@@ -300,7 +300,7 @@ class Manifest:
         name = stem(order.todo.problem)
         told = _Line(name, key, digests)
         self._lines[name] = told
-        with self.path.open("a", encoding="utf-8") as file:
+        with whither(self.path).open("a", encoding="utf-8") as file:
             file.write("\n" * (not self.made) + _line(told))  # after a line cut short, a new one
         self.made += 1
 

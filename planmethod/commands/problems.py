@@ -73,13 +73,18 @@ def names_of(path: Path, name: str, variant: str | None) -> Sequence[str]:
 
 @contextmanager
 def of_file(path: Path, name: str) -> Iterator[None]:
-    """Have the faults of a problem that are found late told of its file, as all others are."""
+    """Have what is found late of a problem told of its file, as all other faults are."""
     try:
         yield
     except ProblemError as error:
         if error.source != name:
             raise
         raise type(error)(str(path), error.faults) from error
+    except PlanMethodError as error:
+        told = str(error)
+        if told.startswith(f"{name}: "):
+            error.args = (f"{path}{told.removeprefix(name)}",)
+        raise
 
 
 def guarded(command: F) -> F:

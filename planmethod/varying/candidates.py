@@ -85,7 +85,7 @@ def without_variants(text: str) -> str:
     return "".join(kept)
 
 
-_HEADER = r"\s*\[\[?\s*(\"[^\"]*\"|'[^']*'|[^\[\]\s.,\"']+)[^\[\],]*\]\]?\s*(?:#.*)?\s*"
+_HEADER = r"\s*\[\[?\s*(\"[^\"]*\"|'[^']*'|[^\[\]\s.,\"']++)[^\[\],]*\]\]?\s*+(?:#.*)?+\s*"
 
 
 def toml_of(variants: Mapping[str, Overrides]) -> str:

@@ -36,7 +36,7 @@ SPEEDS = ("n", "omega")
 FORMULAS = ("x", "y", "r", "phi", "s", "theta")
 """Keys of ``[point]`` whose numbers are varied."""
 
-_LITERAL = r"(?<![\w.^*])(?<!\^[-+(])(\d+\.?\d*|\.\d+)(?![\w.])"
+_LITERAL = r"(?<![\w.^*])(?<!\^[-+(])(\d++(?:\.\d*+)?|\.\d++)(?![\w.])"
 """A number of a formula that is no exponent."""
 
 

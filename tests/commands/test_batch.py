@@ -109,6 +109,14 @@ def test_a_manifest_from_elsewhere_is_no_manifest(desk: Path) -> None:
     assert_same_sheet("ex3-v0.pdf")
 
 
+def test_a_manifest_that_is_a_link_makes_no_file_elsewhere(desk: Path) -> None:
+    Path("out").mkdir(exist_ok=True)
+    Path("out", batch.MANIFEST).symlink_to(desk / "elsewhere")
+    result = CliRunner().invoke(cli, ["batch", "ex3.toml", "--variant", "v0", "--lang", "en"])
+    assert (result.exit_code, "it is a link to" in result.output) == (2, True), result.output
+    assert not (desk / "elsewhere").exists()
+
+
 def assert_same_sheet(name: str) -> None:
     assert (Path("own") / name).read_bytes() == (Path("out") / name).read_bytes(), name
 

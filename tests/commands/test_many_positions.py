@@ -536,7 +536,7 @@ def test_a_sample_is_even_and_has_both_ends(count: int) -> None:
 def test_names_with_position_in_them_are_left_alone() -> None:
     Path("position 7.toml").write_text(DEAD, "utf-8")
     said = refused(4, "solve", "position 7.toml", "--phi", f"45,{SPOILT}", "--npz", "a.npz")
-    assert "position 7: position 1 (phi = 179.999 deg) stands so near" in said
+    assert "position 7.toml: position 1 (phi = 179.999 deg) stands so near" in said
 
 
 def test_a_bar_is_shown_on_a_terminal_only(monkeypatch: pytest.MonkeyPatch) -> None:

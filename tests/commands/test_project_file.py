@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Mapping
+from functools import cache
 from pathlib import Path
 
 import pytest
@@ -13,8 +15,10 @@ from planmethod.cli import cli
 from planmethod.kinds import load
 from planmethod.problem.model import Problem, Scales
 from planmethod.project.first import first_scales
+from planmethod.project.model import PartName, Project, ProjectPart
 from planmethod.project.settle import settle
 from planmethod.project.sheets import part_drawings
+from planmethod.render.ink.drawing import Drawing
 from planmethod.render.sheets.controlled import paper_of
 from planmethod.solved.solution import Solution
 
@@ -25,9 +29,14 @@ def run(*words: object) -> Result:
     return CliRunner().invoke(cli, [str(word) for word in words])
 
 
+@cache
+def shaper() -> Project:
+    return settle(load(SHAPER), SHAPER)
+
+
 def exact(number: int) -> str:
     """Return the speed of C in a position, as tables have it."""
-    project = settle(load(SHAPER), SHAPER)
+    project = shaper()
     solution = Solution(project.problem, positions=[project.positions[number]])
     return f"{abs(complex(solution.points['C'].velocity[0])):.3g}".replace(".", ",")
 
@@ -80,10 +89,17 @@ def test_solve_prints_one_position_at_the_scales_of_all() -> None:
 # Norm control ------------------------------------------------------------------------------------
 
 
-def test_lint_looks_over_the_sheets_of_the_project() -> None:
-    project = settle(load(SHAPER), SHAPER)
-    sheets = [sheet for part in project.parts for sheet in part_drawings(project, part, {})]
+def test_lint_looks_over_the_sheets_of_the_project(monkeypatch: pytest.MonkeyPatch) -> None:
+    drawn: dict[PartName, list[Drawing]] = {}
+
+    def noted(project: Project, part: ProjectPart, fields: Mapping[str, str]) -> list[Drawing]:
+        drawn[part.name] = part_drawings(project, part, fields)
+        return drawn[part.name]
+
+    monkeypatch.setattr("planmethod.project.sheets.part_drawings", noted)
     found = json.loads(run("lint", SHAPER, "--json").stdout)
+    assert [*drawn] == [part.name for part in shaper().parts]
+    sheets = [sheet for part in drawn.values() for sheet in part]
     assert found["kind"] == "project" and len(found["sheets"]) == len(sheets)
     assert [sheet["paper"] for sheet in found["sheets"]] == [*map(paper_of, sheets)]
     one = json.loads(run("lint", SHAPER, "--phi", "30", "--json").stdout)
@@ -117,7 +133,7 @@ def test_a_working_stroke_against_the_loads_is_warned_of(
     text = SHAPER.read_text("utf-8").replace("[cycle]", f'[cycle]\nworking = "{way}"')
     path.write_text(text, "utf-8")
     done = run("structure", path, "--no-drawing", "--lang", "ru")
-    strokes = settle(load(SHAPER), SHAPER).strokes
+    strokes = shaper().strokes
     assert done.exit_code == 0 and strokes is not None
     told = f'working = "right" называет рабочим ход на {strokes.idle_deg:.2f}°, а P совершает'
     assert (told in done.stderr) is warned

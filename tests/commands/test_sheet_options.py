@@ -52,7 +52,7 @@ def test_more_than_six_sheets_of_a_file_are_not_drawn_unasked(formats: str, desk
     args = ("sheet", SIX_LINK, "--layout", "forces", "--phi", "0:360:45", "--format", formats)
     done = run(*args, "--lang", "en")
     assert done.exit_code == 2
-    assert "six-link: 8 positions take 8 sheets." in done.output
+    assert "six-link.toml: 8 positions take 8 sheets." in done.output
     assert "(--phi 150)" in done.output
     assert "--all-positions" in done.output
     assert not list(desk.glob("out/*"))

@@ -14,11 +14,12 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from cases import some
+from cases import is_thinned
 from click.testing import CliRunner, Result
 from worked import ROOT, path_of
 
 from benchmarks.attack.patterns import patterns, slow
+from planmethod.cams.design import CamDesign
 from planmethod.cli import cli
 from planmethod.note.wording import language
 from planmethod.problem.names import is_label
@@ -26,6 +27,8 @@ from planmethod.render.ink.drawing import Drawing, Text
 from planmethod.render.sketch import VIEWS, sketch
 from planmethod.solved import part as part_module
 from planmethod.solved.part import largest_part
+from planmethod.varying.candidates import _HEADER, without_variants
+from planmethod.varying.varied import _LITERAL
 
 EX3 = path_of("linkages/ex3")
 FOUR_BAR = """
@@ -75,7 +78,7 @@ def test_no_pattern_takes_a_power_of_the_length_of_its_text() -> None:
     """One that does takes minutes for such a text, the others milliseconds."""
     found = list(patterns())
     assert len(found) > 100
-    every = some(1, few=0) or 8
+    every = 8 if is_thinned() else 1
     bad = [(where, p, slow(p, anywhere, 1 << 14)) for where, p, anywhere in found[::every]]
     assert not [one for one in bad if one[2]]
     assert slow(r"(?m)^[ \t]*\[?[ \t]*x", True, 1 << 16)  # what it finds
@@ -89,6 +92,66 @@ def test_a_long_line_is_refused_before_anything_looks_at_it(tmp_path: Path) -> N
         result = run(command, str(path))
         assert (result.exit_code, "line 2 has 100000 characters" in result.output) == (3, True)
     assert not is_label("a" * 23 + "!")  # it took a second
+
+
+def test_texts_of_variants_take_no_power_of_their_length() -> None:
+    assert not slow(_HEADER, False, 1 << 14)
+    assert not slow(_LITERAL, True, 1 << 14)
+    text = "[a]\nb = 1\n[variants.x]\nc = 2\n['d'.e]\nf = 3\n[[ variants . y ]]  # z\n"
+    assert without_variants(text) == "[a]\nb = 1\n['d'.e]\nf = 3\n"
+    assert re.findall(_LITERAL, "2*t^3 + .5*x1 - 4.*12.5e") == ["2", ".5", "4."]
+
+
+def test_a_field_of_the_title_block_is_no_longer_than_in_a_file(tmp_path: Path) -> None:
+    """Five thousand letters in a cell took 19 s."""
+    for text in ("x" * 201, "a\tb"):
+        result = run("sheet", str(EX3), "--stamp", f"title={text}", "-o", str(tmp_path))
+        assert (result.exit_code, "title: the text has " in result.output) == (2, True)
+    result = run("specimen", "lines", "--stamp", f"title={'x' * 200}", "-o", str(tmp_path))
+    assert result.exit_code == 0, result.output
+
+
+def test_a_cam_is_designed_once_for_all_positions(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """And once for each mistake; in every position anew its form took 8 s, of others 15 s."""
+    made: list[CamDesign] = []
+    find = CamDesign._nearest
+
+    def noted(own: CamDesign) -> complex:
+        made.append(own)
+        return find(own)
+
+    monkeypatch.setattr(CamDesign, "_nearest", noted)
+    result = run("form", str(path_of("cams/groove")), "-o", str(tmp_path))
+    assert result.exit_code == 0, result.output
+    assert 0 < len(made) <= 5
+
+
+# What is found late -------------------------------------------------------------------------------
+
+
+def test_what_is_found_late_names_the_file(tmp_path: Path) -> None:
+    path = tmp_path / "f.toml"
+    path.write_bytes(EX3.read_bytes())
+    for words in (
+        ("--layout", "flywheel"), ("--layout", "balancing"), ("--position", "3"),
+        ("--phi", "0:359:1"), ("--layout", "forces"),
+    ):  # fmt: skip
+        result = run("sheet", str(path), *words, "-o", str(tmp_path))
+        assert result.exit_code in (2, 3)
+        assert result.output.startswith(f"Error: {path}: "), result.output
+
+
+def test_a_layout_that_has_nothing_to_show_is_told(tmp_path: Path) -> None:
+    path = tmp_path / "l.toml"
+    sizes = "[sizes]\nA3 = { letter = 3.5, title = 5, text = 3.5, column = 200 }\n"
+    path.write_text(
+        f'formats = ["A3"]\nper_sheet = [36]\n{sizes}[[blocks]]\nkind = "graphs"\n', "utf-8"
+    )
+    result = run("sheet", str(EX3), "--layout", str(path), "-o", str(tmp_path))
+    assert result.exit_code == 2, result.output
+    assert "No block of the layout has anything to show" in result.output
 
 
 # Sketches ----------------------------------------------------------------------------------------

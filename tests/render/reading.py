@@ -64,7 +64,7 @@ def read_svg(data: bytes) -> Page:
     height = box[3]
     assert root.attrib["width"].endswith("mm")
     page = Page(float(root.attrib["width"][:-2]), float(root.attrib["height"][:-2]), [])
-    defined = {f"#{part.attrib['id']}": part for part in root.find(f"{SVG}defs") or ()}
+    defined = {f"#{part.attrib['id']}": part for part in root.iterfind(f"{SVG}defs/*")}
     drawn = root.findall(f"{SVG}g")[1]
     for group in drawn:
         said = {**drawn.attrib, **group.attrib}

@@ -25,6 +25,7 @@ from planmethod.solved.errors.drawing import DrawnKind
 from planmethod.solved.errors.forces import drawn_forces
 from planmethod.solved.errors.motion import Drafting, drafting_of
 from planmethod.solved.errors.spread import DRAWS, SHORT, STRAINED, UnknownItemError
+from planmethod.solved.errors.widths import root_of
 from planmethod.solved.forces.statics import statics_of
 from planmethod.solved.solution import Solution
 
@@ -87,6 +88,29 @@ def test_where_first_order_is_given_up_sigma_is_that_of_the_sheets(name: str) ->
             found.append(spread.sigma[i] / ((high - low) / 2))
     assert len(found) >= 15
     assert max(np.abs(np.log(found))) < 0.1
+
+
+def test_errors_are_spread_alike_whatever_turn_the_eigenvectors_have(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """The last bit decides their signs, and any turn where two eigenvalues are equal."""
+    luck = np.random.default_rng(3)
+    slopes = luck.normal(size=(3, 4, 9))
+    slopes[1, 2:] = slopes[1, :2]  # of rank 2
+    spread = slopes @ np.swapaxes(slopes, 1, 2)
+    spread[2] = np.eye(4)
+    roots = root_of(spread)
+    assert roots @ roots == pytest.approx(spread, abs=1e-9)
+    solve = np.linalg.eigh
+
+    def turned(matrices: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        size, ways = solve(matrices)
+        ways[0] *= [1, -1, -1, 1]
+        ways[2] = ways[2] @ np.linalg.qr(luck.normal(size=(4, 4)))[0]
+        return size, ways
+
+    monkeypatch.setattr(np.linalg, "eigh", turned)
+    assert root_of(spread) == pytest.approx(roots, abs=1e-12)
 
 
 # Single strokes -----------------------------------------------------------------------------------

@@ -102,13 +102,7 @@ def opened(path: Path | str) -> Iterator[BinaryIO]:
     try:
         # Before links are followed: nothing is made where one of them leads.
         asked.parent.mkdir(parents=True, exist_ok=True)
-        target = Path(os.path.realpath(asked))
-        if asked.is_symlink() and not target.exists():
-            raise OutputError(
-                "Cannot write {}: it is a link to {}, where there is nothing. Remove the link.",
-                asked,
-                target,
-            )
+        target = whither(asked)
         mode = _mode_to_keep(target, asked)
         temporary = target.with_name(f".planmethod-{os.urandom(6).hex()}.tmp")
         try:
@@ -124,6 +118,24 @@ def opened(path: Path | str) -> Iterator[BinaryIO]:
             raise
     except OSError as error:
         _explain(asked, error)
+
+
+def whither(asked: Path) -> Path:
+    """Return the file that a path leads to.
+
+    Raises
+    ------
+    OutputError
+        It is a link to where there is nothing.
+    """
+    target = Path(os.path.realpath(asked))
+    if asked.is_symlink() and not target.exists():
+        raise OutputError(
+            "Cannot write {}: it is a link to {}, where there is nothing. Remove the link.",
+            asked,
+            target,
+        )
+    return target
 
 
 def _mode_to_keep(target: Path, asked: Path) -> int | None:

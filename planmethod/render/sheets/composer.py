@@ -216,9 +216,20 @@ class Packing(Struct, frozen=True):
 
 
 def packed(group: Group, room: Room) -> list[Placed] | None:
-    """Return blocks in reading order with their upper left corners, or None without room."""
+    """Return blocks in reading order with their upper left corners, or None without room.
+
+    Raises
+    ------
+    LayoutError
+        There are no blocks.
+    """
     left, low, right, high = room.inner
     parts = [[(way.width, way.height) for way in part.ways] for part in group.parts()]
+    if not parts:
+        raise LayoutError(
+            "No block of the layout has anything to show of this problem. Graphs need "
+            "--ask, asked in their block, or [cycle] graphs; take other blocks, or another layout."
+        )
     if sum(min(wide * tall for wide, tall in ways) for ways in parts) > free_area(room):
         return None
     if not all(any(w < right - left and h < high - low for w, h in ways) for ways in parts):

@@ -33,7 +33,13 @@ from planmethod.construct.steps import (
 )
 from planmethod.errors import PlanMethodError
 from planmethod.solved.errors.drawing import RADIAN, Drafted, DrawnKind, DrawnQuantity
-from planmethod.solved.errors.widths import covariance_of, half_width, half_widths, sigma_of
+from planmethod.solved.errors.widths import (
+    covariance_of,
+    half_width,
+    half_widths,
+    root_of,
+    sigma_of,
+)
 from planmethod.solved.reading import Flags, Reals
 
 Key = TypeVar("Key", bound=str)
@@ -233,8 +239,7 @@ class Errors:
         coordinates: Iterator[Reals] = iter(())
         if off:  # else it errs by its own reading alone
             spread = np.moveaxis(covariance_of([read[name] for name in off]), -1, 0)
-            size, turned = np.linalg.eigh(spread)
-            root = turned * np.sqrt(np.maximum(size, 0.0))[:, None, :]
+            root = root_of(spread)
             coordinates = iter(np.moveaxis(root @ pencil.normals(root.shape[-1]), 1, 0))
         for name in off:
             value = env[name]

@@ -14,6 +14,9 @@ from planmethod.solved.reading import Reals
 CENTRAL = (0.158655253931457, 0.841344746068543)
 """Quantiles of one sigma either side of the mean of a normal error."""
 
+NOISE = 1e-12
+"""Variances, in parts of the largest, that are what rounding leaves of nothing."""
+
 
 def sigma_of(value: Dual) -> Reals:
     """Return the sigma of a number in every position."""
@@ -35,6 +38,18 @@ def covariance_of(values: Sequence[Dual]) -> Reals:
     ]
     products = np.array(rows)[:, None] * np.array(rows)[None]
     return np.asarray(np.add.accumulate(products, axis=2)[:, :, -1], dtype=float)
+
+
+def root_of(spread: Reals) -> Reals:
+    """Return the symmetric square roots of covariance matrices, shape (n, k, k).
+
+    Of all roots it alone is the same whatever the signs of the eigenvectors are, and their turn
+    where eigenvalues are equal: the last bit decides both, and the drawings of a lattice that are
+    made with them, and their sigma by as much as 7 %.
+    """
+    size, turned = np.linalg.eigh(spread)
+    size = np.where(size > NOISE * size[:, -1:], size, 0.0)
+    return np.asarray((turned * np.sqrt(size)[:, None, :]) @ np.swapaxes(turned, -1, -2))
 
 
 def half_widths(item: DrawnQuantity, rows: Reals) -> Reals:
