@@ -249,7 +249,10 @@ class TapeProgram(Struct, frozen=True):
 
 
 def write(
-    program: Program, data: Mapping[str, complex | float], inputs: tuple[str, ...]
+    program: Program,
+    data: Mapping[str, complex | float],
+    inputs: tuple[str, ...],
+    parts: Mapping[Name, int] | None = None,
 ) -> TapeProgram:
     """Read a program in symbols.
 
@@ -261,8 +264,12 @@ def write(
     inputs : tuple of str
         Known numbers that differ from position to position; a complex point that varies has two
         inputs, ``name.x`` and ``name.y``.
+    parts : mapping of name to int, optional
+        Part of the program that a step begins or goes on with; any other step is of the latest part
+        of what it uses.
     """
     ar = Symbolic()
+    parts = parts or {}
     lifted: dict[str, Number] = {name: ar.lift(value) for name, value in data.items()}
     refs = {name: ar.tape.input(number) for number, name in enumerate(inputs)}
     for name, ref in refs.items():
@@ -275,6 +282,7 @@ def write(
     guards: list[Guard] = []
     depends: dict[Name, frozenset[int]] = {}
     for step in program.steps:
+        ar.tape.part = parts.get(step.out, 0)
         value, margin = apply(step, env, lifted, ar)
         mine = frozenset[int]().union(*(depends[name] for name, _ in operands(step)))
         if margin is not None:
@@ -286,6 +294,7 @@ def write(
         env[step.out] = value if isinstance(value, Symbol | tuple) else ar.lift(value)
         depends[step.out] = mine
         _note_lengths(step, env, ar)
+    ar.tape.part = 0
     return TapeProgram(ar.tape, env, tuple(guards), depends, inputs)
 
 

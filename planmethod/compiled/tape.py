@@ -61,9 +61,19 @@ class Tape(Struct):
 
     An operation on constants is carried out at once, and one that changes nothing (times 1, plus
     0, a + b - a) is not made at all: the tape has no step that a person would skip.
+
+    Attributes
+    ----------
+    part : int
+        Part of the program that is being written: of what is made now.
+    parts : list of int
+        Part of every node: the latest of its own and its operands'. Whoever runs one part after
+        the other has few numbers at hand, however long the tape (`used_by`).
     """
 
     nodes: list[Node] = field(default_factory=list)
+    part: int = 0
+    parts: list[int] = field(default_factory=list)
     _made: dict[tuple[Any, ...], int] = field(default_factory=dict)
 
     def make(self, kind: str, *operands: Ref) -> Ref:
@@ -75,6 +85,8 @@ class Tape(Struct):
         if number is None:
             number = self._made[key] = len(self.nodes)
             self.nodes.append(Node(kind, operands))
+            before = (self.parts[ref] for ref in operands if type(ref) is int)
+            self.parts.append(0 if kind == "input" else max(self.part, *before, 0))
         return number
 
     def input(self, number: int) -> Ref:

@@ -74,6 +74,12 @@ class Construction(Struct, frozen=True, dict=True):
     def _made(self) -> dict[Name, Step]:
         return {step.out: step for step in self.program.steps}
 
+    @property
+    def parts(self) -> dict[Name, int]:
+        """Number of the group that a step of the position plan places, from 0 of the frame."""
+        placed = (section for section in self.sections if section.kind is PlanKind.POSITION)
+        return {step.out: k for k, section in enumerate(placed) for step in section.steps}
+
     def plan(self, kind: PlanKind) -> Plan:
         """Return the velocity or the acceleration plan."""
         return next(plan for plan in self.plans if plan.kind is kind)

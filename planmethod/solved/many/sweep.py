@@ -128,7 +128,8 @@ class Sweep:
         self.varied = tuple(varied)
         fixed = {name: v for name, v in self.constants.items() if name not in self.varied}
         given = (*self.branches, *(() if self.loads is None else self.loads.names))
-        written = write(self.program, fixed, (self.driver, *self.varied, *given))
+        inputs = (self.driver, *self.varied, *given)
+        written = write(self.program, fixed, inputs, solution.construction.parts)
         self.rows, refs, depends = rows_of(chosen, written, results.draft.origin, moved, drawn)
         self._runner = Runner(written, refs, depends, dtype=dtype, native=native)
 
