@@ -98,11 +98,18 @@ class _Cutter(Struct):
         self.start = self.draft.note_plan(kind, self.start)
 
 
-def draw_positions(problem: Problem, groups: Iterable[AssurGroup], choice: Choice) -> Draft:
-    """Plan the position plan of the driver and the given groups."""
+def begin_positions(problem: Problem, choice: Choice) -> Draft:
+    """Plan the position plan of the driver: groups are added to it one by one."""
     draft = Draft(problem, choice)
-    _positions(draft, groups, _Cutter(draft))
+    _positions(draft, (), _Cutter(draft))
     return draft
+
+
+def add_group(draft: Draft, group: AssurGroup) -> None:
+    """Add a group to a position plan that has what it hangs on."""
+    cutter = _Cutter(draft, len(draft.b.steps))
+    place_group(draft, group)
+    cutter.cut(PlanKind.POSITION, group)
 
 
 def _positions(draft: Draft, groups: Iterable[AssurGroup], cutter: _Cutter) -> None:
