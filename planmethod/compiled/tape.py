@@ -85,8 +85,11 @@ class Tape(Struct):
         if number is None:
             number = self._made[key] = len(self.nodes)
             self.nodes.append(Node(kind, operands))
-            before = (self.parts[ref] for ref in operands if type(ref) is int)
-            self.parts.append(0 if kind == "input" else max(self.part, *before, 0))
+            latest, read = (0, ()) if kind == "input" else (self.part, operands)
+            for ref in read:
+                if type(ref) is int and self.parts[ref] > latest:
+                    latest = self.parts[ref]
+            self.parts.append(latest)
         return number
 
     def input(self, number: int) -> Ref:

@@ -80,6 +80,8 @@ class Draft:
         Points of each link that the position plan has.
     marked : dict of str to None
         All of them, in the order in which they were placed.
+    links_of : dict of str to list of str
+        Links that have a point.
     axes : dict of str to LineName
         Own axis of a link whose direction is not told by two of its points.
     read : dict of (str, str) to None
@@ -104,7 +106,7 @@ class Draft:
         self.branches: dict[str, Closing | Start] = {}
         self.placed: dict[str, list[str]] = {}
         self.marked: dict[str, None] = {}
-        self._links_of = _links_of_points(problem)
+        self.links_of = _links_of_points(problem)
         self.axes: dict[str, LineName] = {}
         self.mu_l = self.b.known("mu_l")
         self.origin = _origin(problem)
@@ -223,7 +225,7 @@ class Draft:
 
     def mark_placed(self, point: str) -> PointName:
         """Note that the plan has a point: on every link that shares it."""
-        for link in self._links_of.get(point, ()):
+        for link in self.links_of.get(point, ()):
             if point not in self.placed.setdefault(link, []):
                 self.placed[link].append(point)
                 self.marked[point] = None
