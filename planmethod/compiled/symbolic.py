@@ -280,22 +280,31 @@ def write(
             lifted[point] = Symbol(ar.tape, ref, refs[f"{point}.y"])
     env: dict[Name, Any] = {}
     guards: list[Guard] = []
-    depends: dict[Name, frozenset[int]] = {}
+    depends: dict[Name, int] = {}  # guards as bits: a set for every step would be many numbers
     for step in program.steps:
         ar.tape.part = parts.get(step.out, 0)
         value, margin = apply(step, env, lifted, ar)
-        mine = frozenset[int]().union(*(depends[name] for name, _ in operands(step)))
+        mine = 0
+        for name, _ in operands(step):
+            mine |= depends[name]
         if margin is not None:
             guard = _watched(Guard(step.out, ar.lift(margin).re, limit_of(step)), ar.tape)
             if guard is not None:
-                mine |= {len(guards)}
+                mine |= 1 << len(guards)
                 guards.append(guard)
         # A sum of no terms is a plain number.
         env[step.out] = value if isinstance(value, Symbol | tuple) else ar.lift(value)
         depends[step.out] = mine
         _note_lengths(step, env, ar)
     ar.tape.part = 0
-    return TapeProgram(ar.tape, env, tuple(guards), depends, inputs)
+    alike = {bits: _numbers(bits) for bits in set(depends.values())}
+    told = {name: alike[bits] for name, bits in depends.items()}
+    return TapeProgram(ar.tape, env, tuple(guards), told, inputs)
+
+
+def _numbers(bits: int) -> frozenset[int]:
+    """Return the numbers of the bits that are set."""
+    return frozenset(number for number, bit in enumerate(f"{bits:b}"[::-1]) if bit == "1")
 
 
 def _watched(guard: Guard, tape: Tape) -> Guard | None:
