@@ -154,6 +154,11 @@ class Sweep:
         return self._runner.operations
 
     @property
+    def live(self) -> int:
+        """Most numbers of a position that are in use at a time."""
+        return self._runner.live
+
+    @property
     def uncompiled(self) -> str:
         """Why there is no machine code; empty if there is."""
         return self._runner.uncompiled
