@@ -76,7 +76,7 @@ class Draft:
     origin : complex, m
         Zero, but for a mechanism that stands far from the origin of its file: coordinates counted
         from a place of its own keep the digits of its links.
-    placed : dict of str to list of str
+    placed : dict of str to tuple of str
         Points of each link that the position plan has.
     marked : dict of str to None
         All of them, in the order in which they were placed.
@@ -104,7 +104,7 @@ class Draft:
         self.numbers: dict[str, float] = {}
         self.places: dict[str, complex] = {}
         self.branches: dict[str, Closing | Start] = {}
-        self.placed: dict[str, list[str]] = {}
+        self.placed: dict[str, tuple[str, ...]] = {}
         self.marked: dict[str, None] = {}
         self.links_of = _links_of_points(problem)
         self.axes: dict[str, LineName] = {}
@@ -128,7 +128,7 @@ class Draft:
         other.dimensions, other.feet = dict(self.dimensions), dict(self.feet)
         other.marked, other._lengths = dict(self.marked), set(self._lengths)
         other.special = dict(self.special)
-        other.placed = {link: list(points) for link, points in self.placed.items()}
+        other.placed = dict(self.placed)
         return other
 
     def note_plan(self, kind: PlanKind, start: int) -> int:
@@ -226,8 +226,9 @@ class Draft:
     def mark_placed(self, point: str) -> PointName:
         """Note that the plan has a point: on every link that shares it."""
         for link in self.links_of.get(point, ()):
-            if point not in self.placed.setdefault(link, []):
-                self.placed[link].append(point)
+            here = self.placed.get(link, ())
+            if point not in here:
+                self.placed[link] = (*here, point)
                 self.marked[point] = None
         return PointName(point)
 
@@ -270,7 +271,7 @@ class Draft:
 
     def locate(self, link: str, point: str) -> PointName:
         """Place a point of a link whose direction is known, from its coordinates."""
-        if point in self.placed.get(link, []):
+        if point in self.placed.get(link, ()):
             return PointName(point)
         body = self.problem.bodies[link]
         here = self.placed[link]
