@@ -114,7 +114,8 @@ def letter_of(joint: Joint) -> str:
 def joints_of_links(mechanism: Mechanism) -> dict[str, list[tuple[int, Joint]]]:
     """Return the joints of every link, each with its number among all of them."""
     found: dict[str, list[tuple[int, Joint]]] = {link: [] for link in mechanism.links}
-    for number, joint in enumerate((*mechanism.revolutes, *mechanism.prismatics)):
+    joints: tuple[Joint, ...] = (*mechanism.revolutes, *mechanism.prismatics)
+    for number, joint in enumerate(joints):
         for link in dict.fromkeys(links_of(joint)):
             found.setdefault(link, []).append((number, joint))
     return found

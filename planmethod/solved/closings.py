@@ -275,7 +275,8 @@ class _Settled:
 
 def _further(before: Reading, steps: Sequence[Step], data: Mapping[str, Number]) -> Reading:
     """Return a reading with further steps; of the data they take what is theirs."""
-    own = {step.out: data[step.out] for step in steps if isinstance(step, Given | GivenNumber)}
+    given = [step.out for step in steps if isinstance(step, Given | GivenNumber)]
+    own: dict[str, Number] = {name: data[name] for name in given}
     return before.go_on(steps, own, Float64())
 
 
@@ -386,7 +387,7 @@ def _missing(group: AssurGroup, both: list[Tried], positions: Reals, untold: Rul
     )
     words = [] if untold else telling_rules(c, both, slice(None))
     if untold is not None:
-        ahead = [score_of(untold, draft, reading) for draft, _, reading in both]
+        ahead = [score_of(untold, draft, reading) for draft, reading in both]
         sides = [float(np.nansum(score)) for score in ahead]
         if sides[0] * sides[1] < 0:  # both lie to one side if far off the line
             words = [f"towards {untold.refs[0]}", f"away from {untold.refs[0]}"]

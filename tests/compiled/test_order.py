@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from benchmarks.scenes import chain
-from planmethod.compiled import symbolic
+from planmethod.compiled import Runner, symbolic
 from planmethod.compiled.blocks import AT_HAND, BLOCK, LEAST_BLOCK, Blocks
 from planmethod.compiled.csource import _Lines
 from planmethod.compiled.straight import used_by
@@ -24,13 +24,12 @@ def written(problem: Problem, asked: list[str] | None, monkeypatch: pytest.Monke
     """Return the written program of a sweep and the results wanted of it."""
     kept: list[Any] = []
 
-    class Watched(sweeping.Runner):
-        def __init__(self, made: TapeProgram, results: Any, depends: Any, **more: Any) -> None:
-            kept.append((made, results, depends))
-            super().__init__(made, results, depends, **more)
+    def watched(made: TapeProgram, results: Any, depends: Any, **more: Any) -> Runner:
+        kept.append((made, results, depends))
+        return Runner(made, results, depends, **more)
 
     with monkeypatch.context() as patch:
-        patch.setattr(sweeping, "Runner", Watched)
+        patch.setattr(sweeping, "Runner", watched)
         Sweep(problem, asked, native=False)
     return kept[0]
 

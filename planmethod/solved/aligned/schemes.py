@@ -261,11 +261,11 @@ def constraint_rank(
             break
         k = min(i for i, value in head.items() if abs(value) == most)
         rank += 1
-        for number, row in enumerate(rows):
-            share = row.get(k, 0.0) / head[k]
+        for number, other in enumerate(rows):
+            share = other.get(k, 0.0) / head[k]
             if share:
-                row.update({i: row.get(i, 0.0) - share * value for i, value in head.items()})
-                largest[number] = max(map(abs, row.values()))
+                other.update({i: other.get(i, 0.0) - share * value for i, value in head.items()})
+                largest[number] = max(map(abs, other.values()))
     return rank
 
 
