@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import re
 import threading
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from typing import Any
 
 import numpy as np
@@ -62,6 +62,8 @@ class Blocks:
     ----------
     live : int
         Most numbers of a position that are in use at a time: made, and to be read yet.
+    operations : int
+        Calls for a block, guards not counted.
     """
 
     def __init__(
@@ -76,15 +78,11 @@ class Blocks:
     ) -> None:
         self.results, self.guards, self.depends = tuple(results), tuple(guards), tuple(depends)
         self.dtype = np.dtype(dtype)
-        self._steps, self._buffers, self.live = _schedule(tape, self.results, self.guards)
+        steps, self._buffers, self.live = _schedule(tape, self.results, self.guards)
+        self.operations = sum(step.kind != "guard" for step in steps)
         self.block = block or _block(self.live * self.dtype.itemsize)
-        self._code = _line(self._steps, len(self.results))
+        self._code = _line(steps, len(self.results))
         self._own = threading.local()  # each thread turns angles with arrays of its own
-
-    @property
-    def operations(self) -> int:
-        """Calls for a block, guards not counted."""
-        return sum(step.kind != "guard" for step in self._steps)
 
     def run(
         self,
@@ -238,8 +236,8 @@ class _Step:
 
     __slots__ = ("into", "kind", "sources")
 
-    def __init__(self, kind: str, sources: list[Any], into: list[Place]) -> None:
-        self.kind, self.sources, self.into = kind, sources, into
+    def __init__(self, kind: str, sources: Iterable[Any], into: Iterable[Place]) -> None:
+        self.kind, self.sources, self.into = kind, tuple(sources), tuple(into)
 
 
 def _block(in_use: int) -> int:

@@ -53,7 +53,10 @@ def same(a: Ref, b: Ref) -> bool:
 
 
 def _key(kind: str, operands: tuple[Ref, ...]) -> tuple[Any, ...]:
-    return kind, *((type(operand), operand) for operand in operands)
+    nodes = 0  # which operands are nodes: 2 == 2.0
+    for operand in operands:
+        nodes = 2 * nodes + (type(operand) is int)
+    return kind, nodes, *operands
 
 
 class Tape(Struct):

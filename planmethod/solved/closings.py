@@ -80,7 +80,7 @@ def construct(problem: Problem) -> Construction:
     return build(problem, structure, choose_closings(problem, structure))
 
 
-class Wanted(Struct, frozen=True):
+class WantedReading(Struct, frozen=True):
     """A reading that is wanted.
 
     Attributes
@@ -103,7 +103,7 @@ class Wanted(Struct, frozen=True):
         return self.draft.b.program()
 
 
-Choosing = Generator[Wanted, Reading, dict[tuple[str, ...], Closing]]
+Choosing = Generator[WantedReading, Reading, dict[tuple[str, ...], Closing]]
 
 
 def choose_closings(problem: Problem, structure: Structure) -> dict[tuple[str, ...], Closing]:
@@ -159,7 +159,7 @@ def choosing(problem: Problem, structure: Structure) -> Choosing:
         both: list[Tried] = []
         for sign in (1, -1):
             draft = _with(settled, group, Closing(sign))
-            both.append((draft, (yield Wanted(draft, len(settled.b.steps), positions))))
+            both.append((draft, (yield WantedReading(draft, len(settled.b.steps), positions))))
         extent.take(settled.marked, both[:1])
         late = [late_fault(rule, both[0][0]) for rule in mine] + [
             unkept_fault(problem, rule, group) for rule in mine
@@ -264,7 +264,7 @@ class _Settled:
         self._reading: Reading | None = None
         self._read = 0
 
-    def read(self, wanted: Wanted) -> Reading:
+    def read(self, wanted: WantedReading) -> Reading:
         steps, end = wanted.draft.b.steps, wanted.settled
         before = self._reading or Reading(Trace({}, {}), len(wanted.positions))
         data = drive_data(wanted.draft.problem, wanted.draft, wanted.positions)
