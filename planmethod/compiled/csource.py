@@ -178,6 +178,8 @@ class _Lines:
         self.watched: set[int] = set()  # words of the margins that loops before have looked at
         self._home: dict[int, str] = {}  # where the next loops find a node
         needed = used_by(tape, [*results, *(guard.margin for guard in guards)])
+        if len(needed) <= STAGE:  # none of it leaves the nearest cache: quickest as it is written
+            needed.sort()
         stages = _stages(tape, needed, results)
         last = {ref: k for k, stage in enumerate(stages) for n in stage for ref in _used(tape, n)}
         rows = _places(results)
