@@ -9,6 +9,7 @@ from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
+from benchmarks.growth import Chain
 from benchmarks.rivals import Rival
 from planmethod.bench.speed import ReadSpeed
 
@@ -28,7 +29,7 @@ def draw(
     readings: Sequence[ReadSpeed],
     rivals: Sequence[Rival],
     positions: Sequence[tuple[int, float]],
-    links: Sequence[tuple[int, int, float, float, float]],
+    links: Sequence[Chain],
 ) -> bytes:
     """Return the figure as PNG: two log-log plots side by side."""
     figure = Figure(figsize=(11, 5.2), layout="constrained")
@@ -79,7 +80,7 @@ def _errors(axes: Axes, readings: Sequence[ReadSpeed], rivals: Sequence[Rival]) 
 def _growth(
     axes: Axes,
     positions: Sequence[tuple[int, float]],
-    links: Sequence[tuple[int, int, float, float, float]],
+    links: Sequence[Chain],
 ) -> None:
     axes.loglog(
         [n for n, _ in positions],
@@ -89,15 +90,15 @@ def _growth(
         label="slotted link, by positions in a call",
     )
     axes.loglog(
-        [row[0] for row in links],
-        [row[4] / 10_000 for row in links],
+        [one.links for one in links],
+        [one.many / one.count for one in links],
         "s-",
         color="#5aa61f",
         label="chain of dyads, by links, 10⁴ positions",
     )
     axes.loglog(
-        [row[0] for row in links],
-        [row[2] for row in links],
+        [one.links for one in links],
+        [one.ready for one in links],
         "^--",
         color="#b3261e",
         label="chain of dyads, by links: to prepare, once",

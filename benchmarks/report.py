@@ -10,13 +10,13 @@ from pathlib import Path
 
 import numpy as np
 
-from benchmarks import bounds, processes, rivals
+from benchmarks import bounds, growth, processes, rivals
 from benchmarks.figure import draw
 from benchmarks.many import many_section
 from benchmarks.peers import PEERS, missing
 from benchmarks.scenes import FOURBAR_ROWS, fourbar, slotted
 from planmethod.bench import speed
-from planmethod.bench.report import Table, number, span, speed_section, table
+from planmethod.bench.report import Table, load, number, span, speed_section, table
 from planmethod.bench.speed import Timing
 
 NAME = "speed-and-error"
@@ -103,9 +103,10 @@ def rivals_section(compared: Sequence[rivals.Rival]) -> Table:
 
 def growth_section(
     positions: Sequence[tuple[int, float]],
-    links: Sequence[tuple[int, int, float, float, float]],
+    links: Sequence[growth.Chain],
+    others: Sequence[growth.Cost] = (),
 ) -> Table:
-    """Return cost against the number of positions and of links."""
+    """Return cost against the number of positions, of links and of all else."""
     return [
         "## Cost against size",
         "",
@@ -116,16 +117,47 @@ def growth_section(
             [(f"{n:,}".replace(",", " "), span(s), span(s / n)) for n, s in positions],
         ),
         "",
-        "A chain of dyads, everything asked, by number of moving links. To prepare is to analyse "
-        "the structure, choose the closings, plan the construction and compile it, once:",
+        "A chain of dyads, everything asked, by number of moving links; NumPy's blocks, time of "
+        f"the processor, medians; {load()}. To prepare is to analyse the structure, choose the "
+        "closings, plan the construction and compile it, once. *At hand* are the numbers of a "
+        "position that are in use at a time: a buffer is given back when its last reader has run, "
+        "and a group is run whole before the next one.",
         "",
         *table(
-            ("links", "steps", "to prepare", "one position", "10⁴ positions", "for a position"),
+            (
+                "links", "steps", "at hand", "to prepare", "one position", "10⁴ positions",
+                "for a position and link",
+            ),
             [
-                (str(n), str(steps), span(ready), span(one), span(many), span(many / 10_000))
-                for n, steps, ready, one, many in links
+                (
+                    str(one.links), str(one.steps), str(one.live), span(one.ready),
+                    span(one.one), span(one.many), span(one.each),
+                )
+                for one in links
             ],
         ),
+        *bounds.bounds_table(growth.bounds_of_links(links)),
+        *_others(others),
+    ]  # fmt: skip
+
+
+def _others(found: Sequence[growth.Cost]) -> Table:
+    """Return what loads, wheels and answers cost."""
+    if not found:
+        return []
+    return [
+        "",
+        "Loads on a point of a six-link mechanism, the forces in all positions; wheels in a row, "
+        "their record; honest works of one task, checked:",
+        "",
+        *table(
+            ("what", "number", "time", "for one"),
+            [
+                (one.what, str(one.number), span(one.seconds), span(one.seconds / one.number))
+                for one in found
+            ],
+        ),
+        *bounds.bounds_table(growth.bounds_of_costs(found)),
     ]
 
 
@@ -228,9 +260,16 @@ class Measured:
         return rivals.by_positions((1, 12, 100, 1000, 10_000, *more))
 
     @cached_property
-    def links(self) -> list[tuple[int, int, float, float, float]]:
+    def links(self) -> list[growth.Chain]:
         """Cost by links."""
-        return rivals.by_links((1, 2, 5) if self.quick else (1, 2, 4, 8, 16, 25))
+        return growth.by_links((1, 2, 5) if self.quick else growth.DYADS)
+
+    @cached_property
+    def others(self) -> list[growth.Cost]:
+        """Cost by loads, wheels, answers."""
+        if self.quick:
+            return []
+        return [*growth.by_loads(), *growth.by_wheels(), *growth.by_works()]
 
     def speed(self) -> Table:
         """Return time beside error."""
@@ -245,7 +284,7 @@ class Measured:
     def size(self) -> Table:
         """Return cost against size, and what asking for less saves."""
         scenes = scenes_section(rivals.by_scene())
-        return [*growth_section(self.positions, self.links), "", *scenes]
+        return [*growth_section(self.positions, self.links, self.others), "", *scenes]
 
     def commands(self) -> Table:
         """Return whole commands, and memory."""

@@ -10,7 +10,7 @@ import numpy as np
 import numpy.typing as npt
 
 from benchmarks.peers import peers
-from benchmarks.scenes import FOURBAR_ROWS, chain, fourbar, slotted
+from benchmarks.scenes import FOURBAR_ROWS, fourbar, slotted
 from planmethod.bench.speed import Timing, clock, everything, right_rows, row_error, spread, turn
 from planmethod.solved.many.sweep import Sweep
 
@@ -128,23 +128,6 @@ def by_positions(counts: Sequence[int]) -> list[tuple[int, float]]:
         out = None if n <= 40 else np.empty((len(sweep.rows), n))
         angles = turn(n)
         found.append((n, clock(lambda a=angles, o=out: sweep.run(a, out=o)).median))  # type: ignore[misc]
-    return found
-
-
-def by_links(
-    dyads: Sequence[int], *, count: int = 10_000
-) -> list[tuple[int, int, float, float, float]]:
-    """Return (links, steps, seconds to prepare, seconds for one position, for ``count``)."""
-    found = []
-    angles = turn(count)
-    for k in dyads:
-        problem = chain(k)
-        ready = clock(lambda p=problem: Sweep(p), enough=0.2, least=3).median  # type: ignore[misc]
-        sweep = Sweep(problem)
-        out = np.empty((len(sweep.rows), count))
-        one = clock(lambda s=sweep: s.run(angles[:1])).median  # type: ignore[misc]
-        many = clock(lambda s=sweep, o=out: s.run(angles, out=o)).median  # type: ignore[misc]
-        found.append((1 + 2 * k, sweep.steps, ready, one, many))
     return found
 
 

@@ -89,10 +89,30 @@ couple = 15
 """Masses and loads of the six-link mechanism whose forces are timed."""
 
 
-MANY_LOADS = template("six-link") + "".join(
-    f'[[loads]]\nlink = "5"\nat = "E"\nforce = {50 + k}\nangle = {6 * k}\n' for k in range(60)
-)
+def _many_loads(count: int) -> str:
+    return template("six-link") + "".join(
+        f'[[loads]]\nlink = "5"\nat = "E"\nforce = {50 + k}\nangle = {6 * k}\n'
+        for k in range(count)
+    )
+
+
+MANY_LOADS = _many_loads(60)
 """A six-link mechanism with sixty loads on a point."""
+
+
+def with_loads(count: int) -> Problem:
+    """Return a six-link mechanism with so many loads on a point."""
+    return loads(_many_loads(count), name=f"six-link, {count} loads")
+
+
+def train(wheels: int) -> str:
+    """Return the file of a train of wheels in a row, each in mesh with the next."""
+    teeth = ", ".join(f"{k} = {20 + k}" for k in range(1, wheels + 1))
+    meshes = ", ".join(f'{{ of = [{k}, {k + 1}], kind = "external" }}' for k in range(1, wheels))
+    return (
+        f'title = "Train"\n[gears]\nwheels = {{ {teeth} }}\nmeshes = [{meshes}]\n'
+        f'n = {{ 1 = 330 }}\nask = ["U_1_{wheels}", "n_{wheels}"]\n'
+    )
 
 
 def loaded() -> Problem:

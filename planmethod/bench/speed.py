@@ -36,15 +36,21 @@ class Timing(Struct, frozen=True):
     runs: int
 
 
-def clock(act: Callable[[], object], *, enough: float = 0.4, least: int = 5) -> Timing:
+def clock(
+    act: Callable[[], object],
+    *,
+    enough: float = 0.4,
+    least: int = 5,
+    timer: Callable[[], float] = time.perf_counter,
+) -> Timing:
     """Time something warm: once to warm up, then until it has run long enough and often enough."""
     act()
     times: list[float] = []
-    began = time.perf_counter()
-    while len(times) < least or (time.perf_counter() - began < enough and len(times) < 2000):
-        start = time.perf_counter()
+    began = timer()
+    while len(times) < least or (timer() - began < enough and len(times) < 2000):
+        start = timer()
         act()
-        times.append(time.perf_counter() - start)
+        times.append(timer() - start)
     return Timing(statistics.median(times), min(times), max(times), len(times))
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import re
 import threading
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from typing import Any
 
 import numpy as np
@@ -19,8 +19,13 @@ from planmethod.construct.arithmetic import unit_vectors
 Array = npt.NDArray[Any]
 
 BLOCK = 16384
-"""Positions in a block: large enough that a call of NumPy costs less than its arithmetic, small
-enough that the buffers and rows in use stay in the caches."""
+"""Most positions in a block: so many that a call of NumPy costs less than its arithmetic."""
+
+LEAST_BLOCK = 2048
+"""Fewest: below, the calls cost more than what the caches save."""
+
+AT_HAND = 16 * 2**20
+"""Bytes of the buffers and rows that are in use at a time: what the caches hold, about."""
 
 UFUNC: dict[str, np.ufunc] = {
     "add": np.add,
@@ -50,6 +55,15 @@ class Blocks:
         Guards that each result depends on.
     dtype : dtype
         float64, or float32 for a picture.
+    block : int, optional
+        Positions in a block; when absent, as many as the numbers in use leave room for.
+
+    Attributes
+    ----------
+    live : int
+        Most numbers of a position that are in use at a time: made, and to be read yet.
+    operations : int
+        Calls for a block, guards not counted.
     """
 
     def __init__(
@@ -60,18 +74,15 @@ class Blocks:
         depends: Sequence[frozenset[int]],
         *,
         dtype: npt.DTypeLike = np.float64,
-        block: int = BLOCK,
+        block: int | None = None,
     ) -> None:
         self.results, self.guards, self.depends = tuple(results), tuple(guards), tuple(depends)
-        self.dtype, self.block = np.dtype(dtype), block
-        self._steps, self._buffers = _schedule(tape, self.results, self.guards, self.dtype)
-        self._code = _line(self._steps, len(self.results))
+        self.dtype = np.dtype(dtype)
+        steps, self._buffers, self.live = _schedule(tape, self.results, self.guards)
+        self.operations = sum(step.kind != "guard" for step in steps)
+        self.block = block or _block(self.live * self.dtype.itemsize)
+        self._code = _line(steps, len(self.results))
         self._own = threading.local()  # each thread turns angles with arrays of its own
-
-    @property
-    def operations(self) -> int:
-        """Calls for a block, guards not counted."""
-        return sum(step.kind != "guard" for step in self._steps)
 
     def run(
         self,
@@ -225,16 +236,28 @@ class _Step:
 
     __slots__ = ("into", "kind", "sources")
 
-    def __init__(self, kind: str, sources: list[Any], into: list[Place]) -> None:
-        self.kind, self.sources, self.into = kind, sources, into
+    def __init__(self, kind: str, sources: Iterable[Any], into: Iterable[Place]) -> None:
+        self.kind, self.sources, self.into = kind, tuple(sources), tuple(into)
+
+
+def _block(in_use: int) -> int:
+    """Return the positions of a block of which so many bytes each are in use at a time."""
+    return max(LEAST_BLOCK, min(BLOCK, AT_HAND // max(in_use, 1) // 1024 * 1024))
 
 
 def _schedule(
-    tape: Tape, results: Sequence[Ref], guards: Sequence[Guard], dtype: np.dtype[Any]
-) -> tuple[list[_Step], int]:
+    tape: Tape, results: Sequence[Ref], guards: Sequence[Guard]
+) -> tuple[list[_Step], int, int]:
     """Give every node a place: a row of the output if it is a result, else a buffer.
 
     A buffer is reused as soon as what it held has been used for the last time.
+
+    Returns
+    -------
+    steps : list of _Step
+    buffers : int
+    live : int
+        See `Blocks`.
     """
     watch: dict[int, list[int]] = {}
     for place_of, guard in enumerate(guards):
@@ -254,11 +277,13 @@ def _schedule(
             rows.setdefault(ref, row)
     place: dict[int, Place] = {}
     free: list[int] = []
-    count = 0
+    count = live = most = 0
     steps: list[_Step] = []
 
     def settle(node: int) -> Place:
-        nonlocal count
+        nonlocal count, live, most
+        live += 1
+        most = max(most, live)
         if node in rows:
             place[node] = f"o{rows[node]}"
         else:
@@ -269,29 +294,30 @@ def _schedule(
         return place[node]
 
     def release(node: int) -> None:
+        nonlocal live
+        live -= not place[node].startswith("x")
         if place[node].startswith("b"):
             free.append(int(place[node][1:]))
 
     for number in needed:
         kind, refs = tape.nodes[number]
-        sources = [
-            place[ref] if type(ref) is int else float(ref) for ref in refs if kind != "input"
-        ]
+        read = () if kind == "input" else refs
+        sources = [place[ref] if type(ref) is int else float(ref) for ref in read]
+        dying = [ref for ref in dict.fromkeys(read) if type(ref) is int and last[ref] == number]
         if kind == "input":
             place[number] = f"x{refs[0]}"
         elif kind in ("cosd", "sind"):
-            if number in place:  # made together with its partner
-                pass
-            else:
+            if number not in place:  # else made together with its partner
                 other = partner[number]
                 pair = (number, other) if kind == "cosd" else (other, number)
                 steps.append(_Step("turn", sources, [settle(n) for n in pair]))
                 for made in pair:
-                    if made in last and last[made] < 0 and made not in rows and made not in watch:
+                    if last.get(made, -1) < 0 and made not in watch:
                         release(made)
+            for ref in dying:
+                release(ref)
         else:
             # In place where an operand is used for the last time: one buffer less in the cache.
-            dying = [ref for ref in dict.fromkeys(refs) if type(ref) is int and last[ref] == number]
             if kind != "at_zero":
                 for ref in dying:
                     release(ref)
@@ -302,14 +328,14 @@ def _schedule(
         for watching in watch.get(number, ()):
             limit = guards[watching].limit
             steps.append(_Step("guard", [place[number], watching, limit], []))
-        if last[number] < 0 and number not in rows and kind not in ("input", "cosd", "sind"):
+        if last[number] < 0 and kind not in ("input", "cosd", "sind"):
             release(number)
     for row, ref in enumerate(results):
         if type(ref) is int and rows[ref] != row:
             steps.append(_Step("copy", [f"o{rows[ref]}"], [f"o{row}"]))
         elif type(ref) is int and place[ref].startswith("x"):
             steps.append(_Step("copy", [place[ref]], [f"o{row}"]))
-    return steps, max(count, 1)
+    return steps, max(count, 1), most
 
 
 def _partners(tape: Tape, needed: list[int]) -> dict[int, int]:

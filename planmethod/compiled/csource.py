@@ -12,7 +12,7 @@ from typing import NamedTuple
 
 from planmethod.compiled.straight import BINARY, EQUAL, used_by
 from planmethod.compiled.symbolic import Guard
-from planmethod.compiled.tape import Ref, Tape, same
+from planmethod.compiled.tape import Ref, Tape
 
 BLOCK = 512
 """Positions between two looks at the margins."""
@@ -178,25 +178,32 @@ class _Lines:
         self.watched: set[int] = set()  # words of the margins that loops before have looked at
         self._home: dict[int, str] = {}  # where the next loops find a node
         needed = used_by(tape, [*results, *(guard.margin for guard in guards)])
+        if len(needed) <= STAGE:  # none of it leaves the nearest cache: quickest as it is written
+            needed.sort()
         stages = _stages(tape, needed, results)
         last = {ref: k for k, stage in enumerate(stages) for n in stage for ref in _used(tape, n)}
+        rows = _places(results)
+        watching = _places([guard.margin for guard in guards])
+        ending: list[list[str]] = [[] for _ in stages]  # buffers by the stage that reads them last
         free: list[str] = []
         for k, stage in enumerate(stages):
             self._begin(stage)
             for number in stage:
                 self._write(number)
-                for row in (row for row, ref in enumerate(results) if same(ref, number)):
+                for row in rows.get(number, ()):
                     self._text.append(f"o{row}[i] = {self._name(number)};")
                     self._home.setdefault(number, f"o{row}")
-                self._watch(number, guards)
+                for place in watching.get(number, ()):
+                    self._watch(number, place, guards[place].limit)
                 if last.get(number, k) > k and number not in self._home:
                     if not free:
                         free.append(f"b{self.buffers}")
                         self.buffers += 1
                     self._home[number] = free.pop()
+                    ending[last[number]].append(self._home[number])
                     self._text.append(f"{self._home[number]}[i] = {self._name(number)};")
             self._end()
-            free += [h for n, h in self._home.items() if last.get(n) == k and h[0] == "b"]
+            free += ending[k]
         for row, ref in enumerate(results):
             if type(ref) is float:
                 self._text.append(f"o{row}[i] = {self._name(ref)};")
@@ -257,17 +264,24 @@ class _Lines:
             said = f"{names[0]} * {self._inverse[names[1]]}"
         self._text.append(f"const double t{number} = {said};")
 
-    def _watch(self, number: int, guards: Sequence[Guard]) -> None:
-        """Note where a margin does not hold."""
-        for place, guard in enumerate(guards):
-            if same(guard.margin, number):
-                word, bit = divmod(place, WORD)
-                holds = f"{self._name(number)} > {self._name(float(guard.limit))}"
-                if word not in self._here:
-                    self._here.append(word)
-                    before = f"bad{word}[i]" if word in self.watched else "0"
-                    self._text.append(f"uint64_t g{word} = {before};")
-                self._text.append(f"g{word} |= {holds} ? 0 : {_bits(1 << bit)};")
+    def _watch(self, number: int, place: int, limit: float) -> None:
+        """Note where the margin of a guard does not hold."""
+        word, bit = divmod(place, WORD)
+        holds = f"{self._name(number)} > {self._name(float(limit))}"
+        if word not in self._here:
+            self._here.append(word)
+            before = f"bad{word}[i]" if word in self.watched else "0"
+            self._text.append(f"uint64_t g{word} = {before};")
+        self._text.append(f"g{word} |= {holds} ? 0 : {_bits(1 << bit)};")
+
+
+def _places(refs: Sequence[Ref]) -> dict[int, list[int]]:
+    """Return where every node stands in a sequence."""
+    found: dict[int, list[int]] = {}
+    for place, ref in enumerate(refs):
+        if type(ref) is int:
+            found.setdefault(ref, []).append(place)
+    return found
 
 
 def _is_input(tape: Tape, ref: Ref) -> bool:

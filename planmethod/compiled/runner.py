@@ -83,6 +83,11 @@ class Runner:
         return self._blocks.operations
 
     @property
+    def live(self) -> int:
+        """Most numbers of a position that are in use at a time."""
+        return self._blocks.live
+
+    @property
     def guards(self) -> tuple[Name, ...]:
         """Step of every margin that is watched."""
         return tuple(guard.step for guard in self.written.guards)

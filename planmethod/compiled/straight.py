@@ -30,13 +30,19 @@ position."""
 
 
 def used_by(tape: Tape, wanted: Sequence[Ref]) -> list[int]:
-    """Return the nodes that some results need, in order."""
-    need = {ref for ref in wanted if type(ref) is int}
+    """Return the nodes that some results need, in the order in which they are run.
+
+    The parts of the tape follow each other, so that what a part has made and no later one reads is
+    given up with it.
+    """
+    part = {ref: tape.parts[ref] for ref in wanted if type(ref) is int}
     for number in range(len(tape.nodes) - 1, -1, -1):
         node = tape.nodes[number]
-        if number in need and node.kind != "input":
-            need.update(ref for ref in node.operands if type(ref) is int)
-    return sorted(need)
+        if number in part and node.kind != "input":
+            for ref in node.operands:
+                if type(ref) is int:  # one that an earlier part reads is made there
+                    part[ref] = min(part.get(ref, tape.parts[ref]), part[number])
+    return sorted(part, key=lambda number: (part[number], number))
 
 
 def straight(tape: Tape, results: Sequence[Ref], guards: Sequence[Guard]) -> Straight:

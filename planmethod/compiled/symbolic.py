@@ -249,7 +249,10 @@ class TapeProgram(Struct, frozen=True):
 
 
 def write(
-    program: Program, data: Mapping[str, complex | float], inputs: tuple[str, ...]
+    program: Program,
+    data: Mapping[str, complex | float],
+    inputs: tuple[str, ...],
+    parts: Mapping[Name, int] | None = None,
 ) -> TapeProgram:
     """Read a program in symbols.
 
@@ -261,8 +264,12 @@ def write(
     inputs : tuple of str
         Known numbers that differ from position to position; a complex point that varies has two
         inputs, ``name.x`` and ``name.y``.
+    parts : mapping of name to int, optional
+        Part of the program that a step begins or goes on with; any other step is of the latest part
+        of what it uses.
     """
     ar = Symbolic()
+    parts = parts or {}
     lifted: dict[str, Number] = {name: ar.lift(value) for name, value in data.items()}
     refs = {name: ar.tape.input(number) for number, name in enumerate(inputs)}
     for name, ref in refs.items():
@@ -273,20 +280,31 @@ def write(
             lifted[point] = Symbol(ar.tape, ref, refs[f"{point}.y"])
     env: dict[Name, Any] = {}
     guards: list[Guard] = []
-    depends: dict[Name, frozenset[int]] = {}
+    depends: dict[Name, int] = {}  # guards as bits: a set for every step would be many numbers
     for step in program.steps:
+        ar.tape.part = parts.get(step.out, 0)
         value, margin = apply(step, env, lifted, ar)
-        mine = frozenset[int]().union(*(depends[name] for name, _ in operands(step)))
+        mine = 0
+        for name, _ in operands(step):
+            mine |= depends[name]
         if margin is not None:
             guard = _watched(Guard(step.out, ar.lift(margin).re, limit_of(step)), ar.tape)
             if guard is not None:
-                mine |= {len(guards)}
+                mine |= 1 << len(guards)
                 guards.append(guard)
         # A sum of no terms is a plain number.
         env[step.out] = value if isinstance(value, Symbol | tuple) else ar.lift(value)
         depends[step.out] = mine
         _note_lengths(step, env, ar)
-    return TapeProgram(ar.tape, env, tuple(guards), depends, inputs)
+    ar.tape.part = 0
+    alike = {bits: _numbers(bits) for bits in set(depends.values())}
+    told = {name: alike[bits] for name, bits in depends.items()}
+    return TapeProgram(ar.tape, env, tuple(guards), told, inputs)
+
+
+def _numbers(bits: int) -> frozenset[int]:
+    """Return the numbers of the bits that are set."""
+    return frozenset(number for number, bit in enumerate(f"{bits:b}"[::-1]) if bit == "1")
 
 
 def _watched(guard: Guard, tape: Tape) -> Guard | None:

@@ -53,7 +53,10 @@ def same(a: Ref, b: Ref) -> bool:
 
 
 def _key(kind: str, operands: tuple[Ref, ...]) -> tuple[Any, ...]:
-    return kind, *((type(operand), operand) for operand in operands)
+    nodes = 0  # which operands are nodes: 2 == 2.0
+    for operand in operands:
+        nodes = 2 * nodes + (type(operand) is int)
+    return kind, nodes, *operands
 
 
 class Tape(Struct):
@@ -61,9 +64,19 @@ class Tape(Struct):
 
     An operation on constants is carried out at once, and one that changes nothing (times 1, plus
     0, a + b - a) is not made at all: the tape has no step that a person would skip.
+
+    Attributes
+    ----------
+    part : int
+        Part of the program that is being written: of what is made now.
+    parts : list of int
+        Part of every node: the latest of its own and its operands'. Whoever runs one part after
+        the other has few numbers at hand, however long the tape (`used_by`).
     """
 
     nodes: list[Node] = field(default_factory=list)
+    part: int = 0
+    parts: list[int] = field(default_factory=list)
     _made: dict[tuple[Any, ...], int] = field(default_factory=dict)
 
     def make(self, kind: str, *operands: Ref) -> Ref:
@@ -75,6 +88,11 @@ class Tape(Struct):
         if number is None:
             number = self._made[key] = len(self.nodes)
             self.nodes.append(Node(kind, operands))
+            latest, read = (0, ()) if kind == "input" else (self.part, operands)
+            for ref in read:
+                if type(ref) is int and self.parts[ref] > latest:
+                    latest = self.parts[ref]
+            self.parts.append(latest)
         return number
 
     def input(self, number: int) -> Ref:

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from functools import reduce
+from operator import attrgetter
 from typing import Any
 
 import numpy as np
@@ -36,7 +37,7 @@ class CauseRows:
         self._mask, self._known, self.count = mask, known, count
         self._joined: dict[int, tuple[CauseRows, Any, Any]] = {}
         bits = np.frombuffer(mask.to_bytes(count // 8 + 1, "little"), dtype=np.uint8)
-        self.index = np.flatnonzero(np.unpackbits(bits, bitorder="little"))
+        self.index = np.unpackbits(bits, bitorder="little").nonzero()[0]
         known[mask] = self
 
     def joined(self, other: CauseRows) -> tuple[CauseRows, Any, Any]:
@@ -44,7 +45,7 @@ class CauseRows:
         if other._mask not in self._joined:
             mask = self._mask | other._mask
             both = self._known.get(mask) or CauseRows(mask, self.count, self._known)
-            one, two = (np.searchsorted(both.index, rows.index) for rows in (self, other))
+            one, two = (both.index.searchsorted(rows.index) for rows in (self, other))
             self._joined[other._mask] = both, one, two
         return self._joined[other._mask]
 
@@ -128,12 +129,12 @@ class Dual:
     @property
     def real(self) -> Dual:
         """Real part."""
-        return self._each(np.real)
+        return self._each(attrgetter("real"))
 
     @property
     def imag(self) -> Dual:
         """Imaginary part."""
-        return self._each(np.imag)
+        return self._each(attrgetter("imag"))
 
     def _each(self, part: Callable[[Any], Any]) -> Dual:
         return Dual(part(self.value), None if self.part is None else part(self.part), self.rows)

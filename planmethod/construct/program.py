@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from itertools import islice
 
 from msgspec import Struct, field
 
@@ -99,10 +100,20 @@ class Builder(Struct):
     steps: list[Step] = field(default_factory=list)
     _drawn: dict[tuple[object, ...], LineName] = field(default_factory=dict)
     _count: int = 0
+    _made: set[Name] = field(default_factory=set)
+    _seen: int = 0  # steps whose names are in _made
 
     def copy(self) -> Builder:
         """Return a collector that goes on from here, and leaves this one as it is."""
-        return Builder(list(self.steps), dict(self._drawn), self._count)
+        return Builder(
+            list(self.steps), dict(self._drawn), self._count, set(self._made), self._seen
+        )
+
+    def has(self, name: str) -> bool:
+        """Tell whether a step makes a name."""
+        self._made.update(step.out for step in islice(self.steps, self._seen, None))
+        self._seen = len(self.steps)
+        return name in self._made
 
     def program(self) -> Program:
         """Return what was collected."""

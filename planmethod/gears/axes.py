@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from fractions import Fraction
 from itertools import product
 
@@ -170,7 +170,8 @@ def _solve(
     train: Train, lines: _Lines, meshes: Sequence[Mesh]
 ) -> tuple[TrainDimensions | None, list[Fault]]:
     beside = [m for m in meshes if lines.main not in {lines.line[b] for b in train.ends(m)}]
-    likely = {mesh: _likely_side(train, lines, mesh, meshes) for mesh in beside}
+    away = _away(train, lines, meshes) if beside else ({}, set())
+    likely = {mesh: _likely_side(train, lines, mesh, *away) for mesh in beside}
     chosen = [mesh for mesh in _in_loops(train, lines, meshes) if mesh in likely]
     if len(chosen) > MOST_CHOSEN:
         told = say(
@@ -209,15 +210,13 @@ def _in_loops(train: Train, lines: _Lines, meshes: Sequence[Mesh]) -> list[Mesh]
         left = kept
 
 
-def _likely_side(train: Train, lines: _Lines, mesh: Mesh, meshes: Sequence[Mesh]) -> int:
-    """Return +1 if the second of two axes beside the main one is more likely the higher.
-
-    The axis that fewer meshes part from the main one is the nearer; the other lies beyond it, or
-    within where only the nearer one runs in a ring.
-    """
+def _away(train: Train, lines: _Lines, meshes: Sequence[Mesh]) -> tuple[dict[str, int], set[str]]:
+    """Return how many meshes part each axis from the main one, and which run in a ring of it."""
     steps = {lines.main: 0}
     ringed: set[str] = set()
-    for _ in meshes:
+    before = 0
+    while before < len(steps):
+        before = len(steps)
         for one in meshes:
             ends = [lines.line[body] for body in train.ends(one)]
             for near, far in (ends, ends[::-1]):
@@ -227,6 +226,17 @@ def _likely_side(train: Train, lines: _Lines, mesh: Mesh, meshes: Sequence[Mesh]
                 out = train.ends(one)[1 if ends[0] == lines.main else 0]
                 if lines.main == lines.line[train.body_of[_ring_label(train, one, out)]]:
                     ringed.add(lines.line[out])
+    return steps, ringed
+
+
+def _likely_side(
+    train: Train, lines: _Lines, mesh: Mesh, steps: Mapping[str, int], ringed: Collection[str]
+) -> int:
+    """Return +1 if the second of two axes beside the main one is more likely the higher.
+
+    The axis that fewer meshes part from the main one is the nearer; the other lies beyond it, or
+    within where only the nearer one runs in a ring.
+    """
     first, second = (lines.line[body] for body in train.ends(mesh))
     near, far, side = first, second, 1
     if steps.get(second, 0) < steps.get(first, 0):

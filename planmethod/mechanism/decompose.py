@@ -25,6 +25,7 @@ class Matching:
     def __init__(self) -> None:
         self.supports: list[tuple[Node, ...]] = []
         self.equation_of: dict[Node, int] = {}
+        self._held: dict[int, Node] = {}  # the same the other way round
 
     def add(self, support: Sequence[Node]) -> bool:
         """Add an equation if an augmenting path gives it an unknown of its own."""
@@ -36,10 +37,8 @@ class Matching:
 
     def pop(self) -> None:
         """Take the last equation back."""
-        last = len(self.supports) - 1
         self.supports.pop()
-        for unknown in [u for u, e in self.equation_of.items() if e == last]:
-            del self.equation_of[unknown]
+        del self.equation_of[self._held.pop(len(self.supports))]
 
     def reach(self, support: Sequence[Node]) -> set[Node]:
         """Unknowns that an equation could take over by alternating paths."""
@@ -73,14 +72,15 @@ class Matching:
         return False
 
     def _shift(self, free: Node, came: Mapping[Node, int], start: int) -> None:
-        held = {e: u for u, e in self.equation_of.items()}
         unknown = free
         while True:
             equation = came[unknown]
-            self.equation_of[unknown] = equation
+            before = self._held.get(equation)
+            self.equation_of[unknown], self._held[equation] = equation, unknown
             if equation == start:
                 return
-            unknown = held[equation]
+            assert before is not None
+            unknown = before
 
 
 class Rigidity:
@@ -196,11 +196,16 @@ def blocks(
         needs[unknown[0]].update(equations[equation])
     for node, others in needs.items():
         others.discard(node)
-    found = components({node: [n for n in size if n in needs[node]] for node in size})
+    order = {node: i for i, node in enumerate(size)}
+    found = components({node: sorted(needs[node], key=order.__getitem__) for node in size})
     home = {node: i for i, block in enumerate(found) for node in block}
     waits = [
         {home[n] for node in block for n in needs[node]} - {i} for i, block in enumerate(found)
     ]
+    waiting: list[list[int]] = [[] for _ in found]
+    for i, wait in enumerate(waits):
+        for before in wait:
+            waiting[before].append(i)
     first = [min((rank[node] for node in block if node in rank), default=-1) for block in found]
     ready = [(first[i], i) for i, wait in enumerate(waits) if not wait]
     heapq.heapify(ready)
@@ -208,11 +213,10 @@ def blocks(
     while ready:
         _, done = heapq.heappop(ready)
         ordered.append(found[done])
-        for i, wait in enumerate(waits):
-            if done in wait:
-                wait.discard(done)
-                if not wait:
-                    heapq.heappush(ready, (first[i], i))
+        for i in waiting[done]:
+            waits[i].discard(done)
+            if not waits[i]:
+                heapq.heappush(ready, (first[i], i))
     return ordered
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from typing import TypeAlias
 
 from msgspec import Struct
@@ -111,28 +111,45 @@ def letter_of(joint: Joint) -> str:
     return "R" if isinstance(joint, Revolute) else "P"
 
 
-def make_group(mechanism: Mechanism, links: Collection[str], known: Sequence[str]) -> AssurGroup:
+def joints_of_links(mechanism: Mechanism) -> dict[str, list[tuple[int, Joint]]]:
+    """Return the joints of every link, each with its number among all of them."""
+    found: dict[str, list[tuple[int, Joint]]] = {link: [] for link in mechanism.links}
+    joints: tuple[Joint, ...] = (*mechanism.revolutes, *mechanism.prismatics)
+    for number, joint in enumerate(joints):
+        for link in dict.fromkeys(links_of(joint)):
+            found.setdefault(link, []).append((number, joint))
+    return found
+
+
+def make_group(
+    joints_of: Mapping[str, Sequence[tuple[int, Joint]]],
+    links: Sequence[str],
+    known: Mapping[str, int],
+) -> AssurGroup:
     """Describe a group whose links and predecessors are found (структурная группа).
 
     Parameters
     ----------
-    mechanism : Mechanism
-    links : collection of str
-        Links of the group.
-    known : sequence of str
-        Links known before it, in the order in which they became known: a lead that hangs on a
-        hinge of several known links hangs on the first of them.
+    joints_of : mapping
+        See `joints_of_links`.
+    links : sequence of str
+        Links of the group, in file order.
+    known : mapping of str to int
+        Links known before it, and when they became known: a lead that hangs on a hinge of several
+        known links hangs on the first of them.
     """
-    own = tuple(link for link in mechanism.links if link in links)
+    own = tuple(links)
     leads: list[Lead] = []
     inner: list[Joint] = []
-    joints: tuple[Joint, ...] = (*mechanism.revolutes, *mechanism.prismatics)
-    for joint in joints:
+    for _, joint in sorted(
+        {number: joint for link in own for number, joint in joints_of[link]}.items()
+    ):
         ends = links_of(joint)
         inside = [link for link in own if link in ends]
-        outside = [link for link in known if link in ends]
+        outside = [link for link in ends if link in known]
         if outside:
-            leads += [Lead(link, joint, outside[0]) for link in inside]
+            to = min(outside, key=known.__getitem__)
+            leads += [Lead(link, joint, to) for link in inside]
         elif len(inside) > 1:
             inner.append(joint)
     leads.sort(key=lambda lead: own.index(lead.link))

@@ -6,7 +6,7 @@ from msgspec import Struct
 
 from planmethod.errors import StructureError
 from planmethod.mechanism.decompose import Node, blocks
-from planmethod.mechanism.groups import AssurGroup, make_group
+from planmethod.mechanism.groups import AssurGroup, joints_of_links, make_group
 from planmethod.mechanism.mobility import refuse_immovable, refuse_unbalanced
 from planmethod.mechanism.model import FRAME, Mechanism
 
@@ -141,10 +141,12 @@ def _groups(mechanism: Mechanism) -> tuple[AssurGroup, ...]:
     if found is None:  # the balance of links and pairs has been proved before
         raise StructureError("The links and pairs of the mechanism do not balance")
     groups = []
-    known = list(given)
+    order = {link: i for i, link in enumerate(mechanism.links)}
+    joints_of, known = joints_of_links(mechanism), {link: i for i, link in enumerate(given)}
     for block in found:
         links = [str(node[1]) for node in block if isinstance(node, tuple) and node[0] == "link"]
         if links:  # otherwise a point that a known link carries to later groups
-            groups.append(make_group(mechanism, links, known))
-            known += groups[-1].links
+            links.sort(key=order.__getitem__)
+            groups.append(make_group(joints_of, links, known))
+            known.update((link, len(known) + i) for i, link in enumerate(links))
     return tuple(groups)

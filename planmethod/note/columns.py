@@ -14,7 +14,7 @@ def listed(values: Reals | Sequence[float]) -> list[float | None]:
     """Return numbers for a record, without a negative zero; None for what is none."""
     numbers = np.asarray(values) + 0.0
     found: Column = numbers.tolist()
-    for index in np.flatnonzero(~np.isfinite(numbers)).tolist():
+    for index in (~np.isfinite(numbers)).nonzero()[0].tolist():
         found[index] = None
     return found
 

@@ -74,6 +74,12 @@ class Construction(Struct, frozen=True, dict=True):
     def _made(self) -> dict[Name, Step]:
         return {step.out: step for step in self.program.steps}
 
+    @property
+    def parts(self) -> dict[Name, int]:
+        """Number of the group that a step of the position plan places, from 0 of the frame."""
+        placed = (section for section in self.sections if section.kind is PlanKind.POSITION)
+        return {step.out: k for k, section in enumerate(placed) for step in section.steps}
+
     def plan(self, kind: PlanKind) -> Plan:
         """Return the velocity or the acceleration plan."""
         return next(plan for plan in self.plans if plan.kind is kind)
@@ -92,11 +98,18 @@ class _Cutter(Struct):
         self.start = self.draft.note_plan(kind, self.start)
 
 
-def draw_positions(problem: Problem, groups: Iterable[AssurGroup], choice: Choice) -> Draft:
-    """Plan the position plan of the driver and the given groups."""
+def begin_positions(problem: Problem, choice: Choice) -> Draft:
+    """Plan the position plan of the driver: groups are added to it one by one."""
     draft = Draft(problem, choice)
-    _positions(draft, groups, _Cutter(draft))
+    _positions(draft, (), _Cutter(draft))
     return draft
+
+
+def add_group(draft: Draft, group: AssurGroup) -> None:
+    """Add a group to a position plan that has what it hangs on."""
+    cutter = _Cutter(draft, len(draft.b.steps))
+    place_group(draft, group)
+    cutter.cut(PlanKind.POSITION, group)
 
 
 def _positions(draft: Draft, groups: Iterable[AssurGroup], cutter: _Cutter) -> None:

@@ -76,12 +76,16 @@ class Draft:
     origin : complex, m
         Zero, but for a mechanism that stands far from the origin of its file: coordinates counted
         from a place of its own keep the digits of its links.
-    placed : dict of str to list of str
+    placed : dict of str to tuple of str
         Points of each link that the position plan has.
+    marked : dict of str to None
+        All of them, in the order in which they were placed.
+    links_of : dict of str to list of str
+        Links that have a point.
     axes : dict of str to LineName
         Own axis of a link whose direction is not told by two of its points.
-    read : list of (str, str)
-        Distances that are read on the drawing because no given length tells them.
+    read : dict of (str, str) to None
+        Distances that are read on the drawing because no given length tells them, in order.
     dimensions : dict of NumberName to Dimension
         What known numbers of the data tell, and the same on the drawing.
     feet : dict of PointName to str
@@ -100,12 +104,15 @@ class Draft:
         self.numbers: dict[str, float] = {}
         self.places: dict[str, complex] = {}
         self.branches: dict[str, Closing | Start] = {}
-        self.placed: dict[str, list[str]] = {}
+        self.placed: dict[str, tuple[str, ...]] = {}
+        self.marked: dict[str, None] = {}
+        self.links_of = _links_of_points(problem)
         self.axes: dict[str, LineName] = {}
         self.mu_l = self.b.known("mu_l")
         self.origin = _origin(problem)
-        self.read: list[tuple[str, str]] = []
+        self.read: dict[tuple[str, str], None] = {}
         self.dimensions: dict[NumberName, Dimension] = {}
+        self._lengths: set[tuple[str, ...]] = set()  # given, as they are written
         self.feet: dict[PointName, str] = {}
         self.special: dict[str, Special] = {}
         self.plans: dict[Name, PlanKind] = {}
@@ -115,11 +122,13 @@ class Draft:
         """Return a draft that goes on from here, and leaves this one as it is."""
         other = copy.copy(self)
         other.b = self.b.copy()
-        other.numbers, other.read = dict(self.numbers), list(self.read)
-        other.axes, other.plans = dict(self.axes), dict(self.plans)
+        other.numbers, other.places = dict(self.numbers), dict(self.places)
+        other.branches, other.letters = dict(self.branches), dict(self.letters)
+        other.axes, other.plans, other.read = dict(self.axes), dict(self.plans), dict(self.read)
         other.dimensions, other.feet = dict(self.dimensions), dict(self.feet)
+        other.marked, other._lengths = dict(self.marked), set(self._lengths)
         other.special = dict(self.special)
-        other.placed = {link: list(points) for link, points in self.placed.items()}
+        other.placed = dict(self.placed)
         return other
 
     def note_plan(self, kind: PlanKind, start: int) -> int:
@@ -145,12 +154,13 @@ class Draft:
         name = self.known(whole, value)
         shown = letters if kind is DimensionKind.LENGTH else whole
         self.dimensions[name] = Dimension(kind, of, shown + name[len(whole) :])
+        if kind is DimensionKind.LENGTH and name == whole:
+            self._lengths.add(of)
         return name
 
     def has_length(self, p: str, q: str) -> bool:
         """Tell whether the distance of two points is given, in this order."""
-        known = Dimension(DimensionKind.LENGTH, (p, q), p + q)
-        return known in self.dimensions.values()
+        return (p, q) in self._lengths
 
     def branch(self, point: str, closing: Closing) -> NumberName | None:
         """Return the number that tells a point's side in each position; None if it stays."""
@@ -172,7 +182,7 @@ class Draft:
         p, q = sorted((p, q))
         if (p, q) in self.read:
             return self.measured_before(p, q)
-        self.read.append((p, q))
+        self.read[p, q] = None
         return self.b.measure(f"({p}{q})", PointName(p), PointName(q))
 
     def measured_before(self, p: str, q: str) -> NumberName:
@@ -215,14 +225,16 @@ class Draft:
 
     def mark_placed(self, point: str) -> PointName:
         """Note that the plan has a point: on every link that shares it."""
-        for link, body in self.problem.bodies.items():
-            if point in body.points and point not in self.placed.setdefault(link, []):
-                self.placed[link].append(point)
+        for link in self.links_of.get(point, ()):
+            here = self.placed.get(link, ())
+            if point not in here:
+                self.placed[link] = (*here, point)
+                self.marked[point] = None
         return PointName(point)
 
     def points(self) -> set[str]:
         """Return the names of all points placed so far."""
-        return {point for here in self.placed.values() for point in here}
+        return set(self.marked)
 
     def turned(self, line: LineName, through: PointName, angle: float, of: str) -> LineName:
         """Return a line through a point at an angle (degrees) to another, that a link has."""
@@ -259,7 +271,7 @@ class Draft:
 
     def locate(self, link: str, point: str) -> PointName:
         """Place a point of a link whose direction is known, from its coordinates."""
-        if point in self.placed.get(link, []):
+        if point in self.placed.get(link, ()):
             return PointName(point)
         body = self.problem.bodies[link]
         here = self.placed[link]
@@ -410,6 +422,15 @@ class Draft:
         value = slide.offset + z_slider.imag - ((z_host - slide.base) * cis(-slide.angle)).imag
         size = max(self.size(slide.host), self.size(slide.slider))
         return value if abs(value) > TINY * size else 0.0
+
+
+def _links_of_points(problem: Problem) -> dict[str, list[str]]:
+    """Return the links that have a point, by its name."""
+    found: dict[str, list[str]] = {}
+    for link, body in problem.bodies.items():
+        for point in body.points:
+            found.setdefault(point, []).append(link)
+    return found
 
 
 def _origin(problem: Problem) -> complex:

@@ -55,9 +55,9 @@ class Segments(Struct):
     def compute(
         self, name: str, *powers: tuple[NumberName, int], factor: float = 1.0, size: bool = False
     ) -> NumberName:
-        """Compute a number under a name that no value has yet."""
+        """Compute a number under a name that nothing has yet."""
         name = self.prefix + name
-        while name in self.values.values():
+        while self.b.has(name):
             name += "*"
         return self.b.compute(name, *powers, factor=factor, size=size)
 

@@ -9,22 +9,22 @@ depends on the one before it.
 
 from __future__ import annotations
 
-import math
-from collections.abc import Generator, Iterator, Mapping
-from functools import partial
+from collections.abc import Collection, Generator, Mapping, Sequence
+from itertools import islice
 
 import numpy as np
+from msgspec import Struct
 from msgspec.structs import replace
 
-from planmethod.construct.arithmetic import Float64
-from planmethod.construct.evaluate import evaluate
+from planmethod.construct.arithmetic import Float64, Number
+from planmethod.construct.evaluate import Trace, evaluate
 from planmethod.construct.program import Program
-from planmethod.construct.steps import PointName
+from planmethod.construct.steps import Given, GivenNumber, PointName, Step
 from planmethod.errors import Fault, ProblemError
 from planmethod.languages import say
 from planmethod.mechanism.groups import AssurGroup, triad_of
 from planmethod.mechanism.structure import Structure, analyse
-from planmethod.plans.build import Construction, build, draw_positions
+from planmethod.plans.build import Construction, add_group, begin_positions, build
 from planmethod.plans.closing import Closing
 from planmethod.plans.draft import Draft
 from planmethod.plans.motion.position import (
@@ -80,19 +80,39 @@ def construct(problem: Problem) -> Construction:
     return build(problem, structure, choose_closings(problem, structure))
 
 
-Wanted = tuple[Draft, Program, Reals]
-"""A reading that is wanted: what is drawn, its program, the positions of the driver."""
+class WantedReading(Struct, frozen=True):
+    """A reading that is wanted.
 
-Choosing = Generator[Wanted, Reading, dict[tuple[str, ...], Closing]]
+    Attributes
+    ----------
+    draft : Draft
+        What is drawn.
+    settled : int
+        Steps of it, the first ones, that are the first of all that will be wanted later, too.
+    positions : ndarray of shape (n,)
+        Of the driver.
+    """
+
+    draft: Draft
+    settled: int
+    positions: Reals
+
+    @property
+    def program(self) -> Program:
+        """What is drawn as a program."""
+        return self.draft.b.program()
+
+
+Choosing = Generator[WantedReading, Reading, dict[tuple[str, ...], Closing]]
 
 
 def choose_closings(problem: Problem, structure: Structure) -> dict[tuple[str, ...], Closing]:
     """Return the closing of every group that has two: see `choosing`."""
-    choice = choosing(problem, structure)
+    choice, settled = choosing(problem, structure), _Settled()
     try:
         wanted = next(choice)
         while True:
-            wanted = choice.send(_read(*wanted))
+            wanted = choice.send(settled.read(wanted))
     except StopIteration as end:
         chosen: dict[tuple[str, ...], Closing] = end.value
         return chosen
@@ -116,19 +136,21 @@ def choosing(problem: Problem, structure: Structure) -> Choosing:
     choice: dict[tuple[str, ...], Closing] = {}
     faults: list[Fault] = []
     used: set[str] = set()
-    done: list[AssurGroup] = []
+    settled, extent = begin_positions(problem, choice), _Extent(len(positions))
+    before: AssurGroup | None = None
     for group in structure.groups:
-        placed = draw_positions(problem, done, choice).points()
+        if before is not None:
+            add_group(settled, before)
+        before = group
         own = {point: None for link in group.links for point in problem.bodies[link].points}
         mine = [
             from_joint(problem, group, rules[point])
             for point in own
-            if point in rules and point not in placed
+            if point in rules and point not in settled.marked
         ]
         used.update(rule.point for rule in mine)
-        done.append(group)
         if triad_of(group) is not None:
-            choice[group.links], wrong = _assembled(problem, done, choice, mine, positions)
+            choice[group.links], wrong = _assembled(settled, group, mine, positions)
             faults += wrong
             continue
         if not has_two_closings(group):
@@ -136,9 +158,9 @@ def choosing(problem: Problem, structure: Structure) -> Choosing:
         choice[group.links] = Closing()
         both: list[Tried] = []
         for sign in (1, -1):
-            draft = draw_positions(problem, done, {**choice, group.links: Closing(sign)})
-            program = draft.b.program()
-            both.append((draft, program, (yield draft, program, positions)))
+            draft = _with(settled, group, Closing(sign))
+            both.append((draft, (yield WantedReading(draft, len(settled.b.steps), positions))))
+        extent.take(settled.marked, both[:1])
         late = [late_fault(rule, both[0][0]) for rule in mine] + [
             unkept_fault(problem, rule, group) for rule in mine
         ]
@@ -147,7 +169,8 @@ def choosing(problem: Problem, structure: Structure) -> Choosing:
         elif any(rule.where is Where.PARALLEL for rule in mine):
             choice[group.links] = Closing(parallel=True)
         elif mine:
-            judged = [_judge(problem, rule, both, positions) for rule in mine]
+            size = extent.of(both)
+            judged = [_judge(problem, rule, both, positions, size) for rule in mine]
             choice[group.links] = judged[0]
             if any(rule.continuous for rule in mine):
                 choice[group.links] = _going_on(problem, both[0], group, judged[0])
@@ -192,19 +215,14 @@ def choosing(problem: Problem, structure: Structure) -> Choosing:
 
 
 def _assembled(
-    problem: Problem,
-    groups: list[AssurGroup],
-    choice: Mapping[tuple[str, ...], Closing],
-    rules: list[Rule],
-    positions: Reals,
+    settled: Draft, group: AssurGroup, rules: list[Rule], positions: Reals
 ) -> tuple[Closing, list[Fault]]:
-    """Return the assembly of a triad, the last of some groups, and what is wrong with its rules."""
-    group = groups[-1]
-    triad = triad_of(group)
+    """Return the assembly of a triad that is placed next, and what is wrong with its rules."""
+    problem, triad = settled.problem, triad_of(group)
     assert triad is not None
 
     def made(closing: Closing) -> Assembled:
-        draft = draw_positions(problem, groups, {**choice, group.links: closing})
+        draft = _with(settled, group, closing)
         program = draft.b.program()
         return Assembled(draft, program, lambda s: drive_data(problem, draft, s), group, triad)
 
@@ -221,7 +239,7 @@ def _assembled(
 
 def _going_on(problem: Problem, tried: Tried, group: AssurGroup, closing: Closing) -> Closing:
     """Return a closing that changes sides where the motion goes through a change point."""
-    draft, program, _ = tried
+    draft, program = tried[0], tried[0].b.program()
     turn, low = problem.drive.coordinate.turn, closing.start
     high = low + turn
     if not problem.drive.is_crank:
@@ -231,9 +249,72 @@ def _going_on(problem: Problem, tried: Tried, group: AssurGroup, closing: Closin
     return replace(closing, changes=found, turn=turn)
 
 
-def _read(draft: Draft, program: Program, positions: Reals) -> Reading:
-    data = drive_data(draft.problem, draft, positions)
-    return Reading(evaluate(program, data, Float64()), len(positions))
+def _with(settled: Draft, group: AssurGroup, closing: Closing) -> Draft:
+    """Return a position plan with one group more, which closes in some way."""
+    draft = settled.copy()
+    draft.choice = {**settled.choice, group.links: closing}
+    add_group(draft, group)
+    return draft
+
+
+class _Settled:
+    """Reads what is wanted: steps that are settled once, and those of a group that is tried."""
+
+    def __init__(self) -> None:
+        self._reading: Reading | None = None
+        self._read = 0
+
+    def read(self, wanted: WantedReading) -> Reading:
+        steps, end = wanted.draft.b.steps, wanted.settled
+        before = self._reading or Reading(Trace({}, {}), len(wanted.positions))
+        data = drive_data(wanted.draft.problem, wanted.draft, wanted.positions)
+        self._reading = _further(before, steps[self._read : end], data)
+        self._read = end
+        return _further(self._reading, steps[end:], data)
+
+
+def _further(before: Reading, steps: Sequence[Step], data: Mapping[str, Number]) -> Reading:
+    """Return a reading with further steps; of the data they take what is theirs."""
+    given = [step.out for step in steps if isinstance(step, Given | GivenNumber)]
+    own: dict[str, Number] = {name: data[name] for name in given}
+    return before.go_on(steps, own, Float64())
+
+
+class _Extent:
+    """How far points are from the first one that is placed, in every position, m."""
+
+    def __init__(self, count: int) -> None:
+        self._far = np.full(count, 1e-300)
+        self._taken = 0
+
+    def take(self, points: Collection[str], read: Sequence[Tried]) -> None:
+        """Take the points in that are new since the last time."""
+        self._far, self._taken = self._with(points, read), len(points)
+
+    def of(self, both: Sequence[Tried]) -> Reals:
+        """Return the extent of what is settled and of a group in both closings."""
+        return self._with(both[0][0].marked, both)
+
+    def _with(self, points: Collection[str], read: Sequence[Tried]) -> Reals:
+        far = self._far
+        for _, reading in read:
+            first = reading.point(PointName(next(iter(points))))
+            for name in islice(points, self._taken, None):
+                away = np.abs(reading.point(PointName(name)) - first)
+                far = np.fmax(far, np.where(np.isfinite(away), away, 0.0))
+        return far
+
+
+def _explained(both: list[Tried], positions: Reals) -> Failure:
+    """Return why a group closes in none of the positions."""
+    draft, reading = both[0]
+    program = draft.b.program()
+
+    def read(at: Reals) -> Reading:
+        data = drive_data(draft.problem, draft, at)
+        return Reading(evaluate(program, data, Float64()), len(at))
+
+    return explain(draft, program, reading, positions, read)
 
 
 def _judge(
@@ -241,15 +322,15 @@ def _judge(
     rule: Rule,
     both: list[Tried],
     positions: Reals,
+    extent: Reals,
 ) -> Closing:
     """Return the side that a rule asks for in the first position that tells the closings apart."""
-    scores = [score_of(rule, draft, reading) for draft, _, reading in both]
+    scores = [score_of(rule, draft, reading) for draft, reading in both]
     able = np.flatnonzero(np.isfinite(scores[0]) & np.isfinite(scores[1]))
     if not able.size:
-        raise PositionError(explain(*both[0], positions, partial(_read, *both[0][:2])))
-    found = list(_places(problem, both, int(able[0])))[:-1]
-    size = max(abs(point - found[0]) for point in found)
-    one, two = (reading.point(PointName(rule.point)) for _, _, reading in both)
+        raise PositionError(_explained(both, positions))
+    size = float(extent[able[0]])
+    one, two = (reading.point(PointName(rule.point)) for _, reading in both)
     apart = abs(one - two)
     # A dead position tells the closings of nothing: the next one that is asked does.
     distinct = able[apart[able] > TIE * size]
@@ -284,17 +365,6 @@ def _judge(
     return Closing(1 if plus > minus else -1, start=float(positions[first]))
 
 
-def _places(problem: Problem, both: list[Tried], at: int) -> Iterator[complex]:
-    for _, _, reading in both:
-        for body in problem.bodies.values():
-            for point in body.points:
-                if point in reading.value:
-                    place = complex(reading.point(PointName(point))[at])
-                    if math.isfinite(place.real):
-                        yield place
-    yield 1e-300 + 0j
-
-
 def _missing(group: AssurGroup, both: list[Tried], positions: Reals, untold: Rule | None) -> Fault:
     """Return the fault of a group whose closing is not given, with both ways to say it.
 
@@ -305,11 +375,11 @@ def _missing(group: AssurGroup, both: list[Tried], positions: Reals, untold: Rul
     """
     c = inner_point(group) if untold is None else untold.point
     places = []
-    for draft, _, reading in both:
+    for draft, reading in both:
         values = reading.point(PointName(c)) + draft.origin
         able = values[np.isfinite(values)]
         if not able.size:
-            raise PositionError(explain(*both[0], positions, partial(_read, *both[0][:2])))
+            raise PositionError(_explained(both, positions))
         places.append(told_place(complex(able[0]), both[0][0].problem.unit))
     hint = say(
         'Add {} = "right of ..." (or left of, above, below, or {{ near = [x, y] }}) to [assembly]',
@@ -317,7 +387,7 @@ def _missing(group: AssurGroup, both: list[Tried], positions: Reals, untold: Rul
     )
     words = [] if untold else telling_rules(c, both, slice(None))
     if untold is not None:
-        ahead = [score_of(untold, draft, reading) for draft, _, reading in both]
+        ahead = [score_of(untold, draft, reading) for draft, reading in both]
         sides = [float(np.nansum(score)) for score in ahead]
         if sides[0] * sides[1] < 0:  # both lie to one side if far off the line
             words = [f"towards {untold.refs[0]}", f"away from {untold.refs[0]}"]

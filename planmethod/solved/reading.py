@@ -43,11 +43,15 @@ class Reading(Struct, frozen=True):
 
     def point(self, name: Name) -> Complexes:
         """Return a point, mm (at unit scales m, m/s, m/s², N), ndarray of shape (n,)."""
-        return np.broadcast_to(np.asarray(self.value[name], dtype=complex), (self.count,))
+        return self._column(np.asarray(self.value[name], dtype=complex))
 
     def number(self, name: Name) -> Reals:
         """Return a number in its unit, ndarray of shape (n,)."""
-        return np.broadcast_to(np.asarray(self.value[name], dtype=float), (self.count,))
+        return self._column(np.asarray(self.value[name], dtype=float))
+
+    def _column(self, value: npt.NDArray[Any]) -> npt.NDArray[Any]:
+        shape = (self.count,)
+        return value if value.shape == shape else np.broadcast_to(value, shape)
 
     def vector(self, tail: PointName, head: PointName) -> Complexes:
         """Return a segment as a vector, ndarray of shape (n,)."""

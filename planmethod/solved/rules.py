@@ -10,7 +10,6 @@ from typing import TypeAlias, assert_never
 import numpy as np
 from msgspec.structs import replace
 
-from planmethod.construct.program import Program
 from planmethod.construct.steps import PointName
 from planmethod.errors import Fault, ProblemError
 from planmethod.languages import say
@@ -25,7 +24,7 @@ from planmethod.problem.model import Problem, Rule, Where
 from planmethod.problem.names import told_length, told_place
 from planmethod.solved.reading import Complexes, Reading, Reals
 
-Tried: TypeAlias = tuple[Draft, Program, Reading]
+Tried: TypeAlias = tuple[Draft, Reading]
 """A closing of a group, and how it turned out."""
 
 TIE = 1e-9
@@ -34,7 +33,7 @@ TIE = 1e-9
 
 def late_fault(rule: Rule, draft: Draft) -> Fault | None:
     """Return the fault of a rule that compares with a point which is placed only later."""
-    missing = [name for name in rule.refs if name not in draft.points()]
+    missing = [name for name in rule.refs if name not in draft.marked]
     if not missing:
         return None
     return Fault(
@@ -139,7 +138,7 @@ def ambiguous_fault(rule: Rule, both: list[Tried], index: int, where: str) -> Fa
     unit = draft.problem.unit
     places = [
         told_place(complex(reading.point(PointName(rule.point))[index]) + draft.origin, unit)
-        for _, _, reading in both
+        for _, reading in both
     ]
     told = telling_rules(rule.point, both, slice(index, index + 1))
     words = told or [f"{{ near = [{place}] }}" for place in places]
@@ -172,11 +171,11 @@ def telling_rules(point: str, both: list[Tried], asked: slice) -> list[str]:
         sides = np.minimum(first.real, second.real)
         return float(np.nanmin(sides)) if np.isfinite(sides).any() else 0.0
 
-    (draft, _, one), (_, _, two) = both
+    (draft, one), (_, two) = both
     c, d = at(one, point), at(two, point)
     still = [
         p
-        for p in sorted(draft.points())
+        for p in sorted(draft.marked)
         if p != point and np.array_equal(at(one, p), at(two, p), equal_nan=True)
     ]
     ways = (("right of", "left of", 1), ("above", "below", -1j))

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from click.testing import CliRunner
 
-from benchmarks import bounds, many, report, rivals
+from benchmarks import bounds, growth, many, report, rivals
 from benchmarks.__main__ import main
 from benchmarks.figure import draw
 from benchmarks.peers import ROWS, peers
@@ -20,7 +20,7 @@ from planmethod.bench.speed import Timing
 from planmethod.solved.many.sweep import Sweep
 
 
-def once(act: Callable[[], object], **_: float) -> Timing:
+def once(act: Callable[[], object], **_: object) -> Timing:
     act()
     return Timing(1e-3, 1e-3, 1e-3, 1)
 
@@ -29,6 +29,7 @@ def once(act: Callable[[], object], **_: float) -> Timing:
 def quickly(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(speed, "clock", once)
     monkeypatch.setattr(rivals, "clock", once)
+    monkeypatch.setattr(growth, "clock", once)
 
 
 def test_all_who_are_compared_compute_the_same() -> None:
@@ -52,12 +53,13 @@ def test_a_chain_of_dyads_turns_all_round(dyads: int) -> None:
 def test_the_document_has_its_tables_and_figure() -> None:
     readings = speed.sweeps(fourbar(), (12, 100), FOURBAR_ROWS)
     compared = rivals.rivals((12, 100), rounds=1)
-    positions, links = rivals.by_positions((1, 12)), rivals.by_links((1, 2), count=100)
+    positions, links = rivals.by_positions((1, 12)), growth.by_links((1, 2), count=100)
     scenes = rivals.by_scene(100)
+    others = [*growth.by_loads((1, 2)), *growth.by_wheels((3, 4)), *growth.by_works((1, 2))]
     sections = [
         [*speed_section(readings), *bounds.bounds_table(bounds.of_sweeps(readings))],
         [*report.rivals_section(compared), *bounds.bounds_table(bounds.of_rivals(compared))],
-        report.growth_section(positions, links),
+        report.growth_section(positions, links, others),
         report.scenes_section(scenes),
     ]
     text = report.document(sections, figure="f.png", command="python -m benchmarks")

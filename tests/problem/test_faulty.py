@@ -133,8 +133,8 @@ def test_too_large_a_file(tmp_path: Path) -> None:
         ("title = " + "9" * 5000, "a value cannot be read"),
         ("[driver]\nphi = 0x" + "f" * 4000, "driver.phi: expected an angle in degrees, got inf"),
         (
-            "".join(f"[links.{n}]\n" for n in range(1, 62)),
-            "links: 61 links, the limit is 60",
+            "".join(f"[links.{n}]\n" for n in range(1, 203)),
+            "links: 202 links, the limit is 201",
         ),
         (
             "[links.1]\npoints = [" + ", ".join(f'"A{n}"' for n in range(61)) + "]\n",

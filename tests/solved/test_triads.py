@@ -27,7 +27,7 @@ from planmethod.errors import AssemblyError, ProblemError
 from planmethod.mechanism.groups import triad_of
 from planmethod.mechanism.model import FRAME
 from planmethod.mechanism.structure import analyse
-from planmethod.plans.build import draw_positions
+from planmethod.plans.build import add_group, begin_positions
 from planmethod.problem import loads
 from planmethod.problem.model import Problem
 from planmethod.solved.assemblies import Assembled, assemblies, env_of
@@ -103,7 +103,8 @@ def sextic(triad: list[tuple[complex, complex, float]]) -> list[tuple[complex, f
 def not_chosen(problem: Problem) -> Assembled:
     """Return the only group of a problem with nothing chosen."""
     (group,) = analyse(problem.mechanism).groups
-    triad, draft = triad_of(group), draw_positions(problem, [group], {})
+    triad, draft = triad_of(group), begin_positions(problem, {})
+    add_group(draft, group)
     assert triad is not None
     return Assembled(
         draft, draft.b.program(), lambda s: drive_data(problem, draft, s), group, triad

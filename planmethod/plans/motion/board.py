@@ -7,6 +7,8 @@ links coincide at a place but move differently, the place of the second carries 
 
 from __future__ import annotations
 
+from itertools import islice
+
 from msgspec import Struct, field
 
 from planmethod.construct.steps import LineName, NumberName, PointName
@@ -73,6 +75,8 @@ class MotionBoard(Struct):
     letters: dict[PointName, list[str]] = field(default_factory=dict)
     vectors: list[Vector] = field(default_factory=list)
     equations: list[VectorEquation] = field(default_factory=list)
+    _drawn: dict[tuple[PointName, PointName], int] = field(default_factory=dict)
+    _read: tuple[int, int] = (0, 0)  # vectors and names that have been read off
 
     @classmethod
     def start(cls, kind: PlanKind, draft: Draft) -> MotionBoard:
@@ -92,8 +96,7 @@ class MotionBoard(Struct):
 
     def sharers(self, point: str, link: str) -> list[str]:
         """Return the other links that a point is a revolute joint of."""
-        bodies = self.draft.problem.bodies
-        return [other for other, body in bodies.items() if other != link and point in body.points]
+        return [other for other in self.draft.links_of.get(point, ()) if other != link]
 
     def put(
         self, link: str, place: str, at: PointName, *, name: str | None = None, show: bool = True
@@ -118,8 +121,7 @@ class MotionBoard(Struct):
         if place in bodies[link].points or self.draft.is_special(link, place):
             return place
         name = f"{place}{link}"
-        taken = any(name in body.points for body in bodies.values())
-        return f"{place}({link})" if taken else name
+        return f"{place}({link})" if name in self.draft.links_of else name
 
     # Segments --------------------------------------------------------------------------------
 
@@ -130,21 +132,23 @@ class MotionBoard(Struct):
 
     def read_off(self) -> None:
         """Read every vector and every point that has not been read or laid off yet."""
-        for vector in self.vectors:
+        for vector in islice(self.vectors, self._read[0], None):
             self.segments.value(vector.tail, vector.head, _number(vector))
-        for name, at in self.named.items():
+        for name, at in islice(self.named.items(), self._read[1], None):
             if self.point[at] != self.pole:
                 number = f"{FACTS[self.kind].letter}_{name}"
                 self.segments.value(self.pole, self.point[at], number)
+        self._read = len(self.vectors), len(self.named)
 
     # Vectors ---------------------------------------------------------------------------------
 
     def add(self, vector: Vector) -> Vector:
         """Draw a vector once; a segment from the pole is the absolute vector of its end."""
         ends = (vector.tail, vector.head)
-        drawn = next((k for k, v in enumerate(self.vectors) if (v.tail, v.head) == ends), None)
+        drawn = self._drawn.get(ends)
         if drawn is None:
             if vector.tail != vector.head:
+                self._drawn[ends] = len(self.vectors)
                 self.vectors.append(vector)
         elif vector.kind is VectorKind.ABSOLUTE and self.vectors[drawn].kind in UNKNOWN_KINDS:
             self.vectors[drawn] = vector

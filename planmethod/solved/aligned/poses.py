@@ -74,6 +74,12 @@ class _Sizes(Struct):
 
     problem: Problem
     structure: Structure
+    size: float = 1.0
+
+    def __post_init__(self) -> None:
+        points = [abs(z) for body in self.problem.bodies.values() for z in body.points.values()]
+        bases = [abs(slide.base) + abs(slide.offset) for slide in self.problem.slides.values()]
+        self.size = max([*points, *bases]) or 1.0
 
     def swept(self) -> list[PlanePose]:
         drive, rng = self.problem.drive, Random(1)
@@ -100,12 +106,6 @@ class _Sizes(Struct):
                     last = after
             return [self._pose(links) for links in found]
         return []
-
-    @property
-    def size(self) -> float:
-        points = [abs(z) for body in self.problem.bodies.values() for z in body.points.values()]
-        bases = [abs(slide.base) + abs(slide.offset) for slide in self.problem.slides.values()]
-        return max([*points, *bases]) or 1.0
 
     def _driver(self, position: float) -> tuple[complex, complex]:
         drive, bodies = self.problem.drive, self.problem.bodies
@@ -166,13 +166,14 @@ class _Sizes(Struct):
 
     def _close(self, group: AssurGroup, known: Links, start: list[float]) -> bool:
         """Close a group by Newton's method and add its links to the known; False if it fails."""
+        outer = {lead.to: known[lead.to] for lead in group.leads}
 
         def stood(q: Sequence[float]) -> Links:
             own = {
                 link: (complex(q[3 * i], q[3 * i + 1]), cmath.exp(1j * q[3 * i + 2]))
                 for i, link in enumerate(group.links)
             }
-            return {**known, **own}
+            return {**outer, **own}
 
         q = _newton(lambda q: self._gaps(group, stood(q)), start, self.size)
         if q is None:

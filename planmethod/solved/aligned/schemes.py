@@ -241,30 +241,31 @@ def constraint_rank(
     motions left and no redundant constraint there are 6n - W rows, and that is the rank.
     """
     links = sorted({link for pair in pairs for link in pair.links} - {FRAME})
+    column = {link: 6 * i for i, link in enumerate(links)}
     size = max(map(abs, pose.places.values())) or 1.0
-    rows = []
+    rows: list[dict[int, float]] = []  # by columns: nearly all of a long chain's is zero
     for pair in pairs:
         at, along = pose.line(pair.joint)
         for row in _constraints(classes[pair.key], at / size, along):
-            whole = [0.0] * (6 * len(links))
+            whole: dict[int, float] = {}
             for link, sign in zip(pair.links, (1, -1), strict=True):
                 if link != FRAME:
-                    start = 6 * links.index(link)
-                    whole[start : start + 6] = [sign * value for value in row]
+                    whole.update((column[link] + i, sign * value) for i, value in enumerate(row))
             rows.append(whole)
+    largest = [max(map(abs, row.values())) for row in rows]
     rank = 0
     while rows:
-        head = max(rows, key=lambda row: max(map(abs, row)))
-        rows.remove(head)
-        k = max(range(len(head)), key=lambda i: abs(head[i]))
-        if abs(head[k]) < REGULAR:
+        first = largest.index(max(largest))
+        head, most = rows.pop(first), largest.pop(first)
+        if most < REGULAR:
             break
+        k = min(i for i, value in head.items() if abs(value) == most)
         rank += 1
-        shares = [row[k] / head[k] for row in rows]
-        rows = [
-            [a - share * b for a, b in zip(row, head, strict=True)] if share else row
-            for row, share in zip(rows, shares, strict=True)
-        ]
+        for number, other in enumerate(rows):
+            share = other.get(k, 0.0) / head[k]
+            if share:
+                other.update({i: other.get(i, 0.0) - share * value for i, value in head.items()})
+                largest[number] = max(map(abs, other.values()))
     return rank
 
 

@@ -99,6 +99,7 @@ class Errors:
         self.items: dict[str, DrawnQuantity] = {item.label: item for item in drawing.items}
         self._own: dict[int, _Slopes] = {}
         self._sheets: dict[int, dict[str, float]] = {}
+        self._beyond: dict[float, dict[Name, Flags]] = {}
 
     # First order -----------------------------------------------------------------------------
 
@@ -275,11 +276,21 @@ class Errors:
         Its margin there is not much larger than its own error.
         """
         found = np.zeros(self.drawing.count, dtype=bool)
+        doubtful = self._doubtful(limit)
+        if not doubtful:  # of nearly every drawing
+            return found
         above = frozenset[Name]().union(*(self._ancestors[name] for name in names))
-        for step, strain in self._first.strain.items():
+        for step, where in doubtful.items():
             if step in above:
-                found |= ~(strain <= limit)
+                found |= where
         return found
+
+    def _doubtful(self, limit: float) -> dict[Name, Flags]:
+        """Return where steps are strained beyond a limit, those that are nowhere left out."""
+        if limit not in self._beyond:
+            beyond = {step: ~(strain <= limit) for step, strain in self._first.strain.items()}
+            self._beyond[limit] = {step: where for step, where in beyond.items() if where.any()}
+        return self._beyond[limit]
 
     @cached_property
     def spreads(self) -> Mapping[str, Spread]:
@@ -293,7 +304,7 @@ class Errors:
         if item.direction:
             way = self.items[item.direction]
             strange |= ~np.isfinite(first.sigmas[way.label]) | self.strained(*way.needs)
-        again = first.short.get(label, np.full_like(sigma, np.nan))
+        again = first.short[label] if label in first.short else np.full_like(sigma, np.nan)
         bent = ~np.isnan(again) & self.strained(*item.needs, limit=BENT)
         strange, short = strange | np.isinf(again) | bent, np.isfinite(again)
         if item.absent is not None:

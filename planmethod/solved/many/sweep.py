@@ -137,7 +137,8 @@ class Sweep:
         self.varied = tuple(varied)
         fixed = {name: v for name, v in self.constants.items() if name not in self.varied}
         given = (*self.branches, *(() if self.loads is None else self.loads.names))
-        written = write(self.program, fixed, (self.driver, *self.varied, *given))
+        inputs = (self.driver, *self.varied, *given)
+        written = write(self.program, fixed, inputs, solution.construction.parts)
         self.rows, refs, depends = rows_of(chosen, written, results.draft.origin, moved, drawn)
         self._runner = Runner(written, refs, depends, dtype=dtype, native=native)
 
@@ -160,6 +161,11 @@ class Sweep:
     def operations(self) -> int:
         """Real operations for one position, after folding."""
         return self._runner.operations
+
+    @property
+    def live(self) -> int:
+        """Most numbers of a position that are in use at a time."""
+        return self._runner.live
 
     @property
     def uncompiled(self) -> str:

@@ -26,7 +26,7 @@ from planmethod.mechanism.structure import Structure, analyse
 from planmethod.plans.build import Construction, build
 from planmethod.plans.model import RATES
 from planmethod.problem.model import Problem
-from planmethod.solved.closings import Choosing, Wanted, choosing, drive_data
+from planmethod.solved.closings import Choosing, WantedReading, choosing, drive_data
 from planmethod.solved.enlarging import SHORT, SMALL
 from planmethod.solved.impossible import failing
 from planmethod.solved.reading import Flags, Reading, Reals
@@ -200,9 +200,9 @@ def _constructed(problems: Sequence[Problem]) -> list[Construction | None]:
     found: list[Construction | None] = [None] * len(problems)
     structures: dict[Mechanism, Structure] = {}
     choosing_of: dict[int, Choosing] = {}
-    wanted: dict[int, Wanted] = {}
+    wanted: dict[int, WantedReading] = {}
 
-    def take(k: int, ask: Callable[[], Wanted]) -> None:
+    def take(k: int, ask: Callable[[], WantedReading]) -> None:
         """Take one problem to the next reading that it wants, or to its end."""
         wanted.pop(k, None)
         problem = problems[k]
@@ -228,18 +228,17 @@ def _constructed(problems: Sequence[Problem]) -> list[Construction | None]:
     return found
 
 
-def _read_together(wanted: Mapping[int, Wanted]) -> list[tuple[int, Reading]]:
+def _read_together(wanted: Mapping[int, WantedReading]) -> list[tuple[int, Reading]]:
     """Return the readings that are wanted, by the number of who wants them."""
     alike: dict[tuple[Any, ...], list[int]] = {}
-    for k, (draft, program, _) in wanted.items():
-        alike.setdefault((program.steps, tuple(draft.numbers)), []).append(k)
+    for k, one in wanted.items():
+        alike.setdefault((tuple(one.draft.b.steps), tuple(one.draft.numbers)), []).append(k)
     found = []
     for members in alike.values():
-        counts = [len(wanted[k][2]) for k in members]
-        own = [
-            drive_data(d.problem, d, places) for d, _, places in map(wanted.__getitem__, members)
-        ]
-        trace = evaluate(wanted[members[0]][1], _columns(own, counts), Float64())
+        asked = [wanted[k] for k in members]
+        counts = [len(one.positions) for one in asked]
+        own = [drive_data(one.draft.problem, one.draft, one.positions) for one in asked]
+        trace = evaluate(asked[0].program, _columns(own, counts), Float64())
         whole = Reading(trace, sum(counts))
         found += [(k, whole.part(own)) for k, own in zip(members, _rows(counts), strict=True)]
     return found
