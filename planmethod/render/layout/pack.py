@@ -10,9 +10,10 @@ fit, that of the least cost is taken, of equals the first. The cost is the sum o
 2. `BACK` for every paper's height that the eye goes back up from a group to the next one;
 3. `VOID` times the part of the paper that the largest empty rectangle takes.
 
-Views stand in the middle of their boxes. Neighbouring texts stand together: set to one left edge
-under one another, to one upper edge side by side. The last block stands on the title block in the
-lower right corner, or to the left of it.
+Blocks stand on a grid (`planmethod.render.layout.grid`): within their boxes they are moved to as few
+left edges and upper lines as can be. Neighbouring texts stand together: set to one left edge under
+one another, to one upper edge side by side. The last block stands on the title block in the lower
+right corner, to its left edge where it is not wider, or to the left of it.
 """
 
 from __future__ import annotations
@@ -25,6 +26,7 @@ from planmethod.render.ink.drawing import Bounds
 from planmethod.render.ink.extent import overlap
 from planmethod.render.layout.block import Block
 from planmethod.render.layout.cuttings import (
+    CLEAR,
     GAP,
     Group,
     Leaf,
@@ -37,12 +39,10 @@ from planmethod.render.layout.cuttings import (
     fits,
     units_of,
 )
+from planmethod.render.layout.grid import on_grid
 
 EDGE = 5.0
 """Least white between a block and the frame, mm."""
-
-CLEAR = 3.0
-"""Least white between a block and a box that must stay free, mm."""
 
 BACK = 0.15
 """What it costs when the reader goes back up by the height of the paper."""
@@ -97,28 +97,20 @@ def _packed(
         return option.cost + VOID * emptiest_share([*boxes, option.last, stamp, *taken], inner)
 
     best = min(found[:_LOOKED_AT], key=cost)
-    put = {leaf.number: (leaf.block, at) for unit in best.units for leaf, at in corners_of(unit)}
-    last = max(put)
-    boxes = [box_of(unit) for unit in best.units[:-1]]
-    put[last] = (put[last][0], _centred(best.last, boxes, inner, stamp, taken))
+    *units, end = best.units
+    units = on_grid(units, complex(best.last[0], best.last[3]), [*taken, best.last])
+    put = {leaf.number: (leaf.block, at) for unit in units for leaf, at in corners_of(unit)}
+    (last, _), *_ = corners_of(end)
+    put[last.number] = (last.block, complex(best.last[0], best.last[3]))
     return [put[number] for number in sorted(put)]
-
-
-def _centred(
-    box: Bounds, boxes: Sequence[Bounds], inner: Bounds, stamp: Bounds, taken: Sequence[Bounds]
-) -> complex:
-    """Return the corner (upper left) of the last block: alone above the stamp, in the middle."""
-    left = (inner[0] + inner[2] + box[0] - box[2]) / 2
-    free = (inner[0], box[1], inner[2], box[3])
-    is_alone = box[1] >= stamp[3] and not any(overlap(free, o) for o in (*boxes, *taken))
-    return complex(left if is_alone else box[0], box[3])
 
 
 def _last_corners(whole: Group, inner: Bounds, stamp: Bounds) -> list[complex]:
     """Return where the last block may go: above the title block, a wide one to the left of it."""
     *_, last = whole.parts()
     wide, high = last.block.width, last.block.height
-    above = complex(inner[2] - EDGE - wide, stamp[3] + GAP / 2 + high)
+    left = stamp[0] if wide <= inner[2] - EDGE - stamp[0] else inner[2] - EDGE - wide
+    above = complex(left, stamp[3] + GAP / 2 + high)
     beside = complex(stamp[0] - GAP / 2 - wide, inner[1] + EDGE + high)
     # Beside the title block a high one would leave white above that.
     low = high - (stamp[3] - stamp[1]) < (more := wide - (stamp[2] - stamp[0]))
