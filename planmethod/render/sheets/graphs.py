@@ -159,8 +159,7 @@ def graphs_view(solution: Solution, indices: Sequence[int], manner: Manner) -> B
         cells.append(Column([Column(lines, gap=2.5, align="centre"), picture], gap=4.0,
                             align="centre"))  # fmt: skip
     axis = scale_inscription(diagrams.scales[-1], convention, words.say)
-    title = Line(typeset(manner.entry.title or words.cycle.graphs_title, manner.title),
-                 underline=True)  # fmt: skip
+    title = Line(typeset(manner.entry.title or words.cycle.graphs_title, manner.title))
     said = Line(typeset(axis, height))
     steps = (manner.entry.per_row,) if manner.entry.per_row else (1, 2, 3, 4)
     ways: list[Block] = []
