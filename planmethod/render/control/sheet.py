@@ -55,7 +55,7 @@ SHORTEST = 5.0
 UNUSED = 12.0
 """Largest empty rectangle, per cent of the field within the frame."""
 
-INKED = 20.0
+INKED = 18.0
 """Least share of the field that has ink, per cent of its squares of 5 mm."""
 
 _TOUCH = 0.05  # mm: what is not yet outside
