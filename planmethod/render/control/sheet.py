@@ -220,7 +220,7 @@ def scales_missing(items: Sequence[Item], views: Iterable[View]) -> Iterator[Fin
 
 
 def unused_paper(items: Sequence[Item], inner: Bounds) -> Iterator[Finding]:
-    """Find an empty rectangle that is too large a part of the field, and a field with little ink."""
+    """Find an empty rectangle that is too large, and a field with little ink."""
     box = largest_empty(items, inner)
     width, height, share = box[2] - box[0], box[3] - box[1], share_of(box, inner)
     if share > UNUSED:
