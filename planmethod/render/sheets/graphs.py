@@ -183,9 +183,7 @@ def _ways(
     cells: list[Block] = []
     scale = diagrams.scales[0]
     for group in graph_groups(diagrams.turn, labels):
-        picture, scale = graph_picture(
-            diagrams, group, manner.letter, words, tall=tall, wide=wide
-        )
+        picture, scale = graph_picture(diagrams, group, manner.letter, words, tall=tall, wide=wide)
         name = str(words.cycle["graphs"][group[0].family])
         inscription = scale_inscription(scale, convention, words.say)
         none = [f"{one.symbol} = 0" for one in group if is_none(diagrams, one)]
