@@ -60,12 +60,3 @@ def _lines(plays: Sequence[Play], fixed: float) -> list[float]:
             found[k] = min(max(middle, low), high)
         rest = [k for k in rest if k not in own]
     return found
-
-
-def alignment(boxes: Sequence[Bounds], near: float = 0.5) -> float:
-    """Return which share of boxes has its left edge or its upper line in common with another, %."""
-    common = 0
-    for k, one in enumerate(boxes):
-        others = [other for j, other in enumerate(boxes) if j != k]
-        common += any(min(abs(one[0] - o[0]), abs(one[3] - o[3])) <= near for o in others)
-    return 100.0 * common / len(boxes) if boxes else 100.0

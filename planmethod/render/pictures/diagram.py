@@ -178,9 +178,7 @@ def _axes(
     return [*items, *typeset(up.name, height).at(complex(2.5, top - height))]
 
 
-def _ordinates(
-    up: Ordinates, low: float, high: float, *, apart: float
-) -> list[tuple[float, str]]:
+def _ordinates(up: Ordinates, low: float, high: float, *, apart: float) -> list[tuple[float, str]]:
     """Return heights of round numbers on the axis of ordinates; at zero a position stands."""
     step = series_near(apart * up.per_mm, up=True)
     first, last = low * up.per_mm / step, high * up.per_mm / step

@@ -140,9 +140,7 @@ def _with_larger_texts(
     while kinds:
         heights = {_family(m.entry): m.text(0.0) for m in manners if m.entry.heights}
         kind = min(kinds, key=heights.__getitem__)
-        own = [
-            k for k, m in enumerate(manners) if _family(m.entry) == kind and m.entry.heights
-        ]
+        own = [k for k, m in enumerate(manners) if _family(m.entry) == kind and m.entry.heights]
         larger = list(manners)
         for k in own:
             larger[k] = manners[k].larger(below=2.0 * min(heights.values()))
