@@ -193,7 +193,9 @@ def _ways(
                             align="centre"))  # fmt: skip
     title = Line(typeset(manner.entry.title or words.cycle.graphs_title, manner.title))
     said = Line(typeset(scale_inscription(axis, convention, words.say), height))
-    steps = (manner.entry.per_row,) if manner.entry.per_row else (1, 2, 3, 4)
+    # Of a few graphs no row is left half empty.
+    steps = [k for k in (1, 2, 3, 4) if len(cells) > 4 or len(cells) % k == 0]
+    steps = [manner.entry.per_row] if manner.entry.per_row else steps
     for step in dict.fromkeys(min(k, len(cells)) for k in steps):
         rows = [Row(cells[k : k + step], gap=12.0) for k in range(0, len(cells), step)]
         head = Column([title, said], gap=2.5, align="centre")
