@@ -88,4 +88,4 @@ def test_homework_has_the_formulas_of_transfer_functions() -> None:
 def test_graphs_grow_into_the_paper() -> None:
     (drawing,) = drawn_sheets("linkages/ex3", layout="graphs")
     (box,) = (view.box for view in drawing.views)
-    assert box[3] - box[1] > 300.0
+    assert box[3] - box[1] > 250.0  # of 350 mm above the title block; 180 at the least heights
