@@ -24,8 +24,16 @@ from planmethod.paper import paper_format
 from planmethod.problem import load
 from planmethod.problem.model import Problem
 from planmethod.render.control.sheet import inspect
-from planmethod.render.control.unused import ink_points, largest_empty, share_of
-from planmethod.render.ink.drawing import Drawing
+from planmethod.render.control.unused import (
+    FRAME,
+    ink_points,
+    inked_share,
+    largest_empty,
+    share_of,
+)
+from planmethod.render.frame.frame import MARGIN_NOTE
+from planmethod.render.ink.drawing import Bounds, Drawing
+from planmethod.render.ink.extent import ink_bounds, overlap
 from planmethod.render.sheets.controlled import paper_of
 from planmethod.render.sheets.kinematics import kinematics_sheets
 
@@ -41,6 +49,9 @@ seen."""
 CELL = 2.5
 """Side of the squares that the paper is looked at in, mm."""
 
+TOGETHER = 8.0
+"""Ink that is nearer to one another belongs to one block, mm."""
+
 COUNTS = (1, 3, 12)
 """Numbers of positions."""
 
@@ -52,9 +63,11 @@ BANK = (
 """Tasks of the textbooks that no sheet was tuned for, and the worked examples."""
 
 HEAD = (
-    "| task | positions | format | sheets | white (in views), % | as seen, % | empty, % "
-    "| scheme, mm | least plan, mm | vectors, median and least, mm | labels that collide | s |\n"
-    "| --- | ---: | --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: |"
+    "| task | positions | format | sheets | white (in views), % | as seen, % | inked, % | empty, % "
+    "| aligned, % | scheme, mm | least plan, mm | vectors, median and least, mm "
+    "| labels that collide | s |\n"
+    "| --- | ---: | --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: "
+    "| ---: |"
 )
 
 
@@ -78,6 +91,12 @@ class Filled:
     empty : float
         Share of the field that the largest rectangle without ink takes, of the emptiest sheet,
         per cent: what stands out as an empty corner (PM-D10).
+    inked : float
+        Share of the squares of 5 mm of the field that have ink, of the emptiest sheet, per cent
+        (PM-D20).
+    aligned : float
+        Share of the blocks that have their left edge or their upper line in common with another
+        block of the sheet, or with the title block, per cent.
     scheme : tuple of float, mm
         Width and height of the view of the scheme with its letters.
     plan : float, mm
@@ -96,7 +115,9 @@ class Filled:
     white: float
     within: float
     seen: float
+    inked: float
     empty: float
+    aligned: float
     scheme: tuple[float, float]
     plan: float
     vectors: tuple[float, float]
@@ -109,8 +130,9 @@ class Filled:
         middle, least = self.vectors
         return (
             f"| {self.task} | {self.positions} | {self.paper} | {self.sheets} "
-            f"| {self.white:.0f} ({self.within:.0f}) | {self.seen:.0f} | {self.empty:.0f} "
-            f"| {wide:.0f} × {high:.0f} | {self.plan:.0f} | {middle:.0f}; {least:.1f} "
+            f"| {self.white:.0f} ({self.within:.0f}) | {self.seen:.0f} | {self.inked:.0f} "
+            f"| {self.empty:.0f} | {self.aligned:.0f} | {wide:.0f} × {high:.0f} "
+            f"| {self.plan:.0f} | {middle:.0f}; {least:.1f} "
             f"| {self.collisions} | {self.seconds:.2f} |"
         )
 
@@ -152,6 +174,41 @@ def _empty(drawing: Drawing) -> float:
     return share_of(largest_empty(drawing.items, inner), inner)
 
 
+def _inked(drawing: Drawing) -> float:
+    return inked_share(drawing.items, paper_format(paper_of(drawing)).inner)
+
+
+def aligned_share(drawing: Drawing, near: float = 0.6) -> float:
+    """Return the share of blocks with a left edge or upper line in common with another, %.
+
+    Blocks are told by their ink: what is nearer than 8 mm to one another is one block.
+    """
+    boxes = _blocks(drawing)
+    common = 0
+    for k, one in enumerate(boxes):
+        others = [other for j, other in enumerate(boxes) if j != k]
+        common += any(min(abs(one[0] - o[0]), abs(one[3] - o[3])) <= near for o in others)
+    return 100.0 * common / len(boxes) if boxes else 100.0
+
+
+def _blocks(drawing: Drawing) -> list[Bounds]:
+    """Return the boxes of the blocks of a sheet: of views and of what stands together."""
+    groups: list[Bounds] = []
+    for item in drawing.items:
+        if item.tag in FRAME or MARGIN_NOTE in item.tag.split():
+            continue
+        box = ink_bounds([item])
+        while True:
+            touched = [other for other in groups if overlap(box, other, TOGETHER)]
+            if not touched:
+                break
+            groups = [other for other in groups if other not in touched]
+            lows, highs = zip(*((b[:2], b[2:]) for b in (box, *touched)), strict=True)
+            box = (*map(min, *lows), *map(max, *highs))
+        groups.append(box)
+    return groups
+
+
 def _moved(taken: Squares, across: int, along: int) -> Squares:
     moved = np.zeros_like(taken)
     (a, b), (c, d) = _overlap(taken.shape[0], across), _overlap(taken.shape[1], along)
@@ -185,7 +242,9 @@ def filled(problem: Problem, count: int) -> Filled:
         fmean(white for white, _ in shares),
         fmean(within for _, within in shares),
         fmean(white_share(one, SEEN * min(one.width, one.height))[0] for one in whole),
+        min(map(_inked, whole)),
         max(map(_empty, whole)),
+        fmean(map(aligned_share, whole)),
         (scheme[2] - scheme[0], scheme[3] - scheme[1]),
         min((side for side, _ in plans), default=0.0),
         (median(lengths), min(lengths)) if lengths else (0.0, 0.0),
@@ -272,6 +331,9 @@ def main(problems: tuple[Path, ...], counts: tuple[int, ...]) -> None:
             f"as seen {fmean(row.seen for row in some):.0f} %, "
             f"{max(row.seen for row in some):.0f} % at most, "
             f"{sum(row.seen > 25 for row in some)} above 25 %; "
+            f"inked {fmean(row.inked for row in some):.0f} %, "
+            f"{min(row.inked for row in some):.0f} % at least; "
+            f"blocks on common lines {fmean(row.aligned for row in some):.0f} %; "
             f"largest empty rectangle {median(row.empty for row in some):.0f} %, "
             f"{max(row.empty for row in some):.0f} % at most; "
             f"vectors {median(row.vectors[0] for row in some):.0f} mm; "

@@ -31,6 +31,9 @@ from planmethod.construct.steps import LineName, NumberName, PointName, Way
 BOX_S, BOX_V, BOX_A = 50.0, 45.0, 60.0
 """Greatest ordinates of the diagrams, mm."""
 
+LEAST_S = 25.0
+"""Least height of the diagram of s, mm: from it the profile is laid off."""
+
 APART = 140.0
 """From the axis of a diagram to that of the next below it, mm."""
 
@@ -91,6 +94,7 @@ def scales_of(
     s, v, a = sizes.max(axis=1)
     boxes = ((s, share * BOX_S), (v, share * BOX_V), (a or s, share * BOX_A))
     mu_s, mu_v, mu_a = (series_near(float(x) / mm, up=True) for x, mm in boxes)
+    mu_s = min(mu_s, series_near(float(s) / LEAST_S, up=False))
     geometry = design.geometry
     room = max(geometry.r_min + s, 2 * (a if _is_plate(design) else v))
     if design.problem.oscillates:

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from itertools import product
 
 from msgspec import Struct
-from msgspec.structs import asdict
+from msgspec.structs import asdict, replace
 
 from planmethod.cams.construction import CamConstruction, CamScales, construct, scales_of
 from planmethod.cams.design import CamDesign
@@ -22,6 +22,7 @@ from planmethod.note.document import Table
 from planmethod.note.formula import Rich
 from planmethod.note.wording import Language, language
 from planmethod.paper import STAMP_WIDTH
+from planmethod.problem.model import Scales
 from planmethod.render.frame.furniture import Furniture
 from planmethod.render.ink.drawing import Drawing
 from planmethod.render.layout.block import Block, Column, Picture, heading, paragraph
@@ -29,12 +30,14 @@ from planmethod.render.layout.cuttings import Group, Packed
 from planmethod.render.layout.tables import TableColumn, table_block
 from planmethod.render.sheets.composer import (
     Blank,
+    Laid,
     Misfit,
     Packing,
     Sizes,
     Viewed,
     compose,
     composed,
+    enlarged,
 )
 
 TEXT_WIDTH = STAMP_WIDTH - 5.0
@@ -53,6 +56,8 @@ TRIES = (
     CamTry(1.0, 180.0, 320.0, Sizes(5.0, 5.0, 3.5, TEXT_WIDTH, 6.0)),
     CamTry(0.9, 110.0, 300.0, Sizes(3.5, 5.0, 3.5, TEXT_WIDTH, 5.0)),
     CamTry(0.7, 90.0, 270.0, Sizes(3.5, 5.0, 3.5, TEXT_WIDTH, 5.0)),
+    CamTry(0.5, 110.0, 300.0, Sizes(3.5, 5.0, 3.5, TEXT_WIDTH, 5.0)),
+    CamTry(0.5, 110.0, 270.0, Sizes(3.5, 5.0, 3.5, TEXT_WIDTH, 5.0)),
     CamTry(1.0, 160.0, 230.0, Sizes(5.0, 5.0, 3.5, TEXT_WIDTH, 6.0)),
     CamTry(0.9, 130.0, 200.0, Sizes(3.5, 5.0, 3.5, TEXT_WIDTH, 5.0)),
     CamTry(0.9, 110.0, 170.0, Sizes(3.5, 5.0, 2.5, TEXT_WIDTH, 4.5)),
@@ -61,6 +66,9 @@ TRIES = (
     CamTry(0.45, 45.0, 70.0, Sizes(2.5, 3.5, 2.5, TEXT_WIDTH, 3.8)),
 )
 """Tried in turn until everything has room."""
+
+GROW = ("profile", "region", "s")
+"""Scales that become finer where there is room, in turn."""
 
 
 def drawings(
@@ -108,6 +116,30 @@ def _misfit(problem: CamProblem) -> Misfit:
     )
 
 
+class CamProposal(Struct, frozen=True):
+    """The blocks at sizes that are tried, grown into the room that they leave (`Proposal`)."""
+
+    of: _Cam
+    paper: Blank
+    tried: CamTry
+    scales: CamScales
+
+    def laid(self) -> Laid | None:
+        """Return the sheet with views as large as it bears, or None without room."""
+
+        def draw(wish: Mapping[str, float]) -> Laid | None:
+            scales = replace(self.scales, **wish)
+            parts = tuple(self.of.parts(self.tried, scales))
+            return Packing(self.paper, (Group(parts),), scales=asdict(scales)).laid()
+
+        own = {name: float(getattr(self.scales, name)) for name in GROW}
+        laid = draw({})
+        if laid is None:
+            return None
+        grown = enlarged(replace(laid, scales=own), GROW, Scales(), draw)
+        return replace(grown, scales={**laid.scales, **grown.scales})
+
+
 class _Cam(Struct, frozen=True):
     """How the sheet of a cam is searched for: by smaller views and letters."""
 
@@ -117,14 +149,13 @@ class _Cam(Struct, frozen=True):
 
     formats = ("A1",)
 
-    def proposals(self, papers: Sequence[Blank]) -> Iterator[Packing]:
+    def proposals(self, papers: Sequence[Blank]) -> Iterator[CamProposal]:
         """Yield the blocks, smaller and smaller."""
         for paper, tried in product(papers, TRIES):
             scales = scales_of(self.design, tried.share, tried.region, tried.profile)
-            parts = tuple(self._parts(tried, scales))
-            yield Packing(paper, (Group(parts),), scales=asdict(scales))
+            yield CamProposal(self, paper, tried, scales)
 
-    def _parts(self, tried: CamTry, scales: CamScales) -> Iterator[Packed]:
+    def parts(self, tried: CamTry, scales: CamScales) -> Iterator[Packed]:
         """Yield the blocks in reading order."""
         built, said, letters = construct(self.design, scales), self.words.cam, tried.sizes
         view = CamView(built, self.words, letters.letter)
@@ -165,12 +196,12 @@ class _Cam(Struct, frozen=True):
         wide = max(picture.width, 140.0)
         lines: list[Block] = [
             heading(title, letters.title, width=wide),
-            paragraph("; ".join(told), letters.text, wide),
+            paragraph("; ".join(told), letters.text, wide, align="centre"),
             picture,
         ]
         kind, letter = ("diagram", "s") if name == "diagrams" else ("cam", "l")
         mu = Scale(f"mu_{letter}", getattr(built.scales, scales[0]), "m")
-        return Viewed(Column(lines, gap=2.5), kind, mu)
+        return Viewed(Column(lines, gap=2.5, align="centre"), kind, mu)
 
 
 def _table(told: Table, letters: Sizes, title: str) -> Block:

@@ -35,6 +35,7 @@ from planmethod.render.labels import Label
 from planmethod.render.layout.block import Block, Column, Line, Picture, heading, paragraph
 from planmethod.render.layout.cuttings import Group, Packed
 from planmethod.render.layout.equations import formula_block
+from planmethod.render.layout.pack import EDGE
 from planmethod.render.layout.tables import TableColumn, table_block
 from planmethod.render.pictures.lettered import lettered
 from planmethod.render.sheets.composer import (
@@ -432,11 +433,11 @@ class _Sheet(Struct, frozen=True):
         say: Words = self.words.gears["sheet"]
         columns = say["columns_results"] if drawn is not None else say["columns_results"][:3]
         rows = [row[: len(columns)] for row in whole]
-        table = _table(columns, rows, STAMP_WIDTH, self.sizes, SHARES)
+        table = _table(columns, rows, STAMP_WIDTH - EDGE, self.sizes, SHARES)
         title = say.results if drawn is not None else self.words.gears.asked
         blocks: list[Block] = [Line(typeset(title, self.sizes.text)), table]
         if drawn is None:
-            blocks.append(paragraph(self.words.gears.no_picture, self.sizes.text, STAMP_WIDTH))
+            blocks.append(paragraph(self.words.gears.no_picture, self.sizes.text, table.width))
         return Column(blocks, gap=2.5)
 
 

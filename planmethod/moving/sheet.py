@@ -181,7 +181,7 @@ class _Point(Struct, frozen=True):
 
     def _named(self, picture: Block, title: str, scales: Sequence[Scale]) -> Block:
         convention, say = self.problem.scales.convention, self.words.say
-        lines: list[Block] = [Line(typeset(title, SIZES.title), underline=True)]
+        lines: list[Block] = [Line(typeset(title, SIZES.title))]
         lines += [
             Line(typeset(scale_inscription(one, convention, say), SIZES.text)) for one in scales
         ]
@@ -258,7 +258,6 @@ class _Point(Struct, frozen=True):
             columns,
             SIZES.text,
             width=min(room, TABLE_WIDTH),
-            units="below",
             leading=2,
             row_height=row,
         )

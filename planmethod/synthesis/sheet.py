@@ -158,7 +158,7 @@ def _view(drawn: Drawn, words: Language) -> Viewed:
     """Return the construction with its name and scale."""
     scale = Scale("mu_l", drawn.mu, "m")
     said = scale_inscription(scale, Convention.UNIT_PER_MM, words.say)
-    name = Line(typeset(words.synthesis.construction, SIZES.title), underline=True)
+    name = Line(typeset(words.synthesis.construction, SIZES.title))
     under = Column([name, Line(typeset(said, SIZES.text))], gap=2.5, align="centre")
     return Viewed(Column([_picture(drawn), under], gap=5.0, align="centre"), "position", scale)
 

@@ -153,7 +153,7 @@ def test_twelve_positions_stand_as_a_coursework_has_them() -> None:
     )
     assert scheme[2] < min(velocity[0], acceleration[0])
     assert velocity[1] > acceleration[3]
-    assert place(sheet, "Результаты").imag < acceleration[1]
+    assert place(sheet, "Измеренные").imag < acceleration[1]
     captions = [
         item.at.imag
         for item in sheet.items

@@ -142,7 +142,8 @@ def test_the_sheet_has_all_views_and_no_faults(name: str) -> None:
     # The loads, both groups and the driver; their force plans; the lever.
     assert [view.kind for view in sheet.views].count("position") == 4
     assert len(views(sheet, "forces")) == 3
-    assert len(views(sheet, "velocity")) == 1
+    assert len(views(sheet, "velocity")) == 2  # the plan and the lever
+    assert len(views(sheet, "acceleration")) == 1
     assert [f for f in inspect(sheet) if f.severity is Severity.ERROR] == []
     text = shown(sheet)
     for part in (
@@ -379,7 +380,7 @@ def test_each_arm_is_a_perpendicular_of_the_length_that_is_read(name: str) -> No
 @pytest.mark.parametrize("name", LOADED)
 def test_the_lever_has_the_forces_that_do_work(name: str) -> None:
     sheet, reading = sheet_of(name), reading_of(name)
-    (view,) = views(sheet, "velocity")
+    *_, view = views(sheet, "velocity")
     lever = LeverReading(reading)
     assert sorted(letter for letter, _ in arrows(sheet, view)) == sorted(
         one.symbol for one in lever.forces
@@ -402,7 +403,7 @@ def test_a_driving_slider_is_balanced_by_a_force() -> None:
     assert expected.endswith(" Н")
     (sheet,) = kinematics_sheets(problem, layout="forces")
     assert [f for f in inspect(sheet) if f.severity is Severity.ERROR] == []
-    (view,) = views(sheet, "velocity")
+    *_, view = views(sheet, "velocity")
     assert "F_{ур}" in [letter for letter, _ in arrows(sheet, view)]
     assert "F_ур" in [span.name for plan in views(sheet, "forces") for span in plan.spans]
 

@@ -7,7 +7,7 @@ import pytest
 from cases import each
 from msgspec.structs import replace
 from reading import texts
-from worked import problem_of
+from worked import drawn_sheets, problem_of
 
 from planmethod.note.wording import language
 from planmethod.problem.cycle_records import CycleTask
@@ -83,3 +83,9 @@ def test_homework_has_the_formulas_of_transfer_functions() -> None:
     text = said(drawing.items)
     assert "Передаточные функции скоростей" in text
     assert "0,1·72/60 = 0,12" in text
+
+
+def test_graphs_grow_into_the_paper() -> None:
+    (drawing,) = drawn_sheets("linkages/ex3", layout="graphs")
+    (box,) = (view.box for view in drawing.views)
+    assert box[3] - box[1] > 250.0  # of 350 mm above the title block; 180 at the least heights

@@ -10,8 +10,8 @@ from hypothesis import strategies as st
 
 from planmethod.render.ink.drawing import Bounds
 from planmethod.render.layout.block import Shapes, Spacer
-from planmethod.render.layout.cuttings import GAP, Arrange, Group, Packed
-from planmethod.render.layout.pack import CLEAR, EDGE, emptiest_share, pack
+from planmethod.render.layout.cuttings import CLEAR, GAP, Arrange, Group, Packed
+from planmethod.render.layout.pack import EDGE, emptiest_share, pack
 
 INNER: Bounds = (20.0, 5.0, 589.0, 415.0)  # A2
 STAMP: Bounds = (404.0, 5.0, 589.0, 60.0)

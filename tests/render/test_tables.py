@@ -46,16 +46,16 @@ def test_outline_is_thick_and_inner_lines_are_thin() -> None:
     assert len(across) == 2
 
 
-def test_equal_units_share_one_cell_after_their_letter_above_the_symbols() -> None:
-    items = table_block(COLUMNS, units="above").place(0j)
-    (unit,) = runs_of(items, "v, м/с")
+def test_equal_units_share_one_cell_under_the_symbols() -> None:
+    items = table_block(COLUMNS).place(0j)
+    (unit,) = runs_of(items, "м/с")
     symbols = [run for run in runs_of(items, "v") if run.box]
     assert unit.box is not None
     assert symbols[0].box is not None
     assert symbols[1].box is not None
     assert unit.box[0] == symbols[0].box[0]
     assert unit.box[2] == symbols[1].box[2]
-    assert unit.box[1] == symbols[0].box[3]
+    assert unit.box[3] == symbols[0].box[1]
 
 
 def test_a_head_without_unit_takes_both_rows() -> None:
@@ -63,16 +63,6 @@ def test_a_head_without_unit_takes_both_rows() -> None:
     (number,) = runs_of(items, "№")
     assert number.box is not None
     assert number.box[3] - number.box[1] == pytest.approx(16)
-
-
-def test_units_below_are_one_for_each_column() -> None:
-    items = table_block(COLUMNS, units="below").place(0j)
-    first, second = runs_of(items, "м/с")
-    symbol = runs_of(items, "v")[0]
-    assert first.box is not None
-    assert symbol.box is not None
-    assert first.box[3] == symbol.box[1]
-    assert first.at.imag == second.at.imag
 
 
 def test_decimal_commas_stand_under_one_another() -> None:
@@ -102,8 +92,9 @@ def test_senses_are_mirror_images() -> None:
         (arc,) = [i for i in items if isinstance(i, Arc)]
         (head,) = [i for i in items if isinstance(i, Fill)]
         heads.append([p - arc.centre for p in head.points])
-    assert heads[0][0].imag == pytest.approx(-heads[1][0].imag)
-    assert heads[0][0].imag < 0  # open on the right: counter-clockwise ends below
+    assert heads[0][0].real == pytest.approx(-heads[1][0].real)
+    assert heads[0][0].imag == pytest.approx(heads[1][0].imag)
+    assert heads[0][0].real < 0 < heads[0][0].imag  # on top, to the left: counter-clockwise
 
 
 def test_stretches_to_a_width() -> None:
@@ -223,7 +214,7 @@ values = st.one_of(
         )
     ),
     st.sampled_from([None, 120.0, 185.0]),
-    st.sampled_from(["above", "below", "none"]),
+    st.sampled_from(["below", "none"]),
 )
 def test_tables_of_all_kinds_are_clean(
     columns: list[TableColumn],

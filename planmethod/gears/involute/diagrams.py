@@ -29,10 +29,10 @@ from planmethod.render.symbols import arrowhead
 CONTOUR = "diagram contour"
 """Tag of the curves of the contour, with the kind of the limit."""
 
-LOW, HIGH = -2.0, 3.0
+LOW, HIGH = -4.0, 4.0
 """Shifts between which the contour is drawn."""
 
-_COARSE, _FINE = 201, 161  # rows of the grids that the region and the curves are found on
+_COARSE, _FINE = 321, 161  # rows of the grids that the region and the curves are found on
 _NECK = 1.5  # steps of the grid: half the width of what does not join two regions
 _DENSER = 6  # times as many points as where a curve crosses the grid
 _SERIES = (1.0, 2.0, 2.5, 4.0, 5.0, 8.0)  # mm for a unit of the shifts, times a power of ten

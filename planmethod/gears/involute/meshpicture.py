@@ -6,7 +6,7 @@ touches the other one in P. Lengths are millimetres of paper.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from math import cos, pi, sin
 
 import numpy as np
@@ -158,8 +158,17 @@ def view_for(solved: SolvedMeshing, width: float, height: float) -> MeshView:
     return MeshView(solved, scale, (below, min(two, room - below)))
 
 
-def meshing_picture(view: MeshView, words: Language, letter: float) -> Picture:
-    """Return the picture with its letters; ``letter`` is their height, mm."""
+def meshing_picture(
+    view: MeshView,
+    words: Language,
+    letter: float,
+    sizes: Sequence[Item] = (),
+    named: Sequence[Label] = (),
+) -> Picture:
+    """Return the picture with its letters; ``letter`` is their height, mm.
+
+    ``sizes`` and ``named`` are dimensions and their letters.
+    """
     items: list[Item] = []
     for wheel, tooth in enumerate(view.solved.teeth):
         items += _circles(view, wheel)
@@ -169,8 +178,9 @@ def meshing_picture(view: MeshView, words: Language, letter: float) -> Picture:
     items += _line_of_action(view)
     items += _centres(view)
     items += _angle(view)
+    items += sizes
     items += _distance(view, ink_bounds(items)[0] - _ASIDE, words, letter)
-    return lettered(items, [*_letters(view, letter), *_circle_letters(view, letter)])
+    return lettered(items, [*_letters(view, letter), *_circle_letters(view, letter), *named])
 
 
 # Teeth --------------------------------------------------------------------------------------------

@@ -16,6 +16,7 @@ from planmethod.gears.involute.diagrams import (
     sliding_picture,
     sliding_scale,
 )
+from planmethod.gears.involute.meshdimensions import mesh_dimensions
 from planmethod.gears.involute.meshpicture import meshing_picture, view_for
 from planmethod.gears.involute.quantities import SolvedMeshing
 from planmethod.gears.involute.sizes import MeshingProblem
@@ -39,7 +40,7 @@ from planmethod.render.sheets.composer import Blank, Misfit, Packing, Sizes, Vie
 if TYPE_CHECKING:
     from planmethod.construct.drafting import Profile
 
-TEXT_WIDTH = STAMP_WIDTH - 10.0
+TEXT_WIDTH = STAMP_WIDTH - EDGE
 """Width of the tables, which stand over the title block, mm."""
 
 
@@ -118,7 +119,7 @@ class _Meshing(Struct, frozen=True):
         if told.height + room.stamp[3] + GAP > room.inner[3]:
             return None
         view = view_for(solved, share * 0.6 * free, share * high)
-        mesh = meshing_picture(view, words, sizes.letter)
+        mesh = meshing_picture(view, words, sizes.letter, *mesh_dimensions(view, sizes.letter))
         width = share * (free - mesh.width)
         plane = contour_picture(contour, words, width, share * 0.36 * high, sizes.letter)
         sliding = sliding_picture(solved, words, width, share * 0.2 * high, sizes.letter)

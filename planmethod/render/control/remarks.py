@@ -55,6 +55,7 @@ REMARKS: Mapping[str, Remark] = MappingProxyType(
         "PM-D14": Remark(_WARNING, "mm"),
         "PM-D15": Remark(_WARNING, "mm"),
         "PM-D16": Remark(_WARNING, "mm"),
+        "PM-D20": Remark(_WARNING, "%"),
     }
 )
 """Every code."""

@@ -8,6 +8,7 @@ To the codes of `planmethod.render.control.texts`, which looks at texts, it adds
 ``PM-D10``  a large part of the paper is unused
 ``PM-D11``  a dashed line does not begin and end with a stroke
 ``PM-D12``  a dashed line is too short to show its pattern
+``PM-D20``  too little of the paper has ink
 ``PM-D13``  lines or inscriptions run into the title block or graph 26
 
 and those of `planmethod.render.control.misleading`.
@@ -24,7 +25,7 @@ from msgspec.structs import replace
 from planmethod.render.control.misleading import holds, misleading
 from planmethod.render.control.remarks import Facts, Finding
 from planmethod.render.control.texts import beyond, lint, writings_of
-from planmethod.render.control.unused import ink_points, largest_empty, share_of
+from planmethod.render.control.unused import ink_points, inked_share, largest_empty, share_of
 from planmethod.render.frame.frame import (
     FRAME_LEFT,
     FRAME_OTHER,
@@ -51,8 +52,11 @@ from planmethod.render.ink.style import PENS, arc_spans, stroke_lines, sweep
 SHORTEST = 5.0
 """Shortest segment of a plan, mm: half a division of the ruler is then a tenth of it."""
 
-UNUSED = 15.0
+UNUSED = 12.0
 """Largest empty rectangle, per cent of the field within the frame."""
+
+INKED = 18.0
+"""Least share of the field that has ink, per cent of its squares of 5 mm."""
 
 _TOUCH = 0.05  # mm: what is not yet outside
 _FRAME_TAGS = frozenset({"edge", "frame", STAMP})
@@ -215,13 +219,16 @@ def scales_missing(items: Sequence[Item], views: Iterable[View]) -> Iterator[Fin
 # Paper and lines ----------------------------------------------------------------------------------
 
 
-def unused_paper(items: Iterable[Item], inner: Bounds) -> Iterator[Finding]:
-    """Find an empty rectangle that is too large a part of the field within the frame."""
+def unused_paper(items: Sequence[Item], inner: Bounds) -> Iterator[Finding]:
+    """Find an empty rectangle that is too large, and a field with little ink."""
     box = largest_empty(items, inner)
     width, height, share = box[2] - box[0], box[3] - box[1], share_of(box, inner)
     if share > UNUSED:
         facts = {"width": float(round(width)), "height": float(round(height))}
         yield Finding("PM-D10", _middle(box), share, UNUSED, facts)
+    inked = inked_share(items, inner)
+    if inked < INKED:
+        yield Finding("PM-D20", _middle(inner), inked, INKED, {})
 
 
 def dashes_unseen(items: Iterable[Item]) -> Iterator[Finding]:

@@ -1,4 +1,4 @@
-"""Unused paper (незаполненное поле): the largest rectangle of a sheet that has no ink."""
+"""Unused paper (незаполненное поле): the largest rectangle without ink, the share with ink."""
 
 from __future__ import annotations
 
@@ -24,6 +24,25 @@ def largest_empty(items: Iterable[Item], inner: Bounds) -> Bounds:
     rectangle is found to one square at each side.
     """
     x0, y0, x1, y1 = inner
+    taken = _taken(items, inner)
+    left, low, right, high = _largest(taken, len(taken[0]))
+    return (
+        x0 + left * CELL,
+        y0 + low * CELL,
+        min(x0 + right * CELL, x1),
+        min(y0 + high * CELL, y1),
+    )
+
+
+def inked_share(items: Iterable[Item], inner: Bounds) -> float:
+    """Return the share of the squares of `CELL` within the frame that ink touches, %."""
+    taken = _taken(items, inner)
+    return 100.0 * sum(map(sum, taken)) / (len(taken) * len(taken[0]))
+
+
+def _taken(items: Iterable[Item], inner: Bounds) -> list[list[bool]]:
+    """Return which squares ink touches, in rows from below."""
+    x0, y0, x1, y1 = inner
     columns, rows = ceil((x1 - x0) / CELL), ceil((y1 - y0) / CELL)
     taken = [[False] * columns for _ in range(rows)]
     for item in items:
@@ -31,13 +50,7 @@ def largest_empty(items: Iterable[Item], inner: Bounds) -> Bounds:
             k, j = floor((point.real - x0) / CELL), floor((point.imag - y0) / CELL)
             if 0 <= k < columns and 0 <= j < rows:
                 taken[j][k] = True
-    left, low, right, high = _largest(taken, columns)
-    return (
-        x0 + left * CELL,
-        y0 + low * CELL,
-        min(x0 + right * CELL, x1),
-        min(y0 + high * CELL, y1),
-    )
+    return taken
 
 
 def share_of(box: Bounds, inner: Bounds) -> float:

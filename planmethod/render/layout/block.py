@@ -13,7 +13,7 @@ from typing import Literal, Protocol, TypeAlias
 from msgspec import Struct
 
 from planmethod.note.formula import escape
-from planmethod.render.ink.drawing import Bounds, Item, Pen, Stroke, shifted
+from planmethod.render.ink.drawing import Bounds, Item, shifted
 from planmethod.render.ink.typeset import (
     Inscription,
     line_step,
@@ -111,13 +111,9 @@ class Picture(Struct, frozen=True):
 
 
 class Line(Struct, frozen=True):
-    """One typeset line (строка); the block's box is its ink box.
-
-    ``underline`` draws a thin line under it, as under the name of a view.
-    """
+    """One typeset line (строка); the block's box is its ink box."""
 
     inscription: Inscription
-    underline: bool = False
 
     @property
     def width(self) -> float:
@@ -126,20 +122,12 @@ class Line(Struct, frozen=True):
 
     @property
     def height(self) -> float:
-        """Ink height, with the underline if there is one, mm."""
-        room = self.inscription.ascent + self.inscription.descent
-        return room + (self._drop() if self.underline else 0.0)
-
-    def _drop(self) -> float:
-        return 0.25 * self.inscription.height
+        """Ink height, mm."""
+        return self.inscription.ascent + self.inscription.descent
 
     def place(self, corner: complex) -> list[Item]:
-        """Return the letters and the underline."""
-        items = self.inscription.at(corner - 1j * self.inscription.ascent)
-        if self.underline:
-            left = corner - 1j * self.height
-            items.append(Stroke((left, left + self.width), Pen.THIN))
-        return items
+        """Return the letters."""
+        return list(self.inscription.at(corner - 1j * self.inscription.ascent))
 
 
 class Lines(Struct, frozen=True):
@@ -249,18 +237,15 @@ class Row(Struct, frozen=True, dict=True):
         return items
 
 
-def heading(
-    markup: str,
-    height: float = 5.0,
-    *,
-    width: float | None = None,
-    underline: bool = False,
-) -> Block:
-    """Return the name of a view or of a list (заголовок), shrunk or wrapped to ``width`` mm."""
+def heading(markup: str, height: float = 5.0, *, width: float | None = None) -> Block:
+    """Return the name of a view or of a list (заголовок), shrunk or wrapped to ``width`` mm.
+
+    GOST 2.316 underlines no headings.
+    """
     for size in smaller_heights(height)[:2]:
         line = typeset(markup, size)
         if width is None or line.width <= width:
-            return Line(line, underline)
+            return Line(line)
     return paragraph(markup, height, width, align="centre")
 
 

@@ -17,6 +17,9 @@ GAP = 9.0
 TOGETHER = 0.6
 """Part of a group's spare white that stays between its blocks; the rest is around the group."""
 
+CLEAR = 3.0
+"""Least white between a block and a box that must stay free, mm."""
+
 _OPTIONS = 12  # cuttings kept for one run of blocks: widths from the narrowest to the widest
 
 Arrange: TypeAlias = Literal["free", "row", "column"]

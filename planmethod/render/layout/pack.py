@@ -10,9 +10,10 @@ fit, that of the least cost is taken, of equals the first. The cost is the sum o
 2. `BACK` for every paper's height that the eye goes back up from a group to the next one;
 3. `VOID` times the part of the paper that the largest empty rectangle takes.
 
-Views stand in the middle of their boxes. Neighbouring texts stand together: set to one left edge
+Blocks stand on a grid (`planmethod.render.layout.grid`): within their boxes they are moved to as
+few left edges and upper lines as can be. Neighbouring texts stand together: set to one left edge
 under one another, to one upper edge side by side. The last block stands on the title block in the
-lower right corner, or to the left of it.
+lower right corner, to its left edge where it is not wider, or to the left of it.
 """
 
 from __future__ import annotations
@@ -25,6 +26,7 @@ from planmethod.render.ink.drawing import Bounds
 from planmethod.render.ink.extent import overlap
 from planmethod.render.layout.block import Block
 from planmethod.render.layout.cuttings import (
+    CLEAR,
     GAP,
     Group,
     Leaf,
@@ -37,12 +39,10 @@ from planmethod.render.layout.cuttings import (
     fits,
     units_of,
 )
+from planmethod.render.layout.grid import on_grid
 
 EDGE = 5.0
 """Least white between a block and the frame, mm."""
-
-CLEAR = 3.0
-"""Least white between a block and a box that must stay free, mm."""
 
 BACK = 0.15
 """What it costs when the reader goes back up by the height of the paper."""
@@ -83,10 +83,12 @@ def _packed(
     whole: Group, inner: Bounds, stamp: Bounds, taken: Sequence[Bounds]
 ) -> list[Placed] | None:
     """Return the cheapest cutting of a group, if one fits."""
+    *_, last = whole.parts()
     found = [
         option
-        for corner in _last_corners(whole, inner, stamp)
-        for option in _options(whole, inner, stamp, taken, corner)
+        for end in last.ways
+        for corner in _last_corners(end, inner, stamp)
+        for option in _options(whole, inner, stamp, taken, end, corner)
     ]
     if not found:
         return None
@@ -97,28 +99,30 @@ def _packed(
         return option.cost + VOID * emptiest_share([*boxes, option.last, stamp, *taken], inner)
 
     best = min(found[:_LOOKED_AT], key=cost)
-    put = {leaf.number: (leaf.block, at) for unit in best.units for leaf, at in corners_of(unit)}
-    last = max(put)
-    boxes = [box_of(unit) for unit in best.units[:-1]]
-    put[last] = (put[last][0], _centred(best.last, boxes, inner, stamp, taken))
+    *units, end = best.units
+    if not units:
+        best = best._replace(last=_alone(best.last, inner, stamp, taken))
+    units = on_grid(units, complex(best.last[0], best.last[3]), [*taken, best.last])
+    put = {leaf.number: (leaf.block, at) for unit in units for leaf, at in corners_of(unit)}
+    (leaf, _), *_ = corners_of(end)
+    put[leaf.number] = (leaf.block, complex(best.last[0], best.last[3]))
     return [put[number] for number in sorted(put)]
 
 
-def _centred(
-    box: Bounds, boxes: Sequence[Bounds], inner: Bounds, stamp: Bounds, taken: Sequence[Bounds]
-) -> complex:
-    """Return the corner (upper left) of the last block: alone above the stamp, in the middle."""
-    left = (inner[0] + inner[2] + box[0] - box[2]) / 2
-    free = (inner[0], box[1], inner[2], box[3])
-    is_alone = box[1] >= stamp[3] and not any(overlap(free, o) for o in (*boxes, *taken))
-    return complex(left if is_alone else box[0], box[3])
+def _alone(box: Bounds, inner: Bounds, stamp: Bounds, taken: Sequence[Bounds]) -> Bounds:
+    """Return the box of the only block of a sheet in the middle of what the title block leaves."""
+    low, high = max(stamp[3], box[1]), min([inner[3], *(other[1] for other in taken)])
+    across = (inner[0] + inner[2] - box[0] - box[2]) / 2
+    up = max(0.0, (low + high - box[1] - box[3]) / 2)
+    moved = (box[0] + across, box[1] + up, box[2] + across, box[3] + up)
+    return moved if box[1] >= stamp[3] and moved[3] <= high else box
 
 
-def _last_corners(whole: Group, inner: Bounds, stamp: Bounds) -> list[complex]:
+def _last_corners(last: Block, inner: Bounds, stamp: Bounds) -> list[complex]:
     """Return where the last block may go: above the title block, a wide one to the left of it."""
-    *_, last = whole.parts()
-    wide, high = last.block.width, last.block.height
-    above = complex(inner[2] - EDGE - wide, stamp[3] + GAP / 2 + high)
+    wide, high = last.width, last.height
+    left = stamp[0] if wide <= inner[2] - EDGE - stamp[0] else inner[2] - EDGE - wide
+    above = complex(left, stamp[3] + GAP / 2 + high)
     beside = complex(stamp[0] - GAP / 2 - wide, inner[1] + EDGE + high)
     # Beside the title block a high one would leave white above that.
     low = high - (stamp[3] - stamp[1]) < (more := wide - (stamp[2] - stamp[0]))
@@ -138,9 +142,14 @@ class _Option(NamedTuple):
 
 
 def _options(
-    whole: Group, inner: Bounds, stamp: Bounds, taken: Sequence[Bounds], corner: complex
+    whole: Group,
+    inner: Bounds,
+    stamp: Bounds,
+    taken: Sequence[Bounds],
+    end: Block,
+    corner: complex,
 ) -> Iterator[_Option]:
-    """Yield the cuttings that fit with the last block in a certain place."""
+    """Yield the cuttings that fit with the last block in a certain way and place."""
     parts = tuple(whole.parts())
     room = (inner[2] - inner[0] - 2 * EDGE, inner[3] - inner[1] - 2 * EDGE)
     leaves = [
@@ -148,13 +157,12 @@ def _options(
         for k, part in enumerate(parts)
     ]
     box = (inner[0] + EDGE, inner[1] + EDGE, inner[2] - EDGE, inner[3] - EDGE)
-    end = leaves[-1][0]
     opposite = corner + complex(end.width, -end.height)
     last = (corner.real, opposite.imag, opposite.real, corner.imag)
     # The last block and the title block are one leaf.
     wide = max(box[2] - corner.real, min(stamp[2] - stamp[0] - EDGE, room[0]))
     high = max(corner.imag, stamp[3]) - box[1]
-    leaves[-1] = [Leaf(len(parts) - 1, end.block, wide, high, text=False)]
+    leaves[-1] = [Leaf(len(parts) - 1, end, wide, high, text=False)]
     turns = _turns(whole)
     for asked in (whole, *_with_the_last(whole)):
         for node in cuttings(asked, iter(leaves), room, whole=True):

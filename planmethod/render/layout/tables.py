@@ -1,10 +1,9 @@
 """Tables of results (таблицы результатов) as blocks.
 
 A table is columns, each with a symbol, a unit and one value per row (one row per position of the
-mechanism). Equal units of neighbouring columns share one cell above the symbols, after
-the letter of the quantity where they have one (GOST 2.105: ``v, m/s`` over v_B, v_C); or every
-column has its unit under its symbol. A table wider than the paper allows is cut
-into parts, one under another, each with the leading columns again.
+mechanism). Under the symbols stand the units, equal ones of neighbouring columns in one cell. A
+table wider than the paper allows is cut into parts, one under another, each with the leading
+columns again.
 """
 
 from __future__ import annotations
@@ -26,7 +25,7 @@ from planmethod.render.layout.block import Column as Stack
 from planmethod.render.layout.block import Line
 from planmethod.render.symbols import turn_sign
 
-UnitsAt: TypeAlias = Literal["above", "below", "none"]
+UnitsAt: TypeAlias = Literal["below", "none"]
 
 _PAD = 1.5  # white on both sides of a cell's text, mm
 _SIGN_GAP = 1.2  # between a value and the sign of its sense, mm
@@ -100,8 +99,8 @@ class TablePart(Struct, frozen=True, dict=True):
     def _row_heights(self) -> list[float]:
         values = zip(*(column.values for column in self.columns), strict=True)
         heads = [[c.head for c in self.columns], [c.unit for c in self.columns]]
-        order = {"above": heads[::-1], "below": heads, "none": heads[:1]}[self.units]
-        return [max(map(self._room, row)) for row in [*order, *map(list, values)]]
+        heads = heads[: self._head_rows()]
+        return [max(map(self._room, row)) for row in [*heads, *map(list, values)]]
 
     def _room(self, text: Inscription) -> float:
         """Least height of a row with this text, which is centred by its cap height."""
@@ -114,18 +113,14 @@ class TablePart(Struct, frozen=True, dict=True):
         ys = [corner.imag, *(corner.imag - h for h in accumulate(self._row_heights()))]
         head_rows = self._head_rows()
         items = self._lines(xs, ys)
-        unit_row = {"above": 0, "below": 1, "none": None}[self.units]
-        symbol_row = 1 if self.units == "above" else 0
-        if unit_row is not None:
+        if self.units == "below":
             for first, last in self._unit_spans():
                 if self.columns[first].unit.runs:
-                    box = (xs[first], ys[unit_row + 1], xs[last + 1], ys[unit_row])
-                    items += _centred(self._unit_head(first, last), box)
+                    box = (xs[first], ys[2], xs[last + 1], ys[1])
+                    items += _centred(self.columns[first].unit, box)
         for k, column in enumerate(self.columns):
-            top, bottom = ys[symbol_row], ys[symbol_row + 1]
-            if self._whole_head(k):
-                top, bottom = ys[0], ys[head_rows]
-            items += _centred(column.head, (xs[k], bottom, xs[k + 1], top))
+            bottom = ys[head_rows] if self._whole_head(k) else ys[1]
+            items += _centred(column.head, (xs[k], bottom, xs[k + 1], ys[0]))
             for row in range(len(column.values)):
                 top, bottom = ys[head_rows + row], ys[head_rows + row + 1]
                 items += _value(column, row, (xs[k], bottom, xs[k + 1], top))
@@ -135,22 +130,8 @@ class TablePart(Struct, frozen=True, dict=True):
         """Return True when the head of a column, having no unit, takes both head rows."""
         return self.units != "none" and not self.columns[k].source.unit
 
-    def _unit_head(self, first: int, last: int) -> Inscription:
-        """Return what stands in the unit cell of some columns."""
-        unit = self.columns[first].unit
-        if self.units == "below":
-            return unit
-        heads = {column.source.head for column in self.columns[first : last + 1]}
-        letters = {head.partition("_")[0] for head in heads if "_" in head} - {"σ"}
-        if len(letters) != 1:
-            return unit
-        whole = typeset(f"{letters.pop()}, {unit.markup}", unit.height)
-        return whole if whole.width < sum(self.widths[first : last + 1]) - _PAD else unit
-
     def _unit_spans(self) -> list[tuple[int, int]]:
         """First and last column of every unit cell; neighbours with one unit share it."""
-        if self.units == "below":
-            return [(k, k) for k in range(len(self.columns))]
         spans: list[tuple[int, int]] = []
         for _, group in groupby(range(len(self.columns)), lambda k: self.columns[k].source.unit):
             members = list(group)
@@ -166,8 +147,9 @@ class TablePart(Struct, frozen=True, dict=True):
         joined = {k for first, last in self._unit_spans() for k in range(first + 1, last + 1)}
         items: list[Item] = []
         for k in range(1, len(xs) - 1):
-            top = ys[1] if self.units == "above" and k in joined else ys[0]
-            items.append(_line(complex(xs[k], top), complex(xs[k], ys[-1])))
+            shares = self.units == "below" and k in joined
+            for top, low in ((0, 1), (2, -1)) if shares else ((0, -1),):
+                items.append(_line(complex(xs[k], ys[top]), complex(xs[k], ys[low])))
         for row in range(1, len(ys) - 1):
             if row == head:
                 continue
@@ -200,7 +182,7 @@ def table_block(
     *,
     max_width: float | None = None,
     width: float | None = None,
-    units: UnitsAt = "above",
+    units: UnitsAt = "below",
     leading: int = 0,
     row_height: float = 8.0,
     title: str = "",
@@ -218,8 +200,8 @@ def table_block(
         either, cut into parts one under another at the full height.
     width : float, mm, optional
         Width to stretch to (each part), for a table that stands above the title block.
-    units : {"above", "below", "none"}
-        Unit cells above the symbols, shared by neighbours; or under each symbol.
+    units : {"below", "none"}
+        Unit cells under the symbols, shared by neighbours, or none.
     leading : int
         How many first columns (position number, φ) are repeated in every part.
     title : str
@@ -277,7 +259,7 @@ def _set_at(column: TableColumn, size: float) -> _Set:
     values = tuple(typeset(cell.text, size) for cell in column.cells)
     head, unit = typeset(column.head, size), typeset(column.unit, size)
     signed = any(cell.sense is not None for cell in column.cells)
-    sign = 1.2 * size if signed else 0.0
+    sign = 1.4 * size if signed else 0.0
     tail = sign + _SIGN_GAP if signed else 0.0
     room = max((value.width for value in values), default=0.0)
     lefts = tuple(-(value.width + tail) / 2 for value in values)

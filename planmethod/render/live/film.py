@@ -15,9 +15,11 @@ import numpy.typing as npt
 from msgspec import Struct, field
 from msgspec.structs import replace
 
+from planmethod.construct.scale import Scale, series_near
 from planmethod.errors import AssemblyError
 from planmethod.languages import say
 from planmethod.mechanism.model import FRAME
+from planmethod.note.narrate.scales import scale_inscription
 from planmethod.note.wording import language
 from planmethod.plans.draft import cis
 from planmethod.plans.legend import QuantityKind
@@ -37,7 +39,7 @@ Reals = npt.NDArray[np.float64]
 
 _FINER = 4  # times as many places of the lines that points move along
 _GAP = 1.2  # mm between an inscription and its point; of the scheme's joints twice that
-_CAPTION = 12.0  # mm of paper over a view
+_CAPTION = 18.0  # mm of paper over a view: its name, and its scale on the paper of the SVG
 _NEAR = 1e-9
 _WAYS = np.array([far * np.exp(1j * np.pi / 8 * k) for far in (1.0, 4.0, 8.0) for k in range(16)])
 """Directions in which inscriptions stand, by 1 mm and more than the gap off their points."""
@@ -225,6 +227,8 @@ class _Cutting:
         self.scene, self.views, self.frames = scene, views, frames
         self.drive = scene.problem.drive
         self.origin = scene.construction.draft.origin
+        for view in views:
+            view.per_mm = series_near(0.999 * view.per_mm, up=True)
         self.positions, self.closed = self._exist()
         self.values = scene.sweep.run(self.positions)
 
@@ -269,8 +273,13 @@ class _Cutting:
             corner = complex(left - view.box[0], view.box[1] + view.box[3])
             corner += 1j * (made.height - _CAPTION - view.box[3]) / 2
             text = typeset(view.title, 0.8 * LETTER)
-            at = complex(left + (view.box[2] - text.width) / 2, made.height - 0.7 * _CAPTION)
+            at = complex(left + (view.box[2] - text.width) / 2, made.height - 0.5 * _CAPTION)
             made.still += text.at(at)
+            mu = Scale(view.scale.symbol, view.per_mm, view.scale.unit)
+            convention = problem.scales.convention
+            told = typeset(scale_inscription(mu, convention, scene.words.say), 0.6 * LETTER)
+            middle = left + (view.box[2] - told.width) / 2
+            made.still += told.at(complex(middle, made.height - 0.9 * _CAPTION))
             self._view(made, view, corner)
             left += view.box[2]
         made.width = left

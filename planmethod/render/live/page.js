@@ -4,7 +4,6 @@
 const D = JSON.parse(document.getElementById("scene").textContent);
 const SVG = "http://www.w3.org/2000/svg", byId = id => document.getElementById(id);
 const TURN = 360, SLACK = 1e-9, STILL = 1e-10, SAMPLES = 720;
-const ZOOMS = [64, 48, 32, 24, 16, 12, 8, 6, 4, 3, 2, 1.5, 1, 0.75, ...Array.from({ length: 30 }, (_, k) => 2 ** (-k - 1))];
 
 // Numbers -----------------------------------------------------------------------------------------
 
@@ -154,6 +153,7 @@ for (const view of D.views) {
   view.labels.forEach((one, k) => { one.node = byId("label-" + view.id + "-" + k); });
   view.told = byId("told-" + view.id);
   view.zoom = byId("zoom-" + view.id);
+  view.bar = made(lines, "path", "seg thin");
   const look = event => {
     const inside = view.svg.getScreenCTM().inverse();
     const p = new DOMPoint(event.clientX, event.clientY).matrixTransform(inside);
@@ -182,7 +182,8 @@ function point(view, out, ref, times) {
   let x = out[ref[0]] - (view.origin ? view.origin[0] : 0);
   let y = out[ref[0] + 1] - (view.origin ? view.origin[1] : 0);
   if (ref[1]) [x, y] = [-y, x];
-  return [x / view.per_mm / times, -y / view.per_mm / times];
+  const [right, down] = view.shift || [0, 0];
+  return [x / view.per_mm / times + right, -y / view.per_mm / times + down];
 }
 
 function distance([x, y], [[ax, ay], [bx, by]]) {
@@ -229,6 +230,15 @@ function circular(one, centre, sense) {  // a circular arrow; none where the sen
   one.head.setAttribute("d", sense ? path(tip) + "Z" : "");
 }
 
+function measure(view) {  // a round length of the picture, and what it is in its unit
+  const [left, top, , height] = view.box, about = 30 * view.per_mm * view.times;
+  const power = 10 ** Math.floor(Math.log10(about)), digit = [5, 2, 1].find(k => k * power <= about);
+  const value = digit * power, x = left + 3, y = top + height - 3, end = x + value / view.per_mm / view.times;
+  const marks = [x, end].map(at => [[at, y - 1.5], [at, y + 1.5]]);
+  view.bar.setAttribute("d", [[[x, y], [end, y]], ...marks].map(path).join(""));
+  rich(view.zoom, "├─┤ = " + short(value, Math.max(1, power.toString().length)) + " ", view.unit);
+}
+
 function draw(view, out) {
   const refs = [...view.segments.flatMap(one => [one.a, one.b]),
     ...view.labels.flatMap(one => one.at ? [one.at] : [])];
@@ -237,15 +247,16 @@ function draw(view, out) {
   if (!there) { view.hot = -1; return; }
   const [left, top, width, height] = view.box;
   view.times = 1;
-  if (view.zoom) {  // plans grow and shrink a hundredfold in a turn: each is drawn as large as fits
-    const outside = times => refs.some(ref => {
-      const [x, y] = point(view, out, ref, times);
-      return x < left + 4 || y < top + 4 || x > left + width - 4 || y > top + height - 4;
-    });
-    const nothing = refs.every(ref => Math.hypot(...point(view, out, ref, 1)) < 1e-6);
-    view.times = nothing ? 1 : 1 / (ZOOMS.find(zoom => !outside(1 / zoom)) || 1);
-    view.zoom.textContent = view.times === 1 ? "" :
-      D.words.zoom.replace("{times}", short(1 / view.times, 3));
+  if (view.zoom) {  // plans grow and shrink a hundredfold in a turn: each fills its box
+    view.shift = [0, 0];
+    const places = refs.map(ref => point(view, out, ref, 1)), margin = view.pushes.length ? 22 : 13;
+    const ends = k => [Math.min, Math.max].map(most => most(...places.map(p => p[k])));
+    const [[x0, x1], [y0, y1]] = [ends(0), ends(1)];
+    const needed = Math.max((x1 - x0) / (width - 2 * margin), (y1 - y0) / (height - 2 * margin));
+    view.times = needed > 1e-8 ? needed : 1;
+    view.shift = [left + width / 2 - (x0 + x1) / 2 / view.times,
+      top + height / 2 - (y0 + y1) / 2 / view.times];
+    measure(view);
   }
   const drawn = [];
   for (const one of view.segments) one.covered = false;

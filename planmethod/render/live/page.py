@@ -225,7 +225,7 @@ class _Page:
             "motion": scene.motion(),
             "words": {
                 "play": said.play, "pause": said.pause, "touch": said.touch,
-                "zoom": said.zoom, "nearest": said.nearest, "unknown": said.unknown,
+                "nearest": said.nearest, "unknown": said.unknown,
                 "decimal": say.decimal, "mm": _plain(say.units["mm"]),
             },
         }  # fmt: skip

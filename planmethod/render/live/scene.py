@@ -46,6 +46,9 @@ Ref = list[int]
 BOX = (105.0, 80.0)
 """What a view's picture fills, mm: on a telephone its letters of 5 mm are read."""
 
+LEAST = 0.6 * BOX[0]
+"""Width at least that a view has for its picture, mm, so that letters are not too large."""
+
 SHAPE = 1.3
 """Width of all views by their height, so that they stand in rows."""
 
@@ -470,6 +473,6 @@ def _box(places: Array, margin: float) -> tuple[float, float, float, float]:
     low = complex(places.real.min(), places.imag.min())
     high = complex(places.real.max(), places.imag.max())
     middle, size = (low + high) / 2, high - low
-    width = 2 * margin + max(size.real, SHAPE * (size.imag + 2 * margin) - 2 * margin, BOX[0])
+    width = 2 * margin + max(size.real, SHAPE * (size.imag + 2 * margin) - 2 * margin, LEAST)
     height = width / SHAPE
     return middle.real - width / 2, -middle.imag - height / 2, width, height

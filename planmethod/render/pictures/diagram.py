@@ -30,6 +30,7 @@ CURVE = "diagram curve"
 _BEYOND = 8.0  # mm: an axis goes on beyond what is drawn
 _TICK = 1.2  # mm: half of a tick
 _APART = 11.0  # mm: between the numbers of the axis of ordinates
+_RAYS_APART = 18.0  # mm: between them where rays end on it
 _HEAD = 4.0  # mm: arrowhead of an axis
 _BESIDE_AXIS = 25.0  # mm: so near the axis of ordinates no curve has its letter if it can
 _BESIDE_NUMBERS = 8.0  # mm: so low a curve has its letter above it
@@ -105,7 +106,8 @@ def diagram_picture(
     construction : sequence of Item
         Lines that the diagram was found with.
     labels : sequence of Label
-        Letters of a pole and its rays, which leave the axis of ordinates no room for its numbers.
+        Letters of a pole and its rays, which take the left of the axis of ordinates: its numbers
+        are fewer then, and stand where there is room.
     letter_height : float, mm
         Of the letters; the numbers are a size smaller, 2.5 mm at least.
     name : str
@@ -117,8 +119,12 @@ def diagram_picture(
     far = max([*across.at, *(place.real for place in places)])
     size = max(2.5, 0.7 * letter_height)
     items = [*_axes(across, up, (low, high, far), letter_height), *construction]
-    if not labels:
-        items += _ordinate_numbers(up, low, high, size)
+    ordinates = _ordinates(up, low, high, apart=_RAYS_APART if labels else _APART)
+    for y, number in ordinates:
+        items.append(Stroke((complex(-_TICK, y), complex(_TICK, y)), Pen.THIN, tag=AXIS))
+        if not labels:
+            text = typeset(number, size)
+            items += text.at(complex(-_TICK - 1.2 - text.width, y - size / 2))
     for x in across.at:
         items.append(Stroke((complex(x, -_TICK), complex(x, _TICK)), Pen.THIN, tag=AXIS))
     for curve in curves:
@@ -137,7 +143,12 @@ def diagram_picture(
         for k, (x, number) in enumerate(zip(across.at, across.numbers, strict=True))
         if number and k % every == 0
     ]
-    return lettered(items, [*numbers, *labels, *_letters(curves, letter_height, name)])
+    values = [
+        Label(typeset(number, size), 1j * y, prefer=1 + 0j, gap=1.6, name=f"{name}: value {number}",
+              manner=BUSY)
+        for y, number in (ordinates if labels else ())
+    ]  # fmt: skip
+    return lettered(items, [*numbers, *values, *labels, *_letters(curves, letter_height, name)])
 
 
 def _every(at: Sequence[float], least: float) -> int:
@@ -167,18 +178,15 @@ def _axes(
     return [*items, *typeset(up.name, height).at(complex(2.5, top - height))]
 
 
-def _ordinate_numbers(up: Ordinates, low: float, high: float, size: float) -> list[Item]:
-    """Return ticks with round numbers on the axis of ordinates; at zero a position stands."""
-    items: list[Item] = []
-    step = series_near(_APART * up.per_mm, up=True)
-    for k in range(ceil(low * up.per_mm / step - 1e-9), floor(high * up.per_mm / step + 1e-9) + 1):
-        if not k:
-            continue
-        y = k * step / up.per_mm
-        number = typeset(up.say.number(trimmed(k * step, 4)), size)
-        items.append(Stroke((complex(-_TICK, y), complex(_TICK, y)), Pen.THIN, tag=AXIS))
-        items += number.at(complex(-_TICK - 1.2 - number.width, y - size / 2))
-    return items
+def _ordinates(up: Ordinates, low: float, high: float, *, apart: float) -> list[tuple[float, str]]:
+    """Return heights of round numbers on the axis of ordinates; at zero a position stands."""
+    step = series_near(apart * up.per_mm, up=True)
+    first, last = low * up.per_mm / step, high * up.per_mm / step
+    return [
+        (k * step / up.per_mm, up.say.number(trimmed(k * step, 4)))
+        for k in range(ceil(first - 1e-9), floor(last + 1e-9) + 1)
+        if k
+    ]
 
 
 def _curve_items(curve: Curve) -> list[Item]:

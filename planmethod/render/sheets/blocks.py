@@ -13,7 +13,8 @@ from typing import TypeAlias
 
 from msgspec import Struct
 
-from planmethod.render.layout.block import Block
+from planmethod.plans.model import PlanKind
+from planmethod.render.layout.block import Block, Column
 from planmethod.render.sheets import results, texts, views
 from planmethod.render.sheets.model import Manner
 from planmethod.solved.solution import Solution
@@ -74,6 +75,9 @@ def _scheme(solution: Solution, indices: Sequence[int], manner: Manner) -> Block
 
 
 def _plan(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
+    still = manner.entry.of is PlanKind.VELOCITY and not solution.problem.drive.rate
+    if manner.entry.droppable and still:  # a plan of nothing
+        return Column([])
     if len(solution.positions) == 1:
         return views.plan_view(solution, indices, manner)
     from planmethod.render.sheets import several

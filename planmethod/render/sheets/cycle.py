@@ -244,7 +244,7 @@ def hodographs(solution: Solution, indices: Sequence[int], manner: Manner) -> Bl
         cells.append(Column([picture, Column(lines, gap=2.5, align="centre")], gap=4.0,
                             align="centre"))  # fmt: skip
     name = manner.entry.title or words.sheets.hodographs
-    title = Line(typeset(name, manner.title), underline=True)
+    title = Line(typeset(name, manner.title))
     chords = [_line(manner, text) for text in _chords(forces, manner)]
     asked = manner.entry.per_row
     ways = []

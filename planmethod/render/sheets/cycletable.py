@@ -113,5 +113,10 @@ def _balance_columns(
     columns.append(column(said.cycle_plans, plans, sense=balancing.turns))
     columns.append(column(said.cycle_lever, lever, sense=balancing.turns))
     columns.append(column("Δ", differences, sense=False))
+    shares = [
+        f"{round(100.0 * off / abs(float(one)), 1) + 0.0:.1f}" if float(one) else "—"
+        for off, one in zip(apart, plans, strict=True)
+    ]
+    columns.append(TableColumn("Δ", tuple(map(say.number, shares)), unit="%"))
     columns.append(column("σ_{Δ}", alike(chosen(sigma), 2), sense=False))
     return columns

@@ -142,7 +142,7 @@ def lever_view(solution: Solution, indices: Sequence[int], manner: Manner) -> Bl
     words = manner.words
     title = manner.entry.title or words.sheets.lever
     if reading.statics.lever_plan is None:
-        return heading(title, manner.title, underline=True)  # the reason stands beside it
+        return heading(title, manner.title)  # the reason stands beside it
     kind = PlanKind.VELOCITY
     scale = solution.own_scale(kind, reading.index)
     said = [

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
+from itertools import product
 from math import log
 
 import numpy as np
+from msgspec.structs import replace
 
-from planmethod.construct.scale import Scale, choose_scale
+from planmethod.construct.scale import Scale, choose_scale, next_scale
 from planmethod.note.narrate.scales import scale_inscription
 from planmethod.note.wording import Language
 from planmethod.problem.graphs import OUTPUT, GraphQuantity
@@ -24,8 +26,8 @@ from planmethod.solved.turn.diagrams import Diagrams, diagrams_of
 from planmethod.solved.turn.series import quantities_over, values_over
 from planmethod.solved.turn.turn import Turn
 
-HEIGHT = 55.0
-"""Height that the curves of a diagram keep to, mm."""
+HEIGHTS = (55.0, 70.0, 90.0, 120.0, 160.0)
+"""Heights that the curves of a diagram keep to, mm: the least one, and larger ones for its room."""
 
 PENS = (Pen.MAIN, Pen.THIN, Pen.HIDDEN, Pen.AXIS)
 """Lines of the curves of one diagram, in turn."""
@@ -57,9 +59,18 @@ def graph_groups(turn: Turn, labels: Sequence[str]) -> list[list[GraphQuantity]]
 
 
 def graph_picture(
-    diagrams: Diagrams, group: Sequence[GraphQuantity], letter: float, words: Language
+    diagrams: Diagrams,
+    group: Sequence[GraphQuantity],
+    letter: float,
+    words: Language,
+    *,
+    tall: float = HEIGHTS[0],
+    wide: float = 1.0,
 ) -> tuple[Picture, Scale]:
-    """Return one diagram over the angle of the crank, and its scale of ordinates."""
+    """Return one diagram over the angle of the crank, and its scale of ordinates.
+
+    Its curves keep to a height of ``tall`` mm; its axis is ``wide`` times as long as the usual one.
+    """
     turn, say = diagrams.turn, words.say
     shares, drawn = diagrams.fine, diagrams.shares
     if turn.range is not None:
@@ -69,9 +80,9 @@ def graph_picture(
     inverse = turn.solution.problem.scales.convention is Convention.MM_PER_UNIT
     height = float(np.ptp(there)) or 1.0
     first = group[0]
-    per_mm = choose_scale((0.0, height), (1.0, HEIGHT), mm_per_unit=inverse)
+    per_mm = choose_scale((0.0, height), (1.0, tall), mm_per_unit=inverse)
     scale = Scale(f"mu_{MARKS.get(first.family, first.family)}", per_mm, first.unit)
-    x = diagrams.x(shares)
+    x = wide * diagrams.x(shares)
     curves: list[Curve] = []
     for one, row in zip(group, values, strict=True):
         if len(group) > 1 and not np.any(row):
@@ -83,7 +94,7 @@ def graph_picture(
         else:
             both = f"{curves[same].symbol} = {one.symbol}"
             curves[same] = Curve(both, curves[same].parts, curves[same].pen)
-    names, at = turn.numbers, diagrams.x(drawn)
+    names, at = turn.numbers, wide * diagrams.x(drawn)
     numbers = tuple(str(names[k % diagrams.count]) for k in range(len(at)))
     curves = curves or [Curve(first.symbol, _parts(x, values[0]))]
     shown = curves[0].symbol if len(curves) == 1 else LETTERS[first.family]
@@ -141,16 +152,38 @@ def graph_labels(solution: Solution, manner: Manner) -> tuple[str, ...]:
 
 
 def graphs_view(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
-    """Return the graphs of what is asked, in one column or several; nothing if nothing is."""
-    labels, problem = graph_labels(solution, manner), solution.problem
+    """Return the graphs of what is asked, in one column or several; nothing if nothing is.
+
+    They may be larger: the packer takes what fills the paper.
+    """
+    labels = graph_labels(solution, manner)
     if not labels:
         return Column([])
-    diagrams, words = diagrams_of(solution), manner.words
-    convention, height = problem.scales.convention, manner.text(manner.sizes.text)
+    diagrams = diagrams_of(solution)
+    usual = diagrams.scales[-1]
+    inverse = solution.problem.scales.in_mm_per_unit
+    finer = usual.per_mm
+    while finer > usual.per_mm / 1.5:
+        finer = next_scale(finer, finer=True, mm_per_unit=inverse)
+    ways: list[Viewed] = []
+    for tall, per_mm in product(HEIGHTS, (usual.per_mm, finer)):
+        ways += _ways(diagrams, labels, manner, replace(usual, per_mm=per_mm), tall)
+    # First the one that is shaped as the sheet.
+    ways.sort(key=lambda way: (way.width > manner.inside, abs(log(way.width / way.height / 1.4))))
+    return shaped(ways)
+
+
+def _ways(
+    diagrams: Diagrams, labels: Sequence[str], manner: Manner, axis: Scale, tall: float
+) -> Iterator[Viewed]:
+    """Yield the graphs in one column or several, at a scale of the axis of φ and a height."""
+    words, height = manner.words, manner.text(manner.sizes.text)
+    convention = diagrams.turn.solution.problem.scales.convention
+    wide = diagrams.scales[-1].per_mm / axis.per_mm
     cells: list[Block] = []
     scale = diagrams.scales[0]
     for group in graph_groups(diagrams.turn, labels):
-        picture, scale = graph_picture(diagrams, group, manner.letter, words)
+        picture, scale = graph_picture(diagrams, group, manner.letter, words, tall=tall, wide=wide)
         name = str(words.cycle["graphs"][group[0].family])
         inscription = scale_inscription(scale, convention, words.say)
         none = [f"{one.symbol} = 0" for one in group if is_none(diagrams, one)]
@@ -158,17 +191,13 @@ def graphs_view(solution: Solution, indices: Sequence[int], manner: Manner) -> B
         lines = [Line(typeset(text, height)) for text in (name, inscription)]
         cells.append(Column([Column(lines, gap=2.5, align="centre"), picture], gap=4.0,
                             align="centre"))  # fmt: skip
-    axis = scale_inscription(diagrams.scales[-1], convention, words.say)
-    title = Line(typeset(manner.entry.title or words.cycle.graphs_title, manner.title),
-                 underline=True)  # fmt: skip
-    said = Line(typeset(axis, height))
-    steps = (manner.entry.per_row,) if manner.entry.per_row else (1, 2, 3, 4)
-    ways: list[Block] = []
+    title = Line(typeset(manner.entry.title or words.cycle.graphs_title, manner.title))
+    said = Line(typeset(scale_inscription(axis, convention, words.say), height))
+    # Of a few graphs no row is left half empty.
+    steps = [k for k in (1, 2, 3, 4) if len(cells) > 4 or len(cells) % k == 0]
+    steps = [manner.entry.per_row] if manner.entry.per_row else steps
     for step in dict.fromkeys(min(k, len(cells)) for k in steps):
         rows = [Row(cells[k : k + step], gap=12.0) for k in range(0, len(cells), step)]
         head = Column([title, said], gap=2.5, align="centre")
-        block = Column([head, *rows], gap=8.0, align="centre")
-        ways.append(Viewed(block, "graphs", scale))
-    # The last block of a sheet stands in its first way: the one that is shaped as the sheet.
-    ways.sort(key=lambda way: (way.width > manner.inside, abs(log(way.width / way.height / 1.4))))
-    return shaped(ways)
+        block = Column([head, *rows], gap=8.0, align="left")
+        yield Viewed(block, "graphs", scale)

@@ -1,8 +1,12 @@
-"""Table of what the plans of all positions give, beside the exact values (измеренное и точное)."""
+"""Table of what the plans of all positions give, beside the exact values (измеренное и точное).
+
+Of every quantity: what is exact, what is measured, and how far off that is in per cent.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from math import inf
 
 from planmethod.note.narrate.given import told
 from planmethod.note.numbers import alike, is_noise
@@ -10,13 +14,18 @@ from planmethod.plans.legend import MOTION_KINDS, Quantity
 from planmethod.render.layout.block import Block
 from planmethod.render.layout.tables import TableCell, TableColumn, table_block
 from planmethod.render.sheets.model import Manner
-from planmethod.render.sheets.results import position_columns, table_width
+from planmethod.render.sheets.results import MOST_OFF, position_columns, results_block, table_width
 from planmethod.solved.reading import Reals
 from planmethod.solved.solution import Solution
 
 
 def measured_table(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
-    """Return of every quantity what is measured on the plans and what is exact, by positions."""
+    """Return of every quantity what is measured on the plans and what is exact, by positions.
+
+    Where errors are asked for, the exact values with them.
+    """
+    if manner.extras.sigma:
+        return results_block(solution, indices, manner)
     words = manner.words
     columns = position_columns(solution, indices, words)
     for quantity in told(solution, *MOTION_KINDS):
@@ -24,6 +33,7 @@ def measured_table(solution: Solution, indices: Sequence[int], manner: Manner) -
         columns.append(_column(quantity, quantity.symbol, exact, exact, indices, manner))
         symbol = words.sheets.read_symbol.format(symbol=quantity.symbol)
         columns.append(_column(quantity, symbol, read, exact, indices, manner))
+        columns.append(_off(read, exact, indices, manner))
     height = manner.text(min(manner.sizes.text, 3.5))
     title = manner.entry.title or words.sheets.measured
     return table_block(
@@ -31,8 +41,20 @@ def measured_table(solution: Solution, indices: Sequence[int], manner: Manner) -
         height,
         max_width=table_width(manner),
         leading=2,
+        row_height=2.0 * height,
         title=title.format(ruler=words.say.given(solution.profile.ruler)),
     )
+
+
+def _off(read: Reals, exact: Reals, indices: Sequence[int], manner: Manner) -> TableColumn:
+    """Return how far off what is measured is, %; "—" where there is nothing to be off from."""
+    peak, cells = max(abs(float(value)) for value in exact), []
+    for i in indices:
+        nothing = is_noise(float(exact[i]), peak)
+        off = inf if nothing else 100.0 * float(read[i] - exact[i]) / abs(float(exact[i]))
+        shown = f"{round(off, 1) + 0.0:.1f}" if abs(off) < MOST_OFF else "—"
+        cells.append(manner.words.say.number(shown))
+    return TableColumn("Δ", tuple(cells), unit="%", least=9.0)
 
 
 def _column(

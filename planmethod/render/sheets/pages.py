@@ -133,13 +133,14 @@ def _with_larger_texts(
     """Return a page with the texts of each kind in larger letters, if there is room for them.
 
     All letters of a sheet shrink alike until everything fits; what is left goes to the texts whose
-    letters are the smallest, so that none are twice as high as others.
+    letters are the smallest, so that none are twice as high as others. Those of the forces, which
+    are many short ones, have one height.
     """
-    kinds = list(dict.fromkeys(m.entry.kind for m in manners if m.entry.heights))
+    kinds = list(dict.fromkeys(_family(m.entry) for m in manners if m.entry.heights))
     while kinds:
-        heights = {m.entry.kind: m.text(0.0) for m in manners if m.entry.heights}
+        heights = {_family(m.entry): m.text(0.0) for m in manners if m.entry.heights}
         kind = min(kinds, key=heights.__getitem__)
-        own = [k for k, manner in enumerate(manners) if manner.entry.kind == kind]
+        own = [k for k, m in enumerate(manners) if _family(m.entry) == kind and m.entry.heights]
         larger = list(manners)
         for k in own:
             larger[k] = manners[k].larger(below=2.0 * min(heights.values()))
@@ -150,6 +151,12 @@ def _with_larger_texts(
         else:
             kinds.remove(kind)
     return parts
+
+
+def _family(entry: Entry) -> str:
+    """Return what has texts of one height: the forces, else the kind of the block alone."""
+    kind = BLOCKS[entry.kind].makers
+    return kind.__name__ if kind is BLOCKS["loads"].makers else entry.kind
 
 
 def _going_on(

@@ -44,7 +44,8 @@ def _sigma_rows(
 ) -> tuple[TableCell, ...]:
     """Return what was read on the plans, how far off, and the error.
 
-    What was read has as many decimals as the exact value, ``like``, but where that is nothing.
+    What was read has as many decimals as the exact value, ``like``, but where that is nothing; no
+    zeros at its end are finer than the error.
     """
     read = float(solution.read_off(quantity.label)[index])
     sigma, mark = marked(drafting_of(solution), quantity.label, index)
@@ -57,6 +58,9 @@ def _sigma_rows(
         if like != "0" and "e" not in like
         else rounded_to(abs(read), sigma)
     )
+    fine = len(sigma_text(sigma).partition(".")[2])
+    while sigma and text.endswith("0") and len(text.partition(".")[2]) > fine:
+        text = text[:-1].removesuffix(".")
     return (
         TableCell(say.number(text), _sense(read) if turns else None),
         TableCell(

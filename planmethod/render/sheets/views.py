@@ -214,6 +214,6 @@ def with_scale(
 def named(picture: Block, title: str, said: Iterable[str | Block], manner: Manner) -> Column:
     """Return a picture under its name and what is said of it, lines of text mostly (GOST 2.316)."""
     height = manner.text(manner.sizes.text)
-    lines: list[Block] = [Line(typeset(title, manner.title), underline=True)]
+    lines: list[Block] = [Line(typeset(title, manner.title))]
     lines += [Line(typeset(one, height)) if isinstance(one, str) else one for one in said]
     return Column([Column(lines, gap=2.5, align="centre"), picture], gap=5.0, align="centre")

@@ -99,11 +99,12 @@ def turn_arrow(
 def turn_sign(centre: complex, size: float, sense: int, *, tag: str = "") -> list[Item]:
     """Return the small sign of a sense of rotation for a table (знак направления вращения).
 
-    ``size`` is the diameter, mm; +1 counter-clockwise, -1 clockwise. Most of a circle,
-    open on the right, with a head in the opening.
+    ``size`` is the diameter, mm; +1 counter-clockwise, -1 clockwise. Most of a circle that ends on
+    top with a head: open on the left and on the right, so that the two are told apart from afar.
     """
+    middle = 315.0 if sense > 0 else 225.0
     return turn_arrow(
-        centre, size / 2, sense, middle=180.0, sweep=290.0, length=0.75 * size, tag=tag
+        centre, size / 2, sense, middle=middle, sweep=280.0, length=0.6 * size, tag=tag
     )
 
 

@@ -1,0 +1,109 @@
+"""Dimensions on the picture of a mesh (размеры на картине зацепления): p, s, e, h, c, and breaks.
+
+The pitch and its parts stand along the reference circle of wheel 1 on the side that has no letters
+of circles, the height of the tooth beside the teeth of wheel 2, the clearance on the line of
+centres.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from math import pi, sqrt
+from typing import TypeAlias
+
+import numpy as np
+
+from planmethod.gears.involute.meshpicture import MeshView
+from planmethod.render.ink.drawing import Item, Pen, Stroke
+from planmethod.render.ink.typeset import typeset
+from planmethod.render.labels import BUSY, Label
+from planmethod.render.symbols.axes import wavy_line
+from planmethod.render.symbols.dimensions import angle_dimension, dimension
+
+Named: TypeAlias = list[tuple[str, complex, complex]]
+"""Letters, where they belong, and to which side they rather stand."""
+
+TAG = "dimension"
+
+_DOWN = (9.0, 18.0)  # mm: from the root circle to the dimensions of s and e, and to that of p
+_TAIL = 1.5  # mm: of an extension line beyond the dimension line
+_ASIDE = 4.0  # mm: from the outermost tooth to the dimension of its height
+_BREAK = 16.0  # mm: length of a line of break
+_OUT = 9.0  # mm: from the line of centres to the dimension of the clearance
+
+
+def mesh_dimensions(view: MeshView, height: float) -> tuple[list[Item], list[Label]]:
+    """Return the dimensions of a picture and their letters, of a height in mm."""
+    items: list[Item] = []
+    named: Named = []
+    for parts, letters in (_pitch(view), _height(view), _clearance(view)):
+        items += parts
+        named += letters
+    for wheel in (0, 1):
+        items += _breaks(view, wheel)
+    labels = [
+        Label(typeset(said, height), at, prefer=way, gap=1.2, name=f"size {said}", manner=BUSY)
+        for said, at, way in named
+    ]
+    return items, labels
+
+
+def _radius(view: MeshView, wheel: int, name: str) -> float:
+    return abs(view.solved.teeth[wheel].size(name)) / 2 * view.scale
+
+
+def _pitch(view: MeshView) -> tuple[list[Item], Named]:
+    """Return the pitch of wheel 1 along its reference circle, the thickness and the space in it."""
+    tooth, centre = view.solved.teeth[0], view.centre(0)
+    base, reference = tooth.size("d_b") / 2, tooth.size("d") / 2
+    half = float(tooth.half(sqrt(reference**2 - base**2)))
+    right, middle = view.axis(0, -1), view.axis(0)
+    turns = (right - half, right + half, middle - half)
+    low = _radius(view, 0, "d_f")
+    items: list[Item] = []
+    for turn, down in zip(turns, (_DOWN[1], _DOWN[0], _DOWN[1]), strict=True):
+        way = complex(np.exp(1j * turn))
+        ends = (centre + reference * view.scale * way, centre + (low - down - _TAIL) * way)
+        items.append(Stroke(ends, Pen.THIN, tag=TAG))
+    named: Named = []
+    for letters, (start, end), down in (
+        ("s_{1}", turns[:2], _DOWN[0]),
+        ("e_{1}", turns[1:], _DOWN[0]),
+        ("p", (turns[0], turns[2]), _DOWN[1]),
+    ):
+        items += angle_dimension(centre, low - down, start, end, tag=TAG)
+        way = complex(np.exp(0.5j * (start + end)))
+        named.append((letters, centre + (low - down) * way, -way))
+    return items, named
+
+
+def _height(view: MeshView) -> tuple[list[Item], Named]:
+    """Return the height of a tooth of wheel 2, beside its teeth."""
+    tooth = view.solved.teeth[1]
+    ends = [_radius(view, 1, name) for name in ("d_a", "d_f")]
+    beside = 3 * pi / tooth.z + _ASIDE / min(ends)
+    turn = view.axis(1) - tooth.side * beside
+    way = complex(np.exp(1j * turn))
+    start, end = (view.centre(1) + radius * way for radius in ends)
+    items = dimension(start, end, 0j, tag=TAG)[2:]  # the circles are its extension lines
+    return items, [("h", (start + end) / 2, -1 + 0j)]
+
+
+def _clearance(view: MeshView) -> tuple[list[Item], Named]:
+    """Return the clearance between the tips of wheel 1 and the roots of wheel 2."""
+    tip = view.centre(0) - view.up(0) * _radius(view, 0, "d_a")
+    root = view.centre(1) - view.up(1) * _radius(view, 1, "d_f")
+    if abs(root - tip) < 1.0:
+        return [], []
+    items = dimension(tip, root, complex(_OUT), tag=TAG)
+    return items, [("c", (tip + root) / 2 + _OUT, 1 + 1j)]
+
+
+def _breaks(view: MeshView, wheel: int) -> Iterator[Item]:
+    """Yield the lines of break at both ends of the rim that is drawn."""
+    tooth, radius = view.solved.teeth[wheel], _radius(view, wheel, "d_f")
+    inward = -tooth.side * min(_BREAK, 0.5 * radius)
+    for sense in (-1, 1):
+        way = complex(np.exp(1j * (view.axis(wheel) + sense * 3 * pi / tooth.z)))
+        start = view.centre(wheel) + radius * way
+        yield from wavy_line(start, start + inward * way, tag="break")
