@@ -55,6 +55,15 @@ def at_positions(
     return {name: value[chosen] if np.ndim(value) else value for name, value in values.items()}
 
 
+def filled(values: Mapping[str, Number], count: int) -> dict[str, Any]:
+    """Return values as columns of so many positions.
+
+    As of variants that are read together (`planmethod.solved.many.variants`), to the last bit:
+    NumPy multiplies a column by one complex number in another way than by a column.
+    """
+    return {name: np.full(count, value) for name, value in values.items()}
+
+
 def even(problem: Problem) -> Problem:
     """Return a problem without loads, its driver at one radian (or metre) a second."""
     drive = replace(problem.drive, rate=1.0, acceleration=0.0)
@@ -200,6 +209,11 @@ class Solution(Remembering):
         """How many positions are of one mechanism."""
         return len(self.positions)
 
+    @property
+    def parts(self) -> Sequence[tuple[Solution, slice]]:
+        """Solutions of one mechanism each, and their positions: this one has one mechanism."""
+        return ((self, EVERY),)
+
     def numbers_of(self, plan: Callable[[Construction], Mapping[str, float]]) -> dict[str, Number]:
         """Return the known numbers of what goes on from the construction."""
         return dict(plan(self.construction))
@@ -224,9 +238,7 @@ class Solution(Remembering):
         data: dict[str, Any] = {**self._given_at(chosen), **at_positions(scales, chosen)}
         count = len(self.positions[chosen])
         if count <= FEW_ROWS:
-            # As of variants that are read together (`planmethod.solved.many.variants`), to the last
-            # bit: NumPy multiplies a column by one complex number in another way than by a column.
-            data = {name: np.full(count, value) for name, value in data.items()}
+            data = filled(data, count)
         for name in self.construction.draft.places:
             data[name] = data[name] / data["mu_l"]
         return data
