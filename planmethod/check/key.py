@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from functools import partial
+from typing import TypeAlias
 
 from msgspec import Struct
 
@@ -45,8 +47,21 @@ def key_of(solution: Solution, settings: Settings = DEFAULT) -> Key:
     return key_of_task(Task(solution, settings))
 
 
-def key_of_task(task: Task, items: Iterable[TaskItem] | None = None) -> Key:
-    """Return the key of some of what is asked of a variant; of all when absent."""
+Shown: TypeAlias = tuple[str, str, Mapping[str, float]]
+"""A mistake: its code, its place, and what comes out of every question with it."""
+
+
+def key_of_task(
+    task: Task,
+    items: Iterable[TaskItem] | None = None,
+    *,
+    named: Callable[[Sheet], Iterable[Shown]] | None = None,
+) -> Key:
+    """Return the key of some of what is asked of a variant; of all when absent.
+
+    ``named`` returns the mistakes of a sheet, where they are known already.
+    """
+    named = partial(_named, task) if named is None else named
     chosen = tuple(task.whole() if items is None else items)
     entries: dict[tuple[int, str], KeyEntry] = {}
     unseen: set[tuple[str, str]] | None = None  # mistakes and places that nothing shows
@@ -63,18 +78,17 @@ def key_of_task(task: Task, items: Iterable[TaskItem] | None = None) -> Key:
         shown: dict[str, set[str]] = {item.id: set() for item in here}
         codes: dict[str, None] = {}
         dark: set[tuple[str, str]] = set()
-        for explanation in task.named(sheet):
-            code = explanation.code
+        for code, where, values in named(sheet):
             codes[code] = None
             visible = False
             for item in here:
-                value, limit = explanation.values[item.question.id], limits[item.id]
+                value, limit = values[item.question.id], limits[item.id]
                 if _shows(limit, value, turned=item.asks_sense):
                     shown[item.id].add(code)
                     visible = True
             if not visible:
-                every[code, explanation.where] = None
-                dark.add((code, explanation.where))
+                every[code, where] = None
+                dark.add((code, where))
         unseen = dark if unseen is None else unseen & dark
         for item in here:
             alike.update(dict.fromkeys(_alike(task, sheet, item, limits[item.id])))
@@ -90,6 +104,10 @@ def key_of_task(task: Task, items: Iterable[TaskItem] | None = None) -> Key:
         scales,
         hidden,
     )
+
+
+def _named(task: Task, sheet: Sheet) -> Iterator[Shown]:
+    return ((one.code, one.where, one.values) for one in task.named(sheet))
 
 
 SEGMENT_CODES = {PlanKind.VELOCITY: "V6", PlanKind.ACCELERATION: "N5"}

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from functools import lru_cache
 
 from msgspec import Struct, field
 
@@ -86,7 +87,12 @@ class Program(Struct, frozen=True):
             if step.out in need:
                 kept.append(step)
                 need.update(name for name, _ in operands(step))
-        return Program(tuple(reversed(kept)))
+        return _checked(tuple(reversed(kept)))
+
+
+@lru_cache(maxsize=512)  # variants of a task are drawn by the same steps
+def _checked(steps: tuple[Step, ...]) -> Program:
+    return Program(steps)
 
 
 class Builder(Struct):
@@ -105,8 +111,8 @@ class Builder(Struct):
         return Builder(list(self.steps), dict(self._drawn), self._count)
 
     def program(self) -> Program:
-        """Return what was collected."""
-        return Program(tuple(self.steps))
+        """Return what was collected; of what was collected before, the same program."""
+        return _checked(tuple(self.steps))
 
     def given(self, out: str) -> PointName:
         """Take a point as given."""

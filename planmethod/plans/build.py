@@ -99,6 +99,15 @@ def draw_positions(problem: Problem, groups: Iterable[AssurGroup], choice: Choic
     return draft
 
 
+def draw_more(draft: Draft, group: AssurGroup, choice: Choice) -> Draft:
+    """Plan the position plan of one group more; the draft of those before it is left as it is."""
+    other, start = draft.copy(), len(draft.b.steps)
+    other.choice = choice
+    place_group(other, group)
+    other.note_plan(PlanKind.POSITION, start)
+    return other
+
+
 def _positions(draft: Draft, groups: Iterable[AssurGroup], cutter: _Cutter) -> None:
     place_frame(draft)
     cutter.cut(PlanKind.POSITION, frame=True)

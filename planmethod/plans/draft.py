@@ -116,6 +116,7 @@ class Draft:
         other = copy.copy(self)
         other.b = self.b.copy()
         other.numbers, other.read = dict(self.numbers), list(self.read)
+        other.places, other.branches = dict(self.places), dict(self.branches)
         other.axes, other.plans = dict(self.axes), dict(self.plans)
         other.dimensions, other.feet = dict(self.dimensions), dict(self.feet)
         other.special = dict(self.special)

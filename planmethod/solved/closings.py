@@ -24,7 +24,7 @@ from planmethod.errors import Fault, ProblemError
 from planmethod.languages import say
 from planmethod.mechanism.groups import AssurGroup, triad_of
 from planmethod.mechanism.structure import Structure, analyse
-from planmethod.plans.build import Construction, build, draw_positions
+from planmethod.plans.build import Construction, build, draw_more, draw_positions
 from planmethod.plans.closing import Closing
 from planmethod.plans.draft import Draft
 from planmethod.plans.motion.position import (
@@ -117,8 +117,11 @@ def choosing(problem: Problem, structure: Structure) -> Choosing:
     faults: list[Fault] = []
     used: set[str] = set()
     done: list[AssurGroup] = []
+    drawn = draw_positions(problem, (), choice)
     for group in structure.groups:
-        placed = draw_positions(problem, done, choice).points()
+        if done:
+            drawn = draw_more(drawn, done[-1], dict(choice))
+        placed = drawn.points()
         own = {point: None for link in group.links for point in problem.bodies[link].points}
         mine = [
             from_joint(problem, group, rules[point])
@@ -136,7 +139,7 @@ def choosing(problem: Problem, structure: Structure) -> Choosing:
         choice[group.links] = Closing()
         both: list[Tried] = []
         for sign in (1, -1):
-            draft = draw_positions(problem, done, {**choice, group.links: Closing(sign)})
+            draft = draw_more(drawn, group, {**choice, group.links: Closing(sign)})
             program = draft.b.program()
             both.append((draft, program, (yield draft, program, positions)))
         late = [late_fault(rule, both[0][0]) for rule in mine] + [
