@@ -140,9 +140,21 @@ class Sheet:
 
     @cached_property
     def trace(self) -> Trace:
-        """Exact reading, mm: by columns of one row, so that it is the same among other variants."""
+        """Exact reading, mm."""
+        return self.read(self.program)
+
+    @cached_property
+    def keyed(self) -> Sheet:
+        """The sheet as the key has it: read by columns, to the last bit as among other variants."""
         found = evaluate(self.program, self.data, Float64())
-        return Trace(_numbers(found.value), _numbers(found.margin))
+        return self.read_as(Trace(_numbers(found.value), _numbers(found.margin)))
+
+    def read_as(self, trace: Trace) -> Sheet:
+        """Return the sheet with another exact reading."""
+        other = copy.copy(self)
+        vars(other).pop("exact", None)
+        other.trace = trace
+        return other
 
     @cached_property
     def exact(self) -> dict[str, float]:

@@ -6,7 +6,7 @@ the numbers of all are columns of one reading. Each variant then tells its key f
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from functools import partial
 
 import numpy as np
@@ -29,14 +29,16 @@ from planmethod.solved.solution import at_positions
 Columns = dict[str, Number]
 
 
-def batch_tasks(batch: Batch, settings: Settings) -> list[Task]:
+def batch_tasks(
+    batch: Batch, settings: Settings, others: Callable[[], Iterable[Task]] | None = None
+) -> list[Task]:
     """Return the tasks of variants with the numbers of all that is asked, none where they differ.
 
     They differ where one is asked otherwise, or where what is asked needs numbers of its own.
     """
     if len({_asking(problem) for problem in batch.problems}) > 1:
         return []
-    first = Task(batch.alone[0], settings)
+    first = Task(batch.alone[0], settings, others)
     positions = dict.fromkeys(item.position for item in first.whole())
     known = set(batch.construction.draft.numbers)
     if any(set(first.questions(p).selecting.draft.numbers) != known for p in positions):
@@ -84,10 +86,10 @@ class _Rows:
         """Give every sheet its exact reading and its errors."""
         trace = evaluate(self.first.program, self.data, Float64())
         count, errors = len(self.sheets), _Together(self.sheets, self.data)
-        for sheet, own in zip(self.sheets, _scalars(trace, count), strict=True):
-            sheet.trace = own
-        for number, sheet in enumerate(self.sheets):
+        for number, own in enumerate(_scalars(trace, count)):
+            sheet = self.sheets[number]
             sheet.row = errors, number
+            sheet.keyed = sheet.read_as(own)
 
     def named(self) -> list[list[Shown]]:
         """Return what every mistake with a name gives on every sheet, in order.
@@ -97,7 +99,7 @@ class _Rows:
         alike: dict[tuple[object, ...], list[tuple[int, int, Change]]] = {}
         told: list[list[Shown | None]] = []
         for number, sheet in enumerate(self.sheets):
-            found = list(changes(MistakeContext(sheet)))
+            found = list(changes(MistakeContext(sheet.keyed)))
             told.append([None] * len(found))
             for place, change in enumerate(found):
                 key = (change.code, change.where, *change.steps.items(), *change.data)

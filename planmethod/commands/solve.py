@@ -12,7 +12,7 @@ import click
 from msgspec import Struct
 
 from planmethod.commands.helptext import Spoken
-from planmethod.commands.output import bar, is_terminal, json_text, put_parts
+from planmethod.commands.output import JsonTexts, bar, is_terminal, json_text, put_parts
 from planmethod.commands.problems import (
     Todo,
     each,
@@ -251,19 +251,18 @@ def solve(
     if as_json:
         from planmethod.note.written import plain_of
 
-        texts: list[str] = []
-        code = each(
-            problems,
-            variant,
-            all_variants,
-            act,
-            jobs=jobs,
-            take=lambda one: texts.append(json_text(plain_of(one))),
-            ahead=ahead,
-            drawn=not swept,
-        )
-        if texts:
-            click.echo(texts[0] if len(texts) == 1 else f"[{', '.join(texts)}]")
+        with JsonTexts() as texts:
+            code = each(
+                problems,
+                variant,
+                all_variants,
+                act,
+                jobs=jobs,
+                take=lambda one: texts.add(json_text(plain_of(one))),
+                ahead=ahead,
+                drawn=not swept,
+            )
+            texts.tell()
         finish(code)
         return
     code = each(

@@ -272,7 +272,8 @@ class Solution(Remembering):
         return reading
 
     @cached_property
-    def _extents(self) -> Extents:
+    def extents(self) -> Extents:
+        """How large the mechanism and its plans are, at unit scales."""
         return Extents(self.construction, self.si)
 
     @cached_property
@@ -283,7 +284,7 @@ class Solution(Remembering):
         """
         if self._scales is not None:
             return dict(self._scales)
-        scales = choose_scales(self._extents, self.views, self.given_scales)
+        scales = choose_scales(self.extents, self.views, self.given_scales)
         for kind, own in self._own_scales.items():
             if not np.isnan(own).any():  # there is no common one: one of them stands for it
                 scales[kind] = replace(scales[kind], per_mm=float(median(own)))
@@ -297,7 +298,7 @@ class Solution(Remembering):
         """
         found: dict[PlanKind, Reals] = {}
         for kind in RATES if self._scales is None and not self._too_many else ():
-            own = own_scales(self._extents, self.views, self.given_scales, kind)
+            own = own_scales(self.extents, self.views, self.given_scales, kind)
             if not np.isnan(own).all():
                 found[kind] = own
         return found
@@ -324,7 +325,7 @@ class Solution(Remembering):
         if self._views is not None:
             return self._views, self.problem.scales
         moved = tuple(self.positions.tolist()) != self.problem.drive.positions
-        return decide(self._extents, self.problem, moved=moved)
+        return decide(self.extents, self.problem, moved=moved)
 
     @property
     def views(self) -> Views:

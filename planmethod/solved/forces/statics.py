@@ -140,10 +140,14 @@ def _together(solution: Solution) -> Loads:
     """Return the loads of variants that are planned alike, each in every position of all."""
     each = [one.once(loads_on) for one, _ in solution.parts]
     counts = [len(one.positions) for one, _ in solution.parts]
-    found = tuple(_joined(alike, counts) for alike in zip(*(one.applied for one in each)))
-    first = each[0]
-    places = {link: first.applied.index(one) for link, one in first.single.items()}
-    return Loads(found, {link: found[k] for link, k in places.items()}, first.unshifted)
+    alike = zip(*(one.applied for one in each), strict=True)
+    found = tuple(_joined(of_all, counts) for of_all in alike)
+    first, single = each[0], {}
+    for link, couple in first.single.items():
+        single[link] = next(
+            joined for one, joined in zip(first.applied, found, strict=True) if one is couple
+        )
+    return Loads(found, single, first.unshifted)
 
 
 def _joined(alike: Sequence[Applied], counts: Sequence[int]) -> Applied:

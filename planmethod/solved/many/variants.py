@@ -136,6 +136,7 @@ class Batch(Solution):
         for problem, made, own in zip(self.problems, self.constructions, self.rows, strict=True):
             one = Solution(problem, profile=self.profile, construction=made)
             one.si = self.si.part(own)
+            one.extents = self.extents.part(made, one.si, own)
             found.append(one)
         return found
 
@@ -195,8 +196,11 @@ def in_batches(problems: Sequence[Problem], profile: Profile) -> list[tuple[Batc
             chosen = [made[k] for k in kept]
             batch = Batch([problems[k] for k in kept], [c for c in chosen if c], profile)
             kinds = batch.kinds
-            parts = [[k for k, own in zip(kept, kinds, strict=True) if own == kind]
-                     for kind in dict.fromkeys(kinds) if kind is not None]
+            parts = [
+                [k for k, own in zip(kept, kinds, strict=True) if own == kind]
+                for kind in dict.fromkeys(kinds)
+                if kind is not None
+            ]
             if parts == [kept]:
                 found.append((batch, kept))
             else:
