@@ -72,6 +72,11 @@ class Local(Struct, frozen=True):
 class Sheet:
     """Plans of one position at given scales, and what is asked of them.
 
+    Attributes
+    ----------
+    row : (Errors, int) or None
+        Drafting errors of sheets of many variants, and which of them this is.
+
     Parameters
     ----------
     questions : Questions
@@ -82,6 +87,8 @@ class Sheet:
     profile : Profile
         How well the sheet is drawn.
     """
+
+    row: tuple[Errors, int] | None = None
 
     def __init__(
         self,
@@ -98,7 +105,6 @@ class Sheet:
         self.order = {step.out: number for number, step in enumerate(self.program.steps)}
         self.made: dict[Name, Step] = {step.out: step for step in self.program.steps}
         self._local: dict[frozenset[Name], Local] = {}
-        self.row: tuple[Errors, int] | None = None
 
     def alike(self, questions: Questions, scales: Mapping[str, float]) -> Sheet:
         """Return a sheet of another variant, on which the same is asked and drawn."""
@@ -107,7 +113,7 @@ class Sheet:
         vars(other).clear()
         vars(other).update((key, value) for key, value in vars(self).items() if key in kept)
         other.questions, other.scales = questions, dict(scales)
-        other._local, other.row = {}, None
+        other._local = {}
         return other
 
     # Data ------------------------------------------------------------------------------------

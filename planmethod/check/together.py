@@ -10,7 +10,6 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from functools import partial
 
 import numpy as np
-import numpy.typing as npt
 
 from planmethod.check.key import Key, Shown, key_of_task
 from planmethod.check.marks import Settings
@@ -19,11 +18,12 @@ from planmethod.check.mistakes.model import Change, MistakeContext
 from planmethod.check.sheet import DRAWS, Sheet, drafted_of
 from planmethod.check.task import Task
 from planmethod.construct.arithmetic import Float64, Number
+from planmethod.construct.drafting import PROFILES
 from planmethod.construct.evaluate import Trace, evaluate
 from planmethod.problem.model import Problem
 from planmethod.solved.errors.spread import Errors
 from planmethod.solved.forces.statics import statics_of
-from planmethod.solved.many.variants import Batch
+from planmethod.solved.many.variants import Batch, in_batches
 from planmethod.solved.solution import at_positions
 
 Columns = dict[str, Number]
@@ -60,6 +60,14 @@ def batch_keys(batch: Batch, settings: Settings) -> list[Key]:
         shown = _Rows(batch, sheets).named()
         named.update((id(sheet), own) for sheet, own in zip(sheets, shown, strict=True))
     return [key_of_task(task, named=lambda sheet: named[id(sheet)]) for task in tasks]
+
+
+def keys_together(problems: Sequence[Problem], settings: Settings) -> dict[int, Key]:
+    """Return the keys of linkages that are drawn and asked alike, by their numbers."""
+    found: dict[int, Key] = {}
+    for batch, members in in_batches(problems, PROFILES["board"]):
+        found.update(zip(members, batch_keys(batch, settings), strict=False))  # all, or none
+    return found
 
 
 def _asking(problem: Problem) -> tuple[object, ...]:
@@ -156,5 +164,5 @@ def _scalars(trace: Trace, count: int) -> Iterator[Trace]:
 def _listed(value: Number, count: int) -> list[Number]:
     if isinstance(value, tuple):
         return list(zip(*(_listed(one, count) for one in value), strict=True))
-    array: npt.NDArray[np.float64] = np.broadcast_to(np.asarray(value), (count,))
-    return array.tolist()
+    listed: list[Number] = np.broadcast_to(np.asarray(value), (count,)).tolist()
+    return listed

@@ -380,7 +380,7 @@ def _write_keys(
             every = all_variants or (variant is None and bool(variant_names(path)))
         except OSError:
             every = False
-        ahead = None if as_questions else partial(keys_together, settings=settings)
+        ahead = None if as_questions else partial(keys_ahead, settings=settings)
         code = each((path,), variant, every, act, jobs=jobs, take=found.append, ahead=ahead) or code
         whole += found
         if found and not as_questions and not asked.as_json:
@@ -437,19 +437,13 @@ def asked_of(todo: Todo, settings: Settings, lang: str | None) -> Asked:
     return Asked(key_of_task(task), question_of(task, todo.kind, language(lang)))
 
 
-def keys_together(todo: Sequence[Todo], settings: Settings) -> dict[int, Asked]:
+def keys_ahead(todo: Sequence[Todo], settings: Settings) -> dict[int, Asked]:
     """Return the keys of linkages that are asked alike, by their numbers."""
-    from planmethod.check.together import batch_keys
-    from planmethod.construct.drafting import PROFILES
-    from planmethod.solved.many.variants import in_batches
+    from planmethod.check.together import keys_together
 
     linkages = [k for k, one in enumerate(todo) if one.kind is None]
-    found: dict[int, Asked] = {}
-    for batch, members in in_batches([todo[k].linkage for k in linkages], PROFILES["board"]):
-        keys = batch_keys(batch, settings)
-        for k, key in zip(members, keys, strict=False):
-            found[linkages[k]] = Asked(key, None)
-    return found
+    keys = keys_together([todo[k].linkage for k in linkages], settings)
+    return {linkages[k]: Asked(key, None) for k, key in keys.items()}
 
 
 def key_of(todo: Todo, settings: Settings) -> Key:

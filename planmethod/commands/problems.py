@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import functools
+import gc
 import re
 import sys
 from collections.abc import Callable, Iterable, Iterator, Sequence
@@ -226,11 +227,15 @@ def each(
     def steps(todo: list[Todo]) -> Iterator[Callable[[], T | None]]:
         # Problems that are called alike write the same files: the last one wins, as in one process.
         if jobs == 1 or len({stem(one.problem) for one in todo}) < max(2, len(todo)):
+            if len(todo) > AT_ONCE:
+                gc.freeze()  # what was read stays to the end, and is not looked through
             for start in range(0, len(todo), AT_ONCE):
                 block = todo[start : start + AT_ONCE]
                 found = ahead(block) if ahead is not None and len(block) > 1 else {}
                 for k, one in enumerate(block):
                     yield partial(found.pop, k) if k in found else partial(act, one)
+                if len(todo) > AT_ONCE:
+                    gc.collect()  # solutions know themselves: a block of them is 100 MB
         else:
             yield from _shared(act, ahead, todo, jobs)
 

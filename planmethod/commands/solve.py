@@ -541,8 +541,10 @@ def _write_arrays(sweeps: list[GappedSweep | SolvedArrays], file: str) -> None:
 
     def named() -> Iterator[tuple[str, Any]]:
         for made, prefix in zip(sweeps, prefixes, strict=True):
-            few = isinstance(made, SolvedArrays)
-            yield from made.named(prefix) if few else swept_arrays(made, prefix)
+            if isinstance(made, SolvedArrays):
+                yield from made.named(prefix)
+            else:
+                yield from swept_arrays(made, prefix)
             done(1)
 
     many = numbers > LONG_ARRAYS or len(sweeps) > MANY_PROBLEMS
