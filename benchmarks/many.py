@@ -18,12 +18,28 @@ from benchmarks.processes import PEAK, ROOT, run_python
 from planmethod.bench.report import Table, load, span, table
 
 POSITIONS = (100, 1000, 10_000, 100_000, 1_000_000)
-VARIANTS = (10, 30, 100, 300, 1000)
+VARIANTS = (10, 100, 1000, 10_000)
+COMMANDS = {
+    "solve --json": ("solve", "--all-variants", "--json"),
+    "solve --npz": ("solve", "--all-variants", "--npz", "all.npz"),
+    "check --key": ("check", "--key", "--json"),
+}
+"""What goes over variants, and its words."""
+
+MOST_SECONDS = {1000: 3.0, 10_000: 25.0}
+"""For so many variants, whole processes."""
+
+MOST_MEGABYTES = 300.0
+"""More for the most variants than for the fewest."""
+
+DRAWN = 300
+"""Variants whose sheets are drawn."""
+
 AT_ONCE = 250
 """Variants of a file."""
 
-LINEAR = 1.1
-"""Exponent up to which cost is called linear."""
+LINEAR, LINEAR_VARIANTS = 1.1, 1.05
+"""Exponents up to which cost is called linear."""
 
 SENT = 100
 """Variants of the batch that loses a process."""
@@ -76,14 +92,27 @@ def by_positions(counts: Sequence[int]) -> list[Grown]:
     return found
 
 
-def by_variants(counts: Sequence[int], folder: Path) -> list[Grown]:
-    """Measure ``solve --json --all-variants``, whole processes."""
+def by_variants(command: str, counts: Sequence[int], folder: Path) -> list[Grown]:
+    """Measure one of the `COMMANDS` on so many variants of a table, whole processes."""
     found = []
     for count in counts:
-        words = ["solve", *variants(count, folder), "--all-variants", "--json"]
-        seconds, peak = _run(words, folder)
+        first, *others = COMMANDS[command]
+        seconds, peak = _run([first, tabled(count, folder), *others], folder)
         found.append(Grown(count, seconds, peak))
     return found
+
+
+def tabled(count: int, folder: Path) -> str:
+    """Write an example with a table of so many variants, and return the name of its file."""
+    text = (ROOT / "problems" / "linkages" / "ex3.toml").read_text("utf-8")
+    off, rows = np.random.default_rng(1), ["variant;AB;CD;DE;phi"]
+    for number in range(1, count + 1):
+        a, c, d = (np.array([0.064, 0.22, 0.18]) * off.uniform(0.97, 1.03, 3)).tolist()
+        rows.append(f"{number};{a:.5g};{c:.5g};{d:.5g};{off.uniform(0.0, 40.0):.4g}")
+    name = f"table{count}"
+    (folder / f"{name}.csv").write_text("\n".join(rows) + "\n", "utf-8")
+    (folder / f"{name}.toml").write_text(f'variants = "{name}.csv"\n{text}', "utf-8")
+    return f"{name}.toml"
 
 
 def variants(count: int, folder: Path) -> list[str]:
@@ -176,25 +205,34 @@ def many_section(*, quick: bool) -> Table:
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         sizes = VARIANTS[:3] if quick else VARIANTS
-        grown = [
-            ("positions", by_positions(POSITIONS[:4] if quick else POSITIONS)),
-            ("variants", by_variants(sizes, folder)),
-        ]
-        count = sizes[-1]
+        grown = [("positions", by_positions(POSITIONS[:4] if quick else POSITIONS))]
+        grown += [(f"variants, {what}", by_variants(what, sizes, folder)) for what in COMMANDS]
+        count = min(DRAWN, sizes[-1])
         one, two, same = in_processes(count, folder)
         held = [Bound(f"speed of --jobs 2, {count} variants to PDF", one / two, 1.8, True)]
         for what, rows in grown:
+            most = LINEAR if what == "positions" else LINEAR_VARIANTS
             held += [
-                Bound(f"{what}: exponent of {cost.partition('_')[0]}", exponent(rows, cost), LINEAR)
+                Bound(f"{what}: exponent of {cost.partition('_')[0]}", exponent(rows, cost), most)
                 for cost in ("seconds", "peak_mb")
             ]
+            if what == "positions":
+                continue
+            held += [
+                Bound(f"{what}: seconds of {one.count}", one.seconds, MOST_SECONDS[one.count])
+                for one in rows
+                if one.count in MOST_SECONDS
+            ]
+            more = rows[-1].peak_mb - rows[0].peak_mb
+            held.append(Bound(f"{what}: MB more than of {rows[0].count}", more, MOST_MEGABYTES))
         held.append(Bound("files of --jobs 2 that differ", 1.0 - same, 0.0))
         lost = _lost(count, folder)
     return [
         "## Many positions, many variants",
         "",
-        "Sweeps of a slotted link in arrays of their own, and `solve --json --all-variants`, whole "
-        "processes, with the peak of each; the exponent is that of the cost beyond the first row. "
+        "Sweeps of a slotted link in arrays of their own; `solve --json`, `solve --npz` and "
+        "`check --key` of all variants of a table, whole processes; with the peak of each. The "
+        "exponent is that of the cost beyond the first row. "
         f"Then sheets of {count} variants as PDF by one process ({span(one)}), two ({span(two)})"
         f"{lost[0]}; {load()}.",
         "",

@@ -66,6 +66,11 @@ class CalculationSheet(Sheet):
         return _NOTHING
 
     @cached_property
+    def keyed(self) -> Sheet:
+        """The sheet itself: it is computed."""
+        return self
+
+    @cached_property
     def exact(self) -> dict[str, float]:
         """Exact answers by the id of the question."""
         return {question.id: float(question.take(_NOTHING)) for question in self.asked}

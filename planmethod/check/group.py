@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
+from contextlib import suppress
 from pathlib import Path
 from typing import Any, cast
 
@@ -16,12 +17,22 @@ from planmethod.check.letters import plain
 from planmethod.check.marks import DEFAULT, Settings
 from planmethod.check.model import CheckedWork, Work
 from planmethod.check.task import Task
+from planmethod.check.together import batch_tasks
+from planmethod.construct.drafting import PROFILES
+from planmethod.errors import PlanMethodError
 from planmethod.kind import ProblemKind
 from planmethod.kinds import kind_of, load
 from planmethod.problem import Problem, variant_names
 from planmethod.problem.head import KindProblem
 from planmethod.project.settle import settled
+from planmethod.solved.many.variants import in_batches
 from planmethod.solved.solution import Solution
+
+FEW = 2
+"""Variants up to which each is solved when its first work is checked."""
+
+_UNKNOWN = "\n"
+"""Stands for a variant that the file has not: no name has it."""
 
 
 def key_of_problem(kind: ProblemKind[Any] | None, problem: KindProblem, settings: Settings) -> Key:
@@ -76,6 +87,19 @@ class Variants:
                 self._tasks[name] = Task(solution, self.settings, self._all)
         return self._tasks[name]
 
+    def ahead(self, names: Iterable[str | None]) -> None:
+        """Solve some variants together, as far as they are drawn and asked alike."""
+        if kind_of(self.path) is not None:
+            return
+        problems = []
+        for name in dict.fromkeys(names):
+            if name not in self._tasks:
+                with suppress(PlanMethodError):  # it says why when it is needed
+                    problems.append(load(self.path, variant=name))
+        for batch, _ in in_batches(problems, PROFILES["board"]):
+            for task in batch_tasks(batch, self.settings, self._all):
+                self._tasks[task.variant] = task
+
     def _all(self) -> Iterator[Task]:
         for name in self.names or (None,):
             yield self.task(name)
@@ -119,13 +143,18 @@ def check_works(variants: Variants, works: Sequence[Work]) -> Iterator[CheckedWo
     Белов Никита: 17.7 of 19
     Васильев Олег: 19 of 19
     """
-    for work in works:
-        try:
-            name = variants.name_of(work)
-        except KeyError:
-            yield unknown_variant(work)
-            continue
-        yield check(variants.task(name), work)
+    named = [_named(variants, work) for work in works]
+    if len(set(named)) > FEW:
+        variants.ahead(name for name in named if name is not _UNKNOWN)
+    for work, name in zip(works, named, strict=True):
+        yield unknown_variant(work) if name is _UNKNOWN else check(variants.task(name), work)
+
+
+def _named(variants: Variants, work: Work) -> str | None:
+    try:
+        return variants.name_of(work)
+    except KeyError:
+        return _UNKNOWN
 
 
 def keys_of(variants: Variants, checked: Sequence[CheckedWork]) -> dict[str | None, Key]:

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from functools import partial
+from typing import NamedTuple, TypeAlias
 
 from msgspec import Struct
 
@@ -45,8 +47,21 @@ def key_of(solution: Solution, settings: Settings = DEFAULT) -> Key:
     return key_of_task(Task(solution, settings))
 
 
-def key_of_task(task: Task, items: Iterable[TaskItem] | None = None) -> Key:
-    """Return the key of some of what is asked of a variant; of all when absent."""
+Shown: TypeAlias = tuple[str, str, Mapping[str, float]]
+"""A mistake: its code, its place, and what comes out of every question with it."""
+
+
+def key_of_task(
+    task: Task,
+    items: Iterable[TaskItem] | None = None,
+    *,
+    named: Callable[[Sheet], Iterable[Shown]] | None = None,
+) -> Key:
+    """Return the key of some of what is asked of a variant; of all when absent.
+
+    ``named`` returns the mistakes of a sheet, where they are known already.
+    """
+    named = partial(_named, task) if named is None else named
     chosen = tuple(task.whole() if items is None else items)
     entries: dict[tuple[int, str], KeyEntry] = {}
     unseen: set[tuple[str, str]] | None = None  # mistakes and places that nothing shows
@@ -55,7 +70,8 @@ def key_of_task(task: Task, items: Iterable[TaskItem] | None = None) -> Key:
     scales: dict[str, float] = {}
     for position in dict.fromkeys(item.position for item in chosen):
         here = [item for item in chosen if item.position == position]
-        sheet = task.sheet(position)
+        drawn = task.sheet(position)
+        sheet = drawn.keyed
         scales = {**sheet.scales, **scales}
         limits = {
             item.id: limit_of(sheet, item.question, task.settings, item.fixed) for item in here
@@ -63,23 +79,23 @@ def key_of_task(task: Task, items: Iterable[TaskItem] | None = None) -> Key:
         shown: dict[str, set[str]] = {item.id: set() for item in here}
         codes: dict[str, None] = {}
         dark: set[tuple[str, str]] = set()
-        for explanation in task.named(sheet):
-            code = explanation.code
+        seen_by = [_Seer.of(item, limits[item.id]) for item in here]
+        for code, where, values in named(drawn):
             codes[code] = None
             visible = False
-            for item in here:
-                value, limit = explanation.values[item.question.id], limits[item.id]
-                if _shows(limit, value, turned=item.asks_sense):
-                    shown[item.id].add(code)
+            for one in seen_by:
+                if one.shows(values[one.question]):
+                    shown[one.item].add(code)
                     visible = True
             if not visible:
-                every[code, explanation.where] = None
-                dark.add((code, explanation.where))
+                every[code, where] = None
+                dark.add((code, where))
         unseen = dark if unseen is None else unseen & dark
         for item in here:
             alike.update(dict.fromkeys(_alike(task, sheet, item, limits[item.id])))
             hides = tuple(code for code in codes if code not in shown[item.id])
-            entries[position, item.id] = entry_of(task, item, limits[item.id], hidden=hides)
+            limit = limits[item.id]
+            entries[position, item.id] = entry_of(task, item, limit, sheet=sheet, hidden=hides)
     hidden: dict[str, tuple[str, ...]] = {}
     for code, where in (*(place for place in every if place in (unseen or ())), *alike):
         hidden[code] = (*hidden.get(code, ()), where)
@@ -90,6 +106,10 @@ def key_of_task(task: Task, items: Iterable[TaskItem] | None = None) -> Key:
         scales,
         hidden,
     )
+
+
+def _named(task: Task, sheet: Sheet) -> Iterator[Shown]:
+    return ((one.code, one.where, one.values) for one in task.named(sheet))
 
 
 SEGMENT_CODES = {PlanKind.VELOCITY: "V6", PlanKind.ACCELERATION: "N5"}
@@ -111,18 +131,37 @@ def _alike(task: Task, sheet: Sheet, item: TaskItem, limit: Tolerance) -> Iterat
                 yield code, f"{item.label or item.name}: {segment.name}"
 
 
-def _shows(limit: Tolerance, value: float, *, turned: bool) -> bool:
-    """Tell whether an answer with a mistake is surely off."""
-    off = abs(abs(value) - abs(limit.exact))
-    beyond = off > max(limit.spread, limit.tolerance())
-    return not limit.zero and (beyond or (turned and value * limit.exact < 0))
+class _Seer(NamedTuple):
+    """An answer, and from where on a mistake is seen in it."""
+
+    item: str
+    question: str
+    exact: float
+    bound: float
+    zero: bool
+    turned: bool
+
+    @classmethod
+    def of(cls, item: TaskItem, limit: Tolerance) -> _Seer:
+        bound = max(limit.spread, limit.tolerance())
+        return cls(item.id, item.question.id, limit.exact, bound, limit.zero, item.asks_sense)
+
+    def shows(self, value: float) -> bool:
+        """Tell whether the answer with a mistake is surely off."""
+        beyond = abs(abs(value) - abs(self.exact)) > self.bound
+        return not self.zero and (beyond or (self.turned and value * self.exact < 0))
 
 
 def entry_of(
-    task: Task, item: TaskItem, limit: Tolerance, *, hidden: tuple[str, ...] = ()
+    task: Task,
+    item: TaskItem,
+    limit: Tolerance,
+    *,
+    sheet: Sheet | None = None,
+    hidden: tuple[str, ...] = (),
 ) -> KeyEntry:
     """Return the line of the key of one item, at the scales of the problem."""
-    question, sheet = item.question, task.sheet(item.position)
+    question, sheet = item.question, sheet or task.sheet(item.position)
     length = sheet.length(question)
     plan = question.plan
     letters = item.label not in ("", question.id)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 import unicodedata
 from collections.abc import Callable, Iterator, Mapping
 from enum import Enum
@@ -108,6 +109,15 @@ class Questions:
             draft = self.statics.board.draft
         self._selecting = SelectorSteps(solution, draft.copy())
         self._found: dict[Selector, Question] = {}
+
+    def alike(self, solution: Solution) -> Questions:
+        """Return the same questions of another solution, which is drawn by the same steps."""
+        other = copy.copy(self)
+        other.solution, other.construction = solution, solution.construction
+        if self.statics is not None:
+            other.statics = statics_of(solution)
+        other._found = dict(self._found)
+        return other
 
     @property
     def selecting(self) -> SelectorSteps:

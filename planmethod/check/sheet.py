@@ -6,13 +6,15 @@ put into its program (replay), so that what follows from them is found as the pl
 
 from __future__ import annotations
 
+import copy
 import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from functools import cached_property, partial
 from types import MappingProxyType
 from typing import TypeAlias
 
 import numpy as np
+import numpy.typing as npt
 from msgspec import Struct
 
 from planmethod.check.model import Sense
@@ -27,6 +29,7 @@ from planmethod.plans.model import Plan
 from planmethod.plans.segments import Ends
 from planmethod.solved.errors.drawing import RADIAN, Drafted, DrawnKind, DrawnQuantity
 from planmethod.solved.errors.spread import Errors
+from planmethod.solved.solution import at_positions
 
 DRAWS = 1000
 """Random sheets where first order does not hold."""
@@ -69,6 +72,11 @@ class Local(Struct, frozen=True):
 class Sheet:
     """Plans of one position at given scales, and what is asked of them.
 
+    Attributes
+    ----------
+    row : (Errors, int) or None
+        Drafting errors of sheets of many variants, and which of them this is.
+
     Parameters
     ----------
     questions : Questions
@@ -79,6 +87,8 @@ class Sheet:
     profile : Profile
         How well the sheet is drawn.
     """
+
+    row: tuple[Errors, int] | None = None
 
     def __init__(
         self,
@@ -95,6 +105,16 @@ class Sheet:
         self.order = {step.out: number for number, step in enumerate(self.program.steps)}
         self.made: dict[Name, Step] = {step.out: step for step in self.program.steps}
         self._local: dict[frozenset[Name], Local] = {}
+
+    def alike(self, questions: Questions, scales: Mapping[str, float]) -> Sheet:
+        """Return a sheet of another variant, on which the same is asked and drawn."""
+        other = copy.copy(self)
+        kept = {"asked", "profile", "program", "order", "made"}
+        vars(other).clear()
+        vars(other).update((key, value) for key, value in vars(self).items() if key in kept)
+        other.questions, other.scales = questions, dict(scales)
+        other._local = {}
+        return other
 
     # Data ------------------------------------------------------------------------------------
 
@@ -130,6 +150,19 @@ class Sheet:
         return self.read(self.program)
 
     @cached_property
+    def keyed(self) -> Sheet:
+        """The sheet as the key has it: read by columns, to the last bit as among other variants."""
+        found = evaluate(self.program, self.data, Float64())
+        return self.read_as(Trace(_numbers(found.value), _numbers(found.margin)))
+
+    def read_as(self, trace: Trace) -> Sheet:
+        """Return the sheet with another exact reading."""
+        other = copy.copy(self)
+        vars(other).pop("exact", None)
+        other.trace = trace
+        return other
+
+    @cached_property
     def exact(self) -> dict[str, float]:
         """Exact answers with their signs, by the id of the question."""
         return self.taken(self.trace)
@@ -159,28 +192,15 @@ class Sheet:
 
     def errors_of(self, program: Program, data: Mapping[str, Number]) -> Errors:
         """Return the drafting errors of the answers that another program gives."""
-        items: list[DrawnQuantity] = []
-        for q in self.asked:
-            kind = KINDS.get(q.sign, DrawnKind.NUMBER)
-            needs = q.needs[: 1 if q.name is not None else None]
-            take = partial(_sized, q) if q.sign is Sign.SIZE else q.take
-            way = f"angle of {q.id}" if q.sign is Sign.SIZE and q.ends is not None else ""
-            items.append(DrawnQuantity(q.id, needs, take, kind, direction=way))
-            if q.length is not None and q.length != q.name:
-                size = partial(_size_of, q.length)
-                items.append(DrawnQuantity(f"|{q.id}|", (q.length,), size, DrawnKind.LENGTH))
-            if way and q.ends is not None:
-                turn = partial(_angle_of, q.ends)
-                items.append(DrawnQuantity(way, q.ends, turn, DrawnKind.DIRECTION))
-        drawn = Drafted(program, lambda _: dict(data), 1, self.profile, self.free, tuple(items))
-        return Errors(drawn, draws=DRAWS)
+        return Errors(drafted_of(self, program, partial(at_positions, data), 1), draws=DRAWS)
 
     def sigma(self, question: Question, *, length: bool = False) -> float:
         """Return one sigma of an answer, or of its segment; infinite where it has none."""
+        errors, row = (self.errors, 0) if self.row is None else self.row
         label = f"|{question.id}|" if length else question.id
-        if label not in self.errors.items:
+        if label not in errors.items:
             label = question.id
-        sigma = float(self.errors.spreads[label].sigma[0])
+        sigma = float(errors.spreads[label].sigma[row])
         return sigma if math.isfinite(sigma) else math.inf
 
     # Replay ----------------------------------------------------------------------------------
@@ -263,6 +283,40 @@ class Sheet:
 
         evaluate(program, data, pencil, put)
         return Local(sigma, slopes)
+
+
+def drafted_of(
+    sheet: Sheet,
+    program: Program,
+    data: Callable[[npt.NDArray[np.intp]], dict[str, Number]],
+    count: int,
+) -> Drafted:
+    """Return what is taken off a sheet, or off sheets of many variants that are drawn alike."""
+    items: list[DrawnQuantity] = []
+    for q in sheet.asked:
+        kind = KINDS.get(q.sign, DrawnKind.NUMBER)
+        needs = q.needs[: 1 if q.name is not None else None]
+        take = partial(_sized, q) if q.sign is Sign.SIZE else q.take
+        way = f"angle of {q.id}" if q.sign is Sign.SIZE and q.ends is not None else ""
+        items.append(DrawnQuantity(q.id, needs, take, kind, direction=way))
+        if q.length is not None and q.length != q.name:
+            size = partial(_size_of, q.length)
+            items.append(DrawnQuantity(f"|{q.id}|", (q.length,), size, DrawnKind.LENGTH))
+        if way and q.ends is not None:
+            turn = partial(_angle_of, q.ends)
+            items.append(DrawnQuantity(way, q.ends, turn, DrawnKind.DIRECTION))
+    return Drafted(program, data, count, sheet.profile, sheet.free, tuple(items))
+
+
+def _numbers(values: Mapping[Name, Number]) -> dict[Name, Number]:
+    """Return arrays of one row as numbers of Python; of a line both of its."""
+
+    def one(value: Number) -> Number:
+        if isinstance(value, tuple):
+            return tuple(map(one, value))
+        return np.reshape(value, -1)[0].item()
+
+    return {name: one(value) for name, value in values.items()}
 
 
 def _sized(question: Question, trace: Trace) -> Number:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from itertools import chain, permutations
 
@@ -199,6 +200,21 @@ class Task:
         self._written: dict[int, Forms] = {}
         self.declared = tuple(chain.from_iterable(map(self._declare, solution.problem.answers)))
 
+    def alike(self, solution: Solution) -> Task:
+        """Return the same task of another variant, which is drawn by the same steps."""
+        other = copy.copy(self)
+        other.solution, other.problem = solution, solution.problem
+        other.variant = solution.problem.variant
+        other._explained, other._written, other._sheets = {}, {}, {}
+        other._questions = {p: one.alike(solution) for p, one in self._questions.items()}
+        other._asked = {p: dict(asked) for p, asked in self._asked.items()}
+        for position, asked in other._asked.items():
+            scales = other.scales({}, position)
+            of_first = self.sheet(position)
+            key = other._key(position, scales, of_first.profile, asked)
+            other._sheets[key] = of_first.alike(other._questions[position], scales)
+        return other
+
     def _declare(self, asked: AskedAnswer) -> Iterator[TaskItem]:
         """Yield an answer, and the direction of its vector where that is an answer of its own."""
         position = self.first if asked.position is None else asked.position
@@ -384,12 +400,17 @@ class Task:
         scales = self.scales(own or {}, position)
         asked = self._asked.get(position, {})
         profile = self.profile(ruler)
-        key = (position, tuple(sorted(scales.items())), profile, tuple(asked))
+        key = self._key(position, scales, profile, asked)
         if key not in self._sheets:
             self._sheets[key] = Sheet(
                 self.questions(position), tuple(asked.values()), scales, profile
             )
         return self._sheets[key]
+
+    def _key(
+        self, position: int, scales: Mapping[str, float], profile: Profile, asked: Iterable[str]
+    ) -> tuple[object, ...]:
+        return position, tuple(sorted(scales.items())), profile, tuple(asked)
 
     def theirs(self, sheet: Sheet) -> Iterator[tuple[str, Sheet]]:
         """Yield the other variants that have all that is asked on a sheet, at its scales."""

@@ -6,10 +6,10 @@ import contextlib
 import json
 import threading
 from collections import Counter, deque
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Literal, TypeAlias
 
 import click
 from msgspec import Struct, convert
@@ -17,7 +17,15 @@ from msgspec.structs import asdict, replace
 
 from planmethod.commands.asked import PaperRequest, sheet_options
 from planmethod.commands.helptext import Spoken, answering
-from planmethod.commands.problems import Todo, finish, guarded, refuse_killed, stem, through
+from planmethod.commands.problems import (
+    AT_ONCE_DRAWN,
+    Todo,
+    finish,
+    guarded,
+    refuse_killed,
+    stem,
+    through,
+)
 from planmethod.commands.sheet import SheetOptions, draw
 from planmethod.errors import PlanMethodError
 from planmethod.languages import LANGUAGES, say, spoken
@@ -48,9 +56,12 @@ MANIFEST = "batch.jsonl"
 PATIENCE = 30
 """For a scheduler and the first of its workers, s."""
 
-AHEAD = 4
-"""Variants for each thread of the cluster that are sent ahead."""
+AHEAD = 2
+"""Shares of the variants for each thread of the cluster that are sent ahead."""
 
+
+_Order: TypeAlias = "tuple[VariantOrder, str]"
+"""An order, and what tells whether files are made of the same."""
 
 _ONE = threading.Lock()
 """Held by the thread of a worker that is at work: what is printed is of the whole process."""
@@ -86,6 +97,18 @@ def made(order: VariantOrder) -> Outcome[dict[str, bytes]]:
 
     with _ONE, answering(order.lang):
         return replace(captured(partial(made_here, order)), output="")  # names of files there
+
+
+def made_together(orders: Sequence[VariantOrder]) -> list[Outcome[dict[str, bytes]]]:
+    """Make the files of a share of the orders: called on the machines of the cluster."""
+    return [made(order) for order in orders]
+
+
+def made_share(orders: Sequence[VariantOrder]) -> list[Outcome[dict[str, bytes]]]:
+    """Make the files of a share of the orders: called in the processes of this machine."""
+    from planmethod.commands.processes import captured
+
+    return [captured(partial(made_here, order)) for order in orders]
 
 
 def made_here(order: VariantOrder) -> dict[str, bytes]:
@@ -332,20 +355,32 @@ def _digest(data: bytes) -> str:
     return hashlib.sha256(data).hexdigest()
 
 
-def _shared(
-    orders: list[tuple[VariantOrder, str]], manifest: Manifest, jobs: int
-) -> Iterator[Callable[[], None]]:
+def _shared(orders: list[_Order], manifest: Manifest, jobs: int) -> Iterator[Callable[[], None]]:
     """Yield what takes in each order, made in processes of this machine: none of them listens."""
-    from planmethod.commands.processes import in_processes
-
     wanted = [order for order, key in orders if not manifest.has(order, key)]
-    outcomes = in_processes(made_here, wanted, jobs)
+    outcomes = _in_shares(wanted, jobs)
     for order, key in orders:
         if manifest.has(order, key):
             yield manifest.keep
         else:
             outcome = next(outcomes)
             yield partial(_put, outcome, order, key, manifest)
+
+
+def _in_shares(
+    orders: Sequence[VariantOrder], jobs: int
+) -> Iterator[Outcome[dict[str, bytes]] | None]:
+    """Yield what comes of every order; of a share whose process was killed each is made alone."""
+    from planmethod.commands.processes import in_processes, shares
+
+    parts = shares(orders, jobs, AT_ONCE_DRAWN)
+    for part, outcome in zip(parts, in_processes(made_share, parts, jobs), strict=True):
+        if outcome is not None:
+            yield from outcome.result() or ()
+        elif len(part) == 1:
+            yield None
+        else:
+            yield from in_processes(made_here, part, jobs)
 
 
 def _put(
@@ -401,33 +436,50 @@ def _cluster(scheduler: str) -> Iterator[Client]:
         yield client
 
 
-def _sent(
-    client: Client, orders: list[tuple[VariantOrder, str]], manifest: Manifest
-) -> Iterator[Callable[[], None]]:
+def _sent(client: Client, orders: list[_Order], manifest: Manifest) -> Iterator[Callable[[], None]]:
     """Send orders ahead, and yield what takes in each of them, in order."""
-    most = AHEAD * max(1, sum(client.nthreads().values()))
-    ahead: deque[Callable[[], None]] = deque()
-    for order, key in orders:
-        if manifest.has(order, key):
-            ahead.append(manifest.keep)
-        else:
-            future = client.submit(made, order, key=f"planmethod-{key}")
-            ahead.append(partial(_taken, future, order, key, manifest))
-        if len(ahead) > most:
-            yield ahead.popleft()
-    while ahead:
-        yield ahead.popleft()
+    from planmethod.commands.processes import shares
+
+    threads = max(1, sum(client.nthreads().values()))
+    wanted = [one for one in orders if not manifest.has(*one)]
+    ahead: deque[tuple[Sequence[_Order], Future]] = deque()
+
+    def taken() -> Iterator[Callable[[], None]]:
+        for part in shares(wanted, threads, AT_ONCE_DRAWN):
+            name = _digest("".join(key for _, key in part).encode())
+            sent = [order for order, _ in part]
+            ahead.append((part, client.submit(made_together, sent, key=f"planmethod-{name}")))
+            if len(ahead) > AHEAD * threads:
+                yield from each_of(*ahead.popleft())
+        while ahead:
+            yield from each_of(*ahead.popleft())
+
+    def each_of(part: Sequence[_Order], future: Future) -> Iterator[Callable[[], None]]:
+        for number, (order, key) in enumerate(part):
+            yield partial(_taken, client, future, number, order, key, manifest)
+
+    left, made_ones = {key for _, key in wanted}, taken()
+    for _, key in orders:
+        yield next(made_ones) if key in left else manifest.keep
 
 
-def _taken(future: Future, order: VariantOrder, key: str, manifest: Manifest) -> None:
-    """Wait for an order and put its files down."""
+def _taken(
+    client: Client, future: Future, number: int, order: VariantOrder, key: str, manifest: Manifest
+) -> None:
+    """Wait for a share of the orders and put the files of one down.
+
+    Where the workers that took the share were killed each order is sent alone.
+    """
     from concurrent.futures import CancelledError
 
     from distributed import KilledWorker
 
     name = stem(order.todo.problem)
     try:
-        outcome: Outcome[dict[str, bytes]] = future.result()
+        try:
+            outcome: Outcome[dict[str, bytes]] = future.result()[number]
+        except KilledWorker:
+            outcome = client.submit(made, order, key=f"planmethod-{key}").result()
     except KilledWorker:
         raise PlanMethodError(
             "{}: every worker that took it was killed; perhaps it needs more memory than there "

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -380,7 +380,8 @@ def _write_keys(
             every = all_variants or (variant is None and bool(variant_names(path)))
         except OSError:
             every = False
-        code = each((path,), variant, every, act, jobs=jobs, take=found.append) or code
+        ahead = None if as_questions else partial(keys_ahead, settings=settings)
+        code = each((path,), variant, every, act, jobs=jobs, take=found.append, ahead=ahead) or code
         whole += found
         if found and not as_questions and not asked.as_json:
             _write_key(path, [one.key for one in found], asked)
@@ -434,6 +435,15 @@ def asked_of(todo: Todo, settings: Settings, lang: str | None) -> Asked:
     from planmethod.note.wording import language
 
     return Asked(key_of_task(task), question_of(task, todo.kind, language(lang)))
+
+
+def keys_ahead(todo: Sequence[Todo], settings: Settings) -> dict[int, Asked]:
+    """Return the keys of linkages that are asked alike, by their numbers."""
+    from planmethod.check.together import keys_together
+
+    linkages = [k for k, one in enumerate(todo) if one.kind is None]
+    keys = keys_together([todo[k].linkage for k in linkages], settings)
+    return {linkages[k]: Asked(key, None) for k, key in keys.items()}
 
 
 def key_of(todo: Todo, settings: Settings) -> Key:

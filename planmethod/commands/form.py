@@ -2,13 +2,18 @@
 
 from __future__ import annotations
 
+from functools import partial
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import click
 
 from planmethod.commands.helptext import Spoken
-from planmethod.commands.problems import Todo, each, finish, guarded, stem
+from planmethod.commands.problems import each, finish, guarded, stem
 from planmethod.options import PathType, UsageError, lang_option, out_option, problem_options
+
+if TYPE_CHECKING:
+    from planmethod.commands.check import Asked
 
 MOST_STUDENTS = 500
 
@@ -44,8 +49,8 @@ def form(
     mm × μ is compared with the value while they are typed. planmethod check reads the forms back.
     """
     from planmethod.check.form import fingerprint_of, form_of
-    from planmethod.check.group import key_of_problem
     from planmethod.check.marks import DEFAULT
+    from planmethod.commands.check import asked_of, keys_ahead
     from planmethod.render.backends.output import write
 
     if students is not None and names is not None:
@@ -54,8 +59,8 @@ def form(
     if names is not None:
         who = _read_names(names)
 
-    def make(todo: Todo) -> None:
-        problem, key = todo.problem, key_of_problem(todo.kind, todo.problem, DEFAULT)
+    def make(asked: Asked) -> None:
+        key, problem = asked.key, asked.key.problem
         fingerprint = fingerprint_of(problem)
         for number, student in enumerate(who or [""], 1):
             tail = f"-{number:0{len(str(len(who)))}}" if who else ""
@@ -72,7 +77,9 @@ def form(
             write(path, data)
             click.echo(str(path))
 
-    finish(each(problems, variant, all_variants, make))
+    act = partial(asked_of, settings=DEFAULT, lang=None)
+    ahead = partial(keys_ahead, settings=DEFAULT)
+    finish(each(problems, variant, all_variants, act, take=make, ahead=ahead))
 
 
 def _read_names(path: Path) -> list[str]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import contextlib
 import sys
 from collections.abc import Callable, Iterable, Iterator, Sequence
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
@@ -17,6 +18,10 @@ from planmethod.options import UsageError
 
 if TYPE_CHECKING:
     from planmethod.render.ink.drawing import Drawing
+
+
+SPOOLED = 2**20
+"""Letters of records that are kept in memory."""
 
 
 def put(text: str, file: str | None) -> None:
@@ -149,6 +154,41 @@ def json_text(value: Any) -> str:
 
         return json.dumps(json.loads(text))
     return text
+
+
+class JsonTexts:
+    """Records of many problems: a list of them is printed once all are there (записи).
+
+    The texts wait in a file of the system, not in memory: those of ten thousand variants are 80 MB.
+    """
+
+    def __init__(self) -> None:
+        self._count = 0
+
+    def __enter__(self) -> JsonTexts:
+        import tempfile
+
+        self._file = tempfile.SpooledTemporaryFile(SPOOLED, "w+", encoding="utf-8", newline="")
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self._file.close()
+
+    def add(self, text: str) -> None:
+        """Take the text of one record."""
+        self._file.write(", " * bool(self._count) + text)
+        self._count += 1
+
+    def tell(self) -> None:
+        """Print the only record, or the list of several; nothing where there is none."""
+        if not self._count:
+            return
+        several = self._count > 1
+        self._file.seek(0)
+        click.echo("[" * several, nl=False)
+        for part in iter(partial(self._file.read, SPOOLED), ""):
+            click.echo(part, nl=False)
+        click.echo("]" * several)
 
 
 def is_narrow() -> bool:

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import contextlib
 import functools
+import gc
 import re
 import sys
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NoReturn, TypeVar, cast
+from typing import TYPE_CHECKING, Any, NoReturn, TypeAlias, TypeVar, cast
 
 import click
 from msgspec import Struct
@@ -21,6 +22,7 @@ from planmethod.languages import say
 from planmethod.options import UsageError
 
 if TYPE_CHECKING:
+    from planmethod.commands.processes import Outcome
     from planmethod.construct.drafting import Profile
     from planmethod.kind import ProblemKind
     from planmethod.options import Positions
@@ -46,8 +48,11 @@ class Todo(Struct, frozen=True):
         return cast("Problem", self.problem)
 
 
-AT_ONCE = 512
+AT_ONCE = 256
 """Problems that are acted on at once, where they can be."""
+
+AT_ONCE_DRAWN = 16
+"""The same where each is acted on alone: sheets of them are a few seconds of work."""
 
 MANY = 6
 """Number of problems from which a command shows its progress."""
@@ -227,13 +232,17 @@ def each(
     def steps(todo: list[Todo]) -> Iterator[Callable[[], T | None]]:
         # Problems that are called alike write the same files: the last one wins, as in one process.
         if jobs == 1 or len({stem(one.problem) for one in todo}) < max(2, len(todo)):
+            if len(todo) > AT_ONCE:
+                gc.freeze()  # what was read stays to the end, and is not looked through
             for start in range(0, len(todo), AT_ONCE):
                 block = todo[start : start + AT_ONCE]
                 found = ahead(block) if ahead is not None and len(block) > 1 else {}
                 for k, one in enumerate(block):
                     yield partial(found.pop, k) if k in found else partial(act, one)
+                if len(todo) > AT_ONCE:
+                    gc.collect()  # solutions know themselves: a block of them is 100 MB
         else:
-            yield from _shared(act, todo, jobs)
+            yield from _shared(act, ahead, todo, jobs)
 
     return through(paths, variant, all_variants, steps, kinds=kinds, take=take, drawn=drawn)
 
@@ -301,14 +310,42 @@ def through(
 # Processes ---------------------------------------------------------------------------------------
 
 
-def _shared(
-    act: Callable[[Todo], T], todo: list[Todo], jobs: int
-) -> Iterator[Callable[[], T | None]]:
-    """Yield what gives the result of every problem, each acted on in one of several processes."""
-    from planmethod.commands.processes import in_processes
+Ahead: TypeAlias = Callable[[Sequence[Todo]], dict[int, Any]]
+"""Acts on several problems at once, as far as it can: see `each`."""
 
-    for one, outcome in zip(todo, in_processes(act, todo, jobs), strict=True):
-        yield partial(refuse_killed, one) if outcome is None else outcome.result
+
+def _shared(
+    act: Callable[[Todo], T], ahead: Ahead | None, todo: list[Todo], jobs: int
+) -> Iterator[Callable[[], T | None]]:
+    """Yield what gives the result of every problem: shares of them go to several processes.
+
+    Of a share whose process was killed each problem is acted on alone.
+    """
+    from planmethod.commands.processes import in_processes, shares
+
+    parts = shares(todo, jobs, AT_ONCE if ahead is not None else AT_ONCE_DRAWN)
+    act_on = partial(_acted_on, act=act, ahead=ahead)
+    for part, outcome in zip(parts, in_processes(act_on, parts, jobs), strict=True):
+        if outcome is not None:
+            yield from (own.result for own in outcome.result() or ())
+        elif len(part) == 1:
+            yield partial(refuse_killed, part[0])
+        else:
+            for one, own in zip(part, in_processes(act, part, jobs), strict=True):
+                yield partial(refuse_killed, one) if own is None else own.result
+
+
+def _acted_on(
+    part: Sequence[Todo], act: Callable[[Todo], T], ahead: Ahead | None
+) -> list[Outcome[T]]:
+    """Act on a share of the problems, on those that can be together at once."""
+    from planmethod.commands.processes import Outcome, captured
+
+    found = ahead(part) if ahead is not None and len(part) > 1 else {}
+    return [
+        Outcome(value=found[k]) if k in found else captured(partial(act, one))
+        for k, one in enumerate(part)
+    ]
 
 
 def refuse_killed(one: Todo) -> NoReturn:

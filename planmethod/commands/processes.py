@@ -23,6 +23,9 @@ from planmethod.commands.helptext import answering
 from planmethod.errors import PlanMethodError
 from planmethod.languages import say, spoken
 
+SHARES = 4
+"""Shares of the work for each process."""
+
 T = TypeVar("T")
 R = TypeVar("R")
 
@@ -102,6 +105,12 @@ def _work(act: Callable[[T], R], item: T, lang: str) -> Outcome[R]:
         signal.signal(signal.SIGTERM, signal.SIG_DFL)
         os.kill(os.getpid(), signal.SIGTERM)
         raise
+
+
+def shares(items: Sequence[T], jobs: int, most: int) -> list[Sequence[T]]:
+    """Return items in shares of ``most`` at most; several for each process, so that none waits."""
+    size = max(1, min(most, -(-len(items) // (SHARES * jobs))))
+    return [items[start : start + size] for start in range(0, len(items), size)]
 
 
 # In the first process ----------------------------------------------------------------------------

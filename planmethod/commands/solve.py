@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import functools
 import sys
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -12,7 +12,7 @@ import click
 from msgspec import Struct
 
 from planmethod.commands.helptext import Spoken
-from planmethod.commands.output import bar, is_terminal, json_text, put_parts
+from planmethod.commands.output import JsonTexts, bar, is_terminal, json_text, put_parts
 from planmethod.commands.problems import (
     Todo,
     each,
@@ -44,10 +44,12 @@ from planmethod.options import (
 
 if TYPE_CHECKING:
     from planmethod.construct.drafting import Profile
+    from planmethod.note.records.npz import SolvedArrays
     from planmethod.note.records.spreadsheet import SpreadsheetRows
     from planmethod.problem.model import Problem
     from planmethod.solved.many.gaps import GappedSweep
     from planmethod.solved.many.positions import Gaps
+    from planmethod.solved.many.variants import Batch
     from planmethod.solved.solution import Solution
 
 HINT = " To leave such positions empty, give --partial with --csv, --npz or --ask."
@@ -57,6 +59,9 @@ MOST_SHOWN = 10_000
 
 MOST_NUMBERS = 250_000_000
 """Most numbers of one problem in a file of arrays: 2 GB, all in memory before they are written."""
+
+MANY_PROBLEMS = 500
+"""Problems whose arrays take about a second to write."""
 
 LONG_TEXT, LONG_ARRAYS = 2_000_000, 50_000_000
 """Count of numbers that take about a second to write."""
@@ -87,6 +92,11 @@ class SolveOptions(Struct, frozen=True, kw_only=True):
     referee: int | None
     lang: str
     apart: bool
+
+    @property
+    def hand(self) -> tuple[str | None, float | None]:
+        """Profile and ruler of who draws."""
+        return self.profile, self.ruler
 
     def of_linkages(self) -> dict[str, bool]:
         """Return which options that only linkages have are given."""
@@ -237,28 +247,22 @@ def solve(
     )
     found: list[Any] = []
     act = functools.partial(compute, options=options)
-    ahead = None
-    if phi is None and referee is None and not swept:
-        if as_json:
-            ahead = functools.partial(_together, hand=(profile, ruler), table=False)
-        elif csv_file is not None and not partial:
-            ahead = functools.partial(_together, hand=("board", ruler), table=True)
+    ahead = _ahead(options)
     if as_json:
         from planmethod.note.written import plain_of
 
-        texts: list[str] = []
-        code = each(
-            problems,
-            variant,
-            all_variants,
-            act,
-            jobs=jobs,
-            take=lambda one: texts.append(json_text(plain_of(one))),
-            ahead=ahead,
-            drawn=not swept,
-        )
-        if texts:
-            click.echo(texts[0] if len(texts) == 1 else f"[{', '.join(texts)}]")
+        with JsonTexts() as texts:
+            code = each(
+                problems,
+                variant,
+                all_variants,
+                act,
+                jobs=jobs,
+                take=lambda one: texts.add(json_text(plain_of(one))),
+                ahead=ahead,
+                drawn=not swept,
+            )
+            texts.tell()
         finish(code)
         return
     code = each(
@@ -284,7 +288,7 @@ def solve(
 
 def compute(
     todo: Todo, options: SolveOptions
-) -> dict[str, Any] | SpreadsheetRows | GappedSweep | Solution | None:
+) -> dict[str, Any] | SpreadsheetRows | GappedSweep | SolvedArrays | Solution | None:
     """Compute a problem; print its numbers, or return what several problems print together."""
     kind, problem = todo.kind, todo.problem
     if kind is None:
@@ -305,30 +309,53 @@ def compute(
     return None
 
 
+def _ahead(options: SolveOptions) -> Callable[[Sequence[Todo]], dict[int, Any]] | None:
+    """Return what solves many problems together; None where each is to be solved alone."""
+    moved = options.phi is not None or options.referee is not None or options.partial
+    if moved or options.ask is not None:
+        return None
+    if options.as_json:
+        from planmethod.note.records.solution import batch_records
+
+        return functools.partial(_together, made=batch_records, hand=options.hand)
+    if options.npz:
+        from planmethod.note.records.npz import batch_arrays
+
+        return functools.partial(_together, made=batch_arrays, hand=options.hand)
+    if options.csv:
+        from planmethod.note.records.spreadsheet import batch_tables
+
+        return functools.partial(_together, made=batch_tables, hand=("board", options.ruler))
+    return None
+
+
 def _together(
-    todo: Sequence[Todo], hand: tuple[str | None, float | None], *, table: bool
+    todo: Sequence[Todo],
+    made: Callable[[Batch], Iterator[Any]],
+    hand: tuple[str | None, float | None],
 ) -> dict[int, Any]:
-    """Return records or tables of problems that are solved together, by their numbers.
+    """Return what is made of problems that are solved together, by their numbers.
 
     ``hand`` is the profile and the ruler of who draws.
     """
-    from planmethod.note.records.solution import batch_records
-    from planmethod.note.records.spreadsheet import batch_tables
     from planmethod.solved.many.variants import in_batches
 
     linkages = [k for k, one in enumerate(todo) if one.kind is None]
     found: dict[int, Any] = {}
     for batch, members in in_batches([todo[k].linkage for k in linkages], drawn_by(*hand)):
-        made = batch_tables(batch) if table else batch_records(batch)
-        found.update(zip([linkages[k] for k in members], made, strict=True))
+        found.update(zip([linkages[k] for k in members], made(batch), strict=True))
     return found
 
 
 def _computed(
     problem: Problem, options: SolveOptions
-) -> dict[str, Any] | SpreadsheetRows | GappedSweep | Solution | None:
+) -> dict[str, Any] | SpreadsheetRows | GappedSweep | SolvedArrays | Solution | None:
     phi, referee = options.phi, options.referee
     hand = drawn_by(options.profile, options.ruler)  # a train needs no arrays
+    if options.npz and _ahead(options) is not None and _is_short(problem):
+        from planmethod.note.records.npz import solved_arrays
+
+        return solved_arrays(solution_of(problem, None, hand, hint=HINT, forces=True))
     if options.npz or options.ask is not None:
         tell_changes(problem, phi)
         if not (options.csv or options.npz):
@@ -375,6 +402,13 @@ def _computed(
             judged = referee_document(solution, referee, words)
             click.echo("\n" + plain_document(judged, words))
     return None
+
+
+def _is_short(problem: Problem) -> bool:
+    """Tell whether a problem has so few positions that it may be solved among others."""
+    from planmethod.solved.solution import FEW_ROWS
+
+    return len(problem.drive.positions) <= FEW_ROWS
 
 
 def _whole(problem: Problem, options: SolveOptions, hand: Profile) -> Solution:
@@ -496,22 +530,25 @@ def _refuse_huge(made: GappedSweep) -> None:
         )
 
 
-def _write_arrays(sweeps: list[GappedSweep], file: str) -> None:
+def _write_arrays(sweeps: list[GappedSweep | SolvedArrays], file: str) -> None:
     """Write sweeps into one file; names of several begin with the variant or the problem."""
-    from planmethod.note.records.npz import swept_arrays, write_arrays
+    from planmethod.note.records.npz import SolvedArrays, swept_arrays, write_arrays
     from planmethod.render.backends.output import opened
 
     prefixes = _prefixes([made.problem for made in sweeps])
-    arrays = sum(len(made.names) for made in sweeps)
-    numbers = sum(len(made.names) * len(made.positions) for made in sweeps)
+    long = [made for made in sweeps if not isinstance(made, SolvedArrays)]
+    numbers = sum(len(made.names) * len(made.positions) for made in long)
 
     def named() -> Iterator[tuple[str, Any]]:
         for made, prefix in zip(sweeps, prefixes, strict=True):
-            for name, array in swept_arrays(made, prefix):
-                yield name, array
-                done(1)
+            if isinstance(made, SolvedArrays):
+                yield from made.named(prefix)
+            else:
+                yield from swept_arrays(made, prefix)
+            done(1)
 
-    with opened(file) as target, bar(arrays, long=numbers > LONG_ARRAYS) as done:
+    many = numbers > LONG_ARRAYS or len(sweeps) > MANY_PROBLEMS
+    with opened(file) as target, bar(len(sweeps), long=many) as done:
         write_arrays(target, named())
     click.echo(file)
 

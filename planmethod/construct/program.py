@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from functools import lru_cache
 from itertools import islice
 
 from msgspec import Struct, field
@@ -87,7 +88,12 @@ class Program(Struct, frozen=True):
             if step.out in need:
                 kept.append(step)
                 need.update(name for name, _ in operands(step))
-        return Program(tuple(reversed(kept)))
+        return _checked(tuple(reversed(kept)))
+
+
+@lru_cache(maxsize=512)  # variants of a task are drawn by the same steps
+def _checked(steps: tuple[Step, ...]) -> Program:
+    return Program(steps)
 
 
 class Builder(Struct):
@@ -116,8 +122,8 @@ class Builder(Struct):
         return name in self._made
 
     def program(self) -> Program:
-        """Return what was collected."""
-        return Program(tuple(self.steps))
+        """Return what was collected; of what was collected before, the same program."""
+        return _checked(tuple(self.steps))
 
     def given(self, out: str) -> PointName:
         """Take a point as given."""

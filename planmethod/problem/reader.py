@@ -57,11 +57,10 @@ def load_each(
     """
     path = Path(path)
     table, known, faults = _from_file(path)
+    names = tuple(known)  # one for all: ten thousand have as many names each
     for variant in variants:
         varied = _laid_over(faults, table, known, str(path), variant)
-        yield _read_varied(
-            faults.copy(), varied, tuple(known), str(path), path.stem, variant, train
-        )
+        yield _read_varied(faults.copy(), varied, names, str(path), path.stem, variant, train)
 
 
 def _from_file(path: Path) -> tuple[Mapping[str, Any], Variants, Faults]:

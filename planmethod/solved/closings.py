@@ -9,6 +9,7 @@ depends on the one before it.
 
 from __future__ import annotations
 
+from collections import deque
 from collections.abc import Collection, Generator, Mapping, Sequence
 from itertools import islice
 
@@ -69,15 +70,25 @@ def drive_data(
 def construct(problem: Problem) -> Construction:
     """Return the construction of a problem: its groups, their closings, its plans as one program.
 
-    It is made once for a problem: positions, scales and hands are readings of it.
+    It is made once for a problem: positions, scales and hands are readings of it. That of the last
+    few problems is kept: a command looks at one more than once.
 
     Raises
     ------
     StructureError, ProblemError, AssemblyError
         When the mechanism cannot be analysed or assembled.
     """
+    for known, made in _KEPT:
+        if known is problem:
+            return made
     structure = analyse(problem.mechanism)
-    return build(problem, structure, choose_closings(problem, structure))
+    made = build(problem, structure, choose_closings(problem, structure))
+    _KEPT.append((problem, made))
+    return made
+
+
+_KEPT: deque[tuple[Problem, Construction]] = deque(maxlen=2)
+"""The last problems, each itself and no other like it, and what is drawn of them."""
 
 
 class WantedReading(Struct, frozen=True):

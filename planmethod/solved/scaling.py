@@ -15,7 +15,7 @@ from planmethod.construct.steps import PointName
 from planmethod.mechanism.model import FRAME
 from planmethod.paper import FORMATS, TRIED, paper_format
 from planmethod.plans.build import Construction
-from planmethod.plans.model import FACTS, MOTION, PlanKind
+from planmethod.plans.model import FACTS, MOTION, RATES, PlanKind
 from planmethod.problem.model import Problem, Scales
 from planmethod.solved.enlarging import AROUND, NAMED, times_beside
 from planmethod.solved.reading import Reading, Reals
@@ -266,10 +266,24 @@ class Extents:
         self.construction, self.si = construction, si
         self._chosen: dict[tuple[Views, Scales], _Chosen] = {}
 
+    def part(self, construction: Construction, si: Reading, own: slice) -> Extents:
+        """Return how large one of many variants is, whose positions are some of these."""
+        found = Extents(construction, si)
+        whole = self.plans
+        found.plans = {kind: (wide[own], high[own]) for kind, (wide, high) in whole.items()}
+        found.texts = self.texts
+        return found
+
+    @cached_property
+    def plans(self) -> dict[PlanKind, tuple[Reals, Reals]]:
+        """Width and height of the plans in every position, shape (n,)."""
+        return {kind: sizes(self.construction, self.si, kind) for kind in RATES}
+
     @cached_property
     def sizes(self) -> dict[PlanKind, tuple[Reals, Reals]]:
         """Width and height of what is drawn in every position, shape (n,)."""
-        return {kind: sizes(self.construction, self.si, kind) for kind in MOTION}
+        scheme = sizes(self.construction, self.si, PlanKind.POSITION)
+        return {PlanKind.POSITION: scheme, **self.plans}
 
     @cached_property
     def largest(self) -> dict[PlanKind, Box]:

@@ -55,6 +55,15 @@ def at_positions(
     return {name: value[chosen] if np.ndim(value) else value for name, value in values.items()}
 
 
+def filled(values: Mapping[str, Number], count: int) -> dict[str, Any]:
+    """Return values as columns of so many positions.
+
+    As of variants that are read together (`planmethod.solved.many.variants`), to the last bit:
+    NumPy multiplies a column by one complex number in another way than by a column.
+    """
+    return {name: np.full(count, value) for name, value in values.items()}
+
+
 def even(problem: Problem) -> Problem:
     """Return a problem without loads, its driver at one radian (or metre) a second."""
     drive = replace(problem.drive, rate=1.0, acceleration=0.0)
@@ -221,6 +230,11 @@ class Solution(Remembering):
         """How many positions are of one mechanism."""
         return len(self.positions)
 
+    @property
+    def parts(self) -> Sequence[tuple[Solution, slice]]:
+        """Solutions of one mechanism each, and their positions: this one has one mechanism."""
+        return ((self, EVERY),)
+
     def numbers_of(self, plan: Callable[[Construction], Mapping[str, float]]) -> dict[str, Number]:
         """Return the known numbers of what goes on from the construction."""
         return dict(plan(self.construction))
@@ -245,9 +259,7 @@ class Solution(Remembering):
         data: dict[str, Any] = {**self._given_at(chosen), **at_positions(scales, chosen)}
         count = len(self.positions[chosen])
         if count <= FEW_ROWS:
-            # As of variants that are read together (`planmethod.solved.many.variants`), to the last
-            # bit: NumPy multiplies a column by one complex number in another way than by a column.
-            data = {name: np.full(count, value) for name, value in data.items()}
+            data = filled(data, count)
         for name in self.construction.draft.places:
             data[name] = data[name] / data["mu_l"]
         return data
@@ -281,7 +293,8 @@ class Solution(Remembering):
         return reading
 
     @cached_property
-    def _extents(self) -> Extents:
+    def extents(self) -> Extents:
+        """How large the mechanism and its plans are, at unit scales."""
         return Extents(self.construction, self.si)
 
     @cached_property
@@ -292,7 +305,7 @@ class Solution(Remembering):
         """
         if self._scales is not None:
             return dict(self._scales)
-        scales = choose_scales(self._extents, self.views, self.given_scales)
+        scales = choose_scales(self.extents, self.views, self.given_scales)
         for kind, own in self._own_scales.items():
             if not np.isnan(own).any():  # there is no common one: one of them stands for it
                 scales[kind] = replace(scales[kind], per_mm=float(median(own)))
@@ -306,7 +319,7 @@ class Solution(Remembering):
         """
         found: dict[PlanKind, Reals] = {}
         for kind in RATES if self._scales is None and not self._too_many else ():
-            own = own_scales(self._extents, self.views, self.given_scales, kind)
+            own = own_scales(self.extents, self.views, self.given_scales, kind)
             if not np.isnan(own).all():
                 found[kind] = own
         return found
@@ -333,7 +346,7 @@ class Solution(Remembering):
         if self._views is not None:
             return self._views, self.problem.scales
         moved = tuple(self.positions.tolist()) != self.problem.drive.positions
-        return decide(self._extents, self.problem, moved=moved)
+        return decide(self.extents, self.problem, moved=moved)
 
     @property
     def views(self) -> Views:

@@ -160,6 +160,7 @@ def test_nothing_is_left_of_arrays_that_failed(monkeypatch: pytest.MonkeyPatch) 
         raise OSError(28, "No space left on device")
 
     monkeypatch.setattr(np.lib.format, "write_array", broken)
+    monkeypatch.setattr(zipfile.ZipFile, "writestr", broken)
     assert "no space left on the device" in refused(2, "solve", EX1, "--npz", "a.npz")
 
 

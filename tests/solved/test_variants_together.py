@@ -2,20 +2,31 @@
 
 import csv
 import random
+import re
 import tomllib
 from pathlib import Path
 from typing import Any
 
 import msgspec
-from cases import each, thinned
+import numpy as np
+from cases import each, some, thinned
 from click.testing import CliRunner
 
+from planmethod.check.exchange.keyrecord import key_record
+from planmethod.check.key import key_of_task
+from planmethod.check.marks import DEFAULT
+from planmethod.check.task import Task
+from planmethod.check.together import keys_together
 from planmethod.cli import cli as main
 from planmethod.construct.drafting import PROFILES
+from planmethod.kinds import load_each
+from planmethod.note.records.npz import solved_arrays, swept_arrays
 from planmethod.note.records.solution import batch_records, record_in_columns
 from planmethod.note.written import plain_of
-from planmethod.problem import loads
+from planmethod.problem import loads, variant_names
 from planmethod.problem.model import Problem
+from planmethod.solved.forces.statics import loads_on
+from planmethod.solved.many.gaps import GappedSweep
 from planmethod.solved.many.variants import in_batches
 from planmethod.solved.solution import Solution
 
@@ -29,10 +40,22 @@ def plain_files() -> list[Path]:
     return [file for file in files if not set(MORE) & tomllib.loads(file.read_text()).keys()]
 
 
+def loaded_files() -> list[Path]:
+    """Return shipped problems with loads whose pairs do not rub."""
+    more = {*MORE} - {"dynamics", "loads", "variants"}
+    found = []
+    for file in sorted(PROBLEMS.glob("l*/*.toml")):
+        table = tomllib.loads(file.read_text())
+        if not more & table.keys() and "loads" in table and "friction" not in table:
+            found.append(file)
+    return found
+
+
 def varied(file: Path, count: int) -> list[Problem]:
-    """Return variants of a problem whose lengths and crank angles are off by a few percent."""
-    text = file.read_text()
+    """Return variants of a problem: lengths, masses and crank angles are off by a few percent."""
+    text = re.sub(r"(?ms)^\[variants\b.*?(?=^\[(?!variants)|\Z)", "", file.read_text())
     table = tomllib.loads(text)
+    masses = table.get("dynamics", {}).get("links", {})
     spread = random.Random(file.name)
     rows = []
     for k in range(count):
@@ -41,6 +64,12 @@ def varied(file: Path, count: int) -> list[Problem]:
             for link, keys in table["links"].items()
             for key, value in keys.items()
             if len(key) == 2 and type(value) in (int, float)
+        ]
+        cells += [
+            f"dynamics.links.{link}.{key} = {value * spread.uniform(0.9, 1.1):.5g}"
+            for link, keys in masses.items()
+            for key, value in keys.items()
+            if type(value) in (int, float)
         ]
         if type(table["driver"].get("phi")) in (int, float):
             cells.append(f"driver.phi = {table['driver']['phi'] + spread.uniform(-20, 20):.4g}")
@@ -66,6 +95,84 @@ def test_a_variant_among_others_has_the_bytes_of_one_alone(file: Path) -> None:
     problems = varied(file, 8)
     for k, text in together(problems).items():
         assert text == encoded(record_in_columns(Solution(problems[k]))), (file.name, k)
+
+
+@each("file", thinned(loaded_files(), 9))
+def test_a_variant_with_loads_has_among_others_the_bytes_of_one_alone(file: Path) -> None:
+    problems = varied(file, 6)
+    found = together(problems)
+    assert len(found) > 2, file.name
+    for k, text in found.items():
+        assert text == encoded(record_in_columns(Solution(problems[k]))), (file.name, k)
+
+
+def test_loads_that_one_has_and_another_has_not_make_batches_of_their_own() -> None:
+    file = PROBLEMS / "levers" / "task-1.toml"
+    problems = list(load_each(file, variant_names(file)))
+    batches = in_batches(problems, PROFILES["board"])
+    assert sorted(k for _, members in batches for k in members) == list(range(len(problems)))
+    for batch, members in batches:
+        kinds = {loads_on(Solution(problems[k])).kind for k in members}
+        assert kinds == {loads_on(batch.alone[0]).kind}
+    assert len(batches) > 1
+
+
+def loaded(file: Path) -> dict[str, Any]:
+    with np.load(file) as arrays:
+        return dict(arrays)
+
+
+def test_arrays_of_many_variants_are_those_of_each_alone(tmp_path: Path) -> None:
+    for name in ("levers/task-1", "levers/task-54"):
+        file = PROBLEMS / f"{name}.toml"
+        target = tmp_path / "all.npz"
+        arguments = ["solve", str(file), "--npz", str(target)]
+        assert CliRunner().invoke(main, [*arguments, "--all-variants"]).exit_code == 0
+        whole = loaded(target)
+        variants = variant_names(file)
+        names = [one.partition(":")[2] for one in whole if one.startswith(f"{variants[0]}:")]
+        for variant in variants:
+            assert CliRunner().invoke(main, [*arguments, "--variant", variant]).exit_code == 0
+            alone = loaded(target)
+            assert list(alone) == names
+            for array in names:
+                among = whole[f"{variant}:{array}"]
+                assert (among.dtype, among.tobytes()) == (
+                    alone[array].dtype,
+                    alone[array].tobytes(),
+                )
+
+
+def test_arrays_of_few_positions_are_those_of_a_sweep() -> None:
+    for name in ("linkages/ex3", "levers/task-1", "levers/task-12"):
+        (problem,) = load_each(PROBLEMS / f"{name}.toml", (None,))
+        swept = GappedSweep(problem, np.array(problem.drive.positions))
+        expected = dict(swept_arrays(swept))
+        found = dict(solved_arrays(Solution(problem)).named(""))
+        assert list(found) == list(expected)
+        for array, values in expected.items():
+            assert found[array].dtype == values.dtype
+            if values.dtype.kind == "f":
+                assert np.allclose(found[array], values, rtol=1e-9, atol=1e-9), (name, array)
+
+
+@each("file", thinned([PROBLEMS / "linkages" / "ex3.toml", *loaded_files()], 12))
+def test_the_key_of_a_variant_is_among_others_what_it_is_alone(file: Path) -> None:
+    problems = varied(file, 4)
+    found = keys_together(problems, DEFAULT)
+    assert len(found) > 1, file.name
+    for k, key in found.items():
+        alone = key_of_task(Task(Solution(problems[k])))
+        assert key_record(key) == key_record(alone), (file.name, k)
+
+
+def test_three_hundred_variants_have_the_bytes_of_each_alone() -> None:
+    for file in (PROBLEMS / "linkages" / "ex3.toml", PROBLEMS / "levers" / "task-54.toml"):
+        problems = varied(file, 300)
+        found = together(problems)
+        assert len(found) > 290, file.name
+        for k in list(found)[:: 300 // some(300, 15)]:
+            assert found[k] == encoded(record_in_columns(Solution(problems[k]))), (file.name, k)
 
 
 def test_most_variants_are_read_together_whatever_their_order() -> None:

@@ -171,7 +171,7 @@ def forces_records(solution: Solution) -> Records:
                 "sigma": listed(drawn.spreads[BALANCE].sigma),
             }
         ),
-        "mu": [statics.scale.per_mm] * count,
+        "mu": listed(np.broadcast_to(statics.mu, count)),
         "plans": together(
             [
                 rows({"links": [[*plan.links]] * count, "mu": listed(own), "q": [_q(plan)] * count})

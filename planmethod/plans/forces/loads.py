@@ -46,6 +46,8 @@ class Applied(Struct, frozen=True):
     kind : LoadKind
     steady : complex or None
         The force or couple where it is the same in every position.
+    numbers : tuple of ndarray of shape (n,), optional
+        What it is known by in every position, of loads of many variants.
     """
 
     name: str
@@ -55,6 +57,7 @@ class Applied(Struct, frozen=True):
     couple: Reals
     kind: LoadKind
     steady: complex | None = None
+    numbers: tuple[Reals, ...] | None = None
 
 
 def numbers_of(one: Applied) -> tuple[Number, ...]:
@@ -62,6 +65,8 @@ def numbers_of(one: Applied) -> tuple[Number, ...]:
 
     Numbers of a load that is the same in every position, else arrays of shape (n,).
     """
+    if one.numbers is not None:
+        return one.numbers
     if one.point is None:
         return (one.couple if one.steady is None else one.steady.real,)
     force = one.force if one.steady is None else one.steady

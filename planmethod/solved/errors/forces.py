@@ -28,7 +28,7 @@ from planmethod.solved.errors.drawing import (
 from planmethod.solved.errors.motion import drafting_of
 from planmethod.solved.errors.spread import Errors
 from planmethod.solved.forces.contact import JointForce
-from planmethod.solved.forces.statics import Statics
+from planmethod.solved.forces.statics import Statics, statics_of
 from planmethod.solved.reading import Flags, Reals
 from planmethod.solved.transfers import transfers_of
 
@@ -95,6 +95,13 @@ class DrawnForces(Errors):
                 _enlarged(statics),
             )
         )
+
+    def _of_sheets(self, index: int) -> dict[str, float]:
+        """Return the sigmas that random sheets of one position give: those of its own mechanism."""
+        solution, own = self.solution.alone_at(index)
+        if solution is self.solution:
+            return super()._of_sheets(index)
+        return drawn_forces(statics_of(solution))._of_sheets(own)
 
     @cached_property
     def _by_hand(self) -> dict[str, Reals]:

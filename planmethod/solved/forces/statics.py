@@ -26,10 +26,10 @@ from planmethod.plans.draft import Draft
 from planmethod.plans.forces.board import SCALE, Force, ForceBoard, Reaction
 from planmethod.plans.forces.dyads import Driving, drive_forces, group_forces
 from planmethod.plans.forces.lever import Lever, plan_lever
-from planmethod.plans.forces.loads import Applied
+from planmethod.plans.forces.loads import Applied, numbers_of
 from planmethod.plans.forces.polygons import ForcePlan
 from planmethod.plans.model import FACTS, PlanKind
-from planmethod.problem.load_records import BearingTable
+from planmethod.problem.load_records import BearingTable, Dynamics
 from planmethod.problem.model import Convention
 from planmethod.solved.failures import PositionError
 from planmethod.solved.forces.contact import JointForce, SlideReaction, contacts
@@ -38,7 +38,14 @@ from planmethod.solved.forces.resultants import UnshiftedInertia, shifted_inerti
 from planmethod.solved.impossible import explain, failing
 from planmethod.solved.reading import Complexes, Reading, Reals, Remembering
 from planmethod.solved.room import Box
-from planmethod.solved.solution import EVERY, UNIT_SCALES, Solution, at_positions
+from planmethod.solved.solution import (
+    EVERY,
+    FEW_ROWS,
+    UNIT_SCALES,
+    Solution,
+    at_positions,
+    filled,
+)
 
 UNIT = FACTS[PlanKind.FORCE].unit
 COMMON_BOX: Box = (100.0, 100.0)
@@ -87,7 +94,7 @@ def plan_forces(
         The loads hang on the lever, too: not those of friction, which act on both links of a pair.
     """
     start = len(draft.b.steps)
-    board = ForceBoard(draft, solution.construction.kinematics, solution.problem.dynamics)
+    board = ForceBoard(draft, solution.construction.kinematics, _dynamics(solution))
     board.load(loads, single)
     for group in reversed(solution.structure.groups):
         group_forces(board, group)
@@ -95,6 +102,83 @@ def plan_forces(
     lever = plan_lever(board, driving) if hung else None
     draft.note_plan(PlanKind.FORCE, start)
     return Planned(board, driving, lever)
+
+
+class Loads(Struct, frozen=True):
+    """What acts on the links, and which forces of inertia stand for their couples (нагрузки).
+
+    ``single`` are those couples by link; ``unshifted`` the links that keep theirs.
+    """
+
+    applied: tuple[Applied, ...]
+    single: Mapping[str, Applied] = {}
+    unshifted: tuple[UnshiftedInertia, ...] = ()
+
+    @property
+    def kind(self) -> tuple[object, ...]:
+        """What loads have in common that are planned alike."""
+        named = ((one.name, one.link, one.point, one.kind) for one in self.applied)
+        return (*named, *self.single)
+
+
+def loads_on(solution: Solution, rubbing: Sequence[Applied] = ()) -> Loads:
+    """Return the loads of a problem, those of friction the last.
+
+    Raises
+    ------
+    ProblemError
+        As of `applied`.
+    """
+    found = (*applied(solution), *rubbing)
+    dynamics = solution.problem.dynamics
+    if dynamics is None or not dynamics.resultant:
+        return Loads(found)
+    return Loads(found, *shifted_inertia(solution, found))
+
+
+def _together(solution: Solution) -> Loads:
+    """Return the loads of variants that are planned alike, each in every position of all."""
+    each = [one.once(loads_on) for one, _ in solution.parts]
+    counts = [len(one.positions) for one, _ in solution.parts]
+    alike = zip(*(one.applied for one in each), strict=True)
+    found = tuple(_joined(of_all, counts) for of_all in alike)
+    first, single = each[0], {}
+    for link, couple in first.single.items():
+        single[link] = next(
+            joined for one, joined in zip(first.applied, found, strict=True) if one is couple
+        )
+    return Loads(found, single, first.unshifted)
+
+
+def _joined(alike: Sequence[Applied], counts: Sequence[int]) -> Applied:
+    told = zip(*map(numbers_of, alike), strict=True)
+    return replace(
+        alike[0],
+        force=np.concatenate([one.force for one in alike]),
+        couple=np.concatenate([one.couple for one in alike]),
+        steady=None,
+        numbers=tuple(
+            np.concatenate([np.full(n, value) for n, value in zip(counts, values, strict=True)])
+            for values in told
+        ),
+    )
+
+
+def _dynamics(solution: Solution) -> Dynamics | None:
+    """Return the masses of a problem; of many variants numbers of every position."""
+    dynamics = solution.problem.dynamics
+    if dynamics is None or len(solution.parts) == 1:
+        return dynamics
+    own = [one.problem.dynamics for one, _ in solution.parts]
+    counts = [len(one.positions) for one, _ in solution.parts]
+    masses = {}
+    for link, mass in dynamics.masses.items():
+        here = [one.masses[link] for one in own if one is not None]
+        kilograms = np.repeat([one.mass for one in here], counts)
+        inertia = np.repeat([one.inertia for one in here], counts)
+        masses[link] = replace(mass, mass=kilograms, inertia=inertia)
+    gravity = np.repeat([one.gravity for one in own if one is not None], counts)
+    return replace(dynamics, gravity=gravity, masses=masses)
 
 
 class Statics(Remembering):
@@ -116,13 +200,11 @@ class Statics(Remembering):
     def __init__(self, solution: Solution, rubbing: Sequence[Applied] = ()) -> None:
         super().__init__()
         self.solution = solution
-        loads = (*applied(solution), *rubbing)
-        single: Mapping[str, Applied] = {}
-        self.unshifted: tuple[UnshiftedInertia, ...] = ()
-        if solution.problem.dynamics is not None and solution.problem.dynamics.resultant:
-            single, self.unshifted = shifted_inertia(solution, loads)
+        several = len(solution.parts) > 1
+        loads = _together(solution) if several else loads_on(solution, rubbing)
+        self.unshifted = loads.unshifted
         draft = solution.construction.draft.copy()
-        planned = plan_forces(solution, draft, loads, single, hung=not rubbing)
+        planned = plan_forces(solution, draft, loads.applied, loads.single, hung=not rubbing)
         self.board, self.driving, self.lever_plan = planned.board, planned.driving, planned.lever
         self.program: Program = self.board.draft.b.program().needed_for(self._asked())
 
@@ -151,7 +233,10 @@ class Statics(Remembering):
         self, scales: Mapping[str, Number], chosen: npt.NDArray[np.intp] | slice
     ) -> dict[str, Number]:
         """Return the data of the program at given scales, for some positions."""
-        return {**self.solution.data(scales, chosen), **at_positions(self.board.data, chosen)}
+        own, count = at_positions(self.board.data, chosen), len(self.solution.positions[chosen])
+        if count <= FEW_ROWS or len(self.solution.parts) > 1:
+            own = filled(own, count)
+        return {**self.solution.data(scales, chosen), **own}
 
     @cached_property
     def si(self) -> Reading:
@@ -239,23 +324,43 @@ class Statics(Remembering):
 
     # Drawn -----------------------------------------------------------------------------------
 
-    @cached_property
+    @property
     def scale(self) -> Scale:
         """Scale of the force plans (масштаб сил): the file's, or one of the series for all."""
-        scales = self.solution.problem.scales
+        return self._scales[0]
+
+    @cached_property
+    def _scales(self) -> list[Scale]:
+        return [self._scale(one, own) for one, own in self.solution.parts]
+
+    @cached_property
+    def mu(self) -> Number:
+        """The same in N per mm; of many variants in every position."""
+        found = [scale.per_mm for scale in self._scales]
+        if len(found) == 1:
+            return found[0]
+        return np.repeat(found, [len(one.positions) for one, _ in self.solution.parts])
+
+    def _scale(self, one: Solution, own: slice) -> Scale:
+        """Return the scale of the force plans of one mechanism, which has some positions."""
+        scales = one.problem.scales
         if scales.mu_F is not None:
             return Scale(SCALE, scales.mu_F, UNIT)
-        if PlanKind.FORCE in self.solution.scales:
-            return self.solution.scales[PlanKind.FORCE]
-        extents = [self.extent(plan) for plan in self.board.plans]
-        whole = (max(e[0] for e in extents), max(e[1] for e in extents))
+        if PlanKind.FORCE in one.scales:
+            return one.scales[PlanKind.FORCE]
+        whole = [max(float(size[k][own].max()) for size in self._sizes) for k in (0, 1)]
         inverse = scales.convention is Convention.MM_PER_UNIT
-        return Scale(SCALE, choose_scale(whole, COMMON_BOX, mm_per_unit=inverse), UNIT)
+        box = whole[0], whole[1]
+        return Scale(SCALE, choose_scale(box, COMMON_BOX, mm_per_unit=inverse), UNIT)
 
     def extent(self, plan: ForcePlan) -> Box:
         """Return width and height of a plan in the position where it is the widest, N."""
         width, height = self._extents(plan)
         return float(width.max()), float(height.max())
+
+    @cached_property
+    def _sizes(self) -> list[tuple[Reals, Reals]]:
+        return [self._extents(plan) for plan in self.board.plans]
 
     def _extents(self, plan: ForcePlan) -> tuple[Reals, Reals]:
         """Return width and height of a plan in every position, N, shape (n,)."""
@@ -269,24 +374,20 @@ class Statics(Remembering):
 
         Plans that are nothing have the common one.
         """
-        found = [np.full(len(self.solution.positions), self.scale.per_mm) for _ in self.board.plans]
-        scales = self.solution.problem.scales
-        if scales.mu_F is not None:
-            return found
-        inverse = scales.convention is Convention.MM_PER_UNIT
-        for plan, own in zip(self.board.plans, found, strict=True):
-            extents = self._extents(plan)
-            size = np.maximum(*extents)
-            for index in np.flatnonzero(size > FAINT * np.max(size, initial=0.0)):
-                box = float(extents[0][index]), float(extents[1][index])
-                room = LAST_BOX if plan is self.board.plans[-1] else PLAN_BOX
-                own[index] = choose_scale(box, room, mm_per_unit=inverse)
+        found = [np.full(len(self.solution.positions), self.mu) for _ in self.board.plans]
+        for one, rows in self.solution.parts:
+            if one.problem.scales.mu_F is not None:
+                continue
+            inverse = one.problem.scales.convention is Convention.MM_PER_UNIT
+            for own, (width, height) in zip(found, self._sizes, strict=True):
+                room = LAST_BOX if own is found[-1] else PLAN_BOX
+                _enlarge(own[rows], (width[rows], height[rows]), room, inverse=inverse)
         return found
 
     @cached_property
     def shares(self) -> list[Reals]:
         """How many times larger than by `scale` each plan is drawn, by positions, shape (n,)."""
-        return [self.scale.per_mm / own for own in self.own_scales]
+        return [self.mu / own for own in self.own_scales]
 
     def own_scale(self, number: int, index: int) -> Scale:
         """Return the scale at which one of the plans is drawn in a position."""
@@ -305,7 +406,7 @@ class Statics(Remembering):
     @property
     def per_mm(self) -> dict[str, Number]:
         """Unit per millimetre of all plans, by the name that the program has for it."""
-        return {**self.solution.per_mm, SCALE: self.scale.per_mm}
+        return {**self.solution.per_mm, SCALE: self.mu}
 
     @cached_property
     def paper(self) -> Reading:
@@ -316,6 +417,14 @@ class Statics(Remembering):
     def by_hand(self) -> Reading:
         """Reading of a draughtsman who measures with a ruler, along his own chain."""
         return self.read(self.hand, self.per_mm)
+
+
+def _enlarge(own: Reals, sizes: tuple[Reals, Reals], room: Box, *, inverse: bool) -> None:
+    """Give a plan scales of its own in the positions of a mechanism in which it is something."""
+    size = np.maximum(*sizes)
+    for index in np.flatnonzero(size > FAINT * np.max(size, initial=0.0)):
+        box = float(sizes[0][index]), float(sizes[1][index])
+        own[index] = choose_scale(box, room, mm_per_unit=inverse)
 
 
 def statics_of(solution: Solution) -> Statics:

@@ -28,6 +28,7 @@ from planmethod.plans.model import RATES
 from planmethod.problem.model import Problem
 from planmethod.solved.closings import Choosing, WantedReading, choosing, drive_data
 from planmethod.solved.enlarging import SHORT, SMALL
+from planmethod.solved.forces.statics import loads_on, statics_of
 from planmethod.solved.impossible import failing
 from planmethod.solved.reading import Flags, Reading, Reals
 from planmethod.solved.selfcheck import changed_branches, refused
@@ -113,6 +114,21 @@ class Batch(Solution):
             told[k] = not changed_branches(self.alone[k])
         return told
 
+    @property
+    def kinds(self) -> list[tuple[object, ...] | None]:
+        """What loads the variants have: those of one kind are planned alike.
+
+        None of one that is not solved, or of which something is to be said.
+        """
+        good = self.good
+        if self.problem.dynamics is None or not good.all():
+            return [() if told else None for told in good.tolist()]
+        kinds = [_loads_kind(one) for one, _ in self.parts]
+        if len(set(kinds)) == 1 and kinds[0] is not None:
+            closes = statics_of(self).closes
+            return [kinds[0] if closes[own].all() else None for own in self.rows]
+        return kinds
+
     @cached_property
     def alone(self) -> list[Solution]:
         """Every variant's own solution: its exact reading is its rows of this one."""
@@ -120,8 +136,16 @@ class Batch(Solution):
         for problem, made, own in zip(self.problems, self.constructions, self.rows, strict=True):
             one = Solution(problem, profile=self.profile, construction=made)
             one.si = self.si.part(own)
+            one.extents = self.extents.part(made, one.si, own)
             found.append(one)
         return found
+
+    @cached_property
+    def parts(self) -> Sequence[tuple[Solution, slice]]:
+        """Every variant's own solution, with its readings, and its rows."""
+        for one, own in zip(self.alone, self.rows, strict=True):
+            one.paper = self.paper.part(own)
+        return tuple(zip(self.alone, self.rows, strict=True))
 
     @cached_property
     def per_mm(self) -> dict[str, Number]:
@@ -164,22 +188,32 @@ def in_batches(problems: Sequence[Problem], profile: Profile) -> list[tuple[Batc
             alike.setdefault(_kind(problems[k], construction), []).append(k)
     found: list[tuple[Batch, list[int]]] = []
     for members in alike.values():
-        kept = members
-        while len(kept) > 1:
+        waiting = [members]
+        while waiting:
+            kept = waiting.pop()
+            if len(kept) < 2:
+                continue
             chosen = [made[k] for k in kept]
             batch = Batch([problems[k] for k in kept], [c for c in chosen if c], profile)
-            good = batch.good
-            if good.all():
+            kinds = batch.kinds
+            parts = [
+                [k for k, own in zip(kept, kinds, strict=True) if own == kind]
+                for kind in dict.fromkeys(kinds)
+                if kind is not None
+            ]
+            if parts == [kept]:
                 found.append((batch, kept))
-                break
-            kept = [k for k, told in zip(kept, good.tolist(), strict=True) if told]
+            else:
+                waiting += parts[::-1]
     return found
 
 
 def _is_plain(problem: Problem) -> bool:
     """Tell whether a problem asks for plans of a few positions, and nothing beyond them."""
-    more = (problem.cycle, problem.machine, problem.balancing, problem.dynamics, problem.project)
-    return not any(part is not None for part in more) and len(problem.drive.positions) <= FEW_ROWS
+    more = (problem.cycle, problem.machine, problem.balancing, problem.project)
+    rubs = problem.dynamics is not None and problem.dynamics.friction is not None
+    whole = not rubs and not any(part is not None for part in more)
+    return whole and len(problem.drive.positions) <= FEW_ROWS
 
 
 def _kind(problem: Problem, construction: Construction) -> tuple[Any, ...]:
@@ -189,7 +223,20 @@ def _kind(problem: Problem, construction: Construction) -> tuple[Any, ...]:
     given = tuple(draft.numbers), tuple(draft.places), tuple(draft.branches)
     rates = problem.drive.rate == 0, problem.drive.acceleration == 0
     several = len(problem.drive.positions) > 1
-    return construction.program.steps, bodies, given, construction.segments, rates, several
+    kind = construction.program.steps, bodies, given, construction.segments, rates, several
+    dynamics = problem.dynamics
+    if dynamics is None:
+        return kind
+    # A guide and bearings are asked for their numbers; a force pushes along its own line.
+    shared = tuple(problem.slides.items()), tuple(dynamics.bearings.items()), problem.drive.pushed
+    return (*kind, tuple(dynamics.masses), dynamics.resultant, shared)
+
+
+def _loads_kind(solution: Solution) -> tuple[object, ...] | None:
+    try:
+        return solution.once(loads_on).kind
+    except PlanMethodError:
+        return None  # it says why when it is solved alone
 
 
 def _constructed(problems: Sequence[Problem]) -> list[Construction | None]:

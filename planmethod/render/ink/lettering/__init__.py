@@ -11,7 +11,7 @@ import re
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from contextvars import ContextVar
-from functools import cache, cached_property
+from functools import cache, cached_property, lru_cache
 from itertools import accumulate
 from pathlib import Path
 from types import MappingProxyType
@@ -111,10 +111,6 @@ class OutlineLettering(Struct, eq=False, dict=True):
         return int(self._data["units_per_em"])
 
     @cached_property
-    def _runs(self) -> dict[str, tuple[int, int, int, int, int]]:
-        return {}
-
-    @cached_property
     def _glyphs(self) -> dict[str, Glyph]:
         return {}
 
@@ -158,28 +154,19 @@ class OutlineLettering(Struct, eq=False, dict=True):
             before = char
         return placed
 
-    def pieces(self, text: str) -> list[tuple[int, str]]:
+    def pieces(self, text: str) -> tuple[tuple[int, str], ...]:
         """Return the parts of a run inside which letters follow one another by their advances.
 
         Returns
         -------
-        list of (int, str)
+        tuple of (int, str)
             Where a part starts, font units, and its letters.
         """
-        parts: list[tuple[int, str]] = []
-        end = None
-        for char, pen in self.places(text):
-            if pen == end:
-                start, letters = parts.pop()
-                parts.append((start, letters + char))
-            else:
-                parts.append((pen, char))
-            end = pen + self.glyph(char).advance
-        return parts
+        return _pieces(self, text)
 
     def width(self, text: str, height: float) -> float:
         """Return the advance of a run of letters, mm."""
-        return self._measured(text)[0] * height / self.cap_height
+        return _measured(self, text)[0] * height / self.cap_height
 
     def ink(self, text: str, height: float) -> tuple[float, float, float, float]:
         """Return the bounds of the ink of a run that starts at the origin.
@@ -190,24 +177,8 @@ class OutlineLettering(Struct, eq=False, dict=True):
             xmin, ymin, xmax, ymax, mm; all zero when the run has no ink.
         """
         unit = height / self.cap_height
-        _, left, low, right, high = self._measured(text)
+        _, left, low, right, high = _measured(self, text)
         return (left * unit, low * unit, right * unit, high * unit)
-
-    def _measured(self, text: str) -> tuple[int, int, int, int, int]:
-        """Return advance and ink bounds in font units; runs recur, so they are kept."""
-        found = self._runs.get(text)
-        if found is not None:
-            return found
-        glyphs = [(self.glyph(char), pen) for char, pen in self.places(text)]
-        boxes = [
-            (pen + glyph.xmin, glyph.ymin, pen + glyph.xmax, glyph.ymax)
-            for glyph, pen in glyphs
-            if glyph.strokes
-        ]
-        end = glyphs[-1][1] + glyphs[-1][0].advance if glyphs else 0
-        left, low, right, high = zip(*boxes or [(0, 0, 0, 0)], strict=True)
-        self._runs[text] = (end, min(left), min(low), max(right), max(high))
-        return self._runs[text]
 
     def strokes(self, char: str) -> tuple[tuple[complex, ...], ...]:
         """Return what the middle of the pen does for a letter, in parts of h."""
@@ -233,6 +204,37 @@ class OutlineLettering(Struct, eq=False, dict=True):
     def descent(self, text: str, height: float) -> float:
         """Return how far the ink of this run goes below the base line, mm (positive)."""
         return max(0.0, -self.ink(text, height)[1])
+
+
+# Runs recur, on one sheet and on those of many variants: the last of them are kept.
+
+
+@lru_cache(maxsize=8192)
+def _pieces(lettering: OutlineLettering, text: str) -> tuple[tuple[int, str], ...]:
+    parts: list[tuple[int, str]] = []
+    end = None
+    for char, pen in lettering.places(text):
+        if pen == end:
+            start, letters = parts.pop()
+            parts.append((start, letters + char))
+        else:
+            parts.append((pen, char))
+        end = pen + lettering.glyph(char).advance
+    return tuple(parts)
+
+
+@lru_cache(maxsize=8192)
+def _measured(lettering: OutlineLettering, text: str) -> tuple[int, int, int, int, int]:
+    """Return advance and ink bounds of a run in font units."""
+    glyphs = [(lettering.glyph(char), pen) for char, pen in lettering.places(text)]
+    boxes = [
+        (pen + glyph.xmin, glyph.ymin, pen + glyph.xmax, glyph.ymax)
+        for glyph, pen in glyphs
+        if glyph.strokes
+    ]
+    end = glyphs[-1][1] + glyphs[-1][0].advance if glyphs else 0
+    left, low, right, high = zip(*boxes or [(0, 0, 0, 0)], strict=True)
+    return (end, min(left), min(low), max(right), max(high))
 
 
 @cache
