@@ -11,6 +11,7 @@ from planmethod.check.calculation import Calculation, CalculationSheet
 from planmethod.check.diagnosis import diagnose
 from planmethod.check.judge import Examined, UnusableError, decide, examine, replay
 from planmethod.check.key import entry_of
+from planmethod.check.measured.asked import asked_of_drawing
 from planmethod.check.marks import Settings
 from planmethod.check.model import CheckedWork, Diagnosis, Judged, Verdict, Work, WrittenAnswer
 from planmethod.check.questions import Sign
@@ -32,7 +33,8 @@ def check(task: Task, work: Work) -> CheckedWork:
 
     What nobody asked is judged, and counts neither for nor against.
     """
-    asked = task.usual()
+    asked = asked_of_drawing(task) if work.drawn else task.usual()
+    measured = {item.name: item for item in asked} if work.drawn else {}
     names = {(item.name, item.position) for item in asked}
     found: dict[int, list[tuple[WrittenAnswer, TaskItem]]] = {}
     numbers: dict[int, int] = {}
@@ -40,7 +42,7 @@ def check(task: Task, work: Work) -> CheckedWork:
     for number, written in enumerate(work.answers):
         name = written.id or written.what
         try:
-            item = task.find(written)
+            item = measured.get(written.id) or task.find(written)
         except NoValueError:
             judged[number] = Judged(name, Verdict.UNREADABLE, written=written)
             continue
@@ -58,7 +60,7 @@ def check(task: Task, work: Work) -> CheckedWork:
     examined: list[Examined] = []
     for position, here in sorted(found.items()):
         scales = _scales(task, work, here, position)
-        sheet = task.sheet(position, scales, work.ruler_mm)
+        sheet = task.sheet(position, scales, work.ruler_mm, drawn=work.drawn)
         ready: list[Examined] = []
         for written, item in here:
             try:
@@ -92,11 +94,11 @@ def check(task: Task, work: Work) -> CheckedWork:
         tuple(diagnosis),
         round(points, 6),
         round(whole, 6),
-        _suspicious(examined),
+        not work.drawn and _suspicious(examined),
         strokes={
             (one.item.name, one.item.position): one.stroke
             for one in examined
-            if one.stroke is not None
+            if one.stroke is not None and not work.drawn
         },
     )
 

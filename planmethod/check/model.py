@@ -60,6 +60,12 @@ class Unread(Enum):
     FIELDS = "fields"  # a row with more fields than there are heads
     ROW = "row"  # a row of the form that is gone
     TEXT = "text"  # halves of characters, which no file can have
+    PLAN = "plan"  # of a drawing: none of its lines are this plan
+    LETTER = "letter"  # a vertex that no letter of the drawing names
+    DOUBT = "doubt"  # a letter that may as well name another vertex
+    VERTEX = "vertex"  # a vertex without a letter
+    OPEN = "open"  # lines that should meet at a letter do not
+    TURNED = "turned"  # a plan that stands turned as a whole
 
 
 class WrittenAnswer(Struct, frozen=True):
@@ -143,6 +149,8 @@ class Work(Struct, frozen=True):
     fingerprint : str
         Of the problem that the form was made for, see `planmethod.check.form.fingerprint_of`; empty
         of other works.
+    drawn : bool
+        Whether it is a drawing that was measured: it answers what its plans show, no pencil drew it.
     """
 
     student: str
@@ -154,6 +162,7 @@ class Work(Struct, frozen=True):
     where: str = ""
     remarks: tuple[WrittenAnswer, ...] = ()
     fingerprint: str = ""
+    drawn: bool = False
 
 
 class KeyEntry(Struct, frozen=True):
