@@ -220,7 +220,7 @@ class Calculation(Task):
         own: Mapping[str, float] | None = None,
         ruler: float | None = None,
         *,
-        drawn: bool = False,
+        drawn: str = "",
     ) -> CalculationSheet:
         """Return the numbers of a position, with all that was asked so far."""
         profile = self.profile(ruler, drawn=drawn)

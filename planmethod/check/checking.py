@@ -11,8 +11,8 @@ from planmethod.check.calculation import Calculation, CalculationSheet
 from planmethod.check.diagnosis import diagnose
 from planmethod.check.judge import Examined, UnusableError, decide, examine, replay
 from planmethod.check.key import entry_of
-from planmethod.check.measured.asked import asked_of_drawing
 from planmethod.check.marks import Settings
+from planmethod.check.measured.asked import asked_of_drawing
 from planmethod.check.model import CheckedWork, Diagnosis, Judged, Verdict, Work, WrittenAnswer
 from planmethod.check.questions import Sign
 from planmethod.check.routes import follow_routes

@@ -62,6 +62,7 @@ class Unread(Enum):
     TEXT = "text"  # halves of characters, which no file can have
     PLAN = "plan"  # of a drawing: none of its lines are this plan
     LETTER = "letter"  # a vertex that no letter of the drawing names
+    SEVERAL = "several"  # plans of a kind, and not as many as there are positions
     DOUBT = "doubt"  # a letter that may as well name another vertex
     VERTEX = "vertex"  # a vertex without a letter
     OPEN = "open"  # lines that should meet at a letter do not
@@ -149,8 +150,8 @@ class Work(Struct, frozen=True):
     fingerprint : str
         Of the problem that the form was made for, see `planmethod.check.form.fingerprint_of`; empty
         of other works.
-    drawn : bool
-        Whether it is a drawing that was measured: it answers what its plans show, no pencil drew it.
+    drawn : str
+        Of a drawing that was measured: the profile of the hand that drew it; empty of other works.
     """
 
     student: str
@@ -162,7 +163,7 @@ class Work(Struct, frozen=True):
     where: str = ""
     remarks: tuple[WrittenAnswer, ...] = ()
     fingerprint: str = ""
-    drawn: bool = False
+    drawn: str = ""
 
 
 class KeyEntry(Struct, frozen=True):

@@ -384,15 +384,15 @@ class Task:
             scales[SCALE] = statics.scale.per_mm if needed else own.get(SCALE, 1.0)
         return {**scales, **{name: own[name] for name in scales if name in own}}
 
-    def profile(self, ruler: float | None, *, drawn: bool = False) -> Profile:
+    def profile(self, ruler: float | None, *, drawn: str = "") -> Profile:
         """Return how well a sheet is drawn whose maker reads to a step of his own, mm.
 
         Parameters
         ----------
-        drawn : bool
-            By a CAD program.
+        drawn : str
+            Profile of the hand that drew it, where a drawing is measured.
         """
-        if drawn:
+        if drawn == "cad":
             return PROFILES["cad"]
         profile, step = PROFILES[self.settings.profile], ruler or self.settings.ruler_mm
         return profile if step is None else replace(profile, ruler=step)
@@ -403,7 +403,7 @@ class Task:
         own: Mapping[str, float] | None = None,
         ruler: float | None = None,
         *,
-        drawn: bool = False,
+        drawn: str = "",
     ) -> Sheet:
         """Return the sheet of a position at somebody's scales, with all that was asked so far."""
         scales = self.scales(own or {}, position)

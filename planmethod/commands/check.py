@@ -120,8 +120,8 @@ def check(
     """Check answers: key first, then one student's work or a whole group's.
 
     PROBLEM asks what its [[answers]] say, else what the key lists. WORK is one student's JSON or
-    TOML, a group's CSV or XLSX, a form filled in, or a drawing as DXF. Writes results.xlsx, results.csv, run.json
-    and a page for each student.
+    TOML, a group's CSV or XLSX, a form filled in, or a drawing as DXF. Writes results.xlsx,
+    results.csv, run.json and a page for each student.
     """
     settings = _settings(settings_file, policy, profile)
     if key_only:

@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any
 
 import ezdxf
+from ezdxf.enums import TextEntityAlignment
 
 from planmethod.check.letters import plain
 from planmethod.check.sheet import Sheet, point
@@ -45,7 +46,8 @@ def draw(
     moved : mapping of str to complex
         How far the ends of vectors are moved, by the vector: ``p-d``.
     """
-    document = ezdxf.new("R2010", units=units)
+    library: Any = ezdxf  # its types are of the parts only
+    document = library.new("R2010", units=units)
     space: Any = document.modelspace()
     if in_block:
         space.add_blockref("PLAN", (10 * per_unit, 0), dxfattribs={"rotation": 0.0})
@@ -61,9 +63,9 @@ def draw(
             name: [one for one in own if plain(one) not in without]
             for name, own in shown_letters(problem, plan).items()
         }
-        ends = [(vector.tail, vector.head) for vector in plan.vectors]
-        ends += [(plan.pole, name) for name in letters if name != plan.pole]
-        vectors = {pair for pair in ends if all(end in value for end in pair)}
+        pairs = [(vector.tail, vector.head) for vector in plan.vectors]
+        pairs += [(plan.pole, name) for name in letters if name != plan.pole]
+        vectors = {pair for pair in pairs if all(end in value for end in pair)}
         ends = sorted({end for pair in vectors for end in pair})
 
         def at(name: str, pole: complex = pole, origin: complex = origin) -> complex:
@@ -77,7 +79,9 @@ def draw(
                 continue
             attributes = {"layer": layer}
             if polylines:
-                space.add_lwpolyline([_pair(a), _pair((a + b) / 2), _pair(b)], dxfattribs=attributes)
+                space.add_lwpolyline(
+                    [_pair(a), _pair((a + b) / 2), _pair(b)], dxfattribs=attributes
+                )
             else:
                 space.add_line(_pair(a), _pair(b), dxfattribs=attributes)
             if barbs and abs(b - a) > 8 * per_unit:
@@ -132,4 +136,4 @@ def _letter(
             )
         elif own:
             text = space.add_text(", ".join(own), height=3.5 * per_unit)
-            text.set_placement(_pair(corner), align=ezdxf.enums.TextEntityAlignment.MIDDLE_CENTER)
+            text.set_placement(_pair(corner), align=TextEntityAlignment.MIDDLE_CENTER)

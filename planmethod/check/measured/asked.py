@@ -27,7 +27,7 @@ def asked_of_drawing(task: Task) -> tuple[TaskItem, ...]:
         and item.question.plan in RATES
         and item.question.ends is not None
     ]
-    sheet = task.sheet(task.first, drawn=True)
+    sheet = task.sheet(task.first, drawn="cad")
     for item in shown:
         question = item.question
         if abs(sheet.vector(question) or 0j) < SHORT_MM:

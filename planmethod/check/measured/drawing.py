@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from itertools import pairwise
 from pathlib import Path
 
 from msgspec import Struct, field
@@ -12,6 +13,9 @@ from planmethod.check.works.faults import WorksError
 
 LINES_LIMIT = 20_000
 TEXTS_LIMIT = 20_000
+
+STRAIGHT = 1e-4
+"""How far a polyline that goes straight on may bend, radians."""
 
 REACH_LIMIT = 1e6
 """Nothing on a sheet is further away than a kilometre, mm."""
@@ -40,7 +44,7 @@ class DrawnLine(Struct, frozen=True):
         return abs(self.end - self.start)
 
 
-class Inscription(Struct, frozen=True):
+class DrawnLetters(Struct, frozen=True):
     """Letters of a drawing, and the room that they take (надпись).
 
     Attributes
@@ -61,7 +65,9 @@ class Inscription(Struct, frozen=True):
         """Return how far a place is from the room of the letters, mm."""
         off = place - self.at
         return abs(
-            complex(max(0.0, abs(off.real) - self.wide / 2), max(0.0, abs(off.imag) - self.high / 2))
+            complex(
+                max(0.0, abs(off.real) - self.wide / 2), max(0.0, abs(off.imag) - self.high / 2)
+            )
         )
 
 
@@ -76,7 +82,7 @@ class MeasuredDrawing(Struct):
 
     path: Path
     lines: list[DrawnLine] = field(default_factory=list)
-    texts: list[Inscription] = field(default_factory=list)
+    texts: list[DrawnLetters] = field(default_factory=list)
     points: list[tuple[complex, str, int]] = field(default_factory=list)
 
     def line(self, corners: Iterable[complex], layer: str, colour: int) -> None:
@@ -87,13 +93,17 @@ class MeasuredDrawing(Struct):
         WorksError
             There are too many.
         """
-        before: complex | None = None
+        whole: list[complex] = []
         for corner in corners:
-            if before is not None and corner != before and _is_near(corner, before):
-                if len(self.lines) >= LINES_LIMIT:
-                    raise WorksError("{}: over {} lines. Keep the plans.", self.path, LINES_LIMIT)
-                self.lines.append(DrawnLine(before, corner, layer, colour))
-            before = corner
+            if whole and not (corner != whole[-1] and _is_near(corner, whole[-1])):
+                continue
+            if len(whole) > 1 and _goes_on(whole[-2], whole[-1], corner):
+                whole.pop()
+            whole.append(corner)
+        for start, end in pairwise(whole):
+            if len(self.lines) >= LINES_LIMIT:
+                raise WorksError("{}: over {} lines. Keep the plans.", self.path, LINES_LIMIT)
+            self.lines.append(DrawnLine(start, end, layer, colour))
 
     def text(self, text: str, at: complex, wide: float, high: float) -> None:
         """Take an inscription; blank ones say nothing.
@@ -108,12 +118,18 @@ class MeasuredDrawing(Struct):
             return
         if len(self.texts) >= TEXTS_LIMIT:
             raise WorksError("{}: over {} inscriptions. Keep the plans.", self.path, TEXTS_LIMIT)
-        self.texts.append(Inscription(told, at, wide, high))
+        self.texts.append(DrawnLetters(told, at, wide, high))
 
     def point(self, at: complex, layer: str, colour: int) -> None:
         """Take a point, or the middle of a small circle."""
         if _is_near(at) and len(self.points) < LINES_LIMIT:
             self.points.append((at, layer, colour))
+
+
+def _goes_on(one: complex, two: complex, three: complex) -> bool:
+    """Tell whether a line goes straight on."""
+    way = (three - two) / (two - one)
+    return way.real > 0 and abs(way.imag) < STRAIGHT * way.real
 
 
 def _is_near(*places: complex) -> bool:

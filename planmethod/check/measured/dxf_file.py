@@ -32,10 +32,10 @@ MARK_MM = 3.0
 WIDE = 0.6
 """Width of a letter in its heights, where the drawing does not say it."""
 
-BY_BLOCK, BY_LAYER = 0, 256
-OPTIMAL = 4
-"""Millimetres among the units of a DXF file."""
+GAP = 1.3
+"""From one letter of a run to the next, in heights; a word of another inscription is further."""
 
+BY_BLOCK, BY_LAYER = 0, 256
 _LETTER = "LETTER_"
 _ARROWS = ("ARROW", "_OPEN", "_CLOSED", "_DOT")
 
@@ -55,7 +55,7 @@ class _Letters(Struct):
         tall = max(high, self.high)
         return (
             abs(along - self.along) < 1e-3
-            and 0.0 < step.real < 1.7 * tall
+            and 0.0 < step.real < GAP * tall
             and abs(step.imag) < 0.6 * tall
         )
 
@@ -97,12 +97,14 @@ class _Reader:
     """Takes the entities of a document apart."""
 
     def __init__(self, path: Path, document: Any) -> None:
-        from ezdxf import units
+        from ezdxf import enums, units
 
         self.path, self.document = path, document
         code = document.header.get("$INSUNITS", 0)
-        known = isinstance(code, int) and 0 < code <= 20
-        self.mm = units.conversion_factor(code, OPTIMAL) if known else 1.0
+        self.mm = 1.0
+        if isinstance(code, int) and 0 < code <= 20:
+            of = enums.InsertUnits
+            self.mm = float(units.conversion_factor(of(code), of.Millimeters))
         self.drawing, self.seen = MeasuredDrawing(path), 0
         self.run: _Letters | None = None
 
@@ -201,7 +203,7 @@ class _Reader:
         along = exp(1j * math.radians(float(insert.dxf.get("rotation", 0.0))))
         run = self.run
         if run is not None and run.takes(at, high, along):
-            gap = ((at - run.last) * along.conjugate()).real > 1.15 * max(high, run.high)
+            gap = ((at - run.last) * along.conjugate()).real > 0.95 * max(high, run.high)
             run.text += f" {char}" if gap else char
             run.last = at
             return
@@ -232,17 +234,20 @@ def _middle_of_text(entity: Any) -> tuple[float, float]:
     return (0.5, 0.0, -0.5)[point % 3], (-0.5, 0.0, 0.5)[min(point // 3, 2) if point >= 0 else 0]
 
 
-def _straight(entity: Any) -> Iterator[tuple[Any, Any]]:
-    """Yield the straight parts of a polyline."""
+def _straight(entity: Any) -> Iterator[list[Any]]:
+    """Yield the straight runs of corners of a polyline."""
     if entity.dxftype() == "LWPOLYLINE":
         told = [((x, y), bulge) for x, y, _, _, bulge in entity.get_points()]
         closed = entity.closed
-    elif not entity.is_2d_polyline and not entity.is_3d_polyline:
-        return
-    else:
+    elif entity.is_2d_polyline or entity.is_3d_polyline:
         told = [(v.dxf.location, v.dxf.get("bulge", 0.0)) for v in entity.vertices]
         closed = entity.is_closed
-    behind = [*told[1:], *(told[:1] if closed else ())]
-    for (start, bulge), (end, _) in zip(told, behind, strict=False):
-        if abs(bulge) < BULGED:
-            yield start, end
+    else:
+        return
+    run: list[Any] = []
+    for corner, bulge in [*told, *(told[:1] if closed else ())]:
+        run.append(corner)
+        if abs(bulge) > BULGED:
+            yield run
+            run = []
+    yield run

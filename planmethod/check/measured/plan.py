@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from cmath import phase
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
@@ -12,7 +13,7 @@ from msgspec.structs import replace
 
 from planmethod.check.letters import plain
 from planmethod.check.measured.asked import asked_of_drawing, vector_of
-from planmethod.check.measured.drawing import DrawnLine, Inscription, MeasuredDrawing
+from planmethod.check.measured.drawing import DrawnLetters, DrawnLine, MeasuredDrawing
 from planmethod.check.measured.dxf_file import read_dxf
 from planmethod.check.measured.layers import PLANS, plan_of_layer
 from planmethod.check.measured.svg_file import read_svg
@@ -32,7 +33,7 @@ from planmethod.check.works.cells import Cell, refused
 from planmethod.check.works.faults import WorksError
 from planmethod.check.works.gather import WorkDraft, scale_name
 from planmethod.construct.steps import PointName
-from planmethod.plans.model import RATES, PlanKind, pole_letter
+from planmethod.plans.model import RATES, PlanKind, Vector, pole_letter
 
 STEP_MM = 0.01
 """What a drawing is measured to, mm."""
@@ -46,10 +47,19 @@ SAME_DEG = 2.0
 
 TURNED_DEG = 5.0
 LEAST_MM = 5.0
+DETAIL_MM = 20.0
+"""How far the scale of an enlarged detail stands from it."""
+
+WHOLE = 3
+"""Vectors that must be turned alike, not shorter than that."""
+
 LIKE_DEG = 10.0
 """Half a turn is a mistake: the crank turned the other way. So near to it no drawing is put."""
 
 READERS: Mapping[str, Callable[[Path], MeasuredDrawing]] = {".dxf": read_dxf, ".svg": read_svg}
+
+HANDS = {".dxf": "cad", ".svg": "board"}
+"""By which profile they are drawn: on our own sheets a hand reads its ruler."""
 
 
 class FoundPlan(Struct):
@@ -67,11 +77,13 @@ class FoundPlan(Struct):
         tails, heads = self.at.get(tail, []), self.at.get(head, [])
         if not tails or not heads:
             return None
-        places, lines = self.vertices.places, set(self.vertices.lines)
         pairs = [(one, two) for one in tails for two in heads]
-        drawn = [pair for pair in pairs if pair in lines or pair[::-1] in lines]
-        one, two = (drawn or pairs)[0]
-        return places[two] - places[one]
+        drawn, longer = (
+            [pair for pair in pairs if pair in lines or pair[::-1] in lines]
+            for lines in (self.vertices.lines, self.vertices.longer)
+        )
+        one, two = (drawn or longer or pairs)[0]
+        return self.vertices.places[two] - self.vertices.places[one]
 
 
 def is_drawing(path: Path) -> bool:
@@ -97,17 +109,18 @@ def read_drawing(path: Path, layers: Mapping[str, str], task: Task) -> Work:
     drawing = READERS[path.suffix.lower()](path)
     draft = WorkDraft(path.stem, str(path), variant=task.variant)
     _read_scales(draft, drawing.texts)
+    hand = HANDS[path.suffix.lower()]
     items = asked_of_drawing(task)
-    sheet = task.sheet(task.first, drawn=True)
-    found = {plan.kind: plan for plan in _plans(drawing, layers, sheet, draft)}
+    sheet = task.sheet(task.first, drawn=hand)
+    found = {plan.kind: plan for plan in _plans(drawing, layers, sheet, draft, task.count)}
     for kind in RATES:
         if kind not in found and any(item.question.plan is kind for item in items):
             draft.remark(Unread.PLAN, kind.value, path.name)
     answers = list(_answers(items, sheet, found, draft, path.name))
-    return replace(draft.work(), answers=tuple(answers), drawn=True)
+    return replace(draft.work(), answers=tuple(answers), drawn=hand)
 
 
-def _read_scales(draft: WorkDraft, texts: Sequence[Inscription]) -> None:
+def _read_scales(draft: WorkDraft, texts: Sequence[DrawnLetters]) -> None:
     """Take the scales that the drawing tells: ``μ_v = 0,05 (м/с)/мм``."""
     for text in texts:
         name, equal, value = text.text.partition("=")
@@ -120,7 +133,11 @@ def _read_scales(draft: WorkDraft, texts: Sequence[Inscription]) -> None:
 
 
 def _plans(
-    drawing: MeasuredDrawing, layers: Mapping[str, str], sheet: Sheet, draft: WorkDraft
+    drawing: MeasuredDrawing,
+    layers: Mapping[str, str],
+    sheet: Sheet,
+    draft: WorkDraft,
+    count: int,
 ) -> Iterator[FoundPlan]:
     own: dict[PlanKind, list[DrawnLine]] = {kind: [] for kind in RATES}
     mixed: list[DrawnLine] = []
@@ -139,11 +156,24 @@ def _plans(
             shown[:300],
         )
     if len(mixed) + sum(map(len, own.values())) > PLAN_LINES:
-        raise WorksError("{}: over {} lines are plans. Name their layers.", drawing.path, PLAN_LINES)
+        raise WorksError(
+            "{}: over {} lines are plans. Name their layers.", drawing.path, PLAN_LINES
+        )
+    parts: dict[PlanKind, list[list[DrawnLine]]] = {kind: [] for kind in RATES}
     for part in _parts(without_barbs(mixed)):
-        if (kind := _kind_of(part, drawing.texts)) is not None:
-            own[kind] += part
-    for kind, lines in own.items():
+        kind = _kind_of(part, drawing.texts)
+        if kind is not None and not _is_detail(part, drawing.texts):
+            parts[kind].append(part)
+    for kind in RATES:
+        told = [part for part in _parts(without_barbs(own[kind])) if _kind_of(part, drawing.texts)]
+        several = parts[kind] if len(parts[kind]) > 1 else told
+        lines = [*own[kind], *(line for part in parts[kind] for line in part)]
+        if len(several) > 1:  # one for each position
+            at = sheet.questions.position
+            lines = _in_order(several)[at] if len(several) == count else []
+            if not lines:
+                where = f"{Path(draft.where).name}, {kind.value}"
+                draft.remark(Unread.SEVERAL, str(len(several)), where)
         if lines:
             marks = [
                 at
@@ -151,6 +181,27 @@ def _plans(
                 if plan_of_layer(layers, layer, colour) == kind.value
             ]
             yield _lettered(kind, without_barbs(lines), marks, drawing.texts, sheet, draft)
+
+
+def _is_detail(part: Sequence[DrawnLine], texts: Sequence[DrawnLetters]) -> bool:
+    """Tell whether lines are what is around a point, drawn larger: ``Б (10:1)`` stands there."""
+    ends = [end for line in part for end in (line.start, line.end)]
+    scales = [text for text in texts if re.search(r"\(\d{1,3}:1\)", text.text)]
+    return any(text.apart(end) < DETAIL_MM for text in scales for end in ends)
+
+
+def _in_order(parts: Sequence[list[DrawnLine]]) -> list[list[DrawnLine]]:
+    """Return plans as they are read: row by row, from the left."""
+    boxes = [(part, [end for line in part for end in (line.start, line.end)]) for part in parts]
+    rows: list[list[tuple[float, list[DrawnLine]]]] = []
+    low = -math.inf
+    for part, ends in sorted(boxes, key=lambda box: -max(end.imag for end in box[1])):
+        top, bottom = (take(end.imag for end in ends) for take in (max, min))
+        if not rows or (top + bottom) / 2 < low:
+            rows.append([])
+            low = bottom
+        rows[-1].append((min(end.real for end in ends), part))
+    return [part for row in rows for _, part in sorted(row, key=lambda pair: pair[0])]
 
 
 def _parts(lines: Sequence[DrawnLine]) -> list[list[DrawnLine]]:
@@ -177,7 +228,7 @@ def _apart(place: complex, line: DrawnLine) -> float:
     return abs(complex(on.real - min(max(on.real, 0.0), line.length), on.imag))
 
 
-def _kind_of(part: Sequence[DrawnLine], texts: Sequence[Inscription]) -> PlanKind | None:
+def _kind_of(part: Sequence[DrawnLine], texts: Sequence[DrawnLetters]) -> PlanKind | None:
     """Return which plan it is by the letter of its pole: p, or π and p′ of the accelerations."""
     vertices = vertices_of(part)
     poles = [text for text in texts if letters_in(text.text)[:1] in (["p"], ["π"])]
@@ -195,14 +246,16 @@ def _lettered(
     kind: PlanKind,
     lines: Sequence[DrawnLine],
     marks: Sequence[complex],
-    texts: Sequence[Inscription],
+    texts: Sequence[DrawnLetters],
     sheet: Sheet,
     draft: WorkDraft,
 ) -> FoundPlan:
     known = sheet.questions.lettered(kind)
     plan = sheet.questions.construction.plan(kind)
     of = {at: name for name, at in known.items()}
-    joined = {frozenset((of[v.tail], of[v.head])) for v in plan.vectors if {v.tail, v.head} <= {*of}}
+    joined = {
+        frozenset((of[v.tail], of[v.head])) for v in plan.vectors if {v.tail, v.head} <= {*of}
+    }
     vertices = letter(vertices_of(lines, marks), texts, known, joined)
     pole = plan.pole
     at: dict[PointName, list[int]] = {}
@@ -211,7 +264,7 @@ def _lettered(
     where = f"{Path(draft.where).name}, {kind.value}"
     for name, beside in vertices.others.items():
         at.setdefault(known[name], []).extend(beside)
-        for vertex in beside:
+        for vertex in (one for one in beside if one not in vertices.inner):
             draft.remark(Unread.OPEN, f"{name}: {_told(vertices.places[vertex])}", where)
     if pole is not None and pole not in at and len(marks) == 1:  # a point without a letter
         at[pole] = [v for v, place in enumerate(vertices.places) if abs(place - marks[0]) < SNAP_MM]
@@ -219,7 +272,9 @@ def _lettered(
     for vertex in vertices.lone:
         draft.remark(Unread.VERTEX, _told(vertices.places[vertex]), where)
     doubtful = frozenset(known[name] for name in vertices.doubtful)
-    return FoundPlan(kind, vertices, {name: list(dict.fromkeys(v)) for name, v in at.items()}, doubtful)
+    return FoundPlan(
+        kind, vertices, {name: list(dict.fromkeys(v)) for name, v in at.items()}, doubtful
+    )
 
 
 def _told(place: complex) -> str:
@@ -237,7 +292,9 @@ def _answers(
     name: str,
 ) -> Iterator[WrittenAnswer]:
     missing: dict[tuple[str, PlanKind], None] = {}
-    turned = {kind: _turn(plan, sheet) for kind, plan in found.items()}
+    turns = {kind: _turns(plan, sheet) for kind, plan in found.items()}
+    both = _turn([turn for own in turns.values() for turn in own])
+    turned = {kind: both or _turn(own) for kind, own in turns.items()}
     for kind, turn in turned.items():
         if turn:
             draft.remark(Unread.TURNED, f"{turn:.1f}°", f"{name}, {kind.value}")
@@ -282,21 +339,29 @@ def _letters(sheet: Sheet, kind: PlanKind, point_name: PointName) -> str:
     return plain(plan.letters.get(point_name, str(point_name)))
 
 
-def _turn(plan: FoundPlan, sheet: Sheet) -> float:
-    """Return by how many degrees a plan stands turned as a whole; 0 where it does not."""
+def _turns(plan: FoundPlan, sheet: Sheet) -> list[float]:
+    """Return by how many degrees the vectors of a plan are turned."""
     turns: list[float] = []
-    for vector in sheet.questions.construction.plan(plan.kind).vectors:
-        drawn = plan.vector(vector.tail, vector.head)
-        value = sheet.trace.value
-        if drawn is None or vector.tail not in value or vector.head not in value:
+    value = sheet.trace.value
+    for tail, head in dict.fromkeys((v.tail, v.head) for v in _vectors(sheet, plan.kind)):
+        drawn = plan.vector(tail, head)
+        if drawn is None or tail not in value or head not in value:
             continue
-        exact = point(value[vector.head]) - point(value[vector.tail])
+        exact = point(value[head]) - point(value[tail])
         if min(abs(drawn), abs(exact)) > LEAST_MM:
             turns.append(math.degrees(phase(drawn / exact)))
-    if len(turns) < 3:
+    return turns
+
+
+def _vectors(sheet: Sheet, kind: PlanKind) -> Sequence[Vector]:
+    return sheet.questions.construction.plan(kind).vectors
+
+
+def _turn(turns: Sequence[float]) -> float:
+    """Return by how many degrees vectors are turned as a whole; 0 where they are not."""
+    if len(turns) < WHOLE:
         return 0.0
-    first = turns[0]
-    off = [(turn - first + 180.0) % 360.0 - 180.0 for turn in turns]
-    mean = (first + math.fsum(off) / len(off) + 180.0) % 360.0 - 180.0
+    off = [(turn - turns[0] + 180.0) % 360.0 - 180.0 for turn in turns]
+    mean = (turns[0] + math.fsum(off) / len(off) + 180.0) % 360.0 - 180.0
     alike = max(off) - min(off) < SAME_DEG
     return mean if alike and TURNED_DEG < abs(mean) < 180.0 - LIKE_DEG else 0.0

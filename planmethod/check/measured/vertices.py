@@ -8,13 +8,16 @@ from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from msgspec import Struct, field
 
 from planmethod.check.letters import plain
-from planmethod.check.measured.drawing import DrawnLine, Inscription
+from planmethod.check.measured.drawing import DrawnLetters, DrawnLine
 
 SNAP_MM = 0.3
 """Ends of lines nearer than this are one vertex."""
 
 NEAR_MM, NEAR_HEIGHTS = 5.0, 2.5
 """How far a letter may stand from its vertex: millimetres, or heights of the letter if more."""
+
+STRAIGHT = 2e-3
+"""How far a line that goes on may bend, radians."""
 
 BARB_MM, BARB_SINE = 6.0, 0.6
 """The strokes of an arrowhead: how long, and how far they open."""
@@ -42,6 +45,8 @@ class Vertices(Struct):
         mm.
     lines : list of (int, int)
         Vertices that a line joins, from the first to the second.
+    longer : list of (int, int)
+        The same of lines that go straight on from one another.
     own : dict of str to int
         Vertex by its letter, as `plain` has it.
     others : dict of str to list of int
@@ -49,15 +54,19 @@ class Vertices(Struct):
         meet the others.
     lone : list of int
         Vertices that no letter stands by.
+    inner : set of int
+        Vertices from which a line goes straight on.
     doubtful : list of str
         Letters that may as well name another vertex.
     """
 
     places: list[complex]
     lines: list[tuple[int, int]]
+    longer: list[tuple[int, int]] = field(default_factory=list)
     own: dict[str, int] = field(default_factory=dict)
     others: dict[str, list[int]] = field(default_factory=dict)
     lone: list[int] = field(default_factory=list)
+    inner: set[int] = field(default_factory=set)
     doubtful: list[str] = field(default_factory=list)
 
 
@@ -116,7 +125,23 @@ def vertices_of(lines: Iterable[DrawnLine], marks: Iterable[complex] = ()) -> Ve
             found.lines.append(ends)
     for mark in marks:
         at(mark)
+    _lengthen(found)
     return found
+
+
+def _lengthen(found: Vertices) -> None:
+    """Let lines that go on from one another in one way be one line as well."""
+    for middle in range(len(found.places)):
+        whole = [*found.lines, *found.longer]
+        ends = [one if two == middle else two for one, two in whole if middle in (one, two)]
+        for number, one in enumerate(ends):
+            for two in ends[:number]:
+                way = (found.places[one] - found.places[middle]) / (
+                    found.places[middle] - found.places[two]
+                )
+                if way.real > 0 and abs(way.imag) < STRAIGHT * way.real:
+                    found.inner.add(middle)
+                    found.longer.append((two, one))
 
 
 class _Placing:
@@ -125,10 +150,10 @@ class _Placing:
     def __init__(
         self,
         vertices: Vertices,
-        told: Sequence[tuple[Inscription, list[str]]],
+        told: Sequence[tuple[DrawnLetters, list[str]]],
         joined: Collection[frozenset[str]],
     ) -> None:
-        self.lines = {frozenset(pair) for pair in vertices.lines}
+        self.lines = {frozenset(pair) for pair in (*vertices.lines, *vertices.longer)}
         self.joined = joined
         self.letters = [letters for _, letters in told]
         self.apart: list[dict[int, float]] = []
@@ -160,7 +185,7 @@ class _Placing:
         return found
 
     def _others(self) -> Iterator[dict[int, int]]:
-        """Yield placings in which two inscriptions are exchanged, or one stands by a free vertex."""
+        """Yield placings with two inscriptions exchanged, or one by a free vertex."""
         taken = {vertex: number for number, vertex in self.at.items()}
         for number, vertex in self.at.items():
             for to in self.apart[number]:
@@ -185,7 +210,7 @@ class _Placing:
 
 def letter(
     vertices: Vertices,
-    texts: Iterable[Inscription],
+    texts: Iterable[DrawnLetters],
     known: Collection[str],
     joined: Collection[frozenset[str]] = (),
 ) -> Vertices:
@@ -222,7 +247,8 @@ def letter(
             continue
         beside = [(found[vertex], n) for n, found in enumerate(placing.apart) if vertex in found]
         if not beside:
-            vertices.lone.append(vertex)
+            if vertex not in vertices.inner:
+                vertices.lone.append(vertex)
             continue
         for name in told[min(beside)[1]][1]:
             vertices.others.setdefault(name, []).append(vertex)
