@@ -78,8 +78,8 @@ def test_a_vector_of_our_own_sheet_that_is_moved_is_found(fmt: str, tmp_path: Pa
         text = path.read_text(encoding="utf-8")
         line, tip = "M285.198 118.211l-58.027-26.46", "M223.076 89.884l4.155"
         assert text.count(line) == text.count(tip) == 1
-        text = text.replace(line, "M285.198 118.211l-46.027-36.46")
-        path.write_text(text.replace(tip, "M235.076 79.884l4.155"), encoding="utf-8")
+        text = text.replace(line, "M285.198 118.211l-53.027-30.46")
+        path.write_text(text.replace(tip, "M228.076 85.884l4.155"), encoding="utf-8")
         assert {"angle_v_D"} <= set(off(judged(path, task))) <= {"v_D", "angle_v_D", "angle_v_B3"}
         return
     document = ezdxf.readfile(path)  # type: ignore[attr-defined]

@@ -131,6 +131,7 @@ def vertices_of(lines: Iterable[DrawnLine], marks: Iterable[complex] = ()) -> Ve
 
 def _lengthen(found: Vertices) -> None:
     """Let lines that go on from one another in one way be one line as well."""
+    seen: set[tuple[int, int]] = set()
     for middle in range(len(found.places)):
         whole = [*found.lines, *found.longer]
         ends = [one if two == middle else two for one, two in whole if middle in (one, two)]
@@ -141,7 +142,9 @@ def _lengthen(found: Vertices) -> None:
                 )
                 if way.real > 0 and abs(way.imag) < STRAIGHT * way.real:
                     found.inner.add(middle)
-                    found.longer.append((two, one))
+                    if (pair := (min(one, two), max(one, two))) not in seen:
+                        seen.add(pair)
+                        found.longer.append(pair)
 
 
 class _Placing:
