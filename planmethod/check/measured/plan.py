@@ -32,6 +32,7 @@ from planmethod.check.task import Task, TaskItem
 from planmethod.check.works.cells import Cell, refused
 from planmethod.check.works.faults import WorksError
 from planmethod.check.works.gather import WorkDraft, scale_name
+from planmethod.check.works.units import read_number
 from planmethod.construct.steps import PointName
 from planmethod.plans.model import RATES, PlanKind, Vector, pole_letter
 
@@ -125,8 +126,12 @@ def _read_scales(draft: WorkDraft, texts: Sequence[DrawnLetters]) -> None:
     for text in texts:
         name, equal, value = text.text.partition("=")
         scale = scale_name(name) if equal else ""
-        if scale and scale not in draft.scales:
-            draft.put_scale(scale, Cell(value.strip(), f"{Path(draft.where).name}"), "")
+        if not scale or scale in draft.scales:
+            continue
+        if per_unit := re.match(r"\s*([\d.,]{1,20})\s*(?:mm|мм)\s*/", value):
+            number = read_number(per_unit[1])  # millimetres of a unit: the other convention
+            value = f"{1.0 / number.value!r}" if number is not None and number.value else value
+        draft.put_scale(scale, Cell(value.strip(), f"{Path(draft.where).name}"), "")
 
 
 # Which lines are a plan ----------------------------------------------------------------------
