@@ -77,7 +77,9 @@ def check(task: Task, work: Work) -> CheckedWork:
         for one in ready:
             number = numbers[id(one.written)]
             told = _judged(task, sheet, one)
-            judged[number] = replace(told, written=work.answers[number])
+            # Of a drawing nothing is computed: what does not follow is to be drawn anew.
+            again = told.miscomputed and not work.drawn
+            judged[number] = replace(told, written=work.answers[number], miscomputed=again)
         examined += ready
     answers = [judged[number] for number in sorted(judged)]
     given = {(answer.key.id, answer.key.position) for answer in answers if answer.key}

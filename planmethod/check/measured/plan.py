@@ -34,7 +34,7 @@ from planmethod.check.works.faults import WorksError
 from planmethod.check.works.gather import WorkDraft, scale_name
 from planmethod.check.works.units import read_number
 from planmethod.construct.steps import PointName
-from planmethod.plans.model import RATES, PlanKind, Vector, pole_letter
+from planmethod.plans.model import FACTS, RATES, PlanKind, Vector, pole_letter
 
 STEP_MM = 0.01
 """What a drawing is measured to, mm."""
@@ -116,7 +116,7 @@ def read_drawing(path: Path, layers: Mapping[str, str], task: Task) -> Work:
     found = {plan.kind: plan for plan in _plans(drawing, layers, sheet, draft, task.count)}
     for kind in RATES:
         if kind not in found and any(item.question.plan is kind for item in items):
-            draft.remark(Unread.PLAN, kind.value, path.name)
+            draft.remark(Unread.PLAN, FACTS[kind].pole, path.name)
     answers = list(_answers(items, sheet, found, draft, path.name))
     return replace(draft.work(), answers=tuple(answers), drawn=hand)
 
@@ -165,9 +165,9 @@ def _plans(
             "{}: over {} lines are plans. Name their layers.", drawing.path, PLAN_LINES
         )
     parts: dict[PlanKind, list[list[DrawnLine]]] = {kind: [] for kind in RATES}
-    for part in _parts(without_barbs(mixed)):
+    for part in _without_details(_parts(without_barbs(mixed)), drawing.texts):
         kind = _kind_of(part, drawing.texts)
-        if kind is not None and not _is_detail(part, drawing.texts):
+        if kind is not None:
             parts[kind].append(part)
     for kind in RATES:
         told = [part for part in _parts(without_barbs(own[kind])) if _kind_of(part, drawing.texts)]
@@ -177,7 +177,7 @@ def _plans(
             at = sheet.questions.position
             lines = _in_order(several)[at] if len(several) == count else []
             if not lines:
-                where = f"{Path(draft.where).name}, {kind.value}"
+                where = f"{Path(draft.where).name}, {FACTS[kind].pole}"
                 draft.remark(Unread.SEVERAL, str(len(several)), where)
         if lines:
             marks = [
@@ -188,11 +188,20 @@ def _plans(
             yield _lettered(kind, without_barbs(lines), marks, drawing.texts, sheet, draft)
 
 
-def _is_detail(part: Sequence[DrawnLine], texts: Sequence[DrawnLetters]) -> bool:
-    """Tell whether lines are what is around a point, drawn larger: ``Б (10:1)`` stands there."""
-    ends = [end for line in part for end in (line.start, line.end)]
-    scales = [text for text in texts if re.search(r"\(\d{1,3}:1\)", text.text)]
-    return any(text.apart(end) < DETAIL_MM for text in scales for end in ends)
+def _without_details(
+    parts: Sequence[list[DrawnLine]], texts: Sequence[DrawnLetters]
+) -> list[list[DrawnLine]]:
+    """Return parts without what is around a point, drawn larger: ``Б (10:1)`` stands next to it."""
+    left = list(parts)
+    for text in texts:
+        if re.search(r"\(\d{1,3}:1\)", text.text):
+            apart = [
+                min(text.apart(end) for line in part for end in (line.start, line.end))
+                for part in left
+            ]
+            if min(apart, default=DETAIL_MM) < DETAIL_MM:
+                del left[apart.index(min(apart))]
+    return left
 
 
 def _in_order(parts: Sequence[list[DrawnLine]]) -> list[list[DrawnLine]]:
@@ -266,7 +275,7 @@ def _lettered(
     at: dict[PointName, list[int]] = {}
     for name, vertex in vertices.own.items():
         at.setdefault(known[name], []).append(vertex)
-    where = f"{Path(draft.where).name}, {kind.value}"
+    where = f"{Path(draft.where).name}, {FACTS[kind].pole}"
     for name, beside in vertices.others.items():
         at.setdefault(known[name], []).extend(beside)
         for vertex in (one for one in beside if one not in vertices.inner):
@@ -302,7 +311,7 @@ def _answers(
     turned = {kind: both or _turn(own) for kind, own in turns.items()}
     for kind, turn in turned.items():
         if turn:
-            draft.remark(Unread.TURNED, f"{turn:.1f}°", f"{name}, {kind.value}")
+            draft.remark(Unread.TURNED, f"{turn:.1f}°", f"{name}, {FACTS[kind].pole}")
     for item in items:
         question = vector_of(sheet, item.question)
         plan = None if question.plan is None else found.get(question.plan)
@@ -334,7 +343,7 @@ def _answers(
                 position=item.position,
             )  # fmt: skip
     for letters, kind in missing:
-        draft.remark(Unread.LETTER, letters, f"{name}, {kind.value}")
+        draft.remark(Unread.LETTER, letters, f"{name}, {FACTS[kind].pole}")
 
 
 def _letters(sheet: Sheet, kind: PlanKind, point_name: PointName) -> str:

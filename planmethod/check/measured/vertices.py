@@ -13,7 +13,7 @@ from planmethod.check.measured.drawing import DrawnLetters, DrawnLine
 SNAP_MM = 0.3
 """Ends of lines nearer than this are one vertex."""
 
-NEAR_MM, NEAR_HEIGHTS = 5.0, 2.5
+NEAR_MM, NEAR_HEIGHTS = 5.0, 4.0
 """How far a letter may stand from its vertex: millimetres, or heights of the letter if more."""
 
 STRAIGHT = 2e-3
