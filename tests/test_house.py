@@ -33,6 +33,7 @@ LATE_IN = (
 the launcher, which is to know of Ctrl+C first."""
 
 LATE_OF = {
+    "ezdxf": "drawings as DXF",
     # Only problems with loads have forces, only some ask for the drafting errors.
     "planmethod.solved.selectors.forces": "forces",
     "planmethod.note.narrate.forces": "forces",

@@ -220,10 +220,15 @@ class Calculation(Task):
         )
 
     def sheet(
-        self, position: int, own: Mapping[str, float] | None = None, ruler: float | None = None
+        self,
+        position: int,
+        own: Mapping[str, float] | None = None,
+        ruler: float | None = None,
+        *,
+        drawn: str = "",
     ) -> CalculationSheet:
         """Return the numbers of a position, with all that was asked so far."""
-        profile = self.profile(ruler)
+        profile = self.profile(ruler, drawn=drawn)
         asked = {q.id: q for (_, at, *_), q in self._found.items() if at == position}
         key = (position, profile, tuple(asked))
         if key not in self._numbers:

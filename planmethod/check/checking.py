@@ -12,6 +12,7 @@ from planmethod.check.diagnosis import diagnose
 from planmethod.check.judge import Examined, UnusableError, decide, examine, replay
 from planmethod.check.key import entry_of
 from planmethod.check.marks import Settings
+from planmethod.check.measured.asked import asked_of_drawing
 from planmethod.check.model import CheckedWork, Diagnosis, Judged, Verdict, Work, WrittenAnswer
 from planmethod.check.questions import Sign
 from planmethod.check.routes import follow_routes
@@ -32,7 +33,8 @@ def check(task: Task, work: Work) -> CheckedWork:
 
     What nobody asked is judged, and counts neither for nor against.
     """
-    asked = task.usual()
+    asked = asked_of_drawing(task) if work.drawn else task.usual()
+    measured = {item.name: item for item in asked} if work.drawn else {}
     names = {(item.name, item.position) for item in asked}
     found: dict[int, list[tuple[WrittenAnswer, TaskItem]]] = {}
     numbers: dict[int, int] = {}
@@ -40,7 +42,7 @@ def check(task: Task, work: Work) -> CheckedWork:
     for number, written in enumerate(work.answers):
         name = written.id or written.what
         try:
-            item = task.find(written)
+            item = measured.get(written.id) or task.find(written)
         except NoValueError:
             judged[number] = Judged(name, Verdict.UNREADABLE, written=written)
             continue
@@ -58,7 +60,7 @@ def check(task: Task, work: Work) -> CheckedWork:
     examined: list[Examined] = []
     for position, here in sorted(found.items()):
         scales = _scales(task, work, here, position)
-        sheet = task.sheet(position, scales, work.ruler_mm)
+        sheet = task.sheet(position, scales, work.ruler_mm, drawn=work.drawn)
         ready: list[Examined] = []
         for written, item in here:
             try:
@@ -75,7 +77,9 @@ def check(task: Task, work: Work) -> CheckedWork:
         for one in ready:
             number = numbers[id(one.written)]
             told = _judged(task, sheet, one)
-            judged[number] = replace(told, written=work.answers[number])
+            # Of a drawing nothing is computed: what does not follow is to be drawn anew.
+            again = told.miscomputed and not work.drawn
+            judged[number] = replace(told, written=work.answers[number], miscomputed=again)
         examined += ready
     answers = [judged[number] for number in sorted(judged)]
     given = {(answer.key.id, answer.key.position) for answer in answers if answer.key}
@@ -92,11 +96,11 @@ def check(task: Task, work: Work) -> CheckedWork:
         tuple(diagnosis),
         round(points, 6),
         round(whole, 6),
-        _suspicious(examined),
+        not work.drawn and _suspicious(examined),
         strokes={
             (one.item.name, one.item.position): one.stroke
             for one in examined
-            if one.stroke is not None
+            if one.stroke is not None and not work.drawn
         },
     )
 

@@ -41,7 +41,7 @@ CLEARLY = 6.0
 TRIED = 6
 """Named explanations that are compared."""
 
-PAIRED = 10
+PAIRED = 20
 """Mistakes of which any two are tried together."""
 
 OFF = 9.0

@@ -7,6 +7,7 @@ wrong one that follows from an earlier one is not held against him twice.
 from __future__ import annotations
 
 import math
+from cmath import phase
 from collections.abc import Callable, Iterator
 from functools import partial
 
@@ -34,6 +35,9 @@ DRAWN = 0.004
 
 ARM = 0.015
 """The same of ω and ε, for which nothing but the arm is measured."""
+
+ASTRAY = 45.0
+"""Degrees from which a vector goes another way, not only aslant."""
 
 MILLIMETRES = ("mm", "мм")
 
@@ -402,6 +406,11 @@ def _verdict(one: Examined, wrong: list[Examined], unseen: list[Examined], near:
 def facts_of(sheet: Sheet, found: list[Examined], k: float) -> list[Fact]:
     """Return what an explanation has to give: every answer of a sheet, each quantity once."""
     facts: dict[str, Fact] = {}
+    ways = {
+        one.item.question.selector: one.value
+        for one in found
+        if one.item.question.sign is Sign.ANGLE and not one.routed
+    }
     for one in found:
         question = one.item.question
         if question.sign is Sign.ANGLE or one.routed or (one.limit.zero and one.right):
@@ -410,6 +419,8 @@ def facts_of(sheet: Sheet, found: list[Examined], k: float) -> list[Fact]:
         sense: Callable[[Trace], bool | None] | None = None
         if not strict and not one.limit.zero and one.sense_right is not None:
             sense = partial(_way, sheet, one)
+        elif question.ends is not None and not one.limit.zero and question.selector in ways:
+            sense = partial(_directed, sheet, one, ways[question.selector])
         least = max(0.4 * min(one.limit.least, 0.02 * abs(one.limit.exact)), 1e-9) / k
         least = max(least, 0.002 * abs(one.value)) if one.value else min(least, 1e-9)
         value = one.value if strict else abs(one.value)
@@ -431,6 +442,15 @@ def facts_of(sheet: Sheet, found: list[Examined], k: float) -> list[Fact]:
             ),
         )
     return list(facts.values())
+
+
+def _directed(sheet: Sheet, one: Examined, degrees: float, trace: Trace) -> bool | None:
+    """Tell whether a vector of a sheet goes about the way that he tells as an angle."""
+    vector = sheet.vector(one.item.question, trace)
+    if vector is None or not abs(vector) > 0:
+        return None
+    off = math.degrees(phase(vector)) - degrees
+    return abs((off + 180.0) % 360.0 - 180.0) < ASTRAY
 
 
 def _way(sheet: Sheet, one: Examined, trace: Trace) -> bool | None:

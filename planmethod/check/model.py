@@ -60,6 +60,13 @@ class Unread(Enum):
     FIELDS = "fields"  # a row with more fields than there are heads
     ROW = "row"  # a row of the form that is gone
     TEXT = "text"  # halves of characters, which no file can have
+    PLAN = "plan"  # of a drawing: none of its lines are this plan
+    LETTER = "letter"  # a vertex that no letter of the drawing names
+    SEVERAL = "several"  # plans of a kind, and not as many as there are positions
+    DOUBT = "doubt"  # a letter that may as well name another vertex
+    VERTEX = "vertex"  # a vertex without a letter
+    OPEN = "open"  # lines that should meet at a letter do not
+    TURNED = "turned"  # a plan that stands turned as a whole
 
 
 class WrittenAnswer(Struct, frozen=True):
@@ -143,6 +150,8 @@ class Work(Struct, frozen=True):
     fingerprint : str
         Of the problem that the form was made for, see `planmethod.check.form.fingerprint_of`; empty
         of other works.
+    drawn : str
+        Of a drawing that was measured: the profile of the hand that drew it; empty of other works.
     """
 
     student: str
@@ -154,6 +163,7 @@ class Work(Struct, frozen=True):
     where: str = ""
     remarks: tuple[WrittenAnswer, ...] = ()
     fingerprint: str = ""
+    drawn: str = ""
 
 
 class KeyEntry(Struct, frozen=True):

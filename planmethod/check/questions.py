@@ -403,12 +403,13 @@ class Questions:
         ------
         NoValueError
         """
-        ends = letters_of(letters, self._lettered(plan))
+        ends = letters_of(letters, self.lettered(plan))
         if ends is None or plan not in MOTION[1:]:
             raise NoValueError(NoValue.NO_POINT)
         return ends, self._selecting.segments(plan).length(*ends)
 
-    def _lettered(self, plan: PlanKind) -> dict[str, PointName]:
+    def lettered(self, plan: PlanKind) -> dict[str, PointName]:
+        """Return the points of a plan by their letters; none of another than v and a."""
         if plan not in MOTION[1:]:
             return {}
         found: dict[str, PointName] = {}

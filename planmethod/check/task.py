@@ -345,7 +345,7 @@ class Task:
             if not text:
                 continue
             try:
-                question = questions.question(self._forms_of(position).find(text))
+                question = self._named(questions, text, position)
             except NoValueError as error:
                 why = error.why
                 continue
@@ -357,6 +357,18 @@ class Task:
                 name=question.id,
             )
         raise NoValueError(why)
+
+    def _named(self, questions: Questions, text: str, position: int) -> Question:
+        """Return a quantity by its letters, or the direction of a vector: ``angle v B3``."""
+        forms = self._forms_of(position)
+        try:
+            return questions.question(forms.find(text))
+        except NoValueError:
+            whole = plain(text)
+            vector = whole.removeprefix("angle").removeprefix("α")
+            if vector == whole:
+                raise
+            return questions.direction(questions.question(forms.find(vector)))
 
     def stated(self, written: WrittenAnswer) -> TaskItem | None:
         """Return what an answer is of among what the file asks."""
@@ -388,18 +400,31 @@ class Task:
             scales[SCALE] = statics.scale.per_mm if needed else own.get(SCALE, 1.0)
         return {**scales, **{name: own[name] for name in scales if name in own}}
 
-    def profile(self, ruler: float | None) -> Profile:
-        """Return how well a sheet is drawn whose maker reads to a step of his own, mm."""
+    def profile(self, ruler: float | None, *, drawn: str = "") -> Profile:
+        """Return how well a sheet is drawn whose maker reads to a step of his own, mm.
+
+        Parameters
+        ----------
+        drawn : str
+            Profile of the hand that drew it, where a drawing is measured.
+        """
+        if drawn == "cad":
+            return PROFILES["cad"]
         profile, step = PROFILES[self.settings.profile], ruler or self.settings.ruler_mm
         return profile if step is None else replace(profile, ruler=step)
 
     def sheet(
-        self, position: int, own: Mapping[str, float] | None = None, ruler: float | None = None
+        self,
+        position: int,
+        own: Mapping[str, float] | None = None,
+        ruler: float | None = None,
+        *,
+        drawn: str = "",
     ) -> Sheet:
         """Return the sheet of a position at somebody's scales, with all that was asked so far."""
         scales = self.scales(own or {}, position)
         asked = self._asked.get(position, {})
-        profile = self.profile(ruler)
+        profile = self.profile(ruler, drawn=drawn)
         key = self._key(position, scales, profile, asked)
         if key not in self._sheets:
             self._sheets[key] = Sheet(

@@ -60,6 +60,13 @@ FORMATS = ("html", "pdf")
     help="What a column of an export of a learning management system is; or a TOML file of such.",
 )
 @click.option(
+    "--layer",
+    "layers",
+    multiple=True,
+    metavar="NAME=PLAN",
+    help="Which plan stands on a layer or in a colour of a drawing: velocity, acceleration, plans.",
+)
+@click.option(
     "--gradebook",
     is_flag=True,
     help="Write gradebook.csv and feedback.zip too, as for works of such an export.",
@@ -98,6 +105,7 @@ def check(
     moodle: Path | None,
     gift: Path | None,
     columns: tuple[str, ...],
+    layers: tuple[str, ...],
     gradebook: bool,
     out: Path,
     settings_file: Path | None,
@@ -112,8 +120,8 @@ def check(
     """Check answers: key first, then one student's work or a whole group's.
 
     PROBLEM asks what its [[answers]] say, else what the key lists. WORK is one student's JSON or
-    TOML, a group's CSV or XLSX, or a form filled in. Writes results.xlsx, results.csv, run.json
-    and a page for each student.
+    TOML, a group's CSV or XLSX, a form filled in, or a drawing as DXF. Writes results.xlsx,
+    results.csv, run.json and a page for each student.
     """
     settings = _settings(settings_file, policy, profile)
     if key_only:
@@ -130,7 +138,7 @@ def check(
     from planmethod.check.group import Variants
 
     variants = Variants(problem, settings, variant)
-    works, addresses = _read(variants, paths, columns)
+    works, addresses = _read(variants, paths, columns, layers)
     checked = _checked(variants, works, jobs)
     from planmethod.check.pages.compared import unread_lines
     from planmethod.check.pages.overrides import overridden, read_overrides
@@ -187,17 +195,22 @@ def _settings(file: Path | None, policy: str | None, profile: str | None) -> Set
 
 
 def _read(
-    variants: Variants, paths: list[Path], columns: tuple[str, ...]
+    variants: Variants, paths: list[Path], columns: tuple[str, ...], layers: tuple[str, ...]
 ) -> tuple[list[Work], dict[str, str] | None]:
     """Read the works of files; of exports also how the system knows the students, else None."""
     from planmethod.check.exchange.quiz import gaps_of
     from planmethod.check.exchange.responses import is_export, read_columns, read_responses
+    from planmethod.check.measured.layers import read_layers
+    from planmethod.check.measured.plan import is_drawing, read_drawing
     from planmethod.check.works import read_works
 
-    told = read_columns(columns)
+    told, drawn = read_columns(columns), read_layers(layers)
     works: list[Work] = []
     addresses: dict[str, str] | None = None
     for path in paths:
+        if is_drawing(path):
+            works.append(read_drawing(path, drawn, variants.task(variants.default)))
+            continue
         if not told and not is_export(path):
             works += read_works(path)
             continue

@@ -4,8 +4,11 @@ from __future__ import annotations
 
 import itertools
 import json
+import math
 from functools import cache
 from pathlib import Path
+from types import SimpleNamespace
+from typing import Any, cast
 
 import numpy as np
 import pytest
@@ -14,17 +17,22 @@ from planted import exact, task_of, verdicts, work_of
 from worked import ROOT
 
 from planmethod.check.checking import check
-from planmethod.check.copied import compared, likeness
+from planmethod.check.copied import compared, copied, likeness
+from planmethod.check.diagnosis import passed_on
 from planmethod.check.drawn import drawn_works
-from planmethod.check.explain import Explanation
+from planmethod.check.explain import Explanation, Fit
 from planmethod.check.group import Variants, check_works
+from planmethod.check.judge import Examined, decide, examine, replay
 from planmethod.check.key import key_of_task
 from planmethod.check.letters import called
 from planmethod.check.model import CheckedWork, KeyEntry, Sense, Verdict, Work, WrittenAnswer
 from planmethod.check.pages.keypage import KeyPage
 from planmethod.check.pages.remarks import Remarks
 from planmethod.check.pages.speech import Speech
+from planmethod.check.questions import Sign
+from planmethod.check.routes import _try
 from planmethod.check.task import Task
+from planmethod.check.tolerance import Tolerance
 from planmethod.check.works.student import read_json
 from planmethod.note.wording import language
 from planmethod.problem.head import AskedAnswer
@@ -71,6 +79,41 @@ def test_a_copied_variant_is_named_and_earns_what_is_right_for_ones_own(name: st
                 size = max(abs(answer.value), abs(answer.key.exact))
                 assert off <= (answer.tolerance or 0.0) or answer.key.zero or off < 0.1 * size
     assert over <= 2  # В and Г of task 13 share fifteen of their answers
+
+
+@pytest.mark.parametrize(
+    ("share", "answers", "others", "named"),
+    [
+        (0.05, 2, 1, True),  # 2·0.05/ln 9 = 0.046 each: once in 480
+        (0.05, 2, 4, False),  # of four variants one does so four times as often
+        (0.10, 2, 1, False),  # 0.091 each: once in 120
+        (0.10, 3, 1, True),
+        (0.10, 3, 9, False),
+    ],
+)
+def test_what_comes_by_chance_more_than_once_in_200_times_is_not_called_copied(
+    share: float, answers: int, others: int, named: bool
+) -> None:
+    found = [
+        Examined(
+            cast("Any", SimpleNamespace(id=n, question=SimpleNamespace(id=n, sign=Sign.SIZE))),
+            WrittenAnswer(id=n),
+            Tolerance(1.0, share / 2.5, share, 0.01, share, seen=True, zero=False, per_mm=0.01),
+            2.0,
+            signed=False,
+            step=0.0,
+        )
+        for n in "012"[:answers]
+    ]
+    theirs = [
+        (str(n), SimpleNamespace(exact=dict.fromkeys("012", 2.0 if not n else 7.0), trace=None))
+        for n in range(others)
+    ]
+    task: Any = SimpleNamespace(named=lambda _: [], theirs=lambda _: theirs)
+    told = copied(task, cast("Any", None), found)
+    wide = share * 2  # at twice the size it is drawn twice as wide
+    chance = (2 * wide / 2 / math.log(9)) ** answers * others
+    assert (told is not None) is (chance < 0.005) is named
 
 
 def test_an_honest_or_mistaken_work_is_not_called_copied() -> None:
@@ -231,6 +274,30 @@ def test_the_routes_of_example_3_are_those_of_an_independent_computation() -> No
         assert told == dict.fromkeys(("an_B3_C", "v_D", "ak_B3_B"), "omega_3")
 
 
+def test_a_route_from_right_numbers_is_none_and_one_wrong_among_them_is_enough() -> None:
+    """What follows from right numbers is right or wrong by itself, and keeps its own parents."""
+
+    def examined(name: str, value: float, *, right: bool) -> Examined:
+        item: Any = SimpleNamespace(id=name, question=SimpleNamespace(id=name, sign=Sign.SIZE))
+        limit = Tolerance(1.0, 0.02, 0.05, 0.01, 0.1, seen=True, zero=False, per_mm=0.01)
+        one = Examined(item, WrittenAnswer(id=name), limit, value, signed=False, step=0.0)
+        one.right = right
+        return one
+
+    right, wrong = examined("v", 1.04, right=True), examined("omega", 1.5, right=False)
+    for parents, value, routed in (
+        ([(right, 2)], 1.04**2, False),
+        ([(right, 1), (wrong, 1)], 1.04 * 1.5, True),
+        ([(wrong, 2)], 2.25, True),
+        ([(wrong, 2)], 2.0, False),
+    ):
+        one = examined("an", value, right=False)
+        one.contradicts = True
+        _try(one, parents, 0.005)
+        assert (one.routed, one.contradicts) == (routed, not routed)
+        assert set(one.parents) == ({p.item.id for p, _ in parents} if routed else set())
+
+
 def test_velocities_never_follow_accelerations_and_nothing_follows_itself() -> None:
     found = answered("linkages/ex3", an_B3_C=60.0, omega_3=(20.34, "ccw"), v_B3=2.95)
     told = {a.id: (a.verdict, a.follows) for a in found.answers if a.written}
@@ -248,6 +315,20 @@ def test_an_answer_that_a_mistake_leaves_alone_does_not_follow_from_it() -> None
     turned = tuple(replace(a, sense=Sense.CW) if a.id == "omega_3" else a for a in work.answers)
     found = check(task, replace(work, answers=turned))
     assert verdicts(found)["omega_3"] is not Verdict.INHERITED
+    # v_B3 a little beyond its tolerance, and wrong for a reason of its own: no aᵏ does that.
+    sheet = task.sheet(0)
+    examined = [
+        examine(task, sheet, task.find(answer), answer)
+        for answer in (replace(a, value=2.40) if a.id == "v_B3" else a for a in work.answers)
+    ]
+    replay(task, sheet, examined)
+    decide(sheet, examined, task.settings.near)
+    by_id = {one.item.id: one for one in examined}
+    by_id["v_B3"].verdict = Verdict.WRONG
+    told = passed_on(task, sheet, examined, [Fit(made, 0.0, 0.0, len(examined))])
+    assert told.codes == ("A3",) and by_id["v_B3"].verdict is Verdict.WRONG
+    inherited = {one.item.id for one in examined if one.verdict is Verdict.INHERITED}
+    assert inherited and "v_B3" not in inherited and "v_B3" in told.roots
 
 
 # What pages say ------------------------------------------------------------------------------

@@ -52,6 +52,8 @@ def test_a_size_that_is_nothing_may_come_out_as_long_as_folded_errors_make_it() 
     assert not found.allows(1.8 * k * 0.1, 1.8 * k * 0.1)
     # Where it is something the exact size is part of what is drawn, and less is added.
     assert limit(0.1, 0.1).spread == pytest.approx(max(k * 0.1, 1.7 * k * 0.1 - 0.1))
+    # Where little is drawn, that is less than a millimetre; where much, the errors decide.
+    assert limit(0.05, 0.1).spread == pytest.approx(1.7 * k * 0.1 - 0.05)
     strict = limit(0.0, 0.1, sign=Sign.STRICT)
     assert strict.spread == pytest.approx(k * 0.1)  # a number with a sign is not folded
 
@@ -125,6 +127,32 @@ def test_what_is_within_the_errors_of_a_drawing_is_not_told_to_be_inherited() ->
         sheet: Any = SimpleNamespace(order={})
         decide(sheet, [parent, child], 1.5)
         assert (parent.verdict, child.verdict) == (Verdict.WRONG, due)
+
+
+def test_what_follows_from_what_the_drawing_cannot_show_is_inherited() -> None:
+    """The parent is off, by no more than the drawing errs: nobody holds that against either."""
+    item: Any = SimpleNamespace(id="a_B", question=SimpleNamespace(sign=Sign.SIZE))
+    shown = Tolerance(1.0, 0.02, 0.04, 0.02, 0.1, seen=True, zero=False, per_mm=0.01)
+    own: Any = SimpleNamespace(id="epsilon_2", question=SimpleNamespace(sign=Sign.SIZE))
+    for value, follows, due in (
+        (1.3, True, Verdict.INHERITED),
+        (1.3, False, Verdict.WRONG),
+        (1.0, True, Verdict.WRONG),  # from a parent that is right nothing wrong follows
+    ):
+        parent = Examined(item, WrittenAnswer(id="a_B"), UNSEEN, value, signed=False, step=0.0)
+        parent.right = value == 1.0
+        child = Examined(own, WrittenAnswer(id="epsilon_2"), shown, 1.3, signed=False, step=0.0)
+        child.parents, child.follows = {"a_B": 1.0}, follows
+        decide(SimpleNamespace(order={}), [child, parent], 1.5)  # type: ignore[arg-type]
+        assert (parent.verdict, child.verdict) == (Verdict.UNSEEN, due)
+
+
+def test_a_tolerance_is_at_most_the_cap_but_for_what_is_nothing() -> None:
+    assert limit(0.04, 0.001).least == pytest.approx(0.1 * 0.04)  # not the half millimetre, 0.005
+    assert limit(0.06, 0.001).least == pytest.approx(0.005)
+    assert UNSEEN.tolerance() == pytest.approx(0.1) and UNSEEN.tolerance(1.0) == pytest.approx(0.1)
+    nothing = Tolerance(0.0, 0.2, 0.4, 0.02, 0.1, seen=True, zero=True, per_mm=0.01)
+    assert nothing.tolerance() == pytest.approx(0.4)
 
 
 def test_who_contradicts_his_own_numbers_is_wrong_within_the_errors_too() -> None:

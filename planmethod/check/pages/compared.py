@@ -52,8 +52,8 @@ def _cells(judged: Judged, speech: Speech) -> Iterator[str]:
     yield _NONE if share is None else number(trimmed(share, 2))
 
 
-ASIDE = (Unread.COLUMN, Unread.KEY)
-"""What is told of, but loses no answer: a column or a key that nobody knows."""
+ASIDE = (Unread.COLUMN, Unread.KEY, Unread.VERTEX, Unread.OPEN, Unread.TURNED)
+"""What is told of, but loses no answer: a column that nobody knows, a vertex without a letter."""
 
 
 def unread_lines(checked: Sequence[CheckedWork], words: Language) -> Iterator[tuple[str, bool]]:

@@ -186,6 +186,7 @@ def student_page(
     plans = [] if solution is None else overlays(solution, checked, words)
     positions = 1 if solution is None else len(solution.positions)
     right = sum(judged.points > 0.0 for judged in checked.answers)
+    tolerance = say.computed if solution is None else say.tolerance
     return Page(
         title=say.title,
         subtitle=problem.title or problem.name,
@@ -197,7 +198,7 @@ def student_page(
         plans=tuple(plans),
         captions=tuple(_caption(plan, positions, words) for plan in plans),
         legend=_legend(plans, words),
-        tolerance=say.computed if solution is None else say.tolerance,
+        tolerance=say.tolerance_drawn if checked.work.drawn == "cad" else tolerance,
         lang=words.lang,
     )
 

@@ -16,7 +16,7 @@ class WorksError(PlanMethodError):
     exit_code = ExitCode.USAGE
 
 
-def read_bytes(path: Path) -> bytes:
+def read_bytes(path: Path, limit: int = SIZE_LIMIT) -> bytes:
     """Return what is in a file.
 
     Raises
@@ -28,15 +28,15 @@ def read_bytes(path: Path) -> bytes:
         if not stat.S_ISREG(path.stat().st_mode):
             raise WorksError("{}: this is not a file. Name one: JSON, TOML, CSV or XLSX.", path)
         with path.open("rb") as stream:
-            data = stream.read(SIZE_LIMIT + 1)
+            data = stream.read(limit + 1)
     except (OSError, ValueError) as error:
         reason = getattr(error, "strerror", None) or str(error)
         raise WorksError("{}: cannot be read: {}. Check the path.", path, reason) from None
-    if len(data) > SIZE_LIMIT:
+    if len(data) > limit:
         raise WorksError(
             "{}: larger than {} MiB. Works of a group are a few hundred kilobytes; is "
             "this the right file?",
             path,
-            SIZE_LIMIT // 2**20,
+            limit // 2**20,
         )
     return data

@@ -7,7 +7,7 @@ from types import MappingProxyType
 
 from planmethod.render.ink.drawing import Pen
 
-VECTORS, ARROWS = "PLAN_VECTORS", "PLAN_ARROWS"
+VECTORS, ARROWS, FIGURES = "PLAN_VECTORS", "PLAN_ARROWS", "PLAN_FIGURES"
 
 LAYERS: Mapping[str, Pen] = MappingProxyType(
     {
@@ -26,7 +26,7 @@ LAYERS: Mapping[str, Pen] = MappingProxyType(
         "MASKS": Pen.THIN,
         VECTORS: Pen.THIN,
         ARROWS: Pen.THIN,
-        "PLAN_FIGURES": Pen.THIN,
+        FIGURES: Pen.THIN,
         "DIAGRAMS": Pen.MAIN,
         "ERRORS": Pen.THIN,
         "TABLES": Pen.THIN,
@@ -42,8 +42,8 @@ _OF_TAG = {
     "margin": "TITLE_BLOCK",
     "table": "TABLES",
     "ellipse": "ERRORS",
-    "similar": "PLAN_FIGURES",
-    "pole": "PLAN_FIGURES",
+    "similar": FIGURES,
+    "pole": FIGURES,
     "absolute": VECTORS,
     "relative": VECTORS,
     "normal": VECTORS,

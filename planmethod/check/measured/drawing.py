@@ -1,0 +1,137 @@
+"""What of a drawing is looked at: straight lines, inscriptions, marks; in mm, y up (чертёж)."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from itertools import pairwise
+from pathlib import Path
+
+from msgspec import Struct, field
+
+from planmethod.check.works.cells import TEXT_LIMIT
+from planmethod.check.works.faults import WorksError
+
+LINES_LIMIT = 20_000
+TEXTS_LIMIT = 20_000
+
+STRAIGHT = 1e-4
+"""How far a polyline that goes straight on may bend, radians."""
+
+REACH_LIMIT = 1e6
+"""Nothing on a sheet is further away than a kilometre, mm."""
+
+
+class DrawnLine(Struct, frozen=True):
+    """A straight line of a drawing (отрезок).
+
+    Attributes
+    ----------
+    start, end : complex
+        mm.
+    layer : str
+    colour : int
+        Number of the colour in AutoCAD's index; 0 where the drawing has none.
+    """
+
+    start: complex
+    end: complex
+    layer: str
+    colour: int = 0
+
+    @property
+    def length(self) -> float:
+        """How long it is, mm."""
+        return abs(self.end - self.start)
+
+
+class DrawnLetters(Struct, frozen=True):
+    """Letters of a drawing, and the room that they take (надпись).
+
+    Attributes
+    ----------
+    text : str
+    at : complex
+        Middle, mm.
+    wide, high : float
+        mm.
+    """
+
+    text: str
+    at: complex
+    wide: float
+    high: float
+
+    def apart(self, place: complex) -> float:
+        """Return how far a place is from the room of the letters, mm."""
+        off = place - self.at
+        return abs(
+            complex(
+                max(0.0, abs(off.real) - self.wide / 2), max(0.0, abs(off.imag) - self.high / 2)
+            )
+        )
+
+
+class MeasuredDrawing(Struct):
+    """A drawing while it is read.
+
+    Attributes
+    ----------
+    points : list of (complex, str, int)
+        Points and small circles with their layers and colours.
+    """
+
+    path: Path
+    lines: list[DrawnLine] = field(default_factory=list)
+    texts: list[DrawnLetters] = field(default_factory=list)
+    points: list[tuple[complex, str, int]] = field(default_factory=list)
+
+    def line(self, corners: Iterable[complex], layer: str, colour: int) -> None:
+        """Take the straight lines between corners; none of no length.
+
+        Raises
+        ------
+        WorksError
+            There are too many.
+        """
+        whole: list[complex] = []
+        for corner in corners:
+            if whole and not (corner != whole[-1] and _is_near(corner, whole[-1])):
+                continue
+            if len(whole) > 1 and _goes_on(whole[-2], whole[-1], corner):
+                whole.pop()
+            whole.append(corner)
+        for start, end in pairwise(whole):
+            if len(self.lines) >= LINES_LIMIT:
+                raise WorksError("{}: over {} lines. Keep the plans.", self.path, LINES_LIMIT)
+            self.lines.append(DrawnLine(start, end, layer, colour))
+
+    def text(self, text: str, at: complex, wide: float, high: float) -> None:
+        """Take an inscription; blank ones say nothing.
+
+        Raises
+        ------
+        WorksError
+            There are too many.
+        """
+        told = " ".join(text[: 4 * TEXT_LIMIT].split())
+        if not told or not _is_near(at):
+            return
+        if len(self.texts) >= TEXTS_LIMIT:
+            raise WorksError("{}: over {} inscriptions. Keep the plans.", self.path, TEXTS_LIMIT)
+        self.texts.append(DrawnLetters(told, at, wide, high))
+
+    def point(self, at: complex, layer: str, colour: int) -> None:
+        """Take a point, or the middle of a small circle."""
+        if _is_near(at) and len(self.points) < LINES_LIMIT:
+            self.points.append((at, layer, colour))
+
+
+def _goes_on(one: complex, two: complex, three: complex) -> bool:
+    """Tell whether a line goes straight on."""
+    way = (three - two) / (two - one)
+    return way.real > 0 and abs(way.imag) < STRAIGHT * way.real
+
+
+def _is_near(*places: complex) -> bool:
+    """Tell whether places are numbers, and on a sheet."""
+    return all(abs(place) < REACH_LIMIT for place in places)  # NaN is less than nothing

@@ -1,0 +1,381 @@
+"""A drawing measured: segments and directions of its plans as a work (чертёж как работа)."""
+
+from __future__ import annotations
+
+import math
+import re
+from cmath import phase
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from pathlib import Path
+
+from msgspec import Struct
+from msgspec.structs import replace
+
+from planmethod.check.letters import plain
+from planmethod.check.measured.asked import asked_of_drawing, vector_of
+from planmethod.check.measured.drawing import DrawnLetters, DrawnLine, MeasuredDrawing
+from planmethod.check.measured.dxf_file import read_dxf
+from planmethod.check.measured.layers import PLANS, plan_of_layer
+from planmethod.check.measured.svg_file import read_svg
+from planmethod.check.measured.vertices import (
+    SNAP_MM,
+    Vertices,
+    letter,
+    letters_in,
+    vertices_of,
+    without_barbs,
+)
+from planmethod.check.model import Unread, Work, WrittenAnswer
+from planmethod.check.questions import Sign
+from planmethod.check.sheet import Sheet, point
+from planmethod.check.task import Task, TaskItem
+from planmethod.check.works.cells import Cell, refused
+from planmethod.check.works.faults import WorksError
+from planmethod.check.works.gather import WorkDraft, scale_name
+from planmethod.check.works.units import read_number
+from planmethod.construct.steps import PointName
+from planmethod.plans.model import FACTS, RATES, PlanKind, Vector, pole_letter
+
+STEP_MM = 0.01
+"""What a drawing is measured to, mm."""
+
+PLAN_LINES = 400
+"""Lines of both plans, those of arrowheads among them; a plan of a triad has some forty."""
+
+STEP_DEG = 0.01
+SAME_DEG = 2.0
+"""A plan is turned as a whole where all its vectors are turned alike, to this."""
+
+TURNED_DEG = 5.0
+LEAST_MM = 5.0
+DETAIL_MM = 20.0
+"""How far the scale of an enlarged detail stands from it."""
+
+WHOLE = 3
+"""Vectors that must be turned alike, not shorter than that."""
+
+LIKE_DEG = 10.0
+"""Half a turn is a mistake: the crank turned the other way. So near to it no drawing is put."""
+
+READERS: Mapping[str, Callable[[Path], MeasuredDrawing]] = {".dxf": read_dxf, ".svg": read_svg}
+
+HANDS = {".dxf": "cad", ".svg": "board"}
+"""By which profile they are drawn: on our own sheets a hand reads its ruler."""
+
+
+class FoundPlan(Struct):
+    """One plan of a drawing with its letters (найденный план)."""
+
+    kind: PlanKind
+    vertices: Vertices
+    at: dict[PointName, list[int]]
+    """Vertices of a point of the plan: its own first, then those that have its letter beside."""
+    doubtful: frozenset[PointName] = frozenset()
+    """Points whose letters may as well name another vertex."""
+
+    def vector(self, tail: PointName, head: PointName) -> complex | None:
+        """Return a segment as it is drawn, mm; between the vertices if no line joins them."""
+        tails, heads = self.at.get(tail, []), self.at.get(head, [])
+        if not tails or not heads:
+            return None
+        pairs = [(one, two) for one in tails for two in heads]
+        drawn, longer = (
+            [pair for pair in pairs if pair in lines or pair[::-1] in lines]
+            for lines in (self.vertices.lines, self.vertices.longer)
+        )
+        one, two = (drawn or longer or pairs)[0]
+        return self.vertices.places[two] - self.vertices.places[one]
+
+
+def is_drawing(path: Path) -> bool:
+    """Tell whether a file is a drawing, by its ending."""
+    return path.suffix.lower() in READERS
+
+
+def read_drawing(path: Path, layers: Mapping[str, str], task: Task) -> Work:
+    """Return the plans of a drawing as a work: lengths in mm, directions in degrees.
+
+    Parameters
+    ----------
+    layers : mapping of str to str
+        Which plan stands on a layer, or in a colour; see `planmethod.check.measured.layers`.
+    task : Task
+        Of the variant that is drawn.
+
+    Raises
+    ------
+    WorksError
+        The file cannot be read, or no layer of it is that of a plan.
+    """
+    drawing = READERS[path.suffix.lower()](path)
+    draft = WorkDraft(path.stem, str(path), variant=task.variant)
+    _read_scales(draft, drawing.texts)
+    hand = HANDS[path.suffix.lower()]
+    items = asked_of_drawing(task)
+    sheet = task.sheet(task.first, drawn=hand)
+    found = {plan.kind: plan for plan in _plans(drawing, layers, sheet, draft, task.count)}
+    for kind in RATES:
+        if kind not in found and any(item.question.plan is kind for item in items):
+            draft.remark(Unread.PLAN, FACTS[kind].pole, path.name)
+    answers = list(_answers(items, sheet, found, draft, path.name))
+    return replace(draft.work(), answers=tuple(answers), drawn=hand)
+
+
+def _read_scales(draft: WorkDraft, texts: Sequence[DrawnLetters]) -> None:
+    """Take the scales that the drawing tells: ``μ_v = 0,05 (м/с)/мм``."""
+    for text in texts:
+        name, equal, value = text.text.partition("=")
+        scale = scale_name(name) if equal else ""
+        if not scale or scale in draft.scales:
+            continue
+        if per_unit := re.match(r"\s*([\d.,]{1,20})\s*(?:mm|мм)\s*/", value):
+            number = read_number(per_unit[1])  # millimetres of a unit: the other convention
+            value = f"{1.0 / number.value!r}" if number is not None and number.value else value
+        draft.put_scale(scale, Cell(value.strip(), f"{Path(draft.where).name}"), "")
+
+
+# Which lines are a plan ----------------------------------------------------------------------
+
+
+def _plans(
+    drawing: MeasuredDrawing,
+    layers: Mapping[str, str],
+    sheet: Sheet,
+    draft: WorkDraft,
+    count: int,
+) -> Iterator[FoundPlan]:
+    own: dict[PlanKind, list[DrawnLine]] = {kind: [] for kind in RATES}
+    mixed: list[DrawnLine] = []
+    for line in drawing.lines:
+        plan = plan_of_layer(layers, line.layer, line.colour)
+        if plan == PLANS:
+            mixed.append(line)
+        elif plan:
+            own[PlanKind(plan)].append(line)
+    if not mixed and not any(own.values()):
+        shown = ", ".join(dict.fromkeys(line.layer for line in drawing.lines)) or "—"
+        raise WorksError(
+            "{}: no layer is that of a plan. Layers with lines: {}. Name one: --layer "
+            "NAME=velocity, NAME=acceleration, or NAME=plans where both stand on it.",
+            drawing.path,
+            shown[:300],
+        )
+    if len(mixed) + sum(map(len, own.values())) > PLAN_LINES:
+        raise WorksError(
+            "{}: over {} lines are plans. Name their layers.", drawing.path, PLAN_LINES
+        )
+    parts: dict[PlanKind, list[list[DrawnLine]]] = {kind: [] for kind in RATES}
+    for part in _without_details(_parts(without_barbs(mixed)), drawing.texts):
+        kind = _kind_of(part, drawing.texts)
+        if kind is not None:
+            parts[kind].append(part)
+    for kind in RATES:
+        told = [part for part in _parts(without_barbs(own[kind])) if _kind_of(part, drawing.texts)]
+        several = parts[kind] if len(parts[kind]) > 1 else told
+        lines = [*own[kind], *(line for part in parts[kind] for line in part)]
+        if len(several) > 1:  # one for each position
+            at = sheet.questions.position
+            lines = _in_order(several)[at] if len(several) == count else []
+            if not lines:
+                where = f"{Path(draft.where).name}, {FACTS[kind].pole}"
+                draft.remark(Unread.SEVERAL, str(len(several)), where)
+        if lines:
+            marks = [
+                at
+                for at, layer, colour in drawing.points
+                if plan_of_layer(layers, layer, colour) == kind.value
+            ]
+            yield _lettered(kind, without_barbs(lines), marks, drawing.texts, sheet, draft)
+
+
+def _without_details(
+    parts: Sequence[list[DrawnLine]], texts: Sequence[DrawnLetters]
+) -> list[list[DrawnLine]]:
+    """Return parts without what is around a point, drawn larger: ``Б (10:1)`` stands next to it."""
+    left = list(parts)
+    for text in texts:
+        if re.search(r"\(\d{1,3}:1\)", text.text):
+            apart = [
+                min(text.apart(end) for line in part for end in (line.start, line.end))
+                for part in left
+            ]
+            if min(apart, default=DETAIL_MM) < DETAIL_MM:
+                del left[apart.index(min(apart))]
+    return left
+
+
+def _in_order(parts: Sequence[list[DrawnLine]]) -> list[list[DrawnLine]]:
+    """Return plans as they are read: row by row, from the left."""
+    boxes = [(part, [end for line in part for end in (line.start, line.end)]) for part in parts]
+    rows: list[list[tuple[float, list[DrawnLine]]]] = []
+    low = -math.inf
+    for part, ends in sorted(boxes, key=lambda box: -max(end.imag for end in box[1])):
+        top, bottom = (take(end.imag for end in ends) for take in (max, min))
+        if not rows or (top + bottom) / 2 < low:
+            rows.append([])
+            low = bottom
+        rows[-1].append((min(end.real for end in ends), part))
+    return [part for row in rows for _, part in sorted(row, key=lambda pair: pair[0])]
+
+
+def _parts(lines: Sequence[DrawnLine]) -> list[list[DrawnLine]]:
+    """Return lines that hang together, part by part."""
+    parts: list[list[DrawnLine]] = []
+    for line in lines:
+        meets = [part for part in parts if any(_touch(line, other) for other in part)]
+        parts = [part for part in parts if part not in meets]
+        parts.append([line, *(other for part in meets for other in part)])
+    return parts
+
+
+def _touch(one: DrawnLine, two: DrawnLine) -> bool:
+    return any(
+        _apart(end, line) < SNAP_MM
+        for line, other in ((one, two), (two, one))
+        for end in (other.start, other.end)
+    )
+
+
+def _apart(place: complex, line: DrawnLine) -> float:
+    along = (line.end - line.start) / line.length
+    on = (place - line.start) * along.conjugate()
+    return abs(complex(on.real - min(max(on.real, 0.0), line.length), on.imag))
+
+
+def _kind_of(part: Sequence[DrawnLine], texts: Sequence[DrawnLetters]) -> PlanKind | None:
+    """Return which plan it is by the letter of its pole: p, or π and p′ of the accelerations."""
+    vertices = vertices_of(part)
+    poles = [text for text in texts if letters_in(text.text)[:1] in (["p"], ["π"])]
+    near = letter(vertices, poles, {"p", "π", *(x for t in poles for x in letters_in(t.text))})
+    if "π" in near.own:
+        return PlanKind.ACCELERATION
+    if "p" not in near.own:
+        return None
+    place = near.places[near.own["p"]]
+    text = min((t for t in poles if "p" in letters_in(t.text)), key=lambda t: t.apart(place)).text
+    return PlanKind.ACCELERATION if text[1:2] in ("'", "′", "’") else PlanKind.VELOCITY
+
+
+def _lettered(
+    kind: PlanKind,
+    lines: Sequence[DrawnLine],
+    marks: Sequence[complex],
+    texts: Sequence[DrawnLetters],
+    sheet: Sheet,
+    draft: WorkDraft,
+) -> FoundPlan:
+    known = sheet.questions.lettered(kind)
+    plan = sheet.questions.construction.plan(kind)
+    of = {at: name for name, at in known.items()}
+    joined = {
+        frozenset((of[v.tail], of[v.head])) for v in plan.vectors if {v.tail, v.head} <= {*of}
+    }
+    vertices = letter(vertices_of(lines, marks), texts, known, joined)
+    pole = plan.pole
+    at: dict[PointName, list[int]] = {}
+    for name, vertex in vertices.own.items():
+        at.setdefault(known[name], []).append(vertex)
+    where = f"{Path(draft.where).name}, {FACTS[kind].pole}"
+    for name, beside in vertices.others.items():
+        at.setdefault(known[name], []).extend(beside)
+        for vertex in (one for one in beside if one not in vertices.inner):
+            draft.remark(Unread.OPEN, f"{name}: {_told(vertices.places[vertex])}", where)
+    if pole is not None and pole not in at and len(marks) == 1:  # a point without a letter
+        at[pole] = [v for v, place in enumerate(vertices.places) if abs(place - marks[0]) < SNAP_MM]
+        vertices.lone = [vertex for vertex in vertices.lone if vertex not in at[pole]]
+    for vertex in vertices.lone:
+        draft.remark(Unread.VERTEX, _told(vertices.places[vertex]), where)
+    doubtful = frozenset(known[name] for name in vertices.doubtful)
+    return FoundPlan(
+        kind, vertices, {name: list(dict.fromkeys(v)) for name, v in at.items()}, doubtful
+    )
+
+
+def _told(place: complex) -> str:
+    return f"({place.real:.1f}; {place.imag:.1f})"
+
+
+# What is measured ----------------------------------------------------------------------------
+
+
+def _answers(
+    items: Sequence[TaskItem],
+    sheet: Sheet,
+    found: Mapping[PlanKind, FoundPlan],
+    draft: WorkDraft,
+    name: str,
+) -> Iterator[WrittenAnswer]:
+    missing: dict[tuple[str, PlanKind], None] = {}
+    turns = {kind: _turns(plan, sheet) for kind, plan in found.items()}
+    both = _turn([turn for own in turns.values() for turn in own])
+    turned = {kind: both or _turn(own) for kind, own in turns.items()}
+    for kind, turn in turned.items():
+        if turn:
+            draft.remark(Unread.TURNED, f"{turn:.1f}°", f"{name}, {FACTS[kind].pole}")
+    for item in items:
+        question = vector_of(sheet, item.question)
+        plan = None if question.plan is None else found.get(question.plan)
+        if plan is None or question.plan is None or question.ends is None:
+            continue
+        vector = plan.vector(*question.ends)
+        if vector is None:
+            for end in question.ends:
+                if end not in plan.at:
+                    missing.setdefault((_letters(sheet, question.plan, end), question.plan))
+            continue
+        where = f"{name}, {item.id}"
+        if doubtful := plan.doubtful.intersection(question.ends):
+            shown = ", ".join(sorted(_letters(sheet, question.plan, end) for end in doubtful))
+            base = WrittenAnswer(id=item.id, position=item.position)
+            yield refused(Unread.DOUBT, shown, where, base=base)
+            continue
+        if item.question.sign is not Sign.ANGLE:
+            mm = round(abs(vector), 2)
+            yield WrittenAnswer(
+                id=item.id, mm=mm, mm_step=STEP_MM, raw=f"{mm:g}", where=where,
+                position=item.position,
+            )  # fmt: skip
+        elif abs(vector) > SNAP_MM:
+            degrees = math.degrees(phase(vector * question.way)) - turned[question.plan]
+            value = round((degrees + 180.0) % 360.0 - 180.0, 2)
+            yield WrittenAnswer(
+                id=item.id, value=value, unit="°", step=STEP_DEG, raw=f"{value:g}°", where=where,
+                position=item.position,
+            )  # fmt: skip
+    for letters, kind in missing:
+        draft.remark(Unread.LETTER, letters, f"{name}, {FACTS[kind].pole}")
+
+
+def _letters(sheet: Sheet, kind: PlanKind, point_name: PointName) -> str:
+    plan = sheet.questions.construction.plan(kind)
+    if point_name == plan.pole:
+        return pole_letter(sheet.questions.solution.problem, kind)
+    return plain(plan.letters.get(point_name, str(point_name)))
+
+
+def _turns(plan: FoundPlan, sheet: Sheet) -> list[float]:
+    """Return by how many degrees the vectors of a plan are turned."""
+    turns: list[float] = []
+    value = sheet.trace.value
+    for tail, head in dict.fromkeys((v.tail, v.head) for v in _vectors(sheet, plan.kind)):
+        drawn = plan.vector(tail, head)
+        if drawn is None or tail not in value or head not in value:
+            continue
+        exact = point(value[head]) - point(value[tail])
+        if min(abs(drawn), abs(exact)) > LEAST_MM:
+            turns.append(math.degrees(phase(drawn / exact)))
+    return turns
+
+
+def _vectors(sheet: Sheet, kind: PlanKind) -> Sequence[Vector]:
+    return sheet.questions.construction.plan(kind).vectors
+
+
+def _turn(turns: Sequence[float]) -> float:
+    """Return by how many degrees vectors are turned as a whole; 0 where they are not."""
+    if len(turns) < WHOLE:
+        return 0.0
+    off = [(turn - turns[0] + 180.0) % 360.0 - 180.0 for turn in turns]
+    mean = (turns[0] + math.fsum(off) / len(off) + 180.0) % 360.0 - 180.0
+    alike = max(off) - min(off) < SAME_DEG
+    return mean if alike and TURNED_DEG < abs(mean) < 180.0 - LIKE_DEG else 0.0

@@ -1,0 +1,258 @@
+"""Which vertex of a plan is meant by which letter: by how near they stand (буквы у вершин)."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+
+from msgspec import Struct, field
+
+from planmethod.check.letters import plain
+from planmethod.check.measured.drawing import DrawnLetters, DrawnLine
+
+SNAP_MM = 0.3
+"""Ends of lines nearer than this are one vertex."""
+
+NEAR_MM, NEAR_HEIGHTS = 5.0, 4.0
+"""How far a letter may stand from its vertex: millimetres, or heights of the letter if more."""
+
+STRAIGHT = 2e-3
+"""How far a line that goes on may bend, radians."""
+
+BARB_MM, BARB_SINE = 6.0, 0.6
+"""The strokes of an arrowhead: how long, and how far they open."""
+
+BESIDE = 0.1
+"""What the distance to the middle of a letter counts beside that to its room."""
+
+JOINED = 4.0
+"""What it counts, mm, that two letters are joined by a line as the vectors of the plan are."""
+
+DOUBT = 0.5
+"""Letters that would stand elsewhere as well, to this, mm, name no vertex."""
+
+ROUNDS = 100
+
+_APART = re.compile(r"[,;≡=\s]+")
+
+
+class Vertices(Struct):
+    """Vertices of a plan and their letters (вершины плана).
+
+    Attributes
+    ----------
+    places : list of complex
+        mm.
+    lines : list of (int, int)
+        Vertices that a line joins, from the first to the second.
+    longer : list of (int, int)
+        The same of lines that go straight on from one another.
+    own : dict of str to int
+        Vertex by its letter, as `plain` has it.
+    others : dict of str to list of int
+        Vertices without a letter that have this one next to them: where a line ends that does not
+        meet the others.
+    lone : list of int
+        Vertices that no letter stands by.
+    inner : set of int
+        Vertices from which a line goes straight on.
+    doubtful : list of str
+        Letters that may as well name another vertex.
+    """
+
+    places: list[complex]
+    lines: list[tuple[int, int]]
+    longer: list[tuple[int, int]] = field(default_factory=list)
+    own: dict[str, int] = field(default_factory=dict)
+    others: dict[str, list[int]] = field(default_factory=dict)
+    lone: list[int] = field(default_factory=list)
+    inner: set[int] = field(default_factory=set)
+    doubtful: list[str] = field(default_factory=list)
+
+
+def letters_in(text: str) -> list[str]:
+    """Return the letters of an inscription: ``p, a, c`` and ``e ≡ d`` are several."""
+    return [letter for letter in map(plain, _APART.split(text)) if letter]
+
+
+def without_barbs(lines: Sequence[DrawnLine]) -> list[DrawnLine]:
+    """Return lines without the strokes of arrowheads: two short ones to both sides of a tip."""
+    left = list(lines)
+    for shaft in lines:
+        for tip, tail in ((shaft.end, shaft.start), (shaft.start, shaft.end)):
+            along = (tip - tail) / shaft.length
+            sides: dict[bool, DrawnLine] = {}
+            for stroke in left:
+                off = _from(stroke, tip)
+                if off is None or stroke.length > min(BARB_MM, shaft.length / 2):
+                    continue
+                way = off * along.conjugate() / stroke.length
+                if way.real < 0 and 0 < abs(way.imag) < BARB_SINE:
+                    sides[way.imag > 0] = stroke
+            if len(sides) == 2:
+                ends = [tip + (_from(s, tip) or 0j) for s in sides.values()]
+                left = [s for s in left if s not in sides.values() and not _joins(s, ends)]
+    return left
+
+
+def _from(line: DrawnLine, place: complex) -> complex | None:
+    """Return where a line leads from a place; None if it does not end there."""
+    if abs(line.start - place) < SNAP_MM:
+        return line.end - line.start
+    return line.start - line.end if abs(line.end - place) < SNAP_MM else None
+
+
+def _joins(line: DrawnLine, ends: Sequence[complex]) -> bool:
+    """Tell whether a line closes the triangle of an arrowhead."""
+    own = (line.start, line.end)
+    return all(min(abs(end - place) for place in own) < SNAP_MM for end in ends)
+
+
+def vertices_of(lines: Iterable[DrawnLine], marks: Iterable[complex] = ()) -> Vertices:
+    """Return the ends of lines as vertices, those together that meet."""
+    found = Vertices([], [])
+
+    def at(place: complex) -> int:
+        for number, other in enumerate(found.places):
+            if abs(other - place) < SNAP_MM:
+                return number
+        found.places.append(place)
+        return len(found.places) - 1
+
+    for line in lines:
+        ends = at(line.start), at(line.end)
+        if ends[0] != ends[1]:
+            found.lines.append(ends)
+    for mark in marks:
+        at(mark)
+    _lengthen(found)
+    return found
+
+
+def _lengthen(found: Vertices) -> None:
+    """Let lines that go on from one another in one way be one line as well."""
+    seen: set[tuple[int, int]] = set()
+    for middle in range(len(found.places)):
+        whole = [*found.lines, *found.longer]
+        ends = [one if two == middle else two for one, two in whole if middle in (one, two)]
+        for number, one in enumerate(ends):
+            for two in ends[:number]:
+                way = (found.places[one] - found.places[middle]) / (
+                    found.places[middle] - found.places[two]
+                )
+                if way.real > 0 and abs(way.imag) < STRAIGHT * way.real:
+                    found.inner.add(middle)
+                    if (pair := (min(one, two), max(one, two))) not in seen:
+                        seen.add(pair)
+                        found.longer.append(pair)
+
+
+class _Placing:
+    """Which inscription stands by which vertex: near it, and joined as the plan has it."""
+
+    def __init__(
+        self,
+        vertices: Vertices,
+        told: Sequence[tuple[DrawnLetters, list[str]]],
+        joined: Collection[frozenset[str]],
+    ) -> None:
+        self.lines = {frozenset(pair) for pair in (*vertices.lines, *vertices.longer)}
+        self.joined = joined
+        self.letters = [letters for _, letters in told]
+        self.apart: list[dict[int, float]] = []
+        for text, _ in told:
+            near = max(NEAR_MM, NEAR_HEIGHTS * text.high)
+            found = ((v, text.apart(at), abs(text.at - at)) for v, at in enumerate(vertices.places))
+            self.apart.append({v: apart + BESIDE * far for v, apart, far in found if apart < near})
+        self.at: dict[int, int] = {}
+
+    def place(self) -> None:
+        """Give inscriptions their vertices, the nearest first; then better ones while there are."""
+        pairs = sorted((d, n, v) for n, found in enumerate(self.apart) for v, d in found.items())
+        for _, number, vertex in pairs:
+            if number not in self.at and vertex not in self.at.values():
+                self.at[number] = vertex
+        for _ in range(ROUNDS):
+            better = [self._worse(at) for at in self._others()]
+            least = min(better, key=lambda pair: pair[0], default=(0.0, self.at))
+            if least[0] > -1e-9:
+                return
+            self.at = least[1]
+
+    def doubtful(self) -> set[int]:
+        """Return the inscriptions that would stand elsewhere nearly as well."""
+        found: set[int] = set()
+        for at in self._others():
+            if self._worse(at)[0] < DOUBT:
+                found |= {number for number, vertex in at.items() if self.at[number] != vertex}
+        return found
+
+    def _others(self) -> Iterator[dict[int, int]]:
+        """Yield placings with two inscriptions exchanged, or one by a free vertex."""
+        taken = {vertex: number for number, vertex in self.at.items()}
+        for number, vertex in self.at.items():
+            for to in self.apart[number]:
+                other = taken.get(to)
+                if other is None:
+                    yield {**self.at, number: to}
+                elif other < number and vertex in self.apart[other]:
+                    yield {**self.at, number: to, other: vertex}
+
+    def _worse(self, at: dict[int, int]) -> tuple[float, dict[int, int]]:
+        return self._cost(at) - self._cost(self.at), at
+
+    def _cost(self, at: Mapping[int, int]) -> float:
+        where = {letter: at[n] for n in at for letter in self.letters[n]}
+        met = sum(
+            frozenset(where[letter] for letter in pair) in self.lines
+            for pair in self.joined
+            if pair <= where.keys()
+        )
+        return sum(self.apart[n][v] for n, v in at.items()) - JOINED * met
+
+
+def letter(
+    vertices: Vertices,
+    texts: Iterable[DrawnLetters],
+    known: Collection[str],
+    joined: Collection[frozenset[str]] = (),
+) -> Vertices:
+    """Give vertices their letters.
+
+    A letter that finds its vertex taken stands there too if that one is as near; vertices that are
+    left are told by the letter next to them.
+
+    Parameters
+    ----------
+    joined : collection of pairs
+        Letters that vectors of such a plan join, whatever they measure.
+    """
+    told = [(text, letters_in(text.text)) for text in texts]
+    told = [(text, letters) for text, letters in told if letters and {*letters} <= {*known}]
+    placing = _Placing(vertices, told, joined)
+    placing.place()
+    given = dict(placing.at)
+    taken = {vertex: number for number, vertex in given.items()}
+    for number, found in enumerate(placing.apart):  # two inscriptions at one vertex
+        for vertex, apart in sorted(found.items(), key=lambda pair: pair[1])[:1]:
+            other = taken.get(vertex)
+            most = 0.0 if other is None else placing.apart[other][vertex] + told[number][0].high
+            if number not in given and apart < most:
+                given[number] = vertex
+    doubtful = placing.doubtful()
+    for number, vertex in given.items():
+        for name in told[number][1]:
+            vertices.own.setdefault(name, vertex)
+            if number in doubtful:
+                vertices.doubtful.append(name)
+    for vertex in range(len(vertices.places)):
+        if vertex in taken:
+            continue
+        beside = [(found[vertex], n) for n, found in enumerate(placing.apart) if vertex in found]
+        if not beside:
+            if vertex not in vertices.inner:
+                vertices.lone.append(vertex)
+            continue
+        for name in told[min(beside)[1]][1]:
+            vertices.others.setdefault(name, []).append(vertex)
+    return vertices

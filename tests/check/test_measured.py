@@ -1,0 +1,232 @@
+"""A drawing measured: plans that a student drew in a CAD program are judged as a work."""
+
+from __future__ import annotations
+
+import json
+import os
+from pathlib import Path
+
+import ezdxf
+import pytest
+from click.testing import CliRunner
+
+from planmethod.check.checking import check
+from planmethod.check.group import Variants
+from planmethod.check.measured.asked import asked_of_drawing
+from planmethod.check.measured.layers import plan_of_layer, read_layers
+from planmethod.check.measured.plan import read_drawing
+from planmethod.check.model import CheckedWork, Unread, Verdict
+from planmethod.check.task import Task
+from planmethod.check.works.faults import WorksError
+from planmethod.cli import cli
+from planmethod.plans.model import PlanKind
+from tests.cases import thinned
+from tests.check.cad import draw
+
+PROBLEMS = (
+    "linkages/ex3",
+    "levers/task12",
+    "linkages/2.1.121",
+    "linkages/2.1.28",
+    "linkages/2.1.4",
+)
+WAYS: dict[str, dict[str, object]] = {
+    "lines": {},
+    "polylines with a vertex more": {"polylines": True},
+    "strokes for arrows": {"barbs": True},
+    "a block and texts of several lines": {"in_block": True, "several": True},
+    "metres": {"per_unit": 1e-3, "units": 6},
+    "inches": {"per_unit": 1 / 25.4, "units": 1},
+    "turned by 30°": {"turn": 0.8660254 + 0.5j},
+}
+FINE = (Verdict.OK, Verdict.UNSEEN)
+
+
+def task_of(problem: str) -> Task:
+    variants = Variants(Path("problems") / f"{problem}.toml")
+    task = variants.task(variants.names[0] if variants.names else None)
+    asked_of_drawing(task)
+    return task
+
+
+def judged(path: Path, task: Task, layers: tuple[str, ...] = ()) -> CheckedWork:
+    return check(task, read_drawing(path, read_layers(layers), task))
+
+
+def off(checked: CheckedWork) -> dict[str, Verdict]:
+    return {one.id: one.verdict for one in checked.answers if one.verdict not in FINE}
+
+
+@pytest.mark.parametrize("way", tuple(WAYS))
+@pytest.mark.parametrize("problem", thinned(PROBLEMS, 3))
+def test_a_right_plan_is_right_however_it_is_drawn(problem: str, way: str, tmp_path: Path) -> None:
+    task = task_of(problem)
+    path = draw(task.sheet(task.first), tmp_path / "work.dxf", **WAYS[way])  # type: ignore[arg-type]
+    checked = judged(path, task)
+    assert checked.answers and not off(checked)
+    assert checked.points == checked.of > 0
+    assert not checked.diagnosis and not checked.suspicious and not checked.strokes
+
+
+@pytest.mark.parametrize("fmt", ("dxf", "svg"))
+def test_a_vector_of_our_own_sheet_that_is_moved_is_found(fmt: str, tmp_path: Path) -> None:
+    command = ["sheet", "problems/linkages/ex3.toml", "--format", fmt, "-o", str(tmp_path)]
+    assert CliRunner().invoke(cli, command).exit_code == 0
+    path, task = tmp_path / f"ex3.{fmt}", task_of("linkages/ex3")
+    assert not off(judged(path, task))
+    if fmt == "svg":  # the vector (pd): its end in the arrow, and the tip
+        text = path.read_text(encoding="utf-8")
+        line, tip = "M285.198 118.211l-58.027-26.46", "M223.076 89.884l4.155"
+        assert text.count(line) == text.count(tip) == 1
+        text = text.replace(line, "M285.198 118.211l-53.027-30.46")
+        path.write_text(text.replace(tip, "M228.076 85.884l4.155"), encoding="utf-8")
+        assert {"angle_v_D"} <= set(off(judged(path, task))) <= {"v_D", "angle_v_D", "angle_v_B3"}
+        return
+    document = ezdxf.readfile(path)  # type: ignore[attr-defined]
+    lines = list(document.modelspace().query("LINE[layer=='PLAN_VECTORS']"))
+    for number in range(len(lines)):
+        end = lines[number].dxf.end
+        lines[number].dxf.end = (end.x + 5.0, end.y - 4.0, 0.0)
+        document.saveas(tmp_path / "moved.dxf")
+        lines[number].dxf.end = end
+        checked = judged(tmp_path / "moved.dxf", task)
+        told = [remark for remark in checked.work.remarks if remark.why is Unread.OPEN]
+        assert off(checked) or told, number
+
+
+def test_a_mistake_in_a_drawing_is_named(tmp_path: Path) -> None:
+    task = task_of("linkages/ex3")
+    sheet = task.sheet(task.first)
+    for code in ("A2", "A3", "N1", "V1"):
+        made = next(e for e in task.named(sheet) if e.code == code)
+        checked = judged(draw(sheet, tmp_path / f"{code}.dxf", made.trace), task)
+        named = {one for diagnosis in checked.diagnosis for one in diagnosis.codes}
+        assert code in named, (code, named)
+        assert all(v in (Verdict.WRONG, Verdict.INHERITED) for v in off(checked).values())
+
+
+def test_layers_and_colours_are_named(tmp_path: Path) -> None:
+    task = task_of("linkages/ex3")
+    layers = {PlanKind.VELOCITY: "Слой 1", PlanKind.ACCELERATION: "Слой 2"}
+    path = draw(task.sheet(task.first), tmp_path / "work.dxf", layers=layers)
+    with pytest.raises(WorksError, match="Слой 1"):
+        judged(path, task)
+    assert not off(judged(path, task, ("Слой 1=velocity", "слой_2=ускорения")))
+    told = read_layers(["red=velocity", "цвет 30=acceleration"])
+    assert [plan_of_layer(told, "0", colour) for colour in (1, 30, 7)] == [
+        "velocity",
+        "acceleration",
+        "",
+    ]
+    with pytest.raises(WorksError, match="--layer"):
+        read_layers(["red=green"])
+
+
+def test_what_cannot_be_matched_is_said_and_not_guessed(tmp_path: Path) -> None:
+    task = task_of("linkages/ex3")
+    sheet = task.sheet(task.first)
+    checked = judged(draw(sheet, tmp_path / "d.dxf", without=("d",)), task)
+    whys = [(remark.why, remark.fault) for remark in checked.work.remarks]
+    assert (Unread.LETTER, "d") in whys
+    blank = {one.id for one in checked.answers if one.verdict is Verdict.BLANK}
+    assert {"v_D", "a_D", "v_E_D"} <= blank and "v_E" not in blank
+    # Two letters so near both vertices that either may be meant.
+    document = ezdxf.readfile(tmp_path / "d.dxf")  # type: ignore[attr-defined]
+    space = document.modelspace()
+    texts = {text.dxf.text: text for text in space.query("TEXT") if text.dxf.text in ("b", "b3")}
+    space.delete_all_entities()
+    for start, end in (((0, 0), (60, 0)), ((0, 0), (60, 3))):
+        space.add_line(start, end, dxfattribs={"layer": "velocity"})
+    for text, at in (("p", (-3, 0)), ("d", (63, 1.4)), ("e", (63.1, 1.6))):
+        space.add_text(text, height=2.5).set_placement(at)
+    assert texts
+    document.saveas(tmp_path / "doubt.dxf")
+    checked = judged(tmp_path / "doubt.dxf", task)
+    unread = {one.id for one in checked.answers if one.verdict is Verdict.UNREADABLE}
+    assert {"v_D", "v_E"} <= unread
+    assert Unread.PLAN in {remark.why for remark in checked.work.remarks}
+
+
+def test_the_scale_that_a_drawing_tells_counts(tmp_path: Path) -> None:
+    task = task_of("linkages/ex3")
+    sheet = task.sheet(task.first, {"mu_v": 0.04})
+    assert not off(judged(draw(sheet, tmp_path / "told.dxf"), task))
+    assert off(judged(draw(sheet, tmp_path / "untold.dxf", scales=False), task))
+
+
+def test_the_command_takes_drawings_beside_other_works(tmp_path: Path) -> None:
+    task = task_of("linkages/ex3")
+    draw(task.sheet(task.first), tmp_path / "petrov.dxf")
+    command = ["check", "problems/linkages/ex3.toml", str(tmp_path / "petrov.dxf"), "--lang", "en"]
+    shown = CliRunner().invoke(cli, [*command, "problems/groups/ex3.csv", "--json"])
+    works = json.loads(shown.stdout)
+    assert works[0]["student"] == "petrov" and works[0]["points"] == works[0]["of"]
+    assert len(works) > 5 and not any(work["alike"] for work in works[:1])
+    written = CliRunner().invoke(cli, [*command, "-o", str(tmp_path)])
+    assert written.exit_code == 0 and (tmp_path / "pages" / "petrov.html").exists()
+
+
+# Hostile files -------------------------------------------------------------------------------
+
+
+def _nested(path: Path, depth: int, *, circle: bool = False) -> None:
+    document = ezdxf.new()  # type: ignore[attr-defined]
+    for number in range(depth):
+        block = document.blocks.new(f"B{number}")
+        block.add_line((0, 0), (1, 1))
+        last = number + 1 == depth
+        for _ in range(1 if circle else 10):
+            if not last or circle:
+                block.add_blockref("B0" if last else f"B{number + 1}", (0, 0))
+    document.modelspace().add_blockref("B0", (0, 0))
+    document.saveas(path)
+
+
+def test_hostile_drawings_are_refused_with_one_message(tmp_path: Path) -> None:
+    task = task_of("linkages/ex3")
+    bad = {
+        "dwg.dxf": b"AC1032" + bytes(100),
+        "binary.dxf": b"AutoCAD Binary DXF\r\n\x1a\x00",
+        "empty.dxf": b"",
+        "noise.dxf": bytes(range(256)) * 50,
+        "half.dxf": b"0\nSECTION\n2\nENTITIES\n0\nLINE\n10\nnan\n",
+        "large.dxf": b"0\n" * (5 * 2**20),
+        "noise.svg": b"<svg",
+        "other.svg": b'<svg xmlns="http://www.w3.org/2000/svg" width="3"/>',
+        "bomb.svg": b'<!DOCTYPE s [<!ENTITY a "aaaaaaaaaa"><!ENTITY b "&a;&a;&a;">]><s>&b;</s>',
+    }
+    for name, data in bad.items():
+        (tmp_path / name).write_bytes(data)
+    _nested(tmp_path / "deep.dxf", 12)
+    _nested(tmp_path / "circle.dxf", 3, circle=True)
+    _nested(tmp_path / "wide.dxf", 7)
+    many = ezdxf.new()  # type: ignore[attr-defined]
+    for number in range(500):
+        many.modelspace().add_line((0, number), (9, number), dxfattribs={"layer": "velocity"})
+    many.saveas(tmp_path / "many.dxf")
+    for path in sorted(tmp_path.iterdir()):
+        with pytest.raises(WorksError) as error:
+            read_drawing(path, {}, task)
+        assert str(path.name) in str(error.value)
+
+
+def test_a_missing_library_is_said(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("planmethod.check.measured.dxf_file.find_spec", lambda _: None)
+    (tmp_path / "work.dxf").write_text("0\nEOF\n")
+    with pytest.raises(WorksError, match="pip install ezdxf"):
+        read_drawing(tmp_path / "work.dxf", {}, task_of("linkages/ex3"))
+
+
+def test_nothing_of_a_damaged_drawing_is_a_traceback(tmp_path: Path) -> None:
+    task = task_of("linkages/ex3")
+    whole = draw(task.sheet(task.first), tmp_path / "whole.dxf").read_bytes()
+    for seed in range(12 if "CI" in os.environ else 4):
+        lines = whole.split(b"\n")
+        for number in range(40):
+            at = (seed * 7919 + number * 104729) % len(lines)
+            lines[at] = (b"-1", b"1e999", b"", b"nan", b"LINE", b"\xff\xfe")[number % 6]
+        (tmp_path / "damaged.dxf").write_bytes(b"\n".join(lines))
+        try:
+            judged(tmp_path / "damaged.dxf", task)
+        except WorksError as error:
+            assert "damaged.dxf" in str(error)
