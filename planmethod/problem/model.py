@@ -473,6 +473,21 @@ class Problem(KindProblem, frozen=True, kw_only=True):
         whole = (position - self.numbered[0]) / (self.numbered[1] - self.numbered[0])
         return whole % len(self.numbered)
 
+    @property
+    def centres(self) -> frozenset[str]:
+        """Centres of mass: those of [dynamics], and points S, S1, S2 ... that are no joints."""
+        masses = self.dynamics.masses.values() if self.dynamics is not None else ()
+        joints = {joint.point for joint in self.mechanism.revolutes}
+        joints |= {slide.pin for slide in self.slides.values()}
+        named = {
+            point
+            for body in self.bodies.values()
+            for point in body.points
+            if point[0] == "S" and (point[1:].isdigit() or not point[1:])
+        }
+        found = {mass.centre for mass in masses if mass.centre is not None} | named
+        return frozenset(found - joints - {*self.bodies[FRAME].points})
+
     def is_block(self, slide: Slide) -> bool:
         """Tell whether the host of a slide is a block through which the slider, a bar, passes."""
         return (

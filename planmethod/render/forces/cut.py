@@ -116,7 +116,7 @@ class FreeBodyScheme(Scheme):
         for link in self.links:
             for point in self.solution.problem.bodies[link].points:
                 if point not in named:
-                    self.joints.append(Disc(self.at(point), 0.8 * self.factor, Ink.BLACK))
+                    self.joints += self.mark(point)
                     named.add(point)
         self.named = sorted(named)
 

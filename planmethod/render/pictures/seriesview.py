@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from math import ceil
 
 from msgspec.structs import replace
@@ -9,12 +10,13 @@ from msgspec.structs import replace
 from planmethod.mechanism.model import FRAME
 from planmethod.plans.model import PlanKind
 from planmethod.render.ink.extent import ink_bounds
-from planmethod.render.labels import BUSY, Placed, place_labels
+from planmethod.render.labels import BUSY, Label, Placed, place_labels
 from planmethod.render.labels.candidates import untidiness
+from planmethod.render.labels.crowd import CROWD, densest
 from planmethod.render.layout.block import Picture
 from planmethod.render.pictures.ellipses import Ellipses, error_ellipses
 from planmethod.render.pictures.extremes import construction_items, stroke_items
-from planmethod.render.pictures.positions import Positions
+from planmethod.render.pictures.positions import Positions, Thinned
 from planmethod.render.pictures.schemeview import (
     SchemeView,
     letter_axes,
@@ -80,13 +82,15 @@ def series_picture(
         before = [*others, *view.items()]
         lines, letters = stroke_items(positions.paths, positions.ends, before, size)
         others, own = [*others, *lines], [*own, *letters]
-    items = [*others, *view.items(marks=positions.marks()), *ellipses.strokes]
+    every = ceil(len(positions.overlay) / MOST)
+    thinned = _thinned(positions, own, size, every)
+    items = [*others, *view.items(marks=positions.marks(thinned)), *ellipses.strokes]
     left, low, right, high = ink_bounds(items)
     bounds = (left - ROOM, low - ROOM, right + ROOM, high + ROOM)
     tries: list[list[Placed]] = []
     heights = (size, max(LEAST, 0.5 * letter_height))
     for height in heights:
-        labels = [*own, *positions.labels(height, every=ceil(len(positions.overlay) / MOST))]
+        labels = [*own, *positions.labels(height, every=every, thinned=thinned)]
         last = height == heights[-1]
         tries.append(place_labels(labels, [*items, *ellipses.grounds], bounds, breaking=last))
         if untidiness(tries[-1]) <= UNTIDY * len(labels):
@@ -94,3 +98,15 @@ def series_picture(
     placed = min(tries, key=untidiness)
     whole = [*items, *(item for label in placed for item in label.items())]
     return Picture(tuple(whole), ink_bounds(whole))
+
+
+def _thinned(
+    positions: Positions, own: Sequence[Label], height: float, every: int
+) -> Thinned:
+    """Return how far the letters of the positions are thinned, so that their area bears them."""
+    there = [label.anchor for label in own]
+    for thinned in Thinned:
+        labels = positions.labels(height, every=every, thinned=thinned)
+        if densest([*there, *(label.anchor for label in labels)])[0] <= CROWD:
+            break
+    return thinned
