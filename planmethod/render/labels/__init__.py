@@ -13,6 +13,8 @@ from planmethod.render.labels.model import (
     ALONE,
     BUSY,
     CROWDED,
+    NAMING,
+    NEAREST,
     UNDER_LABEL,
     Label,
     LabelStyle,
@@ -20,17 +22,20 @@ from planmethod.render.labels.model import (
     segment_label,
 )
 from planmethod.render.labels.place import place_labels
-from planmethod.render.labels.spare import BESIDE, spare_labels
+from planmethod.render.labels.spare import BESIDE, led_labels, spare_labels
 
 __all__ = [
     "ALONE",
     "BESIDE",
     "BUSY",
     "CROWDED",
+    "NAMING",
+    "NEAREST",
     "UNDER_LABEL",
     "Label",
     "LabelStyle",
     "Placed",
+    "led_labels",
     "place_labels",
     "segment_label",
     "spare_labels",

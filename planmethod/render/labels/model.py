@@ -82,6 +82,28 @@ CROWDED = LabelStyle(
 """One of a series of labels: many places, firm in its direction, a leader line soon."""
 
 
+NEAREST = LabelStyle(
+    rings=(0.0, 0.6, 1.4, 2.4, 3.6, 5.2, 7.5, 10.0),
+    angles=20,
+    far_rings=(13.0, 17.0, 22.0),
+    leader_from=4.5,
+    leader=12.0,
+    stranger=30.0,
+    heavy=25.0,
+)
+"""The letter of a point among others near it: nearer to its own, a leader line soon."""
+
+NAMING = LabelStyle(
+    rings=(0.0, 0.8, 1.8, 3.0, 4.5, 6.5, 9.0),
+    far_rings=(12.0, 15.0),
+    far_angles=24,
+    leader_from=3.0,
+    leader=10.0,
+    heavy=12.0,
+)
+"""The name of a vector: along it, or at the end of a leader line from its middle."""
+
+
 class Label(Struct, frozen=True):
     """Inscription that wants a place near a point or along a segment (надпись).
 

@@ -8,11 +8,15 @@ import numpy as np
 
 from planmethod.render.ink.drawing import Bounds, Item
 from planmethod.render.labels.candidates import near
-from planmethod.render.labels.model import Label, Placed
+from planmethod.render.labels.model import ALONE, Label, Placed
 from planmethod.render.labels.paper import CROSSED, ROUND_AREAS, Paper
+from planmethod.render.labels.place import place_labels
 
 NEAR = 8.0
 """Furthest middle of a label that may be left out from what it names, mm."""
+
+OUTSIDE = 6.0
+"""How far labels with a leader line may stand outside of a picture, mm."""
 
 BESIDE = 1.0
 """White on either side of a label on top of that around an area: it is not read as one with it."""
@@ -47,8 +51,36 @@ def spare_labels(
         if k < 0 or costs[k] >= CROSSED or places.led[k]:
             continue
         box = places.boxes[k]
-        if abs(complex(*box[:2]) + complex(*box[2:]) - 2 * label.anchor) / 2 < NEAR:
+        middle = (complex(*box[:2]) + complex(*box[2:])) / 2
+        if _off(middle, *(label.along or (label.anchor, label.anchor))) < NEAR:
             at = complex(box[0], box[1] + label.inscription.descent)
             found.append(Placed(label, at, None, free=True, ground=False))
             taken = np.concatenate([taken, [box + white]])
     return found
+
+
+def _off(place: complex, start: complex, end: complex) -> float:
+    """Return how far a place is from a segment, mm."""
+    way = end - start
+    share = ((place - start) * way.conjugate()).real / max(abs(way) ** 2, 1e-12)
+    return abs(place - start - way * min(1.0, max(0.0, share)))
+
+
+def led_labels(
+    labels: Sequence[Label], obstacles: Sequence[Item], bounds: Bounds
+) -> list[Placed]:
+    """Place what labels have a free place beside what they name, the others with a leader line.
+
+    Those that find none even so are left out, and those `ALONE` get no leader lines. Parameters are those of `spare_labels`, but that the
+    labels may stand outside of the bounds as far as `OUTSIDE`.
+    """
+    found = spare_labels(labels, obstacles, bounds)
+    there = {id(placed.label) for placed in found}
+    rest = [one for one in labels if one.manner is not ALONE and id(one) not in there]
+    if not rest:
+        return found
+    x0, y0, x1, y1 = bounds
+    wider = (x0 - OUTSIDE, y0 - OUTSIDE, x1 + OUTSIDE, y1 + OUTSIDE)
+    taken = [item for placed in found for item in placed.items()]
+    led = place_labels(rest, [*obstacles, *taken], wider, breaking=False)
+    return [*found, *(placed for placed in led if placed.free)]
