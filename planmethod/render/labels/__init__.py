@@ -15,6 +15,7 @@ from planmethod.render.labels.model import (
     CROWDED,
     NAMING,
     NEAREST,
+    ONLY_BESIDE,
     UNDER_LABEL,
     Label,
     LabelStyle,
@@ -22,7 +23,7 @@ from planmethod.render.labels.model import (
     segment_label,
 )
 from planmethod.render.labels.place import place_labels
-from planmethod.render.labels.spare import BESIDE, led_labels, spare_labels
+from planmethod.render.labels.spare import BESIDE, spare_labels
 
 __all__ = [
     "ALONE",
@@ -31,11 +32,11 @@ __all__ = [
     "CROWDED",
     "NAMING",
     "NEAREST",
+    "ONLY_BESIDE",
     "UNDER_LABEL",
     "Label",
     "LabelStyle",
     "Placed",
-    "led_labels",
     "place_labels",
     "segment_label",
     "spare_labels",

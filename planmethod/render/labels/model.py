@@ -83,9 +83,9 @@ CROWDED = LabelStyle(
 
 
 NEAREST = LabelStyle(
-    rings=(0.0, 0.6, 1.4, 2.4, 3.6, 5.2, 7.5, 10.0),
-    angles=20,
-    far_rings=(13.0, 17.0, 22.0),
+    rings=(0.0, 1.0, 2.2, 4.0, 6.5, 9.5),
+    far_rings=(12.0, 15.0, 19.0),
+    far_angles=24,
     leader_from=4.5,
     leader=12.0,
     stranger=30.0,
@@ -94,14 +94,18 @@ NEAREST = LabelStyle(
 """The letter of a point among others near it: nearer to its own, a leader line soon."""
 
 NAMING = LabelStyle(
-    rings=(0.0, 0.8, 1.8, 3.0, 4.5, 6.5, 9.0),
-    far_rings=(12.0, 15.0),
-    far_angles=24,
+    rings=(0.0, 1.2, 3.0, 5.0, 8.0),
+    far_rings=(11.0, 15.0),
+    far_angles=20,
     leader_from=3.0,
     leader=10.0,
     heavy=12.0,
 )
 """The name of a vector: along it, or at the end of a leader line from its middle."""
+
+
+ONLY_BESIDE = LabelStyle(rings=(0.0, 0.8, 1.8), far_rings=(), leader_from=8.0)
+"""The name of a short vector: beside it or nowhere."""
 
 
 class Label(Struct, frozen=True):
@@ -127,6 +131,8 @@ class Label(Struct, frozen=True):
         How it looks for its place.
     series : str
         What it is one of: the labels of a series whose points are close together stand in a column.
+    optional : bool
+        It is left out where it finds no free place, and sends no other one away.
     """
 
     inscription: Inscription
@@ -138,6 +144,7 @@ class Label(Struct, frozen=True):
     name: str = ""
     manner: LabelStyle = ALONE
     series: str = ""
+    optional: bool = False
 
 
 class Placed(Struct, frozen=True):

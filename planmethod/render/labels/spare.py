@@ -8,15 +8,11 @@ import numpy as np
 
 from planmethod.render.ink.drawing import Bounds, Item
 from planmethod.render.labels.candidates import near
-from planmethod.render.labels.model import ALONE, Label, Placed
+from planmethod.render.labels.model import Label, Placed
 from planmethod.render.labels.paper import CROSSED, ROUND_AREAS, Paper
-from planmethod.render.labels.place import place_labels
 
 NEAR = 8.0
 """Furthest middle of a label that may be left out from what it names, mm."""
-
-OUTSIDE = 6.0
-"""How far labels with a leader line may stand outside of a picture, mm."""
 
 BESIDE = 1.0
 """White on either side of a label on top of that around an area: it is not read as one with it."""
@@ -64,23 +60,3 @@ def _off(place: complex, start: complex, end: complex) -> float:
     way = end - start
     share = ((place - start) * way.conjugate()).real / max(abs(way) ** 2, 1e-12)
     return abs(place - start - way * min(1.0, max(0.0, share)))
-
-
-def led_labels(
-    labels: Sequence[Label], obstacles: Sequence[Item], bounds: Bounds
-) -> list[Placed]:
-    """Place what labels have a free place beside what they name, the others with a leader line.
-
-    Those that find none even so are left out, and those `ALONE` get no leader lines. Parameters are those of `spare_labels`, but that the
-    labels may stand outside of the bounds as far as `OUTSIDE`.
-    """
-    found = spare_labels(labels, obstacles, bounds)
-    there = {id(placed.label) for placed in found}
-    rest = [one for one in labels if one.manner is not ALONE and id(one) not in there]
-    if not rest:
-        return found
-    x0, y0, x1, y1 = bounds
-    wider = (x0 - OUTSIDE, y0 - OUTSIDE, x1 + OUTSIDE, y1 + OUTSIDE)
-    taken = [item for placed in found for item in placed.items()]
-    led = place_labels(rest, [*obstacles, *taken], wider, breaking=False)
-    return [*found, *(placed for placed in led if placed.free)]

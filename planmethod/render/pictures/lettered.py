@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from planmethod.errors import LayoutError
 from planmethod.render.ink.drawing import Fill, Item
 from planmethod.render.ink.extent import ink_bounds
-from planmethod.render.labels import BESIDE, Label, Placed, led_labels, place_labels, spare_labels
+from planmethod.render.labels import BESIDE, Label, Placed, place_labels, spare_labels
 from planmethod.render.layout.block import Picture
 
 ROOMS = (26.0, 60.0)
@@ -41,12 +41,10 @@ def lettered(
     *,
     clear: Sequence[Item] = (),
     welcome: Sequence[Label] = (),
-    names: Sequence[Label] = (),
 ) -> Picture:
     """Return a picture of items with their labels in free places around them.
 
     ``clear`` is what the labels keep clear of though it is not drawn, as long as there is room.
-    ``names`` are those of vectors, which have leader lines where there is no room beside them;
     ``welcome`` are labels that are left out where they have no free place within the picture.
     """
     left, low, right, high = ink_bounds(items)
@@ -61,12 +59,8 @@ def lettered(
             continue
         break
     whole = [*items, *(item for label in placed for item in label.items())]
-    found = list(placed)
-    for place, more in ((led_labels, names), (spare_labels, welcome)):
-        if more:
-            added = place(more, [*whole, *clear, *map(_beside, found)], ink_bounds(whole))
-            found += added
-            whole += [item for label in added for item in label.items()]
+    for label in spare_labels(welcome, [*whole, *clear, *map(_beside, placed)], ink_bounds(whole)):
+        whole += label.items()
     return Picture(tuple(whole), ink_bounds(whole))
 
 

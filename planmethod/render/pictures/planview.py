@@ -10,7 +10,7 @@ from planmethod.note.narrate.letters import shown_letters
 from planmethod.plans.model import Plan, PlanKind, Vector, VectorKind
 from planmethod.render.ink.drawing import Disc, Ink, Item, Pen, Stroke
 from planmethod.render.ink.typeset import typeset
-from planmethod.render.labels import ALONE, NAMING, NEAREST, Label
+from planmethod.render.labels import NAMING, NEAREST, ONLY_BESIDE, Label
 from planmethod.render.labels.spots import shared_spots, spot_labels
 from planmethod.render.layout.block import Picture
 from planmethod.render.pictures.ellipses import Ellipses, error_ellipses
@@ -116,7 +116,7 @@ def plan_picture(
         items.append(circle)
         labels.append(label)
     names = [] if whole else vector_names(plan, at, letter_height, prefix)
-    return lettered(items, labels, clear=ellipses.grounds, names=names, welcome=directions)
+    return lettered(items, [*labels, *names], clear=ellipses.grounds, welcome=directions)
 
 
 def vector_names(
@@ -142,7 +142,9 @@ def vector_names(
             (at[tail], at[head]),
             gap=1.2 if large else 0.9,
             name=vector_label(prefix, vector),
-            manner=NAMING if size >= named else ALONE,
+            priority=-1,
+            manner=NAMING if size >= named else ONLY_BESIDE,
+            optional=True,
         )
         for size, tail, head in sorted(sized)
         if size > _NOTHING

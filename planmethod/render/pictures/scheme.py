@@ -284,7 +284,8 @@ class Scheme(Struct):
         self.bodies += symbols.guide_plates(
             pin, angle=angle, length=length, sides=sides, factor=self.factor, pen=self.pen
         )
-        self.axis_ends.append((slide.label, start + u * low + offset, start + u * high + offset))
+        name = self.solution.problem.guide_name(slide.label)
+        self.axis_ends.append((name, start + u * low + offset, start + u * high + offset))
 
     def clearance(self, place: complex) -> float:
         """Return how far a place is from the nearest link, mm."""
