@@ -9,6 +9,7 @@ from msgspec.structs import replace
 
 from planmethod.mechanism.model import FRAME
 from planmethod.plans.model import PlanKind
+from planmethod.render.ink.drawing import Item
 from planmethod.render.ink.extent import ink_bounds
 from planmethod.render.labels import BUSY, Label, Placed, place_labels
 from planmethod.render.labels.candidates import untidiness
@@ -53,13 +54,14 @@ def series_picture(
     errors: bool = False,
     turn: bool = False,
     traces: Shown = False,
+    added: tuple[tuple[Item, ...], tuple[Label, ...]] = ((), ()),
 ) -> Picture:
     """Return the scheme in one position and others over it as a picture, mm.
 
     The positions of ``overlay`` are there in thin lines, their points lettered and numbered, in
     smaller letters where larger do not fit; the arrows of the links but the driver's, and its
     angle, are left to schemes of one position. ``turn`` draws the construction of the extreme
-    positions; ``errors`` and ``traces`` are those of `scheme_picture`.
+    positions; ``errors``, ``traces`` and ``added`` are those of `scheme_picture`.
     """
     view = SchemeView.drawn(solution, index, letter_height, traces)
     ellipses = error_ellipses(solution, PlanKind.POSITION, index) if errors else Ellipses()
@@ -68,12 +70,12 @@ def series_picture(
     fixed = solution.problem.bodies[FRAME].points
     letter_points(view, [point for point in scheme.named if point in fixed])
     letter_axes(view, positions.places())
-    others = positions.lines()
+    others = [*positions.lines(), *added[0]]
     letter_links(view, others)
     special = special_points(scheme)
     scheme.guides += special[0]
     view.labels += special[1]
-    own = [replace(label, manner=BUSY) for label in view.labels]
+    own = [replace(label, manner=BUSY) for label in (*view.labels, *added[1])]
     construction = extreme_construction(solution) if turn else None
     if construction is not None:
         lines, radii = construction_items(construction, size)
