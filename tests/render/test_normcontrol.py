@@ -77,6 +77,17 @@ def word(text: str = "слово", at: complex = AT, height: float = 5.0, **more
     return replace(Text(at, text, height), **more)
 
 
+SCHEME = View("position", BOX)
+
+
+def letters(count: int) -> list[Text]:
+    """Return letters of points in rows of five, 8 mm apart: all in a square of 33 × 25 mm."""
+    return [
+        word("B", complex(66 + 8 * (k % 5), 136 + 8 * (k // 5)), 2.5, label=f"point B {k}")
+        for k in range(count)
+    ]
+
+
 SHOWN: dict[str, tuple[Drawing, Drawing]] = {
     "PM-D01": (sheet(word(), word("Б", AT + 2)), sheet(word(), word("Б", AT - 12j))),
     "PM-D02": (
@@ -134,6 +145,18 @@ SHOWN: dict[str, tuple[Drawing, Drawing]] = {
         sheet(word("ε", 70 + 200j), word("x", 73.4 + 200j), *SCALE, views=(VIEW,)),
         sheet(word("ε", 70 + 200j), word("x", 77 + 200j), *SCALE, views=(VIEW,)),
     ),
+    "PM-D17": (
+        sheet(*letters(19), views=(SCHEME,)),
+        sheet(*letters(18), views=(SCHEME,)),
+    ),
+    "PM-D18": (
+        sheet(*SCALE, views=(replace(VIEW, spans=(replace(LONG, label="velocity 0: v"),)),)),
+        sheet(
+            *SCALE,
+            word("v", 70 + 210j, label="velocity 0: v"),
+            views=(replace(VIEW, spans=(replace(LONG, label="velocity 0: v"),)),),
+        ),
+    ),
 }
 """Of every code a sheet that shows it and one that does not."""
 
@@ -150,6 +173,27 @@ def test_letters_over_and_under_a_short_line_are_a_fraction() -> None:
     (finding,) = (one for one in found(fraction) if one.code == "PM-D16")
     assert "fraction" in finding.action("en")
     assert "PM-D16" not in codes(sheet(line, *letters, word("ω", 92 + 194.5j), views=(VIEW,)))
+
+
+@pytest.mark.parametrize(("own", "expected"), [(61 + 151j, 0), (90 + 150j, 1)])
+def test_a_letter_is_nearest_to_its_own_point(own: complex, expected: int) -> None:
+    there = (
+        word("b", 62 + 150j, 3.5, label="velocity 0: b", names=own),
+        word("c", 75 + 170j, 3.5, label="velocity 0: c", names=74 + 169j),
+        word("d", 68 + 143j, 3.5, label="velocity 0: d", names=66.5 + 149j),
+    )
+    marked = codes(sheet(*there, *SCALE, views=(VIEW,)))
+    assert marked == ["PM-D14"] * expected
+
+
+@pytest.mark.parametrize(("far", "off", "marked"), [(24.5, 3, 1), (23.5, 3, 0), (24.5, 8, 0)])
+def test_a_long_leader_does_not_end_at_another_point(far: float, off: float, marked: int) -> None:
+    other = word("c", 99 + 170j, 3.5, label="velocity 0: c", names=61 + far + 148j - 1j * off)
+    leader = Stroke((84 + 160j, 98 + 169j), Pen.THIN, tag="leader of velocity 0: c")
+    line = Stroke((60 + 150j, 60 + far + 150j), Pen.THIN, tag="leader of velocity 0: b")
+    letter = word("b", 61 + far + 148j, 3.5, label="velocity 0: b", names=60 + 150j)
+    items = (line, letter, leader, other, *SCALE)
+    assert codes(sheet(*items, views=(VIEW,))) == ["PM-D14"] * marked
 
 
 def test_every_code_is_shown() -> None:

@@ -55,6 +55,8 @@ REMARKS: Mapping[str, Remark] = MappingProxyType(
         "PM-D14": Remark(_WARNING, "mm"),
         "PM-D15": Remark(_WARNING, "mm"),
         "PM-D16": Remark(_WARNING, "mm"),
+        "PM-D17": Remark(_WARNING, ""),
+        "PM-D18": Remark(_WARNING, "%"),
     }
 )
 """Every code."""

@@ -10,7 +10,7 @@ To the codes of `planmethod.render.control.texts`, which looks at texts, it adds
 ``PM-D12``  a dashed line is too short to show its pattern
 ``PM-D13``  lines or inscriptions run into the title block or graph 26
 
-and those of `planmethod.render.control.misleading`.
+and those of `planmethod.render.control.misleading` and `planmethod.render.control.crowded`.
 """
 
 from __future__ import annotations
@@ -21,6 +21,7 @@ from math import tau
 
 from msgspec.structs import replace
 
+from planmethod.render.control.crowded import crowded, unnamed
 from planmethod.render.control.misleading import holds, misleading
 from planmethod.render.control.remarks import Facts, Finding
 from planmethod.render.control.texts import beyond, lint, writings_of
@@ -77,6 +78,7 @@ def _inspected(drawing: Drawing) -> list[Finding]:
         drawing.width - FRAME_OTHER,
         drawing.height - FRAME_OTHER,
     )
+    writings = writings_of(drawing.items)
     findings = [
         *(_attributed(finding, drawing.views, inner) for finding in lint(drawing.items, inner)),
         *lines_outside(drawing.items, drawing.views, inner),
@@ -87,8 +89,10 @@ def _inspected(drawing: Drawing) -> list[Finding]:
         *(_attributed(finding, drawing.views, inner) for finding in dashes_unseen(drawing.items)),
         *(
             _attributed(finding, drawing.views, inner)
-            for finding in misleading(drawing.items, writings_of(drawing.items), drawing.views)
+            for finding in misleading(drawing.items, writings, drawing.views)
         ),
+        *crowded(writings, drawing.views),
+        *unnamed(writings, drawing.views),
     ]
     return sorted(findings, key=lambda finding: finding.code)
 

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from msgspec import Struct
+from msgspec.structs import replace
 
-from planmethod.render.ink.drawing import Bounds, Fill, Ink, Item, Pen, Stroke
+from planmethod.render.ink.drawing import Bounds, Fill, Ink, Item, Pen, Stroke, Text
 from planmethod.render.ink.typeset import Inscription, typeset
 
 CLEAR = 0.7  # white between a label and a line, mm
@@ -86,17 +87,17 @@ NEAREST = LabelStyle(
     rings=(0.0, 1.0, 2.2, 4.0, 6.5, 9.5),
     far_rings=(12.0, 15.0, 19.0),
     far_angles=24,
-    leader_from=4.5,
+    leader_from=1.8,
     leader=12.0,
-    stranger=30.0,
+    stranger=60.0,
     heavy=25.0,
 )
 """The letter of a point among others near it: nearer to its own, a leader line soon."""
 
 NAMING = LabelStyle(
     rings=(0.0, 1.2, 3.0, 5.0, 8.0),
-    far_rings=(11.0, 15.0),
-    far_angles=20,
+    far_rings=(11.0, 15.0, 20.0),
+    far_angles=24,
     leader_from=3.0,
     leader=10.0,
     heavy=12.0,
@@ -168,6 +169,9 @@ class Placed(Struct, frozen=True):
     def items(self) -> list[Item]:
         """Return the letters, the leader line and the white under the letters."""
         items = self.label.inscription.at(self.at, label=self.label.name)
+        if self.label.along is None:
+            named = self.label.anchor
+            items = [replace(i, names=named) if isinstance(i, Text) else i for i in items]
         if self.ground:
             x0, y0, x1, y1 = self.bounds
             low, high = (

@@ -59,8 +59,8 @@ def place_labels(
     Returns
     -------
     list of Placed
-        In the order of ``labels``, without the optional ones that found no free place. Where there is no room at all a label overlaps or leaves the
-        bounds, and is not ``free``.
+        In the order of ``labels``, without the optional ones that found no free place. Where there
+        is no room at all a label overlaps or leaves the bounds, and is not ``free``.
     """
     return list(_placed(tuple(labels), tuple(obstacles), bounds, breaking=breaking))
 

@@ -221,7 +221,12 @@ class Senses(Struct):
         drawn = [
             Stroke((centre, end), Pen.THIN, tag="phi"),
             *turn_arrow(
-                centre, radius, 1 if phi > 0 else -1, middle=phi / 2, sweep=abs(phi), length=2.5,
+                centre,
+                radius,
+                1 if phi > 0 else -1,
+                middle=phi / 2,
+                sweep=abs(phi),
+                length=2.5,
                 tag="phi",
             ),
         ]
@@ -245,7 +250,7 @@ class Senses(Struct):
 
 
 def _swept(phi: float) -> float:
-    """Return the angle that an arc shows: a negative one within half a turn is laid off clockwise."""
+    """Return the angle of an arc: a negative one within half a turn is laid off clockwise."""
     return phi if -180.0 < phi < 0.0 else phi % 360.0
 
 

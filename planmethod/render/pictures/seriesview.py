@@ -102,9 +102,7 @@ def series_picture(
     return Picture(tuple(whole), ink_bounds(whole))
 
 
-def _thinned(
-    positions: Positions, own: Sequence[Label], height: float, every: int
-) -> Thinned:
+def _thinned(positions: Positions, own: Sequence[Label], height: float, every: int) -> Thinned:
     """Return how far the letters of the positions are thinned, so that their area bears them."""
     there = [label.anchor for label in own]
     for thinned in Thinned:
