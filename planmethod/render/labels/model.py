@@ -42,6 +42,8 @@ class LabelStyle(Struct, frozen=True):
         White between it and another one side by side: nearer they would read as one.
     heavy : float
         Distance that a thick line between it and what it names is as bad as.
+    slanted : bool
+        Its leader line is never level: between letters it would read as the bar of a fraction.
     """
 
     rings: tuple[float, ...] = (0.0, 1.2, 3.0, 5.5, 9.0)
@@ -54,6 +56,7 @@ class LabelStyle(Struct, frozen=True):
     stranger: float = 0.0
     beside: float = 2.0
     heavy: float = 7.0
+    slanted: bool = False
 
 
 ALONE = LabelStyle()
@@ -91,6 +94,7 @@ NEAREST = LabelStyle(
     leader=12.0,
     stranger=60.0,
     heavy=25.0,
+    slanted=True,
 )
 """The letter of a point among others near it: nearer to its own, a leader line soon."""
 
@@ -101,6 +105,7 @@ NAMING = LabelStyle(
     leader_from=3.0,
     leader=10.0,
     heavy=12.0,
+    slanted=True,
 )
 """The name of a vector: along it, or at the end of a leader line from its middle."""
 
