@@ -87,9 +87,9 @@ CROWDED = LabelStyle(
 
 
 NEAREST = LabelStyle(
-    rings=(0.0, 1.0, 2.2, 4.0, 6.5, 9.5),
-    far_rings=(12.0, 15.0, 19.0),
-    far_angles=24,
+    rings=(0.0, 1.2, 3.0, 6.0),
+    far_rings=(9.5, 14.0, 19.0),
+    far_angles=16,
     leader_from=1.8,
     leader=12.0,
     stranger=60.0,
@@ -99,19 +99,15 @@ NEAREST = LabelStyle(
 """The letter of a point among others near it: nearer to its own, a leader line soon."""
 
 NAMING = LabelStyle(
-    rings=(0.0, 1.2, 3.0, 5.0, 8.0),
-    far_rings=(11.0, 15.0, 20.0),
-    far_angles=24,
+    rings=(0.0, 1.5, 4.0),
+    far_rings=(9.0, 13.0, 18.0),
+    far_angles=16,
     leader_from=3.0,
     leader=10.0,
     heavy=12.0,
     slanted=True,
 )
 """The name of a vector: along it, or at the end of a leader line from its middle."""
-
-
-ONLY_BESIDE = LabelStyle(rings=(0.0, 0.8, 1.8), far_rings=(), leader_from=8.0)
-"""The name of a short vector: beside it or nowhere."""
 
 
 class Label(Struct, frozen=True):

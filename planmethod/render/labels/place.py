@@ -196,8 +196,6 @@ class _Places:
         # One of a crowd looks further before its leader line crosses others, but rather breaks a
         # line than stands at the other end of the drawing.
         alone = self.labels[k].manner is ALONE
-        if not self.labels[k].manner.far_rings:
-            return best
         for number in (1, 2) if alone else (1,):
             if best.cost < (CROSSED if alone else _FAR_IF):
                 break
@@ -373,6 +371,6 @@ class _Places:
             label,
             complex(x0, y0 + label.inscription.descent),
             leader,
-            free=not taken.ground and self._cost(k) < CROSSED,
+            free=label.optional or (not taken.ground and self._cost(k) < CROSSED),
             ground=taken.ground,
         )

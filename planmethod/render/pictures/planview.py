@@ -10,7 +10,7 @@ from planmethod.note.narrate.letters import shown_letters
 from planmethod.plans.model import Plan, PlanKind, Vector, VectorKind
 from planmethod.render.ink.drawing import Disc, Ink, Item, Pen, Stroke
 from planmethod.render.ink.typeset import typeset
-from planmethod.render.labels import NAMING, NEAREST, ONLY_BESIDE, Label
+from planmethod.render.labels import NAMING, NEAREST, Label
 from planmethod.render.labels.spots import shared_spots, spot_labels
 from planmethod.render.layout.block import Picture
 from planmethod.render.pictures.ellipses import Ellipses, error_ellipses
@@ -28,10 +28,8 @@ NAMES, SMALL_NAMES = 3.5, 2.5
 """Height of the names of vectors, and on plans of several positions, mm."""
 
 NAMED, SMALL_NAMED = 5.0, 8.0
-"""Length from which a vector has its name in any case, and on a plan of several positions, mm:
-shorter ones only where there is room beside them."""
-
-_NOTHING = 0.5  # mm: a shorter vector is a point
+"""Length from which a vector has a name, and on a plan of several positions, mm: shorter ones are
+told by the letters of their ends."""
 
 COMPONENTS = (VectorKind.NORMAL, VectorKind.TANGENTIAL, VectorKind.CORIOLIS)
 
@@ -143,11 +141,11 @@ def vector_names(
             gap=1.2 if large else 0.9,
             name=vector_label(prefix, vector),
             priority=-1,
-            manner=NAMING if size >= named else ONLY_BESIDE,
+            manner=NAMING,
             optional=True,
         )
         for size, tail, head in sorted(sized)
-        if size > _NOTHING
+        if size >= named
         for vector in (ends[tail, head],)
     ]
 
