@@ -18,7 +18,7 @@ from planmethod.render.ink.typeset import typeset
 from planmethod.render.labels import Label, segment_label
 from planmethod.render.pictures.lettered import refuse_long
 from planmethod.render.pictures.supports import Support, free_sides, stand
-from planmethod.render.pictures.welds import Block, welded
+from planmethod.render.pictures.welds import BlockOutline, welded
 from planmethod.render.symbols import SIZES
 from planmethod.render.symbols.axes import axis_line
 from planmethod.solved.solution import Solution
@@ -68,7 +68,7 @@ class Scheme(Struct):
     segments: dict[str, list[tuple[complex, complex]]] = field(default_factory=dict)
     axis_ends: list[tuple[str, complex, complex]] = field(default_factory=list)
     supports: list[Support] = field(default_factory=list)
-    blocks: list[Block] = field(default_factory=list)
+    blocks: list[BlockOutline] = field(default_factory=list)
 
     @property
     def factor(self) -> float:
@@ -224,21 +224,21 @@ class Scheme(Struct):
             )
             if ((far - reach) * symbols.unit(block - pin).conjugate()).real < 0:
                 self.bar(slide.slider, far, reach)
-            self._put(Block(block, u, *self._sized(SIZES.slider_length, SIZES.slider_width)))
+            self._put(BlockOutline(block, u, *self._sized(SIZES.slider_length, SIZES.slider_width)))
             if abs(block - base) > 0.2:
                 self.bar(slide.host, block, base)
                 self._weld(slide.host)
             return
         if slide.host == FRAME:
             self._frame_guide(slide, u)
-            self._put(Block(pin, u, *self._sized(SIZES.slider_length, SIZES.slider_width)))
+            self._put(BlockOutline(pin, u, *self._sized(SIZES.slider_length, SIZES.slider_width)))
             self._weld(slide.slider)
             return
         foot = self.foot(slide)
         # A stone on another block is smaller, so that both are seen.
-        block = Block(foot, u, *self._sized(*symbols.stone_size()))
+        block = BlockOutline(foot, u, *self._sized(*symbols.stone_size()))
         inside = any(one.covers(block) for one in self.blocks)
-        self._put(Block(foot, u, *self._sized(*symbols.stone_size(inside=inside))))
+        self._put(BlockOutline(foot, u, *self._sized(*symbols.stone_size(inside=inside))))
         self.bodies.append(Stroke(self.blocks[-1].axis, self.pen))
         if abs(foot - pin) > 0.2:
             self.bar(slide.slider, foot, pin)
@@ -247,7 +247,7 @@ class Scheme(Struct):
     def _sized(self, length: float, width: float) -> tuple[float, float]:
         return length * self.factor, width * self.factor
 
-    def _put(self, block: Block) -> None:
+    def _put(self, block: BlockOutline) -> None:
         """Draw a block, white inside: over the guides, but over no other block."""
         fill, outline = symbols.slider(
             block.middle, angle=symbols.angle_of(block.along),

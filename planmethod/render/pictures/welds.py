@@ -15,7 +15,7 @@ from planmethod.render.symbols import SIZES, unit
 _LEAST = 0.5  # mm: a shorter piece of a rod beyond the edge of its block is none
 
 
-class Block(Struct, frozen=True):
+class BlockOutline(Struct, frozen=True):
     """Outline of a slider or stone on the paper: its middle, direction and sizes, mm."""
 
     middle: complex
@@ -36,14 +36,14 @@ class Block(Struct, frozen=True):
         half = self.along * self.length / 2
         return self.middle - half, self.middle + half
 
-    def covers(self, other: Block) -> bool:
+    def covers(self, other: BlockOutline) -> bool:
         """Tell whether the middle of another block lies within this one."""
         way = (other.middle - self.middle) * self.along.conjugate()
         return abs(way.real) < self.length / 2 and abs(way.imag) < self.width / 2
 
 
 def welded(
-    lines: Sequence[Item], tag: str, block: Block, factor: float
+    lines: Sequence[Item], tag: str, block: BlockOutline, factor: float
 ) -> tuple[list[Item], list[Item]]:
     """Return lines whose rods of one link end at the edge of its block, and the welds there.
 
@@ -79,7 +79,7 @@ def welded(
     return left, welds
 
 
-def _wedges(block: Block, at: complex, away: complex, factor: float) -> list[Item]:
+def _wedges(block: BlockOutline, at: complex, away: complex, factor: float) -> list[Item]:
     """Return the two filled wedges between a rod and the edge that it leaves."""
     way = (at - block.middle) * block.along.conjugate()
     beyond = abs(way.real) / block.length - abs(way.imag) / block.width

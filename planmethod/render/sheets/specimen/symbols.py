@@ -10,9 +10,10 @@ from planmethod.note.wording import Language
 from planmethod.render import symbols
 from planmethod.render.frame.frame import sheet_frame
 from planmethod.render.frame.furniture import Furniture
-from planmethod.render.ink.drawing import Bounds, Drawing, Item
+from planmethod.render.ink.drawing import Bounds, Drawing, Item, Stroke
 from planmethod.render.ink.style import ARROW
 from planmethod.render.layout.block import Column, heading, paragraph
+from planmethod.render.pictures.welds import BlockOutline, welded
 from planmethod.render.sheets.specimen.cells import Clause, SymbolCell, drawn_grid, letter, scheme
 from planmethod.render.sheets.specimen.wheels import GEARS, wheel_cells
 from planmethod.render.symbols import SIZES
@@ -227,6 +228,29 @@ def _sliders() -> Iterator[SymbolCell]:
             symbols.offset_slider(0j, pin),
         ),
         (letter("E", pin, 1j), letter("5", -5 + 4j, 1j, gap=1.5)),
+    )
+    edge = SIZES.slider_length / 2
+    block = BlockOutline(0j, 1 + 0j, SIZES.slider_length, SIZES.slider_width)
+    bars, welds = welded([Stroke((0j, 34 + 0j), tag="link 3")], "link 3", block, 1.0)
+    yield SymbolCell(
+        "slider_welded",
+        None,
+        scheme(
+            *axis_line(-edge, -29),
+            symbols.guide_plates(0j, length=24),
+            symbols.slider(0j),
+            bars,
+            welds,
+            symbols.link(way(215, 24), 0j, tag="link 2"),
+            symbols.revolute(0j),
+            symbols.mass_centre(20 + 0j),
+        ),
+        (
+            letter("B", 0j, 1j, gap=7),
+            letter("3", 28 + 0j, 1j, gap=1.5),
+            letter("S_{3}", 20 + 0j, 1j, gap=2.4),
+            letter("2", way(215, 18), -1 + 1j, gap=1.5),
+        ),
     )
     turn = 35.0
     bar = (way(turn, -16), way(turn, 30))
