@@ -236,8 +236,8 @@ class Scheme(Struct):
             return
         foot = self.foot(slide)
         # A stone on another block is smaller, so that both are seen.
-        block = BlockOutline(foot, u, *self._sized(*symbols.stone_size()))
-        inside = any(one.covers(block) for one in self.blocks)
+        whole = BlockOutline(foot, u, *self._sized(*symbols.stone_size()))
+        inside = any(one.covers(whole) for one in self.blocks)
         self._put(BlockOutline(foot, u, *self._sized(*symbols.stone_size(inside=inside))))
         self.bodies.append(Stroke(self.blocks[-1].axis, self.pen))
         if abs(foot - pin) > 0.2:

@@ -217,39 +217,28 @@ def _sliders() -> Iterator[SymbolCell]:
         ),
         (letter("E", -5 + 0j, 1j, gap=7),),
     )
-    pin = 9j
+    # An arm to a hinge and a rod, both in one piece with the slider, and a centre of mass.
+    pin, tag = 9j, "link 5"
+    block = BlockOutline(0j, 1 + 0j, SIZES.slider_length, SIZES.slider_width)
+    rods = [Stroke((0j, end), tag=tag) for end in (pin, 29 + 0j)]
+    bars, welds = welded(rods, tag, block, 1.0)
     yield SymbolCell(
         "slider_offset",
         None,
         scheme(
-            *axis,
-            symbols.guide_line(0j, before=13, after=13),
+            axis[0],
+            symbols.guide_line(0j, before=13, after=8),
             symbols.link(pin + way(20, 28), pin, tag="link 4"),
-            symbols.offset_slider(0j, pin),
-        ),
-        (letter("E", pin, 1j), letter("5", -5 + 4j, 1j, gap=1.5)),
-    )
-    edge = SIZES.slider_length / 2
-    block = BlockOutline(0j, 1 + 0j, SIZES.slider_length, SIZES.slider_width)
-    bars, welds = welded([Stroke((0j, 34 + 0j), tag="link 3")], "link 3", block, 1.0)
-    yield SymbolCell(
-        "slider_welded",
-        None,
-        scheme(
-            *axis_line(-edge, -29),
-            symbols.guide_plates(0j, length=24),
             symbols.slider(0j),
             bars,
             welds,
-            symbols.link(way(215, 24), 0j, tag="link 2"),
-            symbols.revolute(0j),
-            symbols.mass_centre(20 + 0j),
+            symbols.revolute(pin),
+            symbols.mass_centre(18 + 0j),
         ),
         (
-            letter("B", 0j, 1j, gap=7),
-            letter("3", 28 + 0j, 1j, gap=1.5),
-            letter("S_{3}", 20 + 0j, 1j, gap=2.4),
-            letter("2", way(215, 18), -1 + 1j, gap=1.5),
+            letter("E", pin, 1j),
+            letter("5", -5 + 4j, 1j, gap=1.5),
+            letter("S_{5}", 18 + 0j, -1j, gap=2.4),
         ),
     )
     turn = 35.0
