@@ -1,7 +1,7 @@
 """How the letters of sheets stand (расстановка букв): nearest to their own points, not too many.
 
-Run ``python -m benchmarks.letters [EVERY]``: of the shipped linkages every so manieth, the sixth when
-absent, in 1 and 12 positions; it prints the lines of docs/paper.md.
+Run ``python -m benchmarks.letters [EVERY]``: of the shipped linkages every so manieth, the sixth
+when absent, in 1 and 12 positions; it prints the lines of docs/paper.md.
 """
 
 from __future__ import annotations
@@ -45,8 +45,8 @@ def measured(every: int, count: int) -> str:
                 )
                 per_area.append(len(inside) * 1e4 / ((right - left) * (high - low)))
     return (
-        f"- Of {count}: {100 * fmean(near):.1f} % of {len(near)} letters of points are nearest to their "
-        f"own; schemes have {fmean(per_area):.0f} letters per dm², {max(per_area):.0f} at most, and at "
+        f"- Of {count}: {100 * fmean(near):.1f} % of {len(near)} letters of points are nearest "
+        f"to their own; schemes have {fmean(per_area):.0f} a dm², {max(per_area):.0f} at most; at "
         f"most {max(dense)} in a square of {SIDE:.0f} mm; {len(dense)} schemes."
     )
 
