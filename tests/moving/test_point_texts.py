@@ -50,6 +50,7 @@ def number(text: str) -> float:
 
 def value_of(formula: str, names: dict[str, float] | None = None) -> float:
     """Return what a formula gives, of numbers or of letters."""
+    formula = formula.replace("a^{n}", "a_{n}")  # a letter, no power
     text = re.sub(r"\^\{([^{}]+)\}", r"**\1", inlined(formula)).replace("·", "*").replace("−", "-")
     text = re.sub(r"√(\([^√]*\))", r"(\1)**0.5", text)
     text = re.sub(r"\|([^|]*)\|", r"abs(\1)", text)
@@ -70,7 +71,7 @@ def test_formulas_of_a_moment_give_their_results_in_letters_and_in_numbers(name:
     value = {key: float(column[0]) for key, column in motion.columns.items()}
     letters = {"v": value["v"], "v_{x}": value["vx"], "v_{y}": value["vy"]}
     letters |= {"a": value["a"], "a_{x}": value["ax"], "a_{y}": value["ay"]}
-    letters |= {"a^{n}": value["a_normal"]}
+    letters |= {"a_{n}": value["a_normal"]}
     seen = set()
     for line in moment_texts(problem, motion):
         symbol, *middle, last = line.split(" = ")
