@@ -93,7 +93,7 @@ class Filled:
         per cent: what stands out as an empty corner (PM-D10).
     inked : float
         Share of the squares of 5 mm of the field that have ink, of the emptiest sheet, per cent
-        (PM-D20).
+        (PM-D19).
     aligned : float
         Share of the blocks that have their left edge or their upper line in common with another
         block of the sheet, or with the title block, per cent.

@@ -16,8 +16,9 @@ from planmethod.check.questions import Question, Sign
 from planmethod.check.sheet import Sheet, scalar, sense_of
 from planmethod.check.task import Task, TaskItem
 from planmethod.check.tolerance import Tolerance, limit_of
-from planmethod.plans.model import FACTS, PlanKind
+from planmethod.plans.model import FACTS, RATES, PlanKind
 from planmethod.problem.head import KindProblem
+from planmethod.problem.model import Problem
 from planmethod.solved.solution import Solution
 
 
@@ -168,7 +169,7 @@ def entry_of(
     return KeyEntry(
         id=item.name,
         label=item.label or item.name,
-        symbol=rich(item.label) if letters else question.symbol,
+        symbol=drawn_symbol(task, question) or (rich(item.label) if letters else question.symbol),
         unit=question.unit,
         exact=abs(limit.exact) if question.sign is Sign.SIZE else limit.exact,
         sigma=limit.sigma,
@@ -188,6 +189,19 @@ def entry_of(
         per=item.per(sheet.scales),
         what=what_of(question),
     )
+
+
+def drawn_symbol(task: Task, question: Question) -> str:
+    """Return the symbol of the vector that a quantity is, as the sheet names it; else nothing.
+
+    The letters of a department, ``v_B3B2``, may be others: works are read with both.
+    """
+    if question.ends is None or question.plan not in RATES or question.sign is not Sign.SIZE:
+        return ""
+    if question.is_mm or not isinstance(task.problem, Problem):
+        return ""
+    vectors = task.solution.construction.plan(question.plan).vectors
+    return next((v.symbol for v in vectors if (v.tail, v.head) == question.ends), "")
 
 
 def what_of(question: Question) -> str:

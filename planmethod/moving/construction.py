@@ -175,15 +175,15 @@ def construct(
             tangent = b.parallel(origin, b.join(pole, head))
             foot = b.meet_lines("n", tangent, b.perpendicular(at, tangent))
             along = b.measure_along("πn", origin, foot, tangent)
-            results["a_tangential"] = draft.result("a_tangential", "a_{τ}", "a", along)
+            results["a_tangential"] = draft.result("a_tangential", "a^{τ}", "a", along)
             across = b.measure("na", foot, at)
-            results["a_normal"] = draft.result("a_normal", "a_{n}", "a", across)
+            results["a_normal"] = draft.result("a_normal", "a^{n}", "a", across)
             powers = ((results["v"], 2), (results["a_normal"], -1))
             results["rho"] = b.compute("rho", *powers)
             draft.letters |= {"rho": "ρ", "n": "n", "πn": "πn", "na": "na"}
             draft.vectors += [
                 ConstructionVector(symbol, tail, tip, "a")
-                for symbol, tail, tip in (("a_{τ}", origin, foot), ("a_{n}", foot, at))
+                for symbol, tail, tip in (("a^{τ}", origin, foot), ("a^{n}", foot, at))
                 if problem.law is not Law.NATURAL
             ]
     found = tuple(draft.vectors)
@@ -238,7 +238,7 @@ def _acceleration_parts(
         case Law.NATURAL:
             turn = _heading(problem, value)
             unit = np.exp(-1j * turn) * complex(value["ax"], value["ay"])
-            parts = [("a_{τ}", float(unit.real), False), ("a_{n}", float(unit.imag), True)]
+            parts = [("a^{τ}", float(unit.real), False), ("a^{n}", float(unit.imag), True)]
             return [("angle of a", degrees(turn), parts)]
         case Law.ROLLING:
             wheel = problem.wheel

@@ -210,7 +210,7 @@ def _vectors_at(
     if (
         parts and min(abs(along), abs(a - along)) > _LEAST * scales["a"].per_mm
     ):  # else it is the whole
-        wanted += [("a_{τ}", "a", along, False), ("a_{n}", "a", a - along, False)]
+        wanted += [("a^{τ}", "a", along, False), ("a^{n}", "a", a - along, False)]
     items: list[Item] = []
     labels: list[Label] = []
     for symbol, plan, vector, is_whole in wanted:

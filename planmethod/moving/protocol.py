@@ -194,7 +194,7 @@ class PointNarrator(StepNarrator):
             if not np.isfinite(found):
                 return []
             v, a = (self._put(self._number(name)) for name, _ in step.powers)
-            sought = f"{fraction('v^{2}', 'a_{n}')} = {fraction(f'{v}^{{2}}', a)}"
+            sought = f"{fraction('v^{2}', 'a^{n}')} = {fraction(f'{v}^{{2}}', a)}"
             return [f"{symbol} = {sought} = {value}."]
         plan = "v" if column == "v" else "a"
         mm, segment = self._number(length), self.built.letters[length]

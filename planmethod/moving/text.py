@@ -191,7 +191,7 @@ def moment(
             yield line(f"a_{name}", *sides)
     if why is None:
         square = fraction(f"{put('v')}^{{2}}", put("a_normal"))
-        yield line("rho", fraction("v^{2}", "a_{n}"), square)
+        yield line("rho", fraction("v^{2}", "a^{n}"), square)
     else:
         yield Note(words.point["reasons"][why.value])
 

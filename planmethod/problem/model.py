@@ -6,6 +6,7 @@ then quadrants stay exact; the arithmetic of a reading turns them into direction
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
 from enum import Enum
 from math import inf
@@ -419,6 +420,10 @@ class Scales(Struct, frozen=True):
         return self.convention is Convention.MM_PER_UNIT
 
 
+_PAIR = re.compile(r"(.+)[-–]\1")
+"""The form of a guide's name that a reader knows."""
+
+
 class Problem(KindProblem, frozen=True, kw_only=True):
     """Task as read (задача).
 
@@ -498,6 +503,40 @@ class Problem(KindProblem, frozen=True, kw_only=True):
             return None
         whole = (position - self.numbered[0]) / (self.numbered[1] - self.numbered[0])
         return whole % len(self.numbered)
+
+    def guide_name(self, label: str) -> str:
+        """Return how documents call a guide of the frame: ``x-x``, ``y-y`` (направляющая).
+
+        A name of that form is the reader's already. Another one, ``g5``, is a key of the file: the
+        guide takes the first pair of letters that is free, ``y-y`` first where it is upright.
+        """
+        if label not in self.guides or _PAIR.fullmatch(label):
+            return label
+        taken = [name for name in self.guides if _PAIR.fullmatch(name)]
+        for name, (_, _, angle) in self.guides.items():
+            if name in taken or _PAIR.fullmatch(name):
+                continue
+            letters = "yxzuw" if angle % 180.0 == 90.0 else "xyzuw"
+            pairs = (f"{one}{n}-{one}{n}" for n in ("", *range(1, 99)) for one in letters)
+            taken.append(next(pair for pair in pairs if pair not in taken))
+            if name == label:
+                break
+        return taken[-1]
+
+    @property
+    def centres(self) -> frozenset[str]:
+        """Centres of mass: those of [dynamics], and points S, S1, S2 ... that are no joints."""
+        masses = self.dynamics.masses.values() if self.dynamics is not None else ()
+        joints = {joint.point for joint in self.mechanism.revolutes}
+        joints |= {slide.pin for slide in self.slides.values()}
+        named = {
+            point
+            for body in self.bodies.values()
+            for point in body.points
+            if point[0] == "S" and (point[1:].isdigit() or not point[1:])
+        }
+        found = {mass.centre for mass in masses if mass.centre is not None} | named
+        return frozenset(found - joints - {*self.bodies[FRAME].points})
 
     def is_block(self, slide: Slide) -> bool:
         """Tell whether the host of a slide is a block through which the slider, a bar, passes."""

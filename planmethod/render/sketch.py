@@ -102,15 +102,17 @@ def _fits(solution: Solution) -> bool:
 
 def assigned(solution: Solution) -> Drawing:
     """Return the scheme with its loads as an assignment has it: without what is asked."""
-    marks, several = _Marks(), tuple(range(len(solution.positions)))
-    if several == (0,):
-        shown = scheme_picture(solution, 0, given=True)
-    else:
-        shown = series_picture(solution, 0, several)
+    marks = _Marks()
     _mark_loads(marks, solution)
-    if marks.items or marks.labels:
-        shown = lettered([*shown.items, *marks.items], marks.labels)
-    return _set("", [shown])
+    return _set("", [_marked(solution, marks, given=True)])
+
+
+def _marked(solution: Solution, marks: _Marks, *, given: bool = False) -> Picture:
+    """Return the scheme and what is drawn over it, all letters placed at once."""
+    added, several = (tuple(marks.items), tuple(marks.labels)), range(len(solution.positions))
+    if len(several) == 1:
+        return scheme_picture(solution, 0, given=given, added=added)
+    return series_picture(solution, 0, tuple(several), added=added)
 
 
 def notice(text: str) -> Drawing:
@@ -130,8 +132,6 @@ def _scheme(part: MechanismPart, words: Language) -> tuple[Picture, list[str]]:
     solution = part.solution
     assert solution is not None
     marks = _Marks()
-    several = tuple(range(len(solution.positions)))
-    shown = scheme_picture(solution, 0) if several == (0,) else series_picture(solution, 0, several)
     facts = [_scale(solution.scales[PlanKind.POSITION], solution.problem.scales.convention, words)]
     places = {name: _at(solution, name) for name in _points(solution)}
     joined = {joint.point for joint in solution.problem.mechanism.revolutes}
@@ -147,9 +147,7 @@ def _scheme(part: MechanismPart, words: Language) -> tuple[Picture, list[str]]:
         fact = range_fact(turn, words)
         facts.append(fact[:1].upper() + fact[1:])
         _mark_range(marks, turn, words)
-    if not marks.items and not marks.labels:
-        return shown, facts
-    return lettered([*shown.items, *marks.items], marks.labels), facts
+    return _marked(solution, marks), facts
 
 
 def _ways(part: MechanismPart, words: Language) -> tuple[Block, list[str]]:

@@ -14,10 +14,11 @@ from planmethod.problem import loads
 from planmethod.render.control.texts import lint, writings_of
 from planmethod.render.ink.drawing import Arc, Disc, Fill, Item, Pen, Stroke, Text
 from planmethod.render.labels import UNDER_LABEL
+from planmethod.render.labels.crowd import CROWD, densest
 from planmethod.render.layout.block import Picture
 from planmethod.render.pictures.extremes import STROKE
 from planmethod.render.pictures.paths import TRAJECTORY, Paths
-from planmethod.render.pictures.positions import PRIMES, Positions, written
+from planmethod.render.pictures.positions import PRIMES, Positions, Thinned, written
 from planmethod.render.pictures.seriesview import series_picture
 from planmethod.render.sheets.kinematics import kinematics_sheets
 from planmethod.solved.clearest import clearest_position
@@ -65,14 +66,25 @@ def test_no_label_of_twelve_positions_is_in_the_way(name: str) -> None:
 
 @pytest.mark.parametrize("name", SIX)
 def test_every_point_has_its_letter_in_every_position(name: str) -> None:
-    """As many labels as points times positions, less those that one place has in common."""
+    """As many labels as points times positions, less those that one place has in common.
+
+    Where they are too many for their area only every third and the bold one are left, and of a
+    centre of mass the bold one.
+    """
     positions = positions_of(name)
+    third = {str(positions.bold), *map(str, TWELVE[::3])}
     labels = [w.name for w in writings_of(drawn(name).items)]
     for point in positions.points:
         own = [
             label.removeprefix(f"point {point} ") for label in labels if f"point {point} " in label
         ]
         numbers = [number for label in own for number in label.split(",")]
+        left = {number for number in numbers if number not in PRIMES}
+        if point in positions.solution.problem.centres and left != {*map(str, TWELVE)}:
+            assert left == {str(positions.bold)}
+            continue
+        if left == third:
+            continue
         assert sorted(n for n in numbers if n not in PRIMES) == sorted(map(str, TWELVE))
         places = np.asarray([positions.at(point, k) for k in TWELVE])
         apart = np.abs(places[:, None] - places[None, :])
@@ -115,6 +127,39 @@ def test_leader_lines_do_not_cross_their_neighbours(name: str) -> None:
     crossed = sum(one.crosses(two) for one, two in combinations(leaders, 2))
     # Thirteen places of two points lie within 25 mm in the six-link mechanism.
     assert crossed <= (0.2 if name == "levers/six-link" else 0.07) * len(leaders)
+
+
+def test_letters_are_thinned_step_by_step() -> None:
+    """Centres of mass first, then every third of the others; what is in full and extreme stays."""
+    positions = positions_of("levers/task12")
+    count = [len(positions.labels(2.5, thinned=thinned)) for thinned in Thinned]
+    assert count == sorted(count, reverse=True) and count[0] > count[-1]
+    for thinned in Thinned:
+        named = [label.name for label in positions.labels(2.5, thinned=thinned)]
+        for point in positions.points:
+            own = [name for name in named if name.startswith(f"point {point} ")]
+            assert any(str(positions.bold) in name.split(" ")[2].split(",") for name in own)
+        assert any("′" in name for name in named)
+        if thinned >= Thinned.CENTRES:
+            centres = [n for n in named if n.split(" ")[1] in positions.solution.problem.centres]
+            assert len(centres) == len({n.split(" ")[1] for n in centres})
+
+
+@pytest.mark.parametrize("name", SIX)
+def test_no_part_of_a_scheme_is_overfull(name: str) -> None:
+    writings = [w for w in writings_of(drawn(name).items) if w.name.startswith("point ")]
+    count, _ = densest([complex(w.ink.centroid.x, w.ink.centroid.y) for w in writings])
+    assert count <= CROWD + 4
+
+
+def test_a_point_that_stays_has_its_letter_once() -> None:
+    assert written("P", []) == "P"
+
+
+def test_the_densest_square_is_found() -> None:
+    row = [complex(10 * k, 0) for k in range(20)]
+    assert densest(row)[0] == 5 and densest([]) == (0, 0j)
+    assert densest([*row, 100 + 1j, 101 + 1j])[0] == 7
 
 
 def test_the_same_again() -> None:
@@ -255,6 +300,8 @@ def test_every_place_is_marked(name: str) -> None:
     rounds = (i for i in drawn(name).items if isinstance(i, (Disc, Arc)) and i.radius < 2.0)
     discs = np.asarray([i.centre for i in rounds])
     for point in positions.points:
+        if point in positions.solution.problem.centres:
+            continue  # left out with their letters
         for k in TWELVE:
             assert np.abs(discs - positions.at(point, k)).min() < 0.5
 

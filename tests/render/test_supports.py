@@ -164,8 +164,8 @@ def test_supports_of_the_shipped_schemes_stand_free(name: str) -> None:
 
 
 def test_a_link_that_goes_on_through_a_joint_is_one_piece() -> None:
-    """N is between the ends of link 3, C of task 12 is a pivot there."""
-    for name, point, across in (("press/press", "N", DOWN), ("levers/task12", "C", DOWN)):
+    """D is between the ends of link 2; a centre of mass beyond a joint is no end of a link."""
+    for name, point, across in (("levers/task-1", "D", -0.282 - 0.959j),):
         scheme = Scheme(Solution(problem_of(name)), 0, 5.0)
         scheme.draw()
         scheme.draw_joints()
@@ -174,14 +174,51 @@ def test_a_link_that_goes_on_through_a_joint_is_one_piece() -> None:
         assert half.end - half.start == pytest.approx(cmath.pi)
         middle = cmath.rect(1.0, (half.start + half.end) / 2)
         assert (middle * across.conjugate()).real > 0.9
-        own = [i for i in scheme.joints if isinstance(i, Stroke) and i.tag == "link 3"]
+        own = [i for i in scheme.joints if isinstance(i, Stroke) and i.tag == "link 2"]
         assert any(abs(sum(i.points) / 2 - place) < 1e-9 for i in own)
 
 
-def test_no_rigid_corner_is_marked_inside_a_slider() -> None:
+def test_a_rod_is_welded_to_the_edge_of_its_block() -> None:
+    """The slotted link 5 of task 12 is one piece with its slider: nothing of it lies within."""
     scheme = Scheme(Solution(problem_of("levers/task12")), 0, 5.0)
     scheme.draw()
-    assert scheme.corners == []
+    block = next(one for one in scheme.blocks if abs(one.middle - scheme.at("E")) < 1e-9)
+    wedges = [item for item in scheme.corners if isinstance(item, Fill)]
+    assert len(wedges) == 2
+    for wedge in wedges:
+        way = (wedge.points[0] - block.middle) * block.along.conjugate()
+        assert abs(way.imag) == pytest.approx(block.width / 2)
+    for item in scheme.lines:
+        if isinstance(item, Stroke) and item.tag == "link 5":
+            for point in item.points:
+                way = (point - block.middle) * block.along.conjugate()
+                inside = min(block.length / 2 - abs(way.real), block.width / 2 - abs(way.imag))
+                assert inside < 1e-6
+
+
+def test_no_block_hides_another() -> None:
+    """All white grounds of sliders and stones are drawn before any of their outlines."""
+    scheme = Scheme(Solution(problem_of("linkages/ex3")), 0, 5.0)
+    scheme.draw()
+    fills = [k for k, item in enumerate(scheme.bodies) if isinstance(item, Fill)]
+    outlines = [k for k, i in enumerate(scheme.bodies) if isinstance(i, Stroke) and i.closed]
+    white = [k for k in fills if scheme.bodies[k].ink is Ink.WHITE]  # type: ignore[union-attr]
+    assert max(white) < min(outlines)
+
+
+def test_a_centre_of_mass_is_no_part_of_the_outline() -> None:
+    scheme = Scheme(Solution(problem_of("levers/task12")), 0, 5.0)
+    scheme.draw()
+    scheme.draw_joints()
+    assert "S3" in scheme.solution.problem.centres
+    place = scheme.at("S3")
+    thick = [i for i in scheme.lines if isinstance(i, Stroke) and i.pen is Pen.MAIN]
+    assert min(abs(p - place) for i in thick for p in i.points) > 0.5
+    quarters = [i for i in scheme.joints if isinstance(i, Fill) and i.points[0] == place]
+    assert len(quarters) == 2
+
+
+def test_no_rigid_corner_is_marked_inside_a_slider() -> None:
     other = Scheme(Solution(problem_of("levers/six-link")), 0, 5.0)
     other.draw()
     assert len(other.corners) == 1

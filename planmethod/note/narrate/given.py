@@ -72,7 +72,8 @@ def given(problem: Problem, words: Language, positions: Sequence[float] | None =
             lines += _guide(guide, base, angle, text)
         elif guide in carried:
             point = point_name(through)
-            lines.append(words.note.given_through.format(guide=guide, point=point))
+            name = problem.guide_name(guide)
+            lines.append(words.note.given_through.format(guide=name, point=point))
     pins = [slide.pin for slide in problem.slides.values() if slide.offset]
     for slide in problem.slides.values():
         lines += _carried(problem, slide, text)
@@ -359,12 +360,13 @@ def _coordinates(name: str, place: complex, text: As, path: str) -> list[str]:
 
 def _guide(name: str, base: complex, angle: float, text: As) -> list[str]:
     """Return where a guide is: by one coordinate when it runs along an axis."""
-    x, y = _coordinates(name, base, text, f"frame.guides.{name}.through")
+    shown, path = text.problem.guide_name(name), f"frame.guides.{name}"
+    x, y = _coordinates(shown, base, text, f"{path}.through")
     if angle % 180 == 90:
         return [x]
     if angle % 180 == 0:
         return [y]
-    return [x, y, f"∠({name}) = {text.number(angle, 'deg', f'frame.guides.{name}.angle')}"]
+    return [x, y, f"∠({shown}) = {text.number(angle, 'deg', f'{path}.angle')}"]
 
 
 def asked_points(solution: Solution) -> list[str]:

@@ -72,7 +72,7 @@ class Names:
             assert plan.pole is not None
             self.poles.add(plan.pole)
         self.guides = {
-            f"{slide.label}:0": slide.label
+            f"{slide.label}:0": problem.guide_name(slide.label)
             for slide in problem.slides.values()
             if slide.host == FRAME
         }
@@ -194,7 +194,7 @@ class Names:
         if not isinstance(step, steps.AtAngle) or step.to is not None:
             return None
         told = self.construction.draft.dimensions.get(step.angle)
-        return None if told is None else told.of[0]
+        return None if told is None else self.solution.problem.guide_name(told.of[0])
 
     def value_of(self, angle: NumberName) -> float:
         """Return a given angle, degrees."""

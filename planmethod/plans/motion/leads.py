@@ -186,7 +186,7 @@ def track_direction(slide: Slide, problem: Problem, *, turned: bool = False) -> 
         along, beside = beside, along
     axis = problem.bodies[slide.host].axis
     if slide.host == FRAME or slide.through is None:
-        return Direction(along, guide=slide.label)
+        return Direction(along, guide=problem.guide_name(slide.label))
     if slide.towards is not None and slide.offset:
         return Direction(along, (slide.through, slide.towards))
     if slide.offset and axis is None:  # pin and point lie beside it: it joins no two letters

@@ -1,6 +1,6 @@
 """Inscriptions and arrows that mislead (обозначения, вводящие в заблуждение).
 
-``PM-D14``  a letter is far from what it names, or nearer to another arrow than to its own
+``PM-D14``  a letter is far from what it names, or nearer to another point or arrow than to its own
 ``PM-D15``  an arrow of a turn touches another one or runs through a slider
 ``PM-D16``  two inscriptions read as one: side by side as a word, over a short line as a fraction
 """
@@ -11,20 +11,30 @@ from collections.abc import Iterator, Sequence
 from itertools import combinations, product
 from math import inf
 
+import numpy as np
 from shapely import LineString, Polygon
 from shapely.geometry.base import BaseGeometry
 
-from planmethod.plans.model import VectorKind
+from planmethod.plans.model import PlanKind, VectorKind
 from planmethod.render.control.remarks import Finding
 from planmethod.render.control.texts import Writing, called
 from planmethod.render.ink.drawing import Arc, Bounds, Item, Pen, Stroke, View
 from planmethod.render.ink.extent import arc_points
 from planmethod.render.ink.typeset import PART_OF
 from planmethod.render.labels.model import LED
+from planmethod.render.labels.paper import distances
 from planmethod.render.symbols import SLIDER
 
 LEADER = 50.0
 """Longest leader line of a letter, mm: the eye does not follow it further."""
+
+AMONG, AT_OTHER = 24.0, 4.0
+"""Longest leader line of the letter of a point that stands at another point, and how near that is,
+mm: it is read as that one's."""
+
+NEARER = 0.5
+"""So much nearer to another point than to its own a letter without a leader line is taken for that
+one's, mm."""
 
 ARROWS_APART = 1.0
 """Least white between two arrows of turns, mm."""
@@ -38,6 +48,9 @@ _TOUCH = 0.05  # mm: what is not yet nearer
 
 _VECTORS = {*(kind.value for kind in VectorKind), "similar"}
 """Tags of vectors and of the sides of similar figures, which the letters at their ends name."""
+
+_POINTS = ("point ", *(f"{kind.value} " for kind in PlanKind))
+_SAME = 1.0  # mm: points nearer to each other are one for the eye
 
 Arrows = dict[str, BaseGeometry]
 """Arcs of the arrows of ω and ε by their tags."""
@@ -57,6 +70,7 @@ def misleading(
             arc = LineString([(p.real, p.imag) for p in arc_points(item, step=0.1)])
             arrows[item.tag] = arrows[item.tag].union(arc) if item.tag in arrows else arc
     yield from _long_leaders(items)
+    yield from _of_other_points(items, writings, views)
     yield from _nearer_to_others(writings, arrows)
     yield from _run_into(items, arrows)
     inside = [one for one in writings if any(holds(view.box, one.where) for view in views)]
@@ -76,6 +90,44 @@ def _long_leaders(items: Sequence[Item]) -> Iterator[Finding]:
             if far > LEADER:
                 facts = {"name": item.tag[len(LED) :]}
                 yield Finding("PM-D14", item.points[-1], far, LEADER, facts)
+
+
+def is_of_point(name: str) -> bool:
+    """Tell whether an inscription names a point of a scheme or plan, by its own name."""
+    return name.startswith(_POINTS)
+
+
+def own_and_other(
+    writings: Sequence[Writing], views: Sequence[View]
+) -> Iterator[tuple[Writing, float, float]]:
+    """Yield the letters of points, how far each is from its point and from another one, mm."""
+    for view in views:
+        inside = [w for w in writings if is_of_point(w.name) and holds(view.box, w.where)]
+        there = [(w, at) for w in inside if (at := w.runs[0].names) is not None]
+        points = np.asarray([at for _, at in there])
+        boxes = np.asarray([w.ink.bounds for w, _ in there]).reshape(-1, 4)
+        for k, (writing, at) in enumerate(there):
+            strange = points[np.abs(points - at) > _SAME]
+            own = float(distances(boxes[k : k + 1], points[k : k + 1])[0, 0])
+            other = distances(boxes[k : k + 1], strange)
+            yield writing, own, float(other.min()) if other.size else inf
+
+
+def _of_other_points(
+    items: Sequence[Item], writings: Sequence[Writing], views: Sequence[View]
+) -> Iterator[Finding]:
+    led = {
+        item.tag[len(LED) :]: abs(item.points[-1] - item.points[0])
+        for item in items
+        if isinstance(item, Stroke) and item.tag.startswith(LED)
+    }
+    for writing, own, other in own_and_other(writings, views):
+        far = led.get(writing.name)
+        facts = {"name": writing.name}
+        if far is None and own > other + NEARER:
+            yield Finding("PM-D14", writing.where, own, other, facts)
+        elif far is not None and AMONG < far <= LEADER and other < AT_OTHER:
+            yield Finding("PM-D14", writing.where, far, AMONG, facts)
 
 
 def _nearer_to_others(writings: Sequence[Writing], arrows: Arrows) -> Iterator[Finding]:

@@ -55,7 +55,9 @@ REMARKS: Mapping[str, Remark] = MappingProxyType(
         "PM-D14": Remark(_WARNING, "mm"),
         "PM-D15": Remark(_WARNING, "mm"),
         "PM-D16": Remark(_WARNING, "mm"),
-        "PM-D20": Remark(_WARNING, "%"),
+        "PM-D17": Remark(_WARNING, ""),
+        "PM-D18": Remark(_WARNING, "%"),
+        "PM-D19": Remark(_WARNING, "%"),
     }
 )
 """Every code."""

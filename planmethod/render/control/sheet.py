@@ -8,10 +8,10 @@ To the codes of `planmethod.render.control.texts`, which looks at texts, it adds
 ``PM-D10``  a large part of the paper is unused
 ``PM-D11``  a dashed line does not begin and end with a stroke
 ``PM-D12``  a dashed line is too short to show its pattern
-``PM-D20``  too little of the paper has ink
+``PM-D19``  too little of the paper has ink
 ``PM-D13``  lines or inscriptions run into the title block or graph 26
 
-and those of `planmethod.render.control.misleading`.
+and those of `planmethod.render.control.misleading` and `planmethod.render.control.crowded`.
 """
 
 from __future__ import annotations
@@ -22,6 +22,7 @@ from math import tau
 
 from msgspec.structs import replace
 
+from planmethod.render.control.crowded import crowded, unnamed
 from planmethod.render.control.misleading import holds, misleading
 from planmethod.render.control.remarks import Facts, Finding
 from planmethod.render.control.texts import beyond, lint, writings_of
@@ -81,6 +82,7 @@ def _inspected(drawing: Drawing) -> list[Finding]:
         drawing.width - FRAME_OTHER,
         drawing.height - FRAME_OTHER,
     )
+    writings = writings_of(drawing.items)
     findings = [
         *(_attributed(finding, drawing.views, inner) for finding in lint(drawing.items, inner)),
         *lines_outside(drawing.items, drawing.views, inner),
@@ -91,8 +93,10 @@ def _inspected(drawing: Drawing) -> list[Finding]:
         *(_attributed(finding, drawing.views, inner) for finding in dashes_unseen(drawing.items)),
         *(
             _attributed(finding, drawing.views, inner)
-            for finding in misleading(drawing.items, writings_of(drawing.items), drawing.views)
+            for finding in misleading(drawing.items, writings, drawing.views)
         ),
+        *crowded(writings, drawing.views),
+        *unnamed(writings, drawing.views),
     ]
     return sorted(findings, key=lambda finding: finding.code)
 
@@ -228,7 +232,7 @@ def unused_paper(items: Sequence[Item], inner: Bounds) -> Iterator[Finding]:
         yield Finding("PM-D10", _middle(box), share, UNUSED, facts)
     inked = inked_share(items, inner)
     if inked < INKED:
-        yield Finding("PM-D20", _middle(inner), inked, INKED, {})
+        yield Finding("PM-D19", _middle(inner), inked, INKED, {})
 
 
 def dashes_unseen(items: Iterable[Item]) -> Iterator[Finding]:

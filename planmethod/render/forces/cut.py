@@ -95,7 +95,8 @@ class FreeBodyScheme(Scheme):
             reach = max(_AXIS * self.factor, half + _AXIS_BEYOND, self.reach) * u
             for side in (-1, 1):
                 self.guides += axis_line(pin + side * edge, pin + side * reach, tag="guide")
-            self.axis_ends.append((slide.label, pin - reach, pin + reach))
+            name = self.solution.problem.guide_name(slide.label)
+            self.axis_ends.append((name, pin - reach, pin + reach))
             self.bodies += self._body(slide, pin)
 
     def _body(self, slide: Slide, middle: complex) -> list[Item]:
@@ -116,7 +117,7 @@ class FreeBodyScheme(Scheme):
         for link in self.links:
             for point in self.solution.problem.bodies[link].points:
                 if point not in named:
-                    self.joints.append(Disc(self.at(point), 0.8 * self.factor, Ink.BLACK))
+                    self.joints += self.mark(point)
                     named.add(point)
         self.named = sorted(named)
 

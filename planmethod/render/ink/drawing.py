@@ -88,7 +88,8 @@ class Text(Struct, frozen=True):
     ``height`` is the cap height h of GOST 2.304 in mm, ``angle`` turns the run about ``at``,
     degrees.
     ``label`` groups the runs of one inscription (a letter and its index): the lint treats runs with
-    one non-empty label as one. ``box`` is the cell that the text must stay in, or None.
+    one non-empty label as one. ``box`` is the cell that the text must stay in, or None; ``names``
+    the point that a letter names, or None.
     """
 
     at: complex
@@ -98,6 +99,7 @@ class Text(Struct, frozen=True):
     label: str = ""
     box: tuple[float, float, float, float] | None = None  # xmin, ymin, xmax, ymax
     tag: str = ""
+    names: complex | None = None
 
 
 Item: TypeAlias = Stroke | Arc | Fill | Disc | Text
@@ -110,7 +112,8 @@ class Span(Struct, frozen=True):
 
     ``name`` is its letters, ``position`` the number of the position as the sheet has it (None when
     there is one), ``start`` and ``end`` are mm; ``share`` tells how many times larger than by the
-    scale of its view it is drawn: a plan may have a scale of its own.
+    scale of its view it is drawn: a plan may have a scale of its own. ``label`` is the name of the
+    inscription that names its vector; empty where none is asked for.
     """
 
     name: str
@@ -118,6 +121,7 @@ class Span(Struct, frozen=True):
     start: complex
     end: complex
     share: float = 1.0
+    label: str = ""
 
     @property
     def length(self) -> float:
@@ -200,11 +204,12 @@ def shifted(items: Iterable[Item], by: complex) -> Iterator[Item]:
                 yield replace(item, points=tuple(point + by for point in points))
             case Arc(centre=centre) | Disc(centre=centre):
                 yield replace(item, centre=centre + by)
-            case Text(at=at, box=box):
+            case Text(at=at, box=box, names=point):
                 if box is not None:
                     dx, dy = by.real, by.imag
                     box = (box[0] + dx, box[1] + dy, box[2] + dx, box[3] + dy)
-                yield replace(item, at=at + by, box=box)
+                point = None if point is None else point + by
+                yield replace(item, at=at + by, box=box, names=point)
 
 
 def placed(items: Iterable[Item], at: complex, angle: float) -> Iterator[Item]:
@@ -221,5 +226,6 @@ def placed(items: Iterable[Item], at: complex, angle: float) -> Iterator[Item]:
                 yield replace(item, centre=at + centre * turn, start=start + by, end=end + by)
             case Disc(centre=centre):
                 yield replace(item, centre=at + centre * turn)
-            case Text():
-                yield replace(item, at=at + item.at * turn, angle=item.angle + angle)
+            case Text(names=point):
+                point = None if point is None else at + point * turn
+                yield replace(item, at=at + item.at * turn, angle=item.angle + angle, names=point)

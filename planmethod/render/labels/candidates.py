@@ -155,9 +155,11 @@ def _leader_ends(label: Label, boxes: Floats) -> tuple[Complexes, Complexes]:
         middles = (boxes[:, 0] + boxes[:, 2] + 1j * (boxes[:, 1] + boxes[:, 3])) / 2
         part = ((middles - start) * np.conj(way)).real / max(abs(way) ** 2, 1e-12)
         anchor = start + way * np.clip(part, 0.0, 1.0)
-    ends = np.clip(anchor.real, boxes[:, 0], boxes[:, 2]) + 1j * np.clip(
-        anchor.imag, boxes[:, 1], boxes[:, 3]
-    )
+    up = np.clip(anchor.imag, boxes[:, 1], boxes[:, 3])
+    if label.manner.slanted:  # to the further edge of a box that lies level with its point
+        far = np.where(2 * up > boxes[:, 1] + boxes[:, 3], boxes[:, 1], boxes[:, 3])
+        up = np.where(up == anchor.imag, far, up)
+    ends = np.clip(anchor.real, boxes[:, 0], boxes[:, 2]) + 1j * up
     reach = ends - anchor
     length = np.abs(reach)
     along = np.divide(reach, length, out=np.zeros_like(reach), where=length > 0)

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from msgspec import Struct
+from msgspec.structs import replace
 
-from planmethod.render.ink.drawing import Bounds, Fill, Ink, Item, Pen, Stroke
+from planmethod.render.ink.drawing import Bounds, Fill, Ink, Item, Pen, Stroke, Text
 from planmethod.render.ink.typeset import Inscription, typeset
 
 CLEAR = 0.7  # white between a label and a line, mm
@@ -41,6 +42,8 @@ class LabelStyle(Struct, frozen=True):
         White between it and another one side by side: nearer they would read as one.
     heavy : float
         Distance that a thick line between it and what it names is as bad as.
+    slanted : bool
+        Its leader line is never level: between letters it would read as the bar of a fraction.
     """
 
     rings: tuple[float, ...] = (0.0, 1.2, 3.0, 5.5, 9.0)
@@ -53,6 +56,7 @@ class LabelStyle(Struct, frozen=True):
     stranger: float = 0.0
     beside: float = 2.0
     heavy: float = 7.0
+    slanted: bool = False
 
 
 ALONE = LabelStyle()
@@ -82,6 +86,30 @@ CROWDED = LabelStyle(
 """One of a series of labels: many places, firm in its direction, a leader line soon."""
 
 
+NEAREST = LabelStyle(
+    rings=(0.0, 1.2, 3.0, 6.0),
+    far_rings=(9.5, 14.0, 19.0),
+    far_angles=16,
+    leader_from=1.8,
+    leader=12.0,
+    stranger=60.0,
+    heavy=25.0,
+    slanted=True,
+)
+"""The letter of a point among others near it: nearer to its own, a leader line soon."""
+
+NAMING = LabelStyle(
+    rings=(0.0, 1.5, 4.0),
+    far_rings=(9.0, 13.0, 18.0),
+    far_angles=16,
+    leader_from=3.0,
+    leader=10.0,
+    heavy=12.0,
+    slanted=True,
+)
+"""The name of a vector: along it, or at the end of a leader line from its middle."""
+
+
 class Label(Struct, frozen=True):
     """Inscription that wants a place near a point or along a segment (надпись).
 
@@ -105,6 +133,8 @@ class Label(Struct, frozen=True):
         How it looks for its place.
     series : str
         What it is one of: the labels of a series whose points are close together stand in a column.
+    optional : bool
+        It is left out where it finds no free place, and sends no other one away.
     """
 
     inscription: Inscription
@@ -116,6 +146,7 @@ class Label(Struct, frozen=True):
     name: str = ""
     manner: LabelStyle = ALONE
     series: str = ""
+    optional: bool = False
 
 
 class Placed(Struct, frozen=True):
@@ -139,6 +170,9 @@ class Placed(Struct, frozen=True):
     def items(self) -> list[Item]:
         """Return the letters, the leader line and the white under the letters."""
         items = self.label.inscription.at(self.at, label=self.label.name)
+        if self.label.along is None:
+            named = self.label.anchor
+            items = [replace(i, names=named) if isinstance(i, Text) else i for i in items]
         if self.ground:
             x0, y0, x1, y1 = self.bounds
             low, high = (

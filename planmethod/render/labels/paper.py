@@ -211,12 +211,12 @@ def _stranger_costs(candidates: Candidates, so_far: Floats, strangers: Sequence[
     if not len(others):
         return costs
     boxes = candidates.boxes[ask]
-    own = _distances(boxes, np.asarray([anchor]))[:, 0]
-    costs[ask] = np.where(_distances(boxes, others).min(axis=1) < own + 0.4, dislike, 0.0)
+    own = distances(boxes, np.asarray([anchor]))[:, 0]
+    costs[ask] = np.where(distances(boxes, others).min(axis=1) < own + 0.4, dislike, 0.0)
     return costs
 
 
-def _distances(boxes: Floats, places: NDArray[np.complex128]) -> Floats:
+def distances(boxes: Floats, places: NDArray[np.complex128]) -> Floats:
     """Return the distances of boxes (n, 4) from points (k,), shape (n, k)."""
     x, y = places.real, places.imag
     aside = np.maximum(np.maximum(boxes[:, :1] - x, x - boxes[:, 2:3]), 0.0)

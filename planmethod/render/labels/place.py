@@ -59,8 +59,8 @@ def place_labels(
     Returns
     -------
     list of Placed
-        In the order of ``labels``. Where there is no room at all a label overlaps or leaves the
-        bounds, and is not ``free``.
+        In the order of ``labels``, without the optional ones that found no free place. Where there
+        is no room at all a label overlaps or leaves the bounds, and is not ``free``.
     """
     return list(_placed(tuple(labels), tuple(obstacles), bounds, breaking=breaking))
 
@@ -73,18 +73,20 @@ def _placed(
     if not labels:
         return ()
     places = _Places(Paper(obstacles, bounds), labels)
-    places.fill([k for k, label in enumerate(labels) if not label.series])
+    firm = [k for k, label in enumerate(labels) if not label.optional]
+    places.fill([k for k in firm if not labels[k].series])
     places.line_up()
-    places.fill([k for k, label in enumerate(labels) if label.series])
+    places.fill([k for k in firm if labels[k].series])
     if not breaking and len(places.unfree()) >= _HOPELESS:
         return places.result()
-    if any(label.manner is not ALONE for label in labels):
+    if any(labels[k].manner is not ALONE for k in firm):
         places.look_again()
         places.improve()
     for k in places.unfree():
         places.send_away(k)
     for k in places.unfree() if breaking else ():
         places.break_lines(k)
+    places.fill([k for k, label in enumerate(labels) if label.optional])
     return places.result()
 
 
@@ -162,8 +164,11 @@ class _Places:
         free = {k: int(np.sum(self.choices[k][0].costs < CROSSED)) for k in numbers}
         # Labels with few free places go first, or the others would take these places.
         for k in sorted(numbers, key=lambda k: (-self.labels[k].priority, free[k], k)):
-            if k not in self.taken:
-                self._take(k, self._best(k))
+            if k in self.taken:
+                continue
+            best = self._best(k)
+            if best.cost < CROSSED or not self.labels[k].optional:
+                self._take(k, best)
 
     def _take(self, k: int, taken: _Taken) -> None:
         self.taken[k] = taken
@@ -179,6 +184,8 @@ class _Places:
     def _best(self, k: int) -> _Taken:
         """Return the cheapest place of a label; look further away when all near ones are taken."""
         best = self._sought(k, self._wider)
+        if self.labels[k].optional:
+            return best
         if best.cost >= CROSSED and any(choice.every is not None for choice in self.choices[k]):
             best = self._sought(k, self._whole)
         return best
@@ -254,7 +261,11 @@ class _Places:
 
     def unfree(self) -> list[int]:
         """Return the labels that cross or overlap something."""
-        return [k for k in range(len(self.labels)) if self._cost(k) >= CROSSED]
+        return [k for k in self._firm if self._cost(k) >= CROSSED]
+
+    @property
+    def _firm(self) -> list[int]:
+        return [k for k, label in enumerate(self.labels) if not label.optional]
 
     def _cost(self, k: int) -> float:
         """Return what the place of a label costs with all others where they are now."""
@@ -265,10 +276,13 @@ class _Places:
         """Let every label look for a better place now that all are there."""
         for _ in range(_PASSES):
             moved = False
-            for k in range(len(self.labels)):
+            for k in self._firm:
                 if k in self.lined:
                     continue  # out of its column it would be cheaper, but not better
-                now, best = self._cost(k), self._best(k)
+                now, near = self._cost(k), self.choices[k][0]
+                if now < _FAR_IF and len(near.order) and now <= near.costs[near.order[0]]:
+                    continue  # no place is cheaper, whoever moves
+                best = self._best(k)
                 if best.cost < now - 1e-6:
                     self._take(k, best)
                     moved = True
@@ -277,7 +291,7 @@ class _Places:
 
     def improve(self) -> None:
         """Find shorter leader lines where others can make room."""
-        costs = {k: self._cost(k) for k in range(len(self.labels)) if k not in self.lined}
+        costs = {k: self._cost(k) for k in self._firm if k not in self.lined}
         bad = [k for k, cost in costs.items() if _POOR < cost < CROSSED]
         for k in sorted(bad, key=lambda k: (-costs[k], k)):
             self.send_away(k)
@@ -344,7 +358,7 @@ class _Places:
 
     def result(self) -> tuple[Placed, ...]:
         """Return the labels with their places."""
-        return tuple(self._placed(k) for k in range(len(self.labels)))
+        return tuple(self._placed(k) for k in sorted(self.taken))
 
     def _placed(self, k: int) -> Placed:
         label, taken = self.labels[k], self.taken[k]
@@ -357,6 +371,6 @@ class _Places:
             label,
             complex(x0, y0 + label.inscription.descent),
             leader,
-            free=not taken.ground and self._cost(k) < CROSSED,
+            free=label.optional or (not taken.ground and self._cost(k) < CROSSED),
             ground=taken.ground,
         )

@@ -47,8 +47,16 @@ def spare_labels(
         if k < 0 or costs[k] >= CROSSED or places.led[k]:
             continue
         box = places.boxes[k]
-        if abs(complex(*box[:2]) + complex(*box[2:]) - 2 * label.anchor) / 2 < NEAR:
+        middle = (complex(*box[:2]) + complex(*box[2:])) / 2
+        if _off(middle, *(label.along or (label.anchor, label.anchor))) < NEAR:
             at = complex(box[0], box[1] + label.inscription.descent)
             found.append(Placed(label, at, None, free=True, ground=False))
             taken = np.concatenate([taken, [box + white]])
     return found
+
+
+def _off(place: complex, start: complex, end: complex) -> float:
+    """Return how far a place is from a segment, mm."""
+    way = end - start
+    share = ((place - start) * way.conjugate()).real / max(abs(way) ** 2, 1e-12)
+    return abs(place - start - way * min(1.0, max(0.0, share)))

@@ -41,7 +41,8 @@ _FINER = 4  # times as many places of the lines that points move along
 _GAP = 1.2  # mm between an inscription and its point; of the scheme's joints twice that
 _CAPTION = 18.0  # mm of paper over a view: its name, and its scale on the paper of the SVG
 _NEAR = 1e-9
-_WAYS = np.array([far * np.exp(1j * np.pi / 8 * k) for far in (1.0, 4.0, 8.0) for k in range(16)])
+_FAR = (1.0, 4.0, 8.0, 12.0)
+_WAYS = np.array([far * np.exp(1j * np.pi / 8 * k) for far in _FAR for k in range(16)])
 """Directions in which inscriptions stand, by 1 mm and more than the gap off their points."""
 
 _MOVED = 1.5  # what it costs to move on for a unit of these
@@ -371,7 +372,7 @@ class _Cutting:
             costs = np.empty((len(_WAYS), len(place)))
             for k, off in enumerate(offs):
                 centre = place + off
-                cost = 6.0 * _covered(centre, half, tails, heads) + abs(_WAYS[k]) - 1.0
+                cost = 14.0 * _covered(centre, half, tails, heads) + abs(_WAYS[k]) - 1.0
                 for other, w, h in taken:
                     across = half.real + w - np.abs((centre - other).real)
                     up = half.imag + h - np.abs((centre - other).imag)

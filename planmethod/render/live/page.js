@@ -310,7 +310,7 @@ function label(view, out) {
       owner.centre : one.push !== undefined ? owner.ends[1] : middle(owner.ends);
     const high = one.up + one.down, gap = one.turn !== undefined ? 6.4 : one.gap;
     let best = null;
-    for (let k = 0; k < 48; k++) {
+    for (let k = 0; k < 80; k++) {
       const angle = (k % 16) * Math.PI / 8, far = gap + 4 * (k >> 4);
       const x = p[0] + Math.cos(angle) * (far + one.width / 2);
       const y = p[1] + Math.sin(angle) * (far + high / 2);
@@ -320,7 +320,7 @@ function label(view, out) {
       for (const other of placed) cost += 1.5 * overlap(box, other);
       cost += 9 * (Math.max(0, left + 1 - box[0]) + Math.max(0, top + 1 - box[1]) +
         Math.max(0, box[2] - left - width + 1) + Math.max(0, box[3] - top - height + 1));
-      for (const bar of bars) if ((!best || cost < best.cost) && crosses(box, bar)) cost += 6;
+      for (const bar of bars) if ((!best || cost < best.cost) && crosses(box, bar)) cost += 14;
       if (!best || cost < best.cost) best = { cost, angle, box, x, y };
     }
     one.angle = best.angle;

@@ -11,7 +11,7 @@ from planmethod.construct.steps import PointName
 from planmethod.mechanism.model import FRAME
 from planmethod.plans.draft import cis
 from planmethod.problem.model import Slide
-from planmethod.render.ink.drawing import Disc, Ink, Item
+from planmethod.render.ink.drawing import Item
 from planmethod.render.pictures.scheme import AXIS, Scheme
 from planmethod.render.symbols import SIZES, guide_line, slider, turn_arrow
 from planmethod.render.symbols.axes import axis_line
@@ -61,9 +61,10 @@ def parts_of(solution: Solution, letter_height: float) -> tuple[list[MovingPart]
         found.append(MovingPart(link, 0, JOINTS, tuple(scheme.joint_items(joint, place))))
     for link, body in problem.bodies.items():
         dots = tuple(
-            Disc(scheme.at(point), 0.8 * scheme.factor, Ink.BLACK)
+            item
             for point in body.points
             if link != FRAME and point not in pivots
+            for item in scheme.mark(point)
         )
         found.append(MovingPart(link, 0, JOINTS, dots))
     fixed = [item for support in scheme.supports for item in support.items()]

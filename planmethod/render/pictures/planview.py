@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from math import isfinite
 
 from planmethod.construct.steps import PointName, Similar
 from planmethod.note.narrate.letters import shown_letters
 from planmethod.plans.model import Plan, PlanKind, Vector, VectorKind
 from planmethod.render.ink.drawing import Disc, Ink, Item, Pen, Stroke
-from planmethod.render.labels import Label, segment_label
+from planmethod.render.ink.typeset import typeset
+from planmethod.render.labels import NAMING, NEAREST, Label
 from planmethod.render.labels.spots import shared_spots, spot_labels
 from planmethod.render.layout.block import Picture
 from planmethod.render.pictures.ellipses import Ellipses, error_ellipses
@@ -22,8 +24,12 @@ from planmethod.solved.solution import Solution
 POLE = "pole"
 """Tag of the disc at a plan's pole: one for each plan that is drawn."""
 
-NAMES, LONG = 3.5, 20.0
-"""Height of the names of vectors, on plans with larger letters, and how long these are, mm."""
+NAMES, SMALL_NAMES = 3.5, 2.5
+"""Height of the names of vectors, and on plans of several positions, mm."""
+
+NAMED, SMALL_NAMED = 5.0, 8.0
+"""Length from which a vector has a name, and on a plan of several positions, mm: shorter ones are
+told by the letters of their ends."""
 
 COMPONENTS = (VectorKind.NORMAL, VectorKind.TANGENTIAL, VectorKind.CORIOLIS)
 
@@ -107,13 +113,46 @@ def plan_picture(
         circle, label = knot_mark(knot, at, letter, letter_height)
         items.append(circle)
         labels.append(label)
-    names = [
-        segment_label(f"\\bar{{{vector.symbol[0]}}}{vector.symbol[1:]}", at[tail], at[head], NAMES)
-        for vector in plan.vectors
-        for tail, head in ((vector.tail, vector.head),)
-        if letter_height > NAMES and abs(at[head] - at[tail]) > LONG
+    names = [] if whole else vector_names(plan, at, letter_height, prefix)
+    return lettered(items, [*labels, *names], clear=ellipses.grounds, welcome=directions)
+
+
+def vector_names(
+    plan: Plan, at: Mapping[PointName, complex], letter_height: float, prefix: str
+) -> list[Label]:
+    """Return the names of the vectors, each once, the shortest first: they have the least choice.
+
+    Parameters
+    ----------
+    at : mapping
+        Where the points of the plan lie, mm.
+    letter_height : float, mm
+        That of the points.
+    """
+    large = letter_height > NAMES
+    height, named = (NAMES, NAMED) if large else (SMALL_NAMES, SMALL_NAMED)
+    ends = {(v.tail, v.head): v for v in reversed(plan.vectors) if v.tail != v.head}
+    sized = [(abs(at[head] - at[tail]), tail, head) for tail, head in ends]
+    return [
+        Label(
+            typeset(f"\\bar{{{vector.symbol[0]}}}{vector.symbol[1:]}", height),
+            (at[tail] + at[head]) / 2,
+            (at[tail], at[head]),
+            gap=1.2 if large else 0.9,
+            name=vector_label(prefix, vector),
+            priority=-1,
+            manner=NAMING,
+            optional=True,
+        )
+        for size, tail, head in sorted(sized)
+        if size >= named
+        for vector in (ends[tail, head],)
     ]
-    return lettered(items, labels, clear=ellipses.grounds, welcome=[*names, *directions])
+
+
+def vector_label(prefix: str, vector: Vector) -> str:
+    """Return the name of the inscription that names a vector: ``velocity 0: v_{B}``."""
+    return f"{prefix}: {vector.symbol}"
 
 
 def is_thin(vector: Vector, kind: PlanKind) -> bool:
@@ -144,4 +183,4 @@ def _labels(
     letters = shown_letters(solution.problem, plan)
     ordered = sorted(letters.items(), key=lambda pair: pair[0] != plan.pole)
     spots = shared_spots((at[name], own) for name, own in ordered)
-    return spot_labels(spots, height, f"{prefix}:")
+    return spot_labels(spots, height, f"{prefix}:", manner=NEAREST)

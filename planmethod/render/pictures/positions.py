@@ -2,7 +2,8 @@
 
 The positions are thin lines; at every moving point stands its letter with the number of the
 position (A₀, A₁, ...), at the centres of mass, whose letters have an index already, the number
-alone; of many positions the driver and the output alone have letters, the others numbers. The
+alone; of many positions the driver and the output alone have letters, the others numbers. Where
+that is too much for its area it is thinned, step by step (`Thinned`). The
 lines that the points move along are there, and the extreme positions of the output link in
 dash-dot lines with two dots (GOST 2.303), marked with one and two primes.
 """
@@ -10,6 +11,8 @@ dash-dot lines with two dots (GOST 2.303), marked with one and two primes.
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from enum import IntEnum
+from functools import cached_property
 
 from msgspec import Struct
 from msgspec.structs import replace
@@ -34,6 +37,29 @@ TOGETHER = 0.5
 
 _MARK = 0.7  # radius of the circle at a joint in another position, mm
 _LEAST_MARK = 0.45  # where circles would run into each other, mm
+
+
+EVERY = 3
+"""Of intermediate positions every so manieth stays lettered where all find no room."""
+
+
+class Thinned(IntEnum):
+    """What is left out of the letters of many positions (прореживание), each with all before it.
+
+    The position in full and the extreme ones keep theirs.
+    """
+
+    NOTHING = 0
+    CENTRES = 1
+    """Of the centres of mass only those of the position in full are lettered."""
+    POINTS = 2
+    """The points between driver and output are lettered in every third position."""
+    ENDS = 3
+    """So are those of the driver and the output."""
+    BETWEEN = 4
+    """Those between are lettered in the position in full alone."""
+    ALONE = 5
+    """All are."""
 
 
 class SharedPlace(Struct):
@@ -63,6 +89,7 @@ class Positions:
         s = self.solution = solution
         self.bold, self.overlay, self.letter_height = bold, overlay, letter_height
         self.paths = Paths(s)
+        self._spots: dict[str, list[SharedPlace]] = {}
         extremes = self.paths.extremes if shows_extremes(s, self.overlay) else ()
         # The extreme positions behind the others, so that links have one length in all of them.
         at = [*s.positions.tolist(), *extremes]
@@ -97,6 +124,11 @@ class Positions:
 
     def spots(self, point: str) -> list[SharedPlace]:
         """Return the places of a point, those that coincide on the paper joined."""
+        if point not in self._spots:
+            self._spots[point] = self._found(point)
+        return self._spots[point]
+
+    def _found(self, point: str) -> list[SharedPlace]:
         found: list[SharedPlace] = []
         for index, number in self.numbers.items():
             if number in PRIMES and point not in self._turning:
@@ -117,7 +149,7 @@ class Positions:
             self.at(p, index) for p in self.points for index in self.numbers if index != self.bold
         ]
 
-    @property
+    @cached_property
     def _turning(self) -> set[str]:
         """Points that are lettered in the extreme positions: of the driver and of the output."""
         drive = self.solution.problem.drive
@@ -149,10 +181,16 @@ class Positions:
             scheme.draw_link(link)
         return map(_readable, scheme.lines)
 
-    def marks(self) -> list[Item]:
-        """Return the joints in the other positions: small circles, smaller where they are dense."""
+    def marks(self, thinned: Thinned = Thinned.NOTHING) -> list[Item]:
+        """Return the joints in the other positions: small circles, smaller where they are dense.
+
+        Centres of mass that have no letters there have none.
+        """
         items: list[Item] = []
+        left_out = self.solution.problem.centres if thinned >= Thinned.CENTRES else frozenset()
         for point in self.points:
+            if point in left_out:
+                continue
             places = [spot.place for spot in self.spots(point) if not spot.bold]
             apart = min((abs(p - q) for k, p in enumerate(places) for q in places[:k]), default=9.0)
             radius = min(_MARK, max(_LEAST_MARK, 0.45 * apart))
@@ -162,23 +200,37 @@ class Positions:
 
     # Letters ---------------------------------------------------------------------------------
 
-    def labels(self, height: float, *, every: int = 1) -> list[Label]:
+    def labels(
+        self, height: float, *, every: int = 1, thinned: Thinned = Thinned.NOTHING
+    ) -> list[Label]:
         """Return the letters of all points in all positions, of ``every`` so manieth at the least.
 
         The bold position has larger ones; its own name stands there where the others have numbers
-        alone.
+        alone. A point that stays where it is has its letter once, without numbers.
         """
         labels: list[Label] = []
         for point in self.points:
             spots = self.spots(point)
+            step = every * self._step(point, thinned)
             ways = self.paths.outward(point, [spot.place for spot in spots])
             for spot, way in zip(spots, ways, strict=True):
-                numbers = [n for n in spot.numbers if n in PRIMES or int(n) % every == 0]
+                numbers = [n for n in spot.numbers if n in PRIMES or (step and not int(n) % step)]
                 if spot.bold and str(self.bold) not in numbers:
                     numbers.append(str(self.bold))
                 if numbers:
-                    labels.append(self._label(point, spot, numbers, way, height))
+                    shown = [] if len(spots) == 1 else numbers
+                    labels.append(self._label(point, spot, shown, way, height))
         return labels
+
+    def _step(self, point: str, thinned: Thinned) -> int:
+        """Return of how manieth position a point has letters; 0 of the one in full alone."""
+        if point in self.solution.problem.centres and thinned >= Thinned.CENTRES:
+            return 0
+        if point in self._turning:
+            last, first = Thinned.ALONE, Thinned.ENDS
+        else:
+            last, first = Thinned.BETWEEN, Thinned.POINTS
+        return 0 if thinned >= last else EVERY if thinned >= first else 1
 
     def _label(
         self, point: str, spot: SharedPlace, numbers: Sequence[str], way: complex, height: float
@@ -209,7 +261,12 @@ def shows_extremes(solution: Solution, indices: Sequence[int]) -> bool:
 
 
 def written(point: str, numbers: Sequence[str], *, bold: bool = False, alone: bool = False) -> str:
-    """Return the letters of a point in some positions: ``B_{3}, B_{9}``, ``B′``, or ``3, 9``."""
+    """Return the letters of a point in some positions: ``B_{3}, B_{9}``, ``B′``, or ``3, 9``.
+
+    ``B`` alone where there are none.
+    """
+    if not numbers:
+        return point_name(point)
     if len(point) > 1 or (alone and not bold):
         found = ", ".join(numbers)
         return point_name(point) + (f" ({found})" if len(numbers) > 1 else "") if bold else found

@@ -18,6 +18,7 @@ from planmethod.render.ink.typeset import typeset
 from planmethod.render.labels import Label, segment_label
 from planmethod.render.pictures.lettered import refuse_long
 from planmethod.render.pictures.supports import Support, free_sides, stand
+from planmethod.render.pictures.welds import BlockOutline, welded
 from planmethod.render.symbols import SIZES
 from planmethod.render.symbols.axes import axis_line
 from planmethod.solved.solution import Solution
@@ -35,6 +36,16 @@ def extent(solution: Solution, positions: Sequence[int]) -> tuple[float, float, 
     points = np.array([solution.paper.point(PointName(name)) for name in names])
     at = points[:, positions] if len(points) else np.zeros((1, 1), complex)
     return at.real.min(), at.imag.min(), at.real.max(), at.imag.max()
+
+
+_OFF = 0.3  # mm: a point further from a line than this does not lie on it
+
+
+def off_segment(place: complex, start: complex, end: complex) -> float:
+    """Return how far a place is from a segment, mm."""
+    along = end - start
+    part = ((place - start) * along.conjugate()).real / abs(along) ** 2
+    return abs(place - start - along * min(1.0, max(0.0, part)))
 
 
 class Scheme(Struct):
@@ -57,6 +68,7 @@ class Scheme(Struct):
     segments: dict[str, list[tuple[complex, complex]]] = field(default_factory=dict)
     axis_ends: list[tuple[str, complex, complex]] = field(default_factory=list)
     supports: list[Support] = field(default_factory=list)
+    blocks: list[BlockOutline] = field(default_factory=list)
 
     @property
     def factor(self) -> float:
@@ -93,10 +105,14 @@ class Scheme(Struct):
             self.segments.setdefault(link, []).append((start, end))
 
     def draw_link(self, link: str) -> None:
-        """Draw the lines of a link through its points and along the lines it carries."""
+        """Draw the lines of a link through its points and along the lines it carries.
+
+        A centre of mass is no part of its outline: off the lines it is led to them by a thin one.
+        """
         problem = self.solution.problem
-        body = problem.bodies[link].points
-        ends = [(z, self.at(name)) for name, z in body.items()]
+        body, centres = problem.bodies[link].points, problem.centres
+        firm = {name: z for name, z in body.items() if name not in centres} or body
+        ends = [(z, self.at(name)) for name, z in firm.items()]
         carried = [s for s in problem.slides.values() if s.host == link]
         own = [s for s in carried if not self.solution.problem.is_block(s)]
         size = max((abs(z - ends[0][0]) for z, _ in ends), default=0.0)
@@ -109,6 +125,17 @@ class Scheme(Struct):
             self._corner(link, z, p, along)
         for slide in own:
             self._slot(link, slide, along)
+        if self.pen is Pen.MAIN:
+            for name in body.keys() - firm.keys():
+                self._lead(link, self.at(name), [place for _, place in ends])
+
+    def _lead(self, link: str, centre: complex, joints: Sequence[complex]) -> None:
+        """Lead a centre of mass that lies off the lines of its link to the nearest joint."""
+        parts = self.segments.get(link, ())
+        if all(off_segment(centre, *part) > _OFF for part in parts) or not parts:
+            nearest = min(joints, key=lambda place: abs(place - centre))
+            if abs(nearest - centre) > _OFF:
+                self.lines.append(Stroke((nearest, centre), Pen.THIN, tag=f"centre of {link}"))
 
     def _corner(
         self, link: str, z: complex, place: complex, along: list[tuple[complex, complex]]
@@ -186,9 +213,10 @@ class Scheme(Struct):
     def draw_slider(self, slide: Slide) -> None:
         """Draw the rectangle of a prismatic pair and the guide that it runs on."""
         u = self.line_direction(slide)
-        pin, angle = self.at(slide.pin), symbols.angle_of(u)
+        pin = self.at(slide.pin)
         if self.solution.problem.is_block(slide):
-            block = self.base(slide)
+            base = self.base(slide)
+            block = pin + u * ((base - pin) * u.conjugate()).real
             reach = block + symbols.unit(block - pin) * (7.0 + OVERHANG) * self.factor
             far = max(
                 (self.at(p) for p in self.solution.problem.bodies[slide.slider].points),
@@ -196,20 +224,45 @@ class Scheme(Struct):
             )
             if ((far - reach) * symbols.unit(block - pin).conjugate()).real < 0:
                 self.bar(slide.slider, far, reach)
-            self.bodies += symbols.slider(block, angle=angle, factor=self.factor, pen=self.pen)
+            self._put(BlockOutline(block, u, *self._sized(SIZES.slider_length, SIZES.slider_width)))
+            if abs(block - base) > 0.2:
+                self.bar(slide.host, block, base)
+                self._weld(slide.host)
             return
         if slide.host == FRAME:
             self._frame_guide(slide, u)
-            self.bodies += symbols.slider(pin, angle=angle, factor=self.factor, pen=self.pen)
+            self._put(BlockOutline(pin, u, *self._sized(SIZES.slider_length, SIZES.slider_width)))
+            self._weld(slide.slider)
             return
         foot = self.foot(slide)
-        slides = self.solution.problem.slides.values()
-        inside = any(s.host == FRAME and s.pin == slide.pin for s in slides)
-        self.bodies += symbols.stone(
-            foot, angle=angle, factor=self.factor, pen=self.pen, pin=False, inside=inside
-        )
+        # A stone on another block is smaller, so that both are seen.
+        whole = BlockOutline(foot, u, *self._sized(*symbols.stone_size()))
+        inside = any(one.covers(whole) for one in self.blocks)
+        self._put(BlockOutline(foot, u, *self._sized(*symbols.stone_size(inside=inside))))
+        self.bodies.append(Stroke(self.blocks[-1].axis, self.pen))
         if abs(foot - pin) > 0.2:
             self.bar(slide.slider, foot, pin)
+        self._weld(slide.slider)
+
+    def _sized(self, length: float, width: float) -> tuple[float, float]:
+        return length * self.factor, width * self.factor
+
+    def _put(self, block: BlockOutline) -> None:
+        """Draw a block, white inside: over the guides, but over no other block."""
+        fill, outline = symbols.slider(
+            block.middle, angle=symbols.angle_of(block.along),
+            length=block.length, width=block.width, pen=self.pen,
+        )  # fmt: skip
+        self.bodies.insert(0, fill)
+        self.bodies.append(outline)
+        self.blocks.append(block)
+
+    def _weld(self, link: str) -> None:
+        """Fix the rods of a link to the block that was drawn last, which is one piece with it."""
+        if self.pen is Pen.MAIN:
+            tag, block = f"link {link}", self.blocks[-1]
+            self.lines, welds = welded(self.lines, tag, block, self.factor)
+            self.corners += welds
 
     def _frame_guide(self, slide: Slide, u: complex) -> None:
         """Draw the axis of a fixed guide over the slider's way and the hatched plates at it."""
@@ -231,16 +284,15 @@ class Scheme(Struct):
         self.bodies += symbols.guide_plates(
             pin, angle=angle, length=length, sides=sides, factor=self.factor, pen=self.pen
         )
-        self.axis_ends.append((slide.label, start + u * low + offset, start + u * high + offset))
+        name = self.solution.problem.guide_name(slide.label)
+        self.axis_ends.append((name, start + u * low + offset, start + u * high + offset))
 
     def clearance(self, place: complex) -> float:
         """Return how far a place is from the nearest link, mm."""
         room = math.inf
         for parts in self.segments.values():
             for start, end in parts:
-                along = end - start
-                part = ((place - start) * along.conjugate()).real / abs(along) ** 2
-                room = min(room, abs(place - start - along * min(1.0, max(0.0, part))))
+                room = min(room, off_segment(place, start, end))
         return room
 
     def longest(self, link: str) -> tuple[complex, complex] | None:
@@ -274,9 +326,15 @@ class Scheme(Struct):
         for link, body in problem.bodies.items():
             for point in body.points:
                 if link != FRAME and point not in named:
-                    self.joints.append(Disc(self.at(point), 0.8 * self.factor, Ink.BLACK))
+                    self.joints += self.mark(point)
                     named.add(point)
         self.named = sorted(named)
+
+    def mark(self, point: str) -> list[Item]:
+        """Return a point that is no joint: a centre of mass has its own symbol."""
+        if point in self.solution.problem.centres:
+            return symbols.mass_centre(self.at(point), factor=self.factor)
+        return [Disc(self.at(point), 0.8 * self.factor, Ink.BLACK)]
 
     def joint_items(self, joint: Revolute, place: complex) -> list[Item]:
         """Return a joint; a link that goes on through it is seen to be one piece."""

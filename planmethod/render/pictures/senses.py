@@ -207,12 +207,12 @@ class Senses(Struct):
         drive = scheme.solution.problem.drive
         if drive.pivot is None:
             return
-        phi = float(scheme.solution.positions[scheme.index]) % 360.0
-        if phi < 8 or phi > 352:
+        phi = _swept(scheme.solution.problem.shown(float(scheme.solution.positions[scheme.index])))
+        if not 8 < abs(phi) < 352:
             return
         centre, radius = scheme.at(drive.pivot), 6.0 * scheme.factor + 2
         support = angle_of(scheme.free_direction(centre)) % 360.0
-        if support < phi:
+        if support < phi or support - 360.0 > phi:
             radius = (SIZES.support_height + SIZES.hatch_stroke + 4.0) * scheme.factor
             pins = [scheme.at(p) for p in scheme.solution.problem.bodies[drive.link].points]
             if max(abs(pin - centre) for pin in pins) < radius + 4.0:
@@ -220,11 +220,19 @@ class Senses(Struct):
         end = centre + radius + 6
         drawn = [
             Stroke((centre, end), Pen.THIN, tag="phi"),
-            *turn_arrow(centre, radius, 1, middle=phi / 2, sweep=phi, length=2.5, tag="phi"),
+            *turn_arrow(
+                centre,
+                radius,
+                1 if phi > 0 else -1,
+                middle=phi / 2,
+                sweep=abs(phi),
+                length=2.5,
+                tag="phi",
+            ),
         ]
         scheme.guides += drawn
         # Over the line and under it letters would read as a fraction.
-        offs = [-1j * off * (1 if phi < 180.0 else -1) for off in _OFF_BAR]
+        offs = [-1j * off * (1 if 0.0 < phi < 180.0 else -1) for off in _OFF_BAR]
         bars: list[Item] = [Stroke((centre + off, end + _BAR + off), Pen.THIN) for off in offs]
         size = small(scheme.letter_height)
         reach = radius + 1.0 + 1.4 * size
@@ -239,6 +247,11 @@ class Senses(Struct):
                 name="phi",
             )
         )
+
+
+def _swept(phi: float) -> float:
+    """Return the angle of an arc: a negative one within half a turn is laid off clockwise."""
+    return phi if -180.0 < phi < 0.0 else phi % 360.0
 
 
 def _cis(degrees: Reals) -> Complexes:

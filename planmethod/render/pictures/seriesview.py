@@ -2,19 +2,22 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from math import ceil
 
 from msgspec.structs import replace
 
 from planmethod.mechanism.model import FRAME
 from planmethod.plans.model import PlanKind
+from planmethod.render.ink.drawing import Item
 from planmethod.render.ink.extent import ink_bounds
-from planmethod.render.labels import BUSY, Placed, place_labels
+from planmethod.render.labels import BUSY, Label, Placed, place_labels
 from planmethod.render.labels.candidates import untidiness
+from planmethod.render.labels.crowd import CROWD, densest
 from planmethod.render.layout.block import Picture
 from planmethod.render.pictures.ellipses import Ellipses, error_ellipses
 from planmethod.render.pictures.extremes import construction_items, stroke_items
-from planmethod.render.pictures.positions import Positions
+from planmethod.render.pictures.positions import Positions, Thinned
 from planmethod.render.pictures.schemeview import (
     SchemeView,
     letter_axes,
@@ -51,13 +54,14 @@ def series_picture(
     errors: bool = False,
     turn: bool = False,
     traces: Shown = False,
+    added: tuple[tuple[Item, ...], tuple[Label, ...]] = ((), ()),
 ) -> Picture:
     """Return the scheme in one position and others over it as a picture, mm.
 
     The positions of ``overlay`` are there in thin lines, their points lettered and numbered, in
     smaller letters where larger do not fit; the arrows of the links but the driver's, and its
     angle, are left to schemes of one position. ``turn`` draws the construction of the extreme
-    positions; ``errors`` and ``traces`` are those of `scheme_picture`.
+    positions; ``errors``, ``traces`` and ``added`` are those of `scheme_picture`.
     """
     view = SchemeView.drawn(solution, index, letter_height, traces)
     ellipses = error_ellipses(solution, PlanKind.POSITION, index) if errors else Ellipses()
@@ -66,12 +70,12 @@ def series_picture(
     fixed = solution.problem.bodies[FRAME].points
     letter_points(view, [point for point in scheme.named if point in fixed])
     letter_axes(view, positions.places())
-    others = positions.lines()
+    others = [*positions.lines(), *added[0]]
     letter_links(view, others)
     special = special_points(scheme)
     scheme.guides += special[0]
     view.labels += special[1]
-    own = [replace(label, manner=BUSY) for label in view.labels]
+    own = [replace(label, manner=BUSY) for label in (*view.labels, *added[1])]
     construction = extreme_construction(solution) if turn else None
     if construction is not None:
         lines, radii = construction_items(construction, size)
@@ -80,13 +84,15 @@ def series_picture(
         before = [*others, *view.items()]
         lines, letters = stroke_items(positions.paths, positions.ends, before, size)
         others, own = [*others, *lines], [*own, *letters]
-    items = [*others, *view.items(marks=positions.marks()), *ellipses.strokes]
+    every = ceil(len(positions.overlay) / MOST)
+    thinned = _thinned(positions, own, size, every)
+    items = [*others, *view.items(marks=positions.marks(thinned)), *ellipses.strokes]
     left, low, right, high = ink_bounds(items)
     bounds = (left - ROOM, low - ROOM, right + ROOM, high + ROOM)
     tries: list[list[Placed]] = []
     heights = (size, max(LEAST, 0.5 * letter_height))
     for height in heights:
-        labels = [*own, *positions.labels(height, every=ceil(len(positions.overlay) / MOST))]
+        labels = [*own, *positions.labels(height, every=every, thinned=thinned)]
         last = height == heights[-1]
         tries.append(place_labels(labels, [*items, *ellipses.grounds], bounds, breaking=last))
         if untidiness(tries[-1]) <= UNTIDY * len(labels):
@@ -94,3 +100,13 @@ def series_picture(
     placed = min(tries, key=untidiness)
     whole = [*items, *(item for label in placed for item in label.items())]
     return Picture(tuple(whole), ink_bounds(whole))
+
+
+def _thinned(positions: Positions, own: Sequence[Label], height: float, every: int) -> Thinned:
+    """Return how far the letters of the positions are thinned, so that their area bears them."""
+    there = [label.anchor for label in own]
+    for thinned in Thinned:
+        labels = positions.labels(height, every=every, thinned=thinned)
+        if densest([*there, *(label.anchor for label in labels)])[0] <= CROWD:
+            break
+    return thinned

@@ -89,8 +89,9 @@ def scheme_view(solution: Solution, indices: Sequence[int], manner: Manner) -> V
     told = [scale_inscription(scale, solution.problem.scales.convention, tell.say)]
     title = manner.entry.title or tell.said.with_weights
     picture = scheme_picture(
-        solution, index, letter_height=manner.letter, added=(tuple(items), tuple(labels))
-    )
+        solution, index, letter_height=manner.letter, given=True,
+        added=(tuple(items), tuple(labels)),
+    )  # fmt: skip
     return Viewed(named(picture, title, told, manner), "scheme", scale)
 
 

@@ -15,7 +15,7 @@ from planmethod.errors import LayoutError
 from planmethod.languages import LANGUAGES, say
 from planmethod.note.wording import Language, language
 from planmethod.paper import paper_format
-from planmethod.plans.model import FACTS, MOTION
+from planmethod.plans.model import FACTS, MOTION, PlanKind
 from planmethod.problem.model import Problem, Scales
 from planmethod.render.frame.furniture import Furniture
 from planmethod.render.ink.drawing import Drawing
@@ -327,7 +327,9 @@ class OnPaper(Struct, frozen=True):
             if without is not None and not _cut_down(without):
                 laid, extras = without, bare
         drawn = {scale.symbol: scale.per_mm for scale in solution.scales.values()}
-        free = [key for key in KEYS if getattr(self.scales, key) is None]
+        shown = {PlanKind.POSITION, *(entry.of for entry in of.layout.blocks if entry.of)}
+        keys = {FACTS[kind].scale for kind in shown}
+        free = [key for key in KEYS if key in keys and getattr(self.scales, key) is None]
         if not of.layout.grow or not free:
             return replace(laid, scales=drawn)
 

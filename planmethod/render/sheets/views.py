@@ -22,6 +22,7 @@ from planmethod.render.pictures.planview import (
     knot_pictures,
     plan_picture,
     plan_places,
+    vector_label,
 )
 from planmethod.render.pictures.schemeview import scheme_picture
 from planmethod.render.pictures.traces import Shown, shown_traces
@@ -95,7 +96,8 @@ def plan_spans(
         )
         share = solution.scales[kind].per_mm / solution.own_scale(kind, index).per_mm
         name = plain_text(letters[vector.tail][0] + letters[vector.head][0])
-        spans.append(Span(name, position, start, end, share * times))
+        label = "" if knot is not None else vector_label(f"{kind.value} {index}", vector)
+        spans.append(Span(name, position, start, end, share * times, label))
     return spans
 
 

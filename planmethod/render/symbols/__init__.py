@@ -32,7 +32,14 @@ from planmethod.render.symbols.hatching import (
     hatch,
     taken_by,
 )
-from planmethod.render.symbols.links import crank, link, rigid_corner, rocker, stiff_triangle
+from planmethod.render.symbols.links import (
+    crank,
+    link,
+    mass_centre,
+    rigid_corner,
+    rocker,
+    stiff_triangle,
+)
 from planmethod.render.symbols.pairs import (
     SLIDER,
     mobile_revolute,
@@ -42,6 +49,7 @@ from planmethod.render.symbols.pairs import (
     revolute_on,
     slider,
     stone,
+    stone_size,
 )
 from planmethod.render.symbols.sizes import SIZES, SymbolSizes, angle_of, unit
 
@@ -67,6 +75,7 @@ __all__ = [
     "guide_plates",
     "hatch",
     "link",
+    "mass_centre",
     "mobile_revolute",
     "mobile_slider",
     "offset_slider",
@@ -77,6 +86,7 @@ __all__ = [
     "slider",
     "stiff_triangle",
     "stone",
+    "stone_size",
     "taken_by",
     "turn_arrow",
     "turn_sign",

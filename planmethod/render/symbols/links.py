@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import cmath
-from math import radians, sin
+from math import pi, radians, sin
 
-from planmethod.render.ink.drawing import Arc, Fill, Item, Pen, Stroke
+from planmethod.render.ink.drawing import Arc, Disc, Fill, Item, Pen, Stroke
 from planmethod.render.symbols.grounds import fixed_pivot
 from planmethod.render.symbols.hatching import hatch
 from planmethod.render.symbols.pairs import revolute
@@ -30,6 +30,16 @@ def rigid_corner(
         return []
     size = min(SIZES.corner * factor, abs(first - vertex) / 2, abs(second - vertex) / 2)
     return [Fill((vertex, vertex + one * size, vertex + two * size))]
+
+
+def mass_centre(at: complex, *, factor: float = 1.0) -> list[Item]:
+    """Return a centre of mass: a small circle with two quarters filled (центр масс)."""
+    radius = SIZES.centre * factor
+    quarters: list[Item] = [
+        Fill((at, *(at + cmath.rect(radius, start + pi * k / 12) for k in range(7))))
+        for start in (0.0, pi)
+    ]
+    return [Disc(at, radius), *quarters, Arc(at, radius, pen=Pen.THIN)]
 
 
 def stiff_triangle(

@@ -139,6 +139,12 @@ def offset_slider(foot: complex, pin: complex) -> list[Item]:
     return [*slider(foot), Stroke((foot, pin)), *revolute(pin)]
 
 
+def stone_size(*, inside: bool = False) -> tuple[float, float]:
+    """Return length and width of a stone before ``factor``, mm; ``inside`` of another slider."""
+    share = (0.5, 0.6) if inside else (0.85, 0.75)
+    return share[0] * SIZES.slider_length, share[1] * SIZES.slider_width
+
+
 def stone(
     at: complex,
     *,
@@ -154,8 +160,7 @@ def stone(
     the direction of the guide, degrees. Links that end at the pin are drawn after the stone, so
     give ``pin=False`` and a `revolute` last.
     """
-    share = (0.5, 0.6) if inside else (0.85, 0.75)
-    length, width = share[0] * SIZES.slider_length, share[1] * SIZES.slider_width
+    length, width = stone_size(inside=inside)
     turn = cmath.exp(1j * radians(angle)) * length / 2 * factor
     items = slider(at, angle=angle, length=length, width=width, factor=factor, pen=pen)
     items.append(Stroke((at - turn, at + turn), pen))

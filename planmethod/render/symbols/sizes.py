@@ -12,6 +12,7 @@ class SymbolSizes(Struct, frozen=True):
     """Sizes of the symbols, mm, before ``factor``."""
 
     joint: float = 3.0  # diameter of a revolute pair
+    centre: float = 1.2  # radius of a centre of mass
     ring: float = 1.3  # from the joint to the ring of a joint of three links
     support_height: float = 9.0  # from the pivot to its base line
     support_width: float = 9.0  # between the feet of the support

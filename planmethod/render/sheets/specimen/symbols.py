@@ -10,9 +10,10 @@ from planmethod.note.wording import Language
 from planmethod.render import symbols
 from planmethod.render.frame.frame import sheet_frame
 from planmethod.render.frame.furniture import Furniture
-from planmethod.render.ink.drawing import Bounds, Drawing, Item
+from planmethod.render.ink.drawing import Bounds, Drawing, Item, Stroke
 from planmethod.render.ink.style import ARROW
 from planmethod.render.layout.block import Column, heading, paragraph
+from planmethod.render.pictures.welds import BlockOutline, welded
 from planmethod.render.sheets.specimen.cells import Clause, SymbolCell, drawn_grid, letter, scheme
 from planmethod.render.sheets.specimen.wheels import GEARS, wheel_cells
 from planmethod.render.symbols import SIZES
@@ -216,17 +217,29 @@ def _sliders() -> Iterator[SymbolCell]:
         ),
         (letter("E", -5 + 0j, 1j, gap=7),),
     )
-    pin = 9j
+    # An arm to a hinge and a rod, both in one piece with the slider, and a centre of mass.
+    pin, tag = 9j, "link 5"
+    block = BlockOutline(0j, 1 + 0j, SIZES.slider_length, SIZES.slider_width)
+    rods = [Stroke((0j, end), tag=tag) for end in (pin, 29 + 0j)]
+    bars, welds = welded(rods, tag, block, 1.0)
     yield SymbolCell(
         "slider_offset",
         None,
         scheme(
-            *axis,
-            symbols.guide_line(0j, before=13, after=13),
+            axis[0],
+            symbols.guide_line(0j, before=13, after=8),
             symbols.link(pin + way(20, 28), pin, tag="link 4"),
-            symbols.offset_slider(0j, pin),
+            symbols.slider(0j),
+            bars,
+            welds,
+            symbols.revolute(pin),
+            symbols.mass_centre(18 + 0j),
         ),
-        (letter("E", pin, 1j), letter("5", -5 + 4j, 1j, gap=1.5)),
+        (
+            letter("E", pin, 1j),
+            letter("5", -5 + 4j, 1j, gap=1.5),
+            letter("S_{5}", 18 + 0j, -1j, gap=2.4),
+        ),
     )
     turn = 35.0
     bar = (way(turn, -16), way(turn, 30))

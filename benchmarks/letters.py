@@ -1,0 +1,56 @@
+"""How the letters of sheets stand (расстановка букв): nearest to their own points, not too many.
+
+Run ``python -m benchmarks.letters [EVERY]``: of the shipped linkages every so manieth, the sixth
+when absent, in 1 and 12 positions; it prints the lines of docs/paper.md.
+"""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+from statistics import fmean
+
+from planmethod.errors import PlanMethodError
+from planmethod.problem import load
+from planmethod.render.control.misleading import holds, is_of_point, own_and_other
+from planmethod.render.control.texts import writings_of
+from planmethod.render.labels.crowd import SIDE, densest
+from planmethod.render.sheets.kinematics import kinematics_sheets
+
+PROBLEMS = Path(__file__).parent.parent / "problems"
+
+
+def measured(every: int, count: int) -> str:
+    """Return the line of so many positions."""
+    near, dense, per_area = [], [], []
+    for path in sorted(PROBLEMS.glob("l*/*.toml"))[::every]:
+        problem = load(path)
+        first = problem.drive.positions[0]
+        if count > 1 and not problem.drive.is_crank:
+            continue
+        try:
+            sheets = kinematics_sheets(
+                problem, positions=[first + 360 * k / count for k in range(count)]
+            )
+        except PlanMethodError:
+            continue
+        for sheet in sheets:
+            writings = writings_of(sheet.items)
+            near += [own <= other for _, own, other in own_and_other(writings, sheet.views)]
+            for view in (view for view in sheet.views if view.kind == "position"):
+                left, low, right, high = view.box
+                inside = [w for w in writings if is_of_point(w.name) and holds(view.box, w.where)]
+                dense.append(
+                    densest([complex(w.ink.centroid.x, w.ink.centroid.y) for w in inside])[0]
+                )
+                per_area.append(len(inside) * 1e4 / ((right - left) * (high - low)))
+    return (
+        f"- Of {count}: {100 * fmean(near):.1f} % of {len(near)} letters of points are nearest "
+        f"to their own; schemes have {fmean(per_area):.0f} a dm², {max(per_area):.0f} at most; at "
+        f"most {max(dense)} in a square of {SIDE:.0f} mm; {len(dense)} schemes."
+    )
+
+
+if __name__ == "__main__":
+    for number in (1, 12):
+        print(measured(int(sys.argv[1]) if len(sys.argv) > 1 else 6, number))
