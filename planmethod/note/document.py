@@ -306,7 +306,7 @@ class Document(Struct, frozen=True):
         """Return what a notebook shows, in the language of the environment, else in Russian."""
         from pkgutil import resolve_name
 
-        # A document knows no writer: the page asks for one by name (ADR 0049).
+        # A document knows no writer: the page asks for one by name (ADR 0044).
         shown: str = resolve_name("planmethod.note.writers.html:html_part")(self, spoken_to(()))
         return shown
 

@@ -174,7 +174,7 @@ class Solution(Remembering):
         """Return what a notebook shows: the tables of `solve`."""
         from pkgutil import resolve_name
 
-        # Numbers know no document: the page asks for one by name (ADR 0049).
+        # Numbers know no document: the page asks for one by name (ADR 0044).
         shown: str = resolve_name("planmethod.note.tables.results:results_part")(self)
         return shown
 

@@ -8,6 +8,7 @@ from pathlib import Path
 
 import ezdxf
 import pytest
+from cad import draw
 from click.testing import CliRunner
 
 from planmethod.check.checking import check
@@ -21,7 +22,6 @@ from planmethod.check.works.faults import WorksError
 from planmethod.cli import cli
 from planmethod.plans.model import PlanKind
 from tests.cases import thinned
-from tests.check.cad import draw
 
 PROBLEMS = (
     "linkages/ex3",

@@ -181,7 +181,7 @@ class Drawing(Struct):
         """Return what a notebook shows."""
         from pkgutil import resolve_name
 
-        # Ink knows no format: the page asks for one by name (ADR 0049).
+        # Ink knows no format: the page asks for one by name (ADR 0044).
         data: bytes = resolve_name("planmethod.render.backends:render")(self, "svg")
         return data.decode()
 
