@@ -74,7 +74,7 @@ def turned(text: str) -> str:
     number, moved = r"(-?\d*\.?\d+)", 5 - 4j
     starts = [
         (found[0], complex(float(found[1]), float(found[2])))
-        for found in re.finditer(rf"M{number} ?{number}l", text)
+        for found in re.finditer(rf"M{number} ?{number}l(?=[^M\"]*Z)", text)  # arrows are closed
     ]
     for shaft in re.finditer(rf"M{number} ?{number}l{number} ?{number}", text):
         x, y, dx, dy = map(float, shaft.groups())
@@ -87,7 +87,7 @@ def turned(text: str) -> str:
             ((head, at),) = heads
             line = f"M{x} {y}l{dx + moved.real:.3f} {dy + moved.imag:.3f}"
             at += moved
-            return text.replace(shaft[0], line).replace(head, f"M{at.real:.3f} {at.imag:.3f}l")
+            return text.replace(shaft[0], line).replace(head, f"M{at.real:.3f} {at.imag:.3f}l", 1)
     raise AssertionError("the vector (pd) is not on the sheet")
 
 
