@@ -36,6 +36,7 @@ LATE_OF = {
     "ezdxf": "drawings as DXF",
     # Only problems with loads have forces, only some ask for the drafting errors.
     "planmethod.solved.selectors.forces": "forces",
+    "planmethod.solved.forces.statics": "forces",
     "planmethod.note.narrate.forces": "forces",
     "planmethod.note.audit": "printed values",
     "planmethod.note.tables.causes": "drafting errors",

@@ -140,6 +140,7 @@ def read_fields(
         if not sign or not key:
             raise BadParameter("{!r} is not key=text, such as author=Иванов", field)
         fields[key] = text
+        text.encode()  # a text that is not UTF-8 is told as of any word of the command line
         read_text(faults, key, text, limit=STAMP_LIMIT)
     if faults.found:
         raise click.BadParameter(" ".join(map(str, faults.found)))

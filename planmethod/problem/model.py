@@ -6,7 +6,6 @@ then quadrants stay exact; the arithmetic of a reading turns them into direction
 
 from __future__ import annotations
 
-import re
 from collections.abc import Mapping
 from enum import Enum
 from math import inf
@@ -420,8 +419,10 @@ class Scales(Struct, frozen=True):
         return self.convention is Convention.MM_PER_UNIT
 
 
-_PAIR = re.compile(r"(.+)[-–]\1")
-"""The form of a guide's name that a reader knows."""
+def _is_pair(name: str) -> bool:
+    """Tell whether a guide's name has the form that a reader knows: ``x-x``."""
+    half = len(name) // 2
+    return half > 0 and name[half] in "-–" and name[:half] == name[half + 1 :]
 
 
 class Problem(KindProblem, frozen=True, kw_only=True):
@@ -510,11 +511,11 @@ class Problem(KindProblem, frozen=True, kw_only=True):
         A name of that form is the reader's already. Another one, ``g5``, is a key of the file: the
         guide takes the first pair of letters that is free, ``y-y`` first where it is upright.
         """
-        if label not in self.guides or _PAIR.fullmatch(label):
+        if label not in self.guides or _is_pair(label):
             return label
-        taken = [name for name in self.guides if _PAIR.fullmatch(name)]
+        taken = [name for name in self.guides if _is_pair(name)]
         for name, (_, _, angle) in self.guides.items():
-            if name in taken or _PAIR.fullmatch(name):
+            if name in taken or _is_pair(name):
                 continue
             letters = "yxzuw" if angle % 180.0 == 90.0 else "xyzuw"
             pairs = (f"{one}{n}-{one}{n}" for n in ("", *range(1, 99)) for one in letters)

@@ -28,7 +28,6 @@ from planmethod.plans.model import RATES
 from planmethod.problem.model import Problem
 from planmethod.solved.closings import Choosing, WantedReading, choosing, drive_data
 from planmethod.solved.enlarging import SHORT, SMALL
-from planmethod.solved.forces.statics import loads_on, statics_of
 from planmethod.solved.impossible import failing
 from planmethod.solved.reading import Flags, Reading, Reals
 from planmethod.solved.selfcheck import changed_branches, refused
@@ -125,6 +124,8 @@ class Batch(Solution):
             return [() if told else None for told in good.tolist()]
         kinds = [_loads_kind(one) for one, _ in self.parts]
         if len(set(kinds)) == 1 and kinds[0] is not None:
+            from planmethod.solved.forces.statics import statics_of
+
             closes = statics_of(self).closes
             return [kinds[0] if closes[own].all() else None for own in self.rows]
         return kinds
@@ -233,6 +234,8 @@ def _kind(problem: Problem, construction: Construction) -> tuple[Any, ...]:
 
 
 def _loads_kind(solution: Solution) -> tuple[object, ...] | None:
+    from planmethod.solved.forces.statics import loads_on
+
     try:
         return solution.once(loads_on).kind
     except PlanMethodError:
