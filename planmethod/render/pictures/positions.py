@@ -263,11 +263,13 @@ def shows_extremes(solution: Solution, indices: Sequence[int]) -> bool:
 def written(point: str, numbers: Sequence[str], *, bold: bool = False, alone: bool = False) -> str:
     """Return the letters of a point in some positions: ``B_{3}, B_{9}``, ``B′``, or ``3, 9``.
 
-    ``B`` alone where there are none.
+    ``B`` alone where there are none; ``S_{5}′`` with the letter in any case.
     """
     if not numbers:
         return point_name(point)
     if len(point) > 1 or (alone and not bold):
-        found = ", ".join(numbers)
-        return point_name(point) + (f" ({found})" if len(numbers) > 1 else "") if bold else found
+        if bold:
+            return point_name(point) + (f" ({', '.join(numbers)})" if len(numbers) > 1 else "")
+        # A number alone is read with the others of its row, a prime alone is read as dirt.
+        return ", ".join(point_name(point) + n if n in PRIMES else n for n in numbers)
     return ", ".join(point + n if n in PRIMES else f"{point}_{{{n}}}" for n in numbers)
