@@ -12,7 +12,6 @@ import shutil
 import zipfile
 from collections.abc import AsyncIterator, Mapping
 from hashlib import sha256
-from importlib.resources import files
 from pathlib import Path
 from typing import Any
 
@@ -29,7 +28,7 @@ from starlette.routing import Route
 from planmethod.errors import OutputError
 from planmethod.languages import LANGUAGES, say, speaking
 from planmethod.note.wording import language
-from planmethod.problem import FAMILIES, OTHER_FAMILIES, template
+from planmethod.problem import FAMILIES, OTHER_FAMILIES, schema_text, template
 from planmethod.problem.tasks import tasks, text_for
 from planmethod.studio.document import POLICY, asset, page_of
 from planmethod.studio.limits import StudioLimits
@@ -208,9 +207,9 @@ class _Studio:
 
     # What there is to start from -----------------------------------------------------------------
 
-    async def schema(self, _: Request) -> Response:
-        """Give the schema of problem files."""
-        data = files("planmethod.problem").joinpath("schema.json").read_bytes()
+    async def schema(self, request: Request) -> Response:
+        """Give the schema of problem files, with what keys mean in a language."""
+        data = schema_text(_lang(request))
         return Response(data, media_type="application/json", headers=_SAFE)
 
     async def tasks(self, request: Request) -> Response:

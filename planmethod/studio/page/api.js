@@ -10,8 +10,14 @@ export const made = (parent, tag, text = "", more = {}) => {
   return node;
 };
 
-const token = new URLSearchParams(location.hash.slice(1)).get("token") || sessionStorage.getItem("token") || "";
-if (token) { sessionStorage.setItem("token", token); history.replaceState(null, "", location.pathname + location.search); }
+export function linked() {  // what the address asks for behind its #; once, so that nothing typed since is replaced
+  const asked = new URLSearchParams(location.hash.slice(1));
+  if (asked.has("task") || asked.has("token")) history.replaceState(null, "", location.pathname + location.search);
+  return asked;
+}
+export const first = linked();
+const token = first.get("token") || sessionStorage.getItem("token") || "";
+if (token) sessionStorage.setItem("token", token);
 let session = null;
 
 export function enter() {

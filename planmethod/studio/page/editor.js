@@ -15,7 +15,7 @@ const inks = cm.HighlightStyle.define([
   { tag: cm.tags.bracket, fontWeight: "600" }]);
 
 let schema = null;
-fetch("/api/schema").then(answer => answer.json()).then(found => { schema = found; }, () => {});
+fetch(`/api/schema?lang=${D.lang}`).then(answer => answer.json()).then(found => { schema = found; }, () => {});
 
 const resolved = node => {
   for (let n = 0; node?.$ref && n < 9; n++) node = schema.$defs[node.$ref.split("/").pop()];
