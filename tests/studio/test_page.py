@@ -220,9 +220,7 @@ def test_an_instructor_comes_from_a_table_to_marks(page: Page, address: str) -> 
         page.wait(f"document.querySelector('{box} iframe')")
 
 
-def test_an_address_opens_a_task_and_replaces_nothing_typed_since(
-    page: Page, address: str
-) -> None:
+def test_an_address_opens_a_task_and_replaces_nothing_typed_since(page: Page, address: str) -> None:
     begin(page, address)
     page.open("about:blank")
     page.open(f"{address}?lang=en#task=linkages-ex3&view=sheets", width=1360)
