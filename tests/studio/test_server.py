@@ -293,3 +293,13 @@ def test_no_message_tells_where_the_server_keeps_files(client: TestClient) -> No
     assert "bad.json" in found["errors"]
     assert "sessions" not in json.dumps(found["errors"])
     assert "/tmp" not in found["errors"]
+
+
+def test_a_drawing_is_measured_as_a_work(client: TestClient) -> None:
+    made = do(client, "command", EX3, what="dxf")
+    drawing = client.get(made["files_at"] + "ex3.dxf").content
+    assert client.put("/api/works/Белов.dxf", content=drawing).json() == ["Белов.dxf"]
+    head, row = do(client, "checked", EX3, by_hand=[])["marks"]
+    marks = dict(zip(head, row, strict=True))
+    assert (marks["Студент"], marks["Оценка из 100"]) == ("Белов", "100.00")
+    client.delete("/api/works/all")
