@@ -130,7 +130,8 @@ def russian_schema_text() -> str:
 def _tell(node: object, known: Mapping[str, str]) -> None:
     """Put sentences in place of others, everywhere below a node of the schema."""
     if isinstance(node, dict):
-        if (said := node.get("description")) in known:
+        said = node.get("description")
+        if isinstance(said, str) and said in known:
             node["description"] = known[said]
         for inner in node.values():
             _tell(inner, known)
