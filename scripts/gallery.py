@@ -1,11 +1,12 @@
 """Pictures of the documentation, each made by the commands that its page tells.
 
-``make gallery`` draws them all. Pages of PDF and HTML are turned into pictures by pdftoppm and
-Chromium: pictures of what is not there are left as they are, and that is said.
+``make gallery`` draws them all. Pages of PDF and HTML, and the studio, are turned into pictures by
+pdftoppm and Chromium: pictures of what is not there are left as they are, and that is said.
 """
 
 from __future__ import annotations
 
+import re
 import shlex
 import shutil
 import subprocess
@@ -32,6 +33,8 @@ class Picture(NamedTuple):
     """File that the command makes, where that is not the picture itself."""
     shown: str = ""
     """Of a PDF page and resolution, of HTML width and height in pixels."""
+    served: str = ""
+    """What is opened at the server that the command starts."""
 
 
 PICTURES = (
@@ -57,12 +60,23 @@ PICTURES = (
         "pages/Белов-Никита.html",
         "900 1000",
     ),
+    Picture(
+        "studio",
+        "studio --port 0",
+        shown="1360 900",
+        served="?lang=ru#task=linkages-ex3&view=sheets",
+    ),
 )
+PATIENCE = "60000"
+"""Milliseconds of its own time in which a page of a server draws itself: it waits for answers."""
 
 
 def drawn(picture: Picture, folder: Path) -> Path | str:
     """Draw a picture and return its file; a sentence where a program is missing."""
-    words = ["-m", "planmethod", "--lang", "ru", *shlex.split(picture.command), "-o", str(folder)]
+    words = ["-m", "planmethod", "--lang", "ru", *shlex.split(picture.command)]
+    if picture.served:
+        return served(picture, [sys.executable, *words], folder)
+    words += ["-o", str(folder)]
     run = subprocess.run([sys.executable, *words], cwd=ROOT, capture_output=True, text=True)
     if run.returncode not in (0, 1):  # a check has findings
         raise SystemExit(run.stderr)
@@ -79,6 +93,25 @@ def drawn(picture: Picture, folder: Path) -> Path | str:
     if shutil.which(program) is None:
         return f"{picture.name}: {program} is missing, the picture stays as it is"
     subprocess.run(line, check=True, capture_output=True)
+    return target
+
+
+def served(picture: Picture, command: list[str], folder: Path) -> Path | str:
+    """Start a server on this machine, look at a page of it, and stop it."""
+    if shutil.which(CHROMIUM[0]) is None:
+        return f"{picture.name}: {CHROMIUM[0]} is missing, the picture stays as it is"
+    target, size = folder / f"{picture.name}.png", picture.shown.replace(" ", ",")
+    with subprocess.Popen(command, cwd=ROOT, stdout=subprocess.PIPE, text=True) as running:
+        try:
+            assert running.stdout is not None
+            told = re.search(r"http://\S+", running.stdout.readline())
+            if told is None:
+                return f"{picture.name}: no server was started, the picture stays as it is"
+            page = [f"--virtual-time-budget={PATIENCE}", told[0] + picture.served]
+            line = [*CHROMIUM, f"--screenshot={target}", f"--window-size={size}", *page]
+            subprocess.run(line, check=True, capture_output=True, timeout=120)
+        finally:
+            running.terminate()
     return target
 
 

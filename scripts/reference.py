@@ -3,7 +3,7 @@
 ``make schema`` writes ``planmethod/problem/schema.json`` and the tables of ``docs/problem-file.md``
 and ``docs/ru/keys.md`` anew. What the schema says of other tables, and of values that a table reads
 in its own way, is written there by hand and kept. The Russian sentences of keys stand in
-``docs/ru/keys.toml``.
+``docs/ru/keys.toml``; ``schema.ru.json`` is the schema with them.
 """
 
 from __future__ import annotations
@@ -36,6 +36,7 @@ from planmethod.problem.head import STAMP_LIMIT, TITLE_BLOCK
 
 ROOT = Path(__file__).resolve().parents[1]
 SCHEMA = ROOT / "planmethod" / "problem" / "schema.json"
+RUSSIAN_SCHEMA = SCHEMA.with_suffix(".ru.json")
 ENGLISH = ROOT / "docs" / "problem-file.md"
 RUSSIAN = ROOT / "docs" / "ru" / "keys.md"
 SENTENCES = ROOT / "docs" / "ru" / "keys.toml"
@@ -111,6 +112,32 @@ def schema_text() -> str:
     table_at(schema, "stamp")["properties"] = texts
     schema["$defs"]["field"] = {"type": "string", "maxLength": STAMP_LIMIT}
     return _printed(schema, 0) + "\n"
+
+
+def russian_schema_text() -> str:
+    """Return the schema that tells in Russian what keys mean, so far as a sentence is there."""
+    schema = json.loads(SCHEMA.read_text("utf-8"))
+    sentences = tomllib.loads(SENTENCES.read_text("utf-8"))
+    others = sentences.pop("schema")
+    _tell(schema, others)
+    for kind, known in sentences.items():
+        for name, told in table_at(schema, kind)["properties"].items():
+            if name in known:
+                told["description"] = _plain(known[name])
+    return _printed(schema, 0) + "\n"
+
+
+def _tell(node: object, known: Mapping[str, str]) -> None:
+    """Put sentences in place of others, everywhere below a node of the schema."""
+    if isinstance(node, dict):
+        said = node.get("description")
+        if isinstance(said, str) and said in known:
+            node["description"] = known[said]
+        for inner in node.values():
+            _tell(inner, known)
+    elif isinstance(node, list):
+        for inner in node:
+            _tell(inner, known)
 
 
 def _property(one: FlatField, by_hand: Mapping[str, Any]) -> dict[str, Any]:
@@ -266,8 +293,9 @@ def _written(one: FlatField, default: object) -> str:
 
 
 def main() -> None:
-    """Write the schema and both references."""
+    """Write the schema, in both languages, and both references."""
     SCHEMA.write_text(schema_text(), "utf-8")
+    RUSSIAN_SCHEMA.write_text(russian_schema_text(), "utf-8")
     ENGLISH.write_text(english_text(), "utf-8")
     RUSSIAN.write_text(russian_text(), "utf-8")
 

@@ -24,9 +24,9 @@ def schema(file: Path | None, force: bool, lang: str) -> None:
     your problem files, planmethod schema planmethod.schema.json, and begin each of them with the
     line: #:schema ./planmethod.schema.json
     """
-    import planmethod.problem
+    from planmethod.problem import schema_text
 
-    text = Path(planmethod.problem.__file__).with_name("schema.json").read_text(encoding="utf-8")
+    text = schema_text(lang)
     if file is None:
         click.echo(text, nl=False)
     else:

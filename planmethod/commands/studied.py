@@ -11,13 +11,13 @@ import json
 import re
 from collections.abc import Callable
 from contextlib import redirect_stderr, redirect_stdout
-from importlib import import_module
 from pathlib import Path
 from typing import Any
 
 import click
 
 from planmethod.commands.helptext import answering
+from planmethod.commands.watched import run
 from planmethod.errors import Fault, PlanMethodError, ProblemError
 from planmethod.languages import say
 
@@ -26,9 +26,6 @@ Found = dict[str, Any]
 Tell = Callable[[float], None]
 
 OUT = "out"
-_BAR = re.compile(r"planmethod\s+\[.*?\]\s+(\d+)%[^\r\n]*")
-_ORDERS = re.compile(r"\x1b\[[?\d;]*[a-zA-Z]")
-_MOST_TEXT = 400_000  # letters of what a command prints
 
 
 def act(asked: Asked, tell: Tell) -> Found:
@@ -251,43 +248,6 @@ def _page(drawing: Any, lang: str) -> dict[str, Any]:
 # Commands ----------------------------------------------------------------------------------------
 
 
-class _Watched(io.StringIO):
-    """Standard error of a command that shows its progress: the bar is told, not kept."""
-
-    def __init__(self, tell: Tell) -> None:
-        super().__init__()
-        self._told = tell
-
-    def isatty(self) -> bool:
-        """Say that somebody watches."""
-        return True
-
-    def write(self, text: str) -> int:
-        """Tell how far the bar is; keep all else."""
-        text = _ORDERS.sub("", text)
-        for share in _BAR.findall(text):
-            self._told(int(share) / 100)
-        super().write(_BAR.sub("", text).replace("\r", ""))
-        return len(text)
-
-
-def _run(name: str, *args: str, tell: Tell) -> Found:
-    """Run a command as the command line does; return what it printed and its exit code."""
-    command = getattr(import_module(f"planmethod.commands.{name}"), name)
-    printed, errors, code = io.StringIO(), _Watched(tell), 0
-    with redirect_stdout(printed), redirect_stderr(errors):
-        try:
-            found = command.main(list(args), standalone_mode=False, prog_name=f"planmethod {name}")
-            code = found if isinstance(found, int) else 0
-        except SystemExit as end:
-            code = end.code if isinstance(end.code, int) else 1
-    return {
-        "code": int(code),
-        "output": printed.getvalue()[:_MOST_TEXT],
-        "errors": errors.getvalue().strip()[:_MOST_TEXT],
-    }
-
-
 def _listed(folder: Path) -> list[dict[str, Any]]:
     files = sorted(path for path in folder.rglob("*") if path.is_file())
     return [
@@ -331,7 +291,7 @@ def command(asked: Asked, tell: Tell) -> Found:
     folder = ["-o", str(out)] if asked["what"] in FILED else []
     if asked.get("variant"):
         args += ["--variant", asked["variant"]]
-    found = _run(name, *args, *folder, str(path), tell=tell)
+    found = run(name, *args, *folder, str(path), tell=tell)
     return {**found, "files": _listed(out)}
 
 
@@ -378,7 +338,7 @@ def verdicts(asked: Asked, tell: Tell) -> Found:
     work = folder / "work.json"
     work.write_text(json.dumps(asked["work"], ensure_ascii=False), encoding="utf-8")
     variant = ["--variant", asked["variant"]] if asked.get("variant") else []
-    found = _run(
+    found = run(
         "check", str(path), str(work), "-o", str(folder / OUT), "--lang", asked["lang"], *variant,
         tell=tell,
     )  # fmt: skip
@@ -398,7 +358,7 @@ def checked(asked: Asked, tell: Tell) -> Found:
     rows = [COLUMNS, *([str(row.get(key, "")) for key in COLUMNS] for row in asked["by_hand"])]
     by_hand.write_bytes(_csv(rows))
     variant = ["--variant", asked["variant"]] if asked.get("variant") else []
-    found = _run(
+    found = run(
         "check", str(path), *asked["works"], "-o", str(out), "--gradebook",
         "--overrides", str(by_hand), "--lang", asked["lang"], *variant, tell=tell,
     )  # fmt: skip
@@ -436,13 +396,13 @@ def varied(asked: Asked, tell: Tell) -> Found:
     path, out = _file(asked), Path(asked["folder"]) / OUT
     lang, written = ["--lang", asked["lang"]], out / f"{asked['name']}-variants.toml"
     out.mkdir(exist_ok=True)
-    found = _run(
+    found = run(
         "variants", str(path), "--count", str(asked["count"]), "--seed", str(asked["seed"]),
         "-o", str(written), *lang, tell=tell,
     )  # fmt: skip
     if written.exists() and asked.get("moodle"):
         quiz = out / f"{asked['name']}-moodle.xml"
-        more = _run("check", "--key", "--moodle", str(quiz), *lang, str(written), tell=tell)
+        more = run("check", "--key", "--moodle", str(quiz), *lang, str(written), tell=tell)
         found = {**found, "errors": f"{found['errors']}\n{more['errors']}".strip()}
     return found | {"files": _listed(out)}
 

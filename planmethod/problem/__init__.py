@@ -1,6 +1,6 @@
 """Problem files: reading, checking, variants, and templates for new ones."""
 
-from planmethod.problem.families import FAMILIES, OTHER_FAMILIES, template
+from planmethod.problem.families import FAMILIES, OTHER_FAMILIES, schema_text, template
 from planmethod.problem.model import Problem
 from planmethod.problem.reader import load, load_each, loads, variant_names
 
@@ -11,6 +11,7 @@ __all__ = [
     "load",
     "load_each",
     "loads",
+    "schema_text",
     "template",
     "variant_names",
 ]

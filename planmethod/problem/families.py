@@ -39,3 +39,11 @@ def template(family: str) -> str:
 
     source = files("planmethod.problem") / "templates" / f"{family}.toml"
     return source.read_text(encoding="utf-8")
+
+
+def schema_text(lang: str) -> str:
+    """Return the JSON Schema of problem files, with what keys mean in a language (схема файла)."""
+    from importlib.resources import files
+
+    name = "schema.json" if lang == "en" else f"schema.{lang}.json"
+    return (files("planmethod.problem") / name).read_text(encoding="utf-8")

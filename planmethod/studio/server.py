@@ -5,14 +5,11 @@ from __future__ import annotations
 import asyncio
 import contextlib
 import hmac
-import io
 import json
 import re
 import shutil
-import zipfile
 from collections.abc import AsyncIterator, Mapping
 from hashlib import sha256
-from importlib.resources import files
 from pathlib import Path
 from typing import Any
 
@@ -29,7 +26,7 @@ from starlette.routing import Route
 from planmethod.errors import OutputError
 from planmethod.languages import LANGUAGES, say, speaking
 from planmethod.note.wording import language
-from planmethod.problem import FAMILIES, OTHER_FAMILIES, template
+from planmethod.problem import FAMILIES, OTHER_FAMILIES, schema_text, template
 from planmethod.problem.tasks import tasks, text_for
 from planmethod.studio.document import POLICY, asset, page_of
 from planmethod.studio.limits import StudioLimits
@@ -45,7 +42,7 @@ TRUSTED = ("checked", "varied")
 
 WHATS = ("tables", "protocol", "structure", "live", "pdf", "dxf", "svg", "note", "project", "form")
 TRUSTED_WHATS = ("key",)
-WORKS = (".csv", ".xlsx", ".json", ".toml", ".txt")
+WORKS = (".csv", ".xlsx", ".json", ".toml", ".txt", ".dxf", ".svg")
 """Endings of works."""
 
 MOST_VARIANTS = 60
@@ -208,9 +205,9 @@ class _Studio:
 
     # What there is to start from -----------------------------------------------------------------
 
-    async def schema(self, _: Request) -> Response:
-        """Give the schema of problem files."""
-        data = files("planmethod.problem").joinpath("schema.json").read_bytes()
+    async def schema(self, request: Request) -> Response:
+        """Give the schema of problem files, with what keys mean in a language."""
+        data = schema_text(_lang(request))
         return Response(data, media_type="application/json", headers=_SAFE)
 
     async def tasks(self, request: Request) -> Response:
@@ -314,7 +311,7 @@ class _Studio:
             return JSONResponse([])
         name = Path(request.path_params["name"]).name
         if Path(name).suffix.lower() not in WORKS or not name.isprintable() or len(name) > 120:
-            said = "'{}': works are tables *.csv and *.xlsx, or *.json and *.toml."
+            said = "'{}': works are *.csv, *.xlsx, *.json, *.toml, or drawings *.dxf, *.svg."
             raise _refuse(415, said, name[:120], lang=_lang(request))
         data = await _body(request, self.limits.upload)
         if session.uploaded() + len(data) > self.limits.uploads:
@@ -419,7 +416,7 @@ class _Studio:
         if session is None or not number.isdecimal():
             raise HTTPException(404)
         if name == "all.zip":
-            data = await asyncio.to_thread(_zipped, session.folder / number / "out")
+            data = await asyncio.to_thread(session.zipped, number)
             headers = {"Content-Disposition": 'attachment; filename="planmethod.zip"', **_SAFE}
             return Response(data, media_type="application/zip", headers=headers)
         path = session.file(number, name)
@@ -452,12 +449,3 @@ def _name(text: str) -> str:
 
 def _number(value: object, most: int) -> int:
     return min(max(value, 1), most) if isinstance(value, int) else 1
-
-
-def _zipped(folder: Path) -> bytes:
-    made = io.BytesIO()
-    with zipfile.ZipFile(made, "w", zipfile.ZIP_DEFLATED) as book:
-        for path in sorted(folder.rglob("*")):
-            if path.is_file():
-                book.write(path, path.relative_to(folder).as_posix())
-    return made.getvalue()

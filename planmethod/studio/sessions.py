@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import io
 import re
 import secrets
 import shutil
 import time
+import zipfile
 from collections.abc import Callable
 from hashlib import sha256
 from pathlib import Path
@@ -58,6 +60,15 @@ class StudioSession(Struct):
         root = (self.folder / number / "out").resolve()
         path = (root / name).resolve()
         return path if path.is_relative_to(root) and path.is_file() else None
+
+    def zipped(self, number: str) -> bytes:
+        """Return the files of a computation as one archive."""
+        made, folder = io.BytesIO(), self.folder / number / "out"
+        with zipfile.ZipFile(made, "w", zipfile.ZIP_DEFLATED) as book:
+            for path in sorted(folder.rglob("*")):
+                if path.is_file():
+                    book.write(path, path.relative_to(folder).as_posix())
+        return made.getvalue()
 
     def uploaded(self) -> int:
         """Return how many bytes of works there are."""

@@ -37,3 +37,9 @@ def test_it_takes_a_shipped_file_and_no_key_of_strangers() -> None:
     problem["driver"]["omga"] = problem["driver"].pop("omega")
     judged = jsonschema.Draft202012Validator(schema).iter_errors(problem)
     assert any("omga" in fault.message for fault in judged)
+
+
+def test_keys_are_told_in_the_language_that_is_asked_for() -> None:
+    for lang, said in (("ru", "Угловая скорость, 1/с."), ("en", "Angular velocity, 1/s.")):
+        schema = msgspec.json.decode(run("schema", "--lang", lang).output)
+        assert schema["$defs"]["driver"]["properties"]["omega"]["description"] == said

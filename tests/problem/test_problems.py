@@ -189,8 +189,25 @@ SCHEMA_TABLES = {
 
 def test_what_follows_from_declared_keys_is_current() -> None:
     assert reference.SCHEMA.read_text("utf-8") == reference.schema_text(), "run make schema"
+    russian = reference.RUSSIAN_SCHEMA.read_text("utf-8")
+    assert russian == reference.russian_schema_text(), "run make schema"
     assert reference.ENGLISH.read_text("utf-8") == reference.english_text(), "run make schema"
     assert reference.RUSSIAN.read_text("utf-8") == reference.russian_text(), "run make schema"
+
+
+def test_the_russian_schema_tells_every_key_in_russian_and_differs_in_nothing_else() -> None:
+    def told(node: Any, found: list[str]) -> Any:
+        if isinstance(node, dict):
+            said = node.get("description")
+            found += [said] if isinstance(said, str) else []
+            inner = {key: told(one, found) for key, one in node.items()}
+            return inner | {"description": ""} if isinstance(said, str) else inner
+        return [told(one, found) for one in node] if isinstance(node, list) else node
+
+    russian: list[str] = []
+    other = json.loads(reference.RUSSIAN_SCHEMA.read_text("utf-8"))
+    assert told(other, russian) == told(SCHEMA, [])
+    assert [one for one in russian if not re.search("[а-яё]", one)] == []
 
 
 def test_every_declared_table_is_in_the_schema_and_in_both_references() -> None:

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import base64
 import contextlib
 import re
+import shutil
 import subprocess
 import sys
 import urllib.request
@@ -122,6 +124,8 @@ def test_keys_are_completed_from_the_schema(page: Page, address: str) -> None:
     page.call("Input.insertText", text="om")
     page.wait("document.querySelector('.cm-tooltip-autocomplete')")
     assert "omega" in text(page, ".cm-tooltip-autocomplete")
+    page.wait("document.querySelector('.cm-completionInfo')")
+    assert text(page, ".cm-completionInfo") == "Угловая скорость, 1/с."
 
 
 def test_the_other_assembly_is_chosen_by_a_click(page: Page, address: str) -> None:
@@ -214,6 +218,63 @@ def test_an_instructor_comes_from_a_table_to_marks(page: Page, address: str) -> 
     page.wait(f"document.querySelector('#marks tbody tr').textContent !== {before!r}", 300)
     for box in ("#statistics", "#page"):
         page.wait(f"document.querySelector('{box} iframe')")
+
+
+def test_an_address_opens_a_task_and_replaces_nothing_typed_since(page: Page, address: str) -> None:
+    begin(page, address)
+    page.open("about:blank")
+    page.open(f"{address}?lang=en#task=linkages-ex3&view=sheets", width=1360)
+    page.wait("document.querySelector('#sheet img')?.naturalWidth > 0")
+    assert 'title = "Рычажный механизм"' in page.ask("studio.text()")
+    assert "#" not in page.ask("location.href")
+    page.ask("studio.put('# typed\\n')")
+    page.call("Page.reload")
+    page.wait("document.readyState === 'complete' && !!globalThis.studio")
+    assert page.ask("studio.text()") == "# typed\n"
+    page.ask("location.hash = '#task=no-such-task'")
+    page.wait("document.querySelector('#said').textContent.includes('no task no-such-task')")
+    assert page.ask("studio.text()") == "# typed\n"
+
+
+def test_tables_scroll_within_an_edge_of_their_own(page: Page, address: str) -> None:
+    begin(page, address, 360)
+    take(page, "linkages-ex3")
+    click(page, "#to-answers")
+    click(page, "#ask")
+    page.wait("document.querySelectorAll('#rows tr').length > 5")
+    wide, shown, edge = page.ask(
+        "(box => [box.scrollWidth, box.clientWidth, getComputedStyle(box).borderRightWidth])"
+        "(document.querySelector('#answering .wide'))"
+    )
+    assert wide > shown and edge == "1px"
+    assert page.ask("document.documentElement.scrollWidth") <= 360
+    heads = "document.querySelector('#rows th').getBoundingClientRect().x"
+    before = page.ask(heads)
+    page.ask("document.querySelector('#answering .wide').scrollTo(200, 0)")
+    assert page.ask(heads) == pytest.approx(before, abs=2)  # the quantity stays in sight
+    # indices stand below: v_B1
+    assert page.ask("document.querySelector('#rows th sub').textContent") == "B1"
+
+
+@pytest.mark.skipif(shutil.which("pdfinfo") is None, reason="poppler reads the PDF")
+def test_a_sheet_is_printed_on_one_page_across_in_light_colours(
+    page: Page, address: str, tmp_path: Path
+) -> None:
+    begin(page, address)
+    take(page, "linkages-ex3")
+    page.ask("document.documentElement.dataset.theme = 'dark'")
+    click(page, "#to-sheets")
+    page.wait("document.querySelector('#sheet img')?.naturalWidth > 0")
+    printed = tmp_path / "sheet.pdf"
+    told = page.call("Page.printToPDF", preferCSSPageSize=True)
+    printed.write_bytes(base64.b64decode(told["data"]))
+    facts = subprocess.run(["pdfinfo", printed], capture_output=True, text=True).stdout
+    assert re.search(r"Pages: +1\n", facts)
+    wide, high = map(float, re.findall(r"Page size: +([\d.]+) x ([\d.]+)", facts)[0])
+    assert wide > high
+    page.call("Emulation.setEmulatedMedia", media="print")
+    assert page.ask("getComputedStyle(document.body).color") == "rgb(21, 24, 29)"
+    page.call("Emulation.setEmulatedMedia", media="")
 
 
 @pytest.mark.parametrize("width", [360, 1360])

@@ -170,25 +170,25 @@ def test_both_assemblies_are_offered(client: TestClient) -> None:
 
 
 @pytest.mark.parametrize(
-    ("old", "new", "line", "column"),
+    ("old", "new"),  # where the fault stands: after the mark
     [
-        ("DE = 0.18", "DE = 0.18 m", 24, 11),
-        ('on = "3"', 'on = "7"', 15, 12),
-        ("omega = 50", "omega = fast", 32, 9),
-        ('E = "right of D"', 'E = "beside D"', 37, 1),
-        ("mu_v = 0.05", "mu_v = -1", 40, 1),
-        ('what = "v B3"', 'what = "v Q3"', 56, 1),
-        ('\n[driver]\nlink = "1"', '\n[driver]\nlink = "9"', 31, 1),
-        ("epsilon = 0", "epsilom = 0", 33, 1),
+        ("DE = 0.18", "DE = 0.18 ‸m"),
+        ('on = "3"', '‸on = "7"'),
+        ("omega = 50", "omega = ‸fast"),
+        ('E = "right of D"', '‸E = "beside D"'),
+        ("mu_v = 0.05", "‸mu_v = -1"),
+        ('[[answers]]\nwhat = "v B3"', '[[answers]]\n‸what = "v Q3"'),
+        ('\n[driver]\nlink = "1"', '\n[driver]\n‸link = "9"'),
+        ("epsilon = 0", "‸epsilom = 0"),
     ],
 )
-def test_a_fault_is_told_where_it_stands(
-    client: TestClient, old: str, new: str, line: int, column: int
-) -> None:
+def test_a_fault_is_told_where_it_stands(client: TestClient, old: str, new: str) -> None:
     assert EX3.count(old) == 1
+    above = EX3.replace(old, new).partition("‸")[0].split("\n")
     for lang in ("ru", "en"):
-        faults = do(client, "sketched", EX3.replace(old, new), lang)["faults"]
-        assert (faults[0]["line"], faults[0]["column"]) == (line, column), faults
+        faults = do(client, "sketched", EX3.replace(old, new.replace("‸", "")), lang)["faults"]
+        place = faults[0]["line"], faults[0]["column"]
+        assert place == (len(above), len(above[-1]) + 1), faults
         assert bool(re.search("[а-яё]{3}", faults[0]["message"])) == (lang == "ru")
     assert do(client, "sketched", EX3)["faults"] == []
 
@@ -293,3 +293,13 @@ def test_no_message_tells_where_the_server_keeps_files(client: TestClient) -> No
     assert "bad.json" in found["errors"]
     assert "sessions" not in json.dumps(found["errors"])
     assert "/tmp" not in found["errors"]
+
+
+def test_a_drawing_is_measured_as_a_work(client: TestClient) -> None:
+    made = do(client, "command", EX3, what="dxf")
+    drawing = client.get(made["files_at"] + "ex3.dxf").content
+    assert client.put("/api/works/Белов.dxf", content=drawing).json() == ["Белов.dxf"]
+    head, row = do(client, "checked", EX3, by_hand=[])["marks"]
+    marks = dict(zip(head, row, strict=True))
+    assert (marks["Студент"], marks["Оценка из 100"]) == ("Белов", "100.00")
+    client.delete("/api/works/all")

@@ -1,5 +1,5 @@
 // The form of the answers: mm × μ beside the value while one types, the verdicts, the work as JSON.
-import { D, W, byId, download, framed, long, made } from "./api.js";
+import { D, W, byId, download, framed, lettered, long, made } from "./api.js";
 
 const AGREE = 0.01;  // as in the form for spreadsheets
 let asked = null, rows = [], scales = {}, home = "";
@@ -18,13 +18,13 @@ export async function ask(problem) {
   const box = byId("scales");
   box.replaceChildren(box.querySelector("legend"));
   scales = Object.fromEntries(Object.entries(found.scales).map(([name, label]) => {
-    const input = made(made(box, "label", `${label} `), "input", "", { inputmode: "decimal", size: 7 });
+    const input = made(lettered(made(box, "label"), `${label} `), "input", "", { inputmode: "decimal", size: 7 });
     return [name, input];
   }));
   byId("rows").replaceChildren();
   rows = found.rows.map((row, k) => {
     const line = made(byId("rows"), "tr"), cell = () => made(line, "td");
-    const head = made(line, "th", row.position ? `${row.letters} (${row.position})` : row.letters, { scope: "row" });
+    const head = lettered(made(line, "th", "", { scope: "row" }), row.position ? `${row.letters} (${row.position})` : row.letters);
     const input = label => made(cell(), "input", "", { inputmode: "decimal", "aria-label": `${row.letters}: ${label}` });
     const choice = (label, options) => {
       const select = made(cell(), "select", "", { "aria-label": `${row.letters}: ${label}` });

@@ -10,8 +10,14 @@ export const made = (parent, tag, text = "", more = {}) => {
   return node;
 };
 
-const token = new URLSearchParams(location.hash.slice(1)).get("token") || sessionStorage.getItem("token") || "";
-if (token) { sessionStorage.setItem("token", token); history.replaceState(null, "", location.pathname + location.search); }
+export function linked() {  // what the address asks for behind its #; once, so that nothing typed since is replaced
+  const asked = new URLSearchParams(location.hash.slice(1));
+  if (asked.has("task") || asked.has("token")) history.replaceState(null, "", location.pathname + location.search);
+  return asked;
+}
+export const first = linked();
+const token = first.get("token") || sessionStorage.getItem("token") || "";
+if (token) sessionStorage.setItem("token", token);
 let session = null;
 
 export function enter() {
@@ -128,8 +134,16 @@ export function framed(box, address, title, live = false) {  // a page that was 
   frame.title = title;
   frame.setAttribute("sandbox", live ? "allow-scripts" : "");
   frame.src = address;
-  box.querySelector("iframe")?.remove();
+  for (const old of box.querySelectorAll("iframe, .own")) old.remove();
   box.append(frame);
+  made(made(box, "p", "", { class: "own" }), "a", W.own_tab, { href: address, target: "_blank", rel: "noopener" });
+}
+
+export function lettered(node, text) {  // with its indices below: v_B3, aᵏ_B3B2
+  for (const [k, part] of text.split(/((?:^|[^\p{L}])\p{Ll}\p{Lm}?)_([\p{L}\d]+)/u).entries()) {
+    if (k % 3 === 2) made(node, "sub", part); else node.append(part);
+  }
+  return node;
 }
 
 export function download(name, text, type) {

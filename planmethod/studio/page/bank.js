@@ -1,5 +1,5 @@
 // What there is to start from: the tasks of the textbooks, templates, files.
-import { D, W, byId, made, say } from "./api.js";
+import { D, W, byId, made, note, say } from "./api.js";
 
 const STEP = 24;
 let tasks = [], shown = 0, asked = 0;
@@ -46,9 +46,9 @@ function more(take) {
   byId("more").hidden = shown === tasks.length;
 }
 
-async function start(name, variant, take) {
+export async function start(name, variant, take) {
   const answer = await fetch(`/api/start/${encodeURIComponent(name)}?variant=${encodeURIComponent(variant)}`);
-  if (!answer.ok) return;
+  if (!answer.ok) { note(say("no_task", { name })); return; }
   const found = await answer.json();
   take(variant ? `${found.name}-${variant}` : found.name, found.text);
 }

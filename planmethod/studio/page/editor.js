@@ -15,7 +15,7 @@ const inks = cm.HighlightStyle.define([
   { tag: cm.tags.bracket, fontWeight: "600" }]);
 
 let schema = null;
-fetch("/api/schema").then(answer => answer.json()).then(found => { schema = found; }, () => {});
+fetch(`/api/schema?lang=${D.lang}`).then(answer => answer.json()).then(found => { schema = found; }, () => {});
 
 const resolved = node => {
   for (let n = 0; node?.$ref && n < 9; n++) node = schema.$defs[node.$ref.split("/").pop()];
@@ -64,7 +64,7 @@ export function complete(context) {  // keys of the table that the line is in, o
   const keys = new Map();
   for (const one of nodes.flatMap(every)) {
     const inner = one.items ? every(one.items) : [one];
-    for (const table of inner) for (const [key, told] of Object.entries(table.properties || {})) keys.set(key, resolved(told) || {});
+    for (const table of inner) for (const [key, told] of Object.entries(table.properties || {})) keys.set(key, { ...resolved(told), ...told });
   }
   if (!keys.size || (!word && !context.explicit)) return null;
   const options = [...keys].map(([label, told]) => ({ label, type: "property", info: told.description || undefined,

@@ -1,5 +1,5 @@
 // The instructor: works dropped on the page, their marks, what is set by hand, variants and questions.
-import { W, byId, call, enter, fileList, framed, long, made, note, say } from "./api.js";
+import { D, W, byId, call, enter, fileList, framed, lettered, long, made, note, say } from "./api.js";
 
 let found = null, byHand = [];
 const told = byId("group").querySelector(".told");
@@ -56,7 +56,7 @@ async function check(problem) {
   const names = [...new Set(found.answers.slice(1).map(row => row[0]))];
   for (const row of rows) {
     const line = made(body, "tr");
-    for (const text of row) made(line, "td", text);
+    for (const text of row) lettered(made(line, "td"), D.lang === "ru" ? text.replace(/^(\d+)\.(\d+)$/, "$1,$2") : text);
   }
   for (const name of names) made(byId("who"), "option", name, { value: name });
   if (names.includes(chosen)) byId("who").value = chosen;

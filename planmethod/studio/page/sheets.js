@@ -42,8 +42,12 @@ function show() {
 
 const fitting = () => Math.max(.4, (paper.clientWidth - 4) / pages[at].width);
 function size() {
-  box.style.width = `${pages[at].width * zoom}px`;
-  box.style.height = `${pages[at].height * zoom}px`;
+  const { width, height } = pages[at];
+  box.style.width = `${width * zoom}px`;
+  box.style.height = `${height * zoom}px`;
+  box.style.aspectRatio = width / height;  // on paper it is as wide as that
+  box.style.setProperty("--ratio", width / height);
+  box.toggleAttribute("data-across", width > height);
 }
 function zoomed(next) {
   const middle = [paper.scrollLeft + paper.clientWidth / 2, paper.scrollTop + paper.clientHeight / 2].map(v => v / zoom);

@@ -1,7 +1,7 @@
 // The page: rooms, the text and where it is kept, the scheme redrawn while one types.
-import { D, W, byId, call, compute, download, enter, faultText, fileList, framed, long, made, note, picture, say, tabs } from "./api.js";
+import { D, W, byId, call, compute, download, enter, faultText, fileList, first, framed, linked, long, made, note, picture, say, tabs } from "./api.js";
 import { ask, handIn, judge } from "./answers.js";
-import { bank } from "./bank.js";
+import { bank, start } from "./bank.js";
 import { editor } from "./editor.js";
 import { group } from "./group.js";
 import * as sheets from "./sheets.js";
@@ -256,8 +256,14 @@ if (D.files.length) {
   for (const name of D.files) made(byId("folder"), "option", name, { value: name });
   byId("folder").addEventListener("change", event => { if (event.target.value) openFile(event.target.value); });
 }
+async function follow(link) {  // #task=NAME, and of it &variant=NAME, &view=sheets
+  await start(link.get("task"), link.get("variant") || "", take);
+  if (document.getElementById(`to-${link.get("view")}`)?.closest("#views")) turnTo(link.get("view"));
+}
+addEventListener("hashchange", () => { const link = linked(); if (link.has("task")) follow(link); });
 enter().then(() => {
-  if (D.one) openFile(D.files[0]);
+  if (first.has("task")) follow(first);
+  else if (D.one) openFile(D.files[0]);
   else if (kept.text.trim()) soon(0);
   group(problem);
 }, error => note(error.message));

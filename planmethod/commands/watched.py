@@ -1,0 +1,54 @@
+"""A command run as the command line does, its output kept, its progress told (запуск команды)."""
+
+from __future__ import annotations
+
+import io
+import re
+from contextlib import redirect_stderr, redirect_stdout
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+_BAR = re.compile(r"planmethod\s+\[.*?\]\s+(\d+)%[^\r\n]*")
+_ORDERS = re.compile(r"\x1b\[[?\d;]*[a-zA-Z]")
+MOST_TEXT = 400_000
+"""Letters that are kept of what a command prints."""
+
+
+class _Watched(io.StringIO):
+    """Standard error of a command that shows its progress: the bar is told, not kept."""
+
+    def __init__(self, tell: Callable[[float], None]) -> None:
+        super().__init__()
+        self._told = tell
+
+    def isatty(self) -> bool:
+        """Say that somebody watches."""
+        return True
+
+    def write(self, text: str) -> int:
+        """Tell how far the bar is; keep all else."""
+        text = _ORDERS.sub("", text)
+        for share in _BAR.findall(text):
+            self._told(int(share) / 100)
+        super().write(_BAR.sub("", text).replace("\r", ""))
+        return len(text)
+
+
+def run(name: str, *args: str, tell: Callable[[float], None]) -> dict[str, Any]:
+    """Run a command as the command line does; return what it printed and its exit code."""
+    command = getattr(import_module(f"planmethod.commands.{name}"), name)
+    printed, errors, code = io.StringIO(), _Watched(tell), 0
+    with redirect_stdout(printed), redirect_stderr(errors):
+        try:
+            found = command.main(list(args), standalone_mode=False, prog_name=f"planmethod {name}")
+            code = found if isinstance(found, int) else 0
+        except SystemExit as end:
+            code = end.code if isinstance(end.code, int) else 1
+    return {
+        "code": int(code),
+        "output": printed.getvalue()[:MOST_TEXT],
+        "errors": errors.getvalue().strip()[:MOST_TEXT],
+    }
