@@ -44,6 +44,7 @@ LATE_OF = {
     "planmethod.note.tables.friction": "friction",
     "planmethod.gears.audit": "printed values of gear trains",
     "planmethod.gears.angles": "wheels with shifts",
+    "planmethod.gears.choice": "teeth to be chosen",
     "planmethod.gears.drawn": "pens, for the sheets of gear trains alone",
     "planmethod.gears.figures": "answers of students",
     "planmethod.moving.figures": "answers of students",

@@ -312,38 +312,37 @@ def compute(
 def _ahead(options: SolveOptions) -> Callable[[Sequence[Todo]], dict[int, Any]] | None:
     """Return what solves many problems together; None where each is to be solved alone."""
     moved = options.phi is not None or options.referee is not None or options.partial
-    if moved or options.ask is not None:
+    if moved or options.ask is not None or not (options.as_json or options.npz or options.csv):
         return None
+    return functools.partial(_together, options=options)
+
+
+def _made(options: SolveOptions, batch: Batch) -> Iterator[Any]:
+    """Return the numbers of a batch in the form that is asked."""
     if options.as_json:
         from planmethod.note.records.solution import batch_records
 
-        return functools.partial(_together, made=batch_records, hand=options.hand)
+        return batch_records(batch)
     if options.npz:
         from planmethod.note.records.npz import batch_arrays
 
-        return functools.partial(_together, made=batch_arrays, hand=options.hand)
-    if options.csv:
-        from planmethod.note.records.spreadsheet import batch_tables
+        return batch_arrays(batch)
+    from planmethod.note.records.spreadsheet import batch_tables
 
-        return functools.partial(_together, made=batch_tables, hand=("board", options.ruler))
-    return None
+    return batch_tables(batch)
 
 
-def _together(
-    todo: Sequence[Todo],
-    made: Callable[[Batch], Iterator[Any]],
-    hand: tuple[str | None, float | None],
-) -> dict[int, Any]:
-    """Return what is made of problems that are solved together, by their numbers.
-
-    ``hand`` is the profile and the ruler of who draws.
-    """
+def _together(todo: Sequence[Todo], options: SolveOptions) -> dict[int, Any]:
+    """Return what is made of linkages that are solved together, by their numbers."""
+    linkages = [k for k, one in enumerate(todo) if one.kind is None]
+    if not linkages:
+        return {}
     from planmethod.solved.many.variants import in_batches
 
-    linkages = [k for k, one in enumerate(todo) if one.kind is None]
+    hand = ("board", options.ruler) if options.csv else options.hand
     found: dict[int, Any] = {}
     for batch, members in in_batches([todo[k].linkage for k in linkages], drawn_by(*hand)):
-        found.update(zip([linkages[k] for k in members], made(batch), strict=True))
+        found.update(zip([linkages[k] for k in members], _made(options, batch), strict=True))
     return found
 
 

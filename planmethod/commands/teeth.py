@@ -135,8 +135,9 @@ def teeth(
     to U. U means U_1_H of ring and external-internal, U_H_1 of two-external and two-internal,
     U_1_2 of pair, U_1_3 of two-stage. Exit code 1 when nothing fits. More: docs/gears.md.
     """
-    from planmethod.gears.choice import SCHEMES, Wanted, choose
+    from planmethod.gears.choice import choose
     from planmethod.gears.chosen import chosen_document, chosen_record, problem_text
+    from planmethod.gears.teeth import SCHEMES, Wanted
     from planmethod.note.document import Document
     from planmethod.note.wording import language
     from planmethod.note.writers.plain import plain_document

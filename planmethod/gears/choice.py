@@ -8,10 +8,10 @@ from fractions import Fraction
 
 import numpy as np
 import numpy.typing as npt
-from msgspec import Struct
 
 from planmethod.gears.conditions import RING_LESS, SIN2, ring_room
 from planmethod.gears.model import MeshKind
+from planmethod.gears.teeth import Chosen, TeethSet, TrainScheme, Wanted
 
 Ints = npt.NDArray[np.int64]
 Mask = npt.NDArray[np.bool_]
@@ -22,124 +22,6 @@ LARGEST = 400
 
 BORDER = 1e-11
 """Relative nearness to a bound of the ratio at which it is judged in fractions."""
-
-
-class TrainScheme(Struct, frozen=True):
-    """A usual scheme of a train (схема).
-
-    Attributes
-    ----------
-    name : str
-    kinds : tuple of MeshKind
-        Of the meshes 1-2 and 2'-3; of one mesh alone that one.
-    single : bool
-        The second wheel has one rim.
-    carried : bool
-        A carrier H has wheel 2, and wheel 3 is held.
-    asked : str
-        The ratio that U means.
-    """
-
-    name: str
-    kinds: tuple[MeshKind, ...]
-    single: bool
-    carried: bool
-    asked: str
-
-    @property
-    def wheels(self) -> tuple[str, ...]:
-        """The wheels, in the order of a set."""
-        if len(self.kinds) == 1:
-            return "1", "2"
-        return ("1", "2", "3") if self.single else ("1", "2", "2'", "3")
-
-    @property
-    def rings(self) -> tuple[str, ...]:
-        """Wheels with internal teeth."""
-        ends = zip(self.kinds, ("1", "3"), strict=False)
-        return tuple(label for kind, label in ends if kind is MeshKind.INTERNAL)
-
-
-_OUT, _IN = MeshKind.EXTERNAL, MeshKind.INTERNAL
-SCHEMES = (
-    TrainScheme("ring", (_OUT, _IN), True, True, "U_1_H"),
-    TrainScheme("external-internal", (_OUT, _IN), False, True, "U_1_H"),
-    TrainScheme("two-external", (_OUT, _OUT), False, True, "U_H_1"),
-    TrainScheme("two-internal", (_IN, _IN), False, True, "U_H_1"),
-    TrainScheme("pair", (_OUT,), True, False, "U_1_2"),
-    TrainScheme("two-stage", (_OUT, _OUT), False, False, "U_1_3"),
-)
-"""One-rim set with a ring, sets with two rims by their meshes, a pair, a coaxial pair of stages."""
-
-
-class Wanted(Struct, frozen=True):
-    """What is asked (техническое задание).
-
-    Attributes
-    ----------
-    ratio : Fraction
-        U, with its sign.
-    within : Fraction
-        Allowed share of U, both ways; below 1.
-    satellites : int
-        Number of satellites k.
-    least, most, ring_most : int
-        Bounds of the teeth; the last of wheels with internal teeth.
-    modules : tuple of Fraction, mm, or None
-        Modules of the two rows; None where both have the same, whatever it is.
-    """
-
-    scheme: TrainScheme
-    ratio: Fraction
-    within: Fraction = Fraction(2, 100)
-    satellites: int = 3
-    least: int = 17
-    most: int = 120
-    ring_most: int = 250
-    modules: tuple[Fraction, Fraction] | None = None
-
-    @property
-    def rows(self) -> tuple[int, int]:
-        """Modules of the two rows as whole numbers of a unit of their own."""
-        one, other = self.modules or (Fraction(1), Fraction(1))
-        both = math.lcm(one.denominator, other.denominator)
-        return int(one * both), int(other * both)
-
-
-class TeethSet(Struct, frozen=True):
-    """Teeth that meet every condition (вариант).
-
-    Attributes
-    ----------
-    teeth : tuple of int
-        By `TrainScheme.wheels`.
-    ratio, error : Fraction
-        U, and by what share it differs from the asked one.
-    size : Fraction
-        Diameter of the pitch circles together, in modules of the first row.
-    """
-
-    teeth: tuple[int, ...]
-    ratio: Fraction
-    error: Fraction
-    size: Fraction
-
-
-class Chosen(Struct, frozen=True):
-    """What a search has found (результат подбора).
-
-    Attributes
-    ----------
-    looked_at, found : int
-        Combinations of teeth tried, and sets among them.
-    sets : tuple of TeethSet
-        The first of them: the smallest first, of equal ones that with the nearer U.
-    """
-
-    wanted: Wanted
-    looked_at: int
-    found: int
-    sets: tuple[TeethSet, ...]
 
 
 def choose(wanted: Wanted, *, first: int | None = None) -> Chosen:
@@ -186,7 +68,7 @@ def set_of(wanted: Wanted, teeth: tuple[int, ...]) -> TeethSet:
     if ratio is None:
         raise ValueError(teeth)
     arrays = {label: np.array(count) for label, count in z.items()}
-    side = 1 if scheme.kinds[0] is _OUT else -1
+    side = 1 if scheme.kinds[0] is MeshKind.EXTERNAL else -1
     distance = wanted.rows[0] * (arrays["1"] + side * arrays["2"])
     doubled = int(_doubled_size(wanted, arrays, distance))
     size = Fraction(doubled, 2 * wanted.rows[0])
@@ -213,8 +95,8 @@ def _fitting(wanted: Wanted, z_1: int, second: Ints, rim: Ints) -> tuple[Ints | 
         fits = _near(wanted, upper / lower)
     else:
         z_2, z_rim = np.broadcast_arrays(second, second if scheme.single else rim)
-        distance = p * (z_1 + z_2 if scheme.kinds[0] is _OUT else z_1 - z_2)
-        side = -1 if scheme.kinds[1] is _OUT else 1
+        distance = p * (z_1 + z_2 if scheme.kinds[0] is MeshKind.EXTERNAL else z_1 - z_2)
+        side = -1 if scheme.kinds[1] is MeshKind.EXTERNAL else 1
         z_3 = distance // q + side * z_rim
         upper, lower = z_2 * z_3, z_1 * z_rim
         most = wanted.ring_most if "3" in scheme.rings else wanted.most
@@ -249,7 +131,7 @@ def _asked(scheme: TrainScheme, held: Fraction) -> Fraction | None:
 
 
 def _sign(scheme: TrainScheme) -> int:
-    return -1 if scheme.kinds.count(_OUT) % 2 else 1
+    return -1 if scheme.kinds.count(MeshKind.EXTERNAL) % 2 else 1
 
 
 def _near(wanted: Wanted, held: Reals) -> Mask:
@@ -290,7 +172,7 @@ def _meshes(kind: MeshKind, one: Ints, other: Ints) -> Mask:
     room: Reals
     squared: Reals
     room, squared = ring_room(small)
-    if kind is _IN:
+    if kind is MeshKind.INTERNAL:
         return (large - small >= RING_LESS) & (room > 0) & (large * room >= squared)
     room = 4 - 2 * small * SIN2
     return (room <= 0) | (large * room <= squared)

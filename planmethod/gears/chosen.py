@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Any
 
-from planmethod.gears.choice import Chosen, TeethSet, Wanted
 from planmethod.gears.conditions import RING_LESS
+from planmethod.gears.teeth import Chosen, TeethSet, Wanted
 from planmethod.note.document import Node, Paragraph, table_of
 from planmethod.note.formula import escape
 from planmethod.note.numbers import MINUS

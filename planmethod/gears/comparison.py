@@ -8,11 +8,11 @@ from fractions import Fraction
 from msgspec import Struct
 
 from planmethod.errors import Fault, ProblemError
-from planmethod.gears.choice import SCHEMES, TeethSet, TrainScheme, Wanted, choose, set_of
 from planmethod.gears.conditions import satellites_held
 from planmethod.gears.meshes import fraction
 from planmethod.gears.model import GearProblem, Train
 from planmethod.gears.motion import TrainMotion
+from planmethod.gears.teeth import SCHEMES, TeethSet, TrainScheme, Wanted
 from planmethod.languages import say
 from planmethod.problem.head import PlanetaryTask
 
@@ -107,6 +107,8 @@ def compare(problem: GearProblem, motion: TrainMotion) -> PlanetaryComparison | 
     train, task = motion.train, motion.train.design
     if task is None:
         return None
+    from planmethod.gears.choice import choose, set_of
+
     known = planetary_labels(train)
     sizes = motion.axes.sizes
     if known is None or any(sizes[label].denominator != 1 for label in known[1]):

@@ -16,11 +16,12 @@ from click.testing import CliRunner
 from planmethod.cli import cli
 from planmethod.errors import ExitCode
 from planmethod.gears.answers import answer
-from planmethod.gears.choice import SCHEMES, TrainScheme, Wanted, choose
+from planmethod.gears.choice import choose
 from planmethod.gears.chosen import problem_text
 from planmethod.gears.conditions import conditions
 from planmethod.gears.motion import solve_motion
 from planmethod.gears.reader import load
+from planmethod.gears.teeth import SCHEMES, TrainScheme, Wanted
 
 F = Fraction
 ALPHA = math.radians(20)

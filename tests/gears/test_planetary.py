@@ -14,9 +14,10 @@ from click.testing import CliRunner
 
 from planmethod.cli import cli
 from planmethod.construct.drafting import PROFILES
-from planmethod.gears.choice import SCHEMES, Wanted, choose, set_of
+from planmethod.gears.choice import choose, set_of
 from planmethod.gears.reader import load
 from planmethod.gears.sheet import drawings
+from planmethod.gears.teeth import SCHEMES, Wanted
 from planmethod.render.control.sheet import inspect
 from planmethod.render.ink.drawing import Stroke, Text
 
