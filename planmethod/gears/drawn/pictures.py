@@ -83,7 +83,7 @@ def _around(
     for body, carrier in scheme.over.items():
         if scheme.heights[body] and not scheme.heights[carrier]:
             sets.setdefault(satellites.get(carrier, 1), set()).add(body)
-    for count, number in ((count, number) for count in sets for number in range(1, count)):
+    for count, number in ((k, number) for k in sets for number in range(1, k)):
         carried, turn = sets[count], cmath.exp(2j * cmath.pi * number / count)
         for rim in rims.values():
             if rim.body in carried:
