@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
+from functools import cached_property
 from itertools import product
 
 from msgspec import Struct
@@ -127,9 +128,11 @@ class CamProposal(Struct, frozen=True):
     def laid(self) -> Laid | None:
         """Return the sheet with views as large as it bears, or None without room."""
 
-        def draw(wish: Mapping[str, float]) -> Laid | None:
+        def draw(
+            wish: Mapping[str, float], seen: CamReadings | None = self.of.rough
+        ) -> Laid | None:
             scales = replace(self.scales, **wish)
-            parts = tuple(self.of.parts(self.tried, scales))
+            parts = tuple(self.of.parts(self.tried, scales, seen))
             return Packing(self.paper, (Group(parts),), scales=asdict(scales)).laid()
 
         own = {name: float(getattr(self.scales, name)) for name in GROW}
@@ -137,10 +140,14 @@ class CamProposal(Struct, frozen=True):
         if laid is None:
             return None
         grown = enlarged(replace(laid, scales=own), GROW, Scales(), draw)
-        return replace(grown, scales={**laid.scales, **grown.scales})
+        told = draw(grown.scales, None)
+        if told is None or not told.is_as_good_as(grown):  # a line of text more than in the trial
+            grown = replace(laid, scales=own)
+            told = draw(own, None)
+        return told and replace(told, scales={**laid.scales, **grown.scales})
 
 
-class _Cam(Struct, frozen=True):
+class _Cam(Struct, frozen=True, dict=True):
     """How the sheet of a cam is searched for: by smaller views and letters."""
 
     design: CamDesign
@@ -149,14 +156,21 @@ class _Cam(Struct, frozen=True):
 
     formats = ("A1",)
 
+    @cached_property
+    def rough(self) -> CamReadings:
+        """What is read at scales that are tried first: its table is as large as any other."""
+        first = TRIES[0]
+        scales = scales_of(self.design, first.share, first.region, first.profile)
+        return CamReadings(construct(self.design, scales), self.words, self.profile)
+
     def proposals(self, papers: Sequence[Blank]) -> Iterator[CamProposal]:
         """Yield the blocks, smaller and smaller."""
         for paper, tried in product(papers, TRIES):
             scales = scales_of(self.design, tried.share, tried.region, tried.profile)
             yield CamProposal(self, paper, tried, scales)
 
-    def parts(self, tried: CamTry, scales: CamScales) -> Iterator[Packed]:
-        """Yield the blocks in reading order."""
+    def parts(self, tried: CamTry, scales: CamScales, seen: CamReadings | None) -> Iterator[Packed]:
+        """Yield the blocks in reading order; ``seen`` are readings that are ready for a trial."""
         built, said, letters = construct(self.design, scales), self.words.cam, tried.sizes
         view = CamView(built, self.words, letters.letter)
         yield Packed(self._viewed(diagrams_picture(view), "diagrams", built, letters, "sva"))
@@ -172,7 +186,7 @@ class _Cam(Struct, frozen=True):
             texts += forces(self.design, self.words)
         lines: list[Block] = [paragraph(text, letters.text, TEXT_WIDTH) for text in texts]
         lines.append(_table(sizes(self.design, self.words), letters, said.sizes))
-        drawn = CamReadings(built, self.words, self.profile)
+        drawn = seen or CamReadings(built, self.words, self.profile)
         if built.results:
             lines.append(_table(drawn.table(), letters, said.drawn))
         lines.append(paragraph(drawn.deviation(), letters.text, TEXT_WIDTH))

@@ -349,9 +349,13 @@ class _Sheet(Struct, frozen=True):
             view = front(scheme, self.sizes.letter, self._satellites())
             yield self._titled(view, title, "position", Scale("mu_l", mu_l, "m"), scales)
 
-    def _satellites(self) -> int:
-        """Return how many satellites the view along the axes has: all where they are compared."""
-        return 1 if self.compared is None else self.compared.satellites
+    def _satellites(self) -> Mapping[str, int]:
+        """Return how many satellites each carrier has: of the file, else as they are compared."""
+        train = self.motion.train
+        common = (
+            {} if self.compared is None else dict.fromkeys(train.carriers, self.compared.satellites)
+        )
+        return {**common, **train.satellites}
 
     def _is_turned(self) -> bool:
         scheme = SchemeData(self.motion, 1.0)

@@ -250,4 +250,5 @@ def _built(
         tables,
         driver=("O", out),
         facts=facts,
+        theta=("O", near, far) if theta > 0.0 else (),
     )

@@ -224,6 +224,9 @@ class Synthesis(Struct, frozen=True):
         A point that the guide of the frame passes through, if there is one.
     facts : mapping
         Further results for the record.
+    theta : (str, str, str)
+        Vertex of the angle between the dead positions and a point on each of its sides; empty where
+        there is none.
     """
 
     kind: str
@@ -241,6 +244,7 @@ class Synthesis(Struct, frozen=True):
     driver: tuple[str, str] = ("O", "A")
     positions: tuple[float, ...] = ()
     facts: Mapping[str, Any] = field(default_factory=dict)
+    theta: tuple[str, ...] = ()
 
     @property
     def program(self) -> Program:

@@ -21,7 +21,7 @@ from planmethod.problem.model import Convention, Problem
 from planmethod.render import symbols
 from planmethod.render.control.unused import largest_empty
 from planmethod.render.frame.titleblock import rectangle
-from planmethod.render.ink.drawing import Bounds, Drawing, Item, Pen, Stroke
+from planmethod.render.ink.drawing import Arc, Bounds, Drawing, Item, Pen, Stroke
 from planmethod.render.ink.typeset import typeset
 from planmethod.render.labels import BUSY, Label
 from planmethod.render.labels.spots import shared_spots
@@ -47,6 +47,7 @@ from planmethod.render.sheets.composer import (
     compose,
     packed,
 )
+from planmethod.render.symbols import arrowhead
 from planmethod.synthesis.drawn import Drawn, arc_over
 from planmethod.synthesis.model import place
 from planmethod.synthesis.text import (
@@ -62,6 +63,8 @@ SIZES = Sizes(5.0, 5.0, 3.5, 175.0, row=6.5)
 
 _BEYOND = 9.0  # mm: construction lines go on beyond their points
 _TICK = 5.0  # mm: half of an arc that marks a point
+_ANGLE = 0.6  # radius of the arc of an angle as a part of the shorter of its sides
+_MOST_ANGLE = 45.0  # mm: that radius at most
 _SAME = 0.8  # mm: points so near have one label
 
 
@@ -200,8 +203,9 @@ def _kept(sentence: str) -> str:
 def _picture(drawn: Drawn) -> Picture:
     """Return the construction with the mechanism in its positions."""
     ink = _Ink(drawn)
-    items = symbols.before_links([*ink.construction(), *ink.mechanism()])
-    return lettered(list(items), ink.labels())
+    angle, letter = ink.angle()
+    items = symbols.before_links([*ink.construction(), *angle, *ink.mechanism()])
+    return lettered(list(items), [*ink.labels(), *letter])
 
 
 class _Ink:
@@ -259,6 +263,32 @@ class _Ink:
         count = max(8, min(2000, int(radius * (end - start) / 1.5)))
         turns = (start + (end - start) * k / count for k in range(count + 1))
         yield from self._clipped([centre + cmath.rect(radius, turn) for turn in turns])
+
+    def angle(self) -> tuple[list[Item], list[Label]]:
+        """Return the arc of the angle between the dead positions with arrowheads, its letter."""
+        if not self.drawn.synthesis.theta:
+            return [], []
+        vertex, *ends = (self.at(name) for name in self.drawn.synthesis.theta)
+        sides = [end - vertex for end in ends]
+        radius = min(_MOST_ANGLE, _ANGLE * min(map(abs, sides)))
+        turned = cmath.phase(sides[1] / sides[0])
+        first, last = (sides[0], sides[1]) if turned > 0.0 else (sides[1], sides[0])
+        start = cmath.phase(first)
+        middle = cmath.rect(1.0, start + abs(turned) / 2)
+        arc = Arc(vertex, radius, start, start + abs(turned), Pen.THIN, "theta")
+        heads = (
+            [
+                *arrowhead(
+                    vertex + radius * first / abs(first), -1j * first / abs(first), length=3.0
+                ),
+                *arrowhead(vertex + radius * last / abs(last), 1j * last / abs(last), length=3.0),
+            ]
+            if radius * abs(turned) > 8.0
+            else []
+        )
+        letter = Label(typeset("θ", SIZES.letter), vertex + radius * middle, prefer=middle, gap=1.2,
+                       name="theta", manner=BUSY)  # fmt: skip
+        return [arc, *heads], [letter]
 
     def _clipped(self, path: Iterable[complex]) -> Iterator[Item]:
         """Yield the parts of a thin line that are within the box."""

@@ -193,6 +193,7 @@ def _built(
         ),
         guide=(near,),
         driver=("O", out),
+        theta=("O", near, far) if theta > 0.0 else (),
     )
 
 

@@ -30,7 +30,7 @@ from planmethod.gears.sheet import drawings
 from planmethod.gears.text import equation_of
 from planmethod.gears.told import results
 from planmethod.note.wording import language
-from planmethod.render.ink.drawing import Arc, Drawing, Fill, Text
+from planmethod.render.ink.drawing import Arc, Drawing, Fill, Pen, Text
 
 PLANAR = [maker for maker in MAKERS if maker is not bevel]
 WITH_PICTURES = (*(f"gears-ex{k}" for k in range(1, 7)), "planetary-k10")
@@ -168,13 +168,23 @@ def problem_mu(drawing: Drawing) -> float:
     return view.per_mm
 
 
+@pytest.mark.parametrize("count", [1, 3, 4])
+def test_the_view_along_the_axes_has_all_satellites_of_the_file(count: int, tmp_path: Path) -> None:
+    text = (PROBLEMS / "gears/planetary-k10.toml").read_text("utf-8")
+    (tmp_path / "k.toml").write_text(text.replace("[gears]", f"[gears]\nsatellites = {count}"))
+    (sheet,) = drawings(load(tmp_path / "k.toml"), fields={}, profile=BOARD)
+    mm = 0.02 / problem_mu(sheet)
+    rims = [item for item in sheet.items if isinstance(item, Arc) and item.pen is Pen.AXIS]
+    assert sum(abs(arc.radius - mm) < 1e-6 for arc in rims) == count
+
+
 @each("maker, seed", [(maker, seed) for maker in PLANAR for seed in range(some(20, 4))])
 def test_arrows_on_the_view_along_the_axes_turn_as_the_wheels_do(
     maker: Callable[[random.Random], Made], seed: int, tmp_path: Path
 ) -> None:
     made = maker(random.Random(300 + seed))
     motion = solved(tmp_path, made.text)
-    items = front(SchemeData(motion, 1.0), 5.0).items
+    items = front(SchemeData(motion, 1.0), 5.0, {}).items
     senses = [item for item in items if getattr(item, "tag", "") == "sense"]
     seen = set()
     for arc, head in zip(senses[::2], senses[1::2], strict=True):

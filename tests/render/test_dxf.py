@@ -19,6 +19,7 @@ import numpy as np
 import pytest
 from cases import each, thinned
 from click.testing import CliRunner, Result
+from msgspec.structs import replace
 from PIL import Image
 from reading import Path as Painted
 from reading import Run, read_dxf
@@ -36,6 +37,7 @@ from planmethod.render.ink.drawing import Arc, Disc, Drawing, Fill, Ink, Pen, St
 from planmethod.render.ink.lettering import in_use
 from planmethod.render.ink.style import PENS, sweep
 from planmethod.render.pictures.enlarged import ENLARGED
+from planmethod.render.sheets.composition.reader import composition
 from planmethod.render.sheets.kinematics import kinematics_sheets
 from planmethod.render.sheets.structure import structure_sheet
 from planmethod.render.symbols import arrowhead, revolute, turn_arrow, vector_arrow
@@ -215,8 +217,11 @@ def test_a_segment_of_a_plan_is_one_line_as_long_as_the_table_says(
 def test_a_force_of_a_plan_is_one_line_as_long_as_the_force_over_its_scale(
     name: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
+    forces = composition("forces", "ru")  # without the plans of the motion, whose lines are alike
+    alone = replace(forces, blocks=tuple(one for one in forces.blocks if one.kind != "plan"))
+
     def draw() -> list[Drawing]:
-        return kinematics_sheets(problem_of(name), layout="forces")
+        return kinematics_sheets(problem_of(name), layout=alone)
 
     (sheet,), solution = solved_while(draw, monkeypatch)
     lines = read(render(sheet, "dxf")).modelspace().query('LINE[layer=="PLAN_VECTORS"]')

@@ -18,7 +18,7 @@ from planmethod.note.narrate.machine import MachineTeller
 from planmethod.note.wording import language
 from planmethod.render.ink.drawing import Disc, Drawing, Pen, Stroke, Text
 from planmethod.render.pictures.flywheel import construction_picture
-from planmethod.solved.machine.drawing import drawing_of
+from planmethod.solved.machine.drawing import NEAREST_POLE, TALLEST, drawing_of
 from planmethod.solved.machine.flywheel import Flywheel
 
 WANTED = json.loads((ROOT / "tests/data/flywheel.json").read_text("utf-8"))
@@ -80,9 +80,19 @@ def test_a_moment_that_jumps_is_drawn_upright() -> None:
     assert not any(line.startswith("φ") for line in given)  # of no single position
 
 
-def test_a_narrow_energy_mass_curve_takes_the_room_that_there_is() -> None:
-    drawing = drawing_of(Flywheel(load(ROOT / "tests/data/turn/engine.toml")), PROFILES["board"])
-    inertia = drawing.points.inertia / drawing.scales.inertia
-    assert 100.0 < inertia.max() <= 130.0 and drawing.height <= 500.0
-    wide = drawing_of(Flywheel(load(ROOT / "tests/data/turn/shaper.toml")), PROFILES["board"])
-    assert np.max(wide.points.inertia) / wide.scales.inertia <= 70.0
+@pytest.mark.parametrize("path, sides", [("problems/machines/engine.toml", (39, 73)),
+                                         ("problems/machines/compressor.toml", (30, 77)),
+                                         ("tests/data/turn/shaper.toml", (113, 81))])  # fmt: skip
+def test_an_energy_mass_curve_takes_the_room_that_there_is(
+    path: str, sides: tuple[int, int]
+) -> None:
+    drawing = drawing_of(Flywheel(load(ROOT / path)), PROFILES["board"])
+    wide = float(np.ptp(drawing.points.inertia)) / drawing.scales.inertia
+    high = float(np.ptp(drawing.points.gain)) / drawing.scales.work
+    assert (round(wide), round(high)) == sides
+    assert drawing.height <= TALLEST and drawing.pole >= NEAREST_POLE
+
+
+def test_scales_of_the_file_are_those_of_an_energy_mass_curve() -> None:
+    drawing = drawing_of(Flywheel(load(ROOT / "problems/press/flywheel.toml")), PROFILES["board"])
+    assert (drawing.scales.inertia, drawing.scales.moment, drawing.pole) == (0.005, 0.5, 30.0)

@@ -13,6 +13,7 @@ from worked import SIX, problem_of
 
 from planmethod.construct.drafting import PROFILES, Sampled
 from planmethod.construct.evaluate import evaluate
+from planmethod.errors import LayoutError
 from planmethod.note.records.solution import cycle_record
 from planmethod.note.wording import language
 from planmethod.paper import FORMATS
@@ -22,6 +23,7 @@ from planmethod.render.ink.drawing import VIEW_KINDS, Disc, Stroke
 from planmethod.render.pictures.diagram import AXIS
 from planmethod.render.pictures.extremes import EXTREME
 from planmethod.render.pictures.kinematic import FOUND, kinematic_picture
+from planmethod.render.sheets.composition.reader import composition
 from planmethod.render.sheets.kinematics import kinematics_sheets
 from planmethod.solved.solution import Solution
 from planmethod.solved.turn.construction import extreme_construction
@@ -114,3 +116,20 @@ def test_of_one_position_its_own_plans_are_shown() -> None:
     assert set(kinds) <= set(VIEW_KINDS)
     (plan,) = (view for view in sheet.views if view.kind == "acceleration")
     assert {span.position for span in plan.spans} <= {0, None} and plan.spans
+
+
+def test_chosen_plans_are_those_that_are_asked() -> None:
+    coursework = composition("coursework", "ru")
+
+    def shown(**asked: object) -> list[int]:
+        blocks = tuple(replace(one, **asked) if one.kind == "chosen-plans" else one
+                       for one in coursework.blocks)  # fmt: skip
+        layout = replace(coursework, blocks=blocks)
+        (sheet,) = kinematics_sheets(problem_of("linkages/ex1"), layout=layout)
+        (view,) = (view for view in sheet.views if view.kind == "acceleration")
+        return sorted({span.position for span in view.spans if span.position is not None})
+
+    assert shown() == [2, 8]
+    assert shown(positions=(0, 4, 5, 9)) == [0, 4, 5, 9]
+    with pytest.raises(LayoutError, match="the last is 11"):
+        shown(positions=(3, 12))

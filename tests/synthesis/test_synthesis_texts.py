@@ -6,6 +6,7 @@ import re
 from collections.abc import Iterator
 from functools import cache
 from itertools import pairwise
+from math import degrees
 from typing import Any
 
 import pytest
@@ -18,7 +19,7 @@ from planmethod.note.document import Document
 from planmethod.note.plaintext import plain_text
 from planmethod.note.wording import LANGUAGES, language
 from planmethod.note.writers.plain import plain_document
-from planmethod.render.ink.drawing import Drawing, Stroke
+from planmethod.render.ink.drawing import Arc, Drawing, Stroke, Text
 from planmethod.render.symbols.hatching import GROUND
 from planmethod.synthesis.drawn import Drawn
 from planmethod.synthesis.measured import checks
@@ -335,3 +336,15 @@ def test_the_guide_lies_under_all_its_sliders(name: str) -> None:
         and -4.0 < min(p.imag for p in s.points) - line[0].imag < 0.1
     ]  # fmt: skip
     assert len(hatching) > 10
+
+
+@pytest.mark.parametrize("name", ["loci", "rocker"])
+def test_the_angle_between_the_dead_positions_is_marked(name: str) -> None:
+    kind, asked = ASKED[name]
+    found, problem = made(kind, asked)
+    measured = {**checks(found, problem), **found.facts}
+    sheet = synthesis_sheet(Drawn(found, BOARD), problem, asked, measured)
+    (arc,) = (item for item in sheet.items if isinstance(item, Arc) and item.tag == "theta")
+    ratio = asked["K_v"]
+    assert degrees(arc.end - arc.start) == pytest.approx(180.0 * (ratio - 1.0) / (ratio + 1.0))
+    assert sum(isinstance(item, Text) and item.text == "θ" for item in sheet.items) == 1

@@ -39,10 +39,10 @@ _ANGLES = (205.0, 330.0, 155.0, 25.0, 240.0, 300.0, 180.0, 0.0)
 """Where the arrows stand, degrees, one wheel after another: off the line of centres."""
 
 
-def front(scheme: SchemeData, height: float, satellites: int = 1) -> Picture:
+def front(scheme: SchemeData, height: float, satellites: Mapping[str, int]) -> Picture:
     """Return the view along the axes; letters are ``height`` mm high.
 
-    Of a set so many ``satellites`` are drawn, evenly around the main axis.
+    ``satellites`` says how many sets stand on a carrier, evenly around the main axis; one else.
     """
     items: list[Item] = []
     labels: list[Label] = []
@@ -75,11 +75,16 @@ def front(scheme: SchemeData, height: float, satellites: int = 1) -> Picture:
     return lettered(items, list(unique.values()))
 
 
-def _around(scheme: SchemeData, rims: Mapping[str, Rim], satellites: int) -> Iterator[Item]:
-    """Yield the other satellites of a set with their arms."""
-    carried = {body for body in scheme.over if scheme.heights[body]}
-    for number in range(1, satellites):
-        turn = cmath.exp(2j * cmath.pi * number / satellites)
+def _around(
+    scheme: SchemeData, rims: Mapping[str, Rim], satellites: Mapping[str, int]
+) -> Iterator[Item]:
+    """Yield the other satellites of every carrier with their arms."""
+    sets: dict[int, set[str]] = {}
+    for body, carrier in scheme.over.items():
+        if scheme.heights[body] and not scheme.heights[carrier]:
+            sets.setdefault(satellites.get(carrier, 1), set()).add(body)
+    for count, number in ((k, number) for k in sets for number in range(1, k)):
+        carried, turn = sets[count], cmath.exp(2j * cmath.pi * number / count)
         for rim in rims.values():
             if rim.body in carried:
                 centre = 1j * rim.centre * turn

@@ -39,12 +39,14 @@ _LIBRARY: Any = ezdxf  # its types are of the parts only
 
 TEXT_STYLE = "SHEET"
 
+# Standard names with the dashes of GOST 2.303: LibreCAD goes by the name, and draws whole what it
+# does not know; AutoCAD goes by the pattern.
 LINE_TYPES: Mapping[Pen, str] = MappingProxyType(
     {
-        Pen.AXIS: "GOST_DASHDOT",
-        Pen.THICK_AXIS: "GOST_DASHDOT_THICK",
-        Pen.PHANTOM: "GOST_DASHDOT2",
-        Pen.HIDDEN: "GOST_DASHED",
+        Pen.AXIS: "CENTER",
+        Pen.THICK_AXIS: "DASHDOT",
+        Pen.PHANTOM: "DIVIDE",
+        Pen.HIDDEN: "DASHED",
     }
 )
 

@@ -217,7 +217,7 @@ BLOCKS: Mapping[str, BlockKind] = MappingProxyType(
         "hodographs": BlockKind(_cycle, (*_DIAGRAM, "per_row")),
         "turn-statement": BlockKind(_turn, _TEXT),
         "kinematic-diagrams": BlockKind(_turn, _DIAGRAM),
-        "chosen-plans": BlockKind(_turn, ("of", *_VIEW[:-1])),
+        "chosen-plans": BlockKind(_turn, ("of", "positions", "per_row", *_VIEW[:-1])),
         "hodograph": BlockKind(_turn, ("of", *_DIAGRAM)),
         "graphs": BlockKind(_turn, ("asked", *_VIEW[:-1], "per_row")),
         "measured-results": BlockKind(_turn, _TEXT),

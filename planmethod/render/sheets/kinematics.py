@@ -227,13 +227,14 @@ def _check_positions(layout: Composition, solution: Solution) -> None:
             count - 1,
         )
     for number, entry in enumerate(layout.blocks):
-        if entry.position is not None and entry.position >= count:
+        named = [*entry.positions, *([] if entry.position is None else [entry.position])]
+        if named and max(named) >= count:
             raise LayoutError(
                 "{}: blocks[{}].position is {}, but of {} positions the last is {}. Name one "
                 "of them, or ask more with --phi.",
                 layout.name,
                 number,
-                entry.position,
+                max(named),
                 count,
                 count - 1,
             )

@@ -11,12 +11,16 @@ from math import inf
 from planmethod.note.narrate.given import told
 from planmethod.note.numbers import alike, is_noise
 from planmethod.plans.legend import MOTION_KINDS, Quantity
-from planmethod.render.layout.block import Block
+from planmethod.render.layout.block import Block, shaped
 from planmethod.render.layout.tables import TableCell, TableColumn, table_block
 from planmethod.render.sheets.model import Manner
 from planmethod.render.sheets.results import MOST_OFF, position_columns, results_block, table_width
 from planmethod.solved.reading import Reals
+from planmethod.solved.room import FEW
 from planmethod.solved.solution import Solution
+
+WIDE = 0.72
+"""Part of the paper's width that the table may take where rows of many positions are high."""
 
 
 def measured_table(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
@@ -36,14 +40,13 @@ def measured_table(solution: Solution, indices: Sequence[int], manner: Manner) -
         columns.append(_off(read, exact, indices, manner))
     height = manner.text(min(manner.sizes.text, 3.5))
     title = manner.entry.title or words.sheets.measured
-    return table_block(
-        columns,
-        height,
-        max_width=table_width(manner),
-        leading=2,
-        row_height=2.0 * height,
-        title=title.format(ruler=words.say.given(solution.profile.ruler)),
-    )
+    said, usual = title.format(ruler=words.say.given(solution.profile.ruler)), table_width(manner)
+    wide = max(usual, WIDE * manner.inside) if len(indices) > FEW else usual
+    return shaped(
+        table_block(columns, height, max_width=width, leading=2, row_height=2.0 * height,
+                    title=said)
+        for width in dict.fromkeys((usual, wide))
+    )  # fmt: skip
 
 
 def _off(read: Reals, exact: Reals, indices: Sequence[int], manner: Manner) -> TableColumn:

@@ -45,6 +45,8 @@ class Entry(Struct, frozen=True):
         Plans in a row.
     position : int or None
         The only position that is shown.
+    positions : tuple of int
+        Positions whose plans are chosen; empty for one of either stroke.
     columns : tuple of str
         Kinds of columns of a table: v, ω, a, ε; empty for all.
     traces : bool or tuple of str, optional
@@ -68,6 +70,7 @@ class Entry(Struct, frozen=True):
     width: float | None = None
     per_row: int | None = None
     position: int | None = None
+    positions: tuple[int, ...] = ()
     columns: tuple[str, ...] = ()
     traces: bool | tuple[str, ...] | None = None
     asked: tuple[str, ...] = ()

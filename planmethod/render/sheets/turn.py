@@ -78,12 +78,17 @@ def diagrams_view(solution: Solution, indices: Sequence[int], manner: Manner) ->
 
 
 def chosen_plans(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
-    """Return the plans of a position of either stroke: after a sixth and two thirds of a turn."""
+    """Return plans of the positions that the block names.
+
+    Without them those of either stroke: after a sixth and two thirds of a turn.
+    """
     kind = manner.entry.of
     assert kind is not None
     count = len(solution.positions) // solution.problem.turns  # the second turn is as the first
-    chosen = tuple(dict.fromkeys((round(count / 6), round(2 * count / 3) % count)))
-    picture, *_ = plan_grid(solution, kind, chosen, manner.words)
+    chosen = manner.entry.positions or tuple(
+        dict.fromkeys((round(count / 6), round(2 * count / 3) % count))
+    )
+    picture, *_ = plan_grid(solution, kind, chosen, manner.words, in_row=manner.entry.per_row)
     title = manner.entry.title or manner.words.sheets["views"][kind.value][1]
     said = [scale_inscription(solution.scales[kind], solution.problem.scales.convention,
                               manner.words.say)]  # fmt: skip

@@ -13,7 +13,7 @@ from planmethod.construct.arithmetic import Float64
 from planmethod.construct.drafting import Profile
 from planmethod.construct.evaluate import evaluate
 from planmethod.construct.hand import Hand
-from planmethod.construct.scale import angle_scale, choose_scale, series_near
+from planmethod.construct.scale import angle_scale, choose_scale, next_scale, series_near
 from planmethod.plans.diagrams.calculus import Integration
 from planmethod.plans.diagrams.energymass import EnergyMass, EnergyMassData, Places, build
 from planmethod.problem.machine_records import FlywheelMethod, Quadrature
@@ -25,15 +25,18 @@ from planmethod.solved.reading import Reading, remembered
 MOST_M, MOST_J = 85.0, 70.0
 """Longest ordinates of the moment and of the inertia where the program chooses a scale, mm."""
 
-WIDE, TALLEST_J, TALLEST = 40.0, (130.0, 105.0), 500.0
-"""Width of an energy-mass curve that needs no more, the longest ordinates of the inertia that a
-narrower one is tried with, and the height of all diagrams that it may take then, mm."""
+LOOP, TALLEST_J, TALLEST = 60.0, (165.0, 130.0, 105.0), 535.0
+"""Width and height of an energy-mass curve that needs no more, the longest ordinates of the inertia
+that a narrower one is tried with, and the height of all diagrams that it may take then, mm."""
 
 MOST_HIGH = 460.0
 """Height of all diagrams above one another up to which the program enlarges their scales, mm."""
 
 POLE = 30.0
 """Pole distance that is usual, mm: that of a round scale of the work is near to it."""
+
+NEAREST_POLE = 14.0
+"""Least pole distance by which a flat energy-mass curve becomes higher, mm."""
 
 _GAP = 24.0  # between two diagrams above each other, mm
 _BESIDE = 52.0  # from the last position to the axis of the energies of the energy-mass diagram, mm
@@ -79,6 +82,8 @@ class FlywheelDrawing:
             self.scales = self._scales(phi, moment, inertia)
         if machine.mu_J is None:
             self._widen()
+        if machine.pole_mm is None:
+            self._heighten()
         self.pole = machine.pole_mm or self.scales.work / (moment * phi)
         half = self.scales.inertia * flywheel.middle_speed**2 / (2.0 * self.scales.work)
         self.psi = degrees(atan(half * slopes[0])), degrees(atan(half * slopes[1]))
@@ -87,12 +92,22 @@ class FlywheelDrawing:
         """Enlarge the inertia where its curve is narrow, as far as there is room."""
         first, inertia = self.scales, self.points.inertia
         for most in TALLEST_J:
-            if float(np.ptp(inertia)) / first.inertia >= WIDE:
+            if float(np.ptp(inertia)) / first.inertia >= LOOP:
                 return
             self.scales = replace(first, inertia=_fitting(inertia, most))
             if self.height <= TALLEST:
                 return
         self.scales = first
+
+    def _heighten(self) -> None:
+        """Enlarge the work where the energy-mass curve is flat, as far as there is room."""
+        first = self.scales
+        work = next_scale(first.work, finer=True)
+        if float(np.ptp(self.points.gain)) / first.work >= LOOP:
+            return
+        self.scales = replace(first, work=work)
+        if self.height > TALLEST or work / (first.moment * first.phi) < NEAREST_POLE:
+            self.scales = first
 
     def _scales(self, phi: float, moment: float, inertia: float) -> MachineScales:
         """Return the scales: that of the work round, its pole distance as usual as can be."""

@@ -39,6 +39,8 @@ GROUP_DEPTH = 4
 MOST_PER_ROW = 12
 MOST_LETTERS = 40
 MOST_ASKED = 24
+MOST_NUMBER = 119
+MOST_CHOSEN = 36
 
 OF = {kind.value: kind for kind in RATES}
 COLUMNS = {"v": "v", "omega": "ω", "a": "a", "epsilon": "ε"}
@@ -127,6 +129,13 @@ def _read_columns(faults: Faults, path: str, value: object) -> tuple[str, ...]:
     return tuple(found)
 
 
+def _read_positions(faults: Faults, path: str, value: object) -> tuple[int, ...]:
+    given = read_list(faults, path, value, "positions", MOST_CHOSEN)
+    read = (read_whole(faults, f"{path}[{k}]", item, low=0, high=MOST_NUMBER)
+            for k, item in enumerate(given))  # fmt: skip
+    return tuple(dict.fromkeys(number for number in read if number is not None))
+
+
 def _read_traces(faults: Faults, path: str, value: object) -> bool | tuple[str, ...]:
     if not isinstance(value, list):
         return read_switch(faults, path, value)
@@ -151,7 +160,8 @@ _READERS: Mapping[str, Callable[[Faults, str, object], object]] = {
     "title_height": read_height,
     "width": _read_width,
     "per_row": partial(read_whole, low=1, high=MOST_PER_ROW),
-    "position": partial(read_whole, low=0, high=119),
+    "position": partial(read_whole, low=0, high=MOST_NUMBER),
+    "positions": _read_positions,
     "columns": _read_columns,
     "traces": _read_traces,
     "asked": _read_asked,
