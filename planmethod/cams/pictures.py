@@ -11,7 +11,8 @@ from math import degrees
 import numpy as np
 from msgspec import Struct
 
-from planmethod.cams.construction import CamConstruction, CamNode
+from planmethod.cams.construction import CamConstruction
+from planmethod.cams.divisions import CamNode
 from planmethod.cams.geometry import Complexes
 from planmethod.cams.laws import Reals
 from planmethod.cams.model import TURN, CamPhase, Closure, Contact

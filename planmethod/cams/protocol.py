@@ -7,8 +7,9 @@ from math import degrees
 
 import numpy as np
 
-from planmethod.cams.construction import CamConstruction, CamNode, construct, moved_in
+from planmethod.cams.construction import CamConstruction, construct
 from planmethod.cams.design import CamDesign
+from planmethod.cams.divisions import CamNode, moved_in
 from planmethod.cams.model import CamProblem, Contact
 from planmethod.cams.readings import CamReadings
 from planmethod.cams.sheet import sheet_scales

@@ -8,8 +8,9 @@ from itertools import product
 from msgspec import Struct
 from msgspec.structs import asdict, replace
 
-from planmethod.cams.construction import CamConstruction, CamScales, construct, scales_of
+from planmethod.cams.construction import CamConstruction, construct
 from planmethod.cams.design import CamDesign
+from planmethod.cams.divisions import CamScales, scales_of
 from planmethod.cams.model import CamProblem, Contact
 from planmethod.cams.pictures import CamView, diagrams_picture, profile_picture, region_picture
 from planmethod.cams.readings import CamReadings
