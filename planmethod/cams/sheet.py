@@ -164,7 +164,8 @@ class _Cam(Struct, frozen=True):
         region = region_picture(view)
         if region is not None:
             plate = self.design.problem.contact is Contact.FLAT
-            name = "plate" if plate else "region"
+            arm = self.design.problem.oscillates
+            name = ("swung" if arm else "plate") if plate else "region"
             yield Packed(self._viewed(region, name, built, letters, ("region",)))
         yield Packed(self._viewed(profile_picture(view), "profile", built, letters, ("profile",)))
         facts = "; ".join(given(self.design.problem, self.words))

@@ -43,8 +43,7 @@ _NAMED = 14.0  # mm: shorter parts of a curve have no name
 _BEYOND = 1.2  # of the active end: how far the line of action of an internal pair is drawn
 _HEAD = 4.0
 _TICK = 1.2
-_APART = 11.0  # mm: from a number of an axis to the next, at least
-_STEPS = (1.0, 2.0, 5.0)
+_STEPS = (1.0, 2.0, 5.0)  # of the numbers of an axis, times a power of ten
 
 
 # The curves -----------------------------------------------------------------------------------
@@ -227,7 +226,7 @@ def _sign(limit: BlockingLimit, say: Notation) -> str:
 
 def _step(window: Window, per_unit: float, say: Notation, letter: float) -> float:
     """Return the step of both axes, by the millimetres that the widest number takes."""
-    apart = _APART
+    apart = 2.0 * letter
     while True:
         step = series_near(apart / per_unit, up=True, series=_STEPS)
         taken = [
@@ -257,9 +256,7 @@ def _axes(window: Window, per_unit: float, step: float, letter: float) -> Iterat
             )
 
 
-def _ticks(
-    low: float, high: float, per_unit: float, step: float
-) -> Iterator[tuple[float, float]]:
+def _ticks(low: float, high: float, per_unit: float, step: float) -> Iterator[tuple[float, float]]:
     """Yield places of round numbers on an axis, mm, and the numbers."""
     for k in range(ceil(low / step), floor(high / step + 1e-9) + 1):
         if k:
