@@ -10,157 +10,37 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from functools import cached_property
-from math import degrees, radians
+from math import degrees
 from typing import Any
 
 import numpy as np
 from msgspec import Struct, field
 
 from planmethod.cams.design import Bound, CamDesign
+from planmethod.cams.divisions import (
+    CamNode,
+    CamScales,
+    is_plate,
+    moved_in,
+    nodes_of,
+    scales_of,
+    step_between,
+    stretch_of,
+)
 from planmethod.cams.geometry import Complexes
-from planmethod.cams.laws import Reals
-from planmethod.cams.model import TURN, CamPhase, CamProblem, Contact, Stretch
+from planmethod.cams.model import Contact
 from planmethod.construct.arithmetic import Arithmetic, Float64
 from planmethod.construct.drafting import Profile, sigmas
 from planmethod.construct.evaluate import Trace, evaluate
 from planmethod.construct.hand import Hand
 from planmethod.construct.program import Builder, Program
-from planmethod.construct.scale import Scale, angle_scale, series_near
 from planmethod.construct.steps import LineName, NumberName, PointName, Way
-
-BOX_S, BOX_V, BOX_A = 50.0, 45.0, 60.0
-"""Greatest ordinates of the diagrams, mm."""
-
-LEAST_S = 25.0
-"""Least height of the diagram of s, mm: from it the profile is laid off."""
 
 APART = 140.0
 """From the axis of a diagram to that of the next below it, mm."""
 
 FREE = frozenset(map(PointName, ("O_a", "O_v", "O_s", "B", "O")))
 """Points that may stand anywhere."""
-
-
-class CamNode(Struct, frozen=True):
-    """A division of the axis of angles (точка деления): its number, phase and angle, rad."""
-
-    number: int
-    phase: CamPhase
-    phi: float
-    starts: bool
-
-
-class CamScales(Struct, frozen=True):
-    """Scales of the diagrams (масштабы): degrees per mm; m per mm of s, v_q, a_q.
-
-    ``region``: m per mm of s over v_q; ``profile``: of the profile. ``pole_v`` and ``pole_a`` are
-    the pole distances that follow, mm.
-    """
-
-    degree: float
-    s: float
-    v: float
-    a: float
-    region: float
-    profile: float
-
-    @property
-    def phi(self) -> float:
-        """Radians per mm."""
-        return radians(self.degree)
-
-    @property
-    def pole_a(self) -> float:
-        """Pole distance of the first integration, mm."""
-        return self.v / (self.a * self.phi)
-
-    @property
-    def pole_v(self) -> float:
-        """Pole distance of the second one, mm."""
-        return self.s / (self.v * self.phi)
-
-    def scale(self, name: str) -> Scale:
-        """Return the scale of s, v or a."""
-        return Scale(f"mu_{name}", float(getattr(self, name)), "m")
-
-
-def scales_of(
-    design: CamDesign, share: float = 1.0, region: float = 150.0, profile: float = 220.0
-) -> CamScales:
-    """Return scales from the series: diagrams of a share, a region and a profile of so many mm."""
-    sizes = np.abs(
-        np.concatenate([ends(design.problem, one) for one in design.problem.stretches], 1)
-    )
-    s, v, a = sizes.max(axis=1)
-    boxes = ((s, share * BOX_S), (v, share * BOX_V), (a or s, share * BOX_A))
-    mu_s, mu_v, mu_a = (series_near(float(x) / mm, up=True) for x, mm in boxes)
-    mu_s = min(mu_s, series_near(float(s) / LEAST_S, up=False))
-    geometry = design.geometry
-    room = max(geometry.r_min + s, 2 * (a if _is_plate(design) else v))
-    if design.problem.oscillates:
-        room = max(room, design.problem.arm + v)
-    wide = 2 * geometry.centre + geometry.roller if design.problem.oscillates else 0.0
-    line = outline(design)
-    wide = max(
-        wide, *(float(np.ptp(part)) + 2 * geometry.roller for part in (line.real, line.imag))
-    )
-    return CamScales(
-        angle_scale(180.0 / share), mu_s, mu_v, mu_a,
-        region=series_near(float(room) / region, up=True),
-        profile=series_near(wide / profile, up=True),
-    )  # fmt: skip
-
-
-def ends(problem: CamProblem, stretch: Stretch) -> Reals:
-    """Return s, v_q, a_q along a smooth part, its ends from within, shape (3, 33)."""
-    return problem.on(stretch, np.linspace(stretch.start, stretch.end, 33))
-
-
-def outline(design: CamDesign) -> Complexes:
-    """Return the theoretical profile and the outer side of a groove, in the frame of the cam, m."""
-    at = design.geometry.at(np.linspace(0.0, TURN, 721))
-    return np.concatenate([at.theoretical, at.outer])
-
-
-def _is_plate(design: CamDesign) -> bool:
-    return design.problem.contact is Contact.FLAT
-
-
-def nodes_of(problem: CamProblem) -> tuple[CamNode, ...]:
-    """Return the divisions of rise and return, numbered; a dwell has none of its own."""
-    found: list[CamNode] = []
-    for phase in (CamPhase.RISE, CamPhase.RETURN):
-        start, length = problem.starts[phase], problem.length(phase)
-        shared = bool(found) and problem.length(CamPhase.UPPER) == 0
-        for k in range(shared, problem.parts + 1):
-            phi = start + length * k / problem.parts
-            found.append(CamNode(len(found), phase, phi, starts=k == 0))
-    if problem.length(CamPhase.LOWER) == 0:
-        found.pop()  # the turn begins anew
-    return tuple(found)
-
-
-def stretch_of(problem: CamProblem, node: CamNode) -> Stretch:
-    """Return the smooth part that a division ends, of the first one of a phase that it begins."""
-    own = [one for one in problem.stretches if one.phase is node.phase]
-    return next(one for one in own if node.starts or node.phi <= one.end + 1e-9)
-
-
-def moved_in(problem: CamProblem, node: CamNode) -> Reals:
-    """Return s, v_q, a_q in a division, m, from within its phase."""
-    return problem.on(stretch_of(problem, node), np.array(node.phi))
-
-
-def step_between(problem: CamProblem, start: float, end: float) -> float:
-    """Return the height of the step that stands for a_q between two divisions, m.
-
-    The ordinate in the middle; where a_q jumps between them, that of the same area.
-    """
-    slack = 1e-9
-    inside = [one.start for one in problem.stretches if start + slack < one.start < end - slack]
-    places = np.array([start, *inside, end])
-    heights = problem.at((places[1:] + places[:-1]) / 2)[2]
-    return float((heights * np.diff(places)).sum() / (end - start))
 
 
 class CamConstruction(Struct, frozen=True, dict=True):
@@ -212,7 +92,7 @@ class CamConstruction(Struct, frozen=True, dict=True):
         at = self.design.geometry.points(
             phi, np.array([moved_in(self.design.problem, n) for n in self.nodes]).T
         )
-        found = at.actual if _is_plate(self.design) else at.theoretical
+        found = at.actual if is_plate(self.design) else at.theoretical
         return np.asarray(found / self.scales.profile)
 
 
@@ -287,9 +167,9 @@ class _Draft(Struct):
     def region(self) -> dict[int, int]:
         """Draw s over v_q with the limiting lines, and read the axis."""
         design, b, mm = self.design, self.b, self.scales.region
-        one, plate = design.problem, _is_plate(design)
-        if plate and one.oscillates:
-            return {}
+        one, plate = design.problem, is_plate(design)
+        if plate and one.oscillates and one.r_min is not None:
+            return {}  # the axis is where it is asked to be
         start = self.given("B")
         level = b.at_angle(start, None, self.known("level", 0.0))
         up = b.perpendicular(start, level)
@@ -304,6 +184,9 @@ class _Draft(Struct):
             if pivot is not None and base is not None:
                 turn = -design.side * degrees(self.scales.s / one.arm)
                 rays[k] = b.at_angle(pivot, base, self._taken(f"ψ_{{{k}}}", self.s[k], turn))
+                if plate:
+                    self.ends[k] = self._swung_end(node, pivot, rays[k], v)
+                    continue
                 at = b.lay_off(f"B_{{{k}}}'", pivot, rays[k], self.known(f"l {k}", one.arm / mm))
                 along = b.compute(f"v {k}'", (v, 1), factor=design.side)
                 self.ends[k] = b.lay_off(f"D_{{{k}}}", at, rays[k], along)
@@ -315,6 +198,8 @@ class _Draft(Struct):
                 size = float(moved_in(one, node)[2])
                 across = self.known(f"a {k}", size / mm)
             self.ends[k] = b.lay_off(f"D_{{{k}}}", at, b.parallel(at, level), across)
+        if pivot is not None and base is not None and plate:
+            return self._swung_plate(pivot, base)
         if plate:
             return self._plate(start, up)
         axis, drawn = self._axis(start, level, pivot, rays)
@@ -341,6 +226,53 @@ class _Draft(Struct):
         length = b.total("r_min, mm", reach, added)
         self.results["r_min"] = self._result("r_min", length)
         return {0: k}
+
+    def _swung_end(
+        self, node: CamNode, pivot: PointName, ray: LineName, v: NumberName
+    ) -> PointName:
+        """Lay l ± 2v_q off along the plate and a_q·l/(l ± v_q) across it.
+
+        The profile is convex where the axis is below the line from the pivot through this end.
+        """
+        b, k, mm = self.b, node.number, self.scales.region
+        v = b.compute(f"v {k}'", (v, 1), factor=float(self.design.side))
+        arm = self.known(f"l {k}", self.design.problem.arm / mm)
+        at = b.lay_off(f"B_{{{k}}}'", pivot, ray, b.total(f"l + 2v {k}", arm, v, v))
+        gain = self.known(f"a {k}", float(moved_in(self.design.problem, node)[2]) / mm)
+        ahead = b.total(f"l + v {k}", arm, v)
+        # The perpendicular is the ray turned by +90°: upwards where the pivot is on the left.
+        up = -self.design.side * self.design.problem.arm / mm
+        across = b.compute(f"a {k}'", (gain, 1), (ahead, -1), factor=up)
+        return b.lay_off(f"D_{{{k}}}", at, b.perpendicular(at, ray), across)
+
+    def _swung_plate(self, pivot: PointName, base: LineName) -> dict[int, int]:
+        """Draw the steepest line through the pivot and a D: it meets the circle of the axis."""
+        b, design, mm = self.b, self.design, self.scales.region
+        one, k = design.problem, self._steepest()
+        line = b.join(pivot, self.ends[k])
+        if one.least:
+            reach = b.measure(f"O_{{2}}D_{{{k}}}", pivot, self.ends[k])
+            size = (NumberName(f"l + v {k}"), 2), (reach, -1)
+            off = b.compute("ρ'", *size, factor=design.side * one.least / one.arm)
+            line = b.parallel(b.lay_off("G", pivot, b.perpendicular(pivot, line), off), line)
+        centre = self.known("a, mm", design.geometry.centre / mm)
+        axis = b.meet_line_circle("O_{1}", line, pivot, centre, Way.FORWARD)
+        foot = b.meet_lines("K", b.perpendicular(axis, base), base)
+        self.results["r_min"] = self._result("r_min", b.measure("O_{1}K", axis, foot))
+        return {0: k}
+
+    def _steepest(self) -> int:
+        """Return the division whose line leaves the least of what the convexity asks."""
+        one, geometry, side = self.design.problem, self.design.geometry, self.design.side
+
+        def spare(node: CamNode) -> float:
+            s, v, a = moved_in(one, node) / one.arm
+            ahead, delta = 1 + side * v, geometry.delta0 + s
+            across, along = 1 + 2 * side * v, a / ahead
+            kept = geometry.centre * (across * np.sin(delta) + along * np.cos(delta))
+            return float((kept - one.least * ahead**2) / np.hypot(across, along))
+
+        return min(self.nodes, key=spare).number
 
     def _result(self, name: str, length: NumberName) -> NumberName:
         return self.b.compute(name, (length, 1), factor=self.scales.region)
@@ -411,7 +343,7 @@ class _Draft(Struct):
             v = self._taken(f"v {k}, mm", self.v[k], self.scales.v / mm)
             if one.oscillates:
                 point, pole = self._swung(node, axis, ray, size)
-            elif _is_plate(design):
+            elif is_plate(design):
                 upright = b.perpendicular(axis, ray)
                 foot = b.lay_off(f"K_{{{k}}}", axis, upright, b.total(f"h {k}", s, size["r_{min}"]))
                 b.lay_off(f"B_{{{k}}}", foot, b.parallel(foot, ray), v)
@@ -442,7 +374,7 @@ class _Draft(Struct):
         ahead = b.total(f"1 + ψ' {k}", self.known(f"1 {k}", 1.0), speed)
         reach = b.compute(f"OP {k}", (size["a"], 1), (speed, 1), (ahead, -1))
         pole = b.lay_off(f"P_{{{k}}}", axis, ray, reach)
-        if _is_plate(design):
+        if is_plate(design):
             return b.meet_lines(f"B_{{{k}}}", b.perpendicular(pole, arm), arm), pole
         return b.lay_off(f"B_{{{k}}}", pivot, arm, size["l"]), pole
 
@@ -453,7 +385,7 @@ def construct(design: CamDesign, scales: CamScales | None = None) -> CamConstruc
     draft.integrate()
     drawn = draft.region()
     draft.profile()
-    bounds = design.bounds if drawn and not _is_plate(design) else ()
+    bounds = design.bounds if drawn and not is_plate(design) else ()
     return CamConstruction(
         design,
         draft.scales,

@@ -11,7 +11,8 @@ from math import degrees
 import numpy as np
 from msgspec import Struct
 
-from planmethod.cams.construction import CamConstruction, CamNode
+from planmethod.cams.construction import CamConstruction
+from planmethod.cams.divisions import CamNode, is_plate
 from planmethod.cams.geometry import Complexes
 from planmethod.cams.laws import Reals
 from planmethod.cams.model import TURN, CamPhase, Closure, Contact
@@ -210,12 +211,12 @@ def region_picture(view: CamView) -> Picture | None:
     if not built.results:
         return None
     made = {step.out for step in built.program.steps}
-    plate = built.design.problem.contact is Contact.FLAT
+    swung, plate = "O_{2}" in made, is_plate(built.design)
     start = view.at("B")
     ends = np.array([view.at(f"D_{{{node.number}}}") for node in built.nodes])
     items: list[Item] = [
         Stroke(view.seen(part), Pen.MAIN, tag="velocity ends", smooth=True)
-        for part in _region_curve(view, plate=plate)
+        for part in _region_curve(view)
     ]
     labels: list[Label] = []
     for node, end in zip(built.nodes, ends, strict=True):
@@ -225,9 +226,10 @@ def region_picture(view: CamView) -> Picture | None:
         items.append(Disc(view.spot(end), _DOT, Ink.BLACK, tag="drawn"))
         if node.number % 2 == 0 and abs(end - foot) > 4.0:
             labels.append(view.label(str(node.number), end, end - foot, size=_SMALL))
-    labels.append(view.label("B", start, 1 - 1j))
+    if not (plate and swung):
+        labels.append(view.label("B", start, 1 - 1j))
     axis = view.at("O_{1}") if "O_{1}" in made else None
-    if "O_{2}" in made:
+    if swung:
         items += _arm_lines(view, labels)
     else:
         top = max(ends.imag.max(), 0.0) + _BEYOND
@@ -235,13 +237,26 @@ def region_picture(view: CamView) -> Picture | None:
         items += arrowhead(view.spot(start + 1j * (top + 3.0)), 1j, length=3.5, tag="line")
         labels.append(view.label("s", start + 1j * top, 1 + 0j))
     for number, k in built.drawn.items():
-        items += _limit_line(view, number, k, axis, plate=plate)
+        items += _limit_line(view, number, k, axis)
         if not plate and axis is not None:
             sign = view.words.cam["limits"][built.bounds[number].phase.value].format()
             end = view.at(f"D_{{{k}}}")
             labels.append(
                 view.label(f"90° − {sign.strip('−')}", 0.6 * axis + 0.4 * end, end - start)
             )
+    if plate and axis is not None:
+        foot, pivot = view.at("K"), view.at("O_{2}")
+        items.append(Stroke(view.seen((pivot, axis)), Pen.THIN, tag="line"))
+        items.append(Stroke(view.seen((axis, foot)), Pen.MAIN, tag="r_min"))
+        items.append(Stroke(view.seen((pivot, foot)), Pen.THIN, tag="line"))
+        if "G" in made:
+            items.append(Stroke(view.seen((view.at("G"), axis)), Pen.THIN, tag="limit"))
+        items += revolute(view.spot(axis), factor=0.8)
+        labels.append(view.label("O_{1}", axis, -1j))
+        labels.append(view.label("K", foot, 1j))
+        labels.append(view.label("r_{0}", (axis + foot) / 2, foot - pivot))
+        labels.append(view.label("a", (axis + pivot) / 2, -1j))
+        return lettered(items, labels)
     if plate:
         foot = view.at("K")
         items += dimension(view.spot(foot), view.spot(start), 12.0 + 0j, tag="dimension")
@@ -264,7 +279,7 @@ def region_picture(view: CamView) -> Picture | None:
     return lettered(items, labels)
 
 
-def _region_curve(view: CamView, *, plate: bool) -> list[Complexes]:
+def _region_curve(view: CamView) -> list[Complexes]:
     """Return the exact curve of the ends D, mm, broken where it jumps."""
     design, mm = view.built.design, view.built.scales.region
     parts: list[Complexes] = []
@@ -272,7 +287,15 @@ def _region_curve(view: CamView, *, plate: bool) -> list[Complexes]:
         if stretch.phase not in (CamPhase.RISE, CamPhase.RETURN):
             continue
         moved = design.problem.on(stretch, np.linspace(stretch.start, stretch.end, 61))
-        found = moved[2] + 1j * moved[0] if plate else design.velocity_end(moved)[0]
+        if not is_plate(design):
+            found = design.velocity_end(moved)[0]
+        elif design.problem.oscillates:
+            arm, side = design.problem.arm, design.side
+            s, v, a = moved / arm
+            ray = np.exp(-1j * side * s)
+            found = side * arm + arm * ray * (1j * a / (1 + side * v) - side * (1 + 2 * side * v))
+        else:
+            found = moved[2] + 1j * moved[0]
         parts.append(found / mm)
     return parts
 
@@ -290,11 +313,13 @@ def _arm_lines(view: CamView, labels: list[Label]) -> list[Item]:
     return items
 
 
-def _limit_line(
-    view: CamView, number: int, k: int, axis: complex | None, *, plate: bool
-) -> list[Item]:
+def _limit_line(view: CamView, number: int, k: int, axis: complex | None) -> list[Item]:
     """Return a limiting line with hatching on the side that is not permitted."""
-    end = view.at(f"D_{{{k}}}")
+    end, plate = view.at(f"D_{{{k}}}"), is_plate(view.built.design)
+    if plate and axis is not None:
+        pivot = view.at("O_{2}")
+        far = end + _BEYOND * (end - pivot) / abs(end - pivot)
+        return [Stroke(view.seen((pivot, far)), Pen.THIN, tag="limit")]
     tip = view.at("K") if plate else axis
     assert tip is not None
     way = (tip - end) / abs(tip - end) if abs(tip - end) > 1e-6 else -1j

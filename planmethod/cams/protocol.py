@@ -7,8 +7,9 @@ from math import degrees
 
 import numpy as np
 
-from planmethod.cams.construction import CamConstruction, CamNode, construct, moved_in
+from planmethod.cams.construction import CamConstruction, construct
 from planmethod.cams.design import CamDesign
+from planmethod.cams.divisions import CamNode, moved_in
 from planmethod.cams.model import CamProblem, Contact
 from planmethod.cams.readings import CamReadings
 from planmethod.cams.sheet import sheet_scales
@@ -111,12 +112,18 @@ def _region(built: CamConstruction, drawn: CamReadings, words: Language) -> Iter
     """Yield the region of permissible axes."""
     said, say, problem = words.cam, words.say, built.design.problem
     plate = problem.contact is Contact.FLAT
-    told = said.told_plate if plate else said.told_arm if problem.oscillates else said.told_region
+    arm, level = (said.told_swung, said.told_plate) if plate else (said.told_arm, said.told_region)
+    told = arm if problem.oscillates else level
     yield from steps_of([told.format(scale=say.given(MM * built.scales.region))])
     for number, k in built.drawn.items():
         point = f"D_{{{k}}}"
         if plate:
-            yield from steps_of([said.plate_line.format(point=point)])
+            line = said.swung_line if problem.oscillates else said.plate_line
+            yield from steps_of([line.format(point=point)])
+            if problem.oscillates and problem.least:
+                yield from steps_of([said.swung_aside.format(point=point)])
+            if problem.oscillates:
+                yield from steps_of([said.swung_axis])
             continue
         bound = built.bounds[number]
         limit = problem.limit(bound.phase) or 0.0

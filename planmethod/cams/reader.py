@@ -64,7 +64,13 @@ def load(path: str | Path, *, variant: str | None = None) -> CamProblem:
     if faults or told is None:
         raise ProblemError(str(path), faults.found)
     return CamProblem(
-        name=path.stem, variants=variants, variant=variant, answers=answers, **head, **told
+        name=path.stem,
+        source_file=str(path),
+        variants=variants,
+        variant=variant,
+        answers=answers,
+        **head,
+        **told,
     )
 
 

@@ -9,8 +9,9 @@ from itertools import product
 from msgspec import Struct
 from msgspec.structs import asdict, replace
 
-from planmethod.cams.construction import CamConstruction, CamScales, construct, scales_of
+from planmethod.cams.construction import CamConstruction, construct
 from planmethod.cams.design import CamDesign
+from planmethod.cams.divisions import CamScales, scales_of
 from planmethod.cams.model import CamProblem, Contact
 from planmethod.cams.pictures import CamView, diagrams_picture, profile_picture, region_picture
 from planmethod.cams.readings import CamReadings
@@ -177,7 +178,8 @@ class _Cam(Struct, frozen=True, dict=True):
         region = region_picture(view)
         if region is not None:
             plate = self.design.problem.contact is Contact.FLAT
-            name = "plate" if plate else "region"
+            arm = self.design.problem.oscillates
+            name = ("swung" if arm else "plate") if plate else "region"
             yield Packed(self._viewed(region, name, built, letters, ("region",)))
         yield Packed(self._viewed(profile_picture(view), "profile", built, letters, ("profile",)))
         facts = "; ".join(given(self.design.problem, self.words))

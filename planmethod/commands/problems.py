@@ -358,7 +358,7 @@ def refuse_killed(one: Todo) -> NoReturn:
     raise PlanMethodError(
         "{}: the process at work on it was killed, twice; perhaps it needs more memory than there "
         "is. Ask for fewer positions at once.",
-        stem(one.problem),
+        called(one.problem),
     )
 
 
@@ -386,9 +386,9 @@ def refuse_plans(kind: ProblemKind[Any], **options: object) -> None:
         )
 
 
-def no_position(number: int, name: str, count: int) -> UsageError:
+def no_position(number: int, problem: KindProblem, count: int) -> UsageError:
     """Return the error of a position that a problem has not."""
-    return UsageError("--position {}: the last of {} is {}", number, name, count - 1)
+    return UsageError("--position {}: the last of {} is {}", number, called(problem), count - 1)
 
 
 def watched(steps: Iterable[T], length: int) -> Iterator[T]:
@@ -405,9 +405,14 @@ def stem(problem: KindProblem) -> str:
     return problem.name if problem.variant is None else f"{problem.name}-{problem.variant}"
 
 
+def called(problem: KindProblem) -> str:
+    """Return what a message calls a problem: its file, or the file's name with the variant."""
+    return problem.source_file if problem.variant is None else stem(problem)
+
+
 def warn(problem: Problem, said: object) -> None:
     """Say what a user should know of a problem's results: a sentence, or a record of one."""
-    click.echo(say("Warning: {}: {}", problem.name, said), err=True)
+    click.echo(say("Warning: {}: {}", called(problem), said), err=True)
 
 
 def tell_wheel(wheel: Flywheel) -> None:

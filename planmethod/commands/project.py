@@ -15,7 +15,7 @@ from planmethod.commands.asked import PaperRequest, sheet_options
 from planmethod.commands.decided import decided, note_options
 from planmethod.commands.helptext import Spoken
 from planmethod.commands.output import bar, json_text, show
-from planmethod.commands.problems import guarded, stem, tell_wheel
+from planmethod.commands.problems import called, guarded, stem, tell_wheel
 from planmethod.errors import ExitCode, PlanMethodError
 from planmethod.options import (
     BadParameter,
@@ -163,7 +163,7 @@ def _wanted(chosen: Project, parts: Sequence[str] | None) -> tuple[str, ...]:
         if name not in there:
             raise UsageError(
                 "--parts: {} has no part {!r}. It has {}.",
-                chosen.problem.name,
+                called(chosen.problem),
                 name,
                 ", ".join(there),
             )

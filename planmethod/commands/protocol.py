@@ -88,7 +88,7 @@ def protocol(
             if chosen is None:
                 chosen = (None if phi is not None else todo.linkage.calculated) or 0
             if chosen >= count:
-                raise no_position(chosen, problem.name, count)
+                raise no_position(chosen, problem, count)
             told = protocol_document(solution, words, chosen)
         suffix = "txt" if form == "text" else form
         text = write(told, words) + "\n"

@@ -15,6 +15,7 @@ from planmethod.commands.helptext import Spoken
 from planmethod.commands.output import show, write_drawings, write_set
 from planmethod.commands.problems import (
     Todo,
+    called,
     each,
     finish,
     guarded,
@@ -323,7 +324,7 @@ def drawn_for(
 
     problem, positions = todo.linkage, None if phi is None else phi.tolist()
     if options.ask and not problem.drive.is_crank:
-        raise UsageError("--ask: {}: the driver slides and has no turn", problem.name)
+        raise UsageError("--ask: {}: the driver slides and has no turn", called(problem))
     return kinematics_sheets(
         compacted(problem, positions) if options.compact else problem,
         positions=positions,

@@ -15,6 +15,7 @@ from planmethod.commands.helptext import Spoken
 from planmethod.commands.output import JsonTexts, bar, is_terminal, json_text, put_parts
 from planmethod.commands.problems import (
     Todo,
+    called,
     each,
     finish,
     guarded,
@@ -296,7 +297,7 @@ def compute(
     table = kind.spreadsheet(problem) if options.csv else None
     for option, given in options.of_linkages().items():
         if given and not (table is not None and option == "--csv"):
-            raise UsageError("{} is for linkages, {} is none", option, problem.name)
+            raise UsageError("{} is for linkages, {} is none", option, called(problem))
     if table is not None:
         return table
     if options.as_json:
@@ -417,7 +418,7 @@ def _whole(problem: Problem, options: SolveOptions, hand: Profile) -> Solution:
     if number is None:
         return solution
     if number >= len(positions):
-        raise no_position(number, problem.name, len(positions))
+        raise no_position(number, problem, len(positions))
     return solution.moved([float(positions[number])]).drawn_at(solution.scales)
 
 
@@ -502,7 +503,7 @@ def _sweep(
     try:
         made = GappedSweep(problem, _asked(problem, phi), ask)
     except UnknownQuantityError as error:
-        raise UsageError("--ask: {}: {}", problem.name, error) from None
+        raise UsageError("--ask: {}: {}", called(problem), error) from None
     _tell(problem, made.gaps, made.doubts, partial)
     return made
 

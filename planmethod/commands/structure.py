@@ -10,7 +10,7 @@ import click
 from planmethod.commands.asked import PaperRequest, sheet_options
 from planmethod.commands.helptext import Spoken
 from planmethod.commands.output import json_text, write_drawings
-from planmethod.commands.problems import Todo, each, finish, guarded, stem
+from planmethod.commands.problems import Todo, called, each, finish, guarded, stem
 from planmethod.options import (
     UsageError,
     dxf_text_option,
@@ -98,6 +98,6 @@ def structure(
         elif written is not None:
             click.echo(plain_document(written, words))
         else:
-            raise UsageError("{} is no mechanism, it has no structure", problem.name)
+            raise UsageError("{} is no mechanism, it has no structure", called(problem))
 
     finish(each(problems, variant, all_variants, show, drawn=False))

@@ -200,4 +200,3 @@ class GearProblem(KindProblem, frozen=True, kw_only=True):
     """A problem of a gear train (задача о передаче)."""
 
     train: Train
-    source_file: str = ""

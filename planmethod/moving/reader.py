@@ -81,7 +81,7 @@ def _made(
     problem = _read(faults, table, name)
     if faults or problem is None:
         raise ProblemError(source, faults.found)
-    return replace(problem, variants=variants, variant=variant)
+    return replace(problem, source_file=source, variants=variants, variant=variant)
 
 
 def _read(faults: Faults, table: Mapping[str, Any], name: str) -> PointProblem | None:

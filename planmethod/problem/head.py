@@ -296,6 +296,8 @@ class KindProblem(Struct, frozen=True, kw_only=True):
     ----------
     name : str
         Stem of the file.
+    source_file : str
+        The file as it was asked for, which messages name; the name where there is none.
     reading : str
         `SEVERAL`, or empty where the scheme is that of the task.
     other_readings : tuple of str
@@ -311,6 +313,7 @@ class KindProblem(Struct, frozen=True, kw_only=True):
     """
 
     name: str
+    source_file: str = ""
     title: str = ""
     source: str = ""
     reading: str = ""

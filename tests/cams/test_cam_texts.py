@@ -10,16 +10,17 @@ from typing import Any
 
 import numpy as np
 import pytest
-from cams import SHIPPED
+from cams import SHIPPED, written
 from click.testing import CliRunner
 
+from planmethod.cams.construction import construct
 from planmethod.cams.design import CamDesign
 from planmethod.cams.figures import CamFigures
 from planmethod.cams.live import live_page
 from planmethod.cams.model import CamProblem
 from planmethod.cams.pictures import PROFILE
 from planmethod.cams.reader import load
-from planmethod.cams.sheet import drawings
+from planmethod.cams.sheet import drawings, sheet_scales
 from planmethod.check.checking import check
 from planmethod.check.group import Variants
 from planmethod.check.marks import DEFAULT
@@ -81,6 +82,29 @@ def test_the_sheet_has_its_views_and_no_error(path: Path) -> None:
     assert all(one.closed and len(one.points) == 720 for one in outlines)
     done = CliRunner().invoke(cli, ["lint", str(path), "--lang", "en"])
     assert "errors" not in done.output or "errors 0" in done.output, done.output
+
+
+@pytest.mark.parametrize("sense, n", [("opposite", 120), ("same", 120), ("same", -120)])
+def test_the_least_distance_of_a_plate_on_an_arm_is_told_and_drawn(
+    sense: str, n: int, tmp_path: Path
+) -> None:
+    keys = {
+        "follower": "oscillating", "contact": "flat", "swing": 15, "arm": 0.1, "centre": 0.12,
+        "rise": 120, "return": 120, "law": "sine", "curvature": 0.01, "sense": sense, "n": n,
+    }  # fmt: skip
+    path = written(tmp_path, keys)
+    for lang, line in (("ru", "Из O₂ через точку D"), ("en", "From O₂ we draw the line through D")):
+        told = " ".join(ran("protocol", path, "--lang", lang).split())
+        assert line in told and re.search(r" r₀ 50[.,]37 ", told)
+    sheet = drawn(path)
+    assert [view.kind for view in sheet.views] == ["diagram", "cam", "cam"]
+    r_0 = next(x for x in sheet.items if isinstance(x, Stroke) and x.tag == "r_min")
+    construction = construct(CamDesign(load(path)), sheet_scales(load(path)))
+    size = abs(r_0.points[1] - r_0.points[0]) * construction.scales.region
+    assert size == pytest.approx(0.05037, rel=0.01)
+    limits = [x for x in sheet.items if isinstance(x, Stroke) and x.tag == "limit"]
+    ways = [(x.points[1] - x.points[0]) / abs(x.points[1] - x.points[0]) for x in limits]
+    assert len(ways) == 2 and abs(ways[0] - ways[1]) < 1e-9  # shifted for the curvature
 
 
 def test_the_profile_in_dxf_is_a_closed_polyline_in_the_scale_of_the_sheet(tmp_path: Path) -> None:

@@ -6,7 +6,8 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from cams import SHIPPED
+from cams import SHIPPED, designed
+from msgspec.structs import replace
 
 from planmethod.cams.construction import FREE, CamConstruction, construct
 from planmethod.cams.design import CamDesign
@@ -41,6 +42,45 @@ def test_what_is_drawn_is_near_what_is_exact(built: CamConstruction) -> None:
     off = np.abs(np.array(points) - built.exact_points()) * built.scales.profile
     assert off.max() < near
     assert number(built, "R_{0}").real * built.scales.profile == pytest.approx(geometry.r_min)
+
+
+PLATE = {
+    "follower": "oscillating", "contact": "flat", "swing": 15, "arm": 0.1, "centre": 0.12,
+    "rise": 100, "upper_dwell": 30, "return": 150, "law": "3-4-5", "n": 120, "parts": 24,
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("n", [120, -120])
+@pytest.mark.parametrize("curvature", [0.0, 0.01])
+def test_a_plate_on_an_arm_has_its_least_distance_by_drawing(
+    n: int, curvature: float, tmp_path: Path
+) -> None:
+    found = []
+    for sense in ("opposite", "same"):
+        design = designed(tmp_path, PLATE | {"sense": sense, "n": n, "curvature": curvature})
+        built = construct(design)
+        of = built.results["r_min"]
+        read, exact = number(built, of).real, design.geometry.r_min
+        assert read == pytest.approx(exact, rel=0.02)
+        precise = evaluate(built.program, built.data, Precise()).value
+        assert float(precise[of]) == pytest.approx(read, rel=1e-12)
+        # The least radius of curvature of the cam that was drawn is what was asked for.
+        drawn = replace(design.geometry, r_min=read)
+        rho = 1 / drawn.at(np.linspace(0.0, 2 * np.pi, 2001)).curvature
+        assert rho.min() == pytest.approx(curvature, abs=0.003)
+        found.append(exact)
+    assert abs(found[0] - found[1]) > 1e-3  # rise and return change places
+
+
+def test_sigma_of_the_least_distance_is_that_of_random_sheets(tmp_path: Path) -> None:
+    built = construct(designed(tmp_path, PLATE | {"curvature": 0.01}))
+    profile, of = PROFILES["board"], built.results["r_min"]
+    drawn = evaluate(built.program, built.data, Sampled(profile, FREE, 3000, 7)).value
+    assert built.sigma(profile)[of] == pytest.approx(float(np.nanstd(drawn[of])), rel=0.1)
+
+
+def test_where_the_distance_of_a_plate_is_given_none_is_drawn(tmp_path: Path) -> None:
+    assert not construct(designed(tmp_path, PLATE | {"r_min": 0.05})).results
 
 
 def test_constant_acceleration_is_integrated_without_an_error_of_the_method(tmp_path: Path) -> None:

@@ -142,7 +142,7 @@ def test_a_change_point_between_the_positions_is_told_once(command: tuple[str, .
     result = run(*command, case, "--phi", "170,190")
     assert result.exit_code == 0
     assert result.stderr == (
-        "Warning: parallelogram: links 2, 3 pass a change point at phi = 180 deg, from which the "
+        f"Warning: {case}: links 2, 3 pass a change point at phi = 180 deg, from which the "
         "mechanism may go on either way: the side that was chosen in the first position is kept, "
         "so that one branch of the motion passes into another there. Say in [assembly] "
         'C = { keep = "parallel" } for the parallelogram, C = { near = [x, y], keep = '

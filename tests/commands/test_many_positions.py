@@ -209,7 +209,7 @@ def test_what_is_asked_of_variants_is_one_table() -> None:
 def test_an_unknown_result_comes_with_the_nearest() -> None:
     for form in (("--csv", "t.csv"), ("--npz", "a.npz"), ()):
         said = refused(2, "solve", EX3, "--ask", "v_E,omega3", *form)
-        assert "ex3: no result 'omega3'; did you mean 'omega_3'?" in said
+        assert f"{EX3}: no result 'omega3'; did you mean 'omega_3'?" in said
 
 
 @pytest.mark.parametrize(
@@ -262,7 +262,7 @@ def warned(*args: str) -> tuple[str, str]:
     result = run(*args)
     assert result.exit_code == 0, result.output
     (line,) = result.stderr.splitlines()
-    assert line.startswith("Warning: six-link: 6 of 12 positions are impossible, left empty. ")
+    assert line.startswith(f"Warning: {SIX_LINK}: 6 of 12 positions are impossible, left empty. ")
     assert "Cannot place C at position 0 (phi = 0 deg)" in line
     return result.stdout, line
 

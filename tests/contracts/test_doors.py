@@ -143,6 +143,22 @@ def test_what_is_found_late_names_the_file(tmp_path: Path) -> None:
         assert result.output.startswith(f"Error: {path}: "), result.output
 
 
+@pytest.mark.parametrize("variant", [None, "ε"])
+def test_warnings_and_usage_errors_name_the_file(variant: str | None, tmp_path: Path) -> None:
+    path = tmp_path / "p.toml"
+    text = path_of("linkages/ex3").read_text("utf-8")
+    path.write_text(f'{text}\n[point]\n[variants."ε".driver]\nphi = 31\n', "utf-8")
+    of_variant = () if variant is None else ("--variant", variant)
+    called = str(path) if variant is None else "p-ε"
+    told = run("solve", str(path), *of_variant)
+    assert told.exit_code == 0, told.output
+    assert told.stderr == f"Warning: {called}: [point] is left out; give it a file of its own.\n"
+    for command in ("solve", "protocol"):
+        refused = run(command, str(path), "--position", "7", *of_variant)
+        assert refused.exit_code == 2
+        assert f"Error: --position 7: the last of {called} is 0" in refused.output
+
+
 def test_a_layout_that_has_nothing_to_show_is_told(tmp_path: Path) -> None:
     path = tmp_path / "l.toml"
     sizes = "[sizes]\nA3 = { letter = 3.5, title = 5, text = 3.5, column = 200 }\n"

@@ -21,17 +21,20 @@ from worked import PROBLEMS
 from planmethod.cli import cli
 from planmethod.construct.drafting import PROFILES
 from planmethod.gears.angles import angle_of_involute
+from planmethod.gears.involute import diagrams
 from planmethod.gears.involute.blocking import LimitKind, choose, is_kept, limits
-from planmethod.gears.involute.diagrams import Contour
+from planmethod.gears.involute.diagrams import Contour, contour_picture
 from planmethod.gears.involute.meshpicture import CURVE, SCALES, view_for
 from planmethod.gears.involute.profile import LineOfAction, Points, Tooth
 from planmethod.gears.involute.quantities import SolvedMeshing
 from planmethod.gears.involute.reader import load
 from planmethod.gears.involute.sheet import drawings
 from planmethod.gears.involute.sizes import Pair, Rack
+from planmethod.note.wording import language
 from planmethod.render.backends import render
 from planmethod.render.control.sheet import inspect
 from planmethod.render.ink.drawing import Drawing, Stroke
+from planmethod.render.labels import Label
 
 FILE = PROBLEMS / "meshing" / "z12-30.toml"
 EXACT = 1e-6
@@ -274,7 +277,7 @@ def test_the_chosen_shifts_keep_all_limits_and_none_near_them_slides_less() -> N
 
 def test_curves_of_the_contour_are_where_their_limits_are_reached() -> None:
     solved = SolvedMeshing(load(FILE))
-    found = Contour.of(solved).parts
+    found = contour().parts
     shown = {(limit.kind, limit.wheel, limit.least) for limit, parts in found if parts}
     assert {
         (LimitKind.INTERFERENCE, 0, 0.0),
@@ -290,6 +293,28 @@ def test_curves_of_the_contour_are_where_their_limits_are_reached() -> None:
         for part in parts:
             margin = limit.margin(solved.pair.shifted(part))
             assert np.max(np.abs(margin)) < 1e-9
+
+
+@cache
+def contour() -> Contour:
+    return Contour.of(SolvedMeshing(load(FILE)))
+
+
+@pytest.mark.parametrize("size", [70.0, 90.0, 120.0, 300.0])
+@pytest.mark.parametrize("letter", [2.5, 3.5, 5.0])
+def test_between_the_numbers_of_an_axis_of_the_contour_there_is_white(
+    size: float, letter: float, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """As much as a letter is high, in a picture of any size."""
+    placed: list[Label] = []
+    monkeypatch.setattr(diagrams, "lettered", lambda _, labels: placed.extend(labels))
+    contour_picture(contour(), language("ru"), size, size, letter)
+    for axis in (1 + 0j, 1j):
+        own = [one for one in placed if one.name.startswith(f"axis {axis} ")]
+        assert len(own) >= 2
+        for one, other in pairwise(own):
+            taken = (one.inscription.width + other.inscription.width) / 2 if axis == 1 else letter
+            assert abs(other.anchor - one.anchor) >= taken + letter
 
 
 def test_the_distance_of_the_axes_tells_the_shifts(tmp_path: Path) -> None:

@@ -43,6 +43,8 @@ from planmethod.solved.forces.friction import friction_of
 from planmethod.solved.machine.drawing import drawing_of
 from planmethod.solved.machine.flywheel import flywheel_of
 
+TEMPLATE = ROOT / "planmethod/problem/templates/project.toml"
+
 FILES = {
     "shaper": ROOT / "tests/data/projects/shaper.toml",
     "engine": ROOT / "tests/data/projects/engine.toml",
@@ -66,7 +68,7 @@ SHAPER = (
 
 @cache
 def project_of(name: str) -> Project:
-    path: Path = FILES[name]
+    path: Path = TEMPLATE if name == "template" else FILES[name]
     return settle(load(path), path)
 
 
@@ -399,7 +401,7 @@ def test_the_warning_of_a_train_names_its_last_stage(tmp_path: Path) -> None:
 def staged(old: str, new: str, tmp_path: Path) -> Project:
     """Return the project of the template, with wheels that mesh, changed."""
     path = tmp_path / "staged.toml"
-    text = (ROOT / "planmethod/problem/templates/project.toml").read_text("utf-8")
+    text = TEMPLATE.read_text("utf-8")
     assert old in text
     path.write_text(text.replace(old, new), "utf-8")
     return settle(load(path), path)
@@ -408,11 +410,21 @@ def staged(old: str, new: str, tmp_path: Path) -> Project:
 # Wheels in mesh ----------------------------------------------------------------------------------
 
 
-@cache
-def template_of(lang: str = "ru") -> str:
+def template_of() -> str:
     """Return the note of the template, whose wheels 4 and 5 mesh, without figures."""
-    path = ROOT / "planmethod/problem/templates/project.toml"
-    return plain_document(note_document(settle(load(path), path), language(lang)), language(lang))
+    return text_of("template")
+
+
+@pytest.fixture(scope="module")
+def changed_template(tmp_path_factory: pytest.TempPathFactory) -> str:
+    """The note of the template with the flywheel on the crank and wheels without shifts."""
+    text = TEMPLATE.read_text("utf-8")
+    for old, new in (("flywheel = { ratio = 5 }", ""), ('x = "blocking"', "x = [0, 0]")):
+        assert old in text
+        text = text.replace(old, new)
+    path = tmp_path_factory.mktemp("template") / "changed.toml"
+    path.write_text(text, "utf-8")
+    return plain_document(note_document(settle(load(path), path), language("ru")), language("ru"))
 
 
 def test_the_wheels_of_the_train_are_those_of_the_meshing() -> None:
@@ -425,8 +437,7 @@ def test_the_wheels_of_the_train_are_those_of_the_meshing() -> None:
 
 
 def test_which_wheels_mesh_is_told_by_their_teeth() -> None:
-    path = ROOT / "planmethod/problem/templates/project.toml"
-    parts = settle(load(path), path).parts
+    parts = project_of("template").parts
     train = next(x.problem.train for x in parts if isinstance(x.problem, GearProblem))
     pair = next(x.problem for x in parts if isinstance(x.problem, MeshingProblem))
     assert meshed(train, pair) == ("4", "5")
@@ -440,9 +451,7 @@ def test_which_wheels_mesh_is_told_by_their_teeth() -> None:
 
 
 def test_a_train_takes_module_and_shifts_of_its_wheels_in_mesh() -> None:
-    path = ROOT / "planmethod/problem/templates/project.toml"
-    project = settle(load(path), path)
-    part = project.part(PartName.GEARS)
+    part = project_of("template").part(PartName.GEARS)
     assert part is not None and isinstance(part.problem, GearProblem)
     train = part.problem.train
     assert train.module == Fraction(8, 1000) and train.picture.mu_l == Fraction(4, 1000)
@@ -466,17 +475,14 @@ def test_the_data_of_the_note_name_the_teeth_the_input_and_the_flywheel() -> Non
     assert "Частота вращения кривошипа" not in text  # that of the wheel 1 is none of the crank
 
 
-def test_the_flywheel_stands_on_a_shaft(tmp_path: Path) -> None:
+def test_the_flywheel_stands_on_a_shaft(changed_template: str) -> None:
     text = " ".join(template_of().split())
     found = re.search(r"момент инерции самого маховика J_м/i² = (\S+)/5² = (\S+) кг", text)
     assert found is not None
     own, reduced = (float(x.replace(",", ".")) for x in (found[2], found[1]))
     assert own == pytest.approx(reduced / 25.0, rel=5e-4)
-    path = tmp_path / "crank.toml"
-    source = (ROOT / "planmethod/problem/templates/project.toml").read_text("utf-8")
-    path.write_text(source.replace("flywheel = { ratio = 5 }", ""), "utf-8")
-    alone = note_document(settle(load(path), path), language("ru"))
-    assert "Маховик установлен на валу кривошипа." in plain_document(alone, language("ru"))
+    said = "Маховик установлен на валу кривошипа."
+    assert said in changed_template and said not in template_of()
 
 
 def test_the_conclusion_has_the_whole_ratio_the_shifts_and_the_largest_reaction() -> None:
@@ -486,11 +492,8 @@ def test_the_conclusion_has_the_whole_ratio_the_shifts_and_the_largest_reaction(
     assert "Наибольшего значения за весь цикл реакция достигает между положениями 0 и 1" in text
 
 
-def test_limits_that_the_shifts_do_not_keep_are_in_the_conclusion(tmp_path: Path) -> None:
-    path = tmp_path / "pointed.toml"
-    source = (ROOT / "planmethod/problem/templates/project.toml").read_text("utf-8")
-    path.write_text(source.replace('x = "blocking"', "x = [0, 0]"), "utf-8")
-    text = plain_document(note_document(settle(load(path), path), language("ru")), language("ru"))
+def test_limits_that_the_shifts_do_not_keep_are_in_the_conclusion(changed_template: str) -> None:
+    text = changed_template
     _, _, told = " ".join(text.split()).rpartition("Заключение")
     assert "С такими смещениями не выполнено:" in told and "подрезание: x₁ = 0,000 <" in told
     assert "зубья будут подрезаны" in " ".join(text.split())
@@ -499,8 +502,7 @@ def test_limits_that_the_shifts_do_not_keep_are_in_the_conclusion(tmp_path: Path
 
 @pytest.mark.parametrize("lang", LANGUAGES)
 def test_every_step_of_the_meshing_is_led_in(lang: str) -> None:
-    path = ROOT / "planmethod/problem/templates/project.toml"
-    nodes = note_document(settle(load(path), path), language(lang)).nodes
+    nodes = note_of("template", lang).nodes
     heads = [k for k, node in enumerate(nodes) if isinstance(node, document.Chapter)]
     *_, start, cam = heads  # the cam's chapter is the last one
     chapter = nodes[start:cam]

@@ -43,7 +43,7 @@ _NAMED = 14.0  # mm: shorter parts of a curve have no name
 _BEYOND = 1.2  # of the active end: how far the line of action of an internal pair is drawn
 _HEAD = 4.0
 _TICK = 1.2
-_APART = 11.0  # mm: between the numbers of an axis
+_STEPS = (1.0, 2.0, 5.0)  # of the numbers of an axis, times a power of ten
 
 
 # The curves -----------------------------------------------------------------------------------
@@ -172,8 +172,9 @@ def contour_picture(
     def at(x: Reals) -> complex:
         return complex(x[0], x[1]) * per_unit
 
-    items: list[Item] = list(_axes(window, per_unit, letter))
-    labels = _axis_numbers(window, per_unit, words.say, letter)
+    step = _step(window, per_unit, words.say, letter)
+    items: list[Item] = list(_axes(window, per_unit, step, letter))
+    labels = _axis_numbers(window, per_unit, step, words.say, letter)
     for limit, parts in contour.parts:
         pen = Pen.MAIN if limit.hard else Pen.THIN
         tag = f"{CONTOUR} {limit.kind.value}"
@@ -223,7 +224,21 @@ def _sign(limit: BlockingLimit, say: Notation) -> str:
             return f"ε_{{α}} = {say.given(limit.least)}"
 
 
-def _axes(window: Window, per_unit: float, letter: float) -> Iterator[Item]:
+def _step(window: Window, per_unit: float, say: Notation, letter: float) -> float:
+    """Return the step of both axes, by the millimetres that the widest number takes."""
+    apart = 2.0 * letter
+    while True:
+        step = series_near(apart / per_unit, up=True, series=_STEPS)
+        taken = [
+            label.inscription.width for label in _axis_numbers(window, per_unit, step, say, letter)
+        ]
+        wide = max(taken, default=0.0) + letter
+        if wide <= step * per_unit + 1e-9:
+            return step
+        apart = 1.01 * step * per_unit
+
+
+def _axes(window: Window, per_unit: float, step: float, letter: float) -> Iterator[Item]:
     """Yield both axes through the origin with arrows, letters and ticks."""
     for turn, high, name in ((1 + 0j, window.right, "x_{1}"), (1j, window.high, "x_{2}")):
         tip = high * per_unit + 6.0
@@ -234,22 +249,23 @@ def _axes(window: Window, per_unit: float, letter: float) -> Iterator[Item]:
         text = typeset(name, letter)
         beside = complex(-text.width, text.descent + 2.0) if turn == 1 else complex(2.5, -letter)
         yield from text.at(turn * tip + beside)
-        for place, _ in _ticks(low, high, per_unit):
+        for place, _ in _ticks(low, high, per_unit, step):
             across = turn * 1j * _TICK
             yield Stroke(
                 (turn * place - across, turn * place + across), Pen.THIN, tag="diagram axis"
             )
 
 
-def _ticks(low: float, high: float, per_unit: float) -> Iterator[tuple[float, float]]:
+def _ticks(low: float, high: float, per_unit: float, step: float) -> Iterator[tuple[float, float]]:
     """Yield places of round numbers on an axis, mm, and the numbers."""
-    step = series_near(_APART / per_unit, up=True)
     for k in range(ceil(low / step), floor(high / step + 1e-9) + 1):
         if k:
             yield k * step * per_unit, k * step
 
 
-def _axis_numbers(window: Window, per_unit: float, say: Notation, letter: float) -> list[Label]:
+def _axis_numbers(
+    window: Window, per_unit: float, step: float, say: Notation, letter: float
+) -> list[Label]:
     size = max(2.5, 0.7 * letter)
     spans = ((1 + 0j, window.left, window.right), (1j, window.low, window.high))
     return [
@@ -261,7 +277,7 @@ def _axis_numbers(window: Window, per_unit: float, say: Notation, letter: float)
             name=f"axis {turn} {number:g}",
         )
         for turn, low, high in spans
-        for place, number in _ticks(low, high, per_unit)
+        for place, number in _ticks(low, high, per_unit, step)
     ]
 
 

@@ -52,7 +52,9 @@ def load(path: str | Path, *, variant: str | None = None) -> MeshingProblem:
     told = None if body is None else _read(faults, body)
     if faults or told is None:
         raise ProblemError(str(path), faults.found)
-    problem = MeshingProblem(name=path.stem, variants=variants, variant=variant, **head, **told)
+    problem = MeshingProblem(
+        name=path.stem, source_file=str(path), variants=variants, variant=variant, **head, **told
+    )
     _check_teeth(faults, Pair.of(problem))
     if faults:
         raise ProblemError(str(path), faults.found)
