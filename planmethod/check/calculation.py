@@ -121,6 +121,7 @@ class Calculation(Task):
     ) -> None:
         self.problem, self.settings = problem, replace(settings, floor_mm=0.0)
         self.variant, self._others = problem.variant, others
+        self.table = kind.table
         self.figures = kind.figures(problem)
         self._found: dict[tuple[str, int, bool, bool], Question] = {}
         self._forms: dict[str, TaskItem] = {}

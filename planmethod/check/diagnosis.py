@@ -337,16 +337,19 @@ def passed_on(task: Task, sheet: Sheet, found: list[Examined], fits: Sequence[Fi
     begins = [one for one in wrong if one.item.id in best.begins]
     changed = [one for one in wrong if not _idle(sheet, one, best)]
     root = begins[0] if begins else min(changed or wrong, key=lambda one: _rank(sheet, one))
+    given = [best]
     if begins:
         best = completed(best, root)
+        given = [best, completed(_with_own(best, root), root)]
     for one in found:
         if one is root or one.verdict is not Verdict.WRONG or best.code == "P2":
             continue
         if best.free and not usable(root):  # nobody can draw on with that
             continue
-        moved = not _idle(sheet, one, best) or _vector_turned(one)
-        if moved and _follows(one, best, task.settings.near):
-            one.verdict, one.source = Verdict.INHERITED, root.item.id
+        for made in given:
+            moved = not _idle(sheet, one, made) or _vector_turned(one)
+            if moved and _follows(one, made, task.settings.near):
+                one.verdict, one.source = Verdict.INHERITED, root.item.id
     _repoint(found)
     if "" in codes:  # nothing is better than that it is just wrong
         codes = () if fits[0].explanation.code == "" else tuple(c for c in codes if c)
@@ -354,6 +357,14 @@ def passed_on(task: Task, sheet: Sheet, found: list[Examined], fits: Sequence[Fi
     roots = [root.item.id, *(one.item.id for one in wrong if one.verdict is Verdict.WRONG)]
     told, places = _told(found, best), _places(best)
     return Diagnosis(codes, sure, tuple(dict.fromkeys(roots)), best.where, told, places)
+
+
+def _with_own(explanation: Explanation, root: Examined) -> Explanation:
+    """Return an explanation with the number that he wrote: that is what he goes on with."""
+    name = root.item.question.id
+    own = math.copysign(root.value, explanation.values[name])
+    values = {**explanation.values, name: own}
+    return replace(explanation, values=values, change=None, program=None)
 
 
 def _disinherit(found: list[Examined]) -> None:
