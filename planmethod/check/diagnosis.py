@@ -59,6 +59,9 @@ COPIED = 25.0
 ALONE = 0.05
 """How far off a slip may be where nothing else on the sheet tells of it, a share of the number."""
 
+CLOSING = ("at", "epsilon", "vs")
+"""What closes a plan: its error is that of the longer vectors, however short it comes out."""
+
 UNNAMED = 15.0
 """How common a number is that is wrong and nobody knows why, beside one mistake at one place.
 
@@ -142,7 +145,11 @@ def _whole(
     if best is None or not best.likely or best.explanation.code == "P1":
         fits = sorted([*fits, *_of_others(task, sheet, facts, own)], key=lambda fit: fit.score)
         best = fits[0] if fits else None
-    if best is None or not best.likely:
+    if best is not None and not best.likely:  # a number that nobody explains is still gone on with
+        likely = (fit for fit in fits if fit.likely and fit.score < fits[0].score + CLEARLY)
+        best = next((fit for fit in likely if not fit.explanation.code), None)
+        return best and [best]
+    if best is None:
         return None
     return [fit for fit in fits if fit.likely and fit.score < best.score + CLEARLY]
 
@@ -395,7 +402,8 @@ def _follows(one: Examined, explanation: Explanation, near: float) -> bool:
     """Tell whether an answer is what an explanation gives."""
     given = explanation.values[one.item.question.id]
     exact = abs(one.limit.exact)
-    share = max(abs(given) / exact, 0.3) if exact else 1.0
+    least = 1.0 if one.item.question.selector.kind in CLOSING else 0.3
+    share = max(abs(given) / exact, least) if exact else 1.0
     tolerance = max(one.limit.tolerance(one.step), one.limit.spread) * near * share
     turned = one.sense_right is False and one.item.question.sign is Sign.TURN
     if turned and given * one.limit.exact > 0:
@@ -498,7 +506,7 @@ def _alone(sheet: Sheet, one: Examined, *, many: bool) -> Diagnosis:
     """Return what can be said of one number by itself; of one of many only what is sure."""
     roots = (one.item.id,)
     if _turned(one):
-        return Diagnosis(("sign",), True, roots)
+        return Diagnosis(("sign",), not many, roots)
     near = [s for s in slips(sheet, one) if abs(abs(one.value / s.value) - 1.0) <= ALONE]
     codes = dict.fromkeys(slip.code for slip in near)
     if not codes and one.slip:
