@@ -280,7 +280,8 @@ class Calculation(Task):
             return []
         tried = [*self.named(sheet), *self._copied(sheet)]
         for one in left:
-            for code, factor in _slips(one.item.question.unit):
+            # No factor makes nought.
+            for code, factor in _slips(one.item.question.unit) if one.value else ():
                 given = {**sheet.exact, one.item.question.id: one.limit.exact * factor}
                 tried.append(Explanation(code, "", given, _NOTHING, sheet))
         while left:

@@ -19,6 +19,7 @@ from planmethod.check.explain import (
     OwnNumbers,
 )
 from planmethod.check.judge import Examined, distance, facts_of, put_in, usable
+from planmethod.check.key import SEGMENT_CODES
 from planmethod.check.mistakes.model import MistakeContext
 from planmethod.check.mistakes.scales import scale_by
 from planmethod.check.model import Diagnosis, Verdict
@@ -87,7 +88,7 @@ def diagnose(task: Task, sheet: Sheet, found: list[Examined]) -> list[Diagnosis]
     if alone is not None and _turned(alone):
         codes = {fit.explanation.code for fit in whole or ()}
         if "sign" not in codes or codes <= {"sign", ""}:  # else it may be more than the sense
-            told = _alone(sheet, alone, many=False)
+            told = _alone(sheet, alone, many=False, lone=True)
             return [_or_driver(told, task.named(sheet), facts)]
     if whole is not None:
         return [passed_on(task, sheet, found, whole)]
@@ -148,7 +149,7 @@ def _whole(
     if best is not None and not best.likely:  # a number that nobody explains is still gone on with
         likely = (fit for fit in fits if fit.likely and fit.score < fits[0].score + CLEARLY)
         best = next((fit for fit in likely if not fit.explanation.code), None)
-        return best and [best]
+        return None if best is None else [best]
     if best is None:
         return None
     return [fit for fit in fits if fit.likely and fit.score < best.score + CLEARLY]
@@ -476,7 +477,8 @@ def _one_by_one(
             break
     left = [one for one in left if one.verdict is Verdict.WRONG]
     for one in left:
-        diagnoses.append(_alone(sheet, one, many=len(left) > MANY))
+        lone = not diagnoses and len(left) == 1
+        diagnoses.append(_alone(sheet, one, many=len(left) > MANY, lone=lone))
     _repoint(found)
     return diagnoses
 
@@ -502,8 +504,12 @@ def _turned(one: Examined) -> bool:
     return one.sense_right is False and size
 
 
-def _alone(sheet: Sheet, one: Examined, *, many: bool) -> Diagnosis:
-    """Return what can be said of one number by itself; of one of many only what is sure."""
+def _alone(sheet: Sheet, one: Examined, *, many: bool, lone: bool) -> Diagnosis:
+    """Return what can be said of one number by itself; of one of many only what is sure.
+
+    Some segment of a plan is about as long as almost any number: that it was read is sure only
+    where nothing else is wrong, or his own millimetres tell it.
+    """
     roots = (one.item.id,)
     if _turned(one):
         return Diagnosis(("sign",), not many, roots)
@@ -515,4 +521,7 @@ def _alone(sheet: Sheet, one: Examined, *, many: bool) -> Diagnosis:
         codes = {}
     named = tuple(codes)
     where = near[0].where if named == ("slip",) and near else ""
-    return Diagnosis(named, len(named) == 1, roots, where)
+    sure = len(named) == 1
+    if named and named[0] in SEGMENT_CODES.values():
+        sure = sure and (lone or one.told is not None)
+    return Diagnosis(named, sure, roots, where)
