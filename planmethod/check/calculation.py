@@ -14,8 +14,8 @@ from typing import Any
 from msgspec.structs import replace
 
 from planmethod.check.copied import copied
-from planmethod.check.diagnosis import passed_on
 from planmethod.check.explain import Explanation, Fit
+from planmethod.check.following import passed_on
 from planmethod.check.judge import Examined, decide, distance
 from planmethod.check.letters import plain
 from planmethod.check.marks import Settings
