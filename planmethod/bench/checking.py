@@ -208,6 +208,21 @@ def twins(
     return codes
 
 
+def _of_other(
+    task: Task,
+    items: Sequence[TaskItem],
+    given: Sequence[tuple[Change, list[float]]],
+    change: Change,
+) -> set[str]:
+    """Return P2 where a mistake gives the answers of another variant: its angle of the crank."""
+    mine = next(values for one, values in given if one == change)
+    for _, sheet in task.theirs(task.sheet(items[0].position)):
+        theirs = [sheet.exact[item.question.id] for item in items]
+        if np.allclose(np.abs(theirs), np.abs(mine), rtol=ALIKE):
+            return {"P2"}
+    return set()
+
+
 def shows(entry: KeyEntry, value: float) -> bool:
     """Tell whether an answer with a mistake is beyond what a pencil does, as the key has it."""
     off = abs(abs(value) - abs(entry.exact))
@@ -218,10 +233,12 @@ def shows(entry: KeyEntry, value: float) -> bool:
 def detection(task: Task, count: int) -> list[Detected]:
     """Plant every mistake in some works, and hear what is said of them."""
     found: dict[str, Detected] = {}
-    key, given = key_of_task(task, first_items(task)), [*given_by(task, first_items(task))]
+    items = first_items(task)
+    key, given = key_of_task(task, items), [*given_by(task, items)]
+    right = [entry.exact for entry in key.entries]
     for number, change in enumerate(places_of(task, key)):
         row = found.setdefault(change.code, Detected(called(task), change.code, family_of(task)))
-        alike = twins(given, change, [entry.exact for entry in key.entries])
+        alike = twins(given, change, right) | _of_other(task, items, given, change)
         for work in drawn_works(task, change, count, SEED + number):
             count_work(row, check(task, work), alike)
     for other in task.others():

@@ -45,6 +45,9 @@ TRIED = 6
 PAIRED = 20
 """Mistakes of which any two are tried together."""
 
+FEW_CODES = 3
+"""Mistakes of which one may be told as "one of": of more a student learns nothing."""
+
 OFF = 9.0
 """Sigmas squared from which an answer is surely not what a mistake gives."""
 
@@ -287,7 +290,8 @@ def _two(
     if not pairs:
         return []
     score, one, two, made = pairs[0]
-    if any({a.code, b.code} != {one.code, two.code} for s, a, b, _ in pairs if s < score + CLEARLY):
+    rivals = [(s, {a.code, b.code}) for s, a, b, _ in pairs if s < score + 2 * CLEARLY]
+    if any(s < score + CLEARLY and not codes & {one.code, two.code} for s, codes in rivals):
         return []
     wrong = [o for o in found if o.verdict is Verdict.WRONG]
     told = []
@@ -295,18 +299,25 @@ def _two(
         begins = [o for o in wrong if o.item.question.id in left[id(other)]]
         if not begins:
             return []
-        told.append((mistake, min(begins, key=lambda o: rank(sheet, o))))
-    if told[0][1] is told[1][1]:
+        # What does as well beside the other one: then it is "one of".
+        instead = (codes - {other.code} for _, codes in rivals if other.code in codes)
+        codes = tuple(
+            dict.fromkeys((mistake.code, *(code for pair in instead for code in sorted(pair))))
+        )
+        if len(codes) > FEW_CODES:
+            return []
+        told.append((codes, mistake, min(begins, key=lambda o: rank(sheet, o))))
+    roots = [root for _, _, root in told]
+    if roots[0] is roots[1]:
         return []
-    roots = [root for _, root in told]
     for answer in wrong:
         if answer not in roots and follows(answer, made, 1.0) and not idle(sheet, answer, made):
             answer.verdict, answer.source = Verdict.INHERITED, roots[0].item.id
     repoint(found)
     values = values_of(found, made)
     return [
-        Diagnosis((mistake.code,), True, (root.item.id,), mistake.where, values)
-        for mistake, root in told
+        Diagnosis(codes, len(codes) == 1, (root.item.id,), mistake.where, values)
+        for codes, mistake, root in told
     ]
 
 
@@ -357,8 +368,10 @@ def _one_by_one(
         plain = [explained.fit(e, kept, own) for e in explained.nearest(kept, 2)]
         rivals = {p.explanation.code for p in plain if p.score < fit.score + CLEARLY}
         if fit.likely and rivals <= {explanation.code}:
-            diagnoses.append(passed_on(task, sheet, gained, [fit]))
             left = [one for one in left if one not in gained]
+            told = passed_on(task, sheet, gained, [fit])
+            # Beside two more wrong numbers it may be what something else gives here.
+            diagnoses.append(replace(told, sure=told.sure and len(left) < MANY))
             break
     left = [one for one in left if one.verdict is Verdict.WRONG]
     for one in left:
@@ -379,8 +392,8 @@ def _turned(one: Examined) -> bool:
 def _alone(sheet: Sheet, one: Examined, *, many: bool, lone: bool) -> Diagnosis:
     """Return what can be said of one number by itself; of one of many only what is sure.
 
-    Some segment of a plan is about as long as almost any number: that it was read is sure only
-    where nothing else is wrong, or his own millimetres tell it.
+    Some segment of a plan is about as long as almost any number, and some factor makes it of the
+    right one: beside other wrong numbers only his own, or his millimetres, tell it surely.
     """
     roots = (one.item.id,)
     if _turned(one):
@@ -393,7 +406,7 @@ def _alone(sheet: Sheet, one: Examined, *, many: bool, lone: bool) -> Diagnosis:
         codes = {}
     named = tuple(codes)
     where = near[0].where if named == ("slip",) and near else ""
-    sure = len(named) == 1
-    if named and named[0] in SEGMENT_CODES.values():
-        sure = sure and (lone or one.told is not None)
+    read = bool(named) and named[0] in SEGMENT_CODES.values()
+    own = one.told is not None or (one.local is not None and not read)
+    sure = len(named) == 1 and (lone or own)
     return Diagnosis(named, sure, roots, where)
