@@ -208,7 +208,7 @@ def twins(
     return codes
 
 
-def _of_other(
+def of_other(
     task: Task,
     items: Sequence[TaskItem],
     given: Sequence[tuple[Change, list[float]]],
@@ -238,7 +238,7 @@ def detection(task: Task, count: int) -> list[Detected]:
     right = [entry.exact for entry in key.entries]
     for number, change in enumerate(places_of(task, key)):
         row = found.setdefault(change.code, Detected(called(task), change.code, family_of(task)))
-        alike = twins(given, change, right) | _of_other(task, items, given, change)
+        alike = twins(given, change, right) | of_other(task, items, given, change)
         for work in drawn_works(task, change, count, SEED + number):
             count_work(row, check(task, work), alike)
     for other in task.others():

@@ -21,6 +21,7 @@ from planmethod.bench.checking import (
     first_items,
     given_by,
     honest,
+    of_other,
     shows,
     sure_codes,
     tasks_of,
@@ -100,7 +101,10 @@ def two_at_once(task: Task, count: int) -> Detected:
     key, given = key_of_task(task, items), [*given_by(task, items)]
     right = [entry.exact for entry in key.entries]
     for number, (one, two, both) in enumerate(_pairs(task, key, items)):
-        first, second = (twins(given, change, right) for change in (one, two))
+        first, second = (
+            twins(given, change, right) | of_other(task, items, given, change)
+            for change in (one, two)
+        )
         for work in drawn_works(task, both, count, SEED + number):
             _count_two(row, check(task, work), first, second)
     return row
