@@ -13,6 +13,7 @@ from msgspec import Struct, field
 from msgspec.structs import replace
 
 from planmethod.bench.speed import clock
+from planmethod.check.calculation import Calculation
 from planmethod.check.checking import check
 from planmethod.check.drawn import drawn_works, planted
 from planmethod.check.key import Key, key_of_task
@@ -36,6 +37,9 @@ GROUP = 30
 
 ALIKE = 1e-3
 """Answers of two mistakes that differ by no more of themselves are the same when written."""
+
+FEW = 3
+"""Mistakes of which a student can find his own: "one of" more says nothing."""
 
 OFF = (Verdict.WRONG, Verdict.NEAR, Verdict.INHERITED, Verdict.INCONSISTENT)
 
@@ -78,18 +82,22 @@ class Detected(Struct):
     seen : int
         Works in which an answer is faulted.
     named, among, unknown, misnamed : int
-        Named surely, or one that gives the same answers; among several; not recognised; another
-        one named surely.
+        Named surely, or one that gives the same answers; among two or three; not recognised, or
+        among more; another one named surely.
+    over_half : int
+        Works that get more than half of their points.
     """
 
     problem: str
     code: str
+    family: str = ""
     works: int = 0
     seen: int = 0
     named: int = 0
     among: int = 0
     unknown: int = 0
     misnamed: int = 0
+    over_half: int = 0
     taken_for: Counter[str] = field(default_factory=Counter)
 
 
@@ -108,7 +116,15 @@ def tasks_of(problems: Sequence[Problem], profile: str = DEFAULT.profile) -> lis
 
 def called(task: Task) -> str:
     """Return the name of a task in the tables."""
-    return task.solution.problem.name + (f" ({task.variant})" if task.variant else "")
+    return task.problem.name + (f" ({task.variant})" if task.variant else "")
+
+
+def family_of(task: Task) -> str:
+    """Return what a task is counted with."""
+    if isinstance(task, Calculation):
+        return task.table
+    assert isinstance(task.problem, Problem)
+    return "levers" if task.problem.dynamics is None else "forces"
 
 
 def first_items(task: Task) -> list[TaskItem]:
@@ -157,14 +173,14 @@ def all_honest(problems: Sequence[Problem], count: int) -> list[Honest]:
 def places_of(task: Task, key: Key) -> Iterator[Change]:
     """Yield mistakes at a few places each, those that the answers cannot show left out."""
     made: dict[str, list[Change]] = {}
-    for change, values in _given(task, first_items(task)):
+    for change, values in given_by(task, first_items(task)):
         if any(map(shows, key.entries, values)):
             made.setdefault(change.code, []).append(change)
     for changes in made.values():
         yield from changes[:: -(-len(changes) // PLACES)]
 
 
-def _given(task: Task, items: Sequence[TaskItem]) -> Iterator[tuple[Change, list[float]]]:
+def given_by(task: Task, items: Sequence[TaskItem]) -> Iterator[tuple[Change, list[float]]]:
     """Yield every mistake with what it gives, sizes without a sign."""
     sheet = task.sheet(items[0].position)
     for change in planted(sheet, items):
@@ -180,7 +196,7 @@ def _given(task: Task, items: Sequence[TaskItem]) -> Iterator[tuple[Change, list
             )
 
 
-def _twins(
+def twins(
     given: Sequence[tuple[Change, list[float]]], change: Change, right: Sequence[float]
 ) -> set[str]:
     """Return the codes of all mistakes that give the same answers."""
@@ -190,6 +206,21 @@ def _twins(
     if turned == 1 and np.allclose(np.abs(mine), np.abs(right), rtol=ALIKE):
         codes.add("sign")  # one sense is otherwise, and nothing else
     return codes
+
+
+def of_other(
+    task: Task,
+    items: Sequence[TaskItem],
+    given: Sequence[tuple[Change, list[float]]],
+    change: Change,
+) -> set[str]:
+    """Return P2 where a mistake gives the answers of another variant: its angle of the crank."""
+    mine = next(values for one, values in given if one == change)
+    for _, sheet in task.theirs(task.sheet(items[0].position)):
+        theirs = [sheet.exact[item.question.id] for item in items]
+        if np.allclose(np.abs(theirs), np.abs(mine), rtol=ALIKE):
+            return {"P2"}
+    return set()
 
 
 def shows(entry: KeyEntry, value: float) -> bool:
@@ -202,33 +233,41 @@ def shows(entry: KeyEntry, value: float) -> bool:
 def detection(task: Task, count: int) -> list[Detected]:
     """Plant every mistake in some works, and hear what is said of them."""
     found: dict[str, Detected] = {}
-    key, given = key_of_task(task, first_items(task)), [*_given(task, first_items(task))]
+    items = first_items(task)
+    key, given = key_of_task(task, items), [*given_by(task, items)]
+    right = [entry.exact for entry in key.entries]
     for number, change in enumerate(places_of(task, key)):
-        row = found.setdefault(change.code, Detected(called(task), change.code))
-        twins = _twins(given, change, [entry.exact for entry in key.entries])
+        row = found.setdefault(change.code, Detected(called(task), change.code, family_of(task)))
+        alike = twins(given, change, right) | of_other(task, items, given, change)
         for work in drawn_works(task, change, count, SEED + number):
-            _count(row, check(task, work), twins)
+            count_work(row, check(task, work), alike)
     for other in task.others():
-        row = found.setdefault("P2", Detected(called(task), "P2"))
+        row = found.setdefault("P2", Detected(called(task), "P2", family_of(task)))
         for work in drawn_works(other, None, count, SEED):
-            _count(row, check(task, replace(work, variant=task.variant)), {"P2"})
+            count_work(row, check(task, replace(work, variant=task.variant)), {"P2"})
     return list(found.values())
 
 
-def _count(row: Detected, checked: CheckedWork, right: set[str]) -> None:
+def count_work(row: Detected, checked: CheckedWork, right: set[str]) -> None:
     """Count a work in which one of some mistakes, all alike, is right to name."""
-    sure = {diagnosis.codes[0] for diagnosis in checked.diagnosis if diagnosis.sure}
+    sure = sure_codes(checked)
     row.works += 1
+    row.over_half += checked.points > checked.of / 2
     row.seen += any(answer.verdict in OFF for answer in checked.answers)
     if sure - right:
         row.misnamed += 1
         row.taken_for.update(sure - right)
     elif sure:
         row.named += 1
-    elif any(right & {*diagnosis.codes} for diagnosis in checked.diagnosis):
+    elif any(right & {*d.codes} for d in checked.diagnosis if len(d.codes) <= FEW):
         row.among += 1
     else:
         row.unknown += 1
+
+
+def sure_codes(checked: CheckedWork) -> set[str]:
+    """Return the mistakes that are named surely."""
+    return {diagnosis.codes[0] for diagnosis in checked.diagnosis if diagnosis.sure}
 
 
 def all_detected(problems: Sequence[Problem], count: int) -> list[Detected]:

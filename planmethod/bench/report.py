@@ -7,7 +7,7 @@ import os
 from collections import Counter
 from collections.abc import Callable, Iterable, Sequence
 
-from planmethod.bench import checking, cycle, forces, speed
+from planmethod.bench import checking, confusion, cycle, forces, speed
 from planmethod.bench.drawn import DRAWS, Compared, compare_all
 from planmethod.check.key import Key
 from planmethod.problem.model import Problem
@@ -236,6 +236,60 @@ def hidden_table(keys: Sequence[tuple[str, Key]]) -> Table:
     return table(("mistake", *(name for name, _ in keys)), rows)
 
 
+FAMILIES = {"levers": "levers", "forces": "with forces", "gears": "trains", "point": "points"}
+"""Families of problems as the tables call them; others by their own table."""
+
+
+def confusion_tables(found: confusion.Confusion) -> Table:
+    """Return by families whom the checking faults, what it names, and what it inherits."""
+    families = list(dict.fromkeys(family for family, _ in found.honest))
+    mistaken = {
+        "one mistake": [one for one in found.detected if one.code != "P2"],
+        "two mistakes": found.two,
+        "another variant": [one for one in found.detected if one.code == "P2"],
+    }
+    rows = []
+    for what, planted in mistaken.items():
+        for family in [*families, "all"]:
+            of = [one for one in planted if family in (one.family, "all")]
+            if any(one.works for one in of):
+                rows.append((f"{FAMILIES.get(family, family)}, {what}", *_named_row(of)))
+    lost = []
+    for family in [*families, "all"]:
+        honest = [one for of, one in found.honest if family in (of, "all")]
+        own = [one for one in found.inherited if family in (one.family, "all")]
+        answers = sum(one.answers for one in honest), sum(one.answers for one in own)
+        faulted, inherited = sum(o.faulted for o in honest), sum(o.lost for o in own)
+        cells = _percent(faulted, answers[0]), str(answers[1]), _percent(inherited, answers[1])
+        lost.append((FAMILIES.get(family, family), str(answers[0]), *cells))
+    taken = Counter[str]()
+    for one in (*found.detected, *found.two):
+        taken.update({f"{one.code} as {name}": n for name, n in one.taken_for.items()})
+    said = ", ".join(f"{name} {n}" for name, n in taken.most_common(12)) or "none"
+    return [
+        *table(
+            ("family", "honest answers", "faulted", "inherited answers", "losing points"), lost
+        ),
+        "",
+        *table(
+            ("works with", "works", "seen", "named", "among two or three", "not named", "wrongly",
+             "over half of the points"),
+            rows,
+        ),
+        "",
+        f"Wrongly named, the commonest: {said}.",
+    ]  # fmt: skip
+
+
+def _named_row(found: Sequence[checking.Detected]) -> list[str]:
+    works = sum(one.works for one in found)
+    counts = (
+        sum(getattr(one, name) for one in found)
+        for name in ("seen", "named", "among", "unknown", "misnamed", "over_half")
+    )
+    return [str(works), *(_percent(count, works) for count in counts)]
+
+
 def checking_speed(found: Sequence[checking.Speed]) -> Table:
     """Return how long the checking takes."""
     rows = [
@@ -255,17 +309,39 @@ def checking_speed(found: Sequence[checking.Speed]) -> Table:
     )  # fmt: skip
 
 
-def checking_section(problems: Sequence[Problem], works: int = WORKS) -> Table:
-    """Return how checking judges works that a pencil has drawn.
+def checking_section(
+    problems: Sequence[Problem],
+    works: int = WORKS,
+    computed: Sequence[confusion.Computed] = (),
+) -> Table:
+    """Return how checking judges works that a pencil has drawn, and what was computed.
 
     Parameters
     ----------
     works : int
         Honest ones of each problem and profile; with each mistake at each place a tenth of them.
+    computed : sequence of Computed
+        Problems that are no linkages, with their kinds.
     """
     mistaken = max(1, works // 10)
-    found = checking.all_detected(problems, mistaken)
+    confused = confusion.confused(problems, computed, works)
+    together = [
+        "## By families",
+        "",
+        "Works of the board's profile; of trains and points, numbers computed and rounded to three "
+        f"digits or four. Two mistakes: at most {confusion.PAIRS} pairs in each linkage, of which "
+        f"neither mistake alone gives {confusion.APART} of the answers; *named*: both, *among*: "
+        "one of them, or a right one among two or three. Inherited: one number is wrong, and the "
+        "plans, another formula of the textbook or the formulas of a train go on with it.",
+        "",
+        *confusion_tables(confused),
+        "",
+    ]
+    if not problems:
+        return together
+    found = [one for one in confused.detected if one.family in ("levers", "forces")]
     return [
+        *together,
         "## Honest works",
         "",
         f"{works} works of every problem, drawn stroke by stroke with the errors of a profile, "
@@ -281,7 +357,8 @@ def checking_section(problems: Sequence[Problem], works: int = WORKS) -> Table:
         f"Works of the board's profile, {mistaken} with each mistake at each of at most "
         f"{checking.PLACES} places, where it shows. *Seen*: an answer is faulted, or follows from "
         "a faulted one; *named*: the mistake is named, or one that gives the same answers; *among "
-        'several*: "one of …"; *not named*: "not recognised"; *wrongly*: another one is named.',
+        'several*: "one of" two or three; *not named*: "not recognised", or more than three; '
+        "*wrongly*: another one is named.",
         "",
         *mistakes_table(found),
         "",

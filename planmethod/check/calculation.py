@@ -14,8 +14,8 @@ from typing import Any
 from msgspec.structs import replace
 
 from planmethod.check.copied import copied
-from planmethod.check.diagnosis import passed_on
 from planmethod.check.explain import Explanation, Fit
+from planmethod.check.following import passed_on
 from planmethod.check.judge import Examined, decide, distance
 from planmethod.check.letters import plain
 from planmethod.check.marks import Settings
@@ -121,6 +121,7 @@ class Calculation(Task):
     ) -> None:
         self.problem, self.settings = problem, replace(settings, floor_mm=0.0)
         self.variant, self._others = problem.variant, others
+        self.table = kind.table
         self.figures = kind.figures(problem)
         self._found: dict[tuple[str, int, bool, bool], Question] = {}
         self._forms: dict[str, TaskItem] = {}
@@ -279,7 +280,8 @@ class Calculation(Task):
             return []
         tried = [*self.named(sheet), *self._copied(sheet)]
         for one in left:
-            for code, factor in _slips(one.item.question.unit):
+            # No factor makes nought.
+            for code, factor in _slips(one.item.question.unit) if one.value else ():
                 given = {**sheet.exact, one.item.question.id: one.limit.exact * factor}
                 tried.append(Explanation(code, "", given, _NOTHING, sheet))
         while left:

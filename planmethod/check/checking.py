@@ -178,7 +178,7 @@ def share_of(one: Examined, settings: Settings) -> float:
         Verdict.INCONSISTENT: settings.inconsistent_share,
         Verdict.UNSEEN: settings.unseen_share,
     }
-    asked = one.item.asks_sense and not one.limit.zero
+    asked = one.item.asks_sense and not one.limit.zero and one.value  # nought turns no way
     if one.verdict is Verdict.WRONG:
         # The sense is an answer of its own: wrong, it leaves the number its points.
         if one.sense_right is False and (one.right or one.follows):

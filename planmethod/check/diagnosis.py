@@ -18,16 +18,17 @@ from planmethod.check.explain import (
     Fit,
     OwnNumbers,
 )
-from planmethod.check.judge import Examined, distance, facts_of, put_in, usable
+from planmethod.check.following import follows, idle, passed_on, rank, repoint, values_of
+from planmethod.check.judge import Examined, facts_of, put_in
+from planmethod.check.key import SEGMENT_CODES
 from planmethod.check.mistakes.model import MistakeContext
 from planmethod.check.mistakes.scales import scale_by
 from planmethod.check.model import Diagnosis, Verdict
 from planmethod.check.questions import RATES, Sign
-from planmethod.check.sheet import Sheet, point
-from planmethod.check.slips import Slip, completed, put_explanation, slips
+from planmethod.check.sheet import Sheet
+from planmethod.check.slips import Slip, put_explanation, slips
 from planmethod.check.task import Task
-from planmethod.construct.steps import Name, PointName, makes, operands
-from planmethod.plans.model import FACTS, MOTION
+from planmethod.plans.model import MOTION
 
 FEW = 1.0
 """Answers that an exact hand must have given before it is believed to be one."""
@@ -43,6 +44,9 @@ TRIED = 6
 
 PAIRED = 20
 """Mistakes of which any two are tried together."""
+
+FEW_CODES = 3
+"""Mistakes of which one may be told as "one of": of more a student learns nothing."""
 
 OFF = 9.0
 """Sigmas squared from which an answer is surely not what a mistake gives."""
@@ -84,7 +88,7 @@ def diagnose(task: Task, sheet: Sheet, found: list[Examined]) -> list[Diagnosis]
     if alone is not None and _turned(alone):
         codes = {fit.explanation.code for fit in whole or ()}
         if "sign" not in codes or codes <= {"sign", ""}:  # else it may be more than the sense
-            told = _alone(sheet, alone, many=False)
+            told = _alone(sheet, alone, many=False, lone=True)
             return [_or_driver(told, task.named(sheet), facts)]
     if whole is not None:
         return [passed_on(task, sheet, found, whole)]
@@ -142,7 +146,11 @@ def _whole(
     if best is None or not best.likely or best.explanation.code == "P1":
         fits = sorted([*fits, *_of_others(task, sheet, facts, own)], key=lambda fit: fit.score)
         best = fits[0] if fits else None
-    if best is None or not best.likely:
+    if best is not None and not best.likely:  # a number that nobody explains is still gone on with
+        likely = (fit for fit in fits if fit.likely and fit.score < fits[0].score + CLEARLY)
+        best = next((fit for fit in likely if not fit.explanation.code), None)
+        return None if best is None else [best]
+    if best is None:
         return None
     return [fit for fit in fits if fit.likely and fit.score < best.score + CLEARLY]
 
@@ -282,7 +290,8 @@ def _two(
     if not pairs:
         return []
     score, one, two, made = pairs[0]
-    if any({a.code, b.code} != {one.code, two.code} for s, a, b, _ in pairs if s < score + CLEARLY):
+    rivals = [(s, {a.code, b.code}) for s, a, b, _ in pairs if s < score + 2 * CLEARLY]
+    if any(s < score + CLEARLY and not codes & {one.code, two.code} for s, codes in rivals):
         return []
     wrong = [o for o in found if o.verdict is Verdict.WRONG]
     told = []
@@ -290,18 +299,25 @@ def _two(
         begins = [o for o in wrong if o.item.question.id in left[id(other)]]
         if not begins:
             return []
-        told.append((mistake, min(begins, key=lambda o: _rank(sheet, o))))
-    if told[0][1] is told[1][1]:
+        # What does as well beside the other one: then it is "one of".
+        instead = (codes - {other.code} for _, codes in rivals if other.code in codes)
+        codes = tuple(
+            dict.fromkeys((mistake.code, *(code for pair in instead for code in sorted(pair))))
+        )
+        if len(codes) > FEW_CODES:
+            return []
+        told.append((codes, mistake, min(begins, key=lambda o: rank(sheet, o))))
+    roots = [root for _, _, root in told]
+    if roots[0] is roots[1]:
         return []
-    roots = [root for _, root in told]
     for answer in wrong:
-        if answer not in roots and _follows(answer, made, 1.0) and not _idle(sheet, answer, made):
+        if answer not in roots and follows(answer, made, 1.0) and not idle(sheet, answer, made):
             answer.verdict, answer.source = Verdict.INHERITED, roots[0].item.id
-    _repoint(found)
-    values = _told(found, made)
+    repoint(found)
+    values = values_of(found, made)
     return [
-        Diagnosis((mistake.code,), True, (root.item.id,), mistake.where, values)
-        for mistake, root in told
+        Diagnosis(codes, len(codes) == 1, (root.item.id,), mistake.where, values)
+        for codes, mistake, root in told
     ]
 
 
@@ -323,105 +339,6 @@ def _unnamed(sheet: Sheet, fact: Fact) -> float:
     return 2 * math.log(size * WIDE) + ONE_MISTAKE - 2 * math.log(UNNAMED)
 
 
-# What follows --------------------------------------------------------------------------------
-
-
-def passed_on(task: Task, sheet: Sheet, found: list[Examined], fits: Sequence[Fit]) -> Diagnosis:
-    """Return the diagnosis of a whole sheet, with what follows from its mistake inherited."""
-    best = fits[0].explanation
-    codes = tuple(dict.fromkeys(fit.explanation.code for fit in fits))
-    sure = len(codes) == 1 and bool(codes[0])
-    if sure and best.code == "P2":
-        _disinherit(found)
-    wrong = [one for one in found if one.verdict is Verdict.WRONG]
-    begins = [one for one in wrong if one.item.id in best.begins]
-    changed = [one for one in wrong if not _idle(sheet, one, best)]
-    root = begins[0] if begins else min(changed or wrong, key=lambda one: _rank(sheet, one))
-    if begins:
-        best = completed(best, root)
-    for one in found:
-        if one is root or one.verdict is not Verdict.WRONG or best.code == "P2":
-            continue
-        if best.free and not usable(root):  # nobody can draw on with that
-            continue
-        moved = not _idle(sheet, one, best) or _vector_turned(one)
-        if moved and _follows(one, best, task.settings.near):
-            one.verdict, one.source = Verdict.INHERITED, root.item.id
-    _repoint(found)
-    if "" in codes:  # nothing is better than that it is just wrong
-        codes = () if fits[0].explanation.code == "" else tuple(c for c in codes if c)
-        sure = False
-    roots = [root.item.id, *(one.item.id for one in wrong if one.verdict is Verdict.WRONG)]
-    told, places = _told(found, best), _places(best)
-    return Diagnosis(codes, sure, tuple(dict.fromkeys(roots)), best.where, told, places)
-
-
-def _disinherit(found: list[Examined]) -> None:
-    """Let the numbers of another variant earn what is right for one's own, and nothing else."""
-    for one in found:
-        one.follows, one.source = False, ""  # that they agree with one another is no work of his
-        lost = (Verdict.INHERITED, Verdict.UNSEEN, Verdict.NEAR)
-        if one.verdict in lost and not (one.right and one.sense_right is not False):
-            one.verdict = Verdict.WRONG
-
-
-def _told(found: list[Examined], explanation: Explanation) -> dict[str, float]:
-    return {one.item.id: explanation.values[one.item.question.id] for one in found}
-
-
-def _places(explanation: Explanation) -> dict[str, complex]:
-    """Return the points of the velocity and acceleration plans of an explanation, m/s and m/s²."""
-    sheet = explanation.sheet
-    return {
-        name: point(explanation.trace.value[name]) * sheet.scales[FACTS[plan.kind].scale]
-        for plan in sheet.plans
-        for name in plan.letters
-        if name in explanation.trace.value
-    }
-
-
-def _follows(one: Examined, explanation: Explanation, near: float) -> bool:
-    """Tell whether an answer is what an explanation gives."""
-    given = explanation.values[one.item.question.id]
-    exact = abs(one.limit.exact)
-    share = max(abs(given) / exact, 0.3) if exact else 1.0
-    tolerance = max(one.limit.tolerance(one.step), one.limit.spread) * near * share
-    turned = one.sense_right is False and one.item.question.sign is Sign.TURN
-    if turned and given * one.limit.exact > 0:
-        return False
-    return distance(one.item, one.value, given, signed=one.signed) <= tolerance
-
-
-def _repoint(found: list[Examined]) -> None:
-    """Let what follows an answer that itself follows another one follow that."""
-    by_id = {one.item.id: one for one in found}
-    for one in found:
-        while one.source and by_id[one.source].source:
-            one.source = by_id[one.source].source
-
-
-def _rank(sheet: Sheet, one: Examined) -> tuple[int, bool, int]:
-    """Return how early on the plans an answer is found: by the last point that it needs."""
-    name = one.slot
-    if name is None:
-        return (len(sheet.order), bool(one.parents), 0)
-    return (_last_point(sheet, name), one.item.question.selector.kind in RATES, sheet.order[name])
-
-
-def _last_point(sheet: Sheet, name: Name) -> int:
-    seen, todo, last = {name}, [name], -1
-    while todo:
-        step = sheet.made[todo.pop()]
-        if makes(step) is PointName:
-            last = max(last, sheet.order[step.out])
-            continue
-        for other, _ in operands(step):
-            if other not in seen:
-                seen.add(other)
-                todo.append(other)
-    return last
-
-
 # One by one ----------------------------------------------------------------------------------
 
 
@@ -439,12 +356,11 @@ def _one_by_one(
     by_question = {one.item.question.id: one for one in found}
     left = list(wrong)
     for explanation in explained.nearest(facts, TRIED):
-        kept = [f for f in facts if _follows(by_question[f.id], explanation, task.settings.near)]
+        kept = [f for f in facts if follows(by_question[f.id], explanation, task.settings.near)]
         gained = [
             one
             for one in left
-            if any(f.id == one.item.question.id for f in kept)
-            and not _idle(sheet, one, explanation)
+            if any(f.id == one.item.question.id for f in kept) and not idle(sheet, one, explanation)
         ]
         if len(gained) < 2 or len(facts) - len(kept) > max(1, len(facts) // 4):
             continue
@@ -452,27 +368,17 @@ def _one_by_one(
         plain = [explained.fit(e, kept, own) for e in explained.nearest(kept, 2)]
         rivals = {p.explanation.code for p in plain if p.score < fit.score + CLEARLY}
         if fit.likely and rivals <= {explanation.code}:
-            diagnoses.append(passed_on(task, sheet, gained, [fit]))
             left = [one for one in left if one not in gained]
+            told = passed_on(task, sheet, gained, [fit])
+            # Beside two more wrong numbers it may be what something else gives here.
+            diagnoses.append(replace(told, sure=told.sure and len(left) < MANY))
             break
     left = [one for one in left if one.verdict is Verdict.WRONG]
     for one in left:
-        diagnoses.append(_alone(sheet, one, many=len(left) > MANY))
-    _repoint(found)
+        lone = not diagnoses and len(left) == 1
+        diagnoses.append(_alone(sheet, one, many=len(left) > MANY, lone=lone))
+    repoint(found)
     return diagnoses
-
-
-def _idle(sheet: Sheet, one: Examined, explanation: Explanation) -> bool:
-    """Tell whether an explanation leaves an answer as it is, its size and its sense."""
-    given, exact = explanation.values[one.item.question.id], sheet.exact[one.item.question.id]
-    sign = one.item.question.sign
-    told = one.signed if sign is Sign.TURN else sign is Sign.STRICT
-    turned = told and given * exact < 0
-    return not turned and abs(abs(given) - abs(exact)) <= one.limit.tolerance()
-
-
-def _vector_turned(one: Examined) -> bool:
-    return one.sense_right is False and one.item.question.sign is Sign.SIZE
 
 
 def _turned(one: Examined) -> bool:
@@ -483,11 +389,15 @@ def _turned(one: Examined) -> bool:
     return one.sense_right is False and size
 
 
-def _alone(sheet: Sheet, one: Examined, *, many: bool) -> Diagnosis:
-    """Return what can be said of one number by itself; of one of many only what is sure."""
+def _alone(sheet: Sheet, one: Examined, *, many: bool, lone: bool) -> Diagnosis:
+    """Return what can be said of one number by itself; of one of many only what is sure.
+
+    Some segment of a plan is about as long as almost any number, and some factor makes it of the
+    right one: beside other wrong numbers only his own, or his millimetres, tell it surely.
+    """
     roots = (one.item.id,)
     if _turned(one):
-        return Diagnosis(("sign",), True, roots)
+        return Diagnosis(("sign",), not many, roots)
     near = [s for s in slips(sheet, one) if abs(abs(one.value / s.value) - 1.0) <= ALONE]
     codes = dict.fromkeys(slip.code for slip in near)
     if not codes and one.slip:
@@ -496,4 +406,7 @@ def _alone(sheet: Sheet, one: Examined, *, many: bool) -> Diagnosis:
         codes = {}
     named = tuple(codes)
     where = near[0].where if named == ("slip",) and near else ""
-    return Diagnosis(named, len(named) == 1, roots, where)
+    read = bool(named) and named[0] in SEGMENT_CODES.values()
+    own = one.told is not None or (one.local is not None and not read)
+    sure = len(named) == 1 and (lone or own)
+    return Diagnosis(named, sure, roots, where)

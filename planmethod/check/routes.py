@@ -8,6 +8,7 @@ product; what else goes into it, lengths and given numbers, is the same for all.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from typing import TypeVar
 
 from planmethod.check.judge import Examined, distance
 from planmethod.check.questions import RATES, Sign
@@ -34,6 +35,8 @@ A quantity with a prime is that of another arm of the same link. No route leads 
 not follow from accelerations.
 """
 
+Answer = TypeVar("Answer")
+
 Role = tuple[str, str, tuple[str, ...]]
 """Kind, link, arm; no arm of what belongs to a link."""
 
@@ -46,7 +49,7 @@ def follow_routes(sheet: Sheet, found: list[Examined], floor: float) -> None:
     floor : float
         Least share of a computed number that it may be off.
     """
-    roles = {id(one): list(_roles(sheet, one.item.question.selector)) for one in found}
+    roles = {id(one): list(roles_of(sheet, one.item.question.selector)) for one in found}
     told: dict[Role, Examined] = {}
     for one in found:
         for role in roles[id(one)]:
@@ -56,7 +59,7 @@ def follow_routes(sheet: Sheet, found: list[Examined], floor: float) -> None:
         if not one.limit.exact or one.follows or (one.right and not one.contradicts):
             continue
         for role in roles[id(one)]:
-            for powers in _ways(sheet, role, told):
+            for powers in ways(sheet, role, told):
                 if one.routed or _would_circle(one, powers, found):
                     continue
                 _try(one, powers, floor)
@@ -96,16 +99,16 @@ def _would_circle(one: Examined, powers: list[tuple[Examined, int]], found: list
     return False
 
 
-def _ways(
-    sheet: Sheet, role: Role, told: Mapping[Role, Examined]
-) -> Iterator[list[tuple[Examined, int]]]:
+def ways(
+    sheet: Sheet, role: Role, told: Mapping[Role, Answer]
+) -> Iterator[list[tuple[Answer, int]]]:
     """Yield the answers with their powers by which a quantity can be computed."""
     kind, link, arm = role
     routes = ROUTES.get(kind, ())
     if kind == "a" and _all_normal(sheet, link):
         routes += ROUTES["a=an"]
     for powers in routes:
-        found: list[list[tuple[Examined, int]]] = [[]]
+        found: list[list[tuple[Answer, int]]] = [[]]
         for of, power in powers.items():
             at = [
                 other
@@ -128,7 +131,7 @@ def _all_normal(sheet: Sheet, link: str) -> bool:
     return link not in kin.epsilon and not sheet.questions.solution.problem.drive.acceleration
 
 
-def _roles(sheet: Sheet, selector: Selector) -> Iterator[Role]:
+def roles_of(sheet: Sheet, selector: Selector) -> Iterator[Role]:
     """Yield what a quantity is on its links."""
     kind, names = selector.kind, selector.names
     if selector.over is not None or not names:

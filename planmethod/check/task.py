@@ -109,9 +109,9 @@ def _forms(questions: Questions) -> Iterator[tuple[str, Selector]]:
             if reaction.couple is not None:
                 for letter in ("M", f"M_{reaction.joint}"):
                     yield f"{letter}_{on}{by}", Selector("M", (on, by))
-    for form in ("M_dr", "F_dr", "balance", "Mур", "Fур", "M_y", "F_y", "Мд"):
+    for form in ("M_dr", "F_dr", "balance", "Mур", "Fур", "M_b", "F_b", "M_y", "F_y", "Мд"):
         yield form, Selector("balance", ())
-    for form in ("M_lever", "F_lever", "lever", "MурЖ", "MЖ"):
+    for form in ("M_lever", "F_lever", "lever", "MурЖ", "MЖ", "MЖур", "FЖур", "M_Lb", "F_Lb"):
         yield form, Selector("lever", ())
     for given in questions.statics.board.given:
         applied = given.applied

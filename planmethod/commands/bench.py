@@ -51,14 +51,16 @@ def bench(
                 "cycle, machine and checking do not"
             ) from None
     todo: list[Todo] = []
-    finish(each(problems, variant, all_variants, todo.append, kinds=False))
-    loaded = [one.linkage for one in todo]
+    kinds = wanted == ["checking"]  # trains and points are checked, too
+    finish(each(problems, variant, all_variants, todo.append, kinds=kinds))
+    loaded = [one.linkage for one in todo if one.kind is None]
+    computed = [(one.kind, one.problem) for one in todo if one.kind is not None]
     from planmethod.bench import report
 
     for name in wanted:
         click.echo(say("measuring: {}", name), err=True)
         if name == "checking":
-            section = report.checking_section(loaded, works)
+            section = report.checking_section(loaded, works, computed)
         else:
             section = report.SECTIONS[name](loaded)
         if section:

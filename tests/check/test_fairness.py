@@ -18,9 +18,9 @@ from worked import ROOT
 
 from planmethod.check.checking import check
 from planmethod.check.copied import compared, copied, likeness
-from planmethod.check.diagnosis import passed_on
 from planmethod.check.drawn import drawn_works
 from planmethod.check.explain import Explanation, Fit
+from planmethod.check.following import passed_on
 from planmethod.check.group import Variants, check_works
 from planmethod.check.judge import Examined, decide, examine, replay
 from planmethod.check.key import key_of_task

@@ -18,12 +18,15 @@ from worked import path_of
 
 from planmethod.check import form as form_module
 from planmethod.check.form import fingerprint_of, form_of
-from planmethod.check.model import KeyEntry, Sense, Unread, Work
+from planmethod.check.group import Variants
+from planmethod.check.key import key_of_task
+from planmethod.check.model import KeyEntry, Sense, Unread, Work, WrittenAnswer
 from planmethod.check.works import read_works
 from planmethod.check.works.cells import HEADS, key, read_sense
 from planmethod.check.works.units import read_unit
 from planmethod.cli import cli
 from planmethod.errors import ExitCode
+from planmethod.note.plaintext import plain_text
 from planmethod.note.wording import LANGUAGES, language
 from planmethod.problem import load
 
@@ -191,6 +194,21 @@ def test_the_words_of_the_form_can_be_read_back(lang: str) -> None:
     assert all(map(read_unit, words.units))
     assert {read_sense(text) for text in words["senses"].values()} == set(Sense)
     assert list(words.unread) == [why.value for why in Unread]
+
+
+@pytest.mark.parametrize("lang", LANGUAGES)
+@pytest.mark.parametrize("name", ["linkages/ex1", "linkages/ex3", "levers/task-13", "press/press"])
+def test_letters_that_a_form_and_a_key_print_are_read_back(name: str, lang: str) -> None:
+    """Also by hand into a table of one's own: v_B of a point that both links of a pair share."""
+    group = Variants(path_of(name))
+    task = group.task(group.names[0] if group.names else None)
+    say = language(lang).say
+    for entry in key_of_task(task).entries:
+        symbol = say.symbol(entry.symbol)
+        label = say.symbol(entry.label)
+        for text in (entry.id, label, symbol, plain_text(symbol)):
+            found = task.find(WrittenAnswer(what=text, position=entry.position))
+            assert (found.name, found.position) == (entry.id, entry.position), text
 
 
 def test_the_same_form_has_the_same_bytes() -> None:

@@ -1,0 +1,143 @@
+"""What follows from a recognised mistake: it is counted once, where it begins (что следует)."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+from msgspec.structs import replace
+
+from planmethod.check.explain import Explanation, Fit
+from planmethod.check.judge import Examined, distance, usable
+from planmethod.check.model import Diagnosis, Verdict
+from planmethod.check.questions import RATES, Sign
+from planmethod.check.sheet import Sheet, point
+from planmethod.check.slips import completed
+from planmethod.check.task import Task
+from planmethod.construct.steps import Name, PointName, makes, operands
+from planmethod.plans.model import FACTS
+
+CLOSING = ("at", "epsilon", "vs")
+"""What closes a plan: its error is that of the longer vectors, however short it comes out."""
+
+
+def passed_on(task: Task, sheet: Sheet, found: list[Examined], fits: Sequence[Fit]) -> Diagnosis:
+    """Return the diagnosis of a whole sheet, with what follows from its mistake inherited."""
+    best = fits[0].explanation
+    codes = tuple(dict.fromkeys(fit.explanation.code for fit in fits))
+    sure = len(codes) == 1 and bool(codes[0])
+    if sure and best.code == "P2":
+        _disinherit(found)
+    wrong = [one for one in found if one.verdict is Verdict.WRONG]
+    begins = [one for one in wrong if one.item.id in best.begins]
+    changed = [one for one in wrong if not idle(sheet, one, best)]
+    root = begins[0] if begins else min(changed or wrong, key=lambda one: rank(sheet, one))
+    given = [best]
+    if begins:
+        best = completed(best, root)
+        given = [best, completed(_with_own(best, root), root)]
+    for one in found:
+        if one is root or one.verdict is not Verdict.WRONG or best.code == "P2":
+            continue
+        if best.free and not usable(root):  # nobody can draw on with that
+            continue
+        for made in given:
+            moved = not idle(sheet, one, made) or _vector_turned(one)
+            if moved and follows(one, made, task.settings.near):
+                one.verdict, one.source = Verdict.INHERITED, root.item.id
+    repoint(found)
+    if "" in codes:  # nothing is better than that it is just wrong
+        codes = () if fits[0].explanation.code == "" else tuple(c for c in codes if c)
+        sure = False
+    roots = [root.item.id, *(one.item.id for one in wrong if one.verdict is Verdict.WRONG)]
+    told, places = values_of(found, best), _places(best)
+    return Diagnosis(codes, sure, tuple(dict.fromkeys(roots)), best.where, told, places)
+
+
+def _with_own(explanation: Explanation, root: Examined) -> Explanation:
+    """Return an explanation with the number that he wrote: that is what he goes on with."""
+    name = root.item.question.id
+    own = math.copysign(root.value, explanation.values[name])
+    values = {**explanation.values, name: own}
+    return replace(explanation, values=values, change=None, program=None)
+
+
+def _disinherit(found: list[Examined]) -> None:
+    """Let the numbers of another variant earn what is right for one's own, and nothing else."""
+    for one in found:
+        one.follows, one.source = False, ""  # that they agree with one another is no work of his
+        lost = (Verdict.INHERITED, Verdict.UNSEEN, Verdict.NEAR)
+        if one.verdict in lost and not (one.right and one.sense_right is not False):
+            one.verdict = Verdict.WRONG
+
+
+def values_of(found: list[Examined], explanation: Explanation) -> dict[str, float]:
+    """Return what an explanation gives for the answers, by their ids."""
+    return {one.item.id: explanation.values[one.item.question.id] for one in found}
+
+
+def _places(explanation: Explanation) -> dict[str, complex]:
+    """Return the points of the velocity and acceleration plans of an explanation, m/s and m/s²."""
+    sheet = explanation.sheet
+    return {
+        name: point(explanation.trace.value[name]) * sheet.scales[FACTS[plan.kind].scale]
+        for plan in sheet.plans
+        for name in plan.letters
+        if name in explanation.trace.value
+    }
+
+
+def follows(one: Examined, explanation: Explanation, near: float) -> bool:
+    """Tell whether an answer is what an explanation gives."""
+    given = explanation.values[one.item.question.id]
+    exact = abs(one.limit.exact)
+    least = 1.0 if one.item.question.selector.kind in CLOSING else 0.3
+    share = max(abs(given) / exact, least) if exact else 1.0
+    tolerance = max(one.limit.tolerance(one.step), one.limit.spread) * near * share
+    turned = one.sense_right is False and one.item.question.sign is Sign.TURN
+    if turned and given * one.limit.exact > 0:
+        return False
+    return distance(one.item, one.value, given, signed=one.signed) <= tolerance
+
+
+def repoint(found: list[Examined]) -> None:
+    """Let what follows an answer that itself follows another one follow that."""
+    by_id = {one.item.id: one for one in found}
+    for one in found:
+        while one.source and by_id[one.source].source:
+            one.source = by_id[one.source].source
+
+
+def rank(sheet: Sheet, one: Examined) -> tuple[int, bool, int]:
+    """Return how early on the plans an answer is found: by the last point that it needs."""
+    name = one.slot
+    if name is None:
+        return (len(sheet.order), bool(one.parents), 0)
+    return (_last_point(sheet, name), one.item.question.selector.kind in RATES, sheet.order[name])
+
+
+def _last_point(sheet: Sheet, name: Name) -> int:
+    seen, todo, last = {name}, [name], -1
+    while todo:
+        step = sheet.made[todo.pop()]
+        if makes(step) is PointName:
+            last = max(last, sheet.order[step.out])
+            continue
+        for other, _ in operands(step):
+            if other not in seen:
+                seen.add(other)
+                todo.append(other)
+    return last
+
+
+def idle(sheet: Sheet, one: Examined, explanation: Explanation) -> bool:
+    """Tell whether an explanation leaves an answer as it is, its size and its sense."""
+    given, exact = explanation.values[one.item.question.id], sheet.exact[one.item.question.id]
+    sign = one.item.question.sign
+    told = one.signed if sign is Sign.TURN else sign is Sign.STRICT
+    turned = told and given * exact < 0
+    return not turned and abs(abs(given) - abs(exact)) <= one.limit.tolerance()
+
+
+def _vector_turned(one: Examined) -> bool:
+    return one.sense_right is False and one.item.question.sign is Sign.SIZE
