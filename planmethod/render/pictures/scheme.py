@@ -68,6 +68,7 @@ class Scheme(Struct):
     named: list[str] = field(default_factory=list)
     segments: dict[str, list[tuple[complex, complex]]] = field(default_factory=dict)
     axis_ends: list[tuple[str, complex, complex]] = field(default_factory=list)
+    slot_ends: list[tuple[str, complex, complex]] = field(default_factory=list)
     supports: list[Support] = field(default_factory=list)
     blocks: list[BlockOutline] = field(default_factory=list)
 
@@ -191,9 +192,9 @@ class Scheme(Struct):
                 break
 
     def _name_slot(self, slide: Slide, low: complex, high: complex) -> None:
-        """Note the ends of a guide on a moving link that the equations call by a name of its own."""
+        """Note the ends of a guide on a moving link that has a name of its own."""
         if self.pen is Pen.MAIN and has_slot_name(slide, self.solution.problem):
-            self.axis_ends.append((slot_name(slide).replace("–", "-"), low, high))
+            self.slot_ends.append((slot_name(slide), low, high))
 
     def _is_marked(self, link: str, place: complex) -> bool:
         """Tell whether a corner of a link is marked as rigid: not inside its own slider."""

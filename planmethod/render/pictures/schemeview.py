@@ -72,9 +72,16 @@ _LETTER = 6.0  # room of an axis's letter between the joints of other positions,
 def letter_axes(view: SchemeView, others: Sequence[complex] = ()) -> None:
     """Letter the ends of the guides' axes, but for an end that lies on a link.
 
+    Of guides on moving links both ends do: one that a point lies at has the point's letter alone.
     ``others`` are the joints in other positions, among which a letter would be lost.
     """
     scheme = view.scheme
+    at = [scheme.at(point) for point in scheme.named]
+    for label, low, high in scheme.slot_ends:
+        text = typeset(label.partition("–")[0], scheme.letter_height)
+        for end, other in ((low, high), (high, low)):
+            if min(abs(end - place) for place in at) > _LETTER:
+                view.labels.append(Label(text, end, prefer=end - other, gap=1.0))
     for label, low, high in scheme.axis_ends:
         names = label.split("-")
         if len(names) != 2:
