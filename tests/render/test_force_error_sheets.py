@@ -98,7 +98,7 @@ def test_the_lint_has_nothing_to_say(name: str, profile: str) -> None:
         assert errors_in(sheets) == []
         (sheet,) = sheets
         text = shown(sheet)
-        motion = 2 * len(views(sheet, "acceleration"))  # that and the velocity plan, if there is room
+        motion = 2 * len(views(sheet, "acceleration"))  # with the velocity plan, if there is room
         plans = len(views(sheet, "forces")) + motion
         assert text.count("Эллипсы погрешностей") == (plans if errors else 0)
         assert ("погрешность построения" in text) == sigma
