@@ -13,7 +13,7 @@ from planmethod.render.ink.drawing import Fill, Ink, Text
 from planmethod.render.ink.typeset import typeset
 from planmethod.render.labels.candidates import far
 from planmethod.render.labels.model import NAMING, Label
-from planmethod.render.live.parts import parts_of
+from planmethod.render.live.parts import LINES, parts_of
 from planmethod.render.pictures.schemeview import scheme_picture
 from planmethod.render.sheets.kinematics import kinematics_sheets
 from planmethod.solved.solution import Solution
@@ -51,5 +51,6 @@ def test_a_leader_of_a_name_is_never_level() -> None:
 
 def test_a_rod_ends_at_the_edge_of_its_slider_on_the_page() -> None:
     parts, _ = parts_of(Solution(problem_of("levers/task-66")), 5.0)
-    wedges = [i for p in parts if p.link == "3" for i in p.items if isinstance(i, Fill)]
+    rods = [part for part in parts if part.link == "3" and part.layer == LINES]
+    wedges = [item for part in rods for item in part.items if isinstance(item, Fill)]
     assert any(item.ink is Ink.BLACK for item in wedges)
