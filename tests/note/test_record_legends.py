@@ -42,4 +42,4 @@ def test_speeds_and_what_is_asked_of_a_train_have_letters_and_units() -> None:
 def test_every_column_of_a_point_has_a_symbol_and_a_unit() -> None:
     told = point_record(load_point(PROBLEMS / "point" / "k10-satellite.toml"))
     assert {*told["legend"]} == {*told["point"][0]} - {"reason"}
-    assert told["legend"]["a_normal"] == {"symbol": "a_n", "unit": "m/s²"}
+    assert told["legend"]["a_normal"] == {"symbol": "aⁿ", "unit": "m/s²"}

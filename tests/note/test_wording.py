@@ -26,6 +26,7 @@ CYRILLIC = re.compile("[\u0400-\u04ff]")
 NO_WORDS = {
     "check/task.py": "letters that quantities are written with in works of students",
     "check/judge.py": "the unit mm, as works of students write it",
+    "check/measured/plan.py": "the unit mm, as drawings of students write it",
     "check/measured/layers.py": "names of layers and colours, as drawings of students have them",
     "check/works/cells.py": "heads and words that works of students are written with",
     "check/works/units.py": "units, multiplication signs and e that they are written with",

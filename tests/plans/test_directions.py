@@ -230,3 +230,9 @@ def test_a_direction_stands_under_its_own_term() -> None:
 )
 def test_the_signs_of_the_relations(relation: Relation, text: str) -> None:
     assert direction_text(Direction(relation, ("B", "C"))) == text
+
+
+def test_an_angle_is_written_in_the_language() -> None:
+    told = Direction(Relation.ANGLED, ("A", "B"), angle=-66.63)
+    assert direction_text(told, language("ru").say) == "∠ −66,63° AB"
+    assert direction_text(told, language("en").say) == "∠ −66.63° AB"

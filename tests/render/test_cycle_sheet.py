@@ -11,6 +11,7 @@ import pytest
 from cases import each, some
 from click.testing import CliRunner
 from loaded import loaded_problem
+from msgspec.structs import replace
 from worked import path_of, problem_of
 
 from planmethod.cli import cli
@@ -143,8 +144,12 @@ def test_the_marks_are_what_both_methods_give_on_paper(
     name: str, positions: tuple[float, ...]
 ) -> None:
     views = shipped("forces-cycle").views_for("A1", len(positions))
-    solution = Solution(problem_of(name), positions=positions, views=views)
     sheet = drawn(name, positions)
+    # The scheme has grown into the sheet: arms are measured on it.
+    (scheme,) = (v for v in sheet.views if v.kind == "position")
+    problem = problem_of(name)
+    problem = replace(problem, scales=replace(problem.scales, mu_l=scheme.per_mm))
+    solution = Solution(problem, positions=positions, views=views)
     balances = drawn_forces(statics_of(solution)).balances
     assert balances is not None
     (view,) = (v for v in sheet.views if v.kind == "balance")

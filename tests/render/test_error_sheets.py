@@ -177,9 +177,13 @@ def test_rows_of_a_single_position(name: str) -> None:
             assert error.text == "0"
             continue
         assert number(error.text) == rounded(sigma)
-        # As many decimals as the exact value has, so that they stand under each other.
-        decimals = len(exact.text.partition(",")[2])
-        assert len(read.text.partition(",")[2]) == decimals
+        # As many decimals as the exact value has, so that they stand under each other; but no
+        # zeros at its end that are finer than the error.
+        decimals, shown = (len(cell.text.partition(",")[2]) for cell in (exact, read))
+        fine = len(error.text.rstrip("*").partition(",")[2])
+        whole = f"{value:.{decimals}f}"
+        cut = len(whole.rstrip("0").partition(".")[2])
+        assert shown == max(cut, min(decimals, fine))
         assert abs(number(read.text) - Decimal(value)) <= Decimal(1).scaleb(-decimals) / 2
 
 

@@ -172,7 +172,7 @@ def _compared_forces(sheet: Drawing, reading: ForceReading) -> int:
                     span = on_sheet[letters]
                     compare(line, float(value), span.start, span.end)
     if reading.statics.lever_plan is not None:
-        *_, view = (view for view in sheet.views if view.kind == "velocity")
+        *_, view = (view for view in sheet.views if view.kind == "velocity")  # the lever
         for line in lever_lines(reading):
             compare_arms(line, view)
     return compared

@@ -128,6 +128,21 @@ def test_too_wide_a_table_shrinks_first_and_then_is_cut_into_parts() -> None:
     assert lint(items) == []
 
 
+def test_a_table_is_not_cut_within_what_is_joined() -> None:
+    columns = [TableColumn("№", ("1",))]
+    for k in range(7):
+        columns += [TableColumn(f"v_{k}", ("1,00",)), TableColumn("Δ", ("0,1",), joined=True)]
+    body = table_block(columns, max_width=90.0, leading=1)
+    items = body.place(0j)
+    assert body.width <= 90.0
+    rows: dict[float, list[str]] = {}
+    for run in texts(items):
+        rows.setdefault(round(run.at.imag, 3), []).append(run.text)
+    heads = [row for row in rows.values() if "№" in row]
+    assert len(heads) > 1
+    assert all(row.count("v") == row.count("Δ") > 0 for row in heads)
+
+
 def test_a_column_wider_than_the_sheet_is_an_error() -> None:
     with pytest.raises(LayoutError, match="larger paper format"):
         table_block([TableColumn("очень длинная шапка", ("1",))], max_width=20)

@@ -13,7 +13,7 @@ from planmethod.note.formula import escape, fraction
 from planmethod.note.numbers import MINUS, Notation, trimmed, with_unit
 from planmethod.note.wording import Language
 from planmethod.plans.legend import MOTION_KINDS, TURNINGS, Quantity, QuantityKind
-from planmethod.plans.motion.leads import slot_name
+from planmethod.plans.motion.leads import has_slot_name, slot_name
 from planmethod.problem.head import KindProblem
 from planmethod.problem.model import Body, Drive, Geared, Lifted, Posed, PosedBy, Problem, Slide
 from planmethod.problem.names import UNITS, split_names
@@ -331,7 +331,7 @@ def _line(start: str, end: str) -> str:
 def _carried(problem: Problem, slide: Slide, text: As) -> list[str]:
     """Return how the line of a moving link lies on it, where two letters do not tell it."""
     axis, note = problem.bodies[slide.host].axis, text.words.note
-    if slide.host != FRAME and slide.through and axis is None and slide.offset:
+    if has_slot_name(slide, problem):
         guide = slot_name(slide)
         return [note.given_slot.format(guide=guide, link=slide.host, slider=slide.slider)]
     if slide.host == FRAME or slide.through is None or slide.towards is not None or axis is None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from planmethod.construct.steps import PointName
+from planmethod.note.numbers import Notation
 from planmethod.plans.model import Direction, Plan, Relation, is_primed, pole_letter
 from planmethod.problem.model import Problem
 
@@ -37,8 +38,11 @@ def pair_letters(name: str) -> str:
     return f"{mark(point)}{bracket}{links}"
 
 
-def direction_text(direction: Direction | None) -> str:
-    """Return a direction as it stands under a term, in rich text: ``⊥ BC``, ``C → B``, ``= 0``."""
+def direction_text(direction: Direction | None, say: Notation | None = None) -> str:
+    """Return a direction as it stands under a term, in rich text: ``⊥ BC``, ``C → B``, ``= 0``.
+
+    ``say`` writes the degrees of an angle in a language.
+    """
     if direction is None:
         return ""
     base = direction.guide or mark(*direction.points)
@@ -48,6 +52,7 @@ def direction_text(direction: Direction | None) -> str:
         case Relation.TOWARDS:
             return " → ".join(mark(point) for point in direction.points)
         case Relation.ANGLED:
-            return f"∠ {direction.angle:.4g}° {base}"
+            degrees = f"{direction.angle:.4g}"
+            return f"∠ {say.number(degrees) if say else degrees}° {base}"
         case Relation.ALONG | Relation.ACROSS:
             return f"{SIGN[direction.relation]} {base}"

@@ -174,6 +174,12 @@ def slot_name(slide: Slide) -> str:
     return f"n_{{{slide.slider}}}–n_{{{slide.slider}}}"
 
 
+def has_slot_name(slide: Slide, problem: Problem) -> bool:
+    """Tell whether a guide on a moving link joins no two letters: pin and point lie beside it."""
+    told = slide.host == FRAME or slide.through is None or slide.towards is not None
+    return not told and bool(slide.offset) and problem.bodies[slide.host].axis is None
+
+
 def track_direction(slide: Slide, problem: Problem, *, turned: bool = False) -> Direction:
     """Return the direction of a slide line: ``∥ x-x``, ``∥ CB``, or ``⊥ BC``.
 
@@ -189,7 +195,7 @@ def track_direction(slide: Slide, problem: Problem, *, turned: bool = False) -> 
         return Direction(along, guide=problem.guide_name(slide.label))
     if slide.towards is not None and slide.offset:
         return Direction(along, (slide.through, slide.towards))
-    if slide.offset and axis is None:  # pin and point lie beside it: it joins no two letters
+    if has_slot_name(slide, problem):
         return Direction(along, guide=slot_name(slide))
     if not slide.offset or axis is None:
         return Direction(along, (slide.through, slide.pin))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from functools import partial
 
 import numpy as np
 
@@ -207,7 +208,9 @@ class ForceChapter:
         for balance in plan.balances:
             template = said["balance"]["one" if len(balance.links) == 1 else "many"]
             yield sentences(template.format(links="–".join(balance.links)))
-            summed = balance_equation(balance, self.context, direction_text)
+            summed = balance_equation(
+                balance, self.context, partial(direction_text, say=self.report.words.say)
+            )
             yield Equations((summed,), numbered=True)
         *steps, _ = voice.steps()
         form = said["plan"]["one" if len(plan.balances) == 1 else "many"]

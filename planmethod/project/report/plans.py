@@ -7,6 +7,7 @@ formulas, the lines that meet, what is measured, and what follows from it.
 from __future__ import annotations
 
 from collections.abc import Iterator
+from functools import partial
 
 from planmethod.construct import steps
 from planmethod.construct.steps import Compute, LineName, PointName, Step
@@ -151,7 +152,8 @@ class PlanChapter:
         form = "one" if len(found) == 1 else "pair" if len(heads) == 1 else "many"
         template = str(self.said["equations"][self.kind.value][form])
         yield sentences(template.format(points=self.report.listed(heads)))
-        equations = tuple(equation_of(equation, direction_text) for equation in found)
+        directed = partial(direction_text, say=self.report.words.say)
+        equations = tuple(equation_of(equation, directed) for equation in found)
         yield Equations(equations, numbered=True)
         if self.kind is PlanKind.VELOCITY and found[0] is self._first:
             yield sentences(self.said.legend.format())

@@ -9,6 +9,7 @@ from collections.abc import Iterable, Sequence
 from itertools import combinations
 
 from msgspec import field
+from msgspec.structs import replace
 
 from planmethod.construct.steps import PointName
 from planmethod.mechanism.model import FRAME
@@ -42,6 +43,7 @@ from planmethod.render.labels.spots import shared_spots
 from planmethod.render.layout.block import Picture
 from planmethod.render.pictures.lettered import lettered
 from planmethod.render.pictures.scheme import Scheme
+from planmethod.render.pictures.schemeview import axis_labels
 from planmethod.render.symbols import SIZES, angle_of, before_links, revolute, slider
 from planmethod.render.symbols.axes import axis_line
 from planmethod.solved.forces.guides import guides
@@ -97,6 +99,7 @@ class FreeBodyScheme(Scheme):
                 self.guides += axis_line(pin + side * edge, pin + side * reach, tag="guide")
             name = self.solution.problem.guide_name(slide.label)
             self.axis_ends.append((name, pin - reach, pin + reach))
+            self._name_slot(slide, pin - reach, pin + reach)
             self.bodies += self._body(slide, pin)
 
     def _body(self, slide: Slide, middle: complex) -> list[Item]:
@@ -179,7 +182,8 @@ def _loaded_picture(
     labels += [
         Label(typeset(name, scheme.letter_height), place, gap=1.5) for name, place in special
     ]
-    return lettered(items, [*labels, *more, *letters, *letters_of(scheme, prefix, links)])
+    axes = (replace(label, optional=True) for label in axis_labels(scheme))
+    return lettered(items, [*labels, *more, *letters, *letters_of(scheme, prefix, links), *axes])
 
 
 @remembered

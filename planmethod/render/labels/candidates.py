@@ -21,6 +21,7 @@ Complexes: TypeAlias = NDArray[np.complex128]
 _ALONG = (0.5, 0.42, 0.58, 0.34, 0.66, 0.26, 0.74, 0.18, 0.82)
 _BESIDE = (0.0, 0.8, 2.0, 4.0)  # beyond the gap, mm
 _OTHER_SIDE = 3.0  # being on the other side of its segment than preferred, mm of distance
+_LEVEL = 0.6  # a leader line that rises no more reads as the bar of a fraction, mm
 
 
 class Candidates(Struct, frozen=True, dict=True):
@@ -158,7 +159,7 @@ def _leader_ends(label: Label, boxes: Floats) -> tuple[Complexes, Complexes]:
     up = np.clip(anchor.imag, boxes[:, 1], boxes[:, 3])
     if label.manner.slanted:  # to the further edge of a box that lies level with its point
         far = np.where(2 * up > boxes[:, 1] + boxes[:, 3], boxes[:, 1], boxes[:, 3])
-        up = np.where(up == anchor.imag, far, up)
+        up = np.where(np.abs(up - anchor.imag) <= _LEVEL, far, up)
     ends = np.clip(anchor.real, boxes[:, 0], boxes[:, 2]) + 1j * up
     reach = ends - anchor
     length = np.abs(reach)

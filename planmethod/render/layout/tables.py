@@ -48,7 +48,7 @@ class TableColumn(Struct, frozen=True):
 
     ``width`` is the width aimed at, mm: values that do not fit shrink to the next GOST height,
     and if they still do not, the column grows. Without it the column is as wide as its text needs,
-    ``least`` at least.
+    ``least`` at least. ``joined``: a table is not cut between it and the column before.
     """
 
     head: str
@@ -56,6 +56,7 @@ class TableColumn(Struct, frozen=True):
     unit: str = ""
     width: float | None = None
     least: float = 12.0
+    joined: bool = False
 
     @property
     def cells(self) -> tuple[TableCell, ...]:
@@ -285,9 +286,12 @@ def _total(part: Sequence[_Set]) -> float:
 
 def _split(columns: tuple[_Set, ...], limit: float, leading: int) -> list[tuple[_Set, ...]]:
     """Cut into as few parts as the limit allows, of nearly equal width."""
-    lead, rest = columns[:leading], columns[leading:]
-    room = limit - _total(lead)
-    widest = max((c.width for c in rest), default=0.0)
+    lead, room = columns[:leading], limit - _total(columns[:leading])
+    rest: list[tuple[_Set, ...]] = []
+    for column in columns[leading:]:
+        together = rest.pop() if rest and column.source.joined else ()
+        rest.append((*together, column))
+    widest = max(map(_total, rest), default=0.0)
     if widest > room + 1e-9:
         raise LayoutError(
             "Cannot fit a table column of {:.1f} mm beside {:.1f} mm of leading columns "
@@ -302,12 +306,12 @@ def _split(columns: tuple[_Set, ...], limit: float, leading: int) -> list[tuple[
     return [(*lead, *part) for part in _filled(rest, even)]
 
 
-def _filled(columns: Sequence[_Set], room: float) -> list[tuple[_Set, ...]]:
+def _filled(members: Sequence[tuple[_Set, ...]], room: float) -> list[tuple[_Set, ...]]:
     parts: list[tuple[_Set, ...]] = [()]
-    for column in columns:
-        if parts[-1] and _total(parts[-1]) + column.width > room + 1e-9:
+    for columns in members:
+        if parts[-1] and _total(parts[-1]) + _total(columns) > room + 1e-9:
             parts.append(())
-        parts[-1] += (column,)
+        parts[-1] += columns
     return parts
 
 

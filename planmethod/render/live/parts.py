@@ -13,6 +13,7 @@ from planmethod.plans.draft import cis
 from planmethod.problem.model import Slide
 from planmethod.render.ink.drawing import Item
 from planmethod.render.pictures.scheme import AXIS, Scheme
+from planmethod.render.pictures.welds import BlockOutline, welded
 from planmethod.render.symbols import SIZES, guide_line, slider, turn_arrow
 from planmethod.render.symbols.axes import axis_line
 from planmethod.solved.solution import Solution
@@ -41,17 +42,25 @@ def parts_of(solution: Solution, letter_height: float) -> tuple[list[MovingPart]
     """
     problem = solution.problem
     scheme = Scheme(solution, 0, letter_height)
-    found: list[MovingPart] = []
+    rods: dict[str, list[Item]] = {}
     for link in problem.mechanism.links:
         before = len(scheme.lines), len(scheme.corners)
         scheme.draw_link(link)
-        items = (*scheme.lines[before[0] :], *scheme.corners[before[1] :])
-        found.append(MovingPart(link, 0, LINES, items))
+        rods[link] = [*scheme.lines[before[0] :], *scheme.corners[before[1] :]]
+    found: list[MovingPart] = []
     for slide in sorted(problem.slides.values(), key=lambda slide: slide.host != FRAME):
-        if slide.host == FRAME and not problem.is_block(slide):
+        link = slide.slider
+        if slide.host == FRAME:
             found += _on_frame(scheme, slide)
+            block = _block(scheme, slide)
         else:
-            found += _on_link(scheme, slide, letter_height)
+            alone = _drawn(scheme, slide, letter_height)
+            found += _on_link(alone, slide)
+            block = alone.blocks[-1]
+        if not problem.is_block(slide):  # the rods of the link are one piece with it
+            lines, welds = welded(rods[link], f"link {link}", block, scheme.factor)
+            rods[link] = [*lines, *welds]
+    found = [*(MovingPart(link, 0, LINES, tuple(items)) for link, items in rods.items()), *found]
     scheme.draw_joints()
     pivots = {joint.point for joint in problem.mechanism.revolutes}
     for joint in problem.mechanism.revolutes:
@@ -72,8 +81,14 @@ def parts_of(solution: Solution, letter_height: float) -> tuple[list[MovingPart]
     return sorted((p for p in found if p.items), key=lambda part: part.layer), scheme
 
 
-def _on_link(scheme: Scheme, slide: Slide, letter_height: float) -> Iterator[MovingPart]:
-    """Yield stone or block, and the bar that passes through a block, in full length."""
+def _block(scheme: Scheme, slide: Slide) -> BlockOutline:
+    """Return the outline of a slider of the frame."""
+    length, width = (size * scheme.factor for size in (SIZES.slider_length, SIZES.slider_width))
+    return BlockOutline(scheme.at(slide.pin), cis(slide.angle), length, width)
+
+
+def _drawn(scheme: Scheme, slide: Slide, letter_height: float) -> Scheme:
+    """Return stone or block drawn alone, where a bar through the block has its full length."""
     solution = scheme.solution
     index = 0
     if solution.problem.is_block(slide) and slide.through is not None:
@@ -82,9 +97,17 @@ def _on_link(scheme: Scheme, slide: Slide, letter_height: float) -> Iterator[Mov
         index = int(np.argmax(np.abs(reach)))
     alone = Scheme(solution, index, letter_height)
     alone.draw_slider(slide)
-    body = slide.host if solution.problem.is_block(slide) else slide.slider
-    yield MovingPart(body, index, BODIES, tuple(alone.bodies))
-    yield MovingPart(slide.slider, index, LINES, tuple(alone.lines))
+    return alone
+
+
+def _on_link(alone: Scheme, slide: Slide) -> Iterator[MovingPart]:
+    """Yield stone or block with what is one piece with it, and the bar through a block."""
+    body = slide.host if alone.solution.problem.is_block(slide) else slide.slider
+    yield MovingPart(body, alone.index, BODIES, tuple(alone.bodies))
+    for link in (slide.host, slide.slider):
+        lines = (one for one in alone.lines if one.tag == f"link {link}")
+        yield MovingPart(link, alone.index, LINES, tuple(lines))
+    yield MovingPart(body, alone.index, LINES, tuple(alone.corners))
 
 
 def _on_frame(scheme: Scheme, slide: Slide) -> Iterator[MovingPart]:

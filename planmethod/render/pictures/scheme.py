@@ -11,6 +11,7 @@ from msgspec import Struct, field
 from planmethod.construct.steps import PointName
 from planmethod.mechanism.model import FRAME, Revolute
 from planmethod.plans.draft import cis
+from planmethod.plans.motion.leads import has_slot_name, slot_name
 from planmethod.problem.model import Slide
 from planmethod.render import symbols
 from planmethod.render.ink.drawing import Disc, Ink, Item, Pen, Stroke
@@ -67,6 +68,7 @@ class Scheme(Struct):
     named: list[str] = field(default_factory=list)
     segments: dict[str, list[tuple[complex, complex]]] = field(default_factory=dict)
     axis_ends: list[tuple[str, complex, complex]] = field(default_factory=list)
+    slot_ends: list[tuple[str, complex, complex]] = field(default_factory=list)
     supports: list[Support] = field(default_factory=list)
     blocks: list[BlockOutline] = field(default_factory=list)
 
@@ -181,12 +183,18 @@ class Scheme(Struct):
                 self.bar(link, start + u * old[1], start + u * high)
             return
         self.bar(link, start + u * low, start + u * high)
+        self._name_slot(slide, start + u * low, start + u * high)
         for _, place in along:
             if abs(place - start) > 1.0 and self._is_marked(link, start):
                 self.corners += symbols.rigid_corner(
                     start, place, start + u * reach, factor=self.factor
                 )
                 break
+
+    def _name_slot(self, slide: Slide, low: complex, high: complex) -> None:
+        """Note the ends of a guide on a moving link that has a name of its own."""
+        if self.pen is Pen.MAIN and has_slot_name(slide, self.solution.problem):
+            self.slot_ends.append((slot_name(slide), low, high))
 
     def _is_marked(self, link: str, place: complex) -> bool:
         """Tell whether a corner of a link is marked as rigid: not inside its own slider."""
@@ -224,6 +232,7 @@ class Scheme(Struct):
             )
             if ((far - reach) * symbols.unit(block - pin).conjugate()).real < 0:
                 self.bar(slide.slider, far, reach)
+                self._name_slot(slide, far, reach)
             self._put(BlockOutline(block, u, *self._sized(SIZES.slider_length, SIZES.slider_width)))
             if abs(block - base) > 0.2:
                 self.bar(slide.host, block, base)

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from math import inf
 
 from msgspec import Struct, field
 
@@ -69,12 +70,18 @@ def letter_points(view: SchemeView, points: Sequence[str] | None = None) -> None
 _LETTER = 6.0  # room of an axis's letter between the joints of other positions, mm
 
 
-def letter_axes(view: SchemeView, others: Sequence[complex] = ()) -> None:
-    """Letter the ends of the guides' axes, but for an end that lies on a link.
+def axis_labels(scheme: Scheme, others: Sequence[complex] = ()) -> Iterator[Label]:
+    """Yield letters at the ends of the guides' axes, but for an end that lies on a link.
 
+    Of guides on moving links both ends do: one that a point lies at has the point's letter alone.
     ``others`` are the joints in other positions, among which a letter would be lost.
     """
-    scheme = view.scheme
+    at = [scheme.at(point) for point in scheme.named]
+    for label, low, high in scheme.slot_ends:
+        text = typeset(label.partition("–")[0], scheme.letter_height)
+        for end, other in ((low, high), (high, low)):
+            if min((abs(end - place) for place in at), default=inf) > _LETTER:
+                yield Label(text, end, prefer=end - other, gap=1.0)
     for label, low, high in scheme.axis_ends:
         names = label.split("-")
         if len(names) != 2:
@@ -84,11 +91,9 @@ def letter_axes(view: SchemeView, others: Sequence[complex] = ()) -> None:
             min([scheme.clearance(end), *(abs(end - place) - _LETTER for place in others)])
             for _, end, _ in ends
         ]
-        for (text, place, away), room in zip(ends, free, strict=True):
+        for (name, place, away), room in zip(ends, free, strict=True):
             if room > 4.0 or room == max(free):
-                view.labels.append(
-                    Label(typeset(text, scheme.letter_height), place, prefer=away, gap=1.0)
-                )
+                yield Label(typeset(name, scheme.letter_height), place, prefer=away, gap=1.0)
 
 
 def letter_links(
@@ -139,7 +144,7 @@ def scheme_picture(
     ellipses = error_ellipses(solution, PlanKind.POSITION, index) if errors else Ellipses()
     letter_points(view)
     if not bare:
-        letter_axes(view)
+        view.labels += axis_labels(view.scheme)
     clear = letter_links(view, senses=not bare, given=given)
     # The ellipses after the joints, whose white would cover them.
     items = [*view.items(), *added[0], *ellipses.strokes]

@@ -20,7 +20,7 @@ from planmethod.render.pictures.extremes import construction_items, stroke_items
 from planmethod.render.pictures.positions import Positions, Thinned
 from planmethod.render.pictures.schemeview import (
     SchemeView,
-    letter_axes,
+    axis_labels,
     letter_links,
     letter_points,
 )
@@ -69,7 +69,7 @@ def series_picture(
     scheme, size = view.scheme, small(letter_height)
     fixed = solution.problem.bodies[FRAME].points
     letter_points(view, [point for point in scheme.named if point in fixed])
-    letter_axes(view, positions.places())
+    view.labels += axis_labels(view.scheme, positions.places())
     others = [*positions.lines(), *added[0]]
     letter_links(view, others)
     special = special_points(scheme)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
+from functools import partial
 
 from planmethod.note.document import Equations, Formula, Paragraph
 from planmethod.note.narrate.forces.common import ForceContext, balance_equation, lettered
@@ -187,7 +188,8 @@ def equations_of(reading: ForceReading, manner: Manner) -> Block:
             if (one.force is not None) is of_forces:
                 yield from map(Formula, voice.lines(one))
 
-    balances = (balance_equation(balance, context, direction_text) for balance in plan.balances)
+    directed = partial(direction_text, say=manner.words.say)
+    balances = (balance_equation(balance, context, directed) for balance in plan.balances)
     nodes: list[TextNode] = [
         *moments(of_forces=True),
         Equations(tuple(balances)),

@@ -8,6 +8,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from math import inf
 
+from msgspec.structs import replace
+
 from planmethod.note.narrate.given import told
 from planmethod.note.numbers import alike, is_noise
 from planmethod.plans.legend import MOTION_KINDS, Quantity
@@ -36,7 +38,8 @@ def measured_table(solution: Solution, indices: Sequence[int], manner: Manner) -
         exact, read = solution.exact(quantity), solution.read_off(quantity.label)
         columns.append(_column(quantity, quantity.symbol, exact, exact, indices, manner))
         symbol = words.sheets.read_symbol.format(symbol=quantity.symbol)
-        columns.append(_column(quantity, symbol, read, exact, indices, manner))
+        measured = _column(quantity, symbol, read, exact, indices, manner)
+        columns.append(replace(measured, joined=True))
         columns.append(_off(read, exact, indices, manner))
     height = manner.text(min(manner.sizes.text, 3.5))
     title = manner.entry.title or words.sheets.measured
@@ -57,7 +60,7 @@ def _off(read: Reals, exact: Reals, indices: Sequence[int], manner: Manner) -> T
         off = inf if nothing else 100.0 * float(read[i] - exact[i]) / abs(float(exact[i]))
         shown = f"{round(off, 1) + 0.0:.1f}" if abs(off) < MOST_OFF else "—"
         cells.append(manner.words.say.number(shown))
-    return TableColumn("Δ", tuple(cells), unit="%", least=9.0)
+    return TableColumn("Δ", tuple(cells), unit="%", least=9.0, joined=True)
 
 
 def _column(

@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Collection, Sequence
 from math import inf
 
+import numpy as np
+
 from planmethod.note.narrate.given import solution_peak, told
 from planmethod.note.numbers import Notation, alike, is_noise, to_decimals
 from planmethod.note.rounding import as_long, rounded_to, sigma_text
@@ -24,14 +26,17 @@ MOST_OFF = 100.0
 
 
 def position_text(solution: Solution, index: int, say: Notation) -> str:
-    """Return a driver position as the sheet writes it: an angle within one turn, two decimals."""
+    """Return a driver position as the sheet writes it: an angle within one turn, two decimals.
+
+    Where none is a whole turn away, angles are as they were given, negative ones, too.
+    """
     value = float(solution.positions[index])
     if not solution.problem.drive.is_crank:
         return say.given(value)
     if value in solution.problem.numbered:
         return say.given(solution.problem.shown(value))
-    if -360.0 < value < 0.0 and value in solution.problem.drive.positions:
-        return say.given(value)  # as the file has it
+    if value < 0.0 and (np.abs(solution.positions) < 360.0).all():
+        return say.given(round(value, 2))
     return say.turned(value)
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import partial
 
 from planmethod.note.document import Caption, Equations, Formula
 from planmethod.note.narrate.equations import equation_of
@@ -46,7 +47,8 @@ def equations_block(solution: Solution, indices: Sequence[int], manner: Manner) 
     size = manner.text(manner.sizes.text)
     height, width = max(3.5, min(5.0, size)), manner.width(manner.sizes.column)
     title = heading(manner.entry.title or manner.words.sheets["equations"][kind.value], size)
-    equations = Equations(tuple(equation_of(one, direction_text) for one in plan.equations))
+    directed = partial(direction_text, say=manner.words.say)
+    equations = Equations(tuple(equation_of(one, directed) for one in plan.equations))
     return Column([title, *blocks_of([equations], height, width=width)], gap=4.0)
 
 
