@@ -52,7 +52,8 @@ class Texts(Struct, frozen=True):
         one, two = ((len(plan.equations), len(plan.vectors)) for plan in plans)
         return cls((one[0], two[0]), (one[1], two[1]))
 
-    def blocks(self, paper: Format, positions: int) -> list[Blocks]:
+    @lru_cache(maxsize=128)  # asked for at every scale that is tried
+    def blocks(self, paper: Format, positions: int) -> Sequence[Blocks]:
         """Return the sizes of "Дано", equations, calculations and table, mm.
 
         Measured on sheets: an equation is 13 letters wide and 4.3 high, of the calculation every
