@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from functools import lru_cache
 from math import inf
-from typing import Any, TypeAlias
+from typing import TypeAlias
 
 from msgspec import Struct
 
@@ -95,23 +95,27 @@ def has_room(
     lasts = [(max(wide, STAMP_WIDTH - EDGE), tall + STAMP_HEIGHT)]
     if wide > STAMP_WIDTH:
         lasts.append((wide + STAMP_WIDTH, max(tall, STAMP_HEIGHT - EDGE)))
-    sheet: list[Any]
-    for last in lasts:
-        if positions == 1:
-            velocities, accelerations = (
-                [velocity, [one, reckoned]],
-                [acceleration, [two, reckoned_too]],
-            )
-            sheet = [[scheme, statement], velocities, accelerations, last]
-        else:
-            texts_too = [[reckoned, reckoned_too]] if positions <= FEW else []
-            sheet = [
-                [scheme, statement, [one, two]],
-                [velocity, acceleration, *texts_too, last],
-            ]
-        if shapes(sheet, room):
-            return True
-    return False
+    last_shapes = [_best([last], room) for last in lasts]
+    if positions == 1:
+        groups = [
+            shapes([scheme, statement], room),
+            shapes([velocity, [one, reckoned]], room),
+            shapes([acceleration, [two, reckoned_too]], room),
+        ]
+        return any(_stand(groups, last, room) for last in last_shapes)
+    first = shapes([scheme, statement, [one, two]], room)
+    texts_too = [[reckoned, reckoned_too]] if positions <= FEW else []
+    plans = [shapes(block, room) for block in (velocity, acceleration, *texts_too)]
+    return any(_stand([first], _in_order((*plans, last), room), room) for last in last_shapes)
+
+
+def _stand(groups: list[tuple[Box, ...]], last: tuple[Box, ...], room: Box) -> bool:
+    """Tell whether groups and a last one have room; their areas are looked at first."""
+    whole = (*groups, last)
+    if not all(whole):
+        return False
+    least = sum(min(width * height for width, height in group) for group in whole)
+    return least <= room[0] * room[1] * (1 + 1e-9) and bool(_in_order(whole, room))
 
 
 def shapes(blocks: Blocks, room: Box) -> tuple[Box, ...]:
@@ -142,6 +146,9 @@ def _in_order(blocks: tuple[tuple[Box, ...], ...], room: Box) -> tuple[Box, ...]
 
 def _best(found: list[Box], room: Box) -> tuple[Box, ...]:
     wide, least = room[0], inf
+    if len(found) == 1:
+        ((width, height),) = found
+        return tuple(found) if width <= wide and height <= room[1] else ()
     best: list[Box] = []
     for box in sorted(box for box in found if box[1] <= room[1] and box[0] <= wide):
         if box[1] < least:
