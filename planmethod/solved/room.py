@@ -104,8 +104,9 @@ def has_room(
         ]
         return any(_stand(groups, last, room) for last in last_shapes)
     first = shapes([scheme, statement, [one, two]], room)
-    texts_too = [[reckoned, reckoned_too]] if positions <= FEW else []
-    plans = [shapes(block, room) for block in (velocity, acceleration, *texts_too)]
+    plans = [shapes(velocity, room), shapes(acceleration, room)]
+    if positions <= FEW:
+        plans.append(shapes([reckoned, reckoned_too], room))
     return any(_stand([first], _in_order((*plans, last), room), room) for last in last_shapes)
 
 
