@@ -52,29 +52,33 @@ class Texts(Struct, frozen=True):
         one, two = ((len(plan.equations), len(plan.vectors)) for plan in plans)
         return cls((one[0], two[0]), (one[1], two[1]))
 
-    @lru_cache(maxsize=128)  # asked for at every scale that is tried
     def blocks(self, paper: Format, positions: int) -> Sequence[Blocks]:
         """Return the sizes of "Дано", equations, calculations and table, mm.
 
         Measured on sheets: an equation is 13 letters wide and 4.3 high, of the calculation every
         vector has nearly two lines.
         """
-        letter, small = LETTERS[paper.like or paper.name]
-        equations = [(13.2 * letter, 4.3 * letter * (count + 0.3)) for count in self.equations]
-        lines = (4.3 * self.vectors[0], 3.6 * self.vectors[1])
-        statement, calculations = (
-            (50.0 * letter, 7.0 * letter),
-            [(41.0 * small, small * n) for n in lines],
-        )
-        number = sum(self.vectors)
-        height = 55.0 if positions == 1 else 26.0 + 7.5 * min(positions, 12)
-        column = 12.2 if positions <= FEW else 14.0
-        table = (min(40.0 + column * number, 0.58 * (paper.inner[2] - paper.inner[0])), height)
-        if positions == 1:  # enlarged views take what other ways would leave
-            return [statement, *equations, *calculations, table]
-        narrower = (0.7 * statement[0], statement[1] / 0.7)
-        ways = [frozenset({(w, h), (2 * w + 2 * small, h / 2 + small)}) for w, h in calculations]
-        return [frozenset({statement, narrower}), *equations, *ways, table]
+        return _blocks(self, paper, positions)
+
+
+@lru_cache(maxsize=128)  # asked for at every scale that is tried
+def _blocks(texts: Texts, paper: Format, positions: int) -> Sequence[Blocks]:
+    letter, small = LETTERS[paper.like or paper.name]
+    equations = [(13.2 * letter, 4.3 * letter * (count + 0.3)) for count in texts.equations]
+    lines = (4.3 * texts.vectors[0], 3.6 * texts.vectors[1])
+    statement, calculations = (
+        (50.0 * letter, 7.0 * letter),
+        [(41.0 * small, small * n) for n in lines],
+    )
+    number = sum(texts.vectors)
+    height = 55.0 if positions == 1 else 26.0 + 7.5 * min(positions, 12)
+    column = 12.2 if positions <= FEW else 14.0
+    table = (min(40.0 + column * number, 0.58 * (paper.inner[2] - paper.inner[0])), height)
+    if positions == 1:  # enlarged views take what other ways would leave
+        return [statement, *equations, *calculations, table]
+    narrower = (0.7 * statement[0], statement[1] / 0.7)
+    ways = [frozenset({(w, h), (2 * w + 2 * small, h / 2 + small)}) for w, h in calculations]
+    return [frozenset({statement, narrower}), *equations, *ways, table]
 
 
 def has_room(

@@ -12,7 +12,7 @@ from msgspec.structs import replace
 from planmethod.check.marks import Settings
 from planmethod.check.questions import Question, Questions
 from planmethod.construct.arithmetic import Float64
-from planmethod.construct.drafting import PROFILES, Counted, Profile, Propagated
+from planmethod.construct.drafting import PROFILES, Profile, Propagated, causes_of
 from planmethod.construct.dual import as_dual
 from planmethod.construct.evaluate import evaluate
 from planmethod.errors import AssemblyError, PlanMethodError
@@ -174,10 +174,9 @@ def _seen(
     program = program.needed_for({name for question, *_ in asked for name in question.needs})
     data = batch.data(batch.per_mm)
     free = frozenset(str(plan.pole) for plan in batch.construction.plans)
-    counted = Counted(batch.profile, free)
-    evaluate(program, data, counted)
+    causes = causes_of(program, lambda: data, free)
     exact = evaluate(program, data, Float64())
-    drawn = evaluate(program, data, Propagated(batch.profile, free, counted.causes))
+    drawn = evaluate(program, data, Propagated(batch.profile, free, causes))
     for question, position, name in asked:
         if question.length is not None:
             mm = np.broadcast_to(np.abs(exact.value[question.length]), batch.positions.shape)
