@@ -354,7 +354,8 @@ def _acted_on(
     """Act on a share of the problems, on those that can be together at once."""
     from planmethod.commands.processes import Outcome, captured
 
-    found = ahead(part) if ahead is not None and len(part) > 1 else {}
+    with unsearched():
+        found = ahead(part) if ahead is not None and len(part) > 1 else {}
     return [
         Outcome(value=found[k]) if k in found else captured(partial(act, one))
         for k, one in enumerate(part)
