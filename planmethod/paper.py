@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Mapping
+from functools import lru_cache
 from types import MappingProxyType
 from typing import NoReturn, TypeAlias
 
@@ -127,6 +128,7 @@ _TURNS = MappingProxyType(
 )
 
 
+@lru_cache(maxsize=128)
 def paper_format(name: str) -> Format:
     """Return the format called ``name``.
 

@@ -20,7 +20,7 @@ from msgspec import Struct
 from planmethod.check.model import Sense
 from planmethod.check.questions import Question, Questions, Sign
 from planmethod.construct.arithmetic import Float64, Number, Single
-from planmethod.construct.drafting import Counted, Profile, Propagated
+from planmethod.construct.drafting import Profile, Propagated, causes_of
 from planmethod.construct.dual import angle, as_dual
 from planmethod.construct.evaluate import Put, Trace, evaluate
 from planmethod.construct.program import Program
@@ -262,9 +262,7 @@ class Sheet:
     ) -> Local:
         """Return the same of another program."""
         names = sorted(given, key=self.order.__getitem__)
-        counted = Counted(self.profile, self.free)
-        evaluate(program, data, counted)
-        causes, count = counted.causes, len(names)
+        causes, count = causes_of(program, lambda: data, self.free), len(names)
         pencil = Propagated(self.profile, self.free, causes + count)
         row = {name: causes + number for number, name in enumerate(names)}
         sigma: dict[Name, float] = {}

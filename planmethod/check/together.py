@@ -6,7 +6,7 @@ the numbers of all are columns of one reading. Each variant then tells its key f
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from functools import partial
 
 import numpy as np
@@ -62,6 +62,15 @@ def batch_keys(batch: Batch, settings: Settings) -> list[Key]:
     return [key_of_task(task, named=lambda sheet: named[id(sheet)]) for task in tasks]
 
 
+def batch_named(
+    batch: Batch, tasks: Sequence[Task], position: int, of: Collection[int]
+) -> dict[int, list[Shown]]:
+    """Return what the mistakes with a name give in a position of some of the variants."""
+    rows = _Rows(batch, [task.sheet(position) for task in tasks])
+    shown = rows.named(of)
+    return {number: shown[number] for number in of}
+
+
 def keys_together(problems: Sequence[Problem], settings: Settings) -> dict[int, Key]:
     """Return the keys of linkages that are drawn and asked alike, by their numbers."""
     found: dict[int, Key] = {}
@@ -99,15 +108,17 @@ class _Rows:
             sheet.row = errors, number
             sheet.keyed = sheet.read_as(own)
 
-    def named(self) -> list[list[Shown]]:
+    def named(self, of: Collection[int] | None = None) -> list[list[Shown]]:
         """Return what every mistake with a name gives on every sheet, in order.
 
-        A mistake is drawn once on all sheets that have the same steps of it.
+        A mistake is drawn once on all sheets that have the same steps of it. Where only some of
+        them are asked for, the others have none.
         """
         alike: dict[tuple[object, ...], list[tuple[int, int, Change]]] = {}
         told: list[list[Shown | None]] = []
         for number, sheet in enumerate(self.sheets):
-            found = list(changes(MistakeContext(sheet.keyed)))
+            wanted = of is None or number in of
+            found = list(changes(MistakeContext(sheet.keyed))) if wanted else []
             told.append([None] * len(found))
             for place, change in enumerate(found):
                 key = (change.code, change.where, *change.steps.items(), *change.data)

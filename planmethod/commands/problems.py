@@ -236,7 +236,8 @@ def each(
                 gc.freeze()  # what was read stays to the end, and is not looked through
             for start in range(0, len(todo), AT_ONCE):
                 block = todo[start : start + AT_ONCE]
-                found = ahead(block) if ahead is not None and len(block) > 1 else {}
+                with unsearched():  # what is made of a block stays to its end
+                    found = ahead(block) if ahead is not None and len(block) > 1 else {}
                 for k, one in enumerate(block):
                     yield partial(found.pop, k) if k in found else partial(act, one)
                 if len(todo) > AT_ONCE:
@@ -245,6 +246,18 @@ def each(
             yield from _shared(act, ahead, todo, jobs)
 
     return through(paths, variant, all_variants, steps, kinds=kinds, take=take, drawn=drawn)
+
+
+@contextmanager
+def unsearched() -> Iterator[None]:
+    """Have nothing looked through for what is of no use: what is made here is needed for long."""
+    was = gc.isenabled()
+    gc.disable()
+    try:
+        yield
+    finally:
+        if was:
+            gc.enable()
 
 
 def through(
@@ -341,7 +354,8 @@ def _acted_on(
     """Act on a share of the problems, on those that can be together at once."""
     from planmethod.commands.processes import Outcome, captured
 
-    found = ahead(part) if ahead is not None and len(part) > 1 else {}
+    with unsearched():
+        found = ahead(part) if ahead is not None and len(part) > 1 else {}
     return [
         Outcome(value=found[k]) if k in found else captured(partial(act, one))
         for k, one in enumerate(part)

@@ -19,7 +19,7 @@ How each step errs, sigma by sigma:
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from functools import cache, cached_property
 from types import MappingProxyType
 from typing import Any
@@ -328,6 +328,25 @@ def _normal() -> npt.NDArray[np.float64]:
     return np.interp((np.arange(EVEN) + 0.5) / EVEN, shares, sizes)
 
 
+_COUNTED: dict[tuple[Program, frozenset[str]], int] = {}
+_MOST_COUNTED = 256
+
+
+def causes_of(program: Program, data: Callable[[], Mapping[str, Any]], free: frozenset[str]) -> int:
+    """Return how many errors a construction has; its steps and what is ``free`` decide it alone.
+
+    ``data`` gives the data of some position, where they have not been counted before.
+    """
+    key = (program, free)
+    if key not in _COUNTED:
+        if len(_COUNTED) >= _MOST_COUNTED:
+            _COUNTED.clear()
+        counted = Counted(PROFILES["board"], free)
+        evaluate(program, data(), counted)
+        _COUNTED[key] = counted.causes
+    return _COUNTED[key]
+
+
 def sigmas(
     program: Program, data: Mapping[str, Any], profile: Profile, free: frozenset[str]
 ) -> dict[str, npt.NDArray[np.float64]]:
@@ -335,9 +354,8 @@ def sigmas(
 
     ``free``: points that may stand anywhere.
     """
-    counted = Counted(profile, free)
-    evaluate(program, data, counted)
-    trace = evaluate(program, data, Propagated(profile, free, counted.causes))
+    causes = causes_of(program, lambda: data, free)
+    trace = evaluate(program, data, Propagated(profile, free, causes))
     found: dict[str, npt.NDArray[np.float64]] = {}
     for name, value in trace.value.items():
         if isinstance(value, tuple) or np.iscomplexobj(as_dual(value).value):

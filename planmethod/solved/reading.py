@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from functools import wraps
 from typing import Any, Concatenate, ParamSpec, TypeVar
 
@@ -77,8 +77,7 @@ class Reading(Struct, frozen=True):
     def part(self, chosen: slice) -> Reading:
         """Return the reading of some of the positions."""
         trace = self.trace
-        value = {name: _part(one, chosen) for name, one in trace.value.items()}
-        margin = {name: _part(one, chosen) for name, one in trace.margin.items()}
+        value, margin = _Part(trace.value, chosen), _Part(trace.margin, chosen)
         return Reading(Trace(value, margin), len(range(self.count)[chosen]))
 
     def go_on(
@@ -86,6 +85,25 @@ class Reading(Struct, frozen=True):
     ) -> Reading:
         """Return a reading with further steps, read in the same arithmetic."""
         return Reading(go_on(self.trace, steps, data, arithmetic), self.count)
+
+
+class _Part(Mapping[Name, Number]):
+    """Values of some of the positions, cut out when they are asked for."""
+
+    def __init__(self, whole: Mapping[Name, Number], chosen: slice) -> None:
+        self._whole, self._chosen = whole, chosen
+        self._known: dict[Name, Number] = {}
+
+    def __getitem__(self, name: Name) -> Number:
+        if name not in self._known:
+            self._known[name] = _part(self._whole[name], self._chosen)
+        return self._known[name]
+
+    def __iter__(self) -> Iterator[Name]:
+        return iter(self._whole)
+
+    def __len__(self) -> int:
+        return len(self._whole)
 
 
 def _part(value: Number, chosen: slice) -> Number:

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from functools import lru_cache
 from math import inf
-from typing import Any, TypeAlias
+from typing import TypeAlias
 
 from msgspec import Struct
 
@@ -52,28 +52,33 @@ class Texts(Struct, frozen=True):
         one, two = ((len(plan.equations), len(plan.vectors)) for plan in plans)
         return cls((one[0], two[0]), (one[1], two[1]))
 
-    def blocks(self, paper: Format, positions: int) -> list[Blocks]:
+    def blocks(self, paper: Format, positions: int) -> Sequence[Blocks]:
         """Return the sizes of "Дано", equations, calculations and table, mm.
 
         Measured on sheets: an equation is 13 letters wide and 4.3 high, of the calculation every
         vector has nearly two lines.
         """
-        letter, small = LETTERS[paper.like or paper.name]
-        equations = [(13.2 * letter, 4.3 * letter * (count + 0.3)) for count in self.equations]
-        lines = (4.3 * self.vectors[0], 3.6 * self.vectors[1])
-        statement, calculations = (
-            (50.0 * letter, 7.0 * letter),
-            [(41.0 * small, small * n) for n in lines],
-        )
-        number = sum(self.vectors)
-        height = 55.0 if positions == 1 else 26.0 + 7.5 * min(positions, 12)
-        column = 12.2 if positions <= FEW else 14.0
-        table = (min(40.0 + column * number, 0.58 * (paper.inner[2] - paper.inner[0])), height)
-        if positions == 1:  # enlarged views take what other ways would leave
-            return [statement, *equations, *calculations, table]
-        narrower = (0.7 * statement[0], statement[1] / 0.7)
-        ways = [frozenset({(w, h), (2 * w + 2 * small, h / 2 + small)}) for w, h in calculations]
-        return [frozenset({statement, narrower}), *equations, *ways, table]
+        return _blocks(self, paper, positions)
+
+
+@lru_cache(maxsize=128)  # asked for at every scale that is tried
+def _blocks(texts: Texts, paper: Format, positions: int) -> Sequence[Blocks]:
+    letter, small = LETTERS[paper.like or paper.name]
+    equations = [(13.2 * letter, 4.3 * letter * (count + 0.3)) for count in texts.equations]
+    lines = (4.3 * texts.vectors[0], 3.6 * texts.vectors[1])
+    statement, calculations = (
+        (50.0 * letter, 7.0 * letter),
+        [(41.0 * small, small * n) for n in lines],
+    )
+    number = sum(texts.vectors)
+    height = 55.0 if positions == 1 else 26.0 + 7.5 * min(positions, 12)
+    column = 12.2 if positions <= FEW else 14.0
+    table = (min(40.0 + column * number, 0.58 * (paper.inner[2] - paper.inner[0])), height)
+    if positions == 1:  # enlarged views take what other ways would leave
+        return [statement, *equations, *calculations, table]
+    narrower = (0.7 * statement[0], statement[1] / 0.7)
+    ways = [frozenset({(w, h), (2 * w + 2 * small, h / 2 + small)}) for w, h in calculations]
+    return [frozenset({statement, narrower}), *equations, *ways, table]
 
 
 def has_room(
@@ -94,23 +99,28 @@ def has_room(
     lasts = [(max(wide, STAMP_WIDTH - EDGE), tall + STAMP_HEIGHT)]
     if wide > STAMP_WIDTH:
         lasts.append((wide + STAMP_WIDTH, max(tall, STAMP_HEIGHT - EDGE)))
-    sheet: list[Any]
-    for last in lasts:
-        if positions == 1:
-            velocities, accelerations = (
-                [velocity, [one, reckoned]],
-                [acceleration, [two, reckoned_too]],
-            )
-            sheet = [[scheme, statement], velocities, accelerations, last]
-        else:
-            texts_too = [[reckoned, reckoned_too]] if positions <= FEW else []
-            sheet = [
-                [scheme, statement, [one, two]],
-                [velocity, acceleration, *texts_too, last],
-            ]
-        if shapes(sheet, room):
-            return True
-    return False
+    last_shapes = [_best([last], room) for last in lasts]
+    if positions == 1:
+        groups = [
+            shapes([scheme, statement], room),
+            shapes([velocity, [one, reckoned]], room),
+            shapes([acceleration, [two, reckoned_too]], room),
+        ]
+        return any(_stand(groups, last, room) for last in last_shapes)
+    first = shapes([scheme, statement, [one, two]], room)
+    plans = [shapes(velocity, room), shapes(acceleration, room)]
+    if positions <= FEW:
+        plans.append(shapes([reckoned, reckoned_too], room))
+    return any(_stand([first], _in_order((*plans, last), room), room) for last in last_shapes)
+
+
+def _stand(groups: list[tuple[Box, ...]], last: tuple[Box, ...], room: Box) -> bool:
+    """Tell whether groups and a last one have room; their areas are looked at first."""
+    whole = (*groups, last)
+    if not all(whole):
+        return False
+    least = sum(min(width * height for width, height in group) for group in whole)
+    return least <= room[0] * room[1] * (1 + 1e-9) and bool(_in_order(whole, room))
 
 
 def shapes(blocks: Blocks, room: Box) -> tuple[Box, ...]:
@@ -141,6 +151,9 @@ def _in_order(blocks: tuple[tuple[Box, ...], ...], room: Box) -> tuple[Box, ...]
 
 def _best(found: list[Box], room: Box) -> tuple[Box, ...]:
     wide, least = room[0], inf
+    if len(found) == 1:
+        ((width, height),) = found
+        return tuple(found) if width <= wide and height <= room[1] else ()
     best: list[Box] = []
     for box in sorted(box for box in found if box[1] <= room[1] and box[0] <= wide):
         if box[1] < least:

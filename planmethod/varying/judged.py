@@ -12,10 +12,12 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from planmethod.check.calculation import Calculation
-from planmethod.check.explain import Explanation
+from planmethod.check.key import Shown
 from planmethod.check.marks import Settings
 from planmethod.check.questions import Sign
+from planmethod.check.sheet import Sheet
 from planmethod.check.task import Task, TaskItem
+from planmethod.check.together import batch_named, batch_tasks
 from planmethod.check.tolerance import Tolerance, limit_of
 from planmethod.errors import PlanMethodError
 from planmethod.gears.conditions import conditions
@@ -26,8 +28,9 @@ from planmethod.plans.model import FACTS, MOTION
 from planmethod.problem.head import KindProblem
 from planmethod.problem.model import Convention, Problem
 from planmethod.problem.selector import Selector
+from planmethod.solved.many.variants import Batch
 from planmethod.solved.solution import Solution
-from planmethod.varying.sieve import LEAST_MM, WORST, Refusal, Refused, assembled
+from planmethod.varying.sieve import LEAST_MM, WORST, Refusal, Refused, sifted
 
 NOTHING = 1e-9
 
@@ -110,9 +113,13 @@ class Judge:
             yield from map(self._computed, problems)
             return
         linkages = [freed(cast("Problem", problem)) for problem in problems]
-        solved = assembled(linkages, self._wanted, self.settings)
-        for problem, own in zip(linkages, solved, strict=True):
-            yield own if isinstance(own, Refused) else self._drawn(problem, own)
+        sieve = sifted(linkages, self._wanted, self.settings)
+        found: dict[int, JudgedVariant | Refused] = {**sieve.refused}
+        for k, solution in sieve.alone.items():
+            found[k] = self._drawn(solution)
+        for batch, members in sieve.together:
+            found.update(zip(members, self._together(batch), strict=True))
+        yield from (found[k] for k in range(len(linkages)))
 
     def _computed(self, problem: KindProblem) -> JudgedVariant | Refused:
         assert self.kind is not None
@@ -120,29 +127,56 @@ class Judge:
             failing = next((one for one in _failing(problem) if one not in self.excused), None)
             if failing is not None:
                 return Refused(Refusal.CONDITION, failing[0])
-            return self._judged(Calculation(self.kind, problem, self.settings), {})
+            return self._judged(Calculation(self.kind, problem, self.settings))
         except PlanMethodError:
             return Refused(Refusal.FAULTY)
 
-    def _drawn(self, problem: Problem, solution: Solution) -> JudgedVariant | Refused:
+    def _drawn(self, solution: Solution) -> JudgedVariant | Refused:
         try:
-            task = Task(solution, self.settings)
-            return self._judged(task, _scales_of(task, problem.scales.convention))
+            return self._judged(Task(solution, self.settings))
         except PlanMethodError:
             return Refused(Refusal.FAULTY)
 
-    def _judged(
-        self, task: Task, scales: Mapping[str, float], *, strictly: bool = True
-    ) -> JudgedVariant | Refused:
+    def _together(self, batch: Batch) -> Sequence[JudgedVariant | Refused]:
+        """Return what each variant of a batch is: errors and mistakes are rows of one reading."""
+        try:
+            tasks = batch_tasks(batch, self.settings)
+            limits = dict(enumerate(map(self._limits, tasks)))
+            kept = [k for k, own in limits.items() if not isinstance(own, Refused)]
+            positions = dict.fromkeys(item.position for task in tasks[:1] for item in task.whole())
+            named = {p: batch_named(batch, tasks, p, kept) for p in positions}
+        except PlanMethodError:
+            tasks = []
+        if not tasks:
+            return [self._drawn(one) for one in batch.alone]
+        found: list[JudgedVariant | Refused] = []
+        for k, task in enumerate(tasks):
+            own = limits[k]
+            shown = {position: every.get(k, []) for position, every in named.items()}
+            found.append(own if isinstance(own, Refused) else self._told(task, own, shown))
+        return found
+
+    def _judged(self, task: Task, *, strictly: bool = True) -> JudgedVariant | Refused:
+        limits = self._limits(task, strictly=strictly)
+        if isinstance(limits, Refused):
+            return limits
+        named = {}
+        for position in dict.fromkeys(item.position for item in task.whole()):
+            explained = task.named(task.sheet(position))
+            named[position] = [(one.code, one.where, one.values) for one in explained]
+        return self._told(task, limits, named)
+
+    def _limits(self, task: Task, *, strictly: bool = True) -> dict[str, Tolerance] | Refused:
+        """Return how far each answer may be off, or why a candidate is refused."""
         items = task.whole()
         limits: dict[str, Tolerance] = {}
         for item in items:
-            length = task.sheet(item.position).length(item.question)
+            length = _sheet(task, item).length(item.question)
             short = length is not None and length < LEAST_MM
             if strictly and short and name_of(item) not in self.still:
                 return Refused(Refusal.SHORT, item.name)
         for item in items:
-            sheet, name = task.sheet(item.position), name_of(item)
+            sheet, name = _sheet(task, item), name_of(item)
             limits[name] = limit = limit_of(sheet, item.question, task.settings, item.fixed)
             if not math.isfinite(limit.exact):
                 return Refused(Refusal.NOTHING, item.name)
@@ -153,7 +187,14 @@ class Judge:
             whole = 57.3 if item.question.unit == "deg" else abs(limit.exact)
             if limit.sigma > WORST * whole:
                 return Refused(Refusal.UNSEEN, item.name)
-        told, made = distinct(task, items, limits)
+        return limits
+
+    def _told(
+        self, task: Task, limits: Mapping[str, Tolerance], named: Mapping[int, Sequence[Shown]]
+    ) -> JudgedVariant:
+        """Return a candidate that is not refused, with what its mistakes give by position."""
+        items = task.whole()
+        told, made = distinct(items, limits, named)
         return JudgedVariant(
             {name: limit.exact for name, limit in limits.items()},
             {name: limit.tolerance() for name, limit in limits.items()},
@@ -161,7 +202,7 @@ class Judge:
             {name_of(item): item.points for item in items},
             told,
             made,
-            scales,
+            _scales_of(task) if self.kind is None else {},
         )
 
     def _look_at(self, main: KindProblem) -> None:
@@ -173,7 +214,7 @@ class Judge:
                 task = Task(Solution(cast("Problem", main)), self.settings)
             items = task.whole()
             exact = [task.sheet(item.position).exact[item.question.id] for item in items]
-            made = self._judged(task, {}, strictly=False)
+            made = self._judged(task, strictly=False)
         except PlanMethodError:
             return
         self.main = made if isinstance(made, JudgedVariant) else None
@@ -199,8 +240,15 @@ def freed(problem: Problem) -> Problem:
     return replace(problem, scales=replace(own, mu_l=None, mu_v=None, mu_a=None, mu_F=None))
 
 
-def _scales_of(task: Task, convention: Convention) -> dict[str, float]:
+def _sheet(task: Task, item: TaskItem) -> Sheet:
+    """Return the sheet of an answer: among other variants as it was read with them."""
+    sheet = task.sheet(item.position)
+    return sheet if sheet.row is None else sheet.keyed
+
+
+def _scales_of(task: Task) -> dict[str, float]:
     """Return the scales of a task as its file would have them."""
+    convention = task.solution.problem.scales.convention
     whole = dict(task.scales({}, task.first))
     found = {FACTS[kind].scale: whole[FACTS[kind].scale] for kind in MOTION}
     found |= {name: value for name, value in whole.items() if name == "mu_F"}
@@ -221,40 +269,40 @@ def _failing(problem: KindProblem) -> Iterator[Place]:
 
 
 def distinct(
-    task: Task, items: Sequence[TaskItem], limits: Mapping[str, Tolerance]
+    items: Sequence[TaskItem],
+    limits: Mapping[str, Tolerance],
+    named: Mapping[int, Sequence[Shown]],
 ) -> tuple[frozenset[Place], frozenset[Place]]:
     """Return the mistakes that answers tell from the right ones and from all others, and all.
 
     Two are told apart where an answer of the one is off by more than its tolerance from that of
-    the other: larger of what a mistake makes larger.
+    the other: larger of what a mistake makes larger. ``named`` has them by position.
     """
     told: set[Place] = set()
     made: set[Place] = set()
     for position in dict.fromkeys(item.position for item in items):
         here = [item for item in items if item.position == position]
         known = [limits[name_of(item)] for item in here]
-        named = task.named(task.sheet(position))
-        places = [(one.code, one.where) for one in named]
+        places = [(code, where) for code, where, _ in named[position]]
         made.update(places)
-        told.update(
-            place for place, own in zip(places, _apart(here, known, named), strict=True) if own
-        )
+        apart = _apart(here, known, named[position])
+        told.update(place for place, own in zip(places, apart, strict=True) if own)
     return frozenset(told), frozenset(made)
 
 
 def _apart(
-    items: Sequence[TaskItem], limits: Sequence[Tolerance], named: Sequence[Explanation]
+    items: Sequence[TaskItem], limits: Sequence[Tolerance], named: Sequence[Shown]
 ) -> npt.NDArray[np.bool_]:
     """Return which mistakes are like nothing else, shape (mistakes,)."""
     right = np.array([limit.exact for limit in limits])
-    given = np.array([[e.values[item.question.id] for item in items] for e in named])
+    given = np.array([[values[item.question.id] for item in items] for *_, values in named])
     table = np.vstack([right, given.reshape(-1, len(items))])
     signed = np.array([has_sign(item) for item in items])
     measured = np.array([not limit.zero for limit in limits])
     slack = np.array([max(limit.spread, limit.tolerance()) for limit in limits])
     size = np.abs(right)
     share = np.maximum(np.abs(table) / np.where(size > 0, size, 1.0), LEAST_SHARE)
-    codes = ["", *(e.code for e in named)]
+    codes = ["", *(code for code, *_ in named)]
     found = np.ones(len(codes), dtype=bool)
     for k in range(len(codes)):
         off = np.abs(np.abs(table) - np.abs(table[k]))

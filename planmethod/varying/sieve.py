@@ -6,13 +6,13 @@ from collections.abc import Iterator, Sequence
 from enum import Enum
 
 import numpy as np
-from msgspec import Struct
+from msgspec import Struct, field
 from msgspec.structs import replace
 
 from planmethod.check.marks import Settings
 from planmethod.check.questions import Question, Questions
 from planmethod.construct.arithmetic import Float64
-from planmethod.construct.drafting import PROFILES, Counted, Profile, Propagated
+from planmethod.construct.drafting import PROFILES, Profile, Propagated, causes_of
 from planmethod.construct.dual import as_dual
 from planmethod.construct.evaluate import evaluate
 from planmethod.errors import AssemblyError, PlanMethodError
@@ -63,10 +63,25 @@ class Refused(Struct, frozen=True):
     what: str = ""
 
 
-def assembled(
-    problems: Sequence[Problem], wanted: Sequence[Asked], settings: Settings
-) -> list[Solution | Refused]:
-    """Return the solution of every linkage that may be a variant; most are read together.
+class Sifted(Struct, frozen=True, eq=False):
+    """Linkages after the sieve, by their numbers.
+
+    Attributes
+    ----------
+    refused : dict of int to Refused
+    together : list of (Batch, list of int)
+        Those that may be variants and are drawn by the same steps.
+    alone : dict of int to Solution
+        Others that may be.
+    """
+
+    refused: dict[int, Refused] = field(default_factory=dict)
+    together: list[tuple[Batch, list[int]]] = field(default_factory=list)
+    alone: dict[int, Solution] = field(default_factory=dict)
+
+
+def sifted(problems: Sequence[Problem], wanted: Sequence[Asked], settings: Settings) -> Sifted:
+    """Return which linkages may be variants; most are read together.
 
     Loads and what is asked of a cycle do not move a linkage: it is sifted without them.
 
@@ -75,17 +90,33 @@ def assembled(
     wanted : sequence of (Selector, int, str)
         What is asked, as far as it moves.
     """
-    profile = PROFILES[settings.profile]
+    profile, found = PROFILES[settings.profile], Sifted()
     bare = [_bare(problem) for problem in problems]
-    found: dict[int, Solution | Refused] = {}
+    loaded: list[int] = []
+    seen: set[int] = set()
     for batch, members in in_batches(bare, profile):
-        refused = _sifted(batch, wanted)
-        for number, (k, own) in enumerate(zip(members, batch.alone, strict=True)):
-            found[k] = refused.get(number) or _whole(problems[k], own)
-    for k, problem in enumerate(problems):
-        if k not in found:
-            found[k] = _alone(problem, bare[k], profile)
-    return [found[k] for k in range(len(problems))]
+        refused = _refused(batch, wanted)
+        found.refused.update((members[number], why) for number, why in refused.items())
+        kept = [number for number in range(len(members)) if number not in refused]
+        whole = [number for number in kept if problems[members[number]] is bare[members[number]]]
+        if whole:
+            found.together.append((batch.some(whole), [members[number] for number in whole]))
+        loaded += [members[number] for number in kept if number not in whole]
+        seen.update(members)
+    for batch, members in in_batches([problems[k] for k in loaded], profile):
+        found.together.append((batch, [loaded[number] for number in members]))
+    batched = {k for _, members in found.together for k in members}
+    for k in loaded:
+        if k not in batched:
+            found.alone[k] = Solution(problems[k], profile=profile)
+    for k in range(len(problems)):
+        if k not in seen:
+            one = _alone(problems[k], bare[k], profile)
+            if isinstance(one, Refused):
+                found.refused[k] = one
+            else:
+                found.alone[k] = one
+    return found
 
 
 def _bare(problem: Problem) -> Problem:
@@ -112,7 +143,7 @@ def _alone(problem: Problem, bare: Problem, profile: Profile) -> Solution | Refu
         return Refused(Refusal.FAULTY)
 
 
-def _sifted(batch: Batch, wanted: Sequence[Asked]) -> dict[int, Refused]:
+def _refused(batch: Batch, wanted: Sequence[Asked]) -> dict[int, Refused]:
     """Return which variants of a batch are refused at a look at all of them, by their numbers."""
     margins = [float(np.min(batch.margin[rows])) for rows in batch.rows]
     found = {k: Refused(Refusal.MARGIN) for k, least in enumerate(margins) if not least >= MARGIN}
@@ -143,10 +174,9 @@ def _seen(
     program = program.needed_for({name for question, *_ in asked for name in question.needs})
     data = batch.data(batch.per_mm)
     free = frozenset(str(plan.pole) for plan in batch.construction.plans)
-    counted = Counted(batch.profile, free)
-    evaluate(program, data, counted)
+    causes = causes_of(program, lambda: data, free)
     exact = evaluate(program, data, Float64())
-    drawn = evaluate(program, data, Propagated(batch.profile, free, counted.causes))
+    drawn = evaluate(program, data, Propagated(batch.profile, free, causes))
     for question, position, name in asked:
         if question.length is not None:
             mm = np.broadcast_to(np.abs(exact.value[question.length]), batch.positions.shape)

@@ -14,7 +14,14 @@ from msgspec.structs import replace
 from worked import PROBLEMS, SIX, problem_of
 
 from planmethod.construct.arithmetic import Float64
-from planmethod.construct.drafting import PROFILES, Counted, Profile, Propagated, Sampled
+from planmethod.construct.drafting import (
+    PROFILES,
+    Counted,
+    Profile,
+    Propagated,
+    Sampled,
+    causes_of,
+)
 from planmethod.construct.dual import as_dual
 from planmethod.construct.evaluate import evaluate
 from planmethod.construct.program import Builder, Program
@@ -128,6 +135,21 @@ def sigma_of(program: Program, out: str, **data: complex | float) -> complex:
     assert value.slope is not None
     slope = value.slope[:, 0]
     return complex(math.sqrt(float((slope.real**2).sum())), math.sqrt(float((slope.imag**2).sum())))
+
+
+@pytest.mark.parametrize("name", SIX)
+def test_how_many_errors_there_are_is_told_by_the_steps_and_what_is_free(name: str) -> None:
+    """In no position, where nothing closes, as in one that does."""
+    drawing = drafting_of(drawn(name, "board")).drawing
+    data = drawing.data(np.zeros(1, dtype=int))
+    nowhere = {key: np.asarray(value) * math.nan for key, value in data.items()}
+    for free in (drawing.free, frozenset[str]()):
+        counts = set()
+        for profile, given in (("cad", data), ("board", data), ("board", nowhere)):
+            counted = Counted(PROFILES[profile], free)
+            evaluate(drawing.program, given, counted)
+            counts.add(counted.causes)
+        assert counts == {causes_of(drawing.program, lambda: data, free)}
 
 
 def test_a_length_laid_off_along_a_line_at_an_angle() -> None:

@@ -11,6 +11,7 @@ from collections import Counter
 from collections.abc import Iterator
 from itertools import permutations
 from pathlib import Path
+from random import Random
 
 import pytest
 from click.testing import CliRunner, Result
@@ -29,6 +30,7 @@ from planmethod.varying.candidates import VariantCandidates
 from planmethod.varying.choice import VariantChoice, choose
 from planmethod.varying.judged import Judge, freed
 from planmethod.varying.sieve import Refusal, Refused
+from planmethod.varying.varied import Lots, overrides, usual, with_followers
 
 EX3 = path_of("linkages/ex3")
 SIX_LINK = path_of("levers/six-link")
@@ -242,6 +244,32 @@ def test_a_linkage_with_loads_has_its_reactions_judged(tmp_path: Path) -> None:
 
 
 # Trains and points -------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("name", ["linkages/ex3", "levers/task-12", "levers/task-1"])
+def test_candidates_judged_together_are_what_each_is_alone(name: str) -> None:
+    path = path_of(name)
+    source = VariantCandidates(path, None)
+    chosen = with_followers(source.table, usual(source.table, 0.1))
+    lots = Lots(chosen, Random(3))
+    drawn = [overrides(source.table, lots.with_followers(lots.draw())) for _ in range(60)]
+    (main,) = source.read({})
+    assert isinstance(main, Problem)
+    judge = Judge(None, main, DEFAULT)
+    read = source.read({str(k): own for k, own in enumerate(drawn)})
+    problems = [one for one in read if isinstance(one, Problem)]
+    together = list(judge.judge(problems))
+    for problem, found in zip(problems, together, strict=True):
+        (alone,) = judge.judge([problem])
+        if isinstance(found, Refused) or isinstance(alone, Refused):
+            assert isinstance(found, Refused) and isinstance(alone, Refused)
+            # Among others the motion of a loaded one is looked at first, then its forces.
+            assert found.why is alone.why or problem.dynamics is not None, problem.variant
+            continue
+        assert (found.told, found.made, found.scales) == (alone.told, alone.made, alone.scales)
+        assert found.exact == pytest.approx(dict(alone.exact), rel=1e-9)
+        assert found.allowed == pytest.approx(dict(alone.allowed), rel=1e-6)
+    assert any(not isinstance(one, Refused) for one in together)
 
 
 def test_trains_are_coaxial_and_whole_by_their_teeth(tmp_path: Path) -> None:

@@ -16,7 +16,7 @@ import numpy.typing as npt
 from msgspec import Struct
 
 from planmethod.construct.arithmetic import Number
-from planmethod.construct.drafting import EVEN, Counted, Even, Propagated, Sampled
+from planmethod.construct.drafting import EVEN, Even, Propagated, Sampled, causes_of
 from planmethod.construct.dual import Dual, as_dual
 from planmethod.construct.evaluate import Trace, evaluate, go_on
 from planmethod.construct.program import Program
@@ -116,9 +116,9 @@ class Errors:
 
     @cached_property
     def _causes(self) -> int:
-        counted = Counted(self.profile, self.drawing.free)
-        self._take(counted, np.zeros(1, dtype=int))
-        return counted.causes
+        drawing = self.drawing
+        first = np.zeros(1, dtype=int)
+        return causes_of(drawing.program, lambda: drawing.data(first), drawing.free)
 
     def _propagate(self, chosen: npt.NDArray[np.intp]) -> _Slopes:
         if len(chosen) == 1:

@@ -59,6 +59,13 @@ class Batch(Solution):
         self.rows = _rows(counts)
         self._counts, self._of = counts, np.repeat(np.arange(len(problems)), counts)
 
+    def some(self, numbers: Sequence[int]) -> Batch:
+        """Return a batch of some of the variants, which keep what is known of them alone."""
+        chosen = [self.problems[k] for k in numbers], [self.constructions[k] for k in numbers]
+        found = Batch(*chosen, self.profile)
+        found.alone = [self.alone[k] for k in numbers]
+        return found
+
     def _given_at(self, chosen: npt.NDArray[np.intp] | slice) -> Mapping[str, Any]:
         """Return what is given, for some rows, at unit scales."""
         return at_positions(self._given, chosen)
