@@ -139,7 +139,10 @@ def _labels(checked: CheckedWork) -> dict[str, str]:
 def _name(diagnosis: Diagnosis, say: Words) -> str:
     results: Words = say["results"]
     names = [
-        f"{code} {say['mistakes'][code].name}" if code in say["mistakes"] else code
+        # Mistakes of the catalogue bear a code; those of writing, "sign", have their name alone.
+        " ".join([*[code] * code[-1].isdigit(), say["mistakes"][code].name])
+        if code in say["mistakes"]
+        else code
         for code in diagnosis.codes
     ]
     if not names:
