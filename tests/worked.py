@@ -81,7 +81,7 @@ def solved_while(
     patch.setattr(Linkage, "solved", kept)
     sheets = draw()
     drawn = {view.kind: view.per_mm for sheet in sheets for view in sheet.views}
-    for solution in reversed(made) if len(made[-1].positions) == 1 else ():
+    for solution in reversed(made):
         told = {kind.value: scale.per_mm for kind, scale in solution.scales.items()}
         if all(drawn.get(kind, mu) == mu for kind, mu in told.items()):
             return sheets, solution

@@ -7,9 +7,9 @@ from collections.abc import Iterator, Sequence
 
 from planmethod.errors import Fault
 
-_HEADER = re.compile(r"\s*(\[{1,2})\s*([^\]]+?)\s*\]{1,2}\s*(?:#.*)?$")
+_HEADER = re.compile(r"^\s*+(\[{1,2}+)([^\]]++)\]{1,2}+\s*+(?:#.*)?$")
 _NAME = r"""(?:[\w-]++|"[^"]*+"|'[^']*+')"""
-_KEY = re.compile(rf"\s*+({_NAME}(?:\s*+\.\s*+{_NAME})*+)\s*+=")
+_KEY = re.compile(rf"^\s*+({_NAME}(?:\s*+\.\s*+{_NAME})*+)\s*+=")
 _PART = re.compile(r"""[\w-]+|"[^"]*"|'[^']*'""")
 
 
@@ -48,7 +48,7 @@ def _keys(text: str) -> Iterator[tuple[Sequence[str], int, int]]:
     count: dict[tuple[str, ...], int] = {}
     for number, line in enumerate(text.split("\n"), 1):
         if (header := _HEADER.match(line)) is not None:
-            table = _parts(header[2])
+            table = _parts(header[2].strip())
             if len(header[1]) == 2:
                 count[table] = count.get(table, -1) + 1
             for depth in range(len(table), 0, -1):

