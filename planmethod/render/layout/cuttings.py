@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from operator import itemgetter
 from typing import Literal, TypeAlias
 
 from msgspec import Struct
@@ -102,6 +103,10 @@ Unit: TypeAlias = tuple[Node, Bounds]
 """A block, or texts that stand together, and the room that is theirs."""
 
 
+_Size: TypeAlias = "tuple[float, float, Node, Node, bool]"
+"""Width and height of a cut, its parts, and whether one is above the other."""
+
+
 def fits(node: Node, room: tuple[float, float]) -> bool:
     """Tell whether a part of the sheet fits a room of a width and height, mm."""
     return node.width <= room[0] + 1e-6 and node.height <= room[1] + 1e-6
@@ -133,34 +138,47 @@ def cuttings(
     for length in range(2, count + 1):
         for start in range(count - length + 1):
             end = start + length
-            found: list[Node] = [
-                cut
+            found = [
+                size
                 for middle in range(start + 1, end)
-                for one in kept[start, middle]
-                for two in kept[middle, end]
-                for across in ways
-                if fits(cut := _joined(one, two, across=across), room)
+                for size in _sizes(kept[start, middle], kept[middle, end], ways, room)
             ]
-            kept[start, end] = found if whole and length == count else _pareto(found)
+            chosen = found if whole and length == count else _pareto(found)
+            kept[start, end] = [_joined(*size) for size in chosen]
     return [node for node in kept[0, count] if fits(node, room)]
 
 
-def _joined(one: Node, two: Node, *, across: bool) -> GuillotineCut:
-    text = one.text and two.text
-    if across:
-        tall = one.height + GAP + two.height
-        return GuillotineCut(one, two, True, max(one.width, two.width), tall, text)
-    wide = one.width + GAP + two.width
-    return GuillotineCut(one, two, False, wide, max(one.height, two.height), text)
+def _sizes(
+    ones: Sequence[Node], twos: Sequence[Node], ways: Sequence[bool], room: tuple[float, float]
+) -> Iterator[_Size]:
+    """Yield the sizes of all cuts of two parts that fit: most of them are not taken further."""
+    wide, tall = room[0] + 1e-6, room[1] + 1e-6
+    twos_sizes = [(two, two.width, two.height) for two in twos]
+    for one in ones:
+        width, height = one.width, one.height
+        for two, second_width, second_height in twos_sizes:
+            for across in ways:
+                if across:
+                    w = width if width >= second_width else second_width
+                    h = height + GAP + second_height
+                else:
+                    w = width + GAP + second_width
+                    h = height if height >= second_height else second_height
+                if w <= wide and h <= tall:
+                    yield w, h, one, two, across
 
 
-def _pareto(nodes: list[Node]) -> list[Node]:
-    """Return the nodes that no other beats in both sizes, thinned to a few."""
-    nodes.sort(key=lambda node: (node.width, node.height))
-    best: list[Node] = []
-    for node in nodes:
-        if not best or node.height < best[-1].height - 1e-9:
-            best.append(node)
+def _joined(width: float, height: float, one: Node, two: Node, across: bool) -> GuillotineCut:
+    return GuillotineCut(one, two, across, width, height, one.text and two.text)
+
+
+def _pareto(sizes: list[_Size]) -> list[_Size]:
+    """Return what no other beats in both sizes, thinned to a few."""
+    sizes.sort(key=itemgetter(0, 1))
+    best: list[_Size] = []
+    for size in sizes:
+        if not best or size[1] < best[-1][1] - 1e-9:
+            best.append(size)
     if len(best) <= _OPTIONS:
         return best
     step = (len(best) - 1) / (_OPTIONS - 1)
