@@ -121,17 +121,28 @@ def cuttings(
     room: tuple[float, float],
     *,
     whole: bool = False,
+    settled: dict[int, list[Node]] | None = None,
 ) -> list[Node]:
     """Return cuttings of a group, none narrower and lower than another.
 
     Of the whole sheet all cuttings are returned that fit: there it is the white that counts.
+    ``settled`` keeps the cuttings of groups, by their identity, for further sheets of the same
+    room; those it shall keep it has from the first, empty.
     """
     options: list[list[Node]] = []
     for member in group.members:
         if isinstance(member, Packed):
             options.append(list(next(leaves)))
+        elif settled is not None and settled.get(id(member)):
+            options.append(settled[id(member)])
+            _ = [next(leaves) for _ in member.parts()]
         else:
-            options.append([replace(node, group=True) for node in cuttings(member, leaves, room)])
+            made: list[Node] = [
+                replace(node, group=True) for node in cuttings(member, leaves, room)
+            ]
+            if settled is not None and id(member) in settled:
+                settled[id(member)] = made
+            options.append(made)
     ways = {"free": (False, True), "row": (False,), "column": (True,)}[group.arrange]
     count = len(options)
     kept: dict[tuple[int, int], list[Node]] = {(k, k + 1): options[k] for k in range(count)}

@@ -84,11 +84,13 @@ def _packed(
 ) -> list[Placed] | None:
     """Return the cheapest cutting of a group, if one fits."""
     *_, last = whole.parts()
+    # Groups before the last block are cut alike wherever that stands.
+    settled: dict[int, list[Node]] = {id(one): [] for one in whole.members[:-1]}
     found = [
         option
         for end in last.ways
         for corner in _last_corners(end, inner, stamp)
-        for option in _options(whole, inner, stamp, taken, end, corner)
+        for option in _options(whole, inner, stamp, taken, end, corner, settled)
     ]
     if not found:
         return None
@@ -148,6 +150,7 @@ def _options(
     taken: Sequence[Bounds],
     end: Block,
     corner: complex,
+    settled: dict[int, list[Node]],
 ) -> Iterator[_Option]:
     """Yield the cuttings that fit with the last block in a certain way and place."""
     parts = tuple(whole.parts())
@@ -165,7 +168,7 @@ def _options(
     leaves[-1] = [Leaf(len(parts) - 1, end, wide, high, text=False)]
     turns = _turns(whole)
     for asked in (whole, *_with_the_last(whole)):
-        for node in cuttings(asked, iter(leaves), room, whole=True):
+        for node in cuttings(asked, iter(leaves), room, whole=True, settled=settled):
             units = list(units_of(node, box, anchored=True))
             if taken:
                 moved = [_clear(unit, taken) for unit in units[:-1]]

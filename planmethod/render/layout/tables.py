@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
-from functools import cached_property
+from functools import cached_property, lru_cache
 from itertools import accumulate, groupby
 from typing import Literal, TypeAlias
 
@@ -19,7 +19,7 @@ from msgspec.structs import replace
 
 from planmethod.errors import LayoutError
 from planmethod.render.ink.drawing import Bounds, Item, Pen, Stroke
-from planmethod.render.ink.lettering import in_use
+from planmethod.render.ink.lettering import OutlineLettering, in_use
 from planmethod.render.ink.typeset import Inscription, smaller_heights, typeset
 from planmethod.render.layout.block import Column as Stack
 from planmethod.render.layout.block import Line
@@ -249,14 +249,15 @@ def _set_column(column: TableColumn, size: float) -> _Set:
     """Typeset a column; with a width aimed at, try the smaller heights before it grows."""
     heights = smaller_heights(size) if column.width is not None else (size,)
     for height in heights:
-        made = _set_at(column, height)
+        made = _set_at(column, height, in_use())
         if column.width is None or made.width <= column.width:
             break
     least = column.width if column.width is not None else column.least
     return replace(made, width=max(made.width, least))
 
 
-def _set_at(column: TableColumn, size: float) -> _Set:
+@lru_cache(maxsize=1024)  # a sheet tries a table in many widths, beside many blocks
+def _set_at(column: TableColumn, size: float, _lettering: OutlineLettering) -> _Set:
     values = tuple(typeset(cell.text, size) for cell in column.cells)
     head, unit = typeset(column.head, size), typeset(column.unit, size)
     signed = any(cell.sense is not None for cell in column.cells)
