@@ -28,9 +28,9 @@ def on_files(files: Files, config: Any) -> Files:
     """Add the READMEs as pages, and the files that any page links to outside docs/."""
     from mkdocs.structure.files import File
 
-    for source, page in FIRST.items():
+    for source, called in FIRST.items():
         text = (ROOT / source).read_text(encoding="utf-8")
-        files.append(File.generated(config, page, content=text))
+        files.append(File.generated(config, called, content=text))
     for page in list(files.documentation_pages()):
         for target in _targets(page.content_string, page.src_uri):
             if (path := _inside(target)) is not None and files.get_file_from_path(path) is None:
