@@ -246,36 +246,26 @@ def solve(
         lang=lang,
         apart=jobs > 1,
     )
-    found: list[Any] = []
-    act = functools.partial(compute, options=options)
-    ahead = _ahead(options)
+    run = functools.partial(
+        each,
+        problems,
+        variant,
+        all_variants,
+        functools.partial(compute, options=options),
+        jobs=jobs,
+        ahead=_ahead(options),
+        drawn=not swept,
+    )
     if as_json:
         from planmethod.note.written import plain_of
 
         with JsonTexts() as texts:
-            code = each(
-                problems,
-                variant,
-                all_variants,
-                act,
-                jobs=jobs,
-                take=lambda one: texts.add(json_text(plain_of(one))),
-                ahead=ahead,
-                drawn=not swept,
-            )
+            code = run(take=lambda one: texts.add(json_text(plain_of(one))))
             texts.tell()
         finish(code)
         return
-    code = each(
-        problems,
-        variant,
-        all_variants,
-        act,
-        jobs=jobs,
-        take=found.append,
-        ahead=ahead,
-        drawn=not swept,
-    )
+    found: list[Any] = []
+    code = run(take=found.append)
     if found and covariance_file is not None:
         from planmethod.note.records.covariance import covariance_text
 
