@@ -200,8 +200,8 @@ def _read(
     """Read the works of files; of exports also how the system knows the students, else None."""
     from planmethod.check.exchange.quiz import gaps_of
     from planmethod.check.exchange.responses import is_export, read_columns, read_responses
+    from planmethod.check.measured.drawing import is_drawing
     from planmethod.check.measured.layers import read_layers
-    from planmethod.check.measured.plan import is_drawing, read_drawing
     from planmethod.check.works import read_works
 
     told, drawn = read_columns(columns), read_layers(layers)
@@ -209,6 +209,8 @@ def _read(
     addresses: dict[str, str] | None = None
     for path in paths:
         if is_drawing(path):
+            from planmethod.check.measured.plan import read_drawing  # its readers of files cost
+
             works.append(read_drawing(path, drawn, variants.task(variants.default)))
             continue
         if not told and not is_export(path):

@@ -14,11 +14,19 @@ from planmethod.check.works.faults import WorksError
 LINES_LIMIT = 20_000
 TEXTS_LIMIT = 20_000
 
+HANDS = {".dxf": "cad", ".svg": "board"}
+"""By which profile files of an ending are drawn: on our own sheets a hand reads its ruler."""
+
 STRAIGHT = 1e-4
 """How far a polyline that goes straight on may bend, radians."""
 
 REACH_LIMIT = 1e6
 """Nothing on a sheet is further away than a kilometre, mm."""
+
+
+def is_drawing(path: Path) -> bool:
+    """Tell whether a file is a drawing, by its ending."""
+    return path.suffix.lower() in HANDS
 
 
 class DrawnLine(Struct, frozen=True):

@@ -13,7 +13,7 @@ from msgspec.structs import replace
 
 from planmethod.check.letters import plain
 from planmethod.check.measured.asked import asked_of_drawing, vector_of
-from planmethod.check.measured.drawing import DrawnLetters, DrawnLine, MeasuredDrawing
+from planmethod.check.measured.drawing import HANDS, DrawnLetters, DrawnLine, MeasuredDrawing
 from planmethod.check.measured.dxf_file import read_dxf
 from planmethod.check.measured.layers import PLANS, plan_of_layer
 from planmethod.check.measured.svg_file import read_svg
@@ -59,9 +59,6 @@ LIKE_DEG = 10.0
 
 READERS: Mapping[str, Callable[[Path], MeasuredDrawing]] = {".dxf": read_dxf, ".svg": read_svg}
 
-HANDS = {".dxf": "cad", ".svg": "board"}
-"""By which profile they are drawn: on our own sheets a hand reads its ruler."""
-
 
 class FoundPlan(Struct):
     """One plan of a drawing with its letters (найденный план)."""
@@ -85,11 +82,6 @@ class FoundPlan(Struct):
         )
         one, two = (drawn or longer or pairs)[0]
         return self.vertices.places[two] - self.vertices.places[one]
-
-
-def is_drawing(path: Path) -> bool:
-    """Tell whether a file is a drawing, by its ending."""
-    return path.suffix.lower() in READERS
 
 
 def read_drawing(path: Path, layers: Mapping[str, str], task: Task) -> Work:
