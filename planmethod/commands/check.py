@@ -13,7 +13,7 @@ from msgspec.structs import replace
 
 from planmethod.commands.helptext import Spoken
 from planmethod.commands.output import bar, json_text
-from planmethod.commands.problems import Todo, each, finish, guarded, stem
+from planmethod.commands.problems import Todo, each, finish, guarded, of_linkages, stem
 from planmethod.errors import ExitCode, PlanMethodError
 from planmethod.languages import say, spoken
 from planmethod.options import PathType, UsageError, jobs_option, lang_option, out_option
@@ -456,9 +456,8 @@ def keys_ahead(todo: Sequence[Todo], settings: Settings) -> dict[int, Asked]:
     """Return the keys of linkages that are asked alike, by their numbers."""
     from planmethod.check.together import keys_together
 
-    linkages = [k for k, one in enumerate(todo) if one.kind is None]
-    keys = keys_together([todo[k].linkage for k in linkages], settings)
-    return {linkages[k]: Asked(key, None) for k, key in keys.items()}
+    keys = of_linkages(todo, lambda problems: keys_together(problems, settings))
+    return {k: Asked(key, None) for k, key in keys.items()}
 
 
 def key_of(todo: Todo, settings: Settings) -> Key:

@@ -7,7 +7,7 @@ import functools
 import gc
 import re
 import sys
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from functools import partial
 from pathlib import Path
@@ -246,6 +246,16 @@ def each(
             yield from _shared(act, ahead, todo, jobs)
 
     return through(paths, variant, all_variants, steps, kinds=kinds, take=take, drawn=drawn)
+
+
+def of_linkages(
+    todo: Sequence[Todo], made: Callable[[list[Problem]], Mapping[int, T]]
+) -> dict[int, T]:
+    """Return what is made of the linkages among problems together, by their numbers."""
+    linkages = [k for k, one in enumerate(todo) if one.kind is None]
+    if not linkages:
+        return {}
+    return {linkages[k]: one for k, one in made([todo[k].linkage for k in linkages]).items()}
 
 
 @contextmanager

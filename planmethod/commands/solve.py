@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import functools
-import sys
 from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -12,7 +11,7 @@ import click
 from msgspec import Struct
 
 from planmethod.commands.helptext import Spoken
-from planmethod.commands.output import JsonTexts, bar, is_terminal, json_text, put_parts
+from planmethod.commands.output import JsonTexts, json_text, put_parts
 from planmethod.commands.problems import (
     Todo,
     called,
@@ -20,13 +19,23 @@ from planmethod.commands.problems import (
     finish,
     guarded,
     no_position,
+    of_linkages,
     solution_of,
-    stem,
     tell_changes,
-    warn,
+)
+from planmethod.commands.swept import (
+    HINT,
+    MOST_SHOWN,
+    positions_asked,
+    refuse_huge,
+    refuse_long,
+    swept,
+    table_of,
+    write_arrays_file,
+    write_text,
 )
 from planmethod.commands.watch import watch_option
-from planmethod.errors import AssemblyError, ExitCode
+from planmethod.errors import ExitCode
 from planmethod.languages import say
 from planmethod.options import (
     MOST_POSITIONS,
@@ -49,23 +58,8 @@ if TYPE_CHECKING:
     from planmethod.note.records.spreadsheet import SpreadsheetRows
     from planmethod.problem.model import Problem
     from planmethod.solved.many.gaps import GappedSweep
-    from planmethod.solved.many.positions import Gaps
     from planmethod.solved.many.variants import Batch
     from planmethod.solved.solution import Solution
-
-HINT = " To leave such positions empty, give --partial with --csv, --npz or --ask."
-
-MOST_SHOWN = 10_000
-"""Rows of a table on the terminal."""
-
-MOST_NUMBERS = 250_000_000
-"""Most numbers of one problem in a file of arrays: 2 GB, all in memory before they are written."""
-
-MANY_PROBLEMS = 500
-"""Problems whose arrays take about a second to write."""
-
-LONG_TEXT, LONG_ARRAYS = 2_000_000, 50_000_000
-"""Count of numbers that take about a second to write."""
 
 
 class SolveOptions(Struct, frozen=True, kw_only=True):
@@ -209,9 +203,9 @@ def solve(
             raise UsageError("--compare goes with one PROBLEM, --variant and --lang alone")
         compare(problems[0], work, variant, lang)
         return
-    swept = npz_file is not None or ask is not None
+    sweeping = npz_file is not None or ask is not None
     _refuse_contradictions(as_json, csv_file, npz_file, ask)
-    told = swept or csv_file is not None
+    told = sweeping or csv_file is not None
     if told and (sigma or referee is not None):
         raise UsageError("--sigma and --referee go with the tables of a terminal or --json")
     if covariance_file is not None and (told or as_json):
@@ -222,9 +216,9 @@ def solve(
         _need_mpmath()
     if position is not None and (told or covariance_file is not None):
         raise UsageError("--position goes with the tables of a terminal or --json")
-    if partial and not swept and csv_file is None:
+    if partial and not sweeping and csv_file is None:
         raise UsageError("--partial goes with --csv, --npz or --ask")
-    if phi is not None and len(phi) > MOST_POSITIONS and not swept:
+    if phi is not None and len(phi) > MOST_POSITIONS and not sweeping:
         raise UsageError(
             "--phi: more than {} positions; so many only with --npz or --ask", MOST_POSITIONS
         )
@@ -254,7 +248,7 @@ def solve(
         functools.partial(compute, options=options),
         jobs=jobs,
         ahead=_ahead(options),
-        drawn=not swept,
+        drawn=not sweeping,
     )
     if as_json:
         from planmethod.note.written import plain_of
@@ -271,9 +265,9 @@ def solve(
 
         put_parts([covariance_text(found)], covariance_file)
     if found and csv_file is not None:
-        _write_text(found, csv_file)
+        write_text(found, csv_file)
     if npz_file is not None and code is ExitCode.DONE:  # one file: all or nothing
-        _write_arrays(found, npz_file)
+        write_arrays_file(found, npz_file)
     finish(code)
 
 
@@ -325,16 +319,17 @@ def _made(options: SolveOptions, batch: Batch) -> Iterator[Any]:
 
 def _together(todo: Sequence[Todo], options: SolveOptions) -> dict[int, Any]:
     """Return what is made of linkages that are solved together, by their numbers."""
-    linkages = [k for k, one in enumerate(todo) if one.kind is None]
-    if not linkages:
-        return {}
-    from planmethod.solved.many.variants import in_batches
+
+    def solved(problems: list[Problem]) -> dict[int, Any]:
+        from planmethod.solved.many.variants import in_batches
+
+        found: dict[int, Any] = {}
+        for batch, members in in_batches(problems, drawn_by(*hand)):
+            found.update(zip(members, _made(options, batch), strict=True))
+        return found
 
     hand = ("board", options.ruler) if options.csv else options.hand
-    found: dict[int, Any] = {}
-    for batch, members in in_batches([todo[k].linkage for k in linkages], drawn_by(*hand)):
-        found.update(zip([linkages[k] for k in members], _made(options, batch), strict=True))
-    return found
+    return of_linkages(todo, solved)
 
 
 def _computed(
@@ -349,10 +344,10 @@ def _computed(
     if options.npz or options.ask is not None:
         tell_changes(problem, phi)
         if not (options.csv or options.npz):
-            _refuse_long(len(_asked(problem, phi)))
-        made = _sweep(problem, phi, options.ask, options.partial)
+            refuse_long(len(positions_asked(problem, phi)))
+        made = swept(problem, phi, options.ask, options.partial)
         if options.npz:
-            _refuse_huge(made)
+            refuse_huge(made)
             return made
         from planmethod.note.records.spreadsheet import swept_table
         from planmethod.note.tables.asked import asked_document
@@ -365,7 +360,7 @@ def _computed(
         words = language(options.lang)
         click.echo(plain_document(asked_document(made, words), words))
     elif options.csv:
-        table = _table(problem, phi, hand.ruler, options.partial)
+        table = table_of(problem, phi, hand.ruler, options.partial)
         return table.held() if options.apart else table
     elif options.as_json:
         from planmethod.note.records.solution import record_in_columns
@@ -434,126 +429,3 @@ def _refuse_contradictions(
             raise UsageError("{} would write over the problem file {}; put it last", name, file)
     if npz_file in ("", "-"):
         raise UsageError("--npz needs the name of a file")
-
-
-# Tables -----------------------------------------------------------------------------------------
-
-
-def _asked(problem: Problem, phi: Positions | None) -> Positions:
-    import numpy as np
-
-    return np.array(problem.drive.positions) if phi is None else phi
-
-
-def _table(problem: Problem, phi: Positions | None, ruler: float, partial: bool) -> SpreadsheetRows:
-    """Return the rows of all results; a large table is checked here and solved when written."""
-    from planmethod.note.records.spreadsheet import large_table, solved_table
-    from planmethod.solved.many.positions import BLOCK, examine
-
-    positions = _asked(problem, phi)
-    if len(positions) <= BLOCK and not partial:
-        return solved_table(
-            solution_of(problem, phi, drawn_by("board", ruler), hint=HINT, forces=True)
-        )
-    tell_changes(problem, phi)
-    looked = examine(problem, positions, forces=problem.dynamics is not None)
-    _tell(problem, looked.gaps, looked.doubts, partial)
-    return large_table(problem, positions, looked.gaps, ruler=ruler, partial=partial)
-
-
-def _tell(problem: Problem, gaps: Gaps, doubts: tuple[object, ...], partial: bool) -> None:
-    """Refuse or report positions without results; report the doubts about the others."""
-    if gaps.count and not partial:
-        raise AssemblyError(gaps.refusal() + (say(HINT) if len(gaps.reason) > 1 else ""))
-    if gaps.count:
-        warn(problem, gaps.warning())
-    for said in doubts:
-        warn(problem, said)
-
-
-def _write_text(tables: list[SpreadsheetRows], file: str) -> None:
-    from planmethod.note.records.spreadsheet import csv_text
-
-    rows = sum(table.count for table in tables)
-    cells = sum(table.count * len(table.header) for table in tables)
-    seen = file != "-" or not is_terminal(sys.stdout)  # no bar amid the table
-    with bar(rows, long=cells > LONG_TEXT and seen) as done:
-        put_parts(csv_text(tables, done=done), file)
-
-
-# Sweeps -----------------------------------------------------------------------------------------
-
-
-def _sweep(
-    problem: Problem, phi: Positions | None, ask: tuple[str, ...] | None, partial: bool
-) -> GappedSweep:
-    from planmethod.solved.many.gaps import GappedSweep
-    from planmethod.solved.quantities import UnknownQuantityError
-
-    try:
-        made = GappedSweep(problem, _asked(problem, phi), ask)
-    except UnknownQuantityError as error:
-        raise UsageError("--ask: {}: {}", called(problem), error) from None
-    _tell(problem, made.gaps, made.doubts, partial)
-    return made
-
-
-def _refuse_long(rows: int) -> None:
-    if rows > MOST_SHOWN:
-        raise UsageError(
-            "a table of {} rows is not for reading: give --csv FILE or --npz FILE", rows
-        )
-
-
-def _refuse_huge(made: GappedSweep) -> None:
-    numbers = len(made.names) * len(made.positions)
-    if numbers > MOST_NUMBERS:
-        most = MOST_NUMBERS // len(made.names)
-        raise UsageError(
-            "--npz: {} results in {} positions are {} numbers, at most {} are written. "
-            "Ask at most {} positions, or fewer results with --ask.",
-            len(made.names),
-            len(made.positions),
-            numbers,
-            MOST_NUMBERS,
-            most,
-        )
-
-
-def _write_arrays(sweeps: list[GappedSweep | SolvedArrays], file: str) -> None:
-    """Write sweeps into one file; names of several begin with the variant or the problem."""
-    from planmethod.note.records.npz import SolvedArrays, swept_arrays, write_arrays
-    from planmethod.render.backends.output import opened
-
-    prefixes = _prefixes([made.problem for made in sweeps])
-    long = [made for made in sweeps if not isinstance(made, SolvedArrays)]
-    numbers = sum(len(made.names) * len(made.positions) for made in long)
-
-    def named() -> Iterator[tuple[str, Any]]:
-        for made, prefix in zip(sweeps, prefixes, strict=True):
-            if isinstance(made, SolvedArrays):
-                yield from made.named(prefix)
-            else:
-                yield from swept_arrays(made, prefix)
-            done(1)
-
-    many = numbers > LONG_ARRAYS or len(sweeps) > MANY_PROBLEMS
-    with opened(file) as target, bar(len(sweeps), long=many) as done:
-        write_arrays(target, named())
-    click.echo(file)
-
-
-def _prefixes(problems: list[Problem]) -> list[str]:
-    """Return what the names of every problem's arrays begin with."""
-    if len(problems) == 1:
-        return [""]
-    one_file = len({problem.name for problem in problems}) == 1
-    names = [(problem.variant if one_file else None) or stem(problem) for problem in problems]
-    twice = sorted({name for name in names if names.count(name) > 1})
-    if twice:
-        raise UsageError(
-            "--npz: two problems are called {}, their arrays would have the same names; "
-            "write them into two files",
-            twice[0],
-        )
-    return [f"{name}:" for name in names]

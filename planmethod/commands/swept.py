@@ -1,0 +1,160 @@
+"""What ``solve`` makes of many positions: tables, sweeps and their files (таблицы и массивы)."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Iterator
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from planmethod.commands.output import bar, is_terminal, put_parts
+from planmethod.commands.problems import called, solution_of, stem, tell_changes, warn
+from planmethod.errors import AssemblyError
+from planmethod.languages import say
+from planmethod.options import Positions, UsageError, drawn_by
+
+if TYPE_CHECKING:
+    from planmethod.note.records.npz import SolvedArrays
+    from planmethod.note.records.spreadsheet import SpreadsheetRows
+    from planmethod.problem.model import Problem
+    from planmethod.solved.many.gaps import GappedSweep
+    from planmethod.solved.many.positions import Gaps
+
+HINT = " To leave such positions empty, give --partial with --csv, --npz or --ask."
+
+MOST_SHOWN = 10_000
+"""Rows of a table on the terminal."""
+
+MOST_NUMBERS = 250_000_000
+"""Most numbers of one problem in a file of arrays: 2 GB, all in memory before they are written."""
+
+MANY_PROBLEMS = 500
+"""Problems whose arrays take about a second to write."""
+
+LONG_TEXT, LONG_ARRAYS = 2_000_000, 50_000_000
+"""Count of numbers that take about a second to write."""
+
+
+def positions_asked(problem: Problem, phi: Positions | None) -> Positions:
+    """Return the positions that ``--phi`` asks for, rad, or those of the problem."""
+    import numpy as np
+
+    return np.array(problem.drive.positions) if phi is None else phi
+
+
+def table_of(
+    problem: Problem, phi: Positions | None, ruler: float, partial: bool
+) -> SpreadsheetRows:
+    """Return the rows of all results; a large table is checked here and solved when written."""
+    from planmethod.note.records.spreadsheet import large_table, solved_table
+    from planmethod.solved.many.positions import BLOCK, examine
+
+    positions = positions_asked(problem, phi)
+    if len(positions) <= BLOCK and not partial:
+        return solved_table(
+            solution_of(problem, phi, drawn_by("board", ruler), hint=HINT, forces=True)
+        )
+    tell_changes(problem, phi)
+    looked = examine(problem, positions, forces=problem.dynamics is not None)
+    _tell(problem, looked.gaps, looked.doubts, partial)
+    return large_table(problem, positions, looked.gaps, ruler=ruler, partial=partial)
+
+
+def _tell(problem: Problem, gaps: Gaps, doubts: tuple[object, ...], partial: bool) -> None:
+    """Refuse or report positions without results; report the doubts about the others."""
+    if gaps.count and not partial:
+        raise AssemblyError(gaps.refusal() + (say(HINT) if len(gaps.reason) > 1 else ""))
+    if gaps.count:
+        warn(problem, gaps.warning())
+    for said in doubts:
+        warn(problem, said)
+
+
+def write_text(tables: list[SpreadsheetRows], file: str) -> None:
+    """Write tables as one CSV."""
+    from planmethod.note.records.spreadsheet import csv_text
+
+    rows = sum(table.count for table in tables)
+    cells = sum(table.count * len(table.header) for table in tables)
+    seen = file != "-" or not is_terminal(sys.stdout)  # no bar amid the table
+    with bar(rows, long=cells > LONG_TEXT and seen) as done:
+        put_parts(csv_text(tables, done=done), file)
+
+
+def swept(
+    problem: Problem, phi: Positions | None, ask: tuple[str, ...] | None, partial: bool
+) -> GappedSweep:
+    """Return the sweep of what is asked; positions without results are refused or told."""
+    from planmethod.solved.many.gaps import GappedSweep
+    from planmethod.solved.quantities import UnknownQuantityError
+
+    try:
+        made = GappedSweep(problem, positions_asked(problem, phi), ask)
+    except UnknownQuantityError as error:
+        raise UsageError("--ask: {}: {}", called(problem), error) from None
+    _tell(problem, made.gaps, made.doubts, partial)
+    return made
+
+
+def refuse_long(rows: int) -> None:
+    """Refuse a table that nobody reads."""
+    if rows > MOST_SHOWN:
+        raise UsageError(
+            "a table of {} rows is not for reading: give --csv FILE or --npz FILE", rows
+        )
+
+
+def refuse_huge(made: GappedSweep) -> None:
+    """Refuse more numbers than memory has room for."""
+    numbers = len(made.names) * len(made.positions)
+    if numbers > MOST_NUMBERS:
+        most = MOST_NUMBERS // len(made.names)
+        raise UsageError(
+            "--npz: {} results in {} positions are {} numbers, at most {} are written. "
+            "Ask at most {} positions, or fewer results with --ask.",
+            len(made.names),
+            len(made.positions),
+            numbers,
+            MOST_NUMBERS,
+            most,
+        )
+
+
+def write_arrays_file(sweeps: list[GappedSweep | SolvedArrays], file: str) -> None:
+    """Write sweeps into one file; names of several begin with the variant or the problem."""
+    from planmethod.note.records.npz import SolvedArrays, swept_arrays, write_arrays
+    from planmethod.render.backends.output import opened
+
+    prefixes = _prefixes([made.problem for made in sweeps])
+    long = [made for made in sweeps if not isinstance(made, SolvedArrays)]
+    numbers = sum(len(made.names) * len(made.positions) for made in long)
+
+    def named() -> Iterator[tuple[str, Any]]:
+        for made, prefix in zip(sweeps, prefixes, strict=True):
+            if isinstance(made, SolvedArrays):
+                yield from made.named(prefix)
+            else:
+                yield from swept_arrays(made, prefix)
+            done(1)
+
+    many = numbers > LONG_ARRAYS or len(sweeps) > MANY_PROBLEMS
+    with opened(file) as target, bar(len(sweeps), long=many) as done:
+        write_arrays(target, named())
+    click.echo(file)
+
+
+def _prefixes(problems: list[Problem]) -> list[str]:
+    """Return what the names of every problem's arrays begin with."""
+    if len(problems) == 1:
+        return [""]
+    one_file = len({problem.name for problem in problems}) == 1
+    names = [(problem.variant if one_file else None) or stem(problem) for problem in problems]
+    twice = sorted({name for name in names if names.count(name) > 1})
+    if twice:
+        raise UsageError(
+            "--npz: two problems are called {}, their arrays would have the same names; "
+            "write them into two files",
+            twice[0],
+        )
+    return [f"{name}:" for name in names]
