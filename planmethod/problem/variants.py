@@ -150,6 +150,8 @@ def _known_under(path: KeyPath) -> tuple[str, ...]:
         return keys.known("answer") if len(path) == 2 else ()
     if first == "loads":
         return keys.known({2: "load", 3: _LOAD_TABLES.get(path[-1], "")}.get(len(path), ""))
+    if first == "stamp" and path[1:] and path[1] in keys.TITLE_BLOCK_IN:
+        return tuple(keys.TITLE_BLOCK) if len(path) == 2 else ()
     return keys.known(first) if len(path) == 1 else ()
 
 
