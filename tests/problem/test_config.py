@@ -5,8 +5,11 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
+from msgspec.structs import replace
+from worked import path_of
 
-from planmethod.errors import ConfigError, ExitCode
+from planmethod.errors import ConfigError, ExitCode, ProblemError
+from planmethod.problem import loads
 from planmethod.problem.head import SheetSettings
 from planmethod.problem.sheet import VARIABLE, find_config, load_config, usual_place
 

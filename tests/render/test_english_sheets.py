@@ -50,9 +50,8 @@ CASES = [
 
 def bare(problem: Problem, lang: str) -> Problem:
     """Return a problem without texts of its own, in a language."""
-    return replace(
-        problem, title="", stamp={}, sheet=replace(problem.sheet, lang=lang, side_columns=True)
-    )
+    sheet = replace(problem.sheet, lang=lang, side_columns=True)
+    return replace(problem, title="", stamp={}, stamp_in={}, sheet=sheet)
 
 
 def test_a_title_block_has_the_texts_of_its_language_where_the_file_says_them() -> None:
