@@ -7,6 +7,7 @@ inscriptions hang on outputs. Lengths in millimetres are told at the scales of t
 from __future__ import annotations
 
 from collections.abc import Callable
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -21,12 +22,14 @@ from planmethod.note.narrate.forces.statement import link_names
 from planmethod.note.narrate.given import point_name
 from planmethod.note.narrate.letters import mark, shown_letters
 from planmethod.note.wording import Language
+from planmethod.plans.draft import cis
 from planmethod.plans.forces.polygons import Edge, Share
 from planmethod.plans.legend import Quantity, QuantityKind
 from planmethod.plans.model import FACTS, RATES, PlanKind
 from planmethod.plans.motion.position import link_of_axis
 from planmethod.problem.model import Problem
 from planmethod.render.ink.drawing import Stroke
+from planmethod.render.ink.extent import ink_bounds
 from planmethod.render.live.loads import cycle_deg, moving_loads
 from planmethod.render.live.parts import MovingPart, parts_of
 from planmethod.render.pictures.planview import COMPONENTS, similar_lines
@@ -135,14 +138,29 @@ class LiveScene:
         self.parts, self.drawing = parts_of(self.shown, LETTER)
         self._fit()
         # What inscriptions keep clear of beside the segments: of the frame, and the sliders.
-        self.fixed = [
-            [[end.real, -end.imag] for end in item.points[:2]]
-            for part in self.parts
-            for item in part.items
-            if part.link == FRAME and isinstance(item, Stroke) and _long(item)
-        ]
+        still = [bar for part in self.parts if part.link == FRAME for bar in self.bars(part)]
+        self.fixed = [[[end.real, -end.imag] for end in bar] for bar in still]
+        self.supports = [ink_bounds(list(one.items())) for one in self.drawing.supports]
         self.blocks: list[tuple[Ref, float]] = [
             (self.place(slide.pin), 5.0) for slide in problem.slides.values()
+        ]
+
+    def axes(self, part: MovingPart) -> tuple[complex, float]:
+        """Return the origin of a link's own axes where its part is drawn, mm, and their turn, °."""
+        if part.link == FRAME:
+            return 0j, 0.0
+        start = complex(self.shown.paper.point(self.foot(part.link))[part.index])
+        return start, float(self.shown.links[part.link].phi_deg[part.index])
+
+    def bars(self, part: MovingPart) -> list[tuple[complex, complex]]:
+        """Return the lines of a part that inscriptions keep clear of, in its own axes, mm."""
+        start, turn = self.axes(part)
+        return [
+            ((tail - start) * cis(-turn), (head - start) * cis(-turn))
+            for item in part.items
+            if isinstance(item, Stroke)
+            for tail, head in pairwise([*item.points, *(item.points[:1] if item.closed else ())])
+            if abs(head - tail) > SIZES.hatch_stroke
         ]
 
     # Outputs ---------------------------------------------------------------------------------
@@ -460,10 +478,6 @@ def kind_of(view: LiveView) -> PlanKind:
     """Return the plan that a view shows."""
     name = {"scheme": "position"}.get(view.id, view.id.partition("-")[0])
     return PlanKind.FORCE if name == "forces" else PlanKind(name)
-
-
-def _long(item: Stroke) -> bool:
-    return abs(item.points[1] - item.points[0]) > 1.5 * SIZES.hatch_stroke
 
 
 def _box(places: Array, margin: float) -> tuple[float, float, float, float]:
