@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from math import pi
 
+import numpy as np
 import pytest
 from worked import path_of
 
-from planmethod.gears.involute.diagrams import HIGH, LOW, Window, working
+from planmethod.gears.involute.diagrams import HIGH, LOW, Contour, Window, working
 from planmethod.gears.involute.meshdimensions import mesh_dimensions
 from planmethod.gears.involute.meshpicture import MeshView, view_for
 from planmethod.gears.involute.quantities import SolvedMeshing
@@ -51,3 +52,15 @@ def test_the_blocking_contour_is_not_cut(name: str) -> None:
     left, low, right, high = working(solved, Window(LOW, HIGH, LOW, HIGH)).bounds
     assert min(left, low) > LOW + 0.1
     assert max(right, high) < HIGH - 0.1
+
+
+@pytest.mark.parametrize("name", FILES)
+def test_the_blocking_contour_is_closed(name: str) -> None:
+    """Every end of a bound lies on another one: of the ring's also where the involute ends."""
+    contour = Contour.of(SolvedMeshing(load(path_of(name))))
+    bounds = [part for limit, parts in contour.parts if limit.hard for part in parts]
+    bounds = [part for part in bounds if np.ptp(part, axis=1).max() > 0.05]
+    for k, part in enumerate(bounds):
+        others = np.hstack([other for n, other in enumerate(bounds) if n != k])
+        for end in (part[:, :1], part[:, -1:]):
+            assert np.min(np.hypot(*(others - end))) < 0.02, (end, contour.window)
