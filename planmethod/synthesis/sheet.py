@@ -163,7 +163,9 @@ def _view(drawn: Drawn, words: Language) -> Viewed:
     said = scale_inscription(scale, Convention.UNIT_PER_MM, words.say)
     name = Line(typeset(words.synthesis.construction, SIZES.title))
     under = Column([name, Line(typeset(said, SIZES.text))], gap=2.5, align="centre")
-    return Viewed(Column([_picture(drawn, words), under], gap=5.0, align="centre"), "position", scale)
+    return Viewed(
+        Column([_picture(drawn, words), under], gap=5.0, align="centre"), "position", scale
+    )
 
 
 def _texts(

@@ -26,7 +26,6 @@ from planmethod.note.wording import Language
 from planmethod.synthesis.drawn import Drawn
 from planmethod.synthesis.model import Said, place
 
-
 LEGS = range(60, 121)
 """Longer legs that an angle is laid off with, mm."""
 

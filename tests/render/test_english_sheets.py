@@ -55,7 +55,7 @@ def bare(problem: Problem, lang: str) -> Problem:
 
 
 def test_a_title_block_has_the_texts_of_its_language_where_the_file_says_them() -> None:
-    """A Russian file with ``stamp.en``: the English sheet has no Russian, the Russian one no ``en``."""
+    """Of a Russian file with ``stamp.en``; what it says in one language is not translated."""
     russian = problem_of("linkages/ex3")
     english = replace(russian, sheet=replace(russian.sheet, lang="en"))
     (drawing,) = kinematics_sheets(english, positions=(20.0,), layout="one-position")
@@ -65,7 +65,7 @@ def test_a_title_block_has_the_texts_of_its_language_where_the_file_says_them() 
     assert {"TMM.01.03.00.000", "Department of TMM", "T"} <= {*texts(drawing)}
     assert "ТММ.01.03.00.000" in texts(other)
     assert not {*texts(other)} & set(russian.stamp_in["en"].values())
-    silent = replace(english, stamp_in={})  # what a file says in one language is not translated
+    silent = replace(english, stamp_in={})
     (drawing,) = kinematics_sheets(silent, positions=(20.0,), layout="one-position")
     assert {"ТММ.01.03.00.000", "Кафедра ТММ"} <= {*texts(drawing)}
 

@@ -188,7 +188,8 @@ CROSSED = """(() => {  // inscriptions of the scheme that a drawn line of a movi
       return points.map(p => p.matrixTransform(now));
     });
     for (const one of view.labels) {
-      const [, x, y] = one.node.getAttribute("transform").match(/([-\\d.]+)[ ,]+([-\\d.]+)/).map(Number);
+      const moved = one.node.getAttribute("transform");
+      const [, x, y] = moved.match(/([-\\d.]+)[ ,]+([-\\d.]+)/).map(Number);
       seen += 1;
       crossed += places.some(p => p.x > x + 0.2 && p.x < x + one.width - 0.2 &&
         p.y > y - one.up + 0.2 && p.y < y + one.down - 0.2);

@@ -150,6 +150,17 @@ def _slope(solved: SolvedMeshing, limit: BlockingLimit, points: Reals) -> Reals:
     return np.stack([(there - here) / small for there in moved])
 
 
+def _joined(part: Reals, bounds: list[Reals], step: float) -> Reals:
+    """Return a curve at which others cease, its ends on them where they are within a step."""
+    others = np.hstack(bounds)
+    for k in (0, -1):
+        far = np.hypot(*(others - part[:, [k]]))
+        nearest = others[:, [int(np.argmin(far))]]
+        if float(np.min(far)) < step:
+            part = np.hstack([nearest, part] if k == 0 else [part, nearest])
+    return part
+
+
 # The contour ------------------------------------------------------------------------------------
 
 
@@ -164,7 +175,16 @@ class Contour(Struct, frozen=True):
     def of(cls, solved: SolvedMeshing) -> Contour:
         """Return the contour of a pair."""
         window = window_of(solved, working(solved, Window(LOW, HIGH, LOW, HIGH)))
-        return cls(solved, window, list(curves(solved, working(solved, window), window)))
+        parts = list(curves(solved, working(solved, window), window))
+        step = 2 * (window.right - window.left) / _FINE
+        bounds = [
+            part for limit, found in parts if limit.hard and limit not in BASES for part in found
+        ]
+        parts = [
+            (limit, [_joined(part, bounds, step) if limit in BASES else part for part in found])
+            for limit, found in parts
+        ]
+        return cls(solved, window, parts)
 
 
 def contour_picture(

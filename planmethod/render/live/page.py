@@ -261,14 +261,15 @@ class _Page:
             "rods": self._rods() if view.id == "scheme" else [],
             "supports": [
                 [left, -high, right, -low] for left, low, right, high in self.scene.supports
-            ] if view.id == "scheme" else [],
+            ]
+            if view.id == "scheme"
+            else [],
             "apart": view.id.startswith("forces"),
         }
         origin = self.scene.construction.draft.origin
         if view.id == "scheme" and origin:
             told["origin"] = [origin.real, origin.imag]
         return told
-
 
     def _rods(self) -> list[dict[str, Any]]:
         """Return the lines of the moving parts that inscriptions keep clear of."""
