@@ -231,7 +231,7 @@ def _with_tables(text: str, rows: Callable[[str], Iterator[tuple[str, str]]]) ->
 
 def _english(kind: str) -> Iterator[tuple[str, str]]:
     if kind == "stamp":
-        yield from (TITLE_BLOCK | TITLE_BLOCK_IN).items()
+        yield from {**TITLE_BLOCK, **TITLE_BLOCK_IN}.items()
         return
     defaults = defaults_of(kind)
     for one in declared(keys.FLAT[kind]):

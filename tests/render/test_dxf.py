@@ -386,7 +386,9 @@ def test_a_turned_inscription_is_one_text_with_its_rotation(angle: float) -> Non
     assert entity.dxf.rotation % 360.0 == angle % 360.0
     assert entity.plain_text().startswith("a^w = 109,861 a")
     assert entity.dxf.char_height == 3.5
-    corner = made[0].at + 3.5 * turn((90.0 + angle) * pi / 180)
+    first = made[0]
+    assert isinstance(first, Text)
+    corner = first.at + 3.5 * turn((90.0 + angle) * pi / 180)
     assert near(point(entity.dxf.insert), corner)
     # the stacks say which index is above: nothing/below, above/nothing
     assert re.findall(r"\\S([^;]*);", entity.text) == ["^ w", r"^ \{x\}", "n^ "]
