@@ -15,7 +15,7 @@ import numpy.typing as npt
 from msgspec import Struct, field
 from msgspec.structs import replace
 
-from planmethod.construct.scale import Scale, series_near
+from planmethod.construct.scale import Scale
 from planmethod.errors import AssemblyError
 from planmethod.languages import say
 from planmethod.mechanism.model import FRAME
@@ -215,7 +215,7 @@ def film_of(problem: Problem, lang: str, *, frames: int, plans: bool) -> Film:
     StructureError, ProblemError, AssemblyError, SelfCheckError
     """
     words = language(lang)
-    scene = LiveScene(replace(problem, dynamics=None, machine=None), words)
+    scene = LiveScene(replace(problem, dynamics=None, machine=None), words, is_round=True)
     shown = ("scheme", *([PlanKind.VELOCITY.value] if plans else []))
     return _Cutting(scene, [view for view in scene.views if view.id in shown], frames).film()
 
@@ -227,8 +227,6 @@ class _Cutting:
         self.scene, self.views, self.frames = scene, views, frames
         self.drive = scene.problem.drive
         self.origin = scene.construction.draft.origin
-        for view in views:
-            view.per_mm = series_near(0.999 * view.per_mm, up=True)
         self.positions, self.closed = self._exist()
         self.values = scene.sweep.run(self.positions)
 

@@ -14,7 +14,7 @@ import numpy as np
 import numpy.typing as npt
 from msgspec import Struct, field
 
-from planmethod.construct.scale import Scale
+from planmethod.construct.scale import Scale, series_near
 from planmethod.construct.steps import Hold, Name, PointName
 from planmethod.errors import AssemblyError
 from planmethod.mechanism.model import FRAME
@@ -89,6 +89,8 @@ class LiveScene:
     ----------
     problem : Problem
     words : Language
+    is_round : bool
+        The scales are of the series, else as the boxes are filled best.
 
     Attributes
     ----------
@@ -107,8 +109,8 @@ class LiveScene:
         There is no position at all.
     """
 
-    def __init__(self, problem: Problem, words: Language) -> None:
-        self.problem, self.words = problem, words
+    def __init__(self, problem: Problem, words: Language, *, is_round: bool = False) -> None:
+        self.problem, self.words, self.is_round = problem, words, is_round
         self._drawn: dict[Name, int] = {}
         self.flywheel = None
         if problem.machine is not None:
@@ -373,7 +375,7 @@ class LiveScene:
         self.scales[PlanKind.LEVER] = self.scales[PlanKind.VELOCITY]
         places = self._of_places()
         extent = max(np.ptp(places.real) / BOX[0], np.ptp(places.imag) / BOX[1])
-        per_mm = float(extent) or 1.0
+        per_mm = self._scale(float(extent))
         unit = {kind: Scale(FACTS[kind].scale, 1.0, FACTS[kind].unit) for kind in PlanKind}
         unit[PlanKind.POSITION] = Scale("mu_l", per_mm, "m")
         chosen = able if able.size else mine
@@ -434,8 +436,14 @@ class LiveScene:
             sizes = np.maximum(np.ptp(ends.real, axis=0), np.ptp(ends.imag, axis=0))
             ends = ends[:, sizes <= OUTLIER * np.median(sizes)] if sizes.size else np.zeros((1, 1))
             extent = max(np.ptp(ends.real) / BOX[0], np.ptp(ends.imag) / BOX[1])
-            view.per_mm = float(extent) or 1.0
+            view.per_mm = self._scale(float(extent))
             view.box = _box(ends.ravel() / view.per_mm, 22.0 if view.pushes else 13.0)
+
+    def _scale(self, extent: float) -> float:
+        """Return the scale of a view that fills its box, or the next of the series."""
+        if not extent:
+            return 1.0
+        return series_near(0.999 * extent, up=True) if self.is_round else extent
 
     def _values(self, ref: Ref) -> Array:
         place = self.values[ref[0]] + 1j * self.values[ref[0] + 1]
