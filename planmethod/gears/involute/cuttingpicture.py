@@ -298,10 +298,8 @@ def _tip_radius(view: CuttingView) -> tuple[list[Item], complex]:
     rack = cutting.tooth.pair.rack
     centre = complex(-rack.corner.imag, pi / 2 - rack.corner.real)
     way = rect(rack.rho, -(pi / 2 - rack.alpha) / 2)  # to the middle of the arc
-    ends = view.of_rack(
-        np.array([centre, centre + way], complex) * cutting.m + cutting.displacement, -1
-    )
-    start, tip = complex(ends[0]), complex(ends[1])
+    ends = [cutting.displacement + at * cutting.m for at in (centre, centre + way)]
+    start, tip = (complex(at) for at in view.of_rack(np.array(ends), -1))
     line = Stroke((start, tip), Pen.THIN, tag="dimension")
     return [line, *arrowhead(tip, unit(tip - start), length=2.5, tag="dimension")], start
 
