@@ -63,10 +63,7 @@ TITLE_BLOCK: Mapping[str, str] = MappingProxyType(
 """Fields of ``[stamp]``, all of them optional texts; more of them: docs/title-block.md."""
 
 TITLE_BLOCK_IN: Mapping[str, str] = MappingProxyType(
-    {
-        lang: f"fields for sheets in this language, over the others: `{lang} = {{ title = ... }}`"
-        for lang in LANGUAGES
-    }
+    dict.fromkeys(LANGUAGES, "a table of these fields for sheets in this language, over the others")
 )
 """Tables of ``[stamp]``: texts that a language has instead (надпись на языке листа)."""
 
