@@ -126,12 +126,12 @@ def test_settings_over_settings() -> None:
 
 def test_texts_of_a_language_are_read_from_a_problem_file() -> None:
     text = path_of("linkages/ex3").read_text("utf-8")
-    made = text.replace("en = {", "en = { group = 'M-2',")
+    made = text.replace("en.title", "en.group = 'M-2'\nen.title")
     problem = loads(made, name="ex3")
     assert problem.stamp_in["en"]["group"] == "M-2"
     assert "group" not in problem.title_block
     english = replace(problem, sheet=replace(problem.sheet, lang="en"))
     assert english.title_block["group"] == "M-2"
     with pytest.raises(ProblemError) as caught:
-        loads(text.replace("en = {", "en = { autor = 'x', paper = 'A3',"), name="ex3")
+        loads(text.replace("en.title", "en.autor = 'x'\nen.paper = 'A3'\nen.title"), name="ex3")
     assert [fault.path for fault in caught.value.faults] == ["stamp.en.paper", "stamp.en.autor"]
