@@ -32,7 +32,7 @@ from planmethod.problem.declared import (
     WordKey,
     declared,
 )
-from planmethod.problem.head import STAMP_LIMIT, TITLE_BLOCK
+from planmethod.problem.head import STAMP_LIMIT, TITLE_BLOCK, TITLE_BLOCK_IN
 
 ROOT = Path(__file__).resolve().parents[1]
 SCHEMA = ROOT / "planmethod" / "problem" / "schema.json"
@@ -109,6 +109,8 @@ def schema_text() -> str:
             table["required"] = required
     texts = {name: {"$ref": "#/$defs/field", "description": _plain(what)}
              for name, what in TITLE_BLOCK.items()}  # fmt: skip
+    texts |= {lang: {"$ref": "#/$defs/stamp", "description": _plain(what)}
+              for lang, what in TITLE_BLOCK_IN.items()}  # fmt: skip
     table_at(schema, "stamp")["properties"] = texts
     schema["$defs"]["field"] = {"type": "string", "maxLength": STAMP_LIMIT}
     return _printed(schema, 0) + "\n"
@@ -229,7 +231,7 @@ def _with_tables(text: str, rows: Callable[[str], Iterator[tuple[str, str]]]) ->
 
 def _english(kind: str) -> Iterator[tuple[str, str]]:
     if kind == "stamp":
-        yield from TITLE_BLOCK.items()
+        yield from {**TITLE_BLOCK, **TITLE_BLOCK_IN}.items()
         return
     defaults = defaults_of(kind)
     for one in declared(keys.FLAT[kind]):
@@ -244,7 +246,7 @@ def _english(kind: str) -> Iterator[tuple[str, str]]:
 def _russian(kind: str) -> Iterator[tuple[str, str]]:
     sentences = tomllib.loads(SENTENCES.read_text("utf-8"))[kind]
     if kind == "stamp":
-        yield from ((name, sentences[name]) for name in TITLE_BLOCK)
+        yield from ((name, sentences[name]) for name in (*TITLE_BLOCK, *TITLE_BLOCK_IN))
         return
     defaults = defaults_of(kind)
     for one in declared(keys.FLAT[kind]):

@@ -11,7 +11,9 @@ import unicodedata
 from planmethod.problem.names import LOOKALIKES
 from planmethod.problem.selector import Selector
 
-GREEK = {"ω": "omega", "ε": "epsilon", "φ": "phi", "Φ": "inertia", "ϕ": "phi", "έ": "epsilon"}
+GREEK = {
+    "ω": "omega", "ε": "epsilon", "φ": "phi", "Φ": "inertia", "ϕ": "phi", "έ": "epsilon", "τ": "t",
+}  # fmt: skip
 SHORT = {"eps": "epsilon", "om": "omega", "w": "omega", "fi": "phi"}
 DROPPED = str.maketrans("", "", " _{}^()|,.·-–—/'′’*\\$\u00a0\u202f")
 

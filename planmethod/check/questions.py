@@ -204,7 +204,7 @@ class Questions:
                     yield name, fixed[0]
 
     def vectors(self) -> Iterator[tuple[Selector, PlanKind, Ends]]:
-        """Yield the vectors of the plans between two points of a link: v_ED, aⁿ_ED, aᵗ_ED."""
+        """Yield the vectors of the plans between two points of a link: v_ED, aⁿ_ED, a^τ_ED."""
         words = {
             (PlanKind.VELOCITY, VectorKind.RELATIVE): "v",
             (PlanKind.ACCELERATION, VectorKind.NORMAL): "an",

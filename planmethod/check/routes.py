@@ -22,7 +22,7 @@ ROUTES: Mapping[str, tuple[Powers, ...]] = {
     "omega": ({"v": 1}, {"u": 1}),  # v/l, u·ω₁
     "an": ({"v": 2}, {"omega": 2}, {"v": 1, "omega": 1}),  # v²/l, ω²·l, v·ω
     "at": ({"epsilon": 1},),  # ε·l
-    "epsilon": ({"at": 1},),  # aᵗ/l
+    "epsilon": ({"at": 1},),  # a^τ/l
     "a": ({"a'": 1},),  # a'·l/l'
     "a=an": ({"v": 2}, {"omega": 2}, {"v": 1, "omega": 1}, {"an": 1}),  # nothing but aⁿ
     "ak": ({"omega": 1, "vs": 1},),  # 2·ω·v_r

@@ -208,7 +208,7 @@ def _listed(sheet: Sheet, question: Question) -> Iterator[tuple[str, float, Numb
 
 
 def _wholes(sheet: Sheet, question: Question) -> Iterator[tuple[str, float, NumberName | None]]:
-    """Yield what the right segment is the end of: of (nc), which is aᵗ, (bc)."""
+    """Yield what the right segment is the end of: of (nc), which is a^τ, (bc)."""
     if question.ends is None:
         return
     part, head = question.ends

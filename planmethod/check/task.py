@@ -89,13 +89,13 @@ def _forms(questions: Questions) -> Iterator[tuple[str, Selector]]:
                 yield f"{letter}_{pair[0]}_{pair[1]}", Selector(word, pair)
     for word in ("an", "at"):  # of a point of a link that turns about a fixed one
         for one, two in questions.arms():
-            for letter in {"an": ("an", "aн"), "at": ("at", "aτ", "aт")}[word]:
+            for letter in {"an": ("an", "aн"), "at": ("at", "aт")}[word]:
                 yield f"{letter}_{one}", Selector(word, (one, two))
     for one, two in permutations(kin.velocity.named, 2):
         yield f"l_{one}{two}", Selector("length", (one, two))
     for selector, _, _ in questions.vectors():
         one, two = selector.names
-        ways = {"at": ("at", "aτ", "aт"), "an": ("an", "aн")}.get(selector.kind, ("v",))
+        ways = {"at": ("at", "aт"), "an": ("an", "aн")}.get(selector.kind, ("v",))
         for letter in ways:
             yield f"{letter}_{one}{two}", selector
             if selector.kind == "v":

@@ -101,7 +101,7 @@ class Settled(Struct, frozen=True):
 
     def author(self, problem: KindProblem) -> str | None:
         """Return whom the files of a problem name as their author."""
-        return self.fields.get("author", problem.stamp.get("author")) or None
+        return self.fields.get("author", problem.title_block.get("author")) or None
 
 
 # Options -----------------------------------------------------------------------------------------

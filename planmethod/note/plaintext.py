@@ -25,14 +25,17 @@ if TYPE_CHECKING:
 NO_BREAK = "\N{NO-BREAK SPACE}"
 """Space at which a line is not cut; the finished text has plain spaces."""
 
-_SUPER = dict(zip("0123456789-−ntτkr", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻⁻ⁿᵗᵗᵏʳ", strict=True))
+_SUPER = dict(zip("0123456789-−nkr", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻⁻ⁿᵏʳ", strict=True))
 _SUB = dict(zip("0123456789", "₀₁₂₃₄₅₆₇₈₉", strict=True))
 _RATIO = "U"
 """Above it stands the carrier that a ratio is seen from, ``U^{H}_{13}``: no power of it."""
 
 
 def plain_text(rich: str) -> str:
-    """Return rich text as plain: ``ω_{2}`` gives ``ω₂``, ``a^{n}_{CB}`` gives ``aⁿ_CB``."""
+    """Return rich text as plain: ``ω_{2}`` gives ``ω₂``, ``a^{n}_{CB}`` gives ``aⁿ_CB``.
+
+    A letter that has no raised one, ``τ``, follows a sign: ``a^τ_CB``.
+    """
     return _plain_of(inline(parse(rich))) if any(c in SPECIAL for c in rich) else rich
 
 
@@ -52,7 +55,8 @@ def _plain(node: Node, *, is_ratio: bool = False) -> str:
             lowered = "".join(_SUB[c] for c in low) if set(low) <= set(_SUB) else f"_{low}"
             high = _plain_of(above)
             is_carrier = high.startswith("(") or (is_ratio and high.isalnum())
-            raised = f"^{high}" if is_carrier else "".join(_SUPER.get(c, c) for c in high)
+            is_said = is_carrier or any(c.isalpha() and c not in _SUPER for c in high)
+            raised = f"^{high}" if is_said else "".join(_SUPER.get(c, c) for c in high)
             return lowered + raised if is_power else raised + lowered
         case Overline(body):
             return _plain_of(body)

@@ -10,6 +10,7 @@ from typing import Annotated
 from msgspec import Struct, field
 from msgspec.structs import asdict, replace
 
+from planmethod.languages import LANGUAGES
 from planmethod.problem.declared import (
     ChoiceKey,
     FlagKey,
@@ -60,6 +61,11 @@ TITLE_BLOCK: Mapping[str, str] = MappingProxyType(
     }
 )
 """Fields of ``[stamp]``, all of them optional texts; more of them: docs/title-block.md."""
+
+TITLE_BLOCK_IN: Mapping[str, str] = MappingProxyType(
+    dict.fromkeys(LANGUAGES, "a table of these fields for sheets in this language, over the others")
+)
+"""Tables of ``[stamp]``: texts that a language has instead (надпись на языке листа)."""
 
 TITLE_FORMS = ("1", "1+2a", "2", "2a")
 """Forms of the title block: of every sheet, or of the first and of the later ones."""
@@ -304,6 +310,8 @@ class KindProblem(Struct, frozen=True, kw_only=True):
         What else the figure may have been (другие прочтения рисунка).
     stamp : mapping of str to str
         Texts of the title block.
+    stamp_in : mapping of str to mapping
+        Those that a language has instead, by its name.
     answers : tuple of AskedAnswer
         What students are asked for, in the order of the file; empty where it does not say.
     variants : tuple of str
@@ -319,11 +327,17 @@ class KindProblem(Struct, frozen=True, kw_only=True):
     reading: str = ""
     other_readings: tuple[str, ...] = ()
     stamp: Mapping[str, str] = field(default_factory=dict)
+    stamp_in: Mapping[str, Mapping[str, str]] = field(default_factory=dict)
     sheet: SheetSettings = SheetSettings()
     published: tuple[Published, ...] = ()
     answers: tuple[AskedAnswer, ...] = ()
     variants: tuple[str, ...] = ()
     variant: str | None = None
+
+    @property
+    def title_block(self) -> Mapping[str, str]:
+        """Texts of the title block in the language of the sheets (основная надпись)."""
+        return {**self.stamp, **self.stamp_in.get(self.sheet.lang or LANGUAGES[0], {})}
 
 
 def reading_record(problem: KindProblem) -> dict[str, object]:

@@ -13,6 +13,7 @@ from planmethod.problem.declared import declared
 from planmethod.problem.head import (
     LETTERINGS,
     TITLE_BLOCK,
+    TITLE_BLOCK_IN,
     TITLE_FORMS,
     AskedAnswer,
     CamTable,
@@ -120,7 +121,7 @@ FLAT: Mapping[str, type[object]] = {
 OTHERS: Mapping[str, tuple[str, ...]] = {
     "top": TOP, "frame": FRAME, "guide": GUIDE, "link": LINK, "slides": SLIDES, "point": POINT,
     "driver": DRIVER, "span": SPAN, "rule": RULE, "moving": MOVING, "rolling": ROLLING,
-    "stamp": tuple(TITLE_BLOCK), "table": TABLE, "gears": GEARS, "mesh": MESH,
+    "stamp": (*TITLE_BLOCK, *TITLE_BLOCK_IN), "table": TABLE, "gears": GEARS, "mesh": MESH,
 }  # fmt: skip
 """Keys of the other tables."""
 

@@ -27,7 +27,7 @@ from planmethod.problem.fields import (
     read_word,
 )
 from planmethod.problem.flat import read_choice, read_flat
-from planmethod.problem.head import SEVERAL, STAMP_LIMIT, SheetSettings
+from planmethod.problem.head import SEVERAL, STAMP_LIMIT, TITLE_BLOCK, TITLE_BLOCK_IN, SheetSettings
 from planmethod.problem.names import TITLE_LIMIT, joined, segment
 from planmethod.problem.source import parse, read_source
 
@@ -40,7 +40,7 @@ def read_head(faults: Faults, given: Mapping[str, Any]) -> dict[str, Any]:
     return {
         **{key: _read_heading(faults, given, key) for key in ("title", "source")},
         **_read_reading(faults, given),
-        "stamp": read_stamp(faults, given.get("stamp", {})),
+        **_read_stamps(faults, given.get("stamp", {})),
         "sheet": read_sheet(faults, given.get("sheet", {})),
     }
 
@@ -68,12 +68,26 @@ def _read_reading(faults: Faults, given: Mapping[str, Any]) -> dict[str, Any]:
     return {"reading": word or "", "other_readings": tuple(text for text in texts if text)}
 
 
-def read_stamp(faults: Faults, table: object) -> dict[str, str]:
+def _read_stamps(faults: Faults, table: object) -> dict[str, Any]:
+    """Read ``[stamp]`` of a problem file, which may have texts for a language."""
+    whole = table if isinstance(table, Mapping) else {}
+    languages = {lang: whole[lang] for lang in TITLE_BLOCK_IN if lang in whole}
+    if languages:
+        table = {key: value for key, value in whole.items() if key not in languages}
+    return {
+        "stamp": read_stamp(faults, table),
+        "stamp_in": {
+            lang: read_stamp(faults, texts, f"stamp.{lang}") for lang, texts in languages.items()
+        },
+    }
+
+
+def read_stamp(faults: Faults, table: object, path: str = "stamp") -> dict[str, str]:
     """Read ``[stamp]`` (основная надпись)."""
     stamp: dict[str, str] = {}
-    given = _without_astray(faults, "stamp", table, "sheet", 'author = "Иванов"')
-    for key, value in read_keys(faults, "stamp", given, keys.known("stamp")).items():
-        text = read_text(faults, f"stamp.{key}", value, limit=STAMP_LIMIT)
+    given = _without_astray(faults, path, table, "sheet", 'author = "Иванов"')
+    for key, value in read_keys(faults, path, given, TITLE_BLOCK).items():
+        text = read_text(faults, f"{path}.{key}", value, limit=STAMP_LIMIT)
         if text is not None:
             stamp[key] = text
     return stamp
@@ -96,7 +110,8 @@ def _without_astray(faults: Faults, path: str, table: object, other: str, exampl
     entries = read_table(faults, path, table, example)
     if not entries:
         return {}
-    astray = set(entries).intersection(keys.known(other)).difference(keys.known(path))
+    own = keys.known(path.partition(".")[0])
+    astray = set(entries).intersection(keys.known(other)).difference(own)
     for key in entries:
         if key in astray:
             faults.add(joined(path, segment(key)), "unknown key", say("It stands in [{}].", other))

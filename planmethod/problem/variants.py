@@ -15,6 +15,7 @@ from typing import Any
 from planmethod.languages import say
 from planmethod.problem import keys
 from planmethod.problem.fields import FAULT_LIMIT, Faults, is_number, read_table
+from planmethod.problem.head import TITLE_BLOCK, TITLE_BLOCK_IN
 from planmethod.problem.links import read_label
 from planmethod.problem.names import (
     UNITS,
@@ -150,6 +151,8 @@ def _known_under(path: KeyPath) -> tuple[str, ...]:
         return keys.known("answer") if len(path) == 2 else ()
     if first == "loads":
         return keys.known({2: "load", 3: _LOAD_TABLES.get(path[-1], "")}.get(len(path), ""))
+    if first == "stamp" and path[1:] and path[1] in TITLE_BLOCK_IN:
+        return tuple(TITLE_BLOCK) if len(path) == 2 else ()
     return keys.known(first) if len(path) == 1 else ()
 
 

@@ -57,8 +57,10 @@ def note_files(
         The template cannot be read.
     """
     words = language(project.language)
-    stamp = merged(project.problem.stamp, options.fields)
-    stamped = replace(project, problem=replace(project.problem, stamp=stamp))
+    problem = project.problem
+    stamp = merged(problem.title_block, options.fields)
+    title = problem.stamp_in.get(project.language, {}).get("title", problem.title)
+    stamped = replace(project, problem=replace(problem, title=title, stamp=stamp, stamp_in={}))
     written, author = note_document(stamped, words, sheets), stamp.get("author", "")
     files: dict[str, bytes] = {}
     for fmt in formats:

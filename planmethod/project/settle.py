@@ -225,11 +225,13 @@ def _of_kind(problem: Problem, name: PartName, path: Path, beside: str) -> Proje
     turns = problem.drive.pivot is not None and problem.drive.rate
     if isinstance(found, CamProblem) and found.n is None and turns:
         found = replace(found, n=turns * 30 / pi)  # on the shaft of the crank
-    stamp = merged(problem.stamp, found.stamp) if beside else dict(problem.stamp)
+    found = replace(found, sheet=problem.sheet.over(found.sheet))
+    stamp = dict(problem.title_block)
+    if beside:
+        stamp = merged(stamp, found.title_block)
     stamp.pop("title", None)
     title = found.title if beside else ""
-    sheet = problem.sheet.over(found.sheet)
-    return ProjectPart(name, replace(found, sheet=sheet, stamp=stamp, title=title), kind)
+    return ProjectPart(name, replace(found, stamp=stamp, stamp_in={}, title=title), kind)
 
 
 def _check_beside(problem: Problem, table: str, file: Path) -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import cmath
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from itertools import pairwise
-from math import radians, tau
+from math import degrees, radians, tau
 from typing import Any
 
 from msgspec import Struct
@@ -163,7 +163,9 @@ def _view(drawn: Drawn, words: Language) -> Viewed:
     said = scale_inscription(scale, Convention.UNIT_PER_MM, words.say)
     name = Line(typeset(words.synthesis.construction, SIZES.title))
     under = Column([name, Line(typeset(said, SIZES.text))], gap=2.5, align="centre")
-    return Viewed(Column([_picture(drawn), under], gap=5.0, align="centre"), "position", scale)
+    return Viewed(
+        Column([_picture(drawn, words), under], gap=5.0, align="centre"), "position", scale
+    )
 
 
 def _texts(
@@ -200,10 +202,10 @@ def _kept(sentence: str) -> str:
 # The construction --------------------------------------------------------------------------------
 
 
-def _picture(drawn: Drawn) -> Picture:
+def _picture(drawn: Drawn, words: Language) -> Picture:
     """Return the construction with the mechanism in its positions."""
     ink = _Ink(drawn)
-    angle, letter = ink.angle()
+    angle, letter = ink.angle(words)
     items = symbols.before_links([*ink.construction(), *angle, *ink.mechanism()])
     return lettered(list(items), [*ink.labels(), *letter])
 
@@ -264,8 +266,8 @@ class _Ink:
         turns = (start + (end - start) * k / count for k in range(count + 1))
         yield from self._clipped([centre + cmath.rect(radius, turn) for turn in turns])
 
-    def angle(self) -> tuple[list[Item], list[Label]]:
-        """Return the arc of the angle between the dead positions with arrowheads, its letter."""
+    def angle(self, words: Language) -> tuple[list[Item], list[Label]]:
+        """Return the arc of the angle between the dead positions with arrowheads, its size."""
         if not self.drawn.synthesis.theta:
             return [], []
         vertex, *ends = (self.at(name) for name in self.drawn.synthesis.theta)
@@ -286,8 +288,9 @@ class _Ink:
             if radius * abs(turned) > 8.0
             else []
         )
-        letter = Label(typeset("θ", SIZES.letter), vertex + radius * middle, prefer=middle, gap=1.2,
-                       name="theta", manner=BUSY)  # fmt: skip
+        size = words.say.given(round(degrees(abs(turned)), 2))
+        letter = Label(typeset(f"θ = {size}°", SIZES.text), vertex + radius * middle,
+                       prefer=middle, gap=1.2, name="theta", manner=BUSY)  # fmt: skip
         return [arc, *heads], [letter]
 
     def _clipped(self, path: Iterable[complex]) -> Iterator[Item]:

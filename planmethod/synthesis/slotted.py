@@ -123,5 +123,6 @@ def synthesize(asked: Mapping[str, Any]) -> Synthesis:
         grashof=("O1A", "O1O3"),
         tables=tuple(tables),
         driver=("O1", pins[0]),
+        theta=("O3", *pins),
         **found,
     )

@@ -26,6 +26,16 @@ from planmethod.note.wording import Language
 from planmethod.synthesis.drawn import Drawn
 from planmethod.synthesis.model import Said, place
 
+LEGS = range(60, 121)
+"""Longer legs that an angle is laid off with, mm."""
+
+PRICKED = 0.5
+"""Step to which a leg is set at best, mm."""
+
+
+_LAID = frozenset({("inscribed", "rest"), ("again", "angle")})
+"""Angles of sentences of a synthesis' own that are laid off, by key and place."""
+
 
 def synthesis_document(
     drawn: Drawn, asked: Mapping[str, Any], checks: Mapping[str, Any], words: Language
@@ -58,6 +68,34 @@ def point_name(name: str) -> Rich:
 def size_symbol(name: str) -> Rich:
     """Return the symbol of a length of the mechanism."""
     return "e" if name == "e" else f"l_{{{name}}}"
+
+
+def set_angle(angle: float, ruler: float, words: Language) -> Rich:
+    """Return an angle as it is laid off: where a protractor has no mark, by two legs, mm.
+
+    Parameters
+    ----------
+    angle : float, degrees
+        From 0 to 180; of more than 90° the adjacent one has the legs.
+    ruler : float, mm
+        Step to which the shorter leg is set; the longer one, in whole millimetres, is that by which
+        the angle is met best.
+    """
+    told = given(round(angle, 2), words.note)
+    if math.isclose(2.0 * angle, round(2.0 * angle), abs_tol=1e-6):
+        return f"{told}°"
+    sharp = min(angle, 180.0 - angle)
+    tangent, step = math.tan(math.radians(min(sharp, 90.0 - sharp))), max(ruler, PRICKED)
+
+    def leg(long: int) -> float:
+        return round(long * tangent / step) * step
+
+    long = min(LEGS, key=lambda long: abs(leg(long) / long - tangent))
+    across, along = (leg(long), long) if sharp < 45.0 else (long, leg(long))
+    shown = (given(value, words.note) for value in (round(sharp, 2), across, along))
+    return words.synthesis.by_legs.format(
+        angle=told, **dict(zip(("sharp", "across", "along"), shown, strict=True))
+    )
 
 
 class SynthesisNaming:
@@ -129,7 +167,8 @@ class SynthesisNaming:
         side = (note.to_left if angle > 0 else note.to_right).format(base=base)
         if step.to is None:
             angle, side = angle % 360.0, ""
-        return note.at_angle.format(angle=given(abs(angle), note, 6), base=base) + side
+        laid = set_angle(abs(angle), self.drawn.profile.ruler, self.words)
+        return self.words.synthesis.at_angle.format(angle=laid, base=base) + side
 
     def _base(self, line: LineName) -> Rich:
         """Return what a line is called: by two of its points, in its sense; or the x axis."""
@@ -156,6 +195,10 @@ class SynthesisNarrator(BoardNarrator):
     def sentences(self) -> Iterator[Rich]:
         """Yield the sentences; what follows at once from a reading stands beside it."""
         waiting = ""
+        made = self.drawn.synthesis
+        if made.theta and "K_v" in made.asked:
+            turned = (made.asked["K_v"] - 1.0) / (made.asked["K_v"] + 1.0)
+            yield self._own(("theta", {"angle": 180.0 * turned}))
         for step in self.board.steps:
             for told in self.tell(step):
                 if waiting and isinstance(step, steps.Compute):
@@ -185,6 +228,12 @@ class SynthesisNarrator(BoardNarrator):
             else given(value, self.words, 6)
             for name, value in facts.items()
         }
+        for name, value in facts.items():
+            if (key, name) in _LAID:
+                ruler = self.drawn.profile.ruler
+                shown[name] = set_angle(float(value), ruler, self.naming.words)
+            elif name == "angle":
+                shown[name] = given(round(float(value), 2), self.words)
         sentence: str = self.said["steps"][key]
         return sentence.format(**shown)
 
@@ -217,7 +266,7 @@ class SynthesisNarrator(BoardNarrator):
         factor, made = step.factor, self.step[step.powers[0][0]]
         if isinstance(made, steps.Compute):  # half the difference, which is laid off as well
             factor, made = made.factor, self.step[made.powers[0][0]]
-        half = " / 2" if factor == 0.5 else ""
+        half = f"{NO_BREAK}/{NO_BREAK}2" if factor == 0.5 else ""
         unit = self.notation.units["m"]
         return [f"{size_symbol(name)} = μ_{{l}}·{self._sides(made)}{half} = {value} {unit}."]
 
@@ -271,7 +320,7 @@ def check_rows(checks: Mapping[str, Any], words: Language) -> list[tuple[str, st
 
     def row(name: str, value: float | None, unit: str) -> None:
         if value is not None:
-            number = say.short(value, 6)
+            number = say.short(round(value, 2) if unit == "deg" else value, 6)
             rows.append(
                 (said["checks"][name], with_unit(number, say.units[unit]) if unit else number)
             )

@@ -93,7 +93,7 @@ def test_a_point_divided_from_the_wrong_end_on_both_plans_is_one_mistake() -> No
 
 
 def test_the_whole_is_read_for_its_part_and_a_small_product_is_told_from_nothing() -> None:
-    """Crosshead, rod 0.3 m: a_CB = 1.325 for aᵗ_CB = 1.159 (N5); v·l and v²·l for aⁿ (N3)."""
+    """Crosshead, rod 0.3 m: a_CB = 1.325 for a^τ_CB = 1.159 (N5); v·l and v²·l for aⁿ (N3)."""
     for code, values in (
         ("N5", {"at_C_B": 1.325, "epsilon_2": 4.418, "an_C_B": 0.643, "a_C": 1.724}),
         ("N3", {"omega_2": 1.464, "an_C_B": 0.1317}),

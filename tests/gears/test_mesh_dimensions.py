@@ -4,15 +4,19 @@ from __future__ import annotations
 
 from math import pi
 
+import numpy as np
 import pytest
+from shapely import LineString, Point
 from worked import path_of
 
-from planmethod.gears.involute.diagrams import HIGH, LOW, Window, working
+from planmethod.gears.involute.cuttingpicture import cutting_picture, cutting_view
+from planmethod.gears.involute.diagrams import HIGH, LOW, Contour, Window, working
 from planmethod.gears.involute.meshdimensions import mesh_dimensions
 from planmethod.gears.involute.meshpicture import MeshView, view_for
 from planmethod.gears.involute.quantities import SolvedMeshing
 from planmethod.gears.involute.reader import load
-from planmethod.render.ink.drawing import Arc, Pen, Stroke
+from planmethod.note.wording import language
+from planmethod.render.ink.drawing import Arc, Pen, Stroke, Text
 from planmethod.render.ink.style import sweep
 
 FILES = ("meshing/z12-30", "meshing/z20-60-internal")
@@ -31,7 +35,8 @@ def test_thickness_and_space_make_the_pitch(name: str) -> None:
     assert thickness + space == pytest.approx(pitch) == pytest.approx(2 * pi / tooth.z)
     assert thickness * tooth.size("d") / 2 == pytest.approx(tooth.size("s"), abs=1e-6)
     named = {label.name for label in labels}
-    assert named - {"size c"} == {"size s_{1}", "size e_{1}", "size p", "size h"}
+    lengths = {one for one in named if " r_" not in one}
+    assert lengths - {"size c"} == {"size s_{1}", "size e_{1}", "size p", "size h"}
 
 
 def test_the_clearance_is_told_where_it_shows() -> None:
@@ -51,3 +56,61 @@ def test_the_blocking_contour_is_not_cut(name: str) -> None:
     left, low, right, high = working(solved, Window(LOW, HIGH, LOW, HIGH)).bounds
     assert min(left, low) > LOW + 0.1
     assert max(right, high) < HIGH - 0.1
+
+
+@pytest.mark.parametrize("name", FILES)
+def test_the_blocking_contour_is_closed(name: str) -> None:
+    """Every end of a bound lies on another one: of the ring's also where the involute ends."""
+    contour = Contour.of(SolvedMeshing(load(path_of(name))))
+    bounds = [part for limit, parts in contour.parts if limit.hard for part in parts]
+    for k, part in enumerate(bounds):
+        if np.ptp(part, axis=1).max() < 0.05:  # a corner
+            continue
+        others = np.hstack([other for n, other in enumerate(bounds) if n != k])
+        for end in (part[:, :1], part[:, -1:]):
+            assert np.min(np.hypot(*(others - end))) < 0.02, (end, contour.window)
+
+
+def test_the_radii_run_from_the_centres_to_their_circles() -> None:
+    """Of the external pair both wheels have four; a ring's would cover those of the pinion."""
+    told = []
+    for name in FILES:
+        view = view_of(name)
+        items, labels = mesh_dimensions(view, 5.0)
+        told.append({label.name.removeprefix("size ") for label in labels if " r_" in label.name})
+        for wheel in (0, 1) if told[-1] and len(told) == 1 else (0,):
+            centre, tooth = view.centre(wheel), view.solved.teeth[wheel]
+            rays = [
+                one.points for one in items if isinstance(one, Stroke) and one.points[0] == centre
+            ]
+            radii = sorted(abs(end - centre) / view.scale for _, end in rays)
+            assert radii == pytest.approx([tooth.size("d_f") / 2, tooth.size("d_a") / 2])
+    every = {f"r_{{{kind}{wheel}}}" for kind in "wbfa" for wheel in (1, 2)}
+    assert told == [every, {one for one in every if "1" in one}]
+
+
+@pytest.mark.parametrize("name", FILES)
+def test_the_radius_of_the_rack_ends_on_its_tip(name: str) -> None:
+    solved = SolvedMeshing(load(path_of(name)))
+    cutting = solved.cuttings[0]
+    assert cutting is not None
+    view = cutting_view(cutting, 400.0, 300.0)
+    picture = cutting_picture(view, language("ru"), 5.0)
+    (text,) = {one.label for one in picture.items if isinstance(one, Text) and "ρ" in one.text}
+    size = cutting.tooth.pair.rack.rho * cutting.m
+    assert text == f"ρ_{{f}} = {language('ru').say.number(f'{size:.3f}')}"
+    (rack,) = (one for one in picture.items if isinstance(one, Stroke) and one.tag == "rack")
+    outline = LineString([(z.real, z.imag) for z in rack.points])
+    radii = [
+        one.points
+        for one in picture.items
+        if isinstance(one, Stroke)
+        and one.tag == "dimension"
+        and abs(abs(one.points[1] - one.points[0]) - size * view.scale) < 1e-9
+    ]
+    assert len(radii) == 1
+    ((start, tip),) = radii
+    assert outline.distance(Point(tip.real, tip.imag)) < 0.02
+    assert outline.distance(Point(start.real, start.imag)) == pytest.approx(
+        size * view.scale, abs=0.02
+    )

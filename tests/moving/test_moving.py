@@ -299,7 +299,7 @@ def test_the_text_tells_formulas_with_numbers(lang: str) -> None:
     assert run.exit_code == ExitCode.DONE
     said = run.output.replace(",", ".")
     assert "v = √(v_x² + v_y²) = √(3² + 4²) = 5 " in said
-    assert "aᵗ = (v_x·a_x + v_y·a_y)/v = (3·3 + 4·0)/5 = 1.8 " in said
+    assert "a^τ = (v_x·a_x + v_y·a_y)/v = (3·3 + 4·0)/5 = 1.8 " in said
     assert "ρ = v²/aⁿ = 5²/2.4 = 10.417 " in said
     assert "ρ → ∞" in solve(K11[2], "--lang", lang).output
 

@@ -139,7 +139,7 @@ def test_a_table_of_moments_has_each_number_under_its_head(tmp_path: Path) -> No
     text = f"[point]\n{LAWS['polar']}\nt = {{ from = 0.1, to = 0.9, count = 5 }}\n"
     told, motion = run(tmp_path, "solve", text), move(loads(text, name="p"))
     own = {"t": "t", "x": "x, m", "y": "y, m", "v_x": "vx", "v_y": "vy", "a_x": "ax",
-           "a_y": "ay", "aᵗ": "a_tangential",
+           "a_y": "ay", "a^τ": "a_tangential",
            "aⁿ": "a_normal", "ρ": "rho", "v_r": "v_r", "v_φ": "v_phi", "a_r": "a_r",
            "a_φ": "a_phi", "φ": "phi"}  # fmt: skip
     lines, seen = told.splitlines(), set()
@@ -155,7 +155,7 @@ def test_a_table_of_moments_has_each_number_under_its_head(tmp_path: Path) -> No
                 assert number(cell) == pytest.approx(exact, rel=5e-3, abs=2e-3), (head, row)
                 assert not unit or unit.replace("s⁻¹", "1/s") == LEGEND[key].unit, head
                 seen.add(symbol)
-    assert {"v_x", "aᵗ", "ρ", "v_φ", "a_r"} <= seen
+    assert {"v_x", "a^τ", "ρ", "v_φ", "a_r"} <= seen
 
 
 def test_a_printed_value_is_told_with_what_it_is_more_than_the_exact_one(tmp_path: Path) -> None:

@@ -25,7 +25,7 @@ from planmethod.kinds import load
 from planmethod.languages import LANGUAGES, WRITTEN, catalogue, say, speaking, spoken_to, translated
 from planmethod.problem import keys
 from planmethod.problem.declared import NumberKey, declared
-from planmethod.problem.head import TITLE_BLOCK
+from planmethod.problem.head import TITLE_BLOCK, TITLE_BLOCK_IN
 
 HOME = Path(planmethod.__file__).parent
 WORDING = HOME / "note" / "wording"
@@ -38,6 +38,7 @@ REFERENCE = {
     *(text for key in DECLARED for text in (key.sentence, key.more, key.absent)),
     *(key.what for key in NUMBERS if key.unit),  # said with the unit
     *TITLE_BLOCK.values(),
+    *TITLE_BLOCK_IN.values(),
 }
 """Texts of the reference of keys, which are no messages."""
 

@@ -5,8 +5,11 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
+from msgspec.structs import replace
+from worked import path_of
 
-from planmethod.errors import ConfigError, ExitCode
+from planmethod.errors import ConfigError, ExitCode, ProblemError
+from planmethod.problem import loads
 from planmethod.problem.head import SheetSettings
 from planmethod.problem.sheet import VARIABLE, find_config, load_config, usual_place
 
@@ -119,3 +122,16 @@ def test_settings_over_settings() -> None:
     lower = SheetSettings(paper="A3", form="2", side_columns=True)
     upper = SheetSettings(paper="A2", side_columns=False)
     assert upper.over(lower) == SheetSettings(paper="A2", form="2", side_columns=False)
+
+
+def test_texts_of_a_language_are_read_from_a_problem_file() -> None:
+    text = path_of("linkages/ex3").read_text("utf-8")
+    made = text.replace("en.title", "en.group = 'M-2'\nen.title")
+    problem = loads(made, name="ex3")
+    assert problem.stamp_in["en"]["group"] == "M-2"
+    assert "group" not in problem.title_block
+    english = replace(problem, sheet=replace(problem.sheet, lang="en"))
+    assert english.title_block["group"] == "M-2"
+    with pytest.raises(ProblemError) as caught:
+        loads(text.replace("en.title", "en.autor = 'x'\nen.paper = 'A3'\nen.title"), name="ex3")
+    assert [fault.path for fault in caught.value.faults] == ["stamp.en.paper", "stamp.en.autor"]

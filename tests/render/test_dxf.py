@@ -36,6 +36,7 @@ from planmethod.render.forces.polygon import drawn_edges
 from planmethod.render.ink.drawing import Arc, Bounds, Disc, Drawing, Fill, Ink, Pen, Stroke, Text
 from planmethod.render.ink.lettering import in_use
 from planmethod.render.ink.style import PENS, sweep
+from planmethod.render.ink.typeset import typeset
 from planmethod.render.pictures.enlarged import ENLARGED
 from planmethod.render.sheets.composition.reader import composition
 from planmethod.render.sheets.kinematics import kinematics_sheets
@@ -368,6 +369,36 @@ def test_text_is_text_of_the_width_of_the_sheet() -> None:
         assert near((end - start) / abs(end - start), way)
     layers = [entity.dxf.layer for entity in document.modelspace()]
     assert layers == ["TEXT", "TEXT", "TITLE_BLOCK", "TEXT"]
+
+
+@pytest.mark.parametrize("angle", [90.0, -30.0, 0.0])
+def test_a_turned_inscription_is_one_text_with_its_rotation(angle: float) -> None:
+    """``a_w = 109,861`` along a dimension line: not three texts; a level one is fitted in runs."""
+    made = typeset("a_{w} = 109,861 a^{n}_{\\{x\\}}", 3.5).at(60 + 50j, angle=angle)
+    space = read(render(Drawing(210.0, 297.0, items=made), "dxf", options=TEXT)).modelspace()
+    runs = [item.text.strip() for item in made if isinstance(item, Text)]
+    assert runs == ["a", "w", "= 109,861 a", "{x}", "n"]
+    if not angle:
+        assert [entity.plain_text() for entity in space] == runs
+        return
+    (entity,) = space
+    assert entity.dxftype() == "MTEXT"
+    assert entity.dxf.rotation % 360.0 == angle % 360.0
+    assert entity.plain_text().startswith("a^w = 109,861 a")
+    assert entity.dxf.char_height == 3.5
+    first = made[0]
+    assert isinstance(first, Text)
+    corner = first.at + 3.5 * turn((90.0 + angle) * pi / 180)
+    assert near(point(entity.dxf.insert), corner)
+    # the stacks say which index is above: nothing/below, above/nothing
+    assert re.findall(r"\\S([^;]*);", entity.text) == ["^ w", r"^ \{x\}", "n^ "]
+
+
+def test_a_turned_text_ends_where_the_next_one_begins() -> None:
+    items = [*typeset("a_{w}", 3.5).at(60 + 50j, angle=90.0), Stroke((0j, 9j), Pen.THIN),
+             *typeset("b_{w}", 3.5).at(60 + 50j, angle=90.0)]  # fmt: skip
+    space = read(render(Drawing(210.0, 297.0, items=items), "dxf", options=TEXT)).modelspace()
+    assert kinds(space) == ["MTEXT", "LINE", "MTEXT"]
 
 
 def test_the_words_of_a_sheet_are_found() -> None:

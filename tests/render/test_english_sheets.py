@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import re
+import tomllib
 from collections import Counter
 from collections.abc import Iterator
 
 import pytest
 from cases import thinned
 from msgspec.structs import replace
-from worked import problem_of
+from worked import PROBLEMS, problem_of
 
 from planmethod.mechanism.structure import analyse
 from planmethod.note.wording import LANGUAGES, language
@@ -49,9 +50,37 @@ CASES = [
 
 def bare(problem: Problem, lang: str) -> Problem:
     """Return a problem without texts of its own, in a language."""
-    return replace(
-        problem, title="", stamp={}, sheet=replace(problem.sheet, lang=lang, side_columns=True)
-    )
+    sheet = replace(problem.sheet, lang=lang, side_columns=True)
+    return replace(problem, title="", stamp={}, stamp_in={}, sheet=sheet)
+
+
+def test_a_title_block_has_the_texts_of_its_language_where_the_file_says_them() -> None:
+    """Of a Russian file with ``stamp.en``; what it says in one language is not translated."""
+    russian = problem_of("linkages/ex3")
+    english = replace(russian, sheet=replace(russian.sheet, lang="en"))
+    (drawing,) = kinematics_sheets(english, positions=(20.0,), layout="one-position")
+    (other,) = kinematics_sheets(russian, positions=(20.0,), layout="one-position")
+    assert is_english(drawing), sorted(filter(CYRILLIC.search, texts(drawing)))
+    assert drawing.title == "Kinematic analysis of a linkage"
+    assert {"TMM.01.03.00.000", "Department of TMM", "T"} <= {*texts(drawing)}
+    assert "ТММ.01.03.00.000" in texts(other)
+    assert not {*texts(other)} & set(russian.stamp_in["en"].values())
+    silent = replace(english, stamp_in={})
+    (drawing,) = kinematics_sheets(silent, positions=(20.0,), layout="one-position")
+    assert {"ТММ.01.03.00.000", "Кафедра ТММ"} <= {*texts(drawing)}
+
+
+def test_every_shipped_problem_has_an_english_title_block() -> None:
+    """But for names of variants, which are the file's own letters."""
+    files = sorted(PROBLEMS.rglob("*.toml"))
+    assert len(files) > 200
+    for path in files:
+        stamp = tomllib.loads(path.read_text("utf-8"))["stamp"]
+        english = stamp.pop("en")
+        block = stamp | english
+        assert block["title"], path
+        told = {key: text.partition(", variant")[0] for key, text in block.items()}
+        assert not {key: text for key, text in told.items() if CYRILLIC.search(text)}, path
 
 
 def texts(drawing: Drawing) -> Iterator[str]:

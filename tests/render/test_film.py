@@ -8,6 +8,7 @@ from xml.etree import ElementTree
 
 import numpy as np
 import pytest
+from cases import each
 from click.testing import CliRunner
 from PIL import Image
 from worked import path_of, problem_of
@@ -15,6 +16,7 @@ from worked import path_of, problem_of
 from planmethod.cli import cli
 from planmethod.errors import ExitCode
 from planmethod.problem import loads
+from planmethod.render.ink.drawing import Disc, Text
 from planmethod.render.live.film import film_of
 from planmethod.solved.solution import Solution
 
@@ -64,6 +66,33 @@ def test_an_svg_that_plays_has_links_and_plan_where_they_are_solved_to_be() -> N
         for way in arrows
     )
     assert not list(root.iter(f"{SVG}script")) and len(film.readings) == 12
+
+
+@each("name", ["linkages/ex3", "levers/task-33", "press/press"])
+def test_joints_of_the_scheme_are_at_their_points_in_every_frame(name: str) -> None:
+    """At the scale that the film tells: parts and places have the same."""
+    problem = problem_of(name)
+    film = film_of(problem, "ru", frames=8, plans=False)
+    told = "".join(item.text for item in film.still if isinstance(item, Text))
+    (number,) = re.findall(r"([\d,]+)\sм/мм|([\d,]+)\sмм/м", told)
+    mu = float(number[0].replace(",", ".")) if number[0] else 1 / float(number[1].replace(",", "."))
+    solved = Solution(problem, positions=film.positions.tolist())
+    joints = sorted({joint.point for joint in problem.mechanism.revolutes})
+    for k in range(len(film.positions)):
+        circles = np.array(
+            [
+                body.places[k] + item.centre * np.exp(1j * np.radians(body.turns[k]))
+                for body in film.bodies
+                for item in body.items
+                if isinstance(item, Disc)
+            ]
+        )
+        places = np.array([solved.points[joint].place[k] for joint in joints]) / mu
+        apart = [  # from one circle taken for the first joint, what the others miss
+            np.abs(places[:, None] - places[0] + at - circles[None, :]).min(axis=1).max()
+            for at in circles
+        ]
+        assert min(apart) < 0.01
 
 
 def test_positions_that_do_not_exist_are_left_out_and_the_crank_goes_to_and_fro() -> None:

@@ -171,6 +171,46 @@ def test_the_slider_moves_everything_to_the_numbers_of_solve(
     assert not page.said
 
 
+CROSSED = """(() => {  // inscriptions of the scheme that a drawn line of a moving part runs through
+  const view = D.views[0], root = () => view.svg.getCTM().inverse();
+  const shapes = [...view.svg.querySelectorAll("[id^=part-] :is(path, line, rect, circle)")];
+  const drawn = shapes.map(one => {
+    const part = one.closest("[id^=part-]"), long = one.getTotalLength();
+    const own = part.getCTM().inverse().multiply(one.getCTM()), count = Math.ceil(long / 0.4) + 1;
+    return [part, Array.from({ length: count + 1 }, (_, k) =>
+      one.getPointAtLength(long * k / count).matrixTransform(own))];
+  });
+  let seen = 0, crossed = 0;
+  for (let phi = 2; phi < 360; phi += 20) {
+    planmethod.show(phi);
+    const places = drawn.flatMap(([part, points]) => {
+      const now = root().multiply(part.getCTM());
+      return points.map(p => p.matrixTransform(now));
+    });
+    for (const one of view.labels) {
+      const moved = one.node.getAttribute("transform");
+      const [, x, y] = moved.match(/([-\\d.]+)[ ,]+([-\\d.]+)/).map(Number);
+      seen += 1;
+      crossed += places.some(p => p.x > x + 0.2 && p.x < x + one.width - 0.2 &&
+        p.y > y - one.up + 0.2 && p.y < y + one.down - 0.2);
+    }
+  }
+  return [seen, crossed];
+})()"""
+
+
+@needs_chromium
+@each("name", ["linkages/ex3", "levers/task-33", "press/press"])
+def test_no_line_of_the_scheme_runs_through_its_letters(
+    name: str, page: Page, tmp_path: Path
+) -> None:
+    """Of the slider and its guide, of supports, of rods beside the segments of the plan, too."""
+    opened(page, problem_of(name), tmp_path)
+    seen, crossed = page.ask(CROSSED)
+    assert seen >= 18 * 8
+    assert crossed <= 0.02 * seen
+
+
 @needs_chromium
 def test_the_speed_of_a_machine_has_a_diagram_and_is_followed(page: Page, tmp_path: Path) -> None:
     problem = problem_of("press/flywheel")

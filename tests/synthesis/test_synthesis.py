@@ -296,4 +296,4 @@ def test_every_kind_tells_its_construction_and_is_documented() -> None:
     done = run(
         "slider-crank", "--stroke", "0.2", "--K_v", "1.2", "--offset", "0.03", "--lang", "en"
     )
-    assert "circle about Z from which the chord B′′B′ is seen at 16.3636°" in done.stdout
+    assert "circle about Z from which the chord B′′B′ is seen at 16.36°" in done.stdout

@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
+import random
 import re
 from collections.abc import Iterator
 from functools import cache
 from itertools import pairwise
-from math import degrees
+from math import atan2, degrees
 from typing import Any
 
 import pytest
-from cases import each
+from cases import each, some
 from test_synthesis import ASKED, made
 
 from planmethod.construct import steps
@@ -29,6 +30,7 @@ from planmethod.synthesis.text import (
     SynthesisNarrator,
     check_rows,
     point_name,
+    set_angle,
     size_rows,
     synthesis_document,
 )
@@ -347,4 +349,27 @@ def test_the_angle_between_the_dead_positions_is_marked(name: str) -> None:
     (arc,) = (item for item in sheet.items if isinstance(item, Arc) and item.tag == "theta")
     ratio = asked["K_v"]
     assert degrees(arc.end - arc.start) == pytest.approx(180.0 * (ratio - 1.0) / (ratio + 1.0))
-    assert sum(isinstance(item, Text) and item.text == "θ" for item in sheet.items) == 1
+    size = language("ru").say.given(round(180.0 * (ratio - 1.0) / (ratio + 1.0), 2))
+    assert [t.text for t in sheet.items if isinstance(t, Text) and t.label == "theta"] == [
+        f"θ = {size}°"
+    ]
+    told = next(iter(SynthesisNarrator(Drawn(found, BOARD), language("ru")).sentences()))
+    assert told.endswith(f" = {size}°.")
+
+
+@each("seed", range(some(200, 40)))
+def test_an_angle_is_laid_off_by_a_mark_of_the_protractor_or_by_two_legs(seed: int) -> None:
+    words = language("en")
+    angle = random.Random(seed).uniform(0.4, 179.6)
+    for value in (round(2 * angle) / 2, angle):
+        told = plain_text(set_angle(value, 0.5, words))
+        assert told.startswith(f"{words.say.given(round(value, 2))}°")
+        legs = re.search(r"tan\s([\d.]+)° = ([\d.]+)\s:\s([\d.]+)", told)
+        if value != angle:
+            assert legs is None
+            continue
+        assert legs is not None
+        sharp, across, along = map(float, legs.groups())
+        assert sharp == pytest.approx(min(value, 180.0 - value), abs=0.006)
+        assert degrees(atan2(across, along)) == pytest.approx(sharp, abs=0.08)
+        assert max(across, along) <= 120 and all(2 * leg == int(2 * leg) for leg in (across, along))

@@ -45,7 +45,7 @@ def velocity_along_link(scene: MistakeContext) -> Iterator[Change]:
 
 
 def tangential_along_link(scene: MistakeContext) -> Iterator[Change]:
-    """N4: the line of aᵗ drawn along the link."""
+    """N4: the line of a^τ drawn along the link."""
     yield from _along_the_link(scene, A, "N4")
 
 
@@ -283,7 +283,7 @@ def normal_by_wrong_formula(scene: MistakeContext) -> Iterator[Change]:
 
 
 def epsilon_of_whole(scene: MistakeContext) -> Iterator[Change]:
-    """E2: ε by the whole acceleration in place of aᵗ."""
+    """E2: ε by the whole acceleration in place of a^τ."""
     motion = scene.kin.acceleration
     for link, turning in scene.turnings(A):
         step = scene.compute(scene.kin.epsilon[link])

@@ -31,6 +31,7 @@ class LimitKind(Enum):
     OVERLAP = "overlap"
     INTERFERENCE = "interference"
     TIPS = "tips"
+    BASE = "base"
 
 
 class BlockingLimit(Struct, frozen=True):
@@ -53,7 +54,7 @@ class BlockingLimit(Struct, frozen=True):
     hard: bool = False
 
     def value(self, pair: Pair) -> Reals:
-        """Return what is compared with the limit: x, s_a/m, ε_α, ρ_p."""
+        """Return what is compared with the limit: x, s_a/m, ε_α, ρ_p, d_a/m."""
         match self.kind:
             case LimitKind.UNDERCUT:
                 return np.asarray(pair.x[self.wheel])
@@ -65,9 +66,11 @@ class BlockingLimit(Struct, frozen=True):
                 return np.asarray(pair.rho_p[self.wheel])
             case LimitKind.TIPS:
                 return pair.tips
+            case LimitKind.BASE:
+                return np.asarray(np.abs(pair.d_a[self.wheel]) / pair.m)
 
     def bound(self, pair: Pair) -> Reals:
-        """Return the limit itself: x_min, the least s_a/m or ε_α, ρ_l."""
+        """Return the limit itself: x_min, the least s_a/m or ε_α, ρ_l, d_b/m."""
         match self.kind:
             case LimitKind.UNDERCUT:
                 return np.asarray(pair.x_min[self.wheel])
@@ -75,6 +78,8 @@ class BlockingLimit(Struct, frozen=True):
                 return np.asarray(pair.rho_l[self.wheel])
             case LimitKind.TIPS:
                 return np.asarray(0.0)
+            case LimitKind.BASE:
+                return np.asarray(np.abs(pair.d_b[self.wheel]) / pair.m)
             case _:
                 return np.asarray(self.least)
 
@@ -98,6 +103,10 @@ def limits(tip: float, overlap: float, *, internal: bool = False) -> tuple[Block
         *(BlockingLimit(LimitKind.TIP, k, tip) for k in wheels),
         BlockingLimit(LimitKind.OVERLAP, None, overlap),
     )
+
+
+BASES = tuple(BlockingLimit(LimitKind.BASE, k, hard=True) for k in (0, 1))
+"""Beyond them a tooth has no involute: they bound the contour, and no pair that is ever asked."""
 
 
 def is_kept(pair: Pair, asked: tuple[BlockingLimit, ...]) -> Reals:

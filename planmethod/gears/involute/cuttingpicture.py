@@ -7,7 +7,7 @@ after, seen from the wheel: flank and fillet are what these positions leave. Mil
 
 from __future__ import annotations
 
-from cmath import phase
+from cmath import phase, rect
 from collections.abc import Iterator
 from math import pi
 
@@ -280,9 +280,28 @@ def _dimensions(
         drawn, middle = _arc_dimension(view, start, end)
         away = unit(view.centre - middle)
         yield drawn, Label(typeset(text, letter), middle, prefer=away, name=text, manner=BUSY)
+    if not tooth.pair.beta:  # across the axis of a helical wheel the tip is no arc
+        text = told("ρ_{f}", rack.rho * cutting.m)
+        drawn, centre = _tip_radius(view)
+        yield drawn, Label(typeset(text, letter), centre, prefer=1 + 1j, name=text, manner=BUSY)
     yield _height(
         view, told(f"h_{{{number}}}", (tooth.size("d_a") - tooth.size("d_f")) / 2), letter
     )
+
+
+def _tip_radius(view: CuttingView) -> tuple[list[Item], complex]:
+    """Return the radius of the rack's tips on the bottom of the space to the right, its centre.
+
+    The space is as round as the tooth, and has white above it.
+    """
+    cutting = view.cutting
+    rack = cutting.tooth.pair.rack
+    centre = complex(-rack.corner.imag, pi / 2 - rack.corner.real)
+    way = rect(rack.rho, -(pi / 2 - rack.alpha) / 2)  # to the middle of the arc
+    ends = [cutting.displacement + at * cutting.m for at in (centre, centre + way)]
+    start, tip = (complex(at) for at in view.of_rack(np.array(ends), -1))
+    line = Stroke((start, tip), Pen.THIN, tag="dimension")
+    return [line, *arrowhead(tip, unit(tip - start), length=2.5, tag="dimension")], start
 
 
 def _arcs(view: CuttingView) -> Iterator[tuple[str, float, float, float]]:

@@ -12,7 +12,7 @@ from msgspec import Struct
 from shapely import Polygon, contains_xy, prepare, union_all
 
 from planmethod.construct.scale import series_near
-from planmethod.gears.involute.blocking import BlockingLimit, LimitKind, is_kept
+from planmethod.gears.involute.blocking import BASES, BlockingLimit, LimitKind, is_kept
 from planmethod.gears.involute.meshpicture import nearest_scale
 from planmethod.gears.involute.quantities import SolvedMeshing
 from planmethod.gears.involute.sizes import Reals
@@ -38,6 +38,7 @@ _DENSER = 6  # times as many points as where a curve crosses the grid
 _SERIES = (1.0, 2.0, 2.5, 4.0, 5.0, 8.0)  # mm for a unit of the shifts, times a power of ten
 _LETTERS = 30.0  # mm: room that the letters around a diagram take
 _MARGIN = 0.05  # of the window: white around the contour
+_INSIDE = 1e-3  # gradients from a curve at which other margins end to where they are
 _POLISHED = 8  # steps that bring a point of the grid's curve to the curve itself
 _NAMED = 14.0  # mm: shorter parts of a curve have no name
 _BEYOND = 1.2  # of the active end: how far the line of action of an internal pair is drawn
@@ -109,8 +110,9 @@ def curves(
     hard = tuple(one for one in solved.limits if one.hard)
     grid = window.grid(_FINE)
     every = solved.pair.shifted(grid)
+    ragged = region.buffer(3 * (window.right - window.left) / _COARSE)
     prepare(region)
-    for limit in solved.limits:
+    for limit in (*solved.limits, *BASES):
         parts: list[Reals] = []
         others = tuple(one for one in hard if one is not limit)
         with np.errstate(all="ignore"):
@@ -119,8 +121,12 @@ def curves(
             places = np.linspace(0, len(line) - 1, _DENSER * len(line))
             whole = np.stack([np.interp(places, range(len(line)), column) for column in line.T])
             points = _polished(solved, limit, whole)
-            shown = is_kept(solved.pair.shifted(points), others).astype(bool)
-            shown &= contains_xy(region, *points)
+            within, near = points, region
+            if limit in BASES:  # the other margins end there as well: no grid leads up to it
+                within = points + _INSIDE * _slope(solved, limit, points)
+                near = ragged
+            shown = is_kept(solved.pair.shifted(within), others).astype(bool)
+            shown &= contains_xy(near, *points)
             edges = np.flatnonzero(np.diff(shown.astype(int))) + 1
             runs = np.split(np.arange(points.shape[1]), edges)
             parts += [points[:, run] for run in runs if len(run) > 1 and shown[run[0]]]
@@ -129,18 +135,30 @@ def curves(
 
 def _polished(solved: SolvedMeshing, limit: BlockingLimit, points: Reals) -> Reals:
     """Bring points near a curve onto it, along the gradient of the margin (Newton's method)."""
-    small = 1e-6
     with np.errstate(all="ignore"):
         for _ in range(_POLISHED):
-            here = limit.margin(solved.pair.shifted(points))
-            slope = np.stack(
-                [
-                    (limit.margin(solved.pair.shifted(points + small * way)) - here) / small
-                    for way in (np.array([[1.0], [0.0]]), np.array([[0.0], [1.0]]))
-                ]
-            )
+            here, slope = limit.margin(solved.pair.shifted(points)), _slope(solved, limit, points)
             points = points - slope * here / np.sum(slope**2, axis=0)
     return np.asarray(points[:, np.isfinite(points).all(axis=0)])
+
+
+def _slope(solved: SolvedMeshing, limit: BlockingLimit, points: Reals) -> Reals:
+    """Return the gradient of a margin at some shifts, shape (2, n)."""
+    small, here = 1e-6, limit.margin(solved.pair.shifted(points))
+    ways = np.array([[1.0], [0.0]]), np.array([[0.0], [1.0]])
+    moved = [limit.margin(solved.pair.shifted(points + small * way)) for way in ways]
+    return np.stack([(there - here) / small for there in moved])
+
+
+def _joined(part: Reals, bounds: list[Reals], step: float) -> Reals:
+    """Return a curve at which others cease, its ends on them where they are within a step."""
+    others = np.hstack(bounds)
+    for k in (0, -1):
+        far = np.hypot(*(others - part[:, [k]]))
+        nearest = others[:, [int(np.argmin(far))]]
+        if float(np.min(far)) < step:
+            part = np.hstack([nearest, part] if k == 0 else [part, nearest])
+    return part
 
 
 # The contour ------------------------------------------------------------------------------------
@@ -157,7 +175,16 @@ class Contour(Struct, frozen=True):
     def of(cls, solved: SolvedMeshing) -> Contour:
         """Return the contour of a pair."""
         window = window_of(solved, working(solved, Window(LOW, HIGH, LOW, HIGH)))
-        return cls(solved, window, list(curves(solved, working(solved, window), window)))
+        parts = list(curves(solved, working(solved, window), window))
+        step = 2 * (window.right - window.left) / _FINE
+        bounds = [
+            part for limit, found in parts if limit.hard and limit not in BASES for part in found
+        ]
+        parts = [
+            (limit, [_joined(part, bounds, step) if limit in BASES else part for part in found])
+            for limit, found in parts
+        ]
+        return cls(solved, window, parts)
 
 
 def contour_picture(
@@ -218,6 +245,8 @@ def _sign(limit: BlockingLimit, say: Notation) -> str:
         case LimitKind.TIP:
             share = f"{say.given(limit.least)}m" if limit.least else "0"
             return f"s_{{a{number}}} = {share}"
+        case LimitKind.BASE:
+            return f"d_{{a{number}}} = d_{{b{number}}}"
         case LimitKind.TIPS:
             return "Δφ = 0"
         case LimitKind.OVERLAP:

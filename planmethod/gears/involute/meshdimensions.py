@@ -1,8 +1,8 @@
-"""Dimensions on the picture of a mesh (размеры на картине зацепления): p, s, e, h, c, and breaks.
+"""Dimensions on the picture of a mesh (размеры на картине зацепления): p, s, e, h, c, r, breaks.
 
 The pitch and its parts stand along the reference circle of wheel 1 on the side that has no letters
 of circles, the height of the tooth beside the teeth of wheel 2, the clearance on the line of
-centres.
+centres; the radii run from the centres, between the line of centres and the base radius.
 """
 
 from __future__ import annotations
@@ -17,6 +17,7 @@ from planmethod.gears.involute.meshpicture import MeshView
 from planmethod.render.ink.drawing import Item, Pen, Stroke
 from planmethod.render.ink.typeset import typeset
 from planmethod.render.labels import BUSY, Label
+from planmethod.render.symbols import arrowhead
 from planmethod.render.symbols.axes import wavy_line
 from planmethod.render.symbols.dimensions import angle_dimension, dimension
 
@@ -29,6 +30,9 @@ _DOWN = (9.0, 18.0)  # mm: from the root circle to the dimensions of s and e, an
 _TAIL = 1.5  # mm: of an extension line beyond the dimension line
 _ASIDE = 4.0  # mm: from the outermost tooth to the dimension of its height
 _BREAK = 16.0  # mm: length of a line of break
+_HEAD = 2.5  # mm: arrowhead of a radius
+_WITHIN = 3.6  # half pitches: how far from the line of centres the tip radius stands, times 1.5
+_NAMED = {"f": 0.55, "a": 0.4}  # where along radii their letters stand
 _OUT = 9.0  # mm: from the line of centres to the dimension of the clearance
 
 
@@ -36,7 +40,7 @@ def mesh_dimensions(view: MeshView, height: float) -> tuple[list[Item], list[Lab
     """Return the dimensions of a picture and their letters, of a height in mm."""
     items: list[Item] = []
     named: Named = []
-    for parts, letters in (_pitch(view), _height(view), _clearance(view)):
+    for parts, letters in (_pitch(view), _height(view), _clearance(view), *_radii(view)):
         items += parts
         named += letters
     for wheel in (0, 1):
@@ -97,6 +101,34 @@ def _clearance(view: MeshView) -> tuple[list[Item], Named]:
         return [], []
     items = dimension(tip, root, complex(_OUT), tag=TAG)
     return items, [("c", (tip + root) / 2 + _OUT, 1 + 1j)]
+
+
+def _radii(view: MeshView) -> Iterator[tuple[list[Item], Named]]:
+    """Yield the radii of the wheels whose centres are drawn: r_w, r_f, r_a, r_b.
+
+    That of the base circle and the working one have their lines, to N and to P; a ring has its
+    centre on the side of the other wheel, where they would cover one another.
+    """
+    for wheel, tooth in enumerate(view.solved.teeth):
+        if tooth.side < 0 or view.is_broken(wheel):
+            continue
+        centre, number = view.centre(wheel), wheel + 1
+        foot = view.on_line(0.0 if wheel == 0 else float(view.solved.pair.line))
+        turn = float(np.angle((foot - centre) / -centre))
+        named: Named = [
+            (f"r_{{w{number}}}", centre / 2, complex(-np.sign((foot - centre).real))),
+            (f"r_{{b{number}}}", (centre + foot) / 2, (foot - centre) * 1j * np.sign(turn)),
+        ]
+        items: list[Item] = []
+        for name, share in (("f", 1 / 3), ("a", 2 / 3)):
+            least = min(share * abs(turn), _WITHIN * share * pi / tooth.z)
+            way = -centre / abs(centre) * np.exp(1j * np.sign(turn) * least)
+            tip = centre + _radius(view, wheel, f"d_{name}") * complex(way)
+            items.append(Stroke((centre, tip), Pen.THIN, tag=TAG))
+            items += arrowhead(tip, complex(way), length=_HEAD, tag=TAG)
+            middle = centre + _NAMED[name] * (tip - centre)
+            named.append((f"r_{{{name}{number}}}", middle, complex(way) * 1j * np.sign(turn)))
+        yield items, named
 
 
 def _breaks(view: MeshView, wheel: int) -> Iterator[Item]:

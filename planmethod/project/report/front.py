@@ -50,7 +50,7 @@ LINKS = ("n", "ω", "ε", "φ", "m", "J", "length")
 def title_page(report: Report) -> TitlePage:
     """Return the first page: what ``[stamp]`` says."""
     problem, said = report.project.problem, report.said["front"]
-    stamp = {key: escape(text) for key, text in problem.stamp.items()}
+    stamp = {key: escape(text) for key, text in problem.title_block.items()}
     kind = said.project if len(report.project.parts) > 1 else said.homework
     designation = stamp.get("designation", "")
     year = re.search(r"\d{4}", stamp.get("author_date") or stamp.get("date", ""))

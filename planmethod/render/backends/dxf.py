@@ -75,6 +75,16 @@ def _escaped(text: str) -> str:
     return _clean(text).replace("^", "^ ").replace("%%", "%%%%%%")
 
 
+def _coded(text: str) -> str:
+    """Return a text of several heights that shows as it stands: no codes in it."""
+    return re.sub(r"([\\{}])", r"\\\1", _clean(text)).replace("^", "^ ")
+
+
+def _stacked(text: str) -> str:
+    """Return an index: what parts a stack in two is told to be a letter."""
+    return re.sub(r"([#/;])", r"\\\1", _coded(text))
+
+
 def _clean(text: str) -> str:
     return re.sub(_NOT_TEXT, "�", text)
 
@@ -102,6 +112,7 @@ class DxfCanvas(Canvas):
         self._lettering: OutlineLettering
         # An item whose meaning the next one tells: the shaft of an arrow, the inside of a joint.
         self._held: Stroke | Disc | None = None
+        self._runs: list[Text] = []  # of one turned inscription
 
     def open(self, width: float, height: float, title: str, lettering: OutlineLettering) -> None:
         """Begin a sheet: layers, line types and the text style."""
@@ -212,8 +223,19 @@ class DxfCanvas(Canvas):
                 hatch.paths.add_polyline_path(_pairs(item.points), is_closed=True)
 
     def text(self, item: Text) -> None:
-        """Draw a run of letters: as text fitted to its width, or as outlines."""
-        self._let_go()
+        """Draw a run of letters: as text fitted to its width, or as outlines.
+
+        A turned inscription, as that of a dimension, is one text with its indices: moved or turned
+        in a CAD program it stays whole.
+        """
+        if not self._runs or item.label != self._runs[0].label:
+            self._let_go()
+        if not self._stroked and item.label and item.angle % 360.0:
+            self._runs.append(item)
+        else:
+            self._run(item)
+
+    def _run(self, item: Text) -> None:
         layer = layer_of_text(item.tag)
         along = exp(1j * radians(item.angle))
         if self._stroked:
@@ -261,12 +283,43 @@ class DxfCanvas(Canvas):
     # Parts ----------------------------------------------------------------------------------------
 
     def _let_go(self) -> None:
-        """Draw the held item as what it is by itself."""
+        """Draw the held item as what it is by itself, and the runs of a turned inscription."""
+        runs, self._runs = self._runs, []
+        if len(runs) > 1:
+            self._inscription(runs)
+        elif runs:
+            self._run(runs[0])
         held, self._held = self._held, None
         if isinstance(held, Stroke):
             self._line(held)
         elif isinstance(held, Disc):
             self._mask(_circle(held.centre, held.radius))
+
+    def _inscription(self, runs: Sequence[Text]) -> None:
+        """Draw the runs of one inscription as a text of several heights."""
+        whole, turn = max(runs, key=lambda run: run.height), exp(1j * radians(runs[0].angle))
+        said = ""
+        for run in runs:
+            if run.height == whole.height:
+                said += _coded(run.text)
+                continue
+            is_above = ((run.at - whole.at) / turn).imag > 0.0
+            index = f"{_stacked(run.text)}^ " if is_above else f"^ {_stacked(run.text)}"
+            said += f"{{\\H{run.height / whole.height:.3g}x;\\S{index};}}"
+        start = min(runs, key=lambda run: (run.at / turn).real)
+        base = ((whole.at - start.at) / turn).imag  # an index may come first
+        at = start.at + (base + whole.height) * 1j * turn  # the upper left corner of the capitals
+        self._space.add_mtext(
+            said,
+            dxfattribs={
+                "layer": layer_of_text(whole.tag),
+                "style": TEXT_STYLE,
+                "char_height": whole.height,
+                "insert": (at.real, at.imag),
+                "attachment_point": 1,
+                "rotation": whole.angle % 360.0,
+            },
+        )
 
     def _mask(self, outline: Sequence[complex]) -> None:
         """Hide what lies under an area, whatever the colour of the screen."""

@@ -15,7 +15,7 @@ import numpy.typing as npt
 from msgspec import Struct, field
 from msgspec.structs import replace
 
-from planmethod.construct.scale import Scale, series_near
+from planmethod.construct.scale import Scale
 from planmethod.errors import AssemblyError
 from planmethod.languages import say
 from planmethod.mechanism.model import FRAME
@@ -28,7 +28,6 @@ from planmethod.problem.model import Problem
 from planmethod.render.backends.canvas import Options
 from planmethod.render.backends.svg import SvgCanvas
 from planmethod.render.ink.drawing import Drawing, Fill, Item, Pen, Stroke, placed
-from planmethod.render.ink.extent import ink_bounds
 from planmethod.render.ink.lettering import in_use
 from planmethod.render.ink.typeset import typeset
 from planmethod.render.live.scene import LETTER, LiveScene, LiveView, Ref
@@ -216,7 +215,7 @@ def film_of(problem: Problem, lang: str, *, frames: int, plans: bool) -> Film:
     StructureError, ProblemError, AssemblyError, SelfCheckError
     """
     words = language(lang)
-    scene = LiveScene(replace(problem, dynamics=None, machine=None), words)
+    scene = LiveScene(replace(problem, dynamics=None, machine=None), words, is_round=True)
     shown = ("scheme", *([PlanKind.VELOCITY.value] if plans else []))
     return _Cutting(scene, [view for view in scene.views if view.id in shown], frames).film()
 
@@ -228,8 +227,6 @@ class _Cutting:
         self.scene, self.views, self.frames = scene, views, frames
         self.drive = scene.problem.drive
         self.origin = scene.construction.draft.origin
-        for view in views:
-            view.per_mm = series_near(0.999 * view.per_mm, up=True)
         self.positions, self.closed = self._exist()
         self.values = scene.sweep.run(self.positions)
 
@@ -307,11 +304,10 @@ class _Cutting:
         if view.id == "scheme":
             made.still += self._traces(view, at)
             for part in scene.parts:
-                start = complex(scene.shown.paper.point(scene.foot(part.link))[part.index])
                 if part.link == FRAME:
                     made.still += placed(part.items, corner, 0.0)
                     continue
-                turn = float(scene.shown.links[part.link].phi_deg[part.index])
+                start, turn = scene.axes(part)
                 own = tuple(placed(part.items, -start * cis(-turn), -turn))
                 turns = self.values[scene.row(f"{part.link}.phi_deg")]
                 made.bodies.append(DrawnBody(own, at(scene.place(scene.foot(part.link))), turns))
@@ -352,12 +348,17 @@ class _Cutting:
             fixed = self.scene.fixed
             ends = [[(complex(x, -y) + corner) * still for x, y in line] for line in fixed]
             lines += [(tail, head) for tail, head in ends]
+            for part in self.scene.parts:
+                if part.link != FRAME:
+                    foot = at(self.scene.place(self.scene.foot(part.link)))
+                    turns = np.radians(self.values[self.scene.row(f"{part.link}.phi_deg")])
+                    way = np.exp(1j * turns)
+                    lines += [(foot + a * way, foot + b * way) for a, b in self.scene.bars(part)]
         tails, heads = (np.array([line[k] for line in lines]) for k in (0, 1))
         # Boxes that are taken: their middles in every frame, half their widths and heights.
         blocks = self.scene.blocks if view.id == "scheme" else []
         taken = [(at(ref), float(half), float(half)) for ref, half in blocks]
-        for support in self.scene.drawing.supports if view.id == "scheme" else []:
-            x0, y0, x1, y1 = ink_bounds(list(support.items()))
+        for x0, y0, x1, y1 in self.scene.supports if view.id == "scheme" else []:
             middle = complex(x0 + x1, y0 + y1) / 2 + corner
             taken.append((middle * still, (x1 - x0) / 2, (y1 - y0) / 2))
         for label in view.labels:

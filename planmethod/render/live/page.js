@@ -295,6 +295,13 @@ function label(view, out) {
   const [left, top, width, height] = view.box, placed = [];
   const bars = [...view.segments, ...view.pushes].filter(one => one.ends).map(one => one.ends);
   bars.push(...view.fixed);
+  placed.push(...view.supports);
+  for (const one of view.rods) {
+    const [x, y] = point(view, out, one.at, 1), turn = out[one.turn] * Math.PI / 180;
+    const [c, s] = [Math.cos(turn), Math.sin(turn)];
+    const end = (a, b) => [x + a * c - b * s, y - a * s - b * c];
+    for (const [a, b, u, v] of one.bars) bars.push([end(a, b), end(u, v)]);
+  }
   const block = ([x, y], half) => placed.push([x - half, y - half, x + half, y + half]);
   for (const [ref, half] of view.blocks) block(point(view, out, ref, view.times), half);
   for (const one of view.turns) if (one.shown) block(one.centre, 5.5);

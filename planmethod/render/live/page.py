@@ -110,15 +110,12 @@ class _Page:
 
     def _parts(self) -> Iterator[str]:
         """Yield the parts of the scheme, those of a link in its own axes."""
-        shown = self.scene.shown
         for number, part in enumerate(self.scene.parts):
             drawn = self.canvas.parts(part.items)
             if part.link == FRAME:
                 yield f"<g>{drawn}</g>"
                 continue
-            place = self.scene.foot(part.link)
-            start = complex(shown.paper.point(place)[part.index])
-            turn = float(shown.links[part.link].phi_deg[part.index])
+            start, turn = self.scene.axes(part)
             back = f"rotate({turn:.6f}) translate({-start.real:.5f} {start.imag:.5f})"
             yield f'<g id="part-{number}"><g transform="{back}">{drawn}</g></g>'
 
@@ -261,12 +258,33 @@ class _Page:
             "pushes": view.pushes,
             "fixed": self.scene.fixed if view.id == "scheme" else [],
             "blocks": self.scene.blocks if view.id == "scheme" else [],
+            "rods": self._rods() if view.id == "scheme" else [],
+            "supports": [
+                [left, -high, right, -low] for left, low, right, high in self.scene.supports
+            ]
+            if view.id == "scheme"
+            else [],
             "apart": view.id.startswith("forces"),
         }
         origin = self.scene.construction.draft.origin
         if view.id == "scheme" and origin:
             told["origin"] = [origin.real, origin.imag]
         return told
+
+    def _rods(self) -> list[dict[str, Any]]:
+        """Return the lines of the moving parts that inscriptions keep clear of."""
+        return [
+            {
+                "at": self.scene.place(self.scene.foot(part.link)),
+                "turn": self.scene.row(f"{part.link}.phi_deg"),
+                "bars": [
+                    [round(v, 3) for end in bar for v in (end.real, end.imag)]
+                    for bar in self.scene.bars(part)
+                ],
+            }
+            for part in self.scene.parts
+            if part.link != FRAME
+        ]
 
 
 def _plain(markup: str) -> str:

@@ -7,13 +7,14 @@ inscriptions hang on outputs. Lengths in millimetres are told at the scales of t
 from __future__ import annotations
 
 from collections.abc import Callable
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
 import numpy.typing as npt
 from msgspec import Struct, field
 
-from planmethod.construct.scale import Scale
+from planmethod.construct.scale import Scale, series_near
 from planmethod.construct.steps import Hold, Name, PointName
 from planmethod.errors import AssemblyError
 from planmethod.mechanism.model import FRAME
@@ -21,12 +22,14 @@ from planmethod.note.narrate.forces.statement import link_names
 from planmethod.note.narrate.given import point_name
 from planmethod.note.narrate.letters import mark, shown_letters
 from planmethod.note.wording import Language
+from planmethod.plans.draft import cis
 from planmethod.plans.forces.polygons import Edge, Share
 from planmethod.plans.legend import Quantity, QuantityKind
 from planmethod.plans.model import FACTS, RATES, PlanKind
 from planmethod.plans.motion.position import link_of_axis
 from planmethod.problem.model import Problem
 from planmethod.render.ink.drawing import Stroke
+from planmethod.render.ink.extent import ink_bounds
 from planmethod.render.live.loads import cycle_deg, moving_loads
 from planmethod.render.live.parts import MovingPart, parts_of
 from planmethod.render.pictures.planview import COMPONENTS, similar_lines
@@ -86,6 +89,8 @@ class LiveScene:
     ----------
     problem : Problem
     words : Language
+    is_round : bool
+        The scales are of the series, else as the boxes are filled best.
 
     Attributes
     ----------
@@ -104,8 +109,8 @@ class LiveScene:
         There is no position at all.
     """
 
-    def __init__(self, problem: Problem, words: Language) -> None:
-        self.problem, self.words = problem, words
+    def __init__(self, problem: Problem, words: Language, *, is_round: bool = False) -> None:
+        self.problem, self.words, self.is_round = problem, words, is_round
         self._drawn: dict[Name, int] = {}
         self.flywheel = None
         if problem.machine is not None:
@@ -135,14 +140,29 @@ class LiveScene:
         self.parts, self.drawing = parts_of(self.shown, LETTER)
         self._fit()
         # What inscriptions keep clear of beside the segments: of the frame, and the sliders.
-        self.fixed = [
-            [[end.real, -end.imag] for end in item.points[:2]]
-            for part in self.parts
-            for item in part.items
-            if part.link == FRAME and isinstance(item, Stroke) and _long(item)
-        ]
+        still = [bar for part in self.parts if part.link == FRAME for bar in self.bars(part)]
+        self.fixed = [[[end.real, -end.imag] for end in bar] for bar in still]
+        self.supports = [ink_bounds(list(one.items())) for one in self.drawing.supports]
         self.blocks: list[tuple[Ref, float]] = [
             (self.place(slide.pin), 5.0) for slide in problem.slides.values()
+        ]
+
+    def axes(self, part: MovingPart) -> tuple[complex, float]:
+        """Return the origin of a link's own axes where its part is drawn, mm, and their turn, °."""
+        if part.link == FRAME:
+            return 0j, 0.0
+        start = complex(self.shown.paper.point(self.foot(part.link))[part.index])
+        return start, float(self.shown.links[part.link].phi_deg[part.index])
+
+    def bars(self, part: MovingPart) -> list[tuple[complex, complex]]:
+        """Return the lines of a part that inscriptions keep clear of, in its own axes, mm."""
+        start, turn = self.axes(part)
+        return [
+            ((tail - start) * cis(-turn), (head - start) * cis(-turn))
+            for item in part.items
+            if isinstance(item, Stroke)
+            for tail, head in pairwise([*item.points, *(item.points[:1] if item.closed else ())])
+            if abs(head - tail) > SIZES.hatch_stroke
         ]
 
     # Outputs ---------------------------------------------------------------------------------
@@ -355,7 +375,7 @@ class LiveScene:
         self.scales[PlanKind.LEVER] = self.scales[PlanKind.VELOCITY]
         places = self._of_places()
         extent = max(np.ptp(places.real) / BOX[0], np.ptp(places.imag) / BOX[1])
-        per_mm = float(extent) or 1.0
+        per_mm = self._scale(float(extent))
         unit = {kind: Scale(FACTS[kind].scale, 1.0, FACTS[kind].unit) for kind in PlanKind}
         unit[PlanKind.POSITION] = Scale("mu_l", per_mm, "m")
         chosen = able if able.size else mine
@@ -416,8 +436,14 @@ class LiveScene:
             sizes = np.maximum(np.ptp(ends.real, axis=0), np.ptp(ends.imag, axis=0))
             ends = ends[:, sizes <= OUTLIER * np.median(sizes)] if sizes.size else np.zeros((1, 1))
             extent = max(np.ptp(ends.real) / BOX[0], np.ptp(ends.imag) / BOX[1])
-            view.per_mm = float(extent) or 1.0
+            view.per_mm = self._scale(float(extent))
             view.box = _box(ends.ravel() / view.per_mm, 22.0 if view.pushes else 13.0)
+
+    def _scale(self, extent: float) -> float:
+        """Return the scale of a view that fills its box, or the next of the series."""
+        if not extent:
+            return 1.0
+        return series_near(0.999 * extent, up=True) if self.is_round else extent
 
     def _values(self, ref: Ref) -> Array:
         place = self.values[ref[0]] + 1j * self.values[ref[0] + 1]
@@ -460,10 +486,6 @@ def kind_of(view: LiveView) -> PlanKind:
     """Return the plan that a view shows."""
     name = {"scheme": "position"}.get(view.id, view.id.partition("-")[0])
     return PlanKind.FORCE if name == "forces" else PlanKind(name)
-
-
-def _long(item: Stroke) -> bool:
-    return abs(item.points[1] - item.points[0]) > 1.5 * SIZES.hatch_stroke
 
 
 def _box(places: Array, margin: float) -> tuple[float, float, float, float]:

@@ -358,7 +358,7 @@ def _drawn(
     title = title or problem.title
     layers = ({"title": page.title} if page.title else {}, fields)
     numbers = furniture.numbers(number, count)
-    texts = merged({"title": title, "sheets": "1"}, problem.stamp, numbers, *layers)
+    texts = merged({"title": title, "sheets": "1"}, problem.title_block, numbers, *layers)
     if page.paper:
         fmt, furniture = paper_format(page.paper), replace(furniture, form=SMALL)
     drawing = Drawing(fmt.width, fmt.height, texts.get("title", title))
