@@ -13,7 +13,8 @@ from planmethod.note.formula import escape, fraction
 from planmethod.note.numbers import MINUS, Notation, trimmed, with_unit
 from planmethod.note.wording import Language
 from planmethod.plans.legend import MOTION_KINDS, TURNINGS, Quantity, QuantityKind
-from planmethod.plans.motion.leads import has_slot_name, slot_name
+from planmethod.plans.model import Relation
+from planmethod.plans.motion.leads import has_slot_name, slot_name, track_direction
 from planmethod.problem.head import KindProblem
 from planmethod.problem.model import Body, Drive, Geared, Lifted, Posed, PosedBy, Problem, Slide
 from planmethod.problem.names import UNITS, split_names
@@ -303,13 +304,14 @@ def _third_points(link: str, body: Body, named: set[str], text: As) -> list[str]
             if f"{start}{point}" not in named and f"{point}{start}" not in named:
                 lines.append(f"l_{{{start}{point}}} = {text.metres(abs(form.at), at)}")
         else:
-            axis = form.line if form.kind == "on" else body.axis or (start, points[0])
+            axis = form.line if form.kind == "on" else body.axis
+            along = _line(*axis) if axis else _own_way(link, (start, points[0]), text)
             across = text.metres(form.across, f"{_path(link, point)}.across")
             lines.append(
                 note.given_along.format(
                     point=point_name(point),
                     at=text.metres(form.at, at),
-                    line=_line(*axis),
+                    line=along,
                     start=point_name(start),
                     across=across,
                 )
@@ -322,6 +324,21 @@ def _third_points(link: str, body: Body, named: set[str], text: As) -> list[str]
             said = f"({''.join(letters[:2])}, {''.join(letters[2:])})"
         lines.append(f"∠{said} = {angle}")
     return lines
+
+
+def _own_way(link: str, letters: tuple[str, str], text: As) -> str:
+    """Return what the own axis of a link without letters for it is called: its slide's line."""
+    problem = text.problem
+    slides = [s for s in problem.slides.values() if link in (s.slider, s.host)]
+    if not slides:
+        return _line(*letters)
+    slide = min(slides, key=lambda s: s.slider != link)
+    told = track_direction(slide, problem)
+    if told.guide:
+        return told.guide
+    if told.relation is Relation.ALONG:
+        return _line(*told.points)
+    return text.words.note.given_way.format(link=slide.host)
 
 
 def _line(start: str, end: str) -> str:

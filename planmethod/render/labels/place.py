@@ -130,6 +130,11 @@ class _Places:
         self.strangers = list(
             dict.fromkeys(label.anchor for label in self.labels if label.manner.stranger)
         )
+        self.lines = list(
+            dict.fromkeys(
+                label.along for label in self.labels if label.along and label.manner.stranger
+            )
+        )
         sets = [near(label) for label in self.labels]
         self.choices = [[choice] for choice in self._free(sets)]
         self.others = Others(self.labels)
@@ -221,7 +226,7 @@ class _Places:
             rest = np.setdiff1d(np.arange(len(every.boxes)), free, assume_unique=True)
             costs = np.empty(len(every.boxes))
             costs[free] = choice.costs
-            (costs[rest],) = self.paper.costs([every.chosen(rest)], self.strangers)
+            (costs[rest],) = self.paper.costs([every.chosen(rest)], self.strangers, self.lines)
             choice = self.choices[k][number] = self._choice(every, costs)
         return choice
 
@@ -244,7 +249,7 @@ class _Places:
         """Return the free places of sets, with their costs."""
         free = self.paper.free(sets)
         chosen = [every.chosen(rows) for every, rows in zip(sets, free, strict=True)]
-        costs = self.paper.costs(chosen, self.strangers, free=True)
+        costs = self.paper.costs(chosen, self.strangers, self.lines, free=True)
         known = zip(chosen, costs, sets, strict=True)
         return [self._choice(*one) for one in known]
 
@@ -346,7 +351,7 @@ class _Places:
         for number in (0, 1):
             choice = self._wider(k, number)
             candidates = choice.every or choice.candidates
-            (costs,) = self.paper.costs([candidates], self.strangers, breaking=True)
+            (costs,) = self.paper.costs([candidates], self.strangers, self.lines, breaking=True)
             best = self._cheapest(k, self._choice(candidates, costs))
             if best.cost < CROSSED:
                 best.ground = True
