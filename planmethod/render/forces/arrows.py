@@ -19,7 +19,7 @@ from planmethod.render.ink.drawing import Arc, Disc, Fill, Item, Pen, Stroke
 from planmethod.render.ink.extent import arc_points
 from planmethod.render.ink.typeset import typeset, vector_markup
 from planmethod.render.labels import BUSY, Label
-from planmethod.render.symbols import turn_arrow, unit, vector_arrow
+from planmethod.render.symbols import FORCE, turn_arrow, unit, vector_arrow
 
 LENGTH = 22.0
 """Length of the arrow of a force on a link, mm: the same for all, whatever the force."""
@@ -27,10 +27,8 @@ LENGTH = 22.0
 HEAD = 4.0
 """Length of its head, mm."""
 
-FORCE = "force"
 COUPLE = "couple"
-PLAN_FORCE = "plan-force"
-"""First words of the tags of arrows; the second is the letter. Those of plans are to scale."""
+"""First word of the tags of circular arrows; the second is the letter."""
 
 MANNER = replace(BUSY, leader_from=4.5, stranger=25.0)
 """How the letter of a force looks for its place: nearest to its own arrow, or with a leader."""

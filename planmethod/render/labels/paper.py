@@ -89,9 +89,9 @@ class Paper:
     ) -> list[Floats]:
         """Return the costs of all places but for the other labels, one array for each label.
 
-        ``strangers`` are the points that labels name, ``lines`` the segments. Places that are ``free`` need not be looked
-        at again for what they stand on. With ``breaking`` a label on thin lines costs little: it
-        will break them.
+        ``strangers`` are the points that labels name, ``lines`` the segments. Places that are
+        ``free`` need not be looked at again for what they stand on. With ``breaking`` a label on
+        thin lines costs little: it will break them.
         """
         led = np.concatenate([c.led for c in many])
         manners = [c.label.manner for c in many]
@@ -239,14 +239,14 @@ def _other_line_costs(
     boxes = candidates.boxes[ask]
     own = distances(boxes, _along(label.along)).min(axis=1)
     other = distances(boxes, np.concatenate([_along(line) for line in others])).min(axis=1)
-    nearer = np.where(candidates.led[ask], other < AT_LINE, other < own + 0.4)
+    nearer = np.where(candidates.led[ask], other < AT_LINE, other < 1.3 * own + 0.4)
     costs[ask] = np.where(nearer, label.manner.stranger, 0.0)
     return costs
 
 
 def _along(line: tuple[complex, complex]) -> NDArray[np.complex128]:
     """Return places along a segment, mm."""
-    return line[0] + (line[1] - line[0]) * _PARTS
+    return np.asarray(line[0] + (line[1] - line[0]) * _PARTS, dtype=np.complex128)
 
 
 _PARTS = np.linspace(0.0, 1.0, 6)

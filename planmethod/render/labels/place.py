@@ -35,6 +35,8 @@ _POOR = 45.0  # cost from which a better place is looked for, though others have
 _WORTH = 5.0  # what must be won by it
 _SENT_AWAY = 2  # most labels that one may send elsewhere
 _TRIED = 12  # places for which it may
+_LONG = 30.0  # length of a leader line from which a letter rather breaks thin lines, mm
+_FEW_BROKEN = CROSSED / 2  # cost up to which it does: four lines or so
 _HOPELESS = 2  # labels without room: mending never made so many free in 143 crowded schemes
 
 
@@ -86,6 +88,8 @@ def _placed(
         places.send_away(k)
     for k in places.unfree() if breaking else ():
         places.break_lines(k)
+    for k in places.far_away():
+        places.come_near(k)
     places.fill([k for k, label in enumerate(labels) if label.optional])
     return places.result()
 
@@ -359,6 +363,26 @@ class _Places:
                 return
         best = self._cheapest(k, self._whole(k, 2))
         if best.cost < self._cost(k):
+            self._take(k, best)
+
+    def far_away(self) -> list[int]:
+        """Return the letters of a crowd at the ends of leader lines that the eye follows badly."""
+        crowd = (k for k in self._firm if self.labels[k].manner is not ALONE)
+        return [k for k in crowd if k not in self.lined and self._leader(k) > _LONG]
+
+    def _leader(self, k: int) -> float:
+        """Return the length of the leader line of a label, mm; none where it has none."""
+        candidates, row = self.taken[k].choice.candidates, self.taken[k].row
+        return float(np.nan_to_num(abs(candidates.ends[row] - candidates.starts[row])))
+
+    def come_near(self, k: int) -> None:
+        """Put a letter at the end of a long leader line beside its point on a few thin lines."""
+        choice = self._wider(k, 0)
+        candidates = choice.every or choice.candidates
+        (costs,) = self.paper.costs([candidates], self.strangers, self.lines, breaking=True)
+        best = self._cheapest(k, self._choice(candidates, costs))
+        if best.cost < _FEW_BROKEN:
+            best.ground = True
             self._take(k, best)
 
     def result(self) -> tuple[Placed, ...]:
