@@ -50,6 +50,7 @@ _VECTORS = {*(kind.value for kind in VectorKind), "similar"}
 """Tags of vectors and of the sides of similar figures, which the letters at their ends name."""
 
 _POINTS = ("point ", *(f"{kind.value} " for kind in PlanKind))
+_FORCES = (f"{FORCE} ", f"{PLAN_FORCE} ")
 _SAME = 1.0  # mm: points nearer to each other are one for the eye
 
 Arrows = dict[str, BaseGeometry]
@@ -139,13 +140,14 @@ def _of_other_forces(
     """Find letters of forces without a leader line that stand at the arrow of another force."""
     led = {item.tag for item in items if isinstance(item, Stroke) and item.tag.startswith(LED)}
     for view in views:
-        arrows = {
-            item.tag.partition(" ")[2]: LineString([(p.real, p.imag) for p in item.points])
-            for item in items
-            if isinstance(item, Stroke)
-            and item.tag.startswith((f"{FORCE} ", f"{PLAN_FORCE} "))
-            and holds(view.box, sum(item.points) / len(item.points))
-        }
+        arrows: Arrows = {}
+        for item in items:
+            if not (isinstance(item, Stroke) and item.tag.startswith(_FORCES)):
+                continue
+            if holds(view.box, sum(item.points) / len(item.points)):
+                symbol = item.tag.partition(" ")[2]
+                line = LineString([(p.real, p.imag) for p in item.points])
+                arrows[symbol] = arrows[symbol].union(line) if symbol in arrows else line
         for writing in writings:
             symbol = writing.name.rpartition(": ")[2]
             if symbol not in arrows or LED + writing.name in led:

@@ -240,7 +240,7 @@ def _other_line_costs(
     own = distances(boxes, _along(label.along)).min(axis=1)
     other = distances(boxes, np.concatenate([_along(line) for line in others])).min(axis=1)
     nearer = np.where(candidates.led[ask], other < AT_LINE, other < 1.3 * own + 0.4)
-    costs[ask] = np.where(nearer, label.manner.stranger, 0.0)
+    costs[ask] = np.where(nearer, 2.0 * label.manner.stranger, 0.0)
     return costs
 
 
