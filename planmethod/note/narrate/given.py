@@ -68,17 +68,18 @@ def given(problem: Problem, words: Language, positions: Sequence[float] | None =
         if place != 0:
             lines += _coordinates(point, place, text, f"frame.{point}")
     carried = {slide.label for slide in problem.slides.values() if slide.host == FRAME}
+    told: set[str] = set()
     for guide, (through, base, angle) in problem.guides.items():
         if through is None:
             lines += _guide(guide, base, angle, text)
         elif guide in carried:
-            point = point_name(through)
-            name = problem.guide_name(guide)
-            lines.append(words.note.given_through.format(guide=name, point=point))
+            beside = _beside(guide, problem)
+            lines.append(_given_guide(guide, through, beside, text))
+            told |= set() if beside is None else {beside.slider}
     pins = [slide.pin for slide in problem.slides.values() if slide.offset]
     for slide in problem.slides.values():
         lines += _carried(problem, slide, text)
-        if slide.offset:
+        if slide.offset and slide.slider not in told:
             name = slide.pin if pins.count(slide.pin) == 1 else f"{slide.pin}{slide.slider}"
             offset = text.metres(slide.offset, _path(slide.slider, "slides.offset"))
             lines.append(f"e_{{{name}}} = {offset}")
@@ -282,6 +283,21 @@ def _lifted(drive: Drive, led: Lifted, text: As) -> list[str]:
         *lines,
         *(f"{name} = {say.found(rate)} {say.units[unit]}" for name, rate, unit in rates),
     ]
+
+
+def _beside(guide: str, problem: Problem) -> Slide | None:
+    """Return the one slide of a guide, where it runs beside the point that the guide is laid to."""
+    on = [s for s in problem.slides.values() if s.host == FRAME and s.label == guide]
+    return on[0] if len(on) == 1 and on[0].offset else None
+
+
+def _given_guide(guide: str, through: str, beside: Slide | None, text: As) -> str:
+    """Return that a guide passes through a point, or how far from it it is drawn."""
+    name, point, note = text.problem.guide_name(guide), point_name(through), text.words.note
+    if beside is None:
+        return note.given_through.format(guide=name, point=point)
+    offset = text.metres(abs(beside.offset), _path(beside.slider, "slides.offset"))
+    return note.given_beside.format(guide=name, point=point, offset=offset)
 
 
 def _third_points(link: str, body: Body, named: set[str], text: As) -> list[str]:

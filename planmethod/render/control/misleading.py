@@ -25,7 +25,7 @@ from planmethod.render.labels.model import LED
 from planmethod.render.labels.paper import distances
 from planmethod.render.symbols import FORCE, PLAN_FORCE, SLIDER
 
-LEADER = 50.0
+LEADER = 40.0
 """Longest leader line of a letter, mm: the eye does not follow it further."""
 
 AMONG, AT_OTHER = 24.0, 4.0
