@@ -1,7 +1,8 @@
 """Every shipped problem (задачи поставки): solved in its variants, drawn, looked over.
 
 Run ``python -m benchmarks.shipped [PROBLEM]...``; it prints what does not solve, what the norm
-control marks, and the counts.
+control marks, and the counts. With ``--seed`` it is random mechanisms that nobody tuned for,
+written into a folder first: ``--seed 91301 --seed 91302 --written out/random``.
 """
 
 from __future__ import annotations
@@ -12,6 +13,7 @@ from pathlib import Path
 
 import click
 
+from benchmarks.generator import random_problem
 from benchmarks.sheets import positions_of
 from planmethod.commands.problems import guarded
 from planmethod.construct.drafting import PROFILES
@@ -53,6 +55,14 @@ def looked(path: Path, variant: str | None, count: int) -> list[Controlled]:
     return controlled_kinematics(linkage, positions=None if own else positions_of(linkage, count))
 
 
+def _written(seed: int, folder: Path) -> Path:
+    """Write the problem file of a random mechanism; return where it is."""
+    folder.mkdir(parents=True, exist_ok=True)
+    path = folder / f"random-{seed}.toml"
+    path.write_text(random_problem(seed)[0], encoding="utf-8")
+    return path
+
+
 def _files(problems: tuple[Path, ...]) -> Iterator[tuple[Path, list[str | None]]]:
     for path in problems or sorted(home().rglob("*.toml")):
         yield path, [*variant_names(path)] or [None]
@@ -62,9 +72,19 @@ def _files(problems: tuple[Path, ...]) -> Iterator[tuple[Path, list[str | None]]
 @click.argument("problems", nargs=-1, metavar="[PROBLEM]...", type=click.Path(path_type=Path))
 @click.option("--positions", "counts", type=int, multiple=True, default=(1, 3), show_default=True)
 @click.option("--all-variants", is_flag=True, help="Sheets of every variant, not of the first.")
+@click.option("--seed", "seeds", type=int, multiple=True, help="Random mechanisms instead.")
+@click.option("--written", type=click.Path(path_type=Path), default=Path("out/random"),
+              show_default=True, help="Folder for the files of random mechanisms.")  # fmt: skip
 @guarded
-def main(problems: tuple[Path, ...], counts: tuple[int, ...], all_variants: bool) -> None:
+def main(
+    problems: tuple[Path, ...],
+    counts: tuple[int, ...],
+    all_variants: bool,
+    seeds: tuple[int, ...],
+    written: Path,
+) -> None:
     """Solve every shipped problem in all its variants, draw its sheets and look them over."""
+    problems += tuple(_written(seed, written) for seed in seeds)
     files = list(_files(problems))
     tried = failed = 0
     for path, variants in files:

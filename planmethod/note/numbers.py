@@ -137,10 +137,15 @@ class Notation(Struct, frozen=True, eq=False):
         return self.number(trimmed(value, digits))
 
     def ruled(self, value: float) -> str:
-        """Return a length that a ruler has measured, mm; of a finer ruler with more digits."""
-        coarse = f"{value:.1f}"
-        is_coarse = abs(float(coarse) - value) <= 1e-6 * abs(value)
-        return self.number(coarse) if is_coarse else self.short(value)
+        """Return a length that a ruler has measured, mm; of a finer ruler with more digits.
+
+        What no ruler has measured, as it is laid off, has four digits as any computed number.
+        """
+        for decimals in (1, 2):
+            text = f"{value:.{decimals}f}"
+            if abs(float(text) - value) <= 1e-6 * abs(value):
+                return self.number(text)
+        return self.found(value)
 
 
 def in_heads(

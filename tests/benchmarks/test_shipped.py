@@ -38,3 +38,11 @@ def test_what_does_not_solve_is_named_and_counted(tmp_path: Path) -> None:
     assert "short: Cannot place C" in told
     assert "2 files, 2 problems with their variants, 1 unsolved." in told
     assert "| 2 | 1 | 1 | 1 |" in told  # what is not drawn is an error
+
+
+def test_random_mechanisms_are_written_and_looked_over(tmp_path: Path) -> None:
+    asked = ["--seed", "5", "--positions", "1", "--written", str(tmp_path)]
+    told = CliRunner().invoke(main, asked).output
+    assert (tmp_path / "random-5.toml").is_file()
+    assert "1 files, 1 problems with their variants, 0 unsolved." in told
+    assert "| 1 | 1 | 1 | 0 |" in told

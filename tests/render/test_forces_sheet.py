@@ -459,3 +459,11 @@ def test_more_arms_than_a_reader_can_tell_apart_are_left_to_the_equations() -> N
     items, labels = arm_items(arms[1:], [], 3.5, "lever", say)
     assert len(items) == len(labels) == 24
     assert arm_items(arms, [], 3.5, "lever", say) == ([], [])
+
+
+def test_plans_are_drawn_smaller_before_they_are_left_out() -> None:
+    """At their own size the plans of task 1 have no room on A1 beside its forces."""
+    (sheet,) = kinematics_sheets(problem_of("levers/task-1"), layout="forces")
+    kinds = [view.kind for view in sheet.views]
+    assert sheet.width == 841
+    assert {"velocity", "acceleration"} <= {*kinds}

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from msgspec.structs import replace
 from shapely import LineString, box
 
 from planmethod.render.control.texts import lint
@@ -270,6 +271,39 @@ def test_a_crowded_label_breaks_thin_lines_before_thick_ones() -> None:
     (kept,) = place_labels([of_a_series(1, 95 + 70j)], wall, BOUNDS, breaking=False)
     assert not kept.ground
     assert not kept.free
+
+
+def test_a_letter_at_the_end_of_a_long_leader_line_comes_near_on_a_thin_line() -> None:
+    # Free white lies 36 mm off: nearer there is a thin line every 5 mm, and none is thick.
+    grid: list[Item] = [
+        Stroke((complex(x, 0), complex(x, 150)), Pen.THIN) for x in range(62, 140, 4)
+    ]
+    letter = replace(label("O", 100 + 75j), manner=CROWDED)
+    (placed,) = place_labels([letter], grid, BOUNDS)
+    assert placed.ground
+    assert placed.leader is None or abs(placed.leader[1] - placed.leader[0]) < 24
+    heavy: list[Item] = [replace(line, pen=Pen.MAIN) for line in grid if isinstance(line, Stroke)]
+    (far,) = place_labels([letter], heavy, BOUNDS)
+    assert not far.ground
+    assert far.leader is not None
+    assert abs(far.leader[1] - far.leader[0]) > 30
+
+
+def test_the_name_of_a_segment_does_not_stand_at_another_one() -> None:
+    manner = replace(CROWDED, stranger=25.0)
+    one, two = (50 + 50j, 80 + 50j), (50 + 62j, 80 + 62j)
+    # Under both of them is no room: between them the upper one's name is nearer to its own.
+    floor: list[Item] = [Stroke((complex(20, y), complex(110, y))) for y in (46, 48, 65, 67)]
+    names = [
+        replace(segment_label(text, *line), along=line, manner=manner)
+        for text, line in (("F", one), ("G", two))
+    ]
+    placed = place_labels(names, floor, BOUNDS)
+    for found, own, other in ((placed[0], one, two), (placed[1], two, one)):
+        letters = box(*found.bounds)
+        near, far = (letters.distance(LineString([(p.real, p.imag) for p in line]))
+                     for line in (own, other))  # fmt: skip
+        assert near < far
 
 
 def test_a_hundred_labels_in_a_moment() -> None:

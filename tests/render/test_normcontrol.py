@@ -199,6 +199,22 @@ def test_a_long_leader_does_not_end_at_another_point(far: float, off: float, mar
     assert codes(sheet(*items, views=(VIEW,))) == ["PM-D14"] * marked
 
 
+@pytest.mark.parametrize(("at", "led", "marked"), [(8, 0, 0), (3.5, 0, 1), (3.5, 1, 0)])
+def test_the_letter_of_a_force_is_nearest_to_its_own_arrow(
+    at: float, led: int, marked: int
+) -> None:
+    arrows = (
+        Stroke((60 + 160j, 90 + 160j), tag="force F_{1}"),
+        Stroke((60 + 148j, 90 + 148j), tag="force F_{2}"),
+    )
+    name = "loads 0 force 0: F_{1}"
+    letter = word("F", 70 + 148j + 1j * at - 0j, 3.5, label=name)
+    leader = Stroke((80 + 160j, 74 + 154j), Pen.THIN, tag=f"leader of {name}")
+    items = (*arrows, letter, *[leader] * led, *SCALE)
+    found = [f for f in inspect(sheet(*items, views=(VIEW,))) if f.code == "PM-D14"]
+    assert [one.facts["name"] for one in found] == ["F"] * marked
+
+
 def test_every_code_is_shown() -> None:
     # PM-D11 needs lines divided in another way than ours: below, with the dashes.
     assert {*SHOWN, "PM-D11"} == set(REMARKS)
@@ -381,8 +397,12 @@ def forces_at(name: str, mu_F: float | None) -> Controlled:
     return whole
 
 
+def short_segments(whole: Controlled) -> list[Finding]:
+    return [finding for finding in whole.findings if finding.code == "PM-D08"]
+
+
 def test_force_plans_are_told_the_scale_that_mends_them() -> None:
-    (finding,) = forces_at("press/press", 10.0).findings
+    (finding,) = short_segments(forces_at("press/press", 10.0))
     assert (finding.code, finding.view) == ("PM-D08", "forces")
     assert finding.action("en").startswith("Write mu_F = 4 into [scales]: ")
     assert "поместится на А1" in finding.action("ru")
@@ -421,7 +441,7 @@ def test_where_no_scale_of_forces_fits_the_plan_is_to_be_drawn_apart() -> None:
     problem = problem_of("levers/task12")
     given = replace(problem, scales=replace(problem.scales, mu_F=20.0))
     (whole,) = controlled_kinematics(given, layout="forces", positions=[303.45])
-    (finding,) = whole.findings
+    (finding,) = short_segments(whole)
     assert finding.facts["advice"] == "own"
     assert "It needs the scale mu_F = 0.5, but such a plan does not fit A1" in finding.action("en")
 

@@ -13,8 +13,9 @@ from planmethod.note.narrate.steps import calculation
 from planmethod.note.wording import language
 from planmethod.plans.model import PlanKind
 from planmethod.problem.names import fold
-from planmethod.render.ink.drawing import Arc
+from planmethod.render.ink.drawing import Arc, Text
 from planmethod.render.pictures.enlarged import ENLARGED
+from planmethod.render.pictures.planview import knot_pictures, vector_label
 from planmethod.render.sheets.kinematics import kinematics_sheets
 from planmethod.solved.enlarging import NOTHING, RATIOS, SHORT, SHOWN, SMALL, least_shown
 from planmethod.solved.scaling import sizes
@@ -131,3 +132,22 @@ def test_a_sheet_has_a_circle_at_each_knot_and_its_view_with_measured_segments()
     spans = [span for view in sheet.views for span in view.spans]
     assert sum(span.share > 1.0 for span in spans) == sum(len(knot.ends) for knot in knots)
     assert min(span.length for span in spans) >= SHORT
+
+
+def test_a_vector_without_a_name_on_the_plan_has_it_on_its_view() -> None:
+    """Shorter than 5 mm it has no room for one there; on the view it is long enough."""
+    wanted = named = 0
+    for solution in solutions():
+        for kind, knots in solution.knots.items():
+            plan = solution.construction.plan(kind)
+            views = knot_pictures(solution, kind, 0, letter_height=5.0, by_hand=False)
+            for knot, view in zip(knots, views, strict=True):
+                there = {item.label for item in view.items if isinstance(item, Text)}
+                symbols = {frozenset((v.tail, v.head)): v for v in reversed(plan.vectors)}
+                for vector in (symbols[frozenset(ends)] for ends in knot.ends):
+                    length = abs(complex(solution.paper.vector(vector.tail, vector.head)[0]))
+                    if length < SHORT <= length * knot.times:
+                        wanted += 1
+                        named += vector_label(f"{ENLARGED} {knot.number}", vector) in there
+    assert wanted >= 6
+    assert named >= 0.8 * wanted

@@ -13,7 +13,8 @@ from planmethod.note.formula import escape, fraction
 from planmethod.note.numbers import MINUS, Notation, trimmed, with_unit
 from planmethod.note.wording import Language
 from planmethod.plans.legend import MOTION_KINDS, TURNINGS, Quantity, QuantityKind
-from planmethod.plans.motion.leads import has_slot_name, slot_name
+from planmethod.plans.model import Relation
+from planmethod.plans.motion.leads import has_slot_name, slot_name, track_direction
 from planmethod.problem.head import KindProblem
 from planmethod.problem.model import Body, Drive, Geared, Lifted, Posed, PosedBy, Problem, Slide
 from planmethod.problem.names import UNITS, split_names
@@ -67,17 +68,18 @@ def given(problem: Problem, words: Language, positions: Sequence[float] | None =
         if place != 0:
             lines += _coordinates(point, place, text, f"frame.{point}")
     carried = {slide.label for slide in problem.slides.values() if slide.host == FRAME}
+    told: set[str] = set()
     for guide, (through, base, angle) in problem.guides.items():
         if through is None:
             lines += _guide(guide, base, angle, text)
         elif guide in carried:
-            point = point_name(through)
-            name = problem.guide_name(guide)
-            lines.append(words.note.given_through.format(guide=name, point=point))
+            beside = _beside(guide, problem)
+            lines.append(_given_guide(guide, through, beside, text))
+            told |= set() if beside is None else {beside.slider}
     pins = [slide.pin for slide in problem.slides.values() if slide.offset]
     for slide in problem.slides.values():
         lines += _carried(problem, slide, text)
-        if slide.offset:
+        if slide.offset and slide.slider not in told:
             name = slide.pin if pins.count(slide.pin) == 1 else f"{slide.pin}{slide.slider}"
             offset = text.metres(slide.offset, _path(slide.slider, "slides.offset"))
             lines.append(f"e_{{{name}}} = {offset}")
@@ -283,6 +285,21 @@ def _lifted(drive: Drive, led: Lifted, text: As) -> list[str]:
     ]
 
 
+def _beside(guide: str, problem: Problem) -> Slide | None:
+    """Return the one slide of a guide, where it runs beside the point that the guide is laid to."""
+    on = [s for s in problem.slides.values() if s.host == FRAME and s.label == guide]
+    return on[0] if len(on) == 1 and on[0].offset else None
+
+
+def _given_guide(guide: str, through: str, beside: Slide | None, text: As) -> str:
+    """Return that a guide passes through a point, or how far from it it is drawn."""
+    name, point, note = text.problem.guide_name(guide), point_name(through), text.words.note
+    if beside is None:
+        return note.given_through.format(guide=name, point=point)
+    offset = text.metres(abs(beside.offset), _path(beside.slider, "slides.offset"))
+    return note.given_beside.format(guide=name, point=point, offset=offset)
+
+
 def _third_points(link: str, body: Body, named: set[str], text: As) -> list[str]:
     """Return how a link's further points are given, where lengths of its do not tell it."""
     note, points = text.words.note, list(body.points)
@@ -303,13 +320,14 @@ def _third_points(link: str, body: Body, named: set[str], text: As) -> list[str]
             if f"{start}{point}" not in named and f"{point}{start}" not in named:
                 lines.append(f"l_{{{start}{point}}} = {text.metres(abs(form.at), at)}")
         else:
-            axis = form.line if form.kind == "on" else body.axis or (start, points[0])
+            axis = form.line if form.kind == "on" else body.axis
+            along = _line(*axis) if axis else _own_way(link, (start, points[0]), text)
             across = text.metres(form.across, f"{_path(link, point)}.across")
             lines.append(
                 note.given_along.format(
                     point=point_name(point),
                     at=text.metres(form.at, at),
-                    line=_line(*axis),
+                    line=along,
                     start=point_name(start),
                     across=across,
                 )
@@ -322,6 +340,21 @@ def _third_points(link: str, body: Body, named: set[str], text: As) -> list[str]
             said = f"({''.join(letters[:2])}, {''.join(letters[2:])})"
         lines.append(f"∠{said} = {angle}")
     return lines
+
+
+def _own_way(link: str, letters: tuple[str, str], text: As) -> str:
+    """Return what the own axis of a link without letters for it is called: its slide's line."""
+    problem = text.problem
+    slides = [s for s in problem.slides.values() if link in (s.slider, s.host)]
+    if not slides:
+        return _line(*letters)
+    slide = min(slides, key=lambda s: s.slider != link)
+    told = track_direction(slide, problem)
+    if told.guide:
+        return told.guide
+    if told.relation is Relation.ALONG:
+        return _line(*told.points)
+    return text.words.note.given_way.format(link=slide.host)
 
 
 def _line(start: str, end: str) -> str:

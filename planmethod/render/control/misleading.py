@@ -23,9 +23,9 @@ from planmethod.render.ink.extent import arc_points
 from planmethod.render.ink.typeset import PART_OF
 from planmethod.render.labels.model import LED
 from planmethod.render.labels.paper import distances
-from planmethod.render.symbols import SLIDER
+from planmethod.render.symbols import FORCE, PLAN_FORCE, SLIDER
 
-LEADER = 50.0
+LEADER = 40.0
 """Longest leader line of a letter, mm: the eye does not follow it further."""
 
 AMONG, AT_OTHER = 24.0, 4.0
@@ -50,6 +50,7 @@ _VECTORS = {*(kind.value for kind in VectorKind), "similar"}
 """Tags of vectors and of the sides of similar figures, which the letters at their ends name."""
 
 _POINTS = ("point ", *(f"{kind.value} " for kind in PlanKind))
+_FORCES = (f"{FORCE} ", f"{PLAN_FORCE} ")
 _SAME = 1.0  # mm: points nearer to each other are one for the eye
 
 Arrows = dict[str, BaseGeometry]
@@ -69,9 +70,10 @@ def misleading(
         if isinstance(item, Arc) and item.tag[:2] in ("ω ", "ε "):
             arc = LineString([(p.real, p.imag) for p in arc_points(item, step=0.1)])
             arrows[item.tag] = arrows[item.tag].union(arc) if item.tag in arrows else arc
-    yield from _long_leaders(items)
+    yield from _long_leaders(items, writings)
     yield from _of_other_points(items, writings, views)
     yield from _nearer_to_others(writings, arrows)
+    yield from _of_other_forces(items, writings, views)
     yield from _run_into(items, arrows)
     inside = [one for one in writings if any(holds(view.box, one.where) for view in views)]
     yield from _words(inside)
@@ -83,12 +85,14 @@ def holds(box: Bounds, place: complex) -> bool:
     return box[0] <= place.real <= box[2] and box[1] <= place.imag <= box[3]
 
 
-def _long_leaders(items: Sequence[Item]) -> Iterator[Finding]:
+def _long_leaders(items: Sequence[Item], writings: Sequence[Writing]) -> Iterator[Finding]:
+    shown = {writing.name: writing.shown for writing in writings}
     for item in items:
         if isinstance(item, Stroke) and item.tag.startswith(LED):
             far = abs(item.points[-1] - item.points[0])
             if far > LEADER:
-                facts = {"name": item.tag[len(LED) :]}
+                name = item.tag[len(LED) :]
+                facts = {"name": shown.get(name, name)}
                 yield Finding("PM-D14", item.points[-1], far, LEADER, facts)
 
 
@@ -123,11 +127,38 @@ def _of_other_points(
     }
     for writing, own, other in own_and_other(writings, views):
         far = led.get(writing.name)
-        facts = {"name": writing.name}
+        facts = {"name": writing.shown}
         if far is None and own > other + NEARER:
             yield Finding("PM-D14", writing.where, own, other, facts)
         elif far is not None and AMONG < far <= LEADER and other < AT_OTHER:
             yield Finding("PM-D14", writing.where, far, AMONG, facts)
+
+
+def _of_other_forces(
+    items: Sequence[Item], writings: Sequence[Writing], views: Sequence[View]
+) -> Iterator[Finding]:
+    """Find letters of forces without a leader line that stand at the arrow of another force."""
+    led = {item.tag for item in items if isinstance(item, Stroke) and item.tag.startswith(LED)}
+    for view in views:
+        arrows: Arrows = {}
+        for item in items:
+            if not (isinstance(item, Stroke) and item.tag.startswith(_FORCES)):
+                continue
+            if holds(view.box, sum(item.points) / len(item.points)):
+                symbol = item.tag.partition(" ")[2]
+                line = LineString([(p.real, p.imag) for p in item.points])
+                arrows[symbol] = arrows[symbol].union(line) if symbol in arrows else line
+        for writing in writings:
+            symbol = writing.name.rpartition(": ")[2]
+            if symbol not in arrows or LED + writing.name in led:
+                continue
+            if not holds(view.box, writing.where):
+                continue
+            own = writing.ink.distance(arrows[symbol])
+            others = (arrow for name, arrow in arrows.items() if name != symbol)
+            other = min(map(writing.ink.distance, others), default=inf)
+            if own > other + NEARER:
+                yield Finding("PM-D14", writing.where, own, other, {"name": writing.shown})
 
 
 def _nearer_to_others(writings: Sequence[Writing], arrows: Arrows) -> Iterator[Finding]:

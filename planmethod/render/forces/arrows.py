@@ -19,7 +19,7 @@ from planmethod.render.ink.drawing import Arc, Disc, Fill, Item, Pen, Stroke
 from planmethod.render.ink.extent import arc_points
 from planmethod.render.ink.typeset import typeset, vector_markup
 from planmethod.render.labels import BUSY, Label
-from planmethod.render.symbols import turn_arrow, unit, vector_arrow
+from planmethod.render.symbols import FORCE, turn_arrow, unit, vector_arrow
 
 LENGTH = 22.0
 """Length of the arrow of a force on a link, mm: the same for all, whatever the force."""
@@ -27,10 +27,8 @@ LENGTH = 22.0
 HEAD = 4.0
 """Length of its head, mm."""
 
-FORCE = "force"
 COUPLE = "couple"
-PLAN_FORCE = "plan-force"
-"""First words of the tags of arrows; the second is the letter. Those of plans are to scale."""
+"""First word of the tags of circular arrows; the second is the letter."""
 
 MANNER = replace(BUSY, leader_from=4.5, stranger=25.0)
 """How the letter of a force looks for its place: nearest to its own arrow, or with a leader."""
@@ -57,11 +55,15 @@ class Acting(Struct, frozen=True):
 
 
 class CoupleArc(Struct, frozen=True):
-    """Couple to be drawn: its letter, a place on its link, mm, and its sense."""
+    """Couple to be drawn: its letter, a place on its link, mm, and its sense.
+
+    ``along`` is the segment of a lever that it turns: its arrow may stand at any place of it.
+    """
 
     symbol: str
     at: complex
     sense: int
+    along: Segment | None = None
 
 
 def distance(place: complex, segment: Segment) -> float:
@@ -158,17 +160,19 @@ def couple_items(
     labels: list[Label] = []
     for k, couple in enumerate(couples):
         lines = list(lines_of([*around, *items]))
-        radius, middle = _room(couple.at, lines)
+        centre, radius, middle = max(
+            (_room(place, lines) for place in _places(couple)), key=lambda room: room[0]
+        )[1:]
         tag = f"{COUPLE} {couple.symbol}"
         items += turn_arrow(
-            couple.at, radius, couple.sense, middle=middle, sweep=_SWEEP, pen=Pen.MAIN, length=HEAD,
+            centre, radius, couple.sense, middle=middle, sweep=_SWEEP, pen=Pen.MAIN, length=HEAD,
             tag=tag,
         )  # fmt: skip
         out = cis(middle)
         labels.append(
             Label(
                 typeset(couple.symbol, height),
-                couple.at + radius * out,
+                centre + radius * out,
                 prefer=out,
                 gap=1.5,
                 priority=1,
@@ -184,8 +188,19 @@ _RADII = (9.0, 12.0, 15.0, 18.0, 22.0)
 _MATTERS = 4.0  # lines farther from the arrow do not matter, mm
 
 
-def _room(centre: complex, lines: Sequence[Segment]) -> tuple[float, float]:
-    """Return the radius and the middle of a circular arrow that crosses least, mm, degrees."""
+def _places(couple: CoupleArc) -> list[complex]:
+    """Return the centres that the arrow of a couple may have, the best first, mm."""
+    if couple.along is None:
+        return [couple.at]
+    start, end = couple.along
+    return [couple.at, *(start + part * (end - start) for part in (0.25, 0.75))]
+
+
+def _room(centre: complex, lines: Sequence[Segment]) -> tuple[float, complex, float, float]:
+    """Return where a circular arrow about a centre crosses least.
+
+    What the place is worth, the centre again, the radius and the middle: mm, degrees.
+    """
     best = (-1e9, 0.0, 0.0)
     for radius in _RADII:
         near = [
@@ -203,7 +218,7 @@ def _room(centre: complex, lines: Sequence[Segment]) -> tuple[float, float]:
             )
             if worth > best[0] + 1e-9:
                 best = (worth, radius, float(middle))
-    return best[1], best[2]
+    return best[0], centre, best[1], best[2]
 
 
 def lines_of(items: Iterable[Item]) -> Iterable[Segment]:

@@ -16,6 +16,7 @@ from planmethod.render.forces.arrows import (
 )
 from planmethod.render.forces.shifts import Shifted, shift_items
 from planmethod.render.ink.drawing import Disc, Ink, Item, Pen, Stroke
+from planmethod.render.labels import NEAREST
 from planmethod.render.labels.spots import shared_spots, spot_labels
 from planmethod.render.layout.block import Picture
 from planmethod.render.pictures.lettered import lettered
@@ -46,7 +47,7 @@ def lever_picture(reading: ForceReading, letter_height: float, say: Notation) ->
     spots = shared_spots((lever.place(name), own) for name, own in ordered)
     items += [Disc(place, 0.7, Ink.BLACK) for place, _ in spots]
     prefix = f"lever {reading.index}"
-    labels = spot_labels(spots, letter_height, f"{prefix}: point")
+    labels = spot_labels(spots, letter_height, f"{prefix}: point", manner=NEAREST)
     forces = [Acting(say.symbol(force.symbol), force.at, force.force) for force in lever.forces]
     shifts = [Shifted(force_symbol(one.link), one.letters[1], *one.line) for one in lever.shifts]
     shifts = [one for one in shifts if one.is_seen]
@@ -68,4 +69,5 @@ def lever_picture(reading: ForceReading, letter_height: float, say: Notation) ->
 
 def _turning(one: LeverCouple, say: Notation) -> CoupleArc:
     place = 0j if one.segment is None else sum(one.segment) / 2
-    return CoupleArc(say.symbol(one.symbol), place, 1 if one.lever_moment > 0 else -1)
+    sense = 1 if one.lever_moment > 0 else -1
+    return CoupleArc(say.symbol(one.symbol), place, sense, one.segment)

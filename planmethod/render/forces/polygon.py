@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from planmethod.note.numbers import Notation
 from planmethod.plans.forces.polygons import Edge, Share
-from planmethod.render.forces.arrows import MANNER, PLAN_FORCE, Segment, distance
+from planmethod.render.forces.arrows import MANNER, Segment, distance
 from planmethod.render.ink.drawing import Disc, Ink, Item, Pen
 from planmethod.render.ink.typeset import typeset, vector_markup
 from planmethod.render.labels import Label
 from planmethod.render.layout.block import Picture
 from planmethod.render.pictures.ellipses import Ellipses
 from planmethod.render.pictures.lettered import lettered
-from planmethod.render.symbols import unit, vector_arrow
+from planmethod.render.symbols import PLAN_FORCE, unit, vector_arrow
 from planmethod.solved.forces.reading import ForceReading
 from planmethod.solved.reading import remembered
 

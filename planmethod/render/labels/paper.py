@@ -82,15 +82,16 @@ class Paper:
         self,
         many: Sequence[Candidates],
         strangers: Sequence[complex] = (),
+        lines: Sequence[tuple[complex, complex]] = (),
         *,
         free: bool = False,
         breaking: bool = False,
     ) -> list[Floats]:
         """Return the costs of all places but for the other labels, one array for each label.
 
-        ``strangers`` are the points that labels name. Places that are ``free`` need not be looked
-        at again for what they stand on. With ``breaking`` a label on thin lines costs little: it
-        will break them.
+        ``strangers`` are the points that labels name, ``lines`` the segments. Places that are
+        ``free`` need not be looked at again for what they stand on. With ``breaking`` a label on
+        thin lines costs little: it will break them.
         """
         led = np.concatenate([c.led for c in many])
         manners = [c.label.manner for c in many]
@@ -105,7 +106,9 @@ class Paper:
         costs += self._between(many, led, costs)
         split = np.split(costs, np.cumsum(counts)[:-1])
         return [
-            cost + _stranger_costs(c, cost, strangers) + self._along_costs(c, cost)
+            cost
+            + np.maximum(_stranger_costs(c, cost, strangers), _other_line_costs(c, cost, lines))
+            + self._along_costs(c, cost)
             for c, cost in zip(many, split, strict=True)
         ]
 
@@ -195,6 +198,10 @@ class Paper:
         return self._ways[place]
 
 
+AT_LINE = 2.0
+"""So near another segment the name of one stands at it, in spite of its leader line, mm."""
+
+
 def _square(place: complex, half: float) -> Bounds:
     return place.real - half, place.imag - half, place.real + half, place.imag + half
 
@@ -214,6 +221,35 @@ def _stranger_costs(candidates: Candidates, so_far: Floats, strangers: Sequence[
     own = distances(boxes, np.asarray([anchor]))[:, 0]
     costs[ask] = np.where(distances(boxes, others).min(axis=1) < own + 0.4, dislike, 0.0)
     return costs
+
+
+def _other_line_costs(
+    candidates: Candidates, so_far: Floats, lines: Sequence[tuple[complex, complex]]
+) -> Floats:
+    """Return the cost of the name of a segment for standing nearer to another label's segment.
+
+    At the end of a leader line it may not stand at that one either.
+    """
+    costs = np.zeros(len(so_far))
+    label = candidates.label
+    others = [line for line in lines if line != label.along]
+    ask = np.flatnonzero(so_far < CROSSED)
+    if label.along is None or not label.manner.stranger or not others or not len(ask):
+        return costs
+    boxes = candidates.boxes[ask]
+    own = distances(boxes, _along(label.along)).min(axis=1)
+    other = distances(boxes, np.concatenate([_along(line) for line in others])).min(axis=1)
+    nearer = np.where(candidates.led[ask], other < AT_LINE, other < 1.3 * own + 0.4)
+    costs[ask] = np.where(nearer, 2.0 * label.manner.stranger, 0.0)
+    return costs
+
+
+def _along(line: tuple[complex, complex]) -> NDArray[np.complex128]:
+    """Return places along a segment, mm."""
+    return np.asarray(line[0] + (line[1] - line[0]) * _PARTS, dtype=np.complex128)
+
+
+_PARTS = np.linspace(0.0, 1.0, 6)
 
 
 def distances(boxes: Floats, places: NDArray[np.complex128]) -> Floats:

@@ -35,6 +35,8 @@ _POOR = 45.0  # cost from which a better place is looked for, though others have
 _WORTH = 5.0  # what must be won by it
 _SENT_AWAY = 2  # most labels that one may send elsewhere
 _TRIED = 12  # places for which it may
+_LONG = 30.0  # length of a leader line from which a letter rather breaks thin lines, mm
+_FEW_BROKEN = CROSSED / 2  # cost up to which it does: four lines or so
 _HOPELESS = 2  # labels without room: mending never made so many free in 143 crowded schemes
 
 
@@ -86,6 +88,8 @@ def _placed(
         places.send_away(k)
     for k in places.unfree() if breaking else ():
         places.break_lines(k)
+    for k in places.far_away():
+        places.come_near(k)
     places.fill([k for k, label in enumerate(labels) if label.optional])
     return places.result()
 
@@ -129,6 +133,11 @@ class _Places:
         self.stamps = count()
         self.strangers = list(
             dict.fromkeys(label.anchor for label in self.labels if label.manner.stranger)
+        )
+        self.lines = list(
+            dict.fromkeys(
+                label.along for label in self.labels if label.along and label.manner.stranger
+            )
         )
         sets = [near(label) for label in self.labels]
         self.choices = [[choice] for choice in self._free(sets)]
@@ -221,7 +230,7 @@ class _Places:
             rest = np.setdiff1d(np.arange(len(every.boxes)), free, assume_unique=True)
             costs = np.empty(len(every.boxes))
             costs[free] = choice.costs
-            (costs[rest],) = self.paper.costs([every.chosen(rest)], self.strangers)
+            (costs[rest],) = self.paper.costs([every.chosen(rest)], self.strangers, self.lines)
             choice = self.choices[k][number] = self._choice(every, costs)
         return choice
 
@@ -244,7 +253,7 @@ class _Places:
         """Return the free places of sets, with their costs."""
         free = self.paper.free(sets)
         chosen = [every.chosen(rows) for every, rows in zip(sets, free, strict=True)]
-        costs = self.paper.costs(chosen, self.strangers, free=True)
+        costs = self.paper.costs(chosen, self.strangers, self.lines, free=True)
         known = zip(chosen, costs, sets, strict=True)
         return [self._choice(*one) for one in known]
 
@@ -346,7 +355,7 @@ class _Places:
         for number in (0, 1):
             choice = self._wider(k, number)
             candidates = choice.every or choice.candidates
-            (costs,) = self.paper.costs([candidates], self.strangers, breaking=True)
+            (costs,) = self.paper.costs([candidates], self.strangers, self.lines, breaking=True)
             best = self._cheapest(k, self._choice(candidates, costs))
             if best.cost < CROSSED:
                 best.ground = True
@@ -354,6 +363,26 @@ class _Places:
                 return
         best = self._cheapest(k, self._whole(k, 2))
         if best.cost < self._cost(k):
+            self._take(k, best)
+
+    def far_away(self) -> list[int]:
+        """Return the letters of a crowd at the ends of leader lines that the eye follows badly."""
+        crowd = (k for k in self._firm if self.labels[k].manner is not ALONE)
+        return [k for k in crowd if k not in self.lined and self._leader(k) > _LONG]
+
+    def _leader(self, k: int) -> float:
+        """Return the length of the leader line of a label, mm; none where it has none."""
+        candidates, row = self.taken[k].choice.candidates, self.taken[k].row
+        return float(np.nan_to_num(abs(candidates.ends[row] - candidates.starts[row])))
+
+    def come_near(self, k: int) -> None:
+        """Put a letter at the end of a long leader line beside its point on a few thin lines."""
+        choice = self._wider(k, 0)
+        candidates = choice.every or choice.candidates
+        (costs,) = self.paper.costs([candidates], self.strangers, self.lines, breaking=True)
+        best = self._cheapest(k, self._choice(candidates, costs))
+        if best.cost < _FEW_BROKEN:
+            best.ground = True
             self._take(k, best)
 
     def result(self) -> tuple[Placed, ...]:

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 from planmethod.construct.steps import PointName
 from planmethod.plans.model import Plan
 from planmethod.render.ink.drawing import Arc, Disc, Ink, Item, Pen, Stroke
 from planmethod.render.ink.typeset import typeset
-from planmethod.render.labels import Label
+from planmethod.render.labels import NEAREST, Label
 from planmethod.render.labels.spots import shared_spots, spot_labels
 from planmethod.render.layout.block import Picture
 from planmethod.render.pictures.lettered import lettered
@@ -29,6 +29,11 @@ def radius_of(knot: Knot, at: Mapping[PointName, complex]) -> float:
     return max(ends) * knot.times + _ROUND
 
 
+def placed_in(knot: Knot, at: Mapping[PointName, complex]) -> dict[PointName, complex]:
+    """Return where the points of a plan lie on the view of a knot, mm from its middle."""
+    return {name: (place - knot.centre) * knot.times for name, place in at.items()}
+
+
 def knot_mark(
     knot: Knot, at: Mapping[PointName, complex], letter: str, height: float
 ) -> tuple[Item, Label]:
@@ -46,6 +51,7 @@ def enlarged_picture(
     letters: Mapping[PointName, list[str]],
     thin: frozenset[tuple[PointName, PointName]],
     height: float,
+    names: Sequence[Label],
 ) -> Picture:
     """Return a knot of a plan as it is enlarged, its middle at the origin, mm.
 
@@ -55,9 +61,11 @@ def enlarged_picture(
         Where the points of the plan lie, mm from its pole.
     thin : frozenset
         Ends of the vectors that are components.
+    names : sequence of Label
+        Of the vectors that have no name on the plan.
     """
     radius = radius_of(knot, at)
-    places = {name: (place - knot.centre) * knot.times for name, place in at.items()}
+    places = placed_in(knot, at)
     items: list[Item] = [Arc(0j, radius, pen=Pen.THIN, tag=f"{ENLARGED} {knot.number}")]
     for vector in plan.vectors:
         inside = _within(places[vector.tail], places[vector.head], radius)
@@ -71,7 +79,8 @@ def enlarged_picture(
     near = [name for name in letters if name in places and abs(places[name]) < radius - 1.0]
     spots = shared_spots((places[name], letters[name]) for name in near)
     items += [Disc(place, 0.7, Ink.BLACK) for place, _ in spots]
-    return lettered(items, spot_labels(spots, height, f"{ENLARGED} {knot.number}:"))
+    points = spot_labels(spots, height, f"{ENLARGED} {knot.number}:", manner=NEAREST)
+    return lettered(items, [*points, *names])
 
 
 def _within(tail: complex, head: complex, radius: float) -> tuple[complex, complex] | None:

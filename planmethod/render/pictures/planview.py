@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from math import isfinite
+from math import inf, isfinite
 
 from planmethod.construct.steps import PointName, Similar
 from planmethod.note.narrate.letters import shown_letters
@@ -14,7 +14,13 @@ from planmethod.render.labels import NAMING, NEAREST, Label
 from planmethod.render.labels.spots import shared_spots, spot_labels
 from planmethod.render.layout.block import Picture
 from planmethod.render.pictures.ellipses import Ellipses, error_ellipses
-from planmethod.render.pictures.enlarged import enlarged_picture, knot_mark
+from planmethod.render.pictures.enlarged import (
+    ENLARGED,
+    enlarged_picture,
+    knot_mark,
+    placed_in,
+    radius_of,
+)
 from planmethod.render.pictures.lettered import lettered
 from planmethod.render.pictures.traces import Shown, plan_traces
 from planmethod.render.symbols import vector_arrow
@@ -170,10 +176,19 @@ def knot_pictures(
     at = plan_places(solution, kind, index, by_hand=by_hand)
     thin = frozenset((v.tail, v.head) for v in plan.vectors if is_thin(v, kind))
     letters = shown_letters(solution.problem, plan)
-    return [
-        enlarged_picture(plan, knot, at, letters, thin, letter_height)
-        for knot in solution.knots_of(kind, index)
-    ]
+    shortest = 0.0 if index not in solution.small_plans[kind] else inf
+    pictures = []
+    for knot in solution.knots_of(kind, index):
+        places = placed_in(knot, at)
+        names = [
+            name
+            for name in vector_names(plan, places, letter_height, f"{ENLARGED} {knot.number}")
+            if name.along is not None
+            and abs(name.along[1] - name.along[0]) < max(shortest, NAMED * knot.times)
+            and max(map(abs, name.along)) < radius_of(knot, at)
+        ]
+        pictures.append(enlarged_picture(plan, knot, at, letters, thin, letter_height, names))
+    return pictures
 
 
 def _labels(

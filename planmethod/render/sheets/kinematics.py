@@ -40,6 +40,9 @@ from planmethod.solved.solution import Solution
 STEPS = 3
 """Most members of the series that a scale goes on by."""
 
+SMALLER = (0.8, 0.65)
+"""Parts of their boxes that plans get rather than being left out of a sheet of one position."""
+
 KEYS = [FACTS[kind].scale for kind in reversed(MOTION)]
 """Keys of the scales, the plan that is to be largest first."""
 
@@ -327,6 +330,14 @@ class OnPaper(Struct, frozen=True):
             without = self._laid(solution, bare)
             if without is not None and not _cut_down(without):
                 laid, extras = without, bare
+        views = self.views
+        if len(solution.positions) == 1 and _cut_down(laid):
+            for smaller in self._with_smaller_plans():
+                again = of.solved(smaller, self.scales)
+                whole = self._laid(again, extras)
+                if whole is not None and not _cut_down(whole):
+                    laid, solution, views = whole, again, smaller
+                    break
         drawn = {scale.symbol: scale.per_mm for scale in solution.scales.values()}
         shown = {PlanKind.POSITION, *(entry.of for entry in of.layout.blocks if entry.of)}
         keys = {FACTS[kind].scale for kind in shown}
@@ -336,11 +347,25 @@ class OnPaper(Struct, frozen=True):
 
         def draw(scales: Mapping[str, float]) -> Laid | None:
             wish: dict[str, Any] = dict(scales)
-            return self._laid(of.solved(self.views, replace(self.scales, **wish)), extras)
+            return self._laid(of.solved(views, replace(self.scales, **wish)), extras)
 
         laid = replace(laid, scales={key: drawn[key] for key in free})
         laid = enlarged(laid, free * STEPS, self.scales, draw)
         return replace(laid, scales={**drawn, **laid.scales})
+
+    def _with_smaller_plans(self) -> Iterator[Views]:
+        """Yield the views with less room for the plans that would be left out otherwise."""
+        left_out = [
+            entry.of
+            for entry in self.of.layout.blocks
+            if entry.droppable and entry.of and getattr(self.scales, FACTS[entry.of].scale) is None
+        ]
+        boxes = {kind.value: getattr(self.views, kind.value) for kind in left_out}
+        for part in SMALLER if boxes else ():
+            less: dict[str, Any] = {
+                name: (part * wide, part * high) for name, (wide, high) in boxes.items()
+            }
+            yield replace(self.views, kept=self.views.kept | {*left_out}, **less)
 
     def _laid(self, solution: Solution, extras: Extras) -> Laid | None:
         """Return the sheets at the scales of a solution, or None when one does not fit."""

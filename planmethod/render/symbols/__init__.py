@@ -9,6 +9,8 @@ Here is what schemes and plans are drawn with; wheels, cams and axes have module
 """
 
 from planmethod.render.symbols.arrows import (
+    FORCE,
+    PLAN_FORCE,
     arrowhead,
     drive_arrow,
     turn_arrow,
@@ -54,7 +56,9 @@ from planmethod.render.symbols.pairs import (
 from planmethod.render.symbols.sizes import SIZES, SymbolSizes, angle_of, unit
 
 __all__ = [
+    "FORCE",
     "GROUND",
+    "PLAN_FORCE",
     "SIZES",
     "SLIDER",
     "SymbolSizes",

@@ -12,6 +12,10 @@ from planmethod.render.symbols.sizes import unit
 SMALL = 3.5
 """Length of the arrowhead of a sense of motion on a scheme, mm."""
 
+FORCE, PLAN_FORCE = "force", "plan-force"
+"""First words of the tags of the arrows of forces; the second is the letter. Those of plans are to
+scale."""
+
 
 def arrowhead(
     tip: complex, direction: complex, *, length: float = ARROW.length, tag: str = ""
