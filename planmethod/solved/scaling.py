@@ -232,6 +232,11 @@ def sizes(construction: Construction, si: Reading, kind: PlanKind) -> tuple[Real
     return _spread(si, ends) if ends else (np.zeros(si.count), np.zeros(si.count))
 
 
+def least_plan(construction: Construction, si: Reading, kind: PlanKind) -> float:
+    """Return the larger side of the smallest plan of a kind in all positions, in its unit."""
+    return float(np.maximum(*sizes(construction, si, kind)).min())
+
+
 def extent(construction: Construction, si: Reading, kind: PlanKind) -> Box:
     """Return the size of what is drawn, in its own unit: of plans the largest, without outliers."""
     return _usual(*sizes(construction, si, kind))
