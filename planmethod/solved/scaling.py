@@ -136,7 +136,7 @@ CLOSE = 1.03
 made coarser: rows of many plans take less, as letters of the one stand in hollows of the other."""
 
 SPARE = 0.93
-"""So much of the height of the paper the estimate may take at a finer scale of many positions, whose
+"""So much of the height of the paper the estimate may take at a finer scale of many positions: the
 table of measured values is higher than the estimated one. Of one and of few it may take all."""
 
 CROWDED = 1.5

@@ -205,7 +205,7 @@ def _square(place: complex, half: float) -> Bounds:
 
 
 def _stranger_costs(candidates: Candidates, so_far: Floats, strangers: Sequence[complex]) -> Floats:
-    """Return the cost of standing nearer to another label's point; less of it with a leader line."""
+    """Return the cost of standing nearer to another label's point, less of it at a leader line."""
     costs = np.zeros(len(so_far))
     dislike = candidates.label.manner.stranger
     ask = np.flatnonzero(so_far < CROSSED)
