@@ -133,8 +133,11 @@ SCHEME = {"A4": 70.0, "A3": 110.0, "A2": 150.0, "A1": 200.0, "A0": 250.0}
 
 CLOSE = 1.03
 """So many times the height of the paper the estimate may be before a scale of many positions is
-made coarser: rows of many plans take less, as letters of the one stand in hollows of the other.
-For a finer scale the estimate itself must have room."""
+made coarser: rows of many plans take less, as letters of the one stand in hollows of the other."""
+
+SPARE = 0.93
+"""So much of the height of the paper the estimate may take at a finer scale of many positions: the
+table of measured values is higher than the estimated one. Of one and of few it may take all."""
 
 CROWDED = 1.5
 """So many times wider the scheme of many positions shall be, to be no tangle."""
@@ -230,6 +233,11 @@ def sizes(construction: Construction, si: Reading, kind: PlanKind) -> tuple[Real
         return np.array([np.ptp(points.real)]), np.array([np.ptp(points.imag)])
     ends = _plan_ends(construction, kind)
     return _spread(si, ends) if ends else (np.zeros(si.count), np.zeros(si.count))
+
+
+def least_plan(construction: Construction, si: Reading, kind: PlanKind) -> float:
+    """Return the larger side of the smallest plan of a kind in all positions, in its unit."""
+    return float(np.maximum(*sizes(construction, si, kind)).min())
 
 
 def extent(construction: Construction, si: Reading, kind: PlanKind) -> Box:
@@ -383,7 +391,8 @@ class _Chosen(Struct, frozen=True):
             return self.drawn[kind].share(now[kind])
 
         many = self.drawn[PlanKind.POSITION].si.count > FEW
-        while free and not found.has_room(CLOSE if many else 1.0):
+        close, spare = (CLOSE, SPARE) if many else (1.0, 1.0)
+        while free and not found.has_room(close):
             bears = [k for k in free if _next(now[k], asked, finer=False) <= least[k]]
             if not bears:
                 return self  # the sheet goes on with texts, or takes a larger paper
@@ -393,7 +402,7 @@ class _Chosen(Struct, frozen=True):
         while free:
             small = min(free, key=share)
             before, now[small] = now[small], _next(now[small], asked, finer=True)
-            if not (self.drawn[small].stretches(now[small]) and found.has_room()):
+            if not (self.drawn[small].stretches(now[small]) and found.has_room(spare)):
                 now[small] = before
                 free.remove(small)
         return found

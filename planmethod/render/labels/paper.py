@@ -38,6 +38,11 @@ _SAGITTA = 0.05  # how far the chords of a large arc may be off, mm
 _PIECE = 12.0  # longest piece of a line in the tree, mm
 
 
+LED_STRANGER = 0.5
+"""Part of the cost of standing nearer to another label's point for one whose leader line tells its
+own."""
+
+
 class Paper:
     """Lines and areas that labels keep clear of, within bounds.
 
@@ -207,10 +212,10 @@ def _square(place: complex, half: float) -> Bounds:
 
 
 def _stranger_costs(candidates: Candidates, so_far: Floats, strangers: Sequence[complex]) -> Floats:
-    """Return the cost of standing, without a leader line, nearer to another label's point."""
+    """Return the cost of standing nearer to another label's point, less of it at a leader line."""
     costs = np.zeros(len(so_far))
     dislike = candidates.label.manner.stranger
-    ask = np.flatnonzero((so_far < CROSSED) & ~candidates.led)
+    ask = np.flatnonzero(so_far < CROSSED)
     if not dislike or not len(ask):
         return costs
     anchor = candidates.label.anchor
@@ -219,7 +224,8 @@ def _stranger_costs(candidates: Candidates, so_far: Floats, strangers: Sequence[
         return costs
     boxes = candidates.boxes[ask]
     own = distances(boxes, np.asarray([anchor]))[:, 0]
-    costs[ask] = np.where(distances(boxes, others).min(axis=1) < own + 0.4, dislike, 0.0)
+    dislikes = np.where(candidates.led[ask], LED_STRANGER * dislike, dislike)
+    costs[ask] = np.where(distances(boxes, others).min(axis=1) < own + 0.4, dislikes, 0.0)
     return costs
 
 

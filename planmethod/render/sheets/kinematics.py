@@ -11,6 +11,7 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from planmethod.construct.drafting import PROFILES, Profile
+from planmethod.construct.scale import next_scale
 from planmethod.errors import LayoutError
 from planmethod.languages import LANGUAGES, say
 from planmethod.note.wording import Language, language
@@ -33,7 +34,7 @@ from planmethod.render.sheets.compositions import SHIPPED
 from planmethod.render.sheets.model import Composition, Extras
 from planmethod.render.sheets.pages import pages_of
 from planmethod.solved.room import FEW
-from planmethod.solved.scaling import MOST_DRAWN, Views
+from planmethod.solved.scaling import MOST_DRAWN, PLAN, Views, least_plan
 from planmethod.solved.selfcheck import verify
 from planmethod.solved.solution import Solution
 
@@ -42,6 +43,9 @@ STEPS = 3
 
 SMALLER = (0.8, 0.65)
 """Parts of their boxes that plans get rather than being left out of a sheet of one position."""
+
+LEAST_CHOSEN = 4
+"""Fewest positions of a turn for plans to be chosen among them."""
 
 KEYS = [FACTS[kind].scale for kind in reversed(MOTION)]
 """Keys of the scales, the plan that is to be largest first."""
@@ -343,15 +347,48 @@ class OnPaper(Struct, frozen=True):
         keys = {FACTS[kind].scale for kind in shown}
         free = [key for key in KEYS if key in keys and getattr(self.scales, key) is None]
         if not of.layout.grow or not free:
-            return replace(laid, scales=drawn)
-
-        def draw(scales: Mapping[str, float]) -> Laid | None:
-            wish: dict[str, Any] = dict(scales)
-            return self._laid(of.solved(views, replace(self.scales, **wish)), extras)
+            return self._with_plans(replace(laid, scales=drawn), extras)
 
         laid = replace(laid, scales={key: drawn[key] for key in free})
-        laid = enlarged(laid, free * STEPS, self.scales, draw)
-        return replace(laid, scales={**drawn, **laid.scales})
+        laid = enlarged(
+            laid, free * STEPS, self.scales, lambda scales: self._at(scales, extras, views)
+        )
+        return self._with_plans(replace(laid, scales={**drawn, **laid.scales}), extras)
+
+    def _at(self, scales: Mapping[str, float], extras: Extras, views: Views) -> Laid | None:
+        """Return the sheets at certain scales, or None when one does not fit."""
+        wish: dict[str, Any] = dict(scales)
+        return self._laid(self.of.solved(views, replace(self.scales, **wish)), extras)
+
+    def _with_plans(self, laid: Laid, extras: Extras) -> Laid:
+        """Return the sheets with the plans of as many positions of a turn as there is room for.
+
+        All of them, of every second position, or of every third, where the file names none; at a
+        coarser scale, too, as long as no plan of the turn is smaller than it shall be.
+        """
+        kinds = [
+            entry.of
+            for entry in self.of.layout.blocks
+            if entry.kind == "chosen-plans" and entry.of and not entry.positions
+        ]
+        solution = self.of.solution
+        count = len(solution.positions) // solution.problem.turns
+        if not kinds or count < LEAST_CHOSEN:
+            return laid
+        key, wishes = FACTS[kinds[0]].scale, [dict(laid.scales)]
+        least = least_plan(solution.construction, solution.si, kinds[0])
+        while getattr(self.scales, key) is None and len(wishes) <= STEPS:
+            coarser = next_scale(
+                wishes[-1][key], finer=False, mm_per_unit=self.scales.in_mm_per_unit
+            )
+            if least < PLAN * coarser:
+                break
+            wishes.append({**wishes[-1], key: coarser})
+        for part, wish in product((1, 2, 3), wishes):
+            tried = self._at(wish, replace(extras, plans=count // part), self.views)
+            if tried is not None and tried.is_as_good_as(laid):
+                return replace(tried, scales=wish)
+        return laid
 
     def _with_smaller_plans(self) -> Iterator[Views]:
         """Yield the views with less room for the plans that would be left out otherwise."""

@@ -162,7 +162,9 @@ class Extras(Struct, frozen=True):
     ``errors`` are ellipses around points, ``sigma`` stands in the tables; None: in that of the
     results of one position alone. ``turn``: it is that of a turn, and the scheme has the
     construction of the extreme positions. ``traces``: there is room for those of the construction
-    where nobody asks for them. ``asked`` are the quantities whose graphs are drawn.
+    where nobody asks for them. ``asked`` are the quantities whose graphs are drawn. ``plans``: how
+    many positions of a turn have their plans chosen where nobody names them; 0: one of either
+    stroke.
     """
 
     words: Language
@@ -171,6 +173,7 @@ class Extras(Struct, frozen=True):
     turn: bool = False
     traces: bool = True
     asked: tuple[str, ...] = ()
+    plans: int = 0
 
 
 class Manner(Struct, frozen=True):
