@@ -262,10 +262,16 @@ class Linkage(Struct, frozen=True):
 
     @property
     def formats(self) -> Sequence[str]:
-        """Formats of the composition, from the estimated one on where none is asked for."""
+        """Formats of the composition, from the estimated one on where none is asked for.
+
+        Smaller ones come first; scales that are decided are those of the others.
+        """
         formats = self.layout.formats
-        asked = self.solution.problem.sheet.paper
-        return formats if asked else formats[formats.index(self.views.paper) :]
+        problem = self.solution.problem
+        if problem.sheet.paper:
+            return formats
+        smaller = () if problem.scales.decided else self.layout.smaller
+        return (*smaller, *formats[formats.index(self.views.paper) :])
 
     def proposals(self, papers: Sequence[Blank]) -> Iterator[OnPaper]:
         """Yield scales and numbers of positions on a sheet, paper by paper.
@@ -319,7 +325,7 @@ class OnPaper(Struct, frozen=True):
         of, extras = self.of, self.of.extras
         solution = of.solved(self.views, self.scales)
         laid = self._laid(solution, extras)
-        if laid is None:
+        if laid is None or (self._is_smaller and _cut_down(laid)):
             return None
         if extras.traces and len(solution.positions) == 1 and _cut_down(laid):
             # The traces of the construction are not to push out what explains it.
@@ -341,6 +347,11 @@ class OnPaper(Struct, frozen=True):
         laid = replace(laid, scales={key: drawn[key] for key in free})
         laid = enlarged(laid, free * STEPS, self.scales, draw)
         return replace(laid, scales={**drawn, **laid.scales})
+
+    @property
+    def _is_smaller(self) -> bool:
+        """Whether the paper is taken only where nothing is left out."""
+        return not self.paper.is_asked and self.paper.name in self.of.layout.smaller
 
     def _laid(self, solution: Solution, extras: Extras) -> Laid | None:
         """Return the sheets at the scales of a solution, or None when one does not fit."""
