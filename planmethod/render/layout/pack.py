@@ -11,10 +11,10 @@ fit, that of the least cost is taken, of equals the first. The cost is the sum o
 3. `VOID` times the part of the paper that the largest empty rectangle takes.
 
 In the cutting that is chosen blocks stand in larger ways as long as it fits: pictures at larger
-scales. Blocks stand on a grid (`planmethod.render.layout.grid`): within their boxes they are moved to as
-few left edges and upper lines as can be. Neighbouring texts stand together: set to one left edge
-under one another, to one upper edge side by side. The last block stands on the title block in the
-lower right corner, to its left edge where it is not wider, or to the left of it.
+scales. Blocks stand on a grid (`planmethod.render.layout.grid`): within their boxes they are moved
+to as few left edges and upper lines as can be. Neighbouring texts stand together: set to one left
+edge under one another, to one upper edge side by side. The last block stands on the title block in
+the lower right corner, to its left edge where it is not wider, or to the left of it.
 """
 
 from __future__ import annotations

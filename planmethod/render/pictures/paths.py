@@ -24,8 +24,10 @@ TRAJECTORY = "trajectory"
 """Tag of the line that a point moves along: ``trajectory B``."""
 
 AWAY = 0.5
-"""So many times the size of what is drawn in the positions a line of a point goes beyond it: further
-off it runs towards what no sheet has room for, as a dead position lies between two that are drawn."""
+"""So many times the size of what is drawn in the positions a line of a point goes beyond it.
+
+Further off it runs towards what no sheet has room for: a dead position lies between two drawn ones.
+"""
 
 _FLAT = 0.02  # mm off its chord: a straight line on the paper
 _THIN = 0.05  # area of a closed line over that of a circle as long: it has no inside below that

@@ -113,7 +113,19 @@ def kinematics_sheets(
     moved = positions is not None
     strategy = _strategy(solution, layout, errors=errors, sigma=sigma, moved=moved, most=most,
                          asked=asked)  # fmt: skip
-    drawings = compose(problem, strategy, _misfit(problem), fields=fields, furniture=furniture)
+
+    def fits(name: str) -> bool:
+        other = replace(problem, sheet=replace(problem.sheet, paper=name))
+        tried = Solution(other, positions=positions, ruler=ruler, profile=profile)
+        again = _strategy(tried, layout, errors=errors, sigma=sigma, moved=moved, asked=asked)
+        try:
+            composed(other, again, _misfit(other), furniture or Furniture.of(other.sheet))
+        except LayoutError:
+            return False
+        return True
+
+    misfit = replace(_misfit(problem), fits=fits)
+    drawings = compose(problem, strategy, misfit, fields=fields, furniture=furniture)
     _refuse_many(strategy.solution, len(drawings), most)
     return drawings
 

@@ -36,7 +36,7 @@ from planmethod.solved.solution import Solution
 from planmethod.solved.turn.diagrams import diagrams_of
 from planmethod.solved.turn.turn import TURN, Turn, turn_of
 
-SIDE, LARGER = 0.4, (1.0, 1.5, 2.2)
+SIDE, LARGER = 0.5, (1.0, 1.5, 2.2)
 """Side of a hodograph as a part of the width of a text, and how many times as large it stands where
 there is room."""
 
