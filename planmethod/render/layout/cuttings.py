@@ -37,6 +37,11 @@ class Packed(Struct, frozen=True):
         """The block in all its ways."""
         return self.block.ways if isinstance(self.block, Shapes) else (self.block,)
 
+    @property
+    def grows(self) -> bool:
+        """Whether larger ways are at larger scales."""
+        return isinstance(self.block, Shapes) and self.block.grows
+
 
 class Group(Struct, frozen=True):
     """Parts and groups that stay together (группа блоков).
@@ -203,7 +208,8 @@ def grown(node: Node, ways: Sequence[Sequence[Leaf]], room: tuple[float, float])
     """Return a cutting whose blocks stand in larger ways, as far as all of it fits the room.
 
     A larger way is one that is wider or higher and nowhere smaller: a picture at a larger scale.
-    Blocks grow in turn, a way each. ``ways`` are those of every block by its number.
+    Blocks grow in turn, a way each. ``ways`` are those of every block by its number, none of those
+    that do not grow.
     """
     standing = {leaf.number: leaf for leaf in _leaves(node)}
     refused: list[Leaf] = []

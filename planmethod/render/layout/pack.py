@@ -103,7 +103,8 @@ def _packed(
         return option.cost + VOID * emptiest_share([*boxes, option.last, stamp, *taken], inner)
 
     best = min(found[:_LOOKED_AT], key=cost)
-    larger = _units(grown(best.node, best.ways, _room(inner)), inner, best.last, taken)
+    ways = [some if one.grows else () for one, some in zip(whole.parts(), best.ways, strict=True)]
+    larger = _units(grown(best.node, ways, _room(inner)), inner, best.last, taken)
     *units, end = larger or best.units
     if not units:
         best = best._replace(last=_alone(best.last, inner, stamp, taken))

@@ -124,7 +124,7 @@ def _as_high(manner: Manner, draw: Callable[[float, float], Viewed]) -> Block:
     for times in HIGHER:
         one = draw(WIDE * column, times * HIGH * column)
         found.setdefault(one.scale, one)
-    return shaped(found.values())
+    return shaped(found.values(), grows=True)
 
 
 def balance_diagram(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
@@ -244,7 +244,8 @@ def hodographs(solution: Solution, indices: Sequence[int], manner: Manner) -> Bl
     They may be larger: the packer takes what fills the paper.
     """
     usual = SIDE * manner.width(manner.sizes.column)
-    return shaped(way for times in LARGER for way in _in_rows(solution, manner, times * usual))
+    ways = (way for times in LARGER for way in _in_rows(solution, manner, times * usual))
+    return shaped(ways, grows=True)
 
 
 def _in_rows(solution: Solution, manner: Manner, side: float) -> Iterator[Viewed]:

@@ -172,7 +172,7 @@ def graphs_view(solution: Solution, indices: Sequence[int], manner: Manner) -> B
         ways += _ways(diagrams, labels, manner, replace(usual, per_mm=per_mm), tall)
     # First the one that is shaped as the sheet.
     ways.sort(key=lambda way: (way.width > manner.inside, abs(log(way.width / way.height / 1.4))))
-    return shaped(ways)
+    return shaped(ways, grows=True)
 
 
 def _ways(

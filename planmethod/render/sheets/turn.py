@@ -194,7 +194,7 @@ def hodograph_view(solution: Solution, indices: Sequence[int], manner: Manner) -
         said = [scale_inscription(one.scale, solution.problem.scales.convention, words.say)]
         block = named(one.picture(manner.letter), manner.entry.title or title, said, manner)
         ways[one.scale.per_mm] = Viewed(block, "hodograph", one.scale)
-    return shaped(ways.values())
+    return shaped(ways.values(), grows=True)
 
 
 # Tables ------------------------------------------------------------------------------------------
