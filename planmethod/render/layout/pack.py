@@ -116,12 +116,24 @@ def _packed(
 
 
 def _alone(box: Bounds, inner: Bounds, stamp: Bounds, taken: Sequence[Bounds]) -> Bounds:
-    """Return the box of the only block of a sheet in the middle of what the title block leaves."""
-    low, high = max(stamp[3], box[1]), min([inner[3], *(other[1] for other in taken)])
-    across = (inner[0] + inner[2] - box[0] - box[2]) / 2
-    up = max(0.0, (low + high - box[1] - box[3]) / 2)
-    moved = (box[0] + across, box[1] + up, box[2] + across, box[3] + up)
-    return moved if box[1] >= stamp[3] and moved[3] <= high else box
+    """Return the box of the only block of a sheet in the middle of what the title block leaves.
+
+    That is below what must stay free, or beside it.
+    """
+    if box[1] < stamp[3]:
+        return box
+    middle = (inner[0] + inner[2]) / 2
+    left = max([inner[0], *(other[2] for other in taken if other[2] < middle)])
+    right = min([inner[2], *(other[0] for other in taken if other[0] > middle)])
+    below = (inner[0], inner[2], min([inner[3], *(other[1] for other in taken)]))
+    for start, end, high in (below, (left, right, inner[3])):
+        across = (start + end - box[0] - box[2]) / 2
+        up = max(0.0, (max(stamp[3], box[1]) + high - box[1] - box[3]) / 2)
+        moved = (box[0] + across, box[1] + up, box[2] + across, box[3] + up)
+        clear = not any(overlap(moved, other, CLEAR) for other in taken)
+        if clear and moved[0] >= start and moved[3] <= high:
+            return moved
+    return box
 
 
 def _last_corners(last: Block, inner: Bounds, stamp: Bounds) -> list[complex]:
