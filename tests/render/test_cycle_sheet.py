@@ -25,6 +25,7 @@ from planmethod.render.ink.drawing import Arc, Disc, Drawing, Fill, Stroke, Text
 from planmethod.render.pictures.diagram import AXIS, CURVE
 from planmethod.render.pictures.polar import HODOGRAPH, POLE
 from planmethod.render.sheets.composition.reader import shipped
+from planmethod.render.sheets.controlled import paper_of
 from planmethod.render.sheets.kinematics import kinematics_sheets
 from planmethod.solved.cycle import Cycle
 from planmethod.solved.errors.forces import drawn_forces
@@ -143,8 +144,8 @@ def _across(positions: Sequence[float], per: float) -> list[float]:
 def test_the_marks_are_what_both_methods_give_on_paper(
     name: str, positions: tuple[float, ...]
 ) -> None:
-    views = shipped("forces-cycle").views_for("A1", len(positions))
     sheet = drawn(name, positions)
+    views = shipped("forces-cycle").views_for(paper_of(sheet), len(positions))
     # The scheme has grown into the sheet: arms are measured on it.
     (scheme,) = (v for v in sheet.views if v.kind == "position")
     problem = problem_of(name)
