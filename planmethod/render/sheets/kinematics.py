@@ -120,7 +120,19 @@ def kinematics_sheets(
     moved = positions is not None
     strategy = _strategy(solution, layout, errors=errors, sigma=sigma, moved=moved, most=most,
                          asked=asked)  # fmt: skip
-    drawings = compose(problem, strategy, _misfit(problem), fields=fields, furniture=furniture)
+
+    def fits(name: str) -> bool:
+        other = replace(problem, sheet=replace(problem.sheet, paper=name))
+        tried = Solution(other, positions=positions, ruler=ruler, profile=profile)
+        again = _strategy(tried, layout, errors=errors, sigma=sigma, moved=moved, asked=asked)
+        try:
+            composed(other, again, _misfit(other), furniture or Furniture.of(other.sheet))
+        except LayoutError:
+            return False
+        return True
+
+    misfit = replace(_misfit(problem), fits=fits)
+    drawings = compose(problem, strategy, misfit, fields=fields, furniture=furniture)
     _refuse_many(strategy.solution, len(drawings), most)
     return drawings
 
@@ -269,10 +281,16 @@ class Linkage(Struct, frozen=True):
 
     @property
     def formats(self) -> Sequence[str]:
-        """Formats of the composition, from the estimated one on where none is asked for."""
+        """Formats of the composition, from the estimated one on where none is asked for.
+
+        Smaller ones come first; scales that are decided are those of the others.
+        """
         formats = self.layout.formats
-        asked = self.solution.problem.sheet.paper
-        return formats if asked else formats[formats.index(self.views.paper) :]
+        problem = self.solution.problem
+        if problem.sheet.paper:
+            return formats
+        smaller = () if problem.scales.decided else self.layout.smaller
+        return (*smaller, *formats[formats.index(self.views.paper) :])
 
     def proposals(self, papers: Sequence[Blank]) -> Iterator[OnPaper]:
         """Yield scales and numbers of positions on a sheet, paper by paper.
@@ -326,7 +344,7 @@ class OnPaper(Struct, frozen=True):
         of, extras = self.of, self.of.extras
         solution = of.solved(self.views, self.scales)
         laid = self._laid(solution, extras)
-        if laid is None:
+        if laid is None or (self._is_smaller and _cut_down(laid)):
             return None
         if extras.traces and len(solution.positions) == 1 and _cut_down(laid):
             # The traces of the construction are not to push out what explains it.
@@ -403,6 +421,11 @@ class OnPaper(Struct, frozen=True):
                 name: (part * wide, part * high) for name, (wide, high) in boxes.items()
             }
             yield replace(self.views, kept=self.views.kept | {*left_out}, **less)
+
+    @property
+    def _is_smaller(self) -> bool:
+        """Whether the paper is taken only where nothing is left out."""
+        return not self.paper.is_asked and self.paper.name in self.of.layout.smaller
 
     def _laid(self, solution: Solution, extras: Extras) -> Laid | None:
         """Return the sheets at the scales of a solution, or None when one does not fit."""

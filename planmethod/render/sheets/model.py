@@ -84,6 +84,8 @@ class Composition(Struct, frozen=True):
     ----------
     formats : tuple of str
         Formats tried in turn when none is asked for.
+    smaller : tuple of str
+        Formats tried before them: taken where nothing is left out, as a larger one would be white.
     per_sheet : tuple of int
         Positions on one sheet: as many as fit; the others go on further sheets.
     grow : bool
@@ -103,6 +105,7 @@ class Composition(Struct, frozen=True):
     name: str
     about: str
     formats: tuple[str, ...]
+    smaller: tuple[str, ...]
     per_sheet: tuple[int, ...]
     grow: bool
     turn: bool

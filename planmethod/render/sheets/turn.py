@@ -36,8 +36,9 @@ from planmethod.solved.solution import Solution
 from planmethod.solved.turn.diagrams import diagrams_of
 from planmethod.solved.turn.turn import TURN, Turn, turn_of
 
-SIDE = 0.4
-"""Side of a hodograph as a part of the width of a text."""
+SIDE, LARGER = 0.5, (1.0, 1.5, 2.2)
+"""Side of a hodograph as a part of the width of a text, and how many times as large it stands where
+there is room."""
 
 MOST = 150.0
 """Side up to which a hodograph of a project keeps the scale of its plans, mm."""
@@ -185,14 +186,22 @@ def hodograph(solution: Solution, kind: PlanKind, side: float) -> Hodograph:
 
 
 def hodograph_view(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
-    """Return the hodograph of velocities or accelerations of a point about one pole."""
+    """Return the hodograph of velocities or accelerations of a point about one pole.
+
+    It may be larger: the packer takes what fills the paper.
+    """
     kind, words = manner.entry.of, manner.words
     assert kind is not None
-    one = hodograph(solution, kind, SIDE * manner.width(manner.sizes.column))
-    title = words.cycle["hodograph"][kind.value].format(of=point_name(one.point))
-    said = [scale_inscription(one.scale, solution.problem.scales.convention, words.say)]
-    block = named(one.picture(manner.letter), manner.entry.title or title, said, manner)
-    return Viewed(block, "hodograph", one.scale)
+    ways: dict[float, Viewed] = {}
+    for times in LARGER:
+        one = hodograph(solution, kind, times * SIDE * manner.width(manner.sizes.column))
+        if one.scale.per_mm in ways:
+            continue
+        title = words.cycle["hodograph"][kind.value].format(of=point_name(one.point))
+        said = [scale_inscription(one.scale, solution.problem.scales.convention, words.say)]
+        block = named(one.picture(manner.letter), manner.entry.title or title, said, manner)
+        ways[one.scale.per_mm] = Viewed(block, "hodograph", one.scale)
+    return shaped(ways.values(), grows=True)
 
 
 # Tables ------------------------------------------------------------------------------------------
