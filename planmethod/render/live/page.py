@@ -192,10 +192,10 @@ class _Page:
             "rows": [row.name for row in scene.sweep.rows],
             "way": list(scene.way),
             "start": scene.start,
-            "crank": drive.is_crank,
+            "crank": drive.goes_round,
             "sense": -1 if drive.rate < 0 else 1,
             "symbol": runs(drive.coordinate.symbol),
-            "unit": ("" if drive.is_crank else " ") + _plain(say.units[drive.coordinate.unit]),
+            "unit": ("" if drive.goes_round else " ") + _plain(say.units[drive.coordinate.unit]),
             "branches": [
                 {"places": one.followed.places, "values": one.values, "turn": one.followed.period}
                 if isinstance(one, Start)

@@ -333,11 +333,11 @@ class LiveScene:
     def _look(self) -> None:
         """Look where the mechanism can go; choose the scales."""
         drive = self.problem.drive
-        if drive.is_crank:
+        if drive.goes_round:
             self.way = (0.0, cycle_deg(self.problem))
         else:
             self.way = self._reach()
-        count = _STEPS[drive.is_crank] * _LOOKS
+        count = _STEPS[drive.goes_round] * _LOOKS
         self.grid = np.linspace(*self.way, count + 1)
         values, failed = self._run(self.grid)
         own = np.asarray(drive.positions, dtype=float)
@@ -361,7 +361,7 @@ class LiveScene:
         chosen = able if able.size else mine
         self.shown = Solution(self.problem, positions=chosen.tolist(), scales=unit)
         self.start = float(mine[0] if mine.size else able[0])
-        if drive.is_crank:
+        if drive.goes_round:
             self.start %= self.way[1]
 
     def _run(self, positions: Array) -> tuple[Array, Array]:
