@@ -183,6 +183,18 @@ class _Page:
 
     # Data ------------------------------------------------------------------------------------
 
+    def _cam(self) -> dict[str, Any] | None:
+        """Return the law by which a cam's follower drives."""
+        drive = self.problem.drive
+        if drive.followed is None:
+            return None
+        return {
+            "pieces": [piece._asdict() for piece in drive.followed.pieces],
+            "lowest": drive.followed.lowest,
+            "degrees": drive.followed.turns,
+            "rate": drive.rate,
+        }
+
     def _scene(self) -> dict[str, Any]:
         scene, drive, say, said = self.scene, self.problem.drive, self.words.say, self.words.live
         closings = scene.sweep.branches.values()
@@ -202,6 +214,7 @@ class _Page:
                 else {"changes": list(one.changes), "start": one.start, "turn": one.turn}
                 for one in closings
             ],
+            "cam": self._cam(),
             "loads": scene.loads(),
             "places": scene.rows_of(lambda kind: kind is QuantityKind.PLACE),
             "forces": forces,

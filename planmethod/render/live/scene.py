@@ -35,7 +35,7 @@ from planmethod.solved.forces.loads import applied, only_in_positions
 from planmethod.solved.forces.statics import Planned, plan_forces, statics_of
 from planmethod.solved.labelled import quantities_for
 from planmethod.solved.many.sweep import Sweep
-from planmethod.solved.scaling import OUTLIER
+from planmethod.solved.scaling import OUTLIER, typical
 from planmethod.solved.selfcheck import verify
 from planmethod.solved.solution import Solution
 
@@ -414,7 +414,7 @@ class LiveScene:
             ends = np.array([self._values(ref) for ref in refs])
             ends = ends[:, ~np.isnan(ends).any(axis=0)]
             sizes = np.maximum(np.ptp(ends.real, axis=0), np.ptp(ends.imag, axis=0))
-            ends = ends[:, sizes <= OUTLIER * np.median(sizes)] if sizes.size else np.zeros((1, 1))
+            ends = ends[:, sizes <= OUTLIER * typical(sizes)] if sizes.size else np.zeros((1, 1))
             extent = max(np.ptp(ends.real) / BOX[0], np.ptp(ends.imag) / BOX[1])
             view.per_mm = float(extent) or 1.0
             view.box = _box(ends.ravel() / view.per_mm, 22.0 if view.pushes else 13.0)
