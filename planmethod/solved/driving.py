@@ -8,6 +8,7 @@ from planmethod.problem.model import Drive, LawPiece, Lifted
 from planmethod.solved.reading import Reals
 
 _SLACK = 1e-12 * 2 * np.pi  # rad before a jump that are after it: rounding of its angle
+_STILL = 1e-15  # of a wave's size: the rounding of a cosine that is nothing
 
 
 def driven(drive: Drive, positions: Reals) -> tuple[Reals, float | Reals, float | Reals]:
@@ -41,6 +42,8 @@ def followed(lifted: Lifted, positions: Reals) -> Reals:
     for k in np.unique(which):
         here = which == k
         found[:, here] = _on(lifted.pieces[k], turned[here] - starts[k])
+    rate = found[1]
+    rate[np.abs(rate) < _STILL * max(abs(piece.size) for piece in lifted.pieces)] = 0.0
     return found
 
 

@@ -395,11 +395,14 @@ def asked_points(solution: Solution) -> list[str]:
 
 
 def asked_links(solution: Solution) -> list[str]:
-    """Return the links whose angular velocity is not given and not zero by nature."""
-    kin = solution.construction.kinematics
-    drive = solution.problem.drive.link
+    """Return the links whose angular velocity is not given and not zero by nature.
+
+    That of a link which a cam's follower swings is given in one position, in several it is told.
+    """
+    kin, drive = solution.construction.kinematics, solution.problem.drive
+    given = "" if drive.followed is not None and len(solution.positions) > 1 else drive.link
     return [
-        link for link in solution.problem.mechanism.links if link in kin.omega and link != drive
+        link for link in solution.problem.mechanism.links if link in kin.omega and link != given
     ]
 
 

@@ -67,7 +67,7 @@ def _extremes(solution: Solution, indices: Sequence[int], manner: Manner) -> lis
         return []
     letter = point_name(paths.output[1])
     names = ", ".join(f"{letter}{prime}" for prime in PRIMES)
-    whole = paths.course.closed and solution.problem.drive.goes_round and not manner.extras.turn
+    whole = paths.course.closed and solution.problem.drive.revolves and not manner.extras.turn
     return extremes_named(turn_of(solution) if whole else None, names, manner.words)
 
 

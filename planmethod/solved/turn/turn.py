@@ -96,7 +96,7 @@ class Turn(Remembering):
     def __init__(self, solution: Solution) -> None:
         super().__init__()
         problem = solution.problem
-        if not problem.drive.is_crank:
+        if not problem.drive.goes_round:
             raise ProblemError(
                 problem.name,
                 [
