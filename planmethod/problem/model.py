@@ -363,6 +363,11 @@ class Drive(Struct, frozen=True):
         return self.is_crank or self.followed is not None
 
     @property
+    def mover(self) -> str:
+        """Whose turn its positions are of, a key of sentences: ``crank`` or ``cam``."""
+        return "crank" if self.followed is None else "cam"
+
+    @property
     def revolves(self) -> bool:
         """Whether it is a crank that can turn all round, and not one that a follower swings."""
         return self.is_crank and self.followed is None

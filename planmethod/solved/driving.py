@@ -8,7 +8,8 @@ from planmethod.problem.model import Drive, LawPiece, Lifted
 from planmethod.solved.reading import Reals
 
 _SLACK = 1e-12 * 2 * np.pi  # rad before a jump that are after it: rounding of its angle
-_STILL = 1e-15  # of a wave's size: the rounding of a cosine that is nothing
+_NEAR_DEG = 1e-3
+_STILL = 1e-14  # of the way: what a rate has from the rounding of its angle where it is nothing
 
 
 def driven(drive: Drive, positions: Reals) -> tuple[Reals, float | Reals, float | Reals]:
@@ -42,8 +43,8 @@ def followed(lifted: Lifted, positions: Reals) -> Reals:
     for k in np.unique(which):
         here = which == k
         found[:, here] = _on(lifted.pieces[k], turned[here] - starts[k])
-    rate = found[1]
-    rate[np.abs(rate) < _STILL * max(abs(piece.size) for piece in lifted.pieces)] = 0.0
+    size = max(abs(piece.powers[0]) + abs(piece.size) for piece in lifted.pieces)
+    found[1, np.abs(found[1]) < _STILL * size] = 0.0
     return found
 
 
@@ -55,3 +56,16 @@ def _on(piece: LawPiece, x: Reals) -> Reals:
         [np.sin(turn), piece.rate * np.cos(turn), -(piece.rate**2) * np.sin(turn)]
     )
     return wave + np.array([power(x), power.deriv()(x), power.deriv(2)(x)])
+
+
+def near_piece(drive: Drive, position: float) -> float:
+    """Return the start of a piece of the cam's law that a position is at but for rounding, degrees.
+
+    A follower that has rested leaves its place so slowly that the root of its rate is rough.
+    """
+    for piece in drive.followed.pieces if drive.followed is not None else ():
+        start = float(np.degrees(piece.start))
+        away = (position - start + 180.0) % 360.0 - 180.0
+        if abs(away) < _NEAR_DEG:
+            return position - away if start else round((position - away) / 360.0) * 360.0
+    return position

@@ -193,7 +193,7 @@ def _numbered(text: As, asked: Sequence[float]) -> str:
         symbol=drive.coordinate.symbol,
         first=facts[0],
         step=facts[1],
-        sense=text.words.cycle["senses"]["against" if against else "along"],
+        sense=text.words.cycle["senses"][drive.mover]["against" if against else "along"],
         count=len(asked),
     )
 
