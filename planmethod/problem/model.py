@@ -147,8 +147,9 @@ class Rule(Struct, frozen=True):
 class Coordinate(Struct, frozen=True):
     """What tells where the driver stands (обобщённая координата): ``phi``, deg or ``s``, m.
 
-    Of a cam's follower it is the angle of the cam, ``cam``, deg. Records name it by ``column``; ``symbol`` is rich text; ``rates`` are the velocity and the
-    acceleration in a program. After a ``turn``, which is infinite of a slider, it stands as before.
+    Of a cam's follower it is the angle of the cam, ``cam``, deg. Records name it by ``column``;
+    ``symbol`` is rich text; ``rates`` are the velocity and the acceleration in a program. After a
+    ``turn``, which is infinite of a slider, it stands as before.
     """
 
     name: str

@@ -55,7 +55,7 @@ def _on(piece: LawPiece, x: Reals) -> Reals:
     wave = piece.size * np.array(
         [np.sin(turn), piece.rate * np.cos(turn), -(piece.rate**2) * np.sin(turn)]
     )
-    return wave + np.array([power(x), power.deriv()(x), power.deriv(2)(x)])
+    return np.asarray(wave + np.array([power(x), power.deriv()(x), power.deriv(2)(x)]))
 
 
 def near_piece(drive: Drive, position: float) -> float:

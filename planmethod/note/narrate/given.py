@@ -280,7 +280,7 @@ def _lifted(drive: Drive, led: Lifted, text: As, asked: Sequence[float]) -> list
     symbol = f"φ_{{{drive.link}}}" if led.turns else "s"
     speed = text.number(led.n, "rev/min", "cam.n")
     lines = [note.given_cam.format(n=speed, lowest=f"{symbol} = {lowest}")]
-    _, rates, gains = driven(drive, np.asarray(asked, dtype=float))
+    _, rates, gains = map(np.asarray, driven(drive, np.asarray(asked, dtype=float)))
     resting = np.flatnonzero((rates == 0.0) & (gains == 0.0))
     if len(asked) == 1:
         names = (f"ω_{{{drive.link}}}", f"ε_{{{drive.link}}}") if led.turns else ("v", "a")

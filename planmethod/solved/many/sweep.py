@@ -307,7 +307,8 @@ class Sweep:
 
     def _loaded(self, positions: Array) -> list[Array]:
         """Return the columns that differ from position to position: cam, branches and loads."""
-        columns = [*driven(self.problem.drive, positions)] if self._followed else []
+        motion = driven(self.problem.drive, positions) if self._followed else ()
+        columns = [np.asarray(one) for one in motion]
         columns += [closing.branch(positions) for closing in self.branches.values()]
         if self.loads is not None:
             columns += self.loads.at(positions)
