@@ -207,7 +207,7 @@ class Sweep:
         Parameters
         ----------
         positions : ndarray of shape (n,)
-            phi in degrees, or s in metres.
+            phi in degrees, or s in metres; angles of a cam that drives, degrees.
         parameters : mapping of str to ndarray of shape (n,), (v, 1) or scalar, optional
             Values of `varied`. Of shape (v, 1) they make v variants of every position.
         out : ndarray of shape (k, ...), optional
