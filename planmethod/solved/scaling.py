@@ -159,9 +159,6 @@ OUTLIER = 5.0
 """A plan that many times larger than the middle one is not looked at where a paper is chosen: it
 stands near a dead position. It has room on the paper all the same."""
 
-POINT = 1e-9
-"""Share of the largest plan up to which one is a point."""
-
 MOST_DRAWN = 120
 """Most positions drawn in one call: ten sheets of a dozen."""
 
@@ -258,7 +255,7 @@ def typical(sizes: Reals) -> float:
 
     Plans that are points do not count: a mechanism may rest in most of its positions.
     """
-    seen = sizes[sizes > POINT * np.max(sizes)]
+    seen = sizes[sizes > 0.0]
     return median(seen) if seen.size else 0.0
 
 
