@@ -248,7 +248,7 @@ def extent(construction: Construction, si: Reading, kind: PlanKind) -> Box:
 def _usual(width: Reals, height: Reals) -> Box:
     """Return the largest of sizes without outliers."""
     size = np.maximum(width, height)
-    usual = size <= OUTLIER * median(size)
+    usual = size <= OUTLIER * typical(size)
     return float(np.max(width[usual])), float(np.max(height[usual]))
 
 
@@ -256,6 +256,15 @@ def median(sizes: Reals) -> float:
     """Return the median of (N,) sizes; numpy's own would import its masked arrays."""
     ordered = np.sort(sizes)
     return float(ordered[(len(ordered) - 1) // 2] + ordered[len(ordered) // 2]) / 2
+
+
+def typical(sizes: Reals) -> float:
+    """Return the median of the sizes of plans, (N,); of points alone 0.
+
+    Plans that are points do not count: a mechanism may rest in most of its positions.
+    """
+    seen = sizes[sizes > 0.0]
+    return median(seen) if seen.size else 0.0
 
 
 class Extents:
@@ -478,7 +487,7 @@ class _Drawn(Struct, frozen=True, dict=True):
         usual = _fitting(self.asked, self.box, self.size)
         found = per_mm = max(usual, _fitting(self.asked, stretched, self.largest))
         worst = inf
-        middle = median(np.maximum(*self.sizes))
+        middle = typical(np.maximum(*self.sizes))
         while self.rows and (per_mm == found or LEAST * per_mm <= middle):
             crowded = max(self.share(per_mm), self.on_paper(per_mm)[0] / self.box[0])
             if crowded < worst:  # smaller plans take more room, shown enlarged
@@ -573,7 +582,7 @@ class _Drawn(Struct, frozen=True, dict=True):
         size, own = np.maximum(width, height), np.full(self.si.count, np.nan)
         if self.kind is not PlanKind.POSITION:
             box = self.views.plan_box(self.kind, self.si.count)
-            alone = (size > 0.0) if self.own_only else size > DEAD * median(size)
+            alone = (size > 0.0) if self.own_only else size > DEAD * typical(size)
             for k in np.flatnonzero(alone):
                 own[k] = _fitting(self.asked, box, (float(width[k]), float(height[k])))
         return own

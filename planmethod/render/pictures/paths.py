@@ -154,7 +154,7 @@ class Paths(Struct, frozen=True, dict=True):
         """
         if self.output is None:
             return ()
-        if self.course.closed and self.solution.problem.drive.is_crank:
+        if self.course.closed and self.solution.problem.drive.goes_round:
             ends = turn_of(self.solution).ends or ()
             return tuple(sorted(round(end.phi % TURN, 9) % TURN for end in ends))
         link, point = self.output

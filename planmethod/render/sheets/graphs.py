@@ -145,7 +145,7 @@ def graph_labels(solution: Solution, manner: Manner) -> tuple[str, ...]:
     A block that asks for the output alone has that where nothing else is asked.
     """
     task, own = solution.problem.cycle, manner.entry.asked
-    if not solution.problem.drive.is_crank:
+    if not solution.problem.drive.goes_round:
         return ()
     of_file = task.graphs if task is not None else ()
     return manner.extras.asked or (() if own == (OUTPUT,) else own) or of_file or own

@@ -216,7 +216,7 @@ def _over_the_cycle(solution: Solution) -> Solution:
     """
     from planmethod.solved.turn.numbering import numbered_positions
 
-    if not solution.problem.drive.is_crank:
+    if not solution.problem.drive.goes_round:
         return solution
     return solution.moved(numbered_positions(solution).tolist())
 
