@@ -121,7 +121,7 @@ setInterval(async () => {
 
 // The scheme --------------------------------------------------------------------------------------
 
-let pause = 0, rest = 0, running = false, again = false;
+let pause = 0, rest = 0, asking = null, again = false;
 
 function soon(wait = PAUSE) {
   for (const name of ["motion", "sheets", "tables", "protocol", "structure", "assemblies"]) stale.add(name);
@@ -132,21 +132,26 @@ function soon(wait = PAUSE) {
   if (["motion", "tables", "structure", "protocol"].includes(view)) rest = setTimeout(refresh, REST);
 }
 
-async function sketch() {  // one at a time; what was typed meanwhile is drawn next
-  if (running) { again = true; return; }
+async function sketch() {  // one at work at a time; where it waits yet, what was typed since takes its place
+  if (asking && !asking.waits) { again = true; return; }
   if (!kept.text.trim()) { show({ faults: [] }); byId("sketch").removeAttribute("src"); return; }
-  running = true;
-  const text = kept.text, began = performance.now();
+  const text = kept.text, began = performance.now(), own = asking = { waits: false };
   try {
-    const found = await compute("sketched", problem(), { tries: 5 });
+    const found = await compute("sketched", problem(), { tries: 5, told: one => {
+      own.waits = one.place > 0;
+      if (own.waits && again) { again = false; sketch(); }
+    } });
+    if (asking !== own) return;
+    again ||= found.superseded;
     if (found.refused) note(found.refused);
     byId("scheme").dataset.ms = Math.round(performance.now() - began);
-    if (kept.text === text || found.svg) show(found);
-    if (kept.text === text) byId("scheme").classList.remove("old");
+    if (found.svg || (kept.text === text && !found.superseded)) show(found);
+    if (kept.text === text && !again) byId("scheme").classList.remove("old");
   } catch (error) {
+    if (asking !== own) return;
     note(error.message === "Failed to fetch" ? W.gone : error.message, { [W.again]: () => soon(0) });
   }
-  running = false;
+  asking = null;
   if (again || kept.text !== text) { again = false; soon(0); }
 }
 
