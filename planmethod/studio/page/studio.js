@@ -146,7 +146,7 @@ async function sketch() {  // one at work at a time; where it waits yet, what wa
     if (found.refused) note(found.refused);
     byId("scheme").dataset.ms = Math.round(performance.now() - began);
     if (found.svg || (kept.text === text && !found.superseded)) show(found);
-    if (kept.text === text && !again) byId("scheme").classList.remove("old");
+    if (found.svg && kept.text === text && !again) byId("scheme").classList.remove("old");
   } catch (error) {
     if (asking !== own) return;
     note(error.message === "Failed to fetch" ? W.gone : error.message, { [W.again]: () => soon(0) });
@@ -163,8 +163,9 @@ function show(found) {
   list.replaceChildren();
   for (const one of found.faults || []) {
     const item = made(list, "li");
-    if (one.line) made(item, "button", say("line", one)).addEventListener("click", () => typed.go(one.line, one.column));
-    item.append(` ${faultText(one)}`);
+    const tells = /\s/.test(one.path);  // line 23, column 11
+    if (one.line) made(item, "button", tells ? one.path : say("line", one)).addEventListener("click", () => typed.go(one.line, one.column));
+    item.append(` ${faultText(tells && one.line ? { ...one, path: "" } : one)}`);
   }
   if (!list.children.length) made(list, "li", W.no_faults, { class: "good" });
   const variant = byId("variant"), names = found.variants || [];
@@ -201,7 +202,7 @@ async function refresh() {
   if (view === "motion") {
     const found = await long("command", { ...problem(), what: "live" }, told);
     const page = found?.files.find(one => one.name.endsWith(".html"));
-    if (page) framed(panel, found.files_at + encodeURI(page.name), W.motion, true);
+    if (page) framed(panel, found.files_at + encodeURI(page.name), W.motion, { live: true });
   }
   if (["tables", "protocol", "structure"].includes(view)) {
     const found = await long("command", { ...problem(), what: view }, told);
