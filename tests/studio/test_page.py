@@ -179,7 +179,7 @@ def test_variants_and_questions_are_made_and_downloaded_by_clicks(
     assert "Подобрано вариантов: 3 из 3" in text(page, "#varied")
     assert page.ask(made)[1:] == ["linkages-ex3-moodle.xml", "linkages-ex3-variants.toml"]
     page.call("Browser.setDownloadBehavior", behavior="allow", downloadPath=str(tmp_path))
-    for name, tells in (("moodle.xml", "<quiz>"), ("variants.toml", "[variants.")):
+    for name, tells in (("moodle.xml", "<quiz>"), ("variants.toml", "[variants]")):
         click(page, f"#desk > .made a[href*='{name}']")
         written = tmp_path / f"linkages-ex3-{name}"
         end = time.monotonic() + 20
