@@ -36,6 +36,7 @@ HEADS = (
     "queue 95 %, s", "at work 95 %, s", "memory, MB", "CPU of one scheme, ms", "server's of it, ms",
     "load average",
 )  # fmt: skip
+LATENCY_HEADS = ("what", "from the start, s", "median, s", "longest, s", "CPU, ms")
 THINGS = {
     "scheme": ("sketched", {}),
     "what moves": ("command", {"what": "live"}),
@@ -148,10 +149,10 @@ def used_by(root: int) -> Used:
 
 
 @contextlib.contextmanager
-def served() -> Iterator[tuple[str, int]]:
-    """Serve strangers with two processes at a free port; its address, and the number of it."""
-    command = [sys.executable, "-m", "planmethod", "studio", "--serve", "--port", "0"]
-    with subprocess.Popen([*command, "--jobs", "2"], stdout=subprocess.PIPE, text=True) as running:
+def served(*more: str) -> Iterator[tuple[str, int]]:
+    """Start a studio with two processes at a free port; its address, and the number of it."""
+    command = [sys.executable, "-m", "planmethod", "studio", "--port", "0", "--jobs", "2", *more]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as running:
         assert running.stdout is not None
         try:
             yield re.findall(r"http://\S+", running.stdout.readline())[0], running.pid
@@ -187,17 +188,25 @@ def share(ordered: Sequence[float], part: float) -> float:
 
 
 def latencies(times: int) -> Iterator[list[str]]:
-    """Yield how long one student waits for each thing, s: cold, just started, and warm."""
+    """Yield how long one student waits for each thing, s: from the start of the server, and after.
+
+    The last number is the CPU that one of the later ones took, ms.
+    """
     for name, (do, more) in THINGS.items():
         took: list[float] = []
-        with served() as (address, _), contextlib.closing(Visitor(address)) as page:
+        start = time.monotonic()
+        with served() as (address, server), contextlib.closing(Visitor(address)) as page:
             for number in range(times + 1):
                 text = re.sub(r"omega *= *[\d.]+", f"omega = {number + 1}.7", text_of(TASKS[0]))
-                began = time.monotonic()
+                began = time.monotonic() if number else start
                 assert "refused" not in page.ask(do, text, **more)["found"]
                 took.append(time.monotonic() - began)
+                if not number:
+                    before = used_by(server).cpu
+            cpu = (used_by(server).cpu - before) / times
         warm = sorted(took[1:])
-        yield [name, f"{took[0]:.2f}", f"{share(warm, 0.5):.2f}", f"{warm[-1]:.2f}"]
+        cells = (took[0], share(warm, 0.5), warm[-1])
+        yield [name, *(f"{one:.2f}" for one in cells), f"{1000 * cpu:.0f}"]
 
 
 def table(heads: Sequence[str], rows: Iterable[Sequence[str]]) -> None:
@@ -218,9 +227,9 @@ def main() -> int:
     asked = parser.parse_args()
     if asked.latencies:
         print(f"load average: {os.getloadavg()[0]:.1f}")
-        table(("what", "first, s", "median, s", "longest, s"), latencies(asked.latencies))
+        table(LATENCY_HEADS, latencies(asked.latencies))
         return 0
-    with served() as (address, server):
+    with served("--serve") as (address, server):
         TypingStudent(address, 999, 10, 0.1).run()
         counts = map(int, asked.students.split(","))
         table(HEADS, (row(address, server, n, asked.changes, asked.pause) for n in counts))

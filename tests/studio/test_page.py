@@ -141,6 +141,14 @@ def test_answers_are_compared_while_one_types_and_judged(page: Page, address: st
     assert "сходится" in text(page, "#rows tr:nth-child(1)")
     click(page, "#judge")
     page.wait("document.querySelector('#verdicts iframe')")
+    # a frame would be cut where a sheet of paper ends: its page is printed by itself
+    page.call("Emulation.setEmulatedMedia", media="print")
+    shown = "document.querySelector({!r}).checkVisibility()"
+    assert page.ask(shown.format("#rows th")) and page.ask(shown.format("#verdicts .own"))
+    assert not page.ask(shown.format("#verdicts iframe"))
+    page.call("Emulation.setEmulatedMedia", media="")
+    with urllib.request.urlopen(page.ask("document.querySelector('.own a + a').href")) as answer:
+        assert answer.read(5) == b"%PDF-"
     assert page.said == []
 
 
@@ -188,7 +196,7 @@ def test_variants_and_questions_are_made_and_downloaded_by_clicks(
         assert tells in written.read_text("utf-8")
     # for a variant of theirs the key is a button, too
     click(page, "#key")
-    page.wait(f"{made}.some(one => /key.*html/.test(one))", 120)
+    page.wait(f"{made}.some(one => /key[.]pdf$/.test(one))", 120)
     assert page.said == []
 
 

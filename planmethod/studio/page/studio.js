@@ -240,7 +240,9 @@ export function ruled(text, rules) {  // the text with these rules in [assembly]
 for (const button of byId("makes").querySelectorAll("button")) {
   button.addEventListener("click", async () => {
     const found = await long("command", { ...problem(), what: button.dataset.what }, byId("files").querySelector(".told"));
-    if (found) fileList(byId("files").querySelector(".made"), found);
+    const list = byId("files").querySelector(".made");
+    if (found) fileList(list, found);
+    if (found?.files.length === 1) list.querySelector("a").click();  // it is downloaded at once
   });
 }
 
