@@ -127,6 +127,9 @@ def test_answers_are_compared_while_one_types_and_judged(page: Page, address: st
     click(page, "#ask")
     page.wait("document.querySelectorAll('#rows tr').length > 5")
 
+    click(page, "#judge")
+    assert text(page, "#answers .told") == "Пока не заполнен ни один ответ."
+
     def fill(name: str, value: str) -> None:
         page.ask(
             f"{{ const box = document.querySelector({name!r}); box.value = {value!r};"

@@ -71,6 +71,7 @@ def visited(page: Page, address: str, lang: str, look: Callable[[str], None]) ->
     click(page, "#to-answers")
     click(page, "#ask")
     page.wait("document.querySelector('#rows tr')")
+    page.ask("document.querySelector('#rows td:nth-of-type(3) input').value = '3,2'")
     click(page, "#judge")
     page.wait("document.querySelector('#verdicts iframe')")
     look("answers")
