@@ -92,12 +92,13 @@ export async function long(act, body, told) {  // null where it is stopped or re
     byId("told").textContent = one.place ? say("waiting", one) : W.working;
     if (one.share === undefined) share.removeAttribute("value"); else share.value = one.share;
   };
-  told.textContent = "";
+  told.textContent = byId("done").textContent = "";
   show({});
   try {
     const found = await compute(act, body, { signal: own.signal, told: show });
     const faults = (found.faults || []).map(one => faultText(one));
     told.textContent = [found.refused, found.errors, ...faults].filter(Boolean).join("\n");
+    if (!told.textContent) byId("done").textContent = W.done;  // for who hears the page
     return found.refused || faults.length ? null : found;
   } catch (error) {
     if (!own.signal.aborted) told.textContent = error.message === "Failed to fetch" ? W.gone : error.message;
@@ -121,22 +122,29 @@ export function note(text, doing = {}) {  // tells something, with what can be d
 
 export function fileList(list, found) {  // what was made, to download
   list.replaceChildren();
+  if (found.files.length > 1) made(made(list, "li"), "a", W.zip, { href: `${found.files_at}all.zip`, download: "" });
   for (const one of found.files) {
     const item = made(list, "li");
     made(item, "a", one.name, { href: `${found.files_at}${encodeURI(one.name)}?download`, download: one.name.split("/").pop() });
     item.append(` ${Math.max(1, Math.round(one.bytes / 1024))} КБ`.replace("КБ", D.lang === "ru" ? "КБ" : "kB"));
   }
-  if (found.files.length > 1) made(made(list, "li"), "a", W.zip, { href: `${found.files_at}all.zip`, download: "" });
 }
 
-export function framed(box, address, title, live = false) {  // a page that was made, kept apart from this one
+export function pdfOf(found, page) {  // the address of the same page for paper
+  const name = page.name.replace(/html$/, "pdf");
+  return found.files.some(one => one.name === name) ? found.files_at + encodeURI(name) : "";
+}
+
+export function framed(box, address, title, { live = false, pdf = "" } = {}) {  // a page that was made, kept apart from this one
   const frame = document.createElement("iframe");
   frame.title = title;
   frame.setAttribute("sandbox", live ? "allow-scripts" : "");
   frame.src = address;
   for (const old of box.querySelectorAll("iframe, .own")) old.remove();
   box.append(frame);
-  made(made(box, "p", "", { class: "own" }), "a", W.own_tab, { href: address, target: "_blank", rel: "noopener" });
+  const own = made(box, "p", "", { class: "own" });
+  made(own, "a", W.own_tab, { href: address, target: "_blank", rel: "noopener" });
+  if (pdf) { own.append(" · "); made(own, "a", "PDF", { href: pdf, target: "_blank", rel: "noopener" }); }
 }
 
 export function lettered(node, text) {  // with its indices below: v_B3, aᵏ_B3B2
@@ -174,9 +182,10 @@ export function tabs(list, shown) {  // by click and by arrows
   for (const [k, tab] of all.entries()) {
     tab.addEventListener("click", () => open(tab.getAttribute("aria-controls")));
     tab.addEventListener("keydown", event => {
-      const step = { ArrowRight: 1, ArrowLeft: -1 }[event.key];
-      if (!step) return;
-      const other = all[(k + step + all.length) % all.length];
+      const next = { ArrowRight: k + 1, ArrowLeft: k - 1, Home: 0, End: -1 }[event.key];
+      if (next === undefined) return;
+      event.preventDefault();
+      const other = all.at(next % all.length);
       other.focus();
       open(other.getAttribute("aria-controls"));
     });

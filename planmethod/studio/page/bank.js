@@ -39,8 +39,9 @@ function more(take) {
       made(choice, "option", W.main_part, { value: "" });
       for (const name of task.variants) made(choice, "option", name, { value: name });
     }
-    made(row, "button", W.take, { "aria-label": `${W.take}: ${task.name}` })
-      .addEventListener("click", () => start(task.name, choice?.value || "", take));
+    const taken = () => start(task.name, choice?.value || "", take);
+    made(row, "button", W.take, { "aria-label": `${W.take}: ${task.name}` }).addEventListener("click", taken);
+    item.firstChild.addEventListener("click", taken);
   }
   shown = Math.min(tasks.length, shown + STEP);
   byId("more").hidden = shown === tasks.length;

@@ -1,5 +1,5 @@
 // The instructor: works dropped on the page, their marks, what is set by hand, variants and questions.
-import { D, W, byId, call, enter, fileList, framed, lettered, long, made, note, say } from "./api.js";
+import { D, W, byId, call, enter, fileList, framed, lettered, long, made, note, pdfOf, say } from "./api.js";
 
 let found = null, byHand = [];
 const told = byId("group").querySelector(".told");
@@ -81,7 +81,7 @@ function student() {
   which.value = [...which.options].some(one => one.value === chosen) ? chosen : "";
   const plain = text => text.normalize("NFC").replace(/[^\p{L}\p{N}]+/gu, "-");
   const page = found.files.find(one => one.name.endsWith(".html") && plain(one.name.replace(/^pages\/|\.html$/g, "")) === plain(who));
-  if (page) framed(byId("page"), found.files_at + encodeURI(page.name), who);
+  if (page) framed(byId("page"), found.files_at + encodeURI(page.name), who, { pdf: pdfOf(found, page) });
   else byId("page").replaceChildren();
 }
 

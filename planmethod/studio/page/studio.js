@@ -121,7 +121,7 @@ setInterval(async () => {
 
 // The scheme --------------------------------------------------------------------------------------
 
-let pause = 0, rest = 0, running = false, again = false;
+let pause = 0, rest = 0, asking = null, again = false;
 
 function soon(wait = PAUSE) {
   for (const name of ["motion", "sheets", "tables", "protocol", "structure", "assemblies"]) stale.add(name);
@@ -132,21 +132,26 @@ function soon(wait = PAUSE) {
   if (["motion", "tables", "structure", "protocol"].includes(view)) rest = setTimeout(refresh, REST);
 }
 
-async function sketch() {  // one at a time; what was typed meanwhile is drawn next
-  if (running) { again = true; return; }
+async function sketch() {  // one at work at a time; where it waits yet, what was typed since takes its place
+  if (asking && !asking.waits) { again = true; return; }
   if (!kept.text.trim()) { show({ faults: [] }); byId("sketch").removeAttribute("src"); return; }
-  running = true;
-  const text = kept.text, began = performance.now();
+  const text = kept.text, began = performance.now(), own = asking = { waits: false };
   try {
-    const found = await compute("sketched", problem(), { tries: 5 });
+    const found = await compute("sketched", problem(), { tries: 5, told: one => {
+      own.waits = one.place > 0;
+      if (own.waits && again) { again = false; sketch(); }
+    } });
+    if (asking !== own) return;
+    again ||= found.superseded;
     if (found.refused) note(found.refused);
     byId("scheme").dataset.ms = Math.round(performance.now() - began);
-    if (kept.text === text || found.svg) show(found);
-    if (kept.text === text) byId("scheme").classList.remove("old");
+    if (found.svg || (kept.text === text && !found.superseded)) show(found);
+    if (found.svg && kept.text === text && !again) byId("scheme").classList.remove("old");
   } catch (error) {
+    if (asking !== own) return;
     note(error.message === "Failed to fetch" ? W.gone : error.message, { [W.again]: () => soon(0) });
   }
-  running = false;
+  asking = null;
   if (again || kept.text !== text) { again = false; soon(0); }
 }
 
@@ -158,8 +163,9 @@ function show(found) {
   list.replaceChildren();
   for (const one of found.faults || []) {
     const item = made(list, "li");
-    if (one.line) made(item, "button", say("line", one)).addEventListener("click", () => typed.go(one.line, one.column));
-    item.append(` ${faultText(one)}`);
+    const tells = /\s/.test(one.path);  // line 23, column 11
+    if (one.line) made(item, "button", tells ? one.path : say("line", one)).addEventListener("click", () => typed.go(one.line, one.column));
+    item.append(` ${faultText(tells && one.line ? { ...one, path: "" } : one)}`);
   }
   if (!list.children.length) made(list, "li", W.no_faults, { class: "good" });
   const variant = byId("variant"), names = found.variants || [];
@@ -196,7 +202,7 @@ async function refresh() {
   if (view === "motion") {
     const found = await long("command", { ...problem(), what: "live" }, told);
     const page = found?.files.find(one => one.name.endsWith(".html"));
-    if (page) framed(panel, found.files_at + encodeURI(page.name), W.motion, true);
+    if (page) framed(panel, found.files_at + encodeURI(page.name), W.motion, { live: true });
   }
   if (["tables", "protocol", "structure"].includes(view)) {
     const found = await long("command", { ...problem(), what: view }, told);
@@ -234,7 +240,9 @@ export function ruled(text, rules) {  // the text with these rules in [assembly]
 for (const button of byId("makes").querySelectorAll("button")) {
   button.addEventListener("click", async () => {
     const found = await long("command", { ...problem(), what: button.dataset.what }, byId("files").querySelector(".told"));
-    if (found) fileList(byId("files").querySelector(".made"), found);
+    const list = byId("files").querySelector(".made");
+    if (found) fileList(list, found);
+    if (found?.files.length === 1) list.querySelector("a").click();  // it is downloaded at once
   });
 }
 
