@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import json
 import shutil
+import sys
 from collections.abc import Callable
 from pathlib import Path
 from tempfile import mkdtemp
+from types import ModuleType
 from typing import Any
 from urllib.parse import parse_qs, unquote, urlsplit
 
@@ -32,6 +34,8 @@ Answer = tuple[int, bytes]
 
 def begun(act: Callable[[dict[str, Any], Callable[[float], None]], dict[str, Any]]) -> Alone:
     """Return what answers the page; ``act`` does what is asked."""
+    for name in ("termios", "tty"):  # click's bar imports them for nothing; a browser has none
+        sys.modules.setdefault(name, ModuleType(name))
     session = StudioSession("", Path(mkdtemp(prefix="planmethod-studio-")), True, 0.0)
     session.works.mkdir()
     return Alone(act, session)

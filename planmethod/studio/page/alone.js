@@ -58,7 +58,8 @@ export async function ask(path, { method = "GET", body = "", signal } = {}) {
   const asked = { method, path, body: new Uint8Array(await new Response(body).arrayBuffer()) };
   if (!plain.startsWith("api/do/")) {
     const { status, found, failed } = await answered(asked, () => {});
-    return failed ? new Response(words[failed], { status: 500 }) : new Response(found, { status });
+    if (failed) throw new TypeError(words[failed]);  // as where a server does not answer
+    return new Response(found, { status });
   }
   return new Response(new ReadableStream({
     start(stream) {
@@ -81,7 +82,7 @@ async function file(address) {
 export async function show(frame, address, live) {
   const text = await (await file(address))[0].text();
   if (!live) { frame.srcdoc = text; return; }
-  frame.addEventListener("load", () => frame.contentWindow.postMessage(text, "*"), { once: true });
+  frame.addEventListener("load", () => frame.contentWindow.postMessage(text, "*"));  // an empty page may load before
   frame.src = full("static/frame.html");
 }
 
