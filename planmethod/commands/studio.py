@@ -81,8 +81,11 @@ def studio(
     """
     if written is not None:
         if file is not None or served or shown:
-            raise UsageError("--static writes a page that needs no server: it takes --pyodide alone")
-        return _write(written, runtime, lang)
+            raise UsageError(
+                "--static writes a page that needs no server: it takes --pyodide alone"
+            )
+        _write(written, runtime, lang)
+        return
     if runtime is not None:
         raise UsageError("--pyodide goes with --static")
     if not served and host not in LOOPBACK:

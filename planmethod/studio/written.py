@@ -28,7 +28,8 @@ VERSION = "314.0.7"
 
 OFFICIAL = "https://cdn.jsdelivr.net/pyodide/v{}/full/"
 
-CORE = ("pyodide.mjs", "pyodide.asm.mjs", "pyodide.asm.wasm", "python_stdlib.zip", LOCK := "pyodide-lock.json")
+LOCK = "pyodide-lock.json"
+CORE = ("pyodide.mjs", "pyodide.asm.mjs", "pyodide.asm.wasm", "python_stdlib.zip", LOCK)
 """What ``npm pack pyodide`` has of the runtime."""
 
 LOADED = ("numpy", "shapely", "matplotlib", "lxml", "msgspec")
@@ -151,9 +152,7 @@ def write_studio(
         done(1)
 
 
-def _files(
-    runtime: Runtime, layouts: tuple[str, ...], lang: str
-) -> Iterator[tuple[str, bytes]]:
+def _files(runtime: Runtime, layouts: tuple[str, ...], lang: str) -> Iterator[tuple[str, bytes]]:
     """Yield the files and what is in them, without the pictures."""
     pages = {one: "index.html" if one == lang else f"{one}.html" for one in LANGUAGES}
     alone = {"core": runtime.core, "packages": runtime.packages, "names": LOADED, "site": ARCHIVE}
