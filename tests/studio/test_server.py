@@ -80,7 +80,7 @@ def test_every_word_of_the_page_is_used_and_every_word_it_uses_is_there() -> Non
     )
     html = (folder / "studio.html").read_text("utf-8")
     used = {*re.findall(r"\{\{(\w+)\}\}", html), *re.findall(r"\bW\.(\w+)", scripts)}
-    used |= {*re.findall(r'say\("(\w+)"', scripts)}
+    used |= {*re.findall(r'(?:say\(|tell\(|failed: |why = )"(\w+)"', scripts)}
     known = {*language("ru").studio["page"]}
     assert (used - known, known - used) == (set(), set())
 

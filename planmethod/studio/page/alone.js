@@ -19,7 +19,7 @@ function begin() {  // of a blob, so that the policy of the page holds in it
 }
 
 function heard(data) {
-  if (data.loading !== undefined) return tell(data.loading && "loading", { name: data.loading });
+  if (data.loading !== undefined) return data.loading ? tell("loading", { name: data.loading }) : tell("");
   if (data.share !== undefined) return running?.id === data.id && running.told({ share: data.share });
   if (data.failed) { end(); tell(data.failed, data); }
   if (!running || (data.id && data.id !== running.id)) return;
