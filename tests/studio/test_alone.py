@@ -281,7 +281,7 @@ def test_without_its_runtime_the_page_says_so_and_shows_the_tasks(
         page.ask("document.querySelector('#lang').value = 'ru'")
         page.ask("document.querySelector('#lang').dispatchEvent(new Event('change'))")
         page.wait(
-            "document.documentElement.lang === 'ru' && location.pathname.endsWith('index.html')"
+            "document.documentElement?.lang === 'ru' && location.pathname.endsWith('index.html')"
         )
         assert not [said for said in page.said if "Security Policy" in said]
 
