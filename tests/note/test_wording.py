@@ -57,7 +57,7 @@ MACHINE = {
 }
 """Quantities of machines whose letters a language's `Notation` has."""
 
-PROGRAMS = {"Word", "Moodle", "JavaScript", "CodeMirror", "JSON", "XLSX"}
+PROGRAMS = {"Word", "Moodle", "JavaScript", "Python", "CodeMirror", "JSON", "XLSX"}
 """Programs and formats that the page of the studio names in every language."""
 
 TERMS = {

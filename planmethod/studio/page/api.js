@@ -1,4 +1,6 @@
-// What the page asks of its server, and how it tells what becomes of it.
+// What the page asks for, and how it tells what becomes of it.
+import { ask, show as shown } from "./transport.js";
+
 export const D = JSON.parse(document.getElementById("data").textContent);
 export const W = D.words;
 export const byId = id => document.getElementById(id);
@@ -21,7 +23,7 @@ if (token) sessionStorage.setItem("token", token);
 let session = null;
 
 export function enter() {
-  session ??= fetch("/api/session", { method: "POST", body: JSON.stringify({ token }) }).then(async answer => {
+  session ??= ask("api/session", { method: "POST", body: JSON.stringify({ token }) }).then(async answer => {
     if (!answer.ok) throw new Error(await answer.text());
     return answer.json();
   }).catch(error => { session = null; throw error; });
@@ -32,7 +34,7 @@ export async function call(path, options = {}) {  // with the key of the session
   for (let turn = 0; ; turn++) {
     const { key } = await enter();
     const mark = path.includes("?") ? "&" : "?";
-    const answer = await fetch(`${path}${mark}lang=${D.lang}`,
+    const answer = await ask(`${path}${mark}lang=${D.lang}`,
       { ...options, headers: { ...options.headers, "x-studio": key } });
     if (answer.status !== 401 || turn) return answer;
     session = null;
@@ -46,7 +48,7 @@ export async function compute(act, body, { signal, told = () => {}, tries = 0 } 
   for (let turn = 0; ; turn++) {
     let answer;
     try {
-      answer = await call(`/api/do/${act}`, { method: "POST", body: JSON.stringify(body), signal });
+      answer = await call(`api/do/${act}`, { method: "POST", body: JSON.stringify(body), signal });
     } catch (error) {
       if (signal?.aborted || turn >= tries) throw error;
       answer = null;
@@ -81,7 +83,7 @@ async function lines(answer, told) {
 // One long computation at a time, with its place, its share and a way to stop it ------------------
 
 let stopping = null;
-byId("stop").addEventListener("click", () => stopping?.abort());
+byId("stop").addEventListener("click", () => stopping?.abort("stop"));
 
 export async function long(act, body, told) {  // null where it is stopped or refused; told: where it is said
   stopping?.abort();
@@ -110,14 +112,14 @@ export async function long(act, body, told) {  // null where it is stopped or re
 
 export const faultText = one => [one.path && `${one.path}: `, one.message, one.hint && `. ${one.hint}`].filter(Boolean).join("");
 
-export function note(text, doing = {}) {  // tells something, with what can be done about it
+export function note(text, doing = {}, stays = false) {  // tells something, with what can be done about it
   byId("note").hidden = !text;
   byId("said").textContent = text;
   byId("said-do").replaceChildren();
   for (const [label, act] of Object.entries(doing)) {
     made(byId("said-do"), "button", label).addEventListener("click", () => { note(""); act(); });
   }
-  if (text && !Object.keys(doing).length) setTimeout(() => { if (byId("said").textContent === text) note(""); }, 8000);
+  if (text && !stays && !Object.keys(doing).length) setTimeout(() => { if (byId("said").textContent === text) note(""); }, 8000);
 }
 
 export function fileList(list, found) {  // what was made, to download
@@ -139,7 +141,7 @@ export function framed(box, address, title, { live = false, pdf = "" } = {}) {  
   const frame = document.createElement("iframe");
   frame.title = title;
   frame.setAttribute("sandbox", live ? "allow-scripts" : "");
-  frame.src = address;
+  shown(frame, address, live);
   for (const old of box.querySelectorAll("iframe, .own")) old.remove();
   box.append(frame);
   const own = made(box, "p", "", { class: "own" });

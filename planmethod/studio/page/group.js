@@ -16,7 +16,7 @@ export async function group(problem) {
     drop.addEventListener(name, event => { event.preventDefault(); drop.classList.toggle("over", is); });
   }
   drop.addEventListener("drop", event => take([...event.dataTransfer.files]));
-  byId("forget").addEventListener("click", async () => list(await (await call("/api/works/all", { method: "DELETE" })).json()));
+  byId("forget").addEventListener("click", async () => list(await (await call("api/works/all", { method: "DELETE" })).json()));
   byId("check").addEventListener("click", () => check(problem()));
   byId("who").addEventListener("change", student);
   byId("by-hand").addEventListener("submit", event => {
@@ -32,7 +32,7 @@ export async function group(problem) {
 
 async function take(files) {
   for (const file of files) {
-    const answer = await call(`/api/works/${encodeURIComponent(file.name)}`, { method: "PUT", body: file });
+    const answer = await call(`api/works/${encodeURIComponent(file.name)}`, { method: "PUT", body: file });
     if (answer.ok) list(await answer.json()); else note(await answer.text());
   }
 }

@@ -5,6 +5,7 @@ import { bank, start } from "./bank.js";
 import { editor } from "./editor.js";
 import { group } from "./group.js";
 import * as sheets from "./sheets.js";
+import { starting } from "./transport.js";
 
 const PAUSE = 250, REST = 900;  // ms without a letter: the scheme; what moves
 const HOME = "planmethod.text";
@@ -27,7 +28,7 @@ byId("theme").addEventListener("click", () => {
 });
 for (const lang of D.langs) made(byId("lang"), "option", lang === "ru" ? "Русский" : "English", { value: lang });
 byId("lang").value = D.lang;
-byId("lang").addEventListener("change", event => { location.search = `?lang=${event.target.value}`; });
+byId("lang").addEventListener("change", event => { location.assign(D.pages?.[event.target.value] ?? `?lang=${event.target.value}`); });
 
 const room = tabs(byId("rooms"), name => { if (name === "group") byId("works-of").textContent = say("works_of", { title: kept.name }); });
 const turnTo = tabs(byId("views"), name => { view = name; refresh(); });
@@ -80,7 +81,7 @@ let savedText = null;
 const unsaved = () => { byId("saved").textContent = kept.file ? kept.text === savedText ? W.saved : W.unsaved : W.kept; };
 
 async function openFile(name) {
-  const answer = await call(`/api/file/${encodeURIComponent(name)}`);
+  const answer = await call(`api/file/${encodeURIComponent(name)}`);
   if (!answer.ok) return;
   const { text, mark } = await answer.json();
   savedText = text;
@@ -101,7 +102,7 @@ const conflict = (text, mark) => note(W.conflict, {
 async function save() {
   if (!kept.file) return;
   const text = kept.text;
-  const answer = await call(`/api/file/${encodeURIComponent(kept.file)}`, { method: "POST", body: JSON.stringify({ text, mark: kept.mark }) });
+  const answer = await call(`api/file/${encodeURIComponent(kept.file)}`, { method: "POST", body: JSON.stringify({ text, mark: kept.mark }) });
   const told = answer.headers.get("content-type")?.includes("json") ? await answer.json() : { said: await answer.text() };
   if (answer.ok) { kept.mark = told.mark; savedText = text; keep(); unsaved(); }
   else if (told.mark) conflict(told.text, told.mark);
@@ -113,9 +114,9 @@ addEventListener("keydown", event => {
 });
 setInterval(async () => {
   if (!kept.file || document.hidden || !byId("note").hidden) return;
-  const answer = await call(`/api/file/${encodeURIComponent(kept.file)}?mark`).catch(() => null);
+  const answer = await call(`api/file/${encodeURIComponent(kept.file)}?mark`).catch(() => null);
   if (!answer?.ok || (await answer.json()).mark === kept.mark) return;
-  const { text, mark } = await (await call(`/api/file/${encodeURIComponent(kept.file)}`)).json();
+  const { text, mark } = await (await call(`api/file/${encodeURIComponent(kept.file)}`)).json();
   if (mark !== kept.mark) conflict(text, mark);
 }, 3000);
 
@@ -254,6 +255,7 @@ byId("answering").addEventListener("submit", event => event.preventDefault());
 // The beginning -----------------------------------------------------------------------------------
 
 globalThis.studio = { put: text => typed.put(text), text: () => kept.text, typed };
+starting((key, facts) => note(key && say(key, facts), key && key !== "loading" ? { [W.again]: () => location.reload() } : {}, true));
 byId("save").hidden = !kept.file;
 unsaved();
 room(kept.text.trim() ? "work" : "task");
