@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import pytest
+from worked import problem_of
 
 from planmethod.note.narrate.given import told
 from planmethod.plans.legend import MOTION_KINDS
@@ -10,7 +11,6 @@ from planmethod.render.ink.drawing import Drawing, Text
 from planmethod.render.sheets.kinematics import kinematics_sheets
 from planmethod.render.sheets.measured import read_names
 from planmethod.solved.solution import Solution
-from tests.worked import problem_of
 
 THREE = [20.0, 140.0, 260.0]
 
