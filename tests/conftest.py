@@ -45,7 +45,10 @@ MANY = 4
 
 
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
-    """Take every second to fifth case of a test that has many, unless every one is asked for."""
+    """Take every third to seventh case of a test that has many, unless every one is asked for.
+
+    Of a test whose cases take seconds, marked ``dear``, the first one is taken.
+    """
     if is_whole(config):
         return
     found: dict[str, list[pytest.Item]] = {}
@@ -56,7 +59,9 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
     left: set[int] = set()
     for own in found.values():
         # Of parameters that cross by twos and fours all are met still.
-        step = (1, 2, 3, 3, 5)[min(len(own) // MANY, 4)]
+        step = (1, 3, 5, 5, 5, 5, 5, 5, 7)[min(len(own) // MANY, 8)]
+        if own[0].get_closest_marker("dear"):
+            step = len(own)
         left |= {id(one) for k, one in enumerate(own) if k % step}
     config.hook.pytest_deselected(items=[item for item in items if id(item) in left])
     items[:] = [item for item in items if id(item) not in left]

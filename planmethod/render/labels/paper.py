@@ -36,7 +36,7 @@ _ALONG = 0.2  # radians: less between them and they run along each other
 _AT = 0.3  # mm: a line nearer goes through the point
 _SAGITTA = 0.05  # how far the chords of a large arc may be off, mm
 _PIECE = 12.0  # longest piece of a line in the tree, mm
-_PAIRS = 1 << 21  # of places and lines looked at at once: each that is met takes a hundred bytes
+_PAIRS = 1 << 19  # of places and lines looked at at once: each that meets takes a hundred bytes
 
 
 class Paper:
