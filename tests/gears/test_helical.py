@@ -10,7 +10,7 @@ from typing import Any
 import mpmath as mp
 import numpy as np
 import pytest
-from cases import each
+from cases import each, sampled
 from click.testing import CliRunner
 
 from planmethod.cli import cli
@@ -187,7 +187,7 @@ def kept(pair: Pair, least: float = 1.2, tip: float = 0.25) -> np.ndarray:
     return np.asarray(whole)
 
 
-PAIRS = ((12, 30, 0.0), (17, 40, 15.0), (21, 25, 0.0), (14, 90, 0.0))
+PAIRS = ((17, 40, 15.0), (12, 30, 0.0), (21, 25, 0.0), (14, 90, 0.0))
 
 
 @each("one, two, degrees", PAIRS)
@@ -209,7 +209,7 @@ def test_no_shifts_have_a_greater_contact_ratio(
     )
 
 
-@each("one, two, degrees", PAIRS)
+@each("one, two, degrees", sampled(PAIRS, 4))
 def test_no_shifts_of_equal_sliding_slide_less(
     one: int, two: int, degrees: float, tmp_path: Path
 ) -> None:
