@@ -11,6 +11,7 @@ from hypothesis import settings
 
 # A slow machine is no failure, and a run is like the one before it.
 settings.register_profile("planmethod", deadline=None, derandomize=True, max_examples=40)
+settings.register_profile("thinned", deadline=None, derandomize=True, max_examples=20)
 settings.register_profile("thorough", deadline=None, derandomize=True, max_examples=200)
 
 
@@ -32,8 +33,9 @@ def is_whole(config: pytest.Config) -> bool:
 
 def pytest_configure(config: pytest.Config) -> None:
     thorough = bool(config.getoption("--thorough"))
-    settings.load_profile("thorough" if thorough else "planmethod")
-    cases.take(everything=thorough, is_thin=not is_whole(config))
+    is_thin = not is_whole(config)
+    settings.load_profile("thorough" if thorough else "thinned" if is_thin else "planmethod")
+    cases.take(everything=thorough, is_thin=is_thin)
     # As in the commands: what the tests share is large, and looking for cycles in it a twentieth.
     gc.set_threshold(100_000)
 

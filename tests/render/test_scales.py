@@ -79,7 +79,8 @@ def test_sheets_and_numbers_have_the_same_scales(name: str, positions: int | Non
         assert found.items() <= expected.items()
 
 
-@pytest.mark.parametrize("layout", ["coursework", "homework"])
+@pytest.mark.dear
+@pytest.mark.parametrize("layout", ["homework", "coursework"])
 def test_scales_that_a_layout_has_taken_are_kept_when_they_are_decided(layout: str) -> None:
     problem = problem_of("press/press" if layout == "coursework" else "linkages/2.1.7")
     decided = sheet_scales(problem, layout)
