@@ -73,9 +73,8 @@ def varied(file: Path, count: int) -> list[Problem]:
         ]
         if type(table["driver"].get("phi")) in (int, float):
             cells.append(f"driver.phi = {table['driver']['phi'] + spread.uniform(-20, 20):.4g}")
-        rows.append(f'"{k}" = {{ {", ".join(cells)} }}')
-    whole = text + "\n[variants]\n" + "\n".join(rows) + "\n"
-    return [loads(whole, name=file.stem, variant=str(k)) for k in range(count)]
+        rows.append(f'{text}\n[variants]\n"{k}" = {{ {", ".join(cells)} }}\n')
+    return [loads(whole, name=file.stem, variant=str(k)) for k, whole in enumerate(rows)]
 
 
 def encoded(record: Any) -> bytes:
