@@ -513,7 +513,7 @@ def test_a_new_project_has_all_parts_and_its_train_drives_the_crank() -> None:
     assert f"z = {z}" in wheels  # the meshing is that of the last pair
     (pair,) = (part for part in made.parts if part.name is PartName.MESHING)
     assert part_drawings(made, pair, {})
-    assert made.strokes is not None and made.strokes.K_v > 1
+    assert made.strokes is not None and (made.strokes.K_v or 0.0) > 1
 
 
 def test_a_new_problem_has_the_familys_name_and_spares_what_is_there() -> None:
