@@ -66,6 +66,7 @@ TERMS = {
     "problem/selector.py",
     "problem/forces.py",
     "problem/head.py",
+    "problem/tables.py",
     "problem/links.py",
     "problem/load_records.py",
     "problem/machine_records.py",
