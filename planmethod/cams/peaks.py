@@ -10,9 +10,6 @@ from planmethod.cams.laws import Reals
 
 SAMPLES, FINER, ROUNDS = 257, 17, 12
 
-AT_ONCE = 256
-"""Points that are looked at together: thousands, one by one, take minutes of a key."""
-
 RealFunction = Callable[[Reals], Reals]
 
 
@@ -46,6 +43,9 @@ def peak(of: RealFunction, start: float, end: float) -> tuple[float, float]:
 def nearest_to_origin(normals: Reals, bounds: Reals) -> Reals | None:
     """Return the point nearest to the origin that keeps ``normals @ z <= bounds``, or None.
 
+    The few that bind are found one by one, the most broken first: of a law of a hundred parts there
+    are thousands, and millions of corners.
+
     Parameters
     ----------
     normals : array of float, shape (n, 2)
@@ -53,6 +53,21 @@ def nearest_to_origin(normals: Reals, bounds: Reals) -> Reals | None:
     """
     length = np.hypot(*normals.T)
     unit, off = normals / length[:, None], bounds / length
+    slack = 1e-12 * np.max(np.abs(off))
+    point: Reals | None = np.zeros(2)
+    binding: list[int] = []
+    while point is not None:
+        broken = unit @ point - off
+        k = int(np.argmax(broken))
+        if broken[k] <= slack:
+            return point
+        binding.append(k)
+        point = _nearest_corner(unit[binding], off[binding], slack)
+    return None
+
+
+def _nearest_corner(unit: Reals, off: Reals, slack: float) -> Reals | None:
+    """Return the nearest foot or corner of a few lines that keeps to all of them, or None."""
     i, j = np.triu_indices(len(unit), 1)
     det = unit[i, 0] * unit[j, 1] - unit[i, 1] * unit[j, 0]
     with np.errstate(all="ignore"):
@@ -62,16 +77,10 @@ def nearest_to_origin(normals: Reals, bounds: Reals) -> Reals | None:
                 (unit[i, 0] * off[j] - unit[j, 0] * off[i]) / det,
             ]
         ).T
-    tried = np.concatenate([np.zeros((1, 2)), unit * off[:, None], corners])
+    tried = np.concatenate([unit * off[:, None], corners])
     tried = tried[np.all(np.isfinite(tried), axis=1)]
-    tried = tried[np.argsort(np.hypot(*tried.T))]
-    slack = 1e-12 * np.max(np.abs(off))
-    for start in range(0, len(tried), AT_ONCE):
-        some = tried[start : start + AT_ONCE]
-        kept = np.flatnonzero(np.all(some @ unit.T <= off + slack, axis=1))
-        if kept.size:
-            return np.asarray(some[kept[0]])
-    return None
+    kept = tried[np.all(tried @ unit.T <= off + slack, axis=1)]
+    return np.asarray(kept[np.argmin(np.hypot(*kept.T))]) if len(kept) else None
 
 
 def first_kept(
