@@ -189,6 +189,21 @@ class _Picture(Flowable):  # type: ignore[misc]
         self.canv.restoreState()
 
 
+class _CutTable(LongTable):  # type: ignore[misc]
+    """A table that says above each further part whose continuation it is."""
+
+    again: Paragraph | None = None
+
+    def split(self, width: float, height: float) -> list[Flowable]:
+        """Return the part that has room, and what stands on the next page."""
+        parts = super().split(width, height)
+        if len(parts) < 2 or self.again is None:
+            return list(parts)
+        first, rest = parts
+        rest.again = self.again
+        return [first, self.again, rest]
+
+
 class _Setter:
     """Makes flowables of nodes."""
 
@@ -276,6 +291,7 @@ class _Setter:
                 self._step = 0 if self._is_note else self._step
                 yield self._heading(title, 0, number)
             case document.Part(title):
+                self._step = 0 if self._is_note else self._step
                 yield self._heading(title, 1, number)
             case document.Subpart(title):
                 yield self._heading(title, 2, number)
@@ -346,20 +362,24 @@ class _Setter:
         """Yield a table: a low one with its name on one page, a high one cut between its rows."""
         style = self._style(align=TA_LEFT, indent=0.0, around=3.0, leading=1.2)
         name = self._say.table.format(number=number, text=table.name) if number else ""
-        for part in parts_of(table, int(self._width // LEAST)):
+        again = self._say.continued.format(number=number) if number else ""
+        parts = list(parts_of(table, int(self._width // LEAST)))
+        for part in parts:
             above = [self._text(name, style)] if name else []
             made = self._table(part)
+            made.again = self._text(again, style) if again else None
             high = made.wrap(self._width, self._tallest)[1]
-            if high < LOW * self._tallest:
+            # No text shall come between the parts of a wide table: they are cut instead.
+            if high < LOW * self._tallest and len(parts) == 1:
                 yield Floating([*above, made, Spacer(0.0, 8.0)])
             else:
                 yield CondPageBreak(sum(made._rowHeights[:4]) + 3.0 * SIZE * bool(name))
                 yield from above
                 yield made
                 yield Spacer(0.0, 8.0)
-            name = self._say.continued.format(number=number) if number else ""
+            name = again
 
-    def _table(self, table: Table) -> Flowable:
+    def _table(self, table: Table) -> _CutTable:
         size = TABLE_SIZE
         aligned = {
             align: self._style(size, align=align, indent=0.0, leading=1.2)
@@ -392,7 +412,7 @@ class _Setter:
             for column in columns
         ]
         share = self._width / sum(needed)
-        return LongTable(lines, colWidths=[w * share for w in needed], repeatRows=1, style=look)
+        return _CutTable(lines, colWidths=[w * share for w in needed], repeatRows=1, style=look)
 
     # Title page and contents ----------------------------------------------------------------------
 
