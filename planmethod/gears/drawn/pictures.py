@@ -7,7 +7,7 @@ angular velocities as they are drawn and read (картины линейных �
 from __future__ import annotations
 
 import cmath
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from math import asin, cos, radians, sin
 
 from planmethod.gears.construction import FEET, POLE, GearDrawing, GearReading
