@@ -54,7 +54,7 @@ def front(scheme: SchemeData, height: float, satellites: Mapping[str, int]) -> P
         items += _wheel(rim)
         angle = _ANGLES[number % len(_ANGLES)]
         items += _sense(scheme, rim, angle)
-        out = _lettered_at(rim, angle + 22.0, rims.values(), 2.0 * height)
+        out = _lettered_at(rim, angle + 22.0, rims.values(), 1.2 * height)
         rim_at = 1j * rim.centre + rim.radius * out
         way = out * (1 if rim.ring else -1)
         name = f"front {rim.label}"

@@ -145,9 +145,9 @@ class _Meshing(Struct, frozen=True):
 
 def _titled(title: str, picture: Picture, sizes: Sizes, scale: str = "") -> Block:
     width = max(picture.width, 60.0)
-    lines = [heading(title, sizes.title, width=width)]
+    lines: list[Block] = [heading(title, sizes.title, width=width)]
     if scale:
-        below = paragraph(scale, smaller_heights(sizes.title)[1], width, align="centre")
+        below = paragraph(scale, sizes.letter, width, align="centre")
         lines = [Column([*lines, below], gap=2.5, align="centre")]
     return Column([*lines, picture], gap=5.0, align="centre")
 
