@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import html
-from collections.abc import Iterator, Mapping, Sequence
-from functools import cache
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from functools import cache, partial
 from io import BytesIO
 from itertools import zip_longest
 from pathlib import Path
@@ -24,6 +24,7 @@ from reportlab.platypus import (
     CondPageBreak,
     Flowable,
     Frame,
+    FrameBreak,
     LongTable,
     PageBreak,
     PageTemplate,
@@ -240,7 +241,7 @@ class _Picture(Flowable):  # type: ignore[misc]
 class _CutTable(LongTable):  # type: ignore[misc]
     """A table that says above each further part whose continuation it is."""
 
-    again: Paragraph | None = None
+    again: Callable[[], Paragraph] | None = None
 
     def split(self, width: float, height: float) -> list[Flowable]:
         """Return the part that has room, and what stands on the next page."""
@@ -249,7 +250,7 @@ class _CutTable(LongTable):  # type: ignore[misc]
             return list(parts)
         first, rest = parts
         rest.again = self.again
-        return [first, self.again, rest]
+        return [first, FrameBreak(), self.again(), rest]
 
 
 class _Setter:
@@ -419,7 +420,7 @@ class _Setter:
         for part in parts:
             above = [self._text(name, style)] if name else []
             made = self._table(part)
-            made.again = self._text(again, style) if again else None
+            made.again = partial(self._text, again, style) if again else None
             high = made.wrap(self._width, self._tallest)[1]
             # No text shall come between the parts of a wide table: they are cut instead.
             if high < LOW * self._tallest and len(parts) == 1:
