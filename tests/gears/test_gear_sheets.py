@@ -18,6 +18,7 @@ from planmethod.cli import cli
 from planmethod.construct.drafting import PROFILES
 from planmethod.errors import ExitCode, LayoutError
 from planmethod.gears.arrangement import Arrangement, AxisPart, arrange
+from planmethod.gears.drawn.pictures import front
 from planmethod.gears.motion import solve_motion
 from planmethod.gears.reader import load
 from planmethod.gears.scheme import SchemeData
@@ -134,6 +135,23 @@ def test_the_picture_stands_beside_the_scheme_at_its_heights() -> None:
     scheme, picture = drawing.views[:2]
     assert scheme.box[2] == pytest.approx(picture.box[0])
     assert {round(span.start.imag, 6) for span in picture.spans} <= levels
+
+
+def test_letters_along_the_axes_are_clear_of_meshes_and_axes(tmp_path: Path) -> None:
+    """Wheel 5 lies on the arm of H: its letter is not where it meets 4 and 1, H not at its axis."""
+    text = told(
+        {"1": 20, "2": 40, "2'": 25, "3": 85, "4": 13, "5": 20},
+        [mesh("1", "2", carrier="H"), mesh("2'", "3", "internal", "H"), mesh("4", "5")],
+        'bodies = [["H", "4"]]\nfixed = ["3"]\nn = { 1 = -960 }',
+    )
+    scheme = SchemeData(solved(tmp_path, text), 1.0)
+    rims = {rim.label: rim for column in scheme.columns for rim in column}
+    items = front(scheme, 5.0, {}).items
+    letters = {item.text: item.at + 1 + 2.5j for item in items if isinstance(item, Text)}
+    assert {"5", "H"} <= letters.keys()
+    gaps = [abs(abs(letters["5"] - 1j * rims[k].centre) - rims[k].radius) for k in ("1", "2'", "4")]
+    assert min(gaps) > 2.0
+    assert min(abs(letters["H"].imag - rim.centre) for rim in rims.values()) > 5.0
 
 
 def test_paper_language_and_stamp_are_as_asked(tmp_path: Path) -> None:

@@ -10,7 +10,18 @@ from pathlib import Path
 import pytest
 from noted import SYSTEM, note
 
-from planmethod.note.document import Chapter, Contents, Document, Figure, Paragraph, Part, Table
+from planmethod.note.document import (
+    Chapter,
+    Contents,
+    Document,
+    Figure,
+    Node,
+    PageBreak,
+    Paragraph,
+    Part,
+    Step,
+    Table,
+)
 from planmethod.note.formula import parse
 from planmethod.note.wording import language
 from planmethod.note.writers.html import html_document
@@ -98,3 +109,49 @@ def test_a_figure_that_ends_a_chapter_shrinks_a_little_to_stay_on_its_page(
     lines = [Paragraph(f"Абзац {k}.") for k in range(17)]
     pages = _pages(Document.of((*lines, figure)), tmp_path)
     assert len(pages) == count and "План" in pages[-1]
+
+
+@pytest.mark.skipif(not shutil.which("pdftotext"), reason="poppler is absent")
+def test_a_table_that_runs_on_says_so_on_each_page(tmp_path: Path) -> None:
+    rows = tuple((f"строка{k}", "1") for k in range(120))
+    table = Table(("N", "v"), rows, name="Значения")
+    first, *others = _pages(Document.of((Contents(), Chapter("Глава"), table)), tmp_path)[1:]
+    assert "Таблица 1 – Значения" in first and "Продолжение" not in first
+    assert len(others) > 1
+    for page in others:
+        lines = [line.split() for line in page.splitlines() if line.strip()]
+        assert lines[:2] == [["Продолжение", "таблицы", "1"], ["N", "v"]]
+
+
+@pytest.mark.skipif(not shutil.which("pdftotext"), reason="poppler is absent")
+def test_no_text_comes_between_the_parts_of_a_wide_table(tmp_path: Path) -> None:
+    head = tuple(f"k{k}" for k in range(14))
+    rows = tuple(tuple("1" for _ in head) for _ in range(14))
+    table = Table(head, rows, repeated=1, name="Значения")
+    for count in (2, 5, 8, 11):
+        lines = [Paragraph(f"Абзац {k}.") for k in range(count)]
+        written = Document.of((Contents(), Chapter("Глава"), *lines, table, Paragraph("После.")))
+        shown = "\n".join(_pages(written, tmp_path))
+        assert shown.count("Продолжение таблицы 1") >= 1
+        assert shown.index("После.") > shown.rindex("Продолжение таблицы 1")
+
+
+@pytest.mark.skipif(not shutil.which("pdftotext"), reason="poppler is absent")
+@pytest.mark.parametrize(("after", "count"), [(2, 2), (9, 3)])
+def test_a_page_of_a_few_lines_at_the_end_of_a_chapter_is_saved(
+    after: int, count: int, tmp_path: Path
+) -> None:
+    """Of two lines too many a figure of 120 mm makes room; of half a page there is nothing won."""
+    view = DrawingView(Drawing(80.0, 120.0, "Plan"))
+    figure = Figure(view, "План", numbered=True, key="plan")
+    lines = [Paragraph(f"Абзац {k}.") for k in range(13 + after)]
+    nodes: list[Node] = [*lines[:3], figure, *lines[3:], PageBreak(), Paragraph("Дальше.")]
+    assert len(_pages(Document.of(nodes), tmp_path)) == count
+
+
+@pytest.mark.skipif(not shutil.which("pdftotext"), reason="poppler is absent")
+def test_steps_are_counted_in_each_part(tmp_path: Path) -> None:
+    steps = (Step(("Берём.",)), Step(("Кладём.",)))
+    written = Document.of((Contents(), Chapter("Глава"), Part("а"), *steps, Part("б"), *steps))
+    shown = "\n".join(_pages(written, tmp_path)).replace("\u00a0", " ")
+    assert [shown.count(f"{k}) ") for k in (1, 2, 3)] == [2, 2, 0]

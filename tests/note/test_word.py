@@ -13,11 +13,14 @@ from zipfile import ZipFile
 import docx
 import pytest
 from noted import SYSTEM, nodes, note
+from PIL import Image
 from told import worked
 from worked import SIX
 
 from planmethod.errors import LayoutError, OutputError
 from planmethod.note.document import (
+    Chapter,
+    Contents,
     Document,
     Equation,
     Formula,
@@ -151,6 +154,25 @@ def test_no_row_of_a_table_is_left_alone(rows: int) -> None:
     last = len(kept) - 1
     assert kept == [k < last and (rows < 5 or k < 2 or k == last - 1) for k in range(last + 1)]
     assert made.rows[0]._tr.trPr.find(f"{W}tblHeader") is not None
+
+
+@pytest.mark.parametrize(("rows", "strips"), [(3, 0), (12, 1)])
+def test_a_table_that_may_be_cut_has_its_continuation_in_the_head(rows: int, strips: int) -> None:
+    """The strip repeats with the head; where the table begins its name stands, and a cover."""
+    table = Table(("N", "v"), tuple((str(k), "1") for k in range(rows)), name="Значения")
+    file = opened(word_document(Document.of([Contents(), Chapter("Глава"), table]), RU))
+    made = file.tables[0]
+    heads = [row for row in made.rows if row._tr.trPr.find(f"{W}tblHeader") is not None]
+    told = [row.cells[0].text for row in heads]
+    assert told == ["Продолжение таблицы 1"] * strips + ["N"]
+    rectangles = list(file.element.body.iter("{urn:schemas-microsoft-com:vml}rect"))
+    assert len(rectangles) == strips and len(made.rows) == rows + 1 + strips
+    assert [p.text for p in file.paragraphs].count("Таблица 1 – Значения") == 1
+    if strips:
+        before = made._tbl.getprevious()
+        assert rectangles[0] in before.iter() and len(heads[0]._tr.tc_lst) == 1
+        kept = [row.cells[0].paragraphs[0].paragraph_format.keep_with_next for row in heads]
+        assert all(kept)
 
 
 def opened(data: bytes) -> Any:
@@ -303,3 +325,30 @@ def test_libreoffice_opens_it(data: bytes, tmp_path: Path) -> None:
     ).stdout.decode()
     assert "Содержание" in shown and "Рисунок 1 – План" in shown and "(1.2)" in shown
     assert not re.search(r"[_^\\]", shown)  # the brace is that of the system
+
+
+@pytest.mark.skipif(not shutil.which("soffice"), reason="LibreOffice is absent")
+@pytest.mark.skipif(not shutil.which("pdftoppm"), reason="poppler is absent")
+def test_libreoffice_shows_the_continuation_on_later_pages_alone(tmp_path: Path) -> None:
+    rows = tuple((f"строка{k}", "1") for k in range(120))
+    table = Table(("N", "v"), rows, name="Значения")
+    data = word_document(Document.of([Chapter("Глава"), table]), RU)
+    (tmp_path / "note.docx").write_bytes(data)
+    home = f"-env:UserInstallation={(tmp_path / 'home').as_uri()}"
+    order = ["soffice", home, "--headless", "--convert-to", "pdf", "note.docx"]
+    subprocess.run(order, cwd=tmp_path, capture_output=True, timeout=120, check=True)
+    order = ["pdftoppm", "-r", "72", "-gray", "note.pdf", "page"]
+    subprocess.run(order, cwd=tmp_path, capture_output=True, timeout=60, check=True)
+    order = ["pdftotext", "-bbox", "note.pdf", "-"]
+    shown = subprocess.run(order, cwd=tmp_path, capture_output=True, timeout=60).stdout.decode()
+    pages = shown.split("<page ")[1:]
+    word = re.compile(r'xMin="([\d.]+)" yMin="([\d.]+)" xMax="([\d.]+)" yMax="([\d.]+)">Прод')
+    ink = []
+    for text, path in zip(pages, sorted(tmp_path.glob("page-*.pgm")), strict=True):
+        found = word.search(text)
+        assert found is not None
+        left, top, right, bottom = (round(float(side)) for side in found.groups())
+        with Image.open(path) as picture:
+            inked = picture.crop((left, top + 2, right, bottom - 3)).tobytes()
+            ink.append(min(inked) < 128)
+    assert len(ink) > 2 and ink == [False] + [True] * (len(ink) - 1)

@@ -183,6 +183,27 @@ def test_every_figure_and_table_is_told_of_and_has_a_number(name: str) -> None:
     assert all(found for node, found in numbers_of(written) if node in shown)
 
 
+@pytest.mark.parametrize("name", ("template", "homework"))
+@pytest.mark.parametrize("lang", LANGUAGES)
+def test_every_source_is_cited_by_its_number(name: str, lang: str) -> None:
+    written = note_of(name, lang)
+    (listed,) = (n.entries for n in written.nodes if isinstance(n, document.References))
+    cited = [int(k) for text in texts(written) for k in re.findall(r"\u00a0\[(\d+)\]", text)]
+    assert cited == list(range(1, len(listed) + 1))
+    source = project_of(name).problem.source
+    assert (listed[0] == source) == bool(source)
+    assert any("13755" in entry for entry in listed) == (name == "template")
+
+
+def test_no_point_of_the_steps_of_the_cam_stands_alone() -> None:
+    steps = [n for n in note_of("template").nodes if isinstance(n, document.Step)]
+    lines = [line for step in steps for line in step.lines]
+    assert len([line for line in lines if "точка\u00a0" in line]) > 8
+    assert not [line for line in lines if re.search(r"точка [A-Za-z]", line)]
+    assert not [line for line in lines if " — " in line]
+    assert "34,38\u00a0мм" in " ".join(lines)
+
+
 @pytest.mark.parametrize("name", ("shaper", "homework"))
 def test_numbers_and_their_units_are_not_parted(name: str) -> None:
     lines = [n.text for n in note_of(name).nodes if isinstance(n, document.Paragraph)]

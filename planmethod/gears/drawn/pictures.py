@@ -7,7 +7,7 @@ angular velocities as they are drawn and read (картины линейных �
 from __future__ import annotations
 
 import cmath
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from math import asin, cos, radians, sin
 
 from planmethod.gears.construction import FEET, POLE, GearDrawing, GearReading
@@ -38,6 +38,9 @@ RACK_BEYOND = 8.0
 _ANGLES = (205.0, 330.0, 155.0, 25.0, 240.0, 300.0, 180.0, 0.0)
 """Where the arrows stand, degrees, one wheel after another: off the line of centres."""
 
+_ASIDE = (30.0, -30.0, 60.0, -60.0, 90.0, -90.0, 120.0, -120.0, 150.0)
+"""How far from its first place a letter of a circle may go, degrees."""
+
 
 def front(scheme: SchemeData, height: float, satellites: Mapping[str, int]) -> Picture:
     """Return the view along the axes; letters are ``height`` mm high.
@@ -51,28 +54,48 @@ def front(scheme: SchemeData, height: float, satellites: Mapping[str, int]) -> P
         items += _wheel(rim)
         angle = _ANGLES[number % len(_ANGLES)]
         items += _sense(scheme, rim, angle)
-        rim_at = 1j * rim.centre + cmath.rect(rim.radius, radians(angle + 22.0))
-        way = cmath.rect(1.0, radians(angle + 22.0)) * (1 if rim.ring else -1)
+        out = _lettered_at(rim, angle + 22.0, rims.values(), 1.2 * height)
+        rim_at = 1j * rim.centre + rim.radius * out
+        way = out * (1 if rim.ring else -1)
         name = f"front {rim.label}"
         labels.append(
             Label(typeset(rim.label, height), rim_at, prefer=way, gap=1.2, name=name, manner=BUSY)
         )
+    levels = {round(rim.centre, 6) for rim in rims.values()}
     for body, carrier in scheme.over.items():
         ends = (1j * scheme.heights[carrier], 1j * scheme.heights[body])
         items += link(*ends, tag=f"link {carrier}")
+        places = [ends[0] + share * (ends[1] - ends[0]) for share in (0.5, 0.75, 0.25)]
+        free = (p for p in places if min(abs(p.imag - y) for y in levels) > 2.0 * height)
+        at = next(free, places[0])  # no letter of an arm stands at the axis of a wheel
         labels.append(
-            Label(typeset(carrier, height), (ends[0] + ends[1]) / 2, prefer=1, gap=1.2,
+            Label(typeset(carrier, height), at, prefer=1, gap=1.2,
                   name=f"front {carrier} {body}", manner=BUSY)
         )  # fmt: skip
     items += _straight(scheme, rims)
     items += _around(scheme, rims, satellites)
-    levels = {round(rim.centre, 6) for rim in rims.values()}
     beyond = [rim.centre + way * (_rim(rim) + 4.0) for rim in rims.values() for way in (1, -1)]
     items += axis_line(1j * min(beyond), 1j * max(beyond), *(1j * level for level in levels))
     for level in sorted(levels):
         items += revolute(1j * level)
     unique = {label.inscription.markup: label for label in labels}
     return lettered(items, list(unique.values()))
+
+
+def _lettered_at(rim: Rim, angle: float, rims: Iterable[Rim], free: float) -> complex:
+    """Return the direction in which a pitch circle is lettered: that of an angle, degrees.
+
+    Where another circle is less than ``free`` mm from there, one farther from it is taken.
+    """
+    others = [one for one in rims if one is not rim]
+    ways = [cmath.rect(1.0, radians(angle + turn)) for turn in (0.0, *_ASIDE)]
+
+    def room(out: complex) -> float:
+        at = 1j * rim.centre + rim.radius * out
+        gaps = (abs(abs(at - 1j * one.centre) - one.radius) for one in others)
+        return min(gaps, default=free)
+
+    return next((out for out in ways if room(out) >= free), max(ways, key=room))
 
 
 def _around(

@@ -318,6 +318,19 @@ def sliding_scale(solved: SolvedMeshing, width: float) -> float:
     return nearest_scale((width - _LETTERS) / _line(solved))
 
 
+def sliding_per_mm(solved: SolvedMeshing, height: float) -> float:
+    """Return the scale of specific sliding of a diagram so many mm high, 1/mm."""
+    return series_near((1.0 - _floor(solved)) / (height - _LETTERS), up=True)
+
+
+def _floor(solved: SolvedMeshing) -> float:
+    """Return the specific sliding down to which the diagram goes."""
+    ends = np.array([solved.contact.start, solved.contact.end])
+    with np.errstate(all="ignore"):
+        worst = float(np.nanmin(solved.pair.sliding(ends), initial=-1.0))
+    return max(1.4 * worst, -8.0)
+
+
 def _line(solved: SolvedMeshing) -> float:
     """Return how long the line of action is drawn, mm: of a ring there is no N₂ on this side."""
     line = float(solved.pair.line)
@@ -334,10 +347,7 @@ def sliding_picture(
     pair, contact = solved.pair, solved.contact
     line, scale = _line(solved), sliding_scale(solved, width)
     ends = np.array([contact.start, contact.end])
-    with np.errstate(all="ignore"):
-        worst = float(np.nanmin(pair.sliding(ends), initial=-1.0))
-    floor_at = max(1.4 * worst, -8.0)
-    per_mm = series_near((1.0 - floor_at) / (height - _LETTERS), up=True)
+    floor_at, per_mm = _floor(solved), sliding_per_mm(solved, height)
 
     def part(wheel: int, low: float, high: float) -> tuple[complex, ...]:
         rho = np.linspace(low, high, 400)

@@ -13,6 +13,7 @@ from planmethod.gears.involute.cuttingpicture import cutting_picture, cutting_vi
 from planmethod.gears.involute.diagrams import (
     Contour,
     contour_picture,
+    sliding_per_mm,
     sliding_picture,
     sliding_scale,
 )
@@ -122,26 +123,33 @@ class _Meshing(Struct, frozen=True):
         mesh = meshing_picture(view, words, sizes.letter, *mesh_dimensions(view, sizes.letter))
         width = share * (free - mesh.width)
         plane = contour_picture(contour, words, width, share * 0.36 * high, sizes.letter)
-        sliding = sliding_picture(solved, words, width, share * 0.2 * high, sizes.letter)
+        low = share * 0.2 * high
+        sliding = sliding_picture(solved, words, width, low, sizes.letter)
         pinion = solved.cuttings[0]
         assert pinion is not None  # only wheel 2 may be a ring
         cutting = cutting_view(pinion, width, share * 0.36 * high)
         cut = cutting_picture(cutting, words, sizes.letter)
         scale = _scale(sliding_scale(solved, width), words.say)
+        per_mm = words.say.given(sliding_per_mm(solved, low))
+        upright = say.sliding_scale.format(scale=per_mm)
         title = say.meshing.format(scale=_scale(view.scale, words.say))
         blocks: list[Block] = [
             Viewed(_titled(title, mesh, sizes), "meshing", None),
             _titled(say.cut.format(scale=_scale(cutting.scale, words.say)), cut, sizes),
             _titled(say.contour, plane, sizes),
-            _titled(say.sliding.format(scale=scale), sliding, sizes),
+            _titled(say.sliding.format(scale=scale), sliding, sizes, upright),
             told,
         ]
         return tuple(map(Packed, blocks))
 
 
-def _titled(title: str, picture: Picture, sizes: Sizes) -> Block:
+def _titled(title: str, picture: Picture, sizes: Sizes, scale: str = "") -> Block:
     width = max(picture.width, 60.0)
-    return Column([heading(title, sizes.title, width=width), picture], gap=5.0, align="centre")
+    lines: list[Block] = [heading(title, sizes.title, width=width)]
+    if scale:
+        below = paragraph(scale, sizes.letter, width, align="centre")
+        lines = [Column([*lines, below], gap=2.5, align="centre")]
+    return Column([*lines, picture], gap=5.0, align="centre")
 
 
 def _scale(value: float, say: Notation) -> str:

@@ -266,12 +266,17 @@ class FormulaSetter:
 
 
 class FormulaLines(Flowable):  # type: ignore[misc]
-    """Formulas one under another in the middle of a page, the number beside the last (формула)."""
+    """Formulas one under another in the middle of a page, the number beside the last (формула).
 
-    def __init__(self, rows: Sequence[SetFormula], number: str, font: str, size: float) -> None:
+    ``air``: share of the usual white above and below each.
+    """
+
+    def __init__(
+        self, rows: Sequence[SetFormula], number: str, font: str, size: float, air: float = 1.0
+    ) -> None:
         super().__init__()
         self._rows, self._number, self._font, self._size = rows, number, font, size
-        self._gap = 0.45 * size
+        self._gap = 0.45 * size * air
         self._width = 0.0
 
     def wrap(self, width: float, height: float) -> tuple[float, float]:

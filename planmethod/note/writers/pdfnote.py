@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 import html
-from collections.abc import Iterator, Sequence
-from functools import cache
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from functools import cache, partial
 from io import BytesIO
 from itertools import zip_longest
 from pathlib import Path
 from typing import Any, assert_never
 
 import matplotlib
+from msgspec import Struct
 from reportlab.lib import colors
 from reportlab.lib.enums import TA_CENTER, TA_JUSTIFY, TA_LEFT, TA_RIGHT
 from reportlab.lib.pagesizes import A4
@@ -23,6 +24,7 @@ from reportlab.platypus import (
     CondPageBreak,
     Flowable,
     Frame,
+    FrameBreak,
     LongTable,
     PageBreak,
     PageTemplate,
@@ -70,6 +72,12 @@ LEAST = 22 * mm
 """Least width of a column of a table that may be cut into several."""
 
 
+NEARLY_EMPTY = 0.2
+"""Share of the last page of a chapter from which on it is worth a page."""
+
+TIGHT = (0.9, 0.8)
+"""Shares of the pictures of a chapter that save its nearly empty page, the larger first."""
+
 CLOSE = [(f"{side}PADDING", (0, 0), (-1, -1), 0) for side in ("LEFT", "RIGHT", "TOP", "BOTTOM")]
 """Cells without white around what is in them."""
 
@@ -99,11 +107,29 @@ def pdf_note(written: Document, words: Language, *, author: str = "") -> bytes:
         A formula is not written properly, or a text refers to what is not there.
     """
     written = document.referred(written)
-    setter = _Setter(words)
+    made, ends = _built(written, words, author, {})
+    tight: dict[int, float] = {}
+    for share in TIGHT:
+        low = [k for k, end in enumerate(ends) if end.is_nearly_empty and k not in tight]
+        if not low:
+            break
+        _, closer = _built(written, words, author, {**tight, **dict.fromkeys(low, share)})
+        tight |= {k: share for k in low if closer[k].count < ends[k].count}
+    return _built(written, words, author, tight)[0] if tight else made
+
+
+def _built(
+    written: Document, words: Language, author: str, tight: Mapping[int, float]
+) -> tuple[bytes, list[End]]:
+    """Return a file, and how each section between page breaks ends.
+
+    ``tight``: of which sections pictures are smaller, to which share of their size; formulas and
+    lines of the contents are closer there.
+    """
     file = BytesIO()
     pages = _Pages(file, _title(written), author or "planmethod", written)
-    pages.multiBuild(list(setter.story(written)))
-    return file.getvalue()
+    pages.multiBuild(list(_Setter(words, tight).story(written)))
+    return file.getvalue(), pages.ends
 
 
 def _title(written: Document) -> str:
@@ -146,6 +172,17 @@ class _Pages(FloatingPages):
 
         self.addPageTemplates([PageTemplate("text", [frame], onPage=close_page)])
 
+    def beforeDocument(self) -> None:  # noqa: N802
+        """Forget how the sections of the last run ended."""
+        self.ends: list[End] = []
+
+    def handle_pageBreak(self, slow: Any = None) -> None:  # noqa: N802
+        """Note how a section ends."""
+        begun = sum(end.count for end in self.ends)
+        left = (self.frame._y - self.frame._y1p) / self.frame._height
+        self.ends.append(End(self.page - begun, 1.0 - left))
+        super().handle_pageBreak(slow)
+
     def afterFlowable(self, flowable: Flowable) -> None:  # noqa: N802
         """Note where a heading stands."""
         level = getattr(flowable, "level", None)
@@ -154,6 +191,18 @@ class _Pages(FloatingPages):
             self.canv.bookmarkPage(key)
             self.canv.addOutlineEntry(flowable.plain, key, level, closed=False)
             self.notify("TOCEntry", (level, flowable.shown, self.page, key))
+
+
+class End(Struct, frozen=True):
+    """How a section ends: how many pages it has, and which share of the last one it fills."""
+
+    count: int
+    filled: float
+
+    @property
+    def is_nearly_empty(self) -> bool:
+        """Whether its last page has a few lines."""
+        return self.count > 1 and self.filled < NEARLY_EMPTY
 
 
 class _Heading(Paragraph):  # type: ignore[misc]
@@ -167,15 +216,15 @@ class _Heading(Paragraph):  # type: ignore[misc]
 class _Picture(Flowable):  # type: ignore[misc]
     """A picture in the middle, smaller where there is no room."""
 
-    def __init__(self, view: document.DrawableView, tallest: float) -> None:
+    def __init__(self, view: document.DrawableView, tallest: float, most: float) -> None:
         super().__init__()
-        self._view, self._tallest, self.at_most = view, tallest, 1.0
+        self._view, self._tallest, self._most, self.at_most = view, tallest, most, 1.0
         self._share, self._width = 1.0, 0.0
 
     def wrap(self, width: float, height: float) -> tuple[float, float]:
         """Return the room that the picture takes, points."""
         wide, high = (side * mm for side in self._view.size)
-        self._share = self.at_most * min(1.0, width / wide, self._tallest / high)
+        self._share = self.at_most * min(self._most, width / wide, self._tallest / high)
         self._width = width
         return width, high * self._share
 
@@ -189,11 +238,27 @@ class _Picture(Flowable):  # type: ignore[misc]
         self.canv.restoreState()
 
 
+class _CutTable(LongTable):  # type: ignore[misc]
+    """A table that says above each further part whose continuation it is."""
+
+    again: Callable[[], Paragraph] | None = None
+
+    def split(self, width: float, height: float) -> list[Flowable]:
+        """Return the part that has room, and what stands on the next page."""
+        parts = super().split(width, height)
+        if len(parts) < 2 or self.again is None:
+            return list(parts)
+        first, rest = parts
+        rest.again = self.again
+        return [first, FrameBreak(), self.again(), rest]
+
+
 class _Setter:
     """Makes flowables of nodes."""
 
-    def __init__(self, words: Language) -> None:
-        self._say, self._fonts = words.document, note_fonts()
+    def __init__(self, words: Language, tight: Mapping[int, float]) -> None:
+        self._say, self._fonts, self._tight = words.document, note_fonts(), tight
+        self._section = 0
         self._units = units_of(words.note["units"])
         self._formulas = FormulaSetter(self._fonts, SIZE)
         self._width = A4[0] - LEFT - RIGHT
@@ -254,6 +319,7 @@ class _Setter:
             for flowable in self._flowables(node, number):
                 is_break = isinstance(flowable, PageBreak)
                 if not (is_break and fresh):
+                    self._section += is_break
                     yield flowable
                 fresh = is_break
 
@@ -276,6 +342,7 @@ class _Setter:
                 self._step = 0 if self._is_note else self._step
                 yield self._heading(title, 0, number)
             case document.Part(title):
+                self._step = 0 if self._is_note else self._step
                 yield self._heading(title, 1, number)
             case document.Subpart(title):
                 yield self._heading(title, 2, number)
@@ -298,7 +365,8 @@ class _Setter:
                 shown = self._say.figure.format(number=number, text=caption) if number else caption
                 style = self._style(align=TA_CENTER, indent=0.0, around=6.0, leading=1.2)
                 below = [self._text(shown, style)] if shown else []
-                picture = _Picture(view, self._tallest)
+                share = self._tight.get(self._section, 1.0)
+                picture = _Picture(view, self._tallest, share)
                 floating = Floating([Spacer(0, 6), picture, *below])
                 floating.shrunk = picture
                 yield floating
@@ -338,7 +406,8 @@ class _Setter:
         return self._lines([self._formulas.set(line) for line in lines_of(nodes, room)], number)
 
     def _lines(self, rows: Sequence[Any], number: str) -> Flowable:
-        return FormulaLines(rows, number, self._fonts.upright, SIZE)
+        air = 2.0 * self._tight.get(self._section, 1.0) - 1.0
+        return FormulaLines(rows, number, self._fonts.upright, SIZE, air)
 
     # Tables ---------------------------------------------------------------------------------------
 
@@ -346,20 +415,24 @@ class _Setter:
         """Yield a table: a low one with its name on one page, a high one cut between its rows."""
         style = self._style(align=TA_LEFT, indent=0.0, around=3.0, leading=1.2)
         name = self._say.table.format(number=number, text=table.name) if number else ""
-        for part in parts_of(table, int(self._width // LEAST)):
+        again = self._say.continued.format(number=number) if number else ""
+        parts = list(parts_of(table, int(self._width // LEAST)))
+        for part in parts:
             above = [self._text(name, style)] if name else []
             made = self._table(part)
+            made.again = partial(self._text, again, style) if again else None
             high = made.wrap(self._width, self._tallest)[1]
-            if high < LOW * self._tallest:
+            # No text shall come between the parts of a wide table: they are cut instead.
+            if high < LOW * self._tallest and len(parts) == 1:
                 yield Floating([*above, made, Spacer(0.0, 8.0)])
             else:
                 yield CondPageBreak(sum(made._rowHeights[:4]) + 3.0 * SIZE * bool(name))
                 yield from above
                 yield made
                 yield Spacer(0.0, 8.0)
-            name = self._say.continued.format(number=number) if number else ""
+            name = again
 
-    def _table(self, table: Table) -> Flowable:
+    def _table(self, table: Table) -> _CutTable:
         size = TABLE_SIZE
         aligned = {
             align: self._style(size, align=align, indent=0.0, leading=1.2)
@@ -392,7 +465,7 @@ class _Setter:
             for column in columns
         ]
         share = self._width / sum(needed)
-        return LongTable(lines, colWidths=[w * share for w in needed], repeatRows=1, style=look)
+        return _CutTable(lines, colWidths=[w * share for w in needed], repeatRows=1, style=look)
 
     # Title page and contents ----------------------------------------------------------------------
 
@@ -421,13 +494,16 @@ class _Setter:
         yield self._text(
             self._say.contents, self._style(align=TA_CENTER, indent=0.0, around=8.0, bold=True)
         )
+        leading = 1.4 * self._tight.get(self._section, 1.0)
         contents = TableOfContents()
         contents.dotsMinLevel = 0
         contents.tableStyle = TableStyle(
             [*CLOSE, ("FONTNAME", (0, 0), (-1, -1), self._fonts.upright)]
         )
         contents.levelStyles = [
-            self._style(align=TA_LEFT, indent=0.0, left=7 * mm * level, right=ASIDE, leading=1.4)
+            self._style(
+                align=TA_LEFT, indent=0.0, left=7 * mm * level, right=ASIDE, leading=leading
+            )
             for level in range(3)
         ]
         yield contents

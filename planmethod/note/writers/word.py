@@ -53,6 +53,9 @@ from planmethod.note.writers.wordstyles import (
 )
 from planmethod.note.writers.wordtable import (
     PAD,
+    STRIP,
+    TOGETHER,
+    cover,
     grid,
     head_repeats,
     needed_widths,
@@ -60,6 +63,7 @@ from planmethod.note.writers.wordtable import (
     rows_of,
     shared,
     stays,
+    strip_above,
     whole_width,
 )
 from planmethod.note.writers.wordtext import (
@@ -216,6 +220,7 @@ class _Writer:
                 self._step = 0 if self._is_note else self._step
                 self._heading(title, 1, number)
             case document.Part(title):
+                self._step = 0 if self._is_note else self._step
                 self._heading(title, 2, number)
             case document.Subpart(title):
                 self._heading(title, 3, number)
@@ -336,19 +341,19 @@ class _Writer:
 
     def _table(self, table: Table, number: str) -> None:
         """Put a table; one that is too wide is cut, or stands on a page that lies."""
-        room = self._width
+        room, again = self._width, self._say.continued.format(number=number) if number else ""
         size = next(
             (s for s in (TABLE_SIZE, LEAST_SIZE) if sum(needed_widths(table, s)) <= room), None
         )
         if size is not None:
-            self._one_table(table, self._name(number, table.name), size)
+            self._one_table(table, self._name(number, table.name), size, again)
         elif table.repeated:
             for k, part in enumerate(parts_of_width(table, LEAST_SIZE, room)):
-                again = self._say.continued.format(number=number) if number else ""
-                self._one_table(part, again if k else self._name(number, table.name), LEAST_SIZE)
+                name = "" if k else self._name(number, table.name)
+                self._one_table(part, name, LEAST_SIZE, again)
         else:
             self._turn(lying=True)
-            self._one_table(table, self._name(number, table.name), LEAST_SIZE)
+            self._one_table(table, self._name(number, table.name), LEAST_SIZE, again)
             self._turn(lying=False)
 
     def _name(self, number: str, name: Rich) -> Rich:
@@ -366,11 +371,18 @@ class _Writer:
         if self._frame is not None:
             self._frame.put_later(section)
 
-    def _one_table(self, table: Table, name: Rich, size: float) -> None:
-        if name:
-            self._text(name, "Table Name")
-        widths = shared(needed_widths(table, size), self._width)
+    def _one_table(self, table: Table, name: Rich, size: float, again: Rich) -> None:
+        """Put a table; ``again`` stands above it on each page but the one with its name."""
         rows = (table.head, *table.rows)
+        may_break = bool(again) and (len(rows) > TOGETHER or not name)
+        if name:
+            named = self._text(name, "Table Name")
+            if may_break:
+                named.paragraph_format.space_after = Pt(0)
+                above = self._paragraph("Table Name")
+                small_paragraph(above)
+                cover(above, self._width)
+        widths = shared(needed_widths(table, size), self._width)
         made = self._grid(len(rows), widths, self._styles.table)
         head_repeats(made)
         em = size * MM_PER_POINT
@@ -387,6 +399,13 @@ class _Writer:
                 elif column in table.numbers:
                     place.alignment = WD_ALIGN_PARAGRAPH.RIGHT
                 self._fill(place, text)
+        if may_break:
+            told = strip_above(made).paragraphs[0]
+            self._styles.put(told, "Table Name")
+            told.paragraph_format.space_before = told.paragraph_format.space_after = Pt(0)
+            told.paragraph_format.keep_with_next = True
+            told.add_run(again)
+            self._flow.put(STRIP * MM_PER_POINT)
         small_paragraph(self._file.add_paragraph(), space=6.0)
 
     # Figures --------------------------------------------------------------------------------------

@@ -6,7 +6,8 @@ from collections.abc import Iterator, Sequence
 from typing import Any
 
 from docx.enum.table import WD_TABLE_ALIGNMENT
-from docx.oxml import OxmlElement
+from docx.oxml import OxmlElement, parse_xml
+from docx.oxml.ns import nsdecls, qn
 from docx.shared import Mm
 from docx.table import _Cell
 
@@ -17,6 +18,9 @@ from planmethod.note.writers.wordstyles import MM_PER_POINT
 
 PAD = 4.0
 """White at the sides of a cell, mm."""
+
+STRIP = 17.0
+"""Height of the row that tells whose continuation a part of a table is, points."""
 
 TOGETHER = 5
 """Rows, with the head, up to which a table is not cut between pages."""
@@ -49,6 +53,51 @@ def head_repeats(table: Any) -> None:
         properties.append(OxmlElement("w:cantSplit"))
         if not k:
             properties.append(OxmlElement("w:tblHeader"))
+
+
+def strip_above(table: Any) -> _Cell:
+    """Put a low row without lines above the head of a table, which repeats as the head does.
+
+    What it says stands at the top of each page of the table, wherever Word cuts it; return its
+    cell.
+    """
+    columns = len(table._tbl.tblGrid.gridCol_lst)
+    row = OxmlElement("w:tr")
+    properties = row.get_or_add_trPr()
+    properties.append(OxmlElement("w:cantSplit"))
+    height = OxmlElement("w:trHeight")
+    height.set(qn("w:val"), str(round(20 * STRIP)))
+    height.set(qn("w:hRule"), "exact")
+    properties.append(height)
+    properties.append(OxmlElement("w:tblHeader"))
+    cell = row.add_tc()
+    cell.width = sum(column.w for column in table._tbl.tblGrid.gridCol_lst)
+    cell.grid_span = columns
+    borders = OxmlElement("w:tcBorders")
+    for side in ("top", "left", "right"):
+        line = OxmlElement(f"w:{side}")
+        line.set(qn("w:val"), "nil")
+        borders.append(line)
+    cell.get_or_add_tcPr().append(borders)
+    table._tbl.tr_lst[0].addprevious(row)
+    return _Cell(cell, table)
+
+
+def cover(paragraph: Any, width: float) -> None:
+    """Hide the strip below a paragraph of one point under a white area so many mm wide.
+
+    Where the table begins stands its name instead.
+    """
+    run = paragraph.add_run()._r
+    run.append(
+        parse_xml(
+            f'<w:pict {nsdecls("w")} xmlns:v="urn:schemas-microsoft-com:vml">'
+            '<v:rect style="position:absolute;margin-left:0;margin-top:0;'
+            f"width:{width / MM_PER_POINT:.1f}pt;height:{STRIP:g}pt;z-index:1;"
+            "mso-position-horizontal-relative:text;mso-position-vertical-relative:text"
+            '" fillcolor="white" stroked="f"/></w:pict>'
+        )
+    )
 
 
 def stays(row: int, rows: int) -> bool:

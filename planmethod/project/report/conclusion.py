@@ -215,9 +215,8 @@ def _cam(report: Report, said: Words) -> Iterator[Rich]:
 def back(report: Report, sheets: Sequence[SheetEntry]) -> Iterator[Node]:
     """Yield the sources and the list of sheets; of parts, where no sheet is drawn."""
     said: Words = report.said["back"]
-    source = report.project.problem.source
     yield StructuralHeading(said.sources.format())
-    yield References((*([escape(source)] if source else []), *said["standards"]))
+    yield References(tuple(report.sources.values()))
     yield StructuralHeading(said.sheets.format())
     parts = _parts(report, said["names"])
     rows: list[tuple[Rich, ...]] = [

@@ -8,7 +8,7 @@ from collections.abc import Iterable, Sequence
 from planmethod.construct.steps import Compute, NumberName
 from planmethod.mechanism.describe import LinkKind, kind_of_motion
 from planmethod.note.document import Formula, Item, Paragraph
-from planmethod.note.formula import Rich, inlined
+from planmethod.note.formula import Rich, escape, inlined
 from planmethod.note.narrate.formulas import Formulas
 from planmethod.note.narrate.naming import Names
 from planmethod.note.narrate.scales import scale_inscription
@@ -114,6 +114,23 @@ class Report:
     def has(self, name: PartName) -> bool:
         """Tell whether the project has a part."""
         return self.project.part(name) is not None
+
+    @property
+    def sources(self) -> dict[str, Rich]:
+        """Entries of the list of sources by their keys, in the order of their numbers.
+
+        The first is what the file names as its source, under ``own``.
+        """
+        source = self.project.problem.source
+        standards: Words = self.said["back"]["standards"]
+        needed = {key: str(text) for key, text in standards.items() if key != "rack"}
+        if self.has(PartName.MESHING):
+            needed["rack"] = str(standards["rack"])
+        return {**({"own": escape(source)} if source else {}), **needed}
+
+    def cited(self) -> dict[str, Rich]:
+        """Return the numbers of sources as texts refer to them, in brackets after a blank."""
+        return {key: f"{NBSP}[{k}]" for k, key in enumerate(self.sources, 1)}
 
     # Texts ---------------------------------------------------------------------------------------
 

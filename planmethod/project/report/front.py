@@ -89,7 +89,9 @@ def _assignment(report: Report) -> Iterator[Node]:
     yield sentences(statement.format(symbol=report.coordinate, value=report.place, number=number))
     yield from items(_tasks(report))
     rows, further = _data(report)
-    yield sentences(said.data.format())
+    cited = report.cited()
+    taken = said.taken.format(own=cited["own"]) if "own" in cited else ""
+    yield sentences(taken, said.data.format())
     yield Table(
         tuple(said["columns_data"]), tuple(rows), 3, name=said.data_table.format(), key="data"
     )
@@ -317,3 +319,4 @@ def _introduction(report: Report) -> Iterator[Node]:
         calculated if report.is_series else "",
         said.drawn.format(),
     )
+    yield sentences(said.standards.format(**report.cited()))

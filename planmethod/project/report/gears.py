@@ -283,7 +283,7 @@ def meshing_chapter(report: Report, problem: MeshingProblem) -> Iterator[Node]:
     way = "given" if problem.aim is None else problem.aim.value
     way = "distance" if problem.a_w is not None else way
     yield sentences(
-        str(said["about"][form]).format(**told),
+        str(said["about"][form]).format(rack=report.cited()["rack"], **told),
         said.wheels.format(one=ends[0], other=ends[1]) if ends is not None else "",
         str(said["shifts"][way]).format(**told),
     )

@@ -12,6 +12,7 @@ from planmethod.gears.involute.sizes import MeshingProblem
 from planmethod.gears.model import GearProblem
 from planmethod.note import document
 from planmethod.note.document import Document, Node
+from planmethod.note.formula import Rich
 from planmethod.note.wording import Language
 from planmethod.plans.model import RATES
 from planmethod.project.model import PartName, Project, SheetEntry
@@ -87,10 +88,16 @@ def _chapters(report: Report) -> Iterator[Node]:
 
 
 def _tied(node: Node, tie: re.Pattern[str]) -> Node:
-    """Return a node in whose texts numbers and their units stay together."""
+    """Return a node in whose texts numbers and their units stay together, with one kind of dash."""
+
+    def tied(text: Rich) -> Rich:
+        return tie.sub(NBSP, text).replace(" — ", f"{NBSP}– ")
+
     match node:
         case document.Paragraph() | document.Item() | document.Formula() | document.Note():
-            return replace(node, text=tie.sub(NBSP, node.text))
+            return replace(node, text=tied(node.text))
+        case document.Step():
+            return replace(node, lines=tuple(map(tied, node.lines)))
         case document.Figure():
             return replace(node, caption=tie.sub(NBSP, node.caption))
         case _:

@@ -169,9 +169,13 @@ def _by_segments(report: Report, transfers: Transfers) -> Iterator[Node]:
 
 
 def _senses(said: Words, told: TransferNarrator, plan: PlanKind) -> Iterator[Node]:
-    found = told.senses(plan)
+    found: dict[Rich, list[Rich]] = {}
+    for one in told.senses(plan):
+        symbols, _, sense = one.rpartition(" – ")
+        found.setdefault(sense, []).append(symbols)
     if found:
-        yield sentences(said.transfer_senses.format(senses="; ".join(found)))
+        senses = (f"{', '.join(symbols)} – {sense}" for sense, symbols in found.items())
+        yield sentences(said.transfer_senses.format(senses="; ".join(senses)))
 
 
 def _over_the_turn(report: Report) -> Iterator[Node]:
