@@ -89,7 +89,7 @@ def chosen_plans(solution: Solution, indices: Sequence[int], manner: Manner) -> 
         dict.fromkeys((round(count / 6), round(2 * count / 3) % count))
     )
     picture, *_ = plan_grid(solution, kind, chosen, manner.words, in_row=manner.entry.per_row)
-    title = manner.entry.title or manner.words.sheets["views"][kind.value][1]
+    title = manner.entry.title or manner.words.sheets["views"][kind.value][len(chosen) > 1]
     said = [scale_inscription(solution.scales[kind], solution.problem.scales.convention,
                               manner.words.say)]  # fmt: skip
     block = named(picture, title, said, manner)

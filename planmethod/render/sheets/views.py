@@ -192,24 +192,25 @@ def with_scale(
     kind: PlanKind,
     picture: Block,
     manner: Manner,
-    ellipses: Sequence[int],
+    drawn: Sequence[int],
     more: Sequence[str] = (),
 ) -> Column:
-    """Return a picture with its name and scale; ``ellipses`` are the positions that have them.
+    """Return a picture with its name and scale.
 
+    ``drawn`` are the positions that a plan is of, of a scheme those that have error ellipses.
     ``more`` is said under the scale.
     """
     words = manner.words
     one, many = words.sheets["views"][kind.value]
-    chosen = manner.entry.position is not None and kind is not PlanKind.POSITION
-    title = manner.entry.title or (one if len(solution.positions) == 1 or chosen else many)
+    alone = len(solution.positions) == 1 or (kind is not PlanKind.POSITION and len(drawn) == 1)
+    title = manner.entry.title or (one if alone else many)
     said = []
     if solution.has_common(kind):
         said.append(
             scale_inscription(solution.scales[kind], solution.problem.scales.convention, words.say)
         )
     said += more
-    said += ellipse_inscription(solution, kind, ellipses, words) if manner.extras.errors else []
+    said += ellipse_inscription(solution, kind, drawn, words) if manner.extras.errors else []
     return named(picture, title, said, manner)
 
 
