@@ -195,22 +195,23 @@ def with_scale(
     drawn: Sequence[int],
     more: Sequence[str] = (),
 ) -> Column:
-    """Return a picture with its name and scale.
+    """Return a picture of the ``drawn`` positions with its name and scale.
 
-    ``drawn`` are the positions that a plan is of, of a scheme those that have error ellipses.
     ``more`` is said under the scale.
     """
     words = manner.words
     one, many = words.sheets["views"][kind.value]
-    alone = len(solution.positions) == 1 or (kind is not PlanKind.POSITION and len(drawn) == 1)
-    title = manner.entry.title or (one if alone else many)
+    title = manner.entry.title or (one if len(drawn) == 1 else many)
     said = []
     if solution.has_common(kind):
         said.append(
             scale_inscription(solution.scales[kind], solution.problem.scales.convention, words.say)
         )
     said += more
-    said += ellipse_inscription(solution, kind, drawn, words) if manner.extras.errors else []
+    if manner.extras.errors:
+        of_scheme = kind is PlanKind.POSITION  # which has them around one position
+        shown = (shown_position(solution, drawn, manner),) if of_scheme else drawn
+        said += ellipse_inscription(solution, kind, shown, words)
     return named(picture, title, said, manner)
 
 
