@@ -131,4 +131,4 @@ def _driven(
         return driven(faults, given["gears"], driver["train"])
     from planmethod.cams.driving import followed
 
-    return followed(faults, given["cam"], driver["cam"])
+    return followed(faults, given["cam"])

@@ -11,6 +11,7 @@ from hypothesis import settings
 
 # A slow machine is no failure, and a run is like the one before it.
 settings.register_profile("planmethod", deadline=None, derandomize=True, max_examples=40)
+settings.register_profile("thinned", deadline=None, derandomize=True, max_examples=20)
 settings.register_profile("thorough", deadline=None, derandomize=True, max_examples=200)
 
 
@@ -32,8 +33,9 @@ def is_whole(config: pytest.Config) -> bool:
 
 def pytest_configure(config: pytest.Config) -> None:
     thorough = bool(config.getoption("--thorough"))
-    settings.load_profile("thorough" if thorough else "planmethod")
-    cases.take(everything=thorough, is_thin=not is_whole(config))
+    is_thin = not is_whole(config)
+    settings.load_profile("thorough" if thorough else "thinned" if is_thin else "planmethod")
+    cases.take(everything=thorough, is_thin=is_thin)
     # As in the commands: what the tests share is large, and looking for cycles in it a twentieth.
     gc.set_threshold(100_000)
 
@@ -45,7 +47,10 @@ MANY = 4
 
 
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
-    """Take every second to fifth case of a test that has many, unless every one is asked for."""
+    """Take every third to seventh case of a test that has many, unless every one is asked for.
+
+    Of a test whose cases take seconds, marked ``dear``, the first one is taken.
+    """
     if is_whole(config):
         return
     found: dict[str, list[pytest.Item]] = {}
@@ -56,7 +61,9 @@ def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item
     left: set[int] = set()
     for own in found.values():
         # Of parameters that cross by twos and fours all are met still.
-        step = (1, 2, 3, 3, 5)[min(len(own) // MANY, 4)]
+        step = (1, 3, 5, 5, 5, 5, 5, 5, 7)[min(len(own) // MANY, 8)]
+        if own[0].get_closest_marker("dear"):
+            step = len(own)
         left |= {id(one) for k, one in enumerate(own) if k % step}
     config.hook.pytest_deselected(items=[item for item in items if id(item) in left])
     items[:] = [item for item in items if id(item) not in left]

@@ -5,8 +5,10 @@ from __future__ import annotations
 import ast
 from collections import defaultdict
 from collections.abc import Iterator
+from functools import cache
 from graphlib import TopologicalSorter
 from importlib import import_module
+from typing import NamedTuple
 
 from worked import ROOT
 
@@ -84,20 +86,48 @@ LATE_OF = {
 """What may be imported in a function elsewhere, and who needs it: not every run does."""
 
 
-def imports(body: ast.AST) -> Iterator[tuple[str, int]]:
-    """Yield what is imported anywhere below a node, names of a package as modules of it."""
-    for node in ast.walk(body):
-        if isinstance(node, ast.Import):
-            yield from ((alias.name, node.lineno) for alias in node.names)
-        elif isinstance(node, ast.ImportFrom):
-            assert node.module is not None and not node.level, "imports are absolute"
-            for alias in node.names:
-                inner = f"{node.module}.{alias.name}"
-                yield inner if inner in FILES else node.module, node.lineno
+class Read(NamedTuple):
+    """What is asked of a module, whose tree is large."""
+
+    imports: frozenset[str]
+    late: tuple[tuple[str, int], ...]
+    classes: tuple[str, ...]
+
+
+def statements(body: ast.AST, is_late: bool = False) -> Iterator[tuple[ast.AST, bool]]:
+    """Yield all statements below a node, and whether they stand in a function."""
+    for node in ast.iter_child_nodes(body):
+        if isinstance(node, ast.stmt | ast.ExceptHandler | ast.match_case):
+            yield node, is_late
+            yield from statements(node, is_late or isinstance(node, ast.FunctionDef))
+
+
+def imported(node: ast.AST) -> Iterator[str]:
+    """Yield what a statement imports, names of a package as modules of it."""
+    if isinstance(node, ast.Import):
+        yield from (alias.name for alias in node.names)
+    elif isinstance(node, ast.ImportFrom):
+        assert node.module is not None and not node.level, "imports are absolute"
+        for alias in node.names:
+            inner = f"{node.module}.{alias.name}"
+            yield inner if inner in FILES else node.module
 
 
 def parsed(module: str) -> ast.Module:
     return ast.parse(FILES[module].read_text("utf-8"))
+
+
+@cache
+def read(module: str) -> Read:
+    every, late, classes = set(), [], []
+    for node, is_late in statements(parsed(module)):
+        names = [*imported(node)]
+        every.update(names)
+        if names and is_late:
+            late += [(name, node.lineno) for name in names]  # type: ignore[attr-defined]
+        if isinstance(node, ast.ClassDef) and not node.name.startswith("_"):
+            classes.append(node.name)
+    return Read(frozenset(every), tuple(late), tuple(classes))
 
 
 def test_an_import_in_a_function_is_of_what_few_runs_need() -> None:
@@ -105,9 +135,7 @@ def test_an_import_in_a_function_is_of_what_few_runs_need() -> None:
         f"{FILES[module].relative_to(ROOT)}:{line} imports {name}"
         for module in FILES
         if not module.startswith(LATE_IN)
-        for function in ast.walk(parsed(module))
-        if isinstance(function, ast.FunctionDef)
-        for name, line in imports(function)
+        for name, line in read(module).late
         if not any(f"{name}.".startswith(f"{known}.") for known in LATE_OF)
     ]
     assert not late, "put these at the head of the file, or say in LATE_OF who alone needs them"
@@ -124,17 +152,14 @@ def test_the_public_names_are_those_that_type_checkers_see() -> None:
 
 def test_no_module_imports_itself_through_others() -> None:
     # Import-linter looks at siblings; a package and its own modules are seen here.
-    graph = {
-        module: {name for name, _ in imports(parsed(module)) if name in FILES} for module in FILES
-    }
+    graph = {module: {name for name in read(module).imports if name in FILES} for module in FILES}
     TopologicalSorter(graph).prepare()  # raises CycleError, with the circle
 
 
 def test_a_public_class_name_stands_in_one_module_only() -> None:
     homes: defaultdict[str, list[str]] = defaultdict(list)
     for module in FILES:
-        for node in ast.walk(parsed(module)):
-            if isinstance(node, ast.ClassDef) and not node.name.startswith("_"):
-                homes[node.name].append(module)
+        for name in read(module).classes:
+            homes[name].append(module)
     shared = {name: modules for name, modules in homes.items() if len(modules) > 1}
     assert not shared, "give each a name that says what it is of, as BlockKind beside ProblemKind"

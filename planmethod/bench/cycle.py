@@ -44,7 +44,7 @@ class Calculus(Struct, frozen=True):
 
 def turn_for(problem: Problem) -> Turn | None:
     """Return the turn of a problem; None where the crank does not turn fully, or nothing turns."""
-    if not problem.drive.is_crank:
+    if not problem.drive.goes_round:
         return None
     turn = Turn(Solution(problem))
     return None if turn.range is not None else turn

@@ -168,7 +168,7 @@ class _Draft(Struct):
         """Draw s over v_q with the limiting lines, and read the axis."""
         design, b, mm = self.design, self.b, self.scales.region
         one, plate = design.problem, is_plate(design)
-        if plate and one.oscillates and one.r_min is not None:
+        if plate and one.r_min is not None:
             return {}  # the axis is where it is asked to be
         start = self.given("B")
         level = b.at_angle(start, None, self.known("level", 0.0))

@@ -2,55 +2,60 @@
 
 from __future__ import annotations
 
-from math import degrees, pi, radians
+from collections.abc import Iterator
 
-import numpy as np
-
-from planmethod.cams.model import ArmSense, CamProblem
+from planmethod.cams.model import ArmSense, CamPhase, CamProblem
 from planmethod.cams.reader import read_cam
-from planmethod.problem import fields
 from planmethod.problem.fields import Faults
-from planmethod.problem.model import Lifted
+from planmethod.problem.model import LawPiece, Lifted
 
 
-def followed(faults: Faults, table: object, cam: object) -> Lifted | None:
-    """Return how the follower moves the driving link in an angle of the cam.
+def followed(faults: Faults, table: object) -> Lifted | None:
+    """Return how the follower moves the driving link over a turn of the cam.
 
     Parameters
     ----------
     table : object
         ``[cam]``.
-    cam : object
-        ``cam`` of ``[driver]``: degrees from the start of the rise in the sense of the cam.
 
     Returns
     -------
     Lifted or None
-        None where the cam or the angle is faulty; ``faults`` say why.
+        None where the cam is faulty; ``faults`` say why.
     """
     before = len(faults)
-    angle = fields.read_angle(faults, "driver.cam", cam)
     told = read_cam(faults, table)
-    if told is None or angle is None or len(faults) != before:
+    if told is None or len(faults) != before:
         return None
     problem = CamProblem(name="", **told)
     if not problem.n:
         faults.add("cam.n", "missing", "Give the speed of the cam that drives, rev/min: n = 120.")
         return None
-    return motion_at(problem, angle)
+    return lifted(problem)
 
 
-def motion_at(problem: CamProblem, angle: float) -> Lifted:
-    """Return place, rate and acceleration of the follower from its lowest place.
+def lifted(problem: CamProblem) -> Lifted:
+    """Return the motion of the follower from its lowest place.
 
-    ``s``, ``v``, ``a`` of a translating follower grow with the rise; an oscillating one turns in
-    the rise by the sense of the cam, or against it.
+    The way of a translating follower grows with the rise; an oscillating one turns in the rise by
+    the sense of the cam, or against it.
     """
-    omega = abs(problem.n or 0.0) * pi / 30
-    s, v, a = (float(value) for value in problem.at(np.array([radians(angle)]))[:, 0])
-    motion = (s, v * omega, a * omega**2)
+    size = problem.stroke
     if problem.oscillates:
-        way = problem.mirror * (1 if problem.sense is ArmSense.SAME else -1)
-        turn, rate, gain = (way * value / problem.arm for value in motion)
-        motion = (degrees(turn), rate, gain)
-    return Lifted(angle, problem.oscillates, problem.n or 0.0, *motion)
+        size *= problem.mirror * (1 if problem.sense is ArmSense.SAME else -1) / problem.arm
+    return Lifted(problem.oscillates, problem.n or 0.0, tuple(_pieces(problem, size)))
+
+
+def _pieces(problem: CamProblem, size: float) -> Iterator[LawPiece]:
+    """Yield the smooth parts of the turn, the stroke being ``size``."""
+    for stretch in problem.stretches:
+        law, length = problem.law(stretch.phase), problem.length(stretch.phase)
+        if law is None:
+            top = size if stretch.phase is CamPhase.UPPER else 0.0
+            yield LawPiece(stretch.start, (top,))
+            continue
+        powers, wave, rate, phase = law.terms(stretch.bit)
+        way, first = (size, 0.0) if stretch.phase is CamPhase.RISE else (-size, size)
+        lengthened = [way * factor / length**k for k, factor in enumerate(powers)]
+        lengthened[0] += first
+        yield LawPiece(stretch.start, tuple(lengthened), way * wave, rate / length, phase)

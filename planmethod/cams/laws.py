@@ -104,6 +104,17 @@ class UnitLaw(Struct, frozen=True, dict=True):
         size = self._constants[-1][0]
         return np.array([s + value + slope * (u - bit.start), v + slope, a]) / size
 
+    def terms(self, k: int) -> tuple[list[float], float, float, float]:
+        """Return the law on bit ``k``, counted from its start: powers of it, and a sine.
+
+        The sine is told by size, rate and phase: ``size·sin(rate·x + phase)``.
+        """
+        bit, (value, slope), whole = self.bits[k], self._constants[k], self._constants[-1][0]
+        powers = [value, slope]
+        powers += [f / ((k + 1) * (k + 2)) for k, f in enumerate(bit.powers)]
+        wave = -bit.size / bit.rate**2
+        return [factor / whole for factor in powers], wave / whole, bit.rate, bit.phase
+
     @cached_property
     def ends(self) -> Reals:
         """Derivatives at both ends of each bit, shape (bits, 2, 3)."""

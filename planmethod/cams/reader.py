@@ -15,10 +15,10 @@ from planmethod.problem import fields
 from planmethod.problem.answers import Plain, read_answers
 from planmethod.problem.fields import Faults
 from planmethod.problem.flat import OwnReader, read_flat
-from planmethod.problem.head import CAM_EXAMPLE, CHOOSE, CamTable
 from planmethod.problem.names import short
 from planmethod.problem.reader import varied
 from planmethod.problem.sheet import read_head
+from planmethod.problem.tables import CAM_EXAMPLE, CHOOSE, CamTable
 
 TOP = ("title", "source", "stamp", "sheet", "answers", "compare", "variants", "cam")
 """Tables of the file that a cam may have."""

@@ -66,14 +66,16 @@ def given(problem: CamProblem, words: Language) -> Iterator[Rich]:
         up, down = problem.allowed
         text = said.allowed.format(rise=say.given(degrees(up)))
         yield text + (said.allowed_back.format(back=say.given(degrees(down))) if down else "")
+    flat = problem.contact is Contact.FLAT
     for name, symbol in (
-        ("r_min", "r_{min}"),
+        ("r_min", "r_{0}" if flat else "r_{min}"),
         ("offset", "e"),
         ("centre", "a"),
         ("roller", "r_{p}"),
+        ("least", "[ρ]"),
     ):
         value = getattr(problem, name)
-        if value is not None:
+        if value if name == "least" else value is not None:
             yield f"{symbol} = {say.given(MM * value)} {say.units['mm']}"
     if problem.n:
         told = said["speed"]["ccw" if problem.n > 0 else "cw"]

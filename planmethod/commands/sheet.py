@@ -260,7 +260,7 @@ def _tell_positions(problem: Problem, layout: str) -> None:
     from planmethod.render.sheets.composition.reader import composition
 
     drive = problem.drive
-    if problem.cycle is not None or not drive.is_crank or len(drive.positions) < 2:
+    if problem.cycle is not None or not drive.goes_round or len(drive.positions) < 2:
         return
     if not composition(layout).cycle:
         return
@@ -323,7 +323,7 @@ def drawn_for(
     from planmethod.render.sheets.kinematics import kinematics_sheets
 
     problem, positions = todo.linkage, None if phi is None else phi.tolist()
-    if options.ask and not problem.drive.is_crank:
+    if options.ask and not problem.drive.goes_round:
         raise UsageError("--ask: {}: the driver slides and has no turn", called(problem))
     return kinematics_sheets(
         compacted(problem, positions) if options.compact else problem,

@@ -109,8 +109,9 @@ def sketched(asked: Asked, _: Tell) -> Found:
     if trouble is not None and not part.faults:
         found = _told(asked, [Fault("", str(trouble))], placed=False)
     ways = len(part.assemblies)
+    is_there = part.solution is not None or ways or part.fixed
     return found | {
-        "svg": _svg(drawn(part, title, language(asked["lang"]), [])),
+        "svg": _svg(drawn(part, title, language(asked["lang"]), [])) if is_there else "",
         "title": title,
         "kind": "",
         "variants": [] if part.faults else list(variant_names(path)),

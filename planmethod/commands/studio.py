@@ -47,6 +47,19 @@ KEPT = 75
 @click.option(
     "--jobs", type=click.IntRange(1, 64), help="Processes at work; one for each core when absent."
 )
+@click.option(
+    "--static",
+    "written",
+    type=PathType(),
+    metavar="DIR",
+    help="Write the page into a folder for any host of files: Python runs in the browser.",
+)
+@click.option(
+    "--pyodide",
+    "runtime",
+    metavar="URL|FOLDER",
+    help="With --static: where its Pyodide is; the official address when absent.",
+)
 @lang_option
 @guarded
 def studio(
@@ -57,6 +70,8 @@ def studio(
     served: bool,
     seconds: float | None,
     jobs: int | None,
+    written: Path | None,
+    runtime: str | None,
     lang: str,
 ) -> None:
     """Open the studio: tasks, editor, plans, sheets, answers and checking on one page.
@@ -64,6 +79,15 @@ def studio(
     FILE is edited, or the problem files of FOLDER; without them nothing is written but what is
     downloaded. Stop it with Ctrl+C. More: docs/studio.md.
     """
+    if written is not None:
+        if file is not None or served or shown:
+            raise UsageError(
+                "--static writes a page that needs no server: it takes --pyodide alone"
+            )
+        _write(written, runtime, lang)
+        return
+    if runtime is not None:
+        raise UsageError("--pyodide goes with --static")
     if not served and host not in LOOPBACK:
         raise UsageError(
             "--host {}: without --serve only this machine is listened to, at 127.0.0.1; others can "
@@ -80,6 +104,31 @@ def studio(
     except ImportError:
         raise UsageError(NEEDS) from None
     _serve(settings_of(file, served, seconds, jobs), host, port, shown)
+
+
+def _write(folder: Path, runtime: str | None, lang: str) -> None:
+    """Write the page that needs no server."""
+    from planmethod.commands.output import bar
+    from planmethod.commands.studied import act
+    from planmethod.render.sheets.compositions import SHIPPED
+    from planmethod.studio.written import VERSION, parts, runtime_of, write_studio
+
+    try:
+        found = runtime_of(runtime)
+    except LookupError as error:
+        raise UsageError(
+            "--pyodide {}: no core of Pyodide is there: {}. npm pack pyodide@{} has it.",
+            runtime,
+            error.args[0],
+            VERSION,
+        ) from None
+
+    def pictured(file: str) -> str:
+        return str(act({"do": "pictured", "file": file, "lang": lang}, lambda share: None)["svg"])
+
+    with bar(len(parts()), long=True) as done:
+        write_studio(folder, found, tuple(SHIPPED), pictured, lang=lang, done=done)
+    click.echo(say("{}: the studio. Put it on a host of files; it opens over http.", folder))
 
 
 def settings_of(

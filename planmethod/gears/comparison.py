@@ -14,7 +14,7 @@ from planmethod.gears.model import GearProblem, Train
 from planmethod.gears.motion import TrainMotion
 from planmethod.gears.teeth import SCHEMES, TeethSet, TrainScheme, Wanted
 from planmethod.languages import say
-from planmethod.problem.head import PlanetaryTask
+from planmethod.problem.tables import PlanetaryTask
 
 
 class PlanetaryVariant(Struct, frozen=True):

@@ -13,8 +13,8 @@ from planmethod.languages import say
 from planmethod.problem import fields, keys
 from planmethod.problem.fields import Faults
 from planmethod.problem.flat import read_flat
-from planmethod.problem.head import GearWheelTable
 from planmethod.problem.names import fold, is_label, joined, looks_latin, segment
+from planmethod.problem.tables import GearWheelTable
 
 WHEEL_LIMIT = 60
 TEETH_LIMIT = 10_000

@@ -9,7 +9,8 @@ from fractions import Fraction
 
 from msgspec import Struct
 
-from planmethod.problem.head import KindProblem, PlanetaryTask
+from planmethod.problem.head import KindProblem
+from planmethod.problem.tables import PlanetaryTask
 
 
 class MeshKind(Enum):

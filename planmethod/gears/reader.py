@@ -23,11 +23,12 @@ from planmethod.problem import fields, keys
 from planmethod.problem.answers import Plain, read_answers
 from planmethod.problem.fields import Faults
 from planmethod.problem.flat import read_flat
-from planmethod.problem.head import PictureTable, PlanetaryTask, Published
+from planmethod.problem.head import Published
 from planmethod.problem.names import fold, is_label, joined, segment
 from planmethod.problem.reader import varied
 from planmethod.problem.selector import read_published
 from planmethod.problem.sheet import read_head
+from planmethod.problem.tables import PictureTable, PlanetaryTask
 
 ASK_LIMIT = 100
 TURNS = ("n", "omega")

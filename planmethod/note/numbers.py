@@ -191,7 +191,7 @@ def alike(values: Sequence[float], digits: int = 4) -> list[str]:
     The largest has so many significant digits; zeros are a plain 0. Where that would leave small
     values without digits of their own, each number keeps its own decimals.
     """
-    sizes = sorted(abs(value) for value in values if value)
+    sizes = sorted(abs(value) for value in values if value and math.isfinite(value))
     largest = sizes[-1] if sizes else 0.0
     model = significant(largest, digits)
     if "e" in model or len(sizes) < 2 or largest > 30 * sizes[len(sizes) // 2]:

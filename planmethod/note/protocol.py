@@ -242,7 +242,7 @@ class _Protocol:
 
     def _constant_speed(self, section: Section) -> list[str]:
         drive = self.solution.problem.drive
-        if section.group is not None or not drive.is_crank or drive.acceleration != 0:
+        if section.group is not None or not drive.is_crank or drive.accelerates:
             return []
         symbol = f"ω_{{{drive.link}}}"
         return [self.words.constant_speed.format(symbol=symbol, link=drive.link)]

@@ -169,7 +169,7 @@ def transfer_quantities(kin: Kinematics, draft: Draft) -> Iterator[Quantity]:
         Gets their steps.
     """
     drive, problem = draft.problem.drive, draft.problem
-    if not drive.is_crank:
+    if not drive.revolves:
         return
     steps, orders = TransferSteps(kin, draft), (PlanKind.VELOCITY, PlanKind.ACCELERATION)
     moving = [

@@ -83,7 +83,7 @@ def read_cycle(
     entries = fields.read_table(faults, "cycle", table, _EXAMPLE)
     if entries is None:
         return None
-    if drive is not None and not drive.is_crank:
+    if drive is not None and not drive.goes_round:
         faults.add(
             "cycle",
             say("the driver, link {}, slides: it has no turn", drive.link),

@@ -27,6 +27,8 @@ from planmethod.problem.names import is_point_name, listed, near, segment, split
 from planmethod.problem.posed import is_length, is_place, is_posed, is_rate, read_posed
 
 Span = tuple[float, ...]
+ANGLES = ("phi", "cam")
+"""Keys whose places are angles: a row of them may be a full turn."""
 
 
 def read_drive(
@@ -93,7 +95,7 @@ def read_drive(
             faults.add(f"driver.{key}", "missing", _EXAMPLES[key])
     geared, led = (None, None) if leading is None else _split(leading)
     if lifted:
-        _check_follower(faults, given, led, crank=bool(pivots), numbered=numbered)
+        _check_follower(faults, given, led, crank=bool(pivots))
     if pivots:
         _check_crank_axis(faults, link, pivots[0])
         positions = _read_positions(faults, given, "phi")
@@ -103,9 +105,11 @@ def read_drive(
         positions = _read_positions(faults, given, "s")
         rate = _read_rate(faults, given, "v", "a velocity in m/s")
         acceleration = _read_rate(faults, given, "a", "an acceleration in m/s²")
-    if led is not None and positions is not None:
-        positions = tuple(place + led.moved for place in positions)
-        rate, acceleration = led.rate, led.acceleration
+    if lifted:
+        lowest, positions = positions, _read_positions(faults, given, "cam")
+        if led is not None and lowest is not None:
+            led = replace(led, lowest=lowest[0])
+            rate = abs(led.n) * math.pi / 30.0
     if posed is not None:
         positions = (math.nan,) * len(posed.values)  # found when the mechanism is assembled
     judged: Span = ()
@@ -126,23 +130,18 @@ def _split(leading: Geared | Lifted) -> tuple[Geared | None, Lifted | None]:
     return (leading, None) if isinstance(leading, Geared) else (None, leading)
 
 
-def _check_follower(
-    faults: Faults, given: Table, led: Lifted | None, *, crank: bool, numbered: int
-) -> None:
-    """Note what keeps a cam's follower from driving: its kind, several places, a cycle."""
+def _check_follower(faults: Faults, given: Table, led: Lifted | None, *, crank: bool) -> None:
+    """Note what keeps a cam's follower from driving: its kind, several places."""
     key = "phi" if crank else "s"
     if led is not None and led.turns is not crank:
         what = "a translating follower moves a slider, an oscillating one a crank"
         faults.add("driver.cam", what, "Change follower of [cam], or the driving link.")
     if isinstance(given.get(key), list | Mapping):
         what = "one place is expected: that of the link while the follower is lowest"
-        faults.add(f"driver.{key}", what, "Other angles of the cam are variants.")
+        faults.add(f"driver.{key}", what, "Give the angles of the cam: cam = [0, 30, 60].")
     for other in ("stroke", "at", "root", *filter(is_posed, given)):
         if other in given:
             faults.add(f"driver.{other}", _LIFTED)
-    if numbered:
-        what = "[cycle] is of a crank that turns, not of a cam's follower"
-        faults.add("driver.cam", what, "Leave [cycle] out.")
 
 
 _ACTED = "does not go with an actuator, whose rate drives"
@@ -214,7 +213,7 @@ def _read_position(faults: Faults, path: str, value: object, key: str) -> float 
         return None
     return (
         fields.read_angle(faults, path, value)
-        if key == "phi"
+        if key in ANGLES
         else fields.read_coordinate(faults, path, value)
     )
 
@@ -235,10 +234,10 @@ def _read_span(faults: Faults, path: str, table: Table, key: str) -> Span | None
     if len(faults) != before:
         return None
     names = set(given)
-    full_turn = names == {"from", "count"} and key == "phi"
+    full_turn = names == {"from", "count"} and key in ANGLES
     if not full_turn and names not in ({"from", "to", "count"}, {"from", "to", "step"}):
         ways = "{ from, to, step } or { from, to, count }"
-        if key == "phi":
+        if key in ANGLES:
             ways = say("{{ from, count }} (a full turn), {}", ways)
         faults.add(path, say("expected {}, got {{ {} }}", ways, listed(given)))
         return None

@@ -317,7 +317,10 @@ def require_turning(
     faults: Faults, path: str, drive: Drive | None, slides: str, stands: str
 ) -> None:
     """Note that a table is of a crank that turns, with the hint for what the driver is instead."""
-    if drive is not None and not drive.is_crank:
+    if drive is not None and drive.followed is not None:
+        what = "a cam's follower moves link {}, which does not turn all round"
+        faults.add(path, say(what, drive.link), slides)
+    elif drive is not None and not drive.is_crank:
         faults.add(path, say("link {} slides and has no turn", drive.link), slides)
     elif drive is not None and not drive.rate:
         faults.add(path, "the crank stands", stands)

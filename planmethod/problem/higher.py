@@ -9,10 +9,10 @@ from planmethod.mechanism.model import FRAME, HigherPair
 from planmethod.problem import fields, keys
 from planmethod.problem.fields import Faults, Table
 from planmethod.problem.flat import read_flat
-from planmethod.problem.head import HigherPairTable
 from planmethod.problem.links import Length, LinkText
 from planmethod.problem.names import NAME_LIMIT, is_label, listed
 from planmethod.problem.slides import FrameText
+from planmethod.problem.tables import HigherPairTable
 
 EXAMPLE = 'links = ["1", "2"]'
 

@@ -16,12 +16,6 @@ from planmethod.problem.head import (
     TITLE_BLOCK_IN,
     TITLE_FORMS,
     AskedAnswer,
-    CamTable,
-    GearWheelTable,
-    HigherPairTable,
-    MeshingTable,
-    PictureTable,
-    PlanetaryTask,
     Published,
     SheetSettings,
 )
@@ -44,6 +38,14 @@ from planmethod.problem.machine_records import (
     MotorTable,
 )
 from planmethod.problem.model import Scales
+from planmethod.problem.tables import (
+    CamTable,
+    GearWheelTable,
+    HigherPairTable,
+    MeshingTable,
+    PictureTable,
+    PlanetaryTask,
+)
 
 OF_KINDS = ("gears", "point", "meshing", "cam")
 """Tables by which a file is of another kind than linkages; those kinds read them."""

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from enum import Enum
 from math import inf
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any, NamedTuple
 
 from msgspec import Struct, field
 from msgspec.structs import replace
@@ -147,8 +147,9 @@ class Rule(Struct, frozen=True):
 class Coordinate(Struct, frozen=True):
     """What tells where the driver stands (обобщённая координата): ``phi``, deg or ``s``, m.
 
-    Records name it by ``column``; ``symbol`` is rich text; ``rates`` are the velocity and the
-    acceleration in a program. After a ``turn``, which is infinite of a slider, it stands as before.
+    Of a cam's follower it is the angle of the cam, ``cam``, deg. Records name it by ``column``;
+    ``symbol`` is rich text; ``rates`` are the velocity and the acceleration in a program. After a
+    ``turn``, which is infinite of a slider, it stands as before.
     """
 
     name: str
@@ -208,27 +209,39 @@ class Geared(Struct, frozen=True):
     rate: float
 
 
+class LawPiece(NamedTuple):
+    """A smooth part of a follower's law (участок закона движения).
+
+    The way is ``powers[0] + powers[1]·x + … + size·sin(rate·x + phase)``, m or rad, x being the
+    angle of the cam from ``start``, rad.
+    """
+
+    start: float
+    powers: tuple[float, ...]
+    size: float = 0.0
+    rate: float = 1.0
+    phase: float = 0.0
+
+
 class Lifted(Struct, frozen=True):
     """Follower of a cam that drives a linkage (привод от толкателя кулачка).
 
     Attributes
     ----------
-    angle : float, degrees
-        Of the cam from the start of the rise, in its sense.
     turns : bool
         The follower oscillates: it turns a crank.
     n : float, rev/min
         Of the cam, counter-clockwise positive.
-    moved, rate, acceleration : float
-        From its lowest place, m or degrees; m/s or 1/s; m/s² or 1/s².
+    pieces : tuple of LawPiece
+        Its way over a turn of the cam, from the start of the rise in the sense of the cam.
+    lowest : float
+        Where the link is while the follower is lowest, m or degrees.
     """
 
-    angle: float
     turns: bool
     n: float
-    moved: float
-    rate: float
-    acceleration: float
+    pieces: tuple[LawPiece, ...]
+    lowest: float = 0.0
 
 
 class PosedBy(Enum):
@@ -308,9 +321,11 @@ class Drive(Struct, frozen=True):
         Fixed point that a crank turns about; None for a driving slider.
     positions : tuple of float
         phi of the crank's own axis, degrees; or s of the slider's pin along its guide from the
-        guide's base point, m.
+        guide's base point, m. Of a cam's follower the angles of the cam, degrees.
     rate, acceleration : float
-        omega, 1/s and epsilon, 1/s² (counter-clockwise positive); or v, m/s and a, m/s².
+        omega, 1/s and epsilon, 1/s² (counter-clockwise positive); or v, m/s and a, m/s². Of a
+        cam's follower those of the cam in its sense: the link's own are in
+        `planmethod.solved.driving`.
     geared : Geared or None
         The train that drives a crank, where one is given.
     turns : float or None, rev/min
@@ -323,7 +338,7 @@ class Drive(Struct, frozen=True):
     pushed : BalancingForceTask or None
         The force at a point of a crank that balances it, in place of a couple.
     followed : Lifted or None
-        The cam's follower that it is, or is moved by: its place, rate and acceleration are from it.
+        The cam's follower that it is, or is moved by.
     """
 
     link: str
@@ -344,12 +359,39 @@ class Drive(Struct, frozen=True):
         return self.pivot is not None
 
     @property
+    def goes_round(self) -> bool:
+        """Whether its positions are angles of a turn: of a crank, or of the cam that moves it."""
+        return self.is_crank or self.followed is not None
+
+    @property
+    def mover(self) -> str:
+        """Whose turn its positions are of, a key of sentences: ``crank`` or ``cam``."""
+        return "crank" if self.followed is None else "cam"
+
+    @property
+    def revolves(self) -> bool:
+        """Whether it is a crank that can turn all round, and not one that a follower swings."""
+        return self.is_crank and self.followed is None
+
+    @property
+    def accelerates(self) -> bool:
+        """Whether its link has an acceleration, in some positions at least."""
+        return self.acceleration != 0 or self.followed is not None
+
+    @property
+    def given(self) -> tuple[str, str, str]:
+        """What a program calls place, rate and acceleration of its link."""
+        return ("phi" if self.is_crank else "s", *self.coordinate.rates)
+
+    @property
     def coordinate(self) -> Coordinate:
         """What its positions are values of."""
+        rates = (f"omega_{self.link}", f"epsilon_{self.link}") if self.is_crank else ("v", "a")
+        if self.followed is not None:
+            return Coordinate("cam", "deg", "cam_deg", "φ", rates, 360.0)
         if self.is_crank:
-            rates = f"omega_{self.link}", f"epsilon_{self.link}"
             return Coordinate("phi", "deg", "phi_deg", f"φ_{{{self.link}}}", rates, 360.0)
-        return Coordinate("s", "m", "s", "s", ("v", "a"), inf)
+        return Coordinate("s", "m", "s", "s", rates, inf)
 
     @property
     def balancing(self) -> BalancingQuantity:

@@ -204,11 +204,14 @@ def _read_over(
         hint = "A couple has no point: give it over phi, s or position."
         faults.add(path, say("'{}' does not go with a couple", over.value), hint)
         return None
-    if drive is not None and over in (Over.PHI, Over.S) and over.value != drive.coordinate.name:
+    if drive is None:
+        return over
+    own = Over.PHI if drive.goes_round else Over.S
+    if over in (Over.PHI, Over.S) and over is not own:
         message = "'{}' is not what the driver has: link {} slides"
-        if drive.is_crank:
+        if drive.goes_round:
             message = "'{}' is not what the driver has: link {} turns"
-        hint = say("Give the table over {}.", drive.coordinate.name)
+        hint = say("Give the table over {}.", own.value)
         faults.add(path, say(message, over.value, drive.link), hint)
         return None
     return over

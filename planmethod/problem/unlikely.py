@@ -31,7 +31,7 @@ def unlikely(problem: Problem) -> Iterator[str]:
         yield say(told, f"links.{link}.{key}", told_length(value, problem.unit))
     drive = problem.drive
     speed = abs(drive.rate) * 30 / pi
-    if drive.is_crank and speed > FASTEST:
+    if drive.revolves and speed > FASTEST:
         told = "the crank makes {:.0f} rev/min (omega = {:g} 1/s). Give rev/min as n, 1/s as omega."
         yield say(told, speed, drive.rate)
     yield from _short_rods(problem)

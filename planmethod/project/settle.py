@@ -67,6 +67,10 @@ def settle(problem: Problem, path: Path | None = None) -> Project:
     >>> [part.name.value for part in decided.parts]
     ['kinematics', 'forces']
     """
+    if problem.drive.followed is not None:
+        told = "the driving link is moved by a cam's follower, a course project is that of a crank"
+        hint = "Draw it with planmethod sheet; its cam is a project's with a crank in [driver]."
+        raise ProblemError(problem.name, [Fault("driver.cam", told, hint)])
     asked = problem.drive.positions
     problem = in_positions(problem)
     scales = replace(problem.scales, decided=True)

@@ -11,7 +11,7 @@ from planmethod.construct.steps import PointName
 from planmethod.plans.model import RATES, PlanKind
 from planmethod.solved.enlarging import short_readings
 from planmethod.solved.reading import Reals, remembered
-from planmethod.solved.scaling import OUTLIER, median, sizes
+from planmethod.solved.scaling import OUTLIER, median, sizes, typical
 from planmethod.solved.solution import Solution
 
 _APART = 0.3  # sine of the least angle between joined links of the clearest one
@@ -111,5 +111,5 @@ def _usual(solution: Solution) -> npt.NDArray[np.bool_]:
     usual = np.ones(len(solution.positions), dtype=bool)
     for kind in RATES:
         size = np.maximum(*sizes(solution.construction, solution.si, kind))
-        usual &= size <= OUTLIER / 2 * median(size)
+        usual &= size <= OUTLIER / 2 * typical(size)
     return usual

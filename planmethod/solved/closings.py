@@ -36,6 +36,7 @@ from planmethod.problem.model import Problem, Rule, Where
 from planmethod.problem.names import told_length, told_place
 from planmethod.solved.assemblies import Assembled, best_third, choose
 from planmethod.solved.changes import changes
+from planmethod.solved.driving import driven
 from planmethod.solved.failures import Cause, Failure, Place, PositionError
 from planmethod.solved.impossible import explain
 from planmethod.solved.reading import Reading, Reals
@@ -62,8 +63,7 @@ def drive_data(
     data.update(draft.places)
     data.update({name: one.branch(positions) for name, one in draft.branches.items()})
     data.update(mu_l=1.0, mu_v=1.0, mu_a=1.0)
-    data[drive.coordinate.name] = positions
-    data.update(zip(drive.coordinate.rates, (drive.rate, drive.acceleration), strict=True))
+    data.update(zip(drive.given, driven(drive, positions), strict=True))
     return data
 
 
@@ -253,7 +253,7 @@ def _going_on(problem: Problem, tried: Tried, group: AssurGroup, closing: Closin
     draft, program = tried[0], tried[0].b.program()
     turn, low = problem.drive.coordinate.turn, closing.start
     high = low + turn
-    if not problem.drive.is_crank:
+    if not problem.drive.goes_round:
         way = sum(abs(length) for _, _, length in problem.lengths)
         low, high, turn = low - way, low + way, closing.turn
     found = changes(draft, program, lambda s: drive_data(problem, draft, s), group, low, high)

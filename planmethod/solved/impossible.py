@@ -78,7 +78,7 @@ def explain(
     if found.cause in (Cause.ARCS, Cause.ARC):
         miss = float(_misses(step, reading)[index])
         found = replace(found, lengths=(*found.lengths, miss))
-        if read_at is not None and problem.drive.is_crank:
+        if read_at is not None and problem.drive.goes_round:
             over_turn = np.nan_to_num(_misses(step, read_at(_TURN)), nan=-np.inf)
             k = int(np.argmax(over_turn))
             if over_turn[k] >= miss:  # or all of it lies between the degrees

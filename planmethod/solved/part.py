@@ -139,7 +139,7 @@ def _existing(solution: Solution) -> tuple[Reals, Failure | None]:
         return positions, None
     failure = explain(draft, program, reading, positions, solution.read_at)
     if not there.any():
-        positions = positions + _ASIDE * (1.0 if solution.problem.drive.is_crank else 1e-3)
+        positions = positions + _ASIDE * (1.0 if solution.problem.drive.goes_round else 1e-3)
         there = failing(program, solution.read_at(positions).trace, reading.count) < 0
     return positions[there], failure
 

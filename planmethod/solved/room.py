@@ -109,8 +109,9 @@ def has_room(
         return any(_stand(groups, last, room) for last in last_shapes)
     first = shapes([scheme, statement, [one, two]], room)
     plans = [shapes(velocity, room), shapes(acceleration, room)]
-    if positions <= FEW:
-        plans.append(shapes([reckoned, reckoned_too], room))
+    if positions > FEW:
+        return any(_stand([first, *plans], last, room) for last in last_shapes)
+    plans.append(shapes([reckoned, reckoned_too], room))
     return any(_stand([first], _in_order((*plans, last), room), room) for last in last_shapes)
 
 

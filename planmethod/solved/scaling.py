@@ -133,8 +133,11 @@ SCHEME = {"A4": 70.0, "A3": 110.0, "A2": 150.0, "A1": 200.0, "A0": 250.0}
 
 CLOSE = 1.03
 """So many times the height of the paper the estimate may be before a scale of many positions is
-made coarser: rows of many plans take less, as letters of the one stand in hollows of the other.
-For a finer scale the estimate itself must have room."""
+made coarser: rows of many plans take less, as letters of the one stand in hollows of the other."""
+
+SPARE = 0.93
+"""So much of the height of the paper the estimate may take at a finer scale of many positions: the
+table of measured values is higher than the estimated one. Of one and of few it may take all."""
 
 CROWDED = 1.5
 """So many times wider the scheme of many positions shall be, to be no tangle."""
@@ -232,6 +235,11 @@ def sizes(construction: Construction, si: Reading, kind: PlanKind) -> tuple[Real
     return _spread(si, ends) if ends else (np.zeros(si.count), np.zeros(si.count))
 
 
+def least_plan(construction: Construction, si: Reading, kind: PlanKind) -> float:
+    """Return the larger side of the smallest plan of a kind in all positions, in its unit."""
+    return float(np.maximum(*sizes(construction, si, kind)).min())
+
+
 def extent(construction: Construction, si: Reading, kind: PlanKind) -> Box:
     """Return the size of what is drawn, in its own unit: of plans the largest, without outliers."""
     return _usual(*sizes(construction, si, kind))
@@ -240,7 +248,7 @@ def extent(construction: Construction, si: Reading, kind: PlanKind) -> Box:
 def _usual(width: Reals, height: Reals) -> Box:
     """Return the largest of sizes without outliers."""
     size = np.maximum(width, height)
-    usual = size <= OUTLIER * median(size)
+    usual = size <= OUTLIER * typical(size)
     return float(np.max(width[usual])), float(np.max(height[usual]))
 
 
@@ -248,6 +256,15 @@ def median(sizes: Reals) -> float:
     """Return the median of (N,) sizes; numpy's own would import its masked arrays."""
     ordered = np.sort(sizes)
     return float(ordered[(len(ordered) - 1) // 2] + ordered[len(ordered) // 2]) / 2
+
+
+def typical(sizes: Reals) -> float:
+    """Return the median of the sizes of plans, (N,); of points alone 0.
+
+    Plans that are points do not count: a mechanism may rest in most of its positions.
+    """
+    seen = sizes[sizes > 0.0]
+    return median(seen) if seen.size else 0.0
 
 
 class Extents:
@@ -383,7 +400,8 @@ class _Chosen(Struct, frozen=True):
             return self.drawn[kind].share(now[kind])
 
         many = self.drawn[PlanKind.POSITION].si.count > FEW
-        while free and not found.has_room(CLOSE if many else 1.0):
+        close, spare = (CLOSE, SPARE) if many else (1.0, 1.0)
+        while free and not found.has_room(close):
             bears = [k for k in free if _next(now[k], asked, finer=False) <= least[k]]
             if not bears:
                 return self  # the sheet goes on with texts, or takes a larger paper
@@ -393,7 +411,7 @@ class _Chosen(Struct, frozen=True):
         while free:
             small = min(free, key=share)
             before, now[small] = now[small], _next(now[small], asked, finer=True)
-            if not (self.drawn[small].stretches(now[small]) and found.has_room()):
+            if not (self.drawn[small].stretches(now[small]) and found.has_room(spare)):
                 now[small] = before
                 free.remove(small)
         return found
@@ -469,7 +487,7 @@ class _Drawn(Struct, frozen=True, dict=True):
         usual = _fitting(self.asked, self.box, self.size)
         found = per_mm = max(usual, _fitting(self.asked, stretched, self.largest))
         worst = inf
-        middle = median(np.maximum(*self.sizes))
+        middle = typical(np.maximum(*self.sizes))
         while self.rows and (per_mm == found or LEAST * per_mm <= middle):
             crowded = max(self.share(per_mm), self.on_paper(per_mm)[0] / self.box[0])
             if crowded < worst:  # smaller plans take more room, shown enlarged
@@ -564,7 +582,7 @@ class _Drawn(Struct, frozen=True, dict=True):
         size, own = np.maximum(width, height), np.full(self.si.count, np.nan)
         if self.kind is not PlanKind.POSITION:
             box = self.views.plan_box(self.kind, self.si.count)
-            alone = (size > 0.0) if self.own_only else size > DEAD * median(size)
+            alone = (size > 0.0) if self.own_only else size > DEAD * typical(size)
             for k in np.flatnonzero(alone):
                 own[k] = _fitting(self.asked, box, (float(width[k]), float(height[k])))
         return own

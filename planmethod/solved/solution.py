@@ -25,6 +25,7 @@ from planmethod.plans.model import RATES, PlanKind
 from planmethod.plans.motion.leads import Relative
 from planmethod.problem.model import Problem, Scales
 from planmethod.solved.closings import construct, drive_data
+from planmethod.solved.driving import driven
 from planmethod.solved.enlarging import Knot, find_knots, least_shown, measured, small_plans
 from planmethod.solved.failures import PositionError
 from planmethod.solved.impossible import explain, failing
@@ -224,6 +225,11 @@ class Solution(Remembering):
     def structure(self) -> Structure:
         """Groups of the mechanism."""
         return self.construction.structure
+
+    @property
+    def driven(self) -> tuple[Reals, float | Reals, float | Reals]:
+        """Place, rate and acceleration of the driving link in the positions."""
+        return driven(self.problem.drive, self.positions)
 
     @property
     def together(self) -> int:

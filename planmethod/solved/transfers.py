@@ -93,6 +93,6 @@ def _planned(construction: Construction) -> tuple[Draft, list[Quantity]]:
 def transfers_of(solution: Solution) -> Transfers | None:
     """Return the transfer functions of a solution, once; None without a crank that turns."""
     drive = solution.problem.drive
-    if not drive.is_crank or drive.rate == 0.0 or np.isnan(drive.rate):
+    if not drive.revolves or drive.rate == 0.0 or np.isnan(drive.rate):
         return None
     return solution.once(Transfers)

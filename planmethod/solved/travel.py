@@ -80,7 +80,7 @@ class Travel(Struct, frozen=True, dict=True):
         if len(drawn) < 2:
             return drawn
         gaps = np.diff(drawn)
-        if self.solution.problem.drive.is_crank:
+        if self.solution.problem.drive.goes_round:
             whole = float(gaps.sum())
             step = max(min(self.step, whole / self.least), whole / _MOST)
             counts = [max(1, ceil(gap / step - 1e-9)) for gap in gaps]

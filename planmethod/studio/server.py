@@ -14,7 +14,6 @@ from pathlib import Path
 from typing import Any
 
 from msgspec import Struct
-from msgspec.structs import asdict
 from starlette.applications import Starlette
 from starlette.exceptions import HTTPException
 from starlette.middleware import Middleware
@@ -25,27 +24,27 @@ from starlette.routing import Route
 
 from planmethod.errors import OutputError
 from planmethod.languages import LANGUAGES, say, speaking
-from planmethod.note.wording import language
-from planmethod.problem import FAMILIES, OTHER_FAMILIES, schema_text, template
-from planmethod.problem.tasks import tasks, text_for
+from planmethod.problem import schema_text
+from planmethod.problem.tasks import tasks
+from planmethod.studio.asking import (
+    ACTS,
+    TRUSTED,
+    TRUSTED_WHATS,
+    asked_of,
+    found_tasks,
+    named_work,
+    object_of,
+    start_of,
+    told_of,
+)
 from planmethod.studio.document import POLICY, asset, page_of
 from planmethod.studio.limits import StudioLimits
 from planmethod.studio.sessions import Desk, Sessions, StudioSession, mark_of
-from planmethod.studio.workers import Act, Asked, StudioQueue
+from planmethod.studio.workers import Act, StudioQueue
 
 QUICK = ("sketched", "pictured", "questions")
 """What somebody waits for at each letter."""
 
-ACTS = ("sketched", "assemblies", "sheets", "command", "questions", "verdicts", "checked", "varied")
-TRUSTED = ("checked", "varied")
-"""What an instructor asks for alone, where strangers come."""
-
-WHATS = ("tables", "protocol", "structure", "live", "pdf", "dxf", "svg", "note", "project", "form")
-TRUSTED_WHATS = ("key",)
-WORKS = (".csv", ".xlsx", ".json", ".toml", ".txt", ".dxf", ".svg")
-"""Endings of works."""
-
-MOST_VARIANTS = 60
 _LIVE = "sandbox allow-scripts; frame-ancestors 'self'"
 _FILE = "default-src 'none'; style-src 'unsafe-inline'; img-src data:; sandbox; " + (
     "frame-ancestors 'self'"
@@ -167,11 +166,8 @@ class _Studio:
         settings, lang = self.settings, _lang(request)
         names = [] if settings.desk is None else settings.desk.names
         one = settings.desk is not None and settings.desk.path.is_file()
-        told = {
-            "served": settings.served, "files": names, "one": one, "layouts": settings.layouts,
-            "families": {n: language(lang).families[n] for n in (*FAMILIES, *OTHER_FAMILIES)},
-            "uploads": self.limits.uploads, "works": WORKS,
-        }  # fmt: skip
+        own = {"served": settings.served, "files": names, "one": one}
+        told = told_of(lang, settings.layouts, self.limits.uploads) | own
         text, nonce = page_of(lang, told)
         return Response(
             text,
@@ -212,19 +208,15 @@ class _Studio:
 
     async def tasks(self, request: Request) -> Response:
         """Give the shipped tasks; of a search, those that say its words."""
-        words = request.query_params.get("search", "")[:200]
-        found = [task for task in self._tasks.values() if not words or task.says(words)]
-        return JSONResponse([asdict(task) for task in found])
+        return JSONResponse(found_tasks(request.query_params.get("search", "")))
 
     async def start(self, request: Request) -> Response:
         """Give the text of a task, of a variant of it, or of a template."""
         name, variant = request.path_params["name"], request.query_params.get("variant") or None
-        if name in (*FAMILIES, *OTHER_FAMILIES):
-            return JSONResponse({"name": name, "text": template(name)})
-        task = self._tasks.get(name)
-        if task is None or (variant is not None and variant not in task.variants):
+        found = start_of(name, variant)
+        if found is None:
             raise HTTPException(404)
-        return JSONResponse({"name": name, "text": text_for(task, variant)})
+        return JSONResponse(found)
 
     async def picture(self, request: Request) -> Response:
         """Give the picture of a shipped task, drawn once."""
@@ -246,7 +238,7 @@ class _Studio:
 
     async def enter(self, request: Request) -> Response:
         """Begin a session; with the token that is printed at the start, an instructor's."""
-        told = self._object(await _body(request, 4096), request)
+        told = self._object(await _body(request, 4096))
         given, token = str(told.get("token", "")), self.settings.token
         trusted = not self.settings.served or hmac.compare_digest(given.encode(), token.encode())
         address = request.client.host if request.client else ""
@@ -262,12 +254,9 @@ class _Studio:
             raise HTTPException(401)
         return session
 
-    def _object(self, data: bytes, request: Request) -> dict[str, Any]:
-        try:
-            found = json.loads(data or b"{}")
-        except (ValueError, RecursionError):
-            found = None
-        if not isinstance(found, dict):
+    def _object(self, data: bytes) -> dict[str, Any]:
+        found = object_of(data)
+        if found is None:
             raise HTTPException(400)
         return found
 
@@ -289,7 +278,7 @@ class _Studio:
                 {"mark": mark} if "mark" in request.query_params else {"text": text, "mark": mark}
             )
             return JSONResponse(told)
-        asked = self._object(await _body(request, self.limits.text), request)
+        asked = self._object(await _body(request, self.limits.text))
         text, over = str(asked.get("text", "")), asked.get("over") is True
         try:
             other = desk.save(path, text, str(asked.get("mark", "")), over=over)
@@ -309,10 +298,11 @@ class _Studio:
             shutil.rmtree(session.works, ignore_errors=True)
             session.works.mkdir()
             return JSONResponse([])
-        name = Path(request.path_params["name"]).name
-        if Path(name).suffix.lower() not in WORKS or not name.isprintable() or len(name) > 120:
+        given = request.path_params["name"]
+        name = named_work(given)
+        if name is None:
             said = "'{}': works are *.csv, *.xlsx, *.json, *.toml, or drawings *.dxf, *.svg."
-            raise _refuse(415, said, name[:120], lang=_lang(request))
+            raise _refuse(415, said, Path(given).name[:120], lang=_lang(request))
         data = await _body(request, self.limits.upload)
         if session.uploaded() + len(data) > self.limits.uploads:
             said = "This is larger than {} KiB. Send less."
@@ -332,14 +322,19 @@ class _Studio:
         if do not in ACTS:
             raise HTTPException(404)
         lang, limits = _lang(request), self.limits
-        told = self._object(await _body(request, limits.text), request)
+        told = self._object(await _body(request, limits.text))
         if do in TRUSTED or told.get("what") in TRUSTED_WHATS:
             self._trust(session)
         if not session.bucket.takes(self.sessions.clock(), rate=limits.rate, burst=limits.burst):
             raise _refuse(429, "This is asked too often. Wait a little.", lang=lang)
         if self.queue.is_full_for(session.key):
             raise _refuse(503, "Too much is waiting already. Try again in a minute.", lang=lang)
-        asked = self._asked(do, told, session, lang)
+        settings, works = self.settings, session.works
+        asked = asked_of(
+            do, told, lang=lang, layouts=settings.layouts, works=works, served=settings.served
+        )
+        if asked is None:
+            raise HTTPException(404)
         number, folder = session.new_folder(limits.kept)
         asked["folder"] = str(folder)
         self._put_beside(asked["text"], str(told.get("file", "")), folder)
@@ -352,32 +347,6 @@ class _Studio:
             media_type="application/x-ndjson",
             headers=headers,
         )
-
-    def _asked(self, do: str, told: Mapping[str, Any], session: StudioSession, lang: str) -> Asked:
-        """Return what a process is asked: of a stranger's words those that are known."""
-        what, layout, variant = (told.get(key) for key in ("what", "layout", "variant"))
-        if do == "command" and what not in (*WHATS, *TRUSTED_WHATS):
-            raise HTTPException(404)
-        asked: Asked = {
-            "do": do, "what": what, "lang": lang, "served": self.settings.served,
-            "name": _name(str(told.get("name", ""))), "text": str(told.get("text", "")),
-            "variant": str(variant)[:100] if variant else None,
-            "layout": layout if layout in self.settings.layouts else None,
-        }  # fmt: skip
-        if asked["variant"] and asked["variant"].startswith("-"):
-            raise HTTPException(400)
-        if do == "verdicts":
-            asked["work"] = told.get("work")
-        if do == "checked":
-            by_hand = told.get("by_hand")
-            rows = by_hand if isinstance(by_hand, list) else []
-            asked["by_hand"] = [row for row in rows if isinstance(row, dict)][:10_000]
-            asked["works"] = sorted(str(path) for path in session.works.iterdir())
-        if do == "varied":
-            asked["count"] = _number(told.get("count"), MOST_VARIANTS)
-            asked["seed"] = _number(told.get("seed"), 1_000_000)
-            asked["moodle"] = told.get("moodle") is True
-        return asked
 
     def _put_beside(self, text: str, name: str, folder: Path) -> None:
         """Put the table of variants that one's own file names where it is looked for."""
@@ -439,13 +408,3 @@ _SAFE = {
     "Referrer-Policy": "no-referrer",
     "Cross-Origin-Resource-Policy": "same-origin",
 }
-
-
-def _name(text: str) -> str:
-    """Return what a file is called, of what somebody typed."""
-    plain = re.sub(r"[^\w-]+", "-", Path(text).stem).strip("-_")[:60]
-    return plain or "problem"
-
-
-def _number(value: object, most: int) -> int:
-    return min(max(value, 1), most) if isinstance(value, int) else 1

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import contextlib
+import gc
 import multiprocessing
 import signal
 import sys
@@ -29,7 +30,10 @@ Act: TypeAlias = Callable[[Asked, Tell], Found]
 READY = 60.0
 """Seconds in which a process is ready for work."""
 
-PRELOADED = ("planmethod.kinds", "planmethod.render.sketch", "planmethod.render.backends.svg")
+PRELOADED = (
+    "planmethod.kinds", "planmethod.render.sketch", "planmethod.render.backends.svg",
+    "planmethod.render.sheets.kinematics",
+)  # fmt: skip
 """Modules that every process has from the one it is made of, where the system can."""
 
 PAUSE = 0.5
@@ -44,6 +48,8 @@ def work(pipe: Connection, act: Act, memory: int | None, written: int) -> None:
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     with contextlib.suppress(Exception):  # whatever fails here is told of what is asked
         act({"do": "warm"}, lambda share: None)
+    gc.collect()
+    gc.freeze()  # what every computation has is not looked through again and again
     bound(memory, written)
     pipe.send(("ready", None))
     with contextlib.suppress(EOFError, OSError):
@@ -139,9 +145,10 @@ class StudioWorker:
 
 
 class _Ticket:
-    def __init__(self, quick: bool, session: str) -> None:
-        self.quick, self.session = quick, session
+    def __init__(self, do: str, quick: bool, session: str) -> None:
+        self.do, self.quick, self.session = do, quick, session
         self.given: asyncio.Future[StudioWorker] = asyncio.get_running_loop().create_future()
+        self.began = time.monotonic()
 
 
 class StudioQueue:
@@ -185,18 +192,20 @@ class StudioQueue:
         """Yield what becomes of it: ``place`` in the queue, ``share`` that is done, ``found``.
 
         The first thing comes at once: then it stands in the queue, and leaves it with its reader.
+        A quick one takes the place of an older one of its session that still waits: that one finds
+        ``superseded``. With what is found stand the seconds that it ``waited`` and was at work.
         """
-        ticket = _Ticket(quick, session)
+        ticket = _Ticket(asked["do"], quick, session)
         self._own[session] = self._own.get(session, 0) + 1
-        self._waiting.append(ticket)
-        self._waiting.sort(key=lambda one: not one.quick)
-        self._give()
+        self._queue(ticket)
         try:
-            yield {"place": self._place(ticket)}
             while not ticket.given.done():
+                yield {"place": self._place(ticket)}
                 await asyncio.wait([ticket.given], timeout=PAUSE)
-                if not ticket.given.done():
-                    yield {"place": self._place(ticket)}
+            if ticket.given.cancelled():
+                yield {"found": {"superseded": True}}
+                return
+            yield {"place": 0}
         except BaseException:  # who asked has gone
             self._leave(ticket)
             raise
@@ -207,6 +216,7 @@ class StudioQueue:
         self, ticket: _Ticket, asked: Asked, seconds: float
     ) -> AsyncIterator[Mapping[str, Any]]:
         loop, worker = asyncio.get_running_loop(), ticket.given.result()
+        began = time.monotonic()
         shares: asyncio.Queue[float | None] = asyncio.Queue()
 
         def act() -> Found:
@@ -226,13 +236,27 @@ class StudioQueue:
             while (share := await shares.get()) is not None:
                 yield {"share": share}
         except BaseException:  # who asked has gone
-            if not future.done():
+            if not future.done() and not ticket.quick:  # a quick one costs less than a process
                 worker.interrupt()
             raise
         found = future.result()
         self.done += 1
         self.refused += "refused" in found
-        yield {"found": found}
+        worked = time.monotonic() - began
+        yield {"found": found, "waited": began - ticket.began, "worked": worked}
+
+    def _queue(self, ticket: _Ticket) -> None:
+        """Put it behind the last quick one, or the last of all; or where an older one stood."""
+        for k, older in enumerate(self._waiting):
+            same = older.do == ticket.do and older.session == ticket.session
+            if ticket.quick and older.quick and same:
+                self._waiting[k] = ticket
+                older.given.cancel()
+                self._forget(older)
+                return
+        self._waiting.append(ticket)
+        self._waiting.sort(key=lambda one: not one.quick)
+        self._give()
 
     def _place(self, ticket: _Ticket) -> int:
         return self._waiting.index(ticket) + 1 if ticket in self._waiting else 0
@@ -256,7 +280,7 @@ class StudioQueue:
         if ticket in self._waiting:
             self._waiting.remove(ticket)
             self._forget(ticket)
-        elif ticket.given.done():
+        elif ticket.given.done() and not ticket.given.cancelled():
             self._free(ticket, ticket.given.result())
 
     def _forget(self, ticket: _Ticket) -> None:

@@ -62,6 +62,7 @@ def test_solve_tells_sizes_checks_and_forces_in_both_languages() -> None:
     assert re.search(r"ПОДРЕЗ от φ = 130,24° до 145,55°: ρ = 30,46 мм, ролик 33,00 мм", cut)
 
 
+@pytest.mark.dear
 @pytest.mark.parametrize("name", ["offset", "oscillating", "flat"])
 def test_the_protocol_tells_the_construction_step_by_step(name: str) -> None:
     for lang, words in (("ru", ("параллельно ему", "обращённое")), ("en", ("chord", "inverted"))):
@@ -84,6 +85,7 @@ def test_the_sheet_has_its_views_and_no_error(path: Path) -> None:
     assert "errors" not in done.output or "errors 0" in done.output, done.output
 
 
+@pytest.mark.dear
 @pytest.mark.parametrize("sense, n", [("opposite", 120), ("same", 120), ("same", -120)])
 def test_the_least_distance_of_a_plate_on_an_arm_is_told_and_drawn(
     sense: str, n: int, tmp_path: Path
@@ -167,6 +169,7 @@ def test_what_is_read_on_the_drawing_has_its_sigma() -> None:
 def test_a_project_has_the_cam_as_a_part_of_its_own(tmp_path: Path) -> None:
     path = tmp_path / "mine.toml"
     text = template("project").replace("[project] ", '[project]\nparts = ["cam"] ')
+    text += "\n[scales]\nmu_l = 0.002\nmu_v = 0.04\nmu_a = 0.2\n"  # given, they are not searched
     path.write_text(text, "utf-8")
     project = settle(load_unsettled(path, None), path)
     (part,) = project.parts

@@ -12,10 +12,12 @@ from msgspec.structs import replace
 from planmethod.cams.construction import FREE, CamConstruction, construct
 from planmethod.cams.design import CamDesign
 from planmethod.cams.reader import load
+from planmethod.cams.text import given
 from planmethod.construct.drafting import PROFILES, Sampled
 from planmethod.construct.evaluate import evaluate
 from planmethod.construct.referee import Precise
 from planmethod.construct.steps import NumberName
+from planmethod.note.wording import language
 
 BUILT = {path.stem: construct(CamDesign(load(path))) for path in SHIPPED}
 
@@ -79,8 +81,18 @@ def test_sigma_of_the_least_distance_is_that_of_random_sheets(tmp_path: Path) ->
     assert built.sigma(profile)[of] == pytest.approx(float(np.nanstd(drawn[of])), rel=0.1)
 
 
-def test_where_the_distance_of_a_plate_is_given_none_is_drawn(tmp_path: Path) -> None:
-    assert not construct(designed(tmp_path, PLATE | {"r_min": 0.05})).results
+@pytest.mark.parametrize("follower", ["translating", "oscillating"])
+def test_where_the_distance_of_a_plate_is_given_none_is_drawn(
+    follower: str, tmp_path: Path
+) -> None:
+    moving = {"follower": "translating", "stroke": 0.03} if follower == "translating" else {}
+    left_out = ("swing", "arm", "centre", "sense") if moving else ()
+    keys = {key: value for key, value in PLATE.items() if key not in left_out} | moving
+    design = designed(tmp_path, keys | {"r_min": 0.05, "curvature": 0.008})
+    assert not construct(design).results
+    # It is given, with the letter that it has in the table, and so is the allowed radius.
+    told = "; ".join(given(design.problem, language("ru")))
+    assert "r_{0} = 50 мм" in told and "[ρ] = 8 мм" in told and "r_{min}" not in told
 
 
 def test_constant_acceleration_is_integrated_without_an_error_of_the_method(tmp_path: Path) -> None:
@@ -110,7 +122,7 @@ def test_fifty_digits_read_the_same(name: str) -> None:
         assert float(precise[of]) == pytest.approx(number(built, of).real, rel=1e-12)
 
 
-@pytest.mark.parametrize("name", ["offset", "oscillating", "flat"])
+@pytest.mark.parametrize("name", list(BUILT))
 def test_sigma_is_that_of_random_sheets(name: str) -> None:
     built = BUILT[name]
     profile = PROFILES["board"]

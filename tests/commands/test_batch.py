@@ -48,14 +48,22 @@ class Here:
         return SimpleNamespace(result=lambda: pickle.loads(pickle.dumps(done)))
 
 
-@pytest.fixture
-def desk(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+@pytest.fixture(scope="module")
+def made(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A linkage with variants, and a folder with what the commands make of it and of a point."""
-    monkeypatch.chdir(tmp_path)
-    Path("ex3.toml").write_text(path_of("linkages/ex3").read_text("utf-8") + VARIANTS, "utf-8")
-    run("sheet", "ex3.toml", "--all-variants", "--format", "pdf", "-o", "own")
-    run("sheet", POINT, "--format", "pdf", "-o", "own")
-    run("check", "ex3.toml", "--variant", "v1", "--key", "-o", "own")
+    folder = tmp_path_factory.mktemp("made")
+    ex3, own = folder / "ex3.toml", str(folder / "own")
+    ex3.write_text(path_of("linkages/ex3").read_text("utf-8") + VARIANTS, "utf-8")
+    run("sheet", str(ex3), "--all-variants", "--format", "pdf", "-o", own)
+    run("sheet", POINT, "--format", "pdf", "-o", own)
+    run("check", str(ex3), "--variant", "v1", "--key", "-o", own)
+    return folder
+
+
+@pytest.fixture
+def desk(made: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """A copy of the folder, to work in."""
+    monkeypatch.chdir(shutil.copytree(made, tmp_path, dirs_exist_ok=True))
     return tmp_path
 
 
@@ -98,15 +106,15 @@ def test_what_is_made_is_that_of_the_commands_and_not_made_again(
 
 def test_a_manifest_from_elsewhere_is_no_manifest(desk: Path) -> None:
     manifest = Path("out", batch.MANIFEST)
-    args = ("batch", "ex3.toml", "--variant", "v0")
+    args = ("batch", POINT)
     run(*args)
     key = json.loads(manifest.read_text("utf-8"))["key"]
     Path("secret").write_bytes(b"")
     digest = hashlib.sha256(b"").hexdigest()
-    for files in ("3", "[]", '{"ex3-v0.pdf": 1}', "[" * 5000, f'{{"../secret": "{digest}"}}'):
-        manifest.write_text(f'{{"problem": "ex3-v0", "key": "{key}", "files": {files}}}\n', "utf-8")
+    for files in ("3", "[]", '{"k11-01.pdf": 1}', "[" * 5000, f'{{"../secret": "{digest}"}}'):
+        manifest.write_text(f'{{"problem": "k11-01", "key": "{key}", "files": {files}}}\n', "utf-8")
         assert "1 made, 0 there already." in run(*args)
-    assert_same_sheet("ex3-v0.pdf")
+    assert_same_sheet("k11-01.pdf")
 
 
 def test_a_manifest_that_is_a_link_makes_no_file_elsewhere(desk: Path) -> None:

@@ -26,7 +26,7 @@ from planmethod.problem.cycle_records import PROJECT_PARTS
 
 FILES = ROOT / "tests" / "data" / "projects"
 MATH = "{http://schemas.openxmlformats.org/officeDocument/2006/math}t"
-NAMES = ("shaper", "crusher", "engine", "homework")
+NAMES = ("shaper", "crusher", "homework", "engine")  # make test makes the first and the last
 PARTS = {
     "shaper": ["kinematics", "forces", "flywheel", "gears", "note"],
     "crusher": ["kinematics", "forces", "note"],

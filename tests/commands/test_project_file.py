@@ -34,6 +34,15 @@ def shaper() -> Project:
     return settle(load(SHAPER), SHAPER)
 
 
+@pytest.fixture(scope="module")
+def scaled(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The file with the scales of its project: given, they are not searched by every command."""
+    path, scales = tmp_path_factory.mktemp("scaled") / "shaper.toml", shaper().scales
+    lines = (f"mu_{of} = {getattr(scales, f'mu_{of}')!r}" for of in "lvaF")
+    path.write_text("\n".join((SHAPER.read_text("utf-8"), "[scales]", *lines)), "utf-8")
+    return path
+
+
 def exact(number: int) -> str:
     """Return the speed of C in a position, as tables have it."""
     project = shaper()
@@ -46,24 +55,24 @@ def exact(number: int) -> str:
 
 @pytest.mark.parametrize("row", ["v C;0,5;", "v C;0,5;1"])
 def test_own_numbers_are_of_the_calculated_position_if_they_say_no_other(
-    row: str, tmp_path: Path
+    row: str, scaled: Path, tmp_path: Path
 ) -> None:
     work = tmp_path / "my.csv"
     work.write_text(f"величина;значение;положение\n{row}\n", "utf-8")
     number = 4 if row.endswith(";") else 1
-    told = run("solve", SHAPER, "--compare", work, "--lang", "ru")
+    told = run("solve", scaled, "--compare", work, "--lang", "ru")
     assert told.exit_code == 0, told.output
     assert exact(number) in told.stdout and exact(5 - number) not in told.stdout
-    checked = run("check", SHAPER, work, "--json")
+    checked = run("check", scaled, work, "--json")
     (checked_work,) = json.loads(checked.stdout)
     answer, *_ = checked_work["answers"]
     assert answer["position"] == number
 
 
-def test_of_an_exact_nothing_there_is_no_per_cent(tmp_path: Path) -> None:
+def test_of_an_exact_nothing_there_is_no_per_cent(scaled: Path, tmp_path: Path) -> None:
     work = tmp_path / "my.csv"
     work.write_text("величина;значение;положение\nv C;0,5;0\n", "utf-8")
-    told = run("solve", SHAPER, "--compare", work, "--lang", "ru").stdout
+    told = run("solve", scaled, "--compare", work, "--lang", "ru").stdout
     (row,) = (line for line in told.splitlines() if line.startswith("v_C"))
     assert row.endswith("—") and "10" not in row
 
@@ -89,7 +98,9 @@ def test_solve_prints_one_position_at_the_scales_of_all() -> None:
 # Norm control ------------------------------------------------------------------------------------
 
 
-def test_lint_looks_over_the_sheets_of_the_project(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_lint_looks_over_the_sheets_of_the_project(
+    scaled: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     drawn: dict[PartName, list[Drawing]] = {}
 
     def noted(project: Project, part: ProjectPart, fields: Mapping[str, str]) -> list[Drawing]:
@@ -97,12 +108,12 @@ def test_lint_looks_over_the_sheets_of_the_project(monkeypatch: pytest.MonkeyPat
         return drawn[part.name]
 
     monkeypatch.setattr("planmethod.project.sheets.part_drawings", noted)
-    found = json.loads(run("lint", SHAPER, "--json").stdout)
+    found = json.loads(run("lint", scaled, "--json").stdout)
     assert [*drawn] == [part.name for part in shaper().parts]
     sheets = [sheet for part in drawn.values() for sheet in part]
     assert found["kind"] == "project" and len(found["sheets"]) == len(sheets)
     assert [sheet["paper"] for sheet in found["sheets"]] == [*map(paper_of, sheets)]
-    one = json.loads(run("lint", SHAPER, "--phi", "30", "--json").stdout)
+    one = json.loads(run("lint", scaled, "--phi", "30", "--json").stdout)
     assert one["kind"] == "kinematics" and len(one["sheets"]) == 1
 
 
@@ -114,10 +125,10 @@ def test_lint_looks_over_the_sheets_of_the_project(monkeypatch: pytest.MonkeyPat
     [(("solve",), 0), (("structure",), 0), (("sheet",), 1), (("sheet", "--layout", "forces"), 0)],
 )
 def test_only_the_usual_sheet_says_which_parts_of_a_project_it_leaves_out(
-    words: tuple[str, ...], told: int, tmp_path: Path
+    words: tuple[str, ...], told: int, scaled: Path, tmp_path: Path
 ) -> None:
     more = ("-o", tmp_path) if words[0] == "sheet" else ()
-    done = run(words[0], SHAPER, *words[1:], *more, "--lang", "en")
+    done = run(words[0], scaled, *words[1:], *more, "--lang", "en")
     assert done.exit_code == 0, done.output
     assert done.stderr.count("[gears]") == told
 

@@ -10,7 +10,7 @@ from typing import Any
 import mpmath as mp
 import numpy as np
 import pytest
-from cases import each
+from cases import each, sampled
 from click.testing import CliRunner
 
 from planmethod.cli import cli
@@ -187,7 +187,7 @@ def kept(pair: Pair, least: float = 1.2, tip: float = 0.25) -> np.ndarray:
     return np.asarray(whole)
 
 
-PAIRS = ((12, 30, 0.0), (17, 40, 15.0), (21, 25, 0.0), (14, 90, 0.0))
+PAIRS = ((17, 40, 15.0), (12, 30, 0.0), (21, 25, 0.0), (14, 90, 0.0))
 
 
 @each("one, two, degrees", PAIRS)
@@ -198,8 +198,10 @@ def test_no_shifts_have_a_greater_contact_ratio(
     assert found["criterion"] == "contact-ratio"
     assert all(limit["holds"] for limit in found["conditions"])
     pair = Pair((one, two), 5.0, Rack(radians(20)), np.zeros(2), 0, radians(degrees))
-    every = pair.shifted(np.stack(np.meshgrid(*[np.linspace(-1, 1.5, 501)] * 2)))
-    best = float(np.max(np.where(kept(every), every.epsilon, 0.0)))
+    best, axis = 0.0, np.linspace(-1, 1.5, 501)
+    for part in np.array_split(axis, 10):  # of all at once there are a hundred megabytes
+        every = pair.shifted(np.stack(np.meshgrid(part, axis)))
+        best = max(best, float(np.max(np.where(kept(every), every.epsilon, 0.0))))
     here = found["epsilon_alpha"]
     # The grid here is twice as fine: between two multiples the ratio may grow by its slope.
     assert best - 0.01 * 1.0 <= here <= best + 1e-12
@@ -209,7 +211,7 @@ def test_no_shifts_have_a_greater_contact_ratio(
     )
 
 
-@each("one, two, degrees", PAIRS)
+@each("one, two, degrees", sampled(PAIRS, 4))
 def test_no_shifts_of_equal_sliding_slide_less(
     one: int, two: int, degrees: float, tmp_path: Path
 ) -> None:

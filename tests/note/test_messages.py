@@ -85,6 +85,7 @@ NO_MESSAGES = (
     "solved/turn/",  # codes of JSON, as in the next but one
     "studio/document.py",  # HTML
     "synthesis/measured.py",  # what the file says
+    "studio/written.py",  # HTML
 )
 """Modules whose English texts no reader sees as a message."""
 

@@ -10,13 +10,15 @@ from pathlib import Path
 import pytest
 from noted import SYSTEM, note
 
-from planmethod.note.document import Chapter, Contents, Document, Paragraph, Part, Table
+from planmethod.note.document import Chapter, Contents, Document, Figure, Paragraph, Part, Table
 from planmethod.note.formula import parse
 from planmethod.note.wording import language
 from planmethod.note.writers.html import html_document
 from planmethod.note.writers.pdfformula import FormulaSetter
 from planmethod.note.writers.pdfnote import note_fonts, pdf_note
 from planmethod.note.writers.plain import plain_document
+from planmethod.render.backends.view import DrawingView
+from planmethod.render.ink.drawing import Drawing
 
 RU = language("ru")
 
@@ -76,3 +78,23 @@ def test_every_node_goes_through_the_other_writers() -> None:
     assert "\\" not in page.partition("<body>")[2].replace("\\n", "")
     text = plain_document(note(), RU)
     assert "\n1.1.1 Группа 2–3" in text and "(1.2)" in text and "Таблица 1 – Скорости" in text
+
+
+def _pages(written: Document, folder: Path) -> list[str]:
+    (folder / "n.pdf").write_bytes(pdf_note(written, RU))
+    order = ["pdftotext", "-layout", str(folder / "n.pdf"), "-"]
+    shown = subprocess.run(order, capture_output=True, timeout=60).stdout.decode()
+    return shown.removesuffix("\f").split("\f")
+
+
+@pytest.mark.skipif(not shutil.which("pdftotext"), reason="poppler is absent")
+@pytest.mark.parametrize(("high", "count"), [(90.0, 1), (105.0, 1), (150.0, 2)])
+def test_a_figure_that_ends_a_chapter_shrinks_a_little_to_stay_on_its_page(
+    high: float, count: int, tmp_path: Path
+) -> None:
+    """Of 257 mm of a page 17 lines leave a hundred; a picture is no smaller than 78 %."""
+    view = DrawingView(Drawing(80.0, high, "Plan"))
+    figure = Figure(view, "План", numbered=True, key="plan")
+    lines = [Paragraph(f"Абзац {k}.") for k in range(17)]
+    pages = _pages(Document.of((*lines, figure)), tmp_path)
+    assert len(pages) == count and "План" in pages[-1]

@@ -57,7 +57,7 @@ MACHINE = {
 }
 """Quantities of machines whose letters a language's `Notation` has."""
 
-PROGRAMS = {"Word", "Moodle", "JavaScript", "CodeMirror", "JSON", "XLSX"}
+PROGRAMS = {"Word", "Moodle", "JavaScript", "Python", "CodeMirror", "JSON", "XLSX"}
 """Programs and formats that the page of the studio names in every language."""
 
 TERMS = {
@@ -66,6 +66,7 @@ TERMS = {
     "problem/selector.py",
     "problem/forces.py",
     "problem/head.py",
+    "problem/tables.py",
     "problem/links.py",
     "problem/load_records.py",
     "problem/machine_records.py",
@@ -190,13 +191,6 @@ NO_KEYS = {*dir(dict), *dir(Language("en")), *WORDS}
 """What is asked of a table, or of a whole language."""
 
 
-@cache
-def trees() -> dict[str, ast.Module]:
-    """Return the modules of the package that are read for keys."""
-    paths = [path for path in sorted(HOME.rglob("*.py")) if "wording" not in path.parts]
-    return {p.relative_to(HOME).as_posix(): ast.parse(p.read_text("utf-8")) for p in paths}
-
-
 def table_of(node: ast.AST, known: Mapping[str, list[Words]]) -> list[Words] | None:
     """Return the tables that an expression may be; None where it is no words."""
     match node:
@@ -239,24 +233,42 @@ def bound(scope: ast.AST, known: Mapping[str, list[Words]]) -> dict[str, list[Wo
     return {name: words for name, words in found.items() if name not in other}
 
 
-def keys_read() -> Iterator[tuple[str, str, list[Words]]]:
-    """Yield where a sentence of words is named in the code, its key, the tables it may be of."""
-    for module, tree in trees().items():
-        of_self = {n: w for n, w in bound(tree, {}).items() if n.startswith("self.")}
-        for scope in ast.walk(tree):
-            if not isinstance(scope, ast.FunctionDef):
-                continue
-            known = bound(scope, of_self)
-            for node in ast.walk(scope):
-                if isinstance(node, ast.Attribute) and node.attr not in NO_KEYS:
-                    words = table_of(node.value, known)
-                    if words is not None:
-                        yield f"{module}:{node.lineno}", node.attr, words
+def keys_read(module: str, tree: ast.Module) -> Iterator[tuple[str, str, list[Words]]]:
+    """Yield where a sentence of words is named in a module, its key, the tables it may be of."""
+    of_self = {n: w for n, w in bound(tree, {}).items() if n.startswith("self.")}
+    for scope in ast.walk(tree):
+        if not isinstance(scope, ast.FunctionDef):
+            continue
+        known = bound(scope, of_self)
+        for node in ast.walk(scope):
+            if isinstance(node, ast.Attribute) and node.attr not in NO_KEYS:
+                words = table_of(node.value, known)
+                if words is not None:
+                    yield f"{module}:{node.lineno}", node.attr, words
+
+
+@cache
+def code() -> tuple[list[tuple[str, str, list[Words]]], set[object]]:
+    """Return the keys that the package reads, and its texts and attributes; its trees are large."""
+    keys: list[tuple[str, str, list[Words]]] = []
+    texts: set[object] = set()
+    for path in sorted(HOME.rglob("*.py")):
+        if "wording" not in path.parts:
+            text = path.read_text("utf-8")
+            tree = ast.parse(text)
+            if re.search("[Ww]ord|said|language", text):  # else nothing in it is of words
+                keys += keys_read(path.relative_to(HOME).as_posix(), tree)
+            for node in ast.walk(tree):
+                if isinstance(node, ast.Constant):
+                    texts.add(node.value)
+                elif isinstance(node, ast.Attribute):
+                    texts.add(node.attr)
+    return keys, texts
 
 
 def test_every_key_that_the_code_names_is_a_sentence() -> None:
     """``words.note.lay_off`` is a sentence; what is no sentence is ``words.note["plans"]``."""
-    found = list(keys_read())
+    found, _ = code()
     assert len(found) > 600
     wrong = [
         (where, key)
@@ -269,12 +281,7 @@ def test_every_key_that_the_code_names_is_a_sentence() -> None:
 
 
 def test_every_sentence_is_said() -> None:
-    texts = {
-        node.value if isinstance(node, ast.Constant) else getattr(node, "attr", "")
-        for tree in trees().values()
-        for node in ast.walk(tree)
-        if isinstance(node, (ast.Constant, ast.Attribute))
-    }
+    _, texts = code()
     silent = {
         f"{subject}.{key}"
         for subject, words in WORDS.items()

@@ -45,8 +45,8 @@ UNSTEADY = frozenset((Path(__file__).parent / "unsteady.txt").read_text("utf-8")
 
 Output = tuple[str, Callable[[], str]]
 
-DEAR = ("animate", "check", "lint", "live", "sheet")
-"""Commands of which a thinned run takes every tenth output; of the others every second."""
+DEAR = ("animate", "check", "lint", "live", "note", "project", "sheet")
+"""Commands that draw: a thinned run takes every twentieth output, of the others every second."""
 
 ROUND = "0:360:30"
 AFTER = 2.0, 0.002
@@ -130,8 +130,8 @@ def is_taken(name: str, every: int) -> bool:
 
 def is_thinned_out(name: str) -> bool:
     """Return whether a thinned run leaves an output out."""
-    command = name.partition(": ")[2].split()[0]
-    return not is_taken(name, 10 if command in DEAR else 2)
+    command, *words = name.partition(": ")[2].split()
+    return not is_taken(name, 20 if command in DEAR or "--sheet" in words else 2)
 
 
 def _of_problem(name: str) -> Iterator[str]:

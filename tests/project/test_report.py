@@ -82,6 +82,13 @@ def text_of(name: str, lang: str = "ru") -> str:
     return plain_document(note_of(name, lang), language(lang))
 
 
+def scales_of(name: str) -> str:
+    """Return the scales of a project as its file has them: given, they are not searched again."""
+    scales = project_of(name).scales
+    lines = (f"mu_{of} = {getattr(scales, f'mu_{of}')!r}" for of in "lvaF")
+    return "\n".join(("\n[scales]", *lines, ""))
+
+
 def chapters(written: Document) -> tuple[str, ...]:
     return tuple(node.title for node in written.nodes if isinstance(node, document.Chapter))
 
@@ -356,7 +363,7 @@ def geared(old: str, new: str, tmp_path: Path) -> Project:
     path = tmp_path / "shaper.toml"
     text = FILES["shaper"].read_text("utf-8")
     assert old in text
-    path.write_text(text.replace(old, new), "utf-8")
+    path.write_text(text.replace(old, new) + scales_of("shaper"), "utf-8")
     return settle(load(path), path)
 
 
@@ -403,7 +410,7 @@ def staged(old: str, new: str, tmp_path: Path) -> Project:
     path = tmp_path / "staged.toml"
     text = TEMPLATE.read_text("utf-8")
     assert old in text
-    path.write_text(text.replace(old, new), "utf-8")
+    path.write_text(text.replace(old, new) + scales_of("template"), "utf-8")
     return settle(load(path), path)
 
 
@@ -417,13 +424,14 @@ def template_of() -> str:
 
 @pytest.fixture(scope="module")
 def changed_template(tmp_path_factory: pytest.TempPathFactory) -> str:
-    """The note of the template with the flywheel on the crank and wheels without shifts."""
+    """The note of the template with the flywheel on the crank, wheels without shifts, no cam."""
     text = TEMPLATE.read_text("utf-8")
     for old, new in (("flywheel = { ratio = 5 }", ""), ('x = "blocking"', "x = [0, 0]")):
         assert old in text
         text = text.replace(old, new)
+    text, _, after = text.partition("[cam]")
     path = tmp_path_factory.mktemp("template") / "changed.toml"
-    path.write_text(text, "utf-8")
+    path.write_text(text + after[after.index("[stamp]") :] + scales_of("template"), "utf-8")
     return plain_document(note_document(settle(load(path), path), language("ru")), language("ru"))
 
 

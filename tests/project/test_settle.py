@@ -44,6 +44,11 @@ def project_of(name: str) -> Project:
     return settle(problem_of(name), file_of(name))
 
 
+def scaled(name: str) -> Problem:
+    """Return a problem at the scales of its project: given, they are not searched again."""
+    return replace(problem_of(name), scales=project_of(name).scales)
+
+
 @cache
 def sheets_of(name: str) -> list[list[Drawing]]:
     project = project_of(name)
@@ -105,7 +110,7 @@ def test_the_calculated_position_is_the_asked_one() -> None:
 
 
 def test_phi_is_the_calculated_position_if_it_is_one_of_them() -> None:
-    problem = problem_of("shaper")
+    problem = scaled("shaper")
     at = project_of("shaper").positions[2]
     drive = replace(problem.drive, positions=(at - 360.0,), judged=problem.drive.positions)
     found = settle(replace(problem, drive=drive, project=None))
@@ -113,7 +118,7 @@ def test_phi_is_the_calculated_position_if_it_is_one_of_them() -> None:
 
 
 def test_else_a_load_acts_in_the_calculated_position() -> None:
-    found = settle(replace(problem_of("shaper"), project=None))
+    found = settle(replace(scaled("shaper"), project=None))
     acting = loaded_positions(found.solution)
     assert found.calculated in acting
     assert len(acting) < len(found.positions)
@@ -121,7 +126,7 @@ def test_else_a_load_acts_in_the_calculated_position() -> None:
 
 def test_the_load_of_the_calculated_position_is_considerable() -> None:
     """Of an engine the gas force falls to a hundredth of its largest on the way."""
-    found = settle(replace(problem_of("engine"), project=None))
+    found = settle(replace(scaled("engine"), project=None))
     (gas,) = (
         np.abs(one.force)
         for one in external(found.solution, found.problem.dynamics, "3")  # type: ignore[arg-type]
@@ -137,7 +142,7 @@ def test_the_load_of_the_calculated_position_is_considerable() -> None:
 def test_a_position_that_there_is_not_is_a_fault_of_the_file() -> None:
     task = ProjectTask(calculated=6)
     with pytest.raises(ProblemError, match=r"project\.calculated: .* 6\. Of 6 positions .* 5\."):
-        settle(replace(problem_of("shaper"), project=task))
+        settle(replace(scaled("shaper"), project=task))
 
 
 # Scales and strokes ------------------------------------------------------------------------------
@@ -235,7 +240,7 @@ def test_small_paper_takes_more_sheets_at_the_same_scales() -> None:
 
 
 def test_parts_are_those_that_project_asks_for() -> None:
-    problem = problem_of("shaper")
+    problem = scaled("shaper")
     some = replace(problem, project=ProjectTask(parts=("kinematics", "gears")))
     found = settle(some, file_of("shaper"))
     assert [part.name for part in found.parts] == [PartName.KINEMATICS, PartName.GEARS]

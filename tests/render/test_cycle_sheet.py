@@ -26,6 +26,7 @@ from planmethod.render.ink.drawing import Arc, Disc, Drawing, Fill, Stroke, Text
 from planmethod.render.pictures.diagram import AXIS, CURVE
 from planmethod.render.pictures.polar import HODOGRAPH, POLE
 from planmethod.render.sheets.composition.reader import shipped
+from planmethod.render.sheets.controlled import paper_of
 from planmethod.render.sheets.cycletable import _balance_columns
 from planmethod.render.sheets.kinematics import kinematics_sheets
 from planmethod.solved.cycle import Cycle
@@ -145,8 +146,8 @@ def _across(positions: Sequence[float], per: float) -> list[float]:
 def test_the_marks_are_what_both_methods_give_on_paper(
     name: str, positions: tuple[float, ...]
 ) -> None:
-    views = shipped("forces-cycle").views_for("A1", len(positions))
     sheet = drawn(name, positions)
+    views = shipped("forces-cycle").views_for(paper_of(sheet), len(positions))
     # The scheme has grown into the sheet: arms are measured on it.
     (scheme,) = (v for v in sheet.views if v.kind == "position")
     problem = problem_of(name)
@@ -298,3 +299,23 @@ def test_the_difference_has_the_digits_of_what_it_is_the_difference_of() -> None
     assert len({decimals(one) for one, _, _ in cells}) > 1
     for one, two, difference in cells:
         assert decimals(difference) <= min(decimals(text) for text in (one, two))
+
+
+def test_a_line_of_a_point_breaks_off_where_it_runs_away() -> None:
+    """Between two of the positions points run to 140 m: the sheet shows the positions."""
+    problem, _ = loaded_problem(9106)
+    (sheet,) = kinematics_sheets(problem, layout="forces-cycle")
+    assert sheet.width == 841.0
+    lines = [i for i in sheet.items if isinstance(i, Stroke) and i.tag == "trajectory F"]
+    heights = [p.imag for line in lines for p in line.points]
+    assert heights and max(heights) - min(heights) < 300.0
+
+
+def test_sheets_are_small_where_nothing_is_left_out_on_them() -> None:
+    """A short calculation of forces takes A2, whose diagrams are as large as it has room for."""
+    (sheet,) = kinematics_sheets(problem_of("machines/engine"), layout="forces-cycle")
+    assert (sheet.width, sheet.is_cut_down) == (594.0, False)
+    (forces,) = kinematics_sheets(problem_of("machines/engine"), layout="forces")
+    assert (forces.width, forces.is_cut_down) == (841.0, False)  # A2 would leave plans out
+    asked = kinematics_sheets(problem_of("machines/engine"), layout="forces", paper="A2")
+    assert asked[0].width == 594.0

@@ -143,6 +143,7 @@ def test_lines_and_letters_of_a_sheet_are_where_they_were_put(name: str) -> None
         assert same, item
 
 
+@pytest.mark.dear
 @pytest.mark.parametrize("name", SIX)
 def test_circles_and_arcs_of_a_sheet_are_where_they_were_put(name: str) -> None:
     (drawing,) = drawn_sheets(name)
@@ -176,6 +177,7 @@ def turn(angle: float) -> complex:
 # What is measured ---------------------------------------------------------------------------------
 
 
+@pytest.mark.dear
 @pytest.mark.parametrize("name", SIX)
 def test_a_segment_of_a_plan_is_one_line_as_long_as_the_table_says(
     name: str, monkeypatch: pytest.MonkeyPatch
@@ -218,6 +220,7 @@ def _inside(place: complex, box: Bounds) -> bool:
     return box[0] <= place.real <= box[2] and box[1] <= place.imag <= box[3]
 
 
+@pytest.mark.dear
 @pytest.mark.parametrize("name", ["levers/six-link", "levers/task12", "press/press"])
 def test_a_force_of_a_plan_is_one_line_as_long_as_the_force_over_its_scale(
     name: str, monkeypatch: pytest.MonkeyPatch

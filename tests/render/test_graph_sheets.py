@@ -88,4 +88,10 @@ def test_homework_has_the_formulas_of_transfer_functions() -> None:
 def test_graphs_grow_into_the_paper() -> None:
     (drawing,) = drawn_sheets("linkages/ex3", layout="graphs")
     (box,) = (view.box for view in drawing.views)
+    assert (drawing.width, drawing.height) == (297.0, 420.0)
     assert box[3] - box[1] > 250.0  # of 350 mm above the title block; 180 at the least heights
+
+
+def test_one_graph_takes_the_smallest_paper() -> None:
+    (drawing,) = drawn_sheets("levers/task-33", layout="graphs", asked=("omega_3",))
+    assert (drawing.width, drawing.height) == (210.0, 297.0)

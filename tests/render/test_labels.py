@@ -8,6 +8,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from msgspec.structs import replace
+from numpy.typing import NDArray
 from shapely import LineString, box
 
 from planmethod.render.control.texts import lint
@@ -18,13 +19,17 @@ from planmethod.render.labels import (
     UNDER_LABEL,
     Label,
     Placed,
+    paper,
+    place,
     place_labels,
     segment_label,
 )
-from planmethod.render.labels.candidates import inside
+from planmethod.render.labels.candidates import Floats, crossing, inside
 from planmethod.render.symbols import revolute, slider
 
 BOUNDS = (0.0, 0.0, 200.0, 150.0)
+
+Places = NDArray[np.intp]
 
 
 def apart(one: Bounds, two: Bounds) -> bool:
@@ -145,7 +150,32 @@ def test_priority_takes_the_better_place() -> None:
 def test_same_input_same_places() -> None:
     many = [label(f"P_{{{k}}}", 50 + 3 * k + 40j, 1j) for k in range(12)]
     lines: list[Item] = [Stroke((40 + 40j, 90 + 41j))]
-    assert place_labels(many, lines, BOUNDS) == place_labels(many, lines, BOUNDS)
+    first = place_labels(many, lines, BOUNDS)
+    place._placed.cache_clear()
+    assert place_labels(many, lines, BOUNDS) == first
+
+
+def test_places_are_the_same_however_few_are_compared_at_once(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """A cam with its roller has a million places and lines: their memory is bounded by parts."""
+    points = [100 + 75j + (10 + k) * np.exp(2.4j * k) for k in range(40)]
+    spokes: list[Item] = [Stroke((100 + 75j, complex(z)), Pen.THIN) for z in points]
+    labels = [of_a_series(k, complex(z)) for k, z in enumerate(points)]
+    sizes: list[int] = []
+
+    def compared(one: Floats, two: Floats, i: Places, j: Places) -> NDArray[np.bool_]:
+        sizes.append(len(i))
+        return crossing(one, two, i, j)
+
+    monkeypatch.setattr(paper, "crossing", compared)
+    together, largest = place_labels(labels, spokes, BOUNDS), max(sizes)
+    most = largest // 4
+    monkeypatch.setattr(paper, "_PAIRS", most)
+    sizes.clear()
+    place._placed.cache_clear()
+    assert place_labels(labels, spokes, BOUNDS) == together
+    assert max(sizes) <= most
 
 
 def test_no_labels() -> None:

@@ -231,3 +231,26 @@ def test_something_stands_beside_the_last_block_above_a_title_block_as_wide_as_t
     placed = pack(Group((part(80.0, 200.0), part(80.0, 200.0))), inner, stamp)
     assert placed is not None
     assert all(corner.imag - block.height > stamp[3] for block, corner in placed)
+
+
+@pytest.mark.parametrize(("grows", "wide"), [(True, 200.0), (False, 100.0)])
+def test_blocks_that_grow_stand_in_the_largest_way_that_has_room(grows: bool, wide: float) -> None:
+    ways = [Spacer(width, 0.8 * width) for width in (100.0, 200.0, 600.0)]
+    picture = Packed(Shapes(tuple(ways), grows))
+    whole = Group((Group((picture, part(250.0, 60.0))), part(180.0, 100.0)))
+    found = boxes(whole)
+    assert found is not None
+    check(found)
+    assert found[0][2] - found[0][0] == pytest.approx(wide)
+
+
+@pytest.mark.parametrize("high", [250.0, 330.0])
+def test_a_block_alone_stands_in_the_middle_beside_a_graph_too(high: float) -> None:
+    """On a standing A3 the graph lies along the right edge: a high block stands left of it."""
+    inner, stamp = (20.0, 5.0, 292.0, 415.0), (107.0, 5.0, 292.0, 60.0)
+    graph = (278.0, 345.0, 292.0, 415.0)
+    placed = pack(Group((part(160.0, high),)), inner, stamp, (graph,))
+    assert placed is not None
+    ((_, at),) = placed
+    room = inner[2] if high < 280.0 else graph[0]
+    assert at.real + 80.0 == pytest.approx((inner[0] + room) / 2)

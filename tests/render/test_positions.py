@@ -9,7 +9,6 @@ import numpy as np
 import pytest
 from worked import DEAD, SIX, problem_of
 
-from benchmarks.generator import random_problem
 from planmethod.plans.model import PlanKind
 from planmethod.problem import loads
 from planmethod.render.control.texts import lint, writings_of
@@ -345,12 +344,10 @@ def test_the_scale_stands_once_under_the_heading_of_the_plans(name: str) -> None
 
 
 def test_plans_of_one_position_on_a_sheet_are_named_as_one() -> None:
-    problem = loads(random_problem(91302)[0], name="spread")
-    sheets = kinematics_sheets(problem, positions=[-83.1688, 36.8312, 156.831])
-    assert len(sheets) == 3
-    for sheet in sheets:
-        texts = {item.text for item in sheet.items if isinstance(item, Text)}
-        assert {"План положения механизма", "План скоростей", "План ускорений"} <= texts
-    (together,) = kinematics_sheets(problem_of("linkages/ex2"), positions=[0.0, 30.0])
-    texts = {item.text for item in together.items if isinstance(item, Text)}
-    assert {"Планы положений механизма", "Планы скоростей", "Планы ускорений"} <= texts
+    """Of three positions that two sheets share, the last is alone."""
+    sheets = kinematics_sheets(
+        problem_of("linkages/ex3"), positions=[30.0, 90.0, 150.0], paper="A3"
+    )
+    texts = [{item.text for item in sheet.items if isinstance(item, Text)} for sheet in sheets]
+    assert {"Планы положений механизма", "Планы скоростей", "Планы ускорений"} <= texts[0]
+    assert {"План положения механизма", "План скоростей", "План ускорений"} <= texts[-1]

@@ -129,7 +129,8 @@ def test_chosen_plans_are_those_that_are_asked() -> None:
         (view,) = (view for view in sheet.views if view.kind == "acceleration")
         return sorted({span.position for span in view.spans if span.position is not None})
 
-    assert shown() == [2, 8]
+    assert len(shown()) > 2  # as many as there is room for
+    assert shown(positions=(2, 8)) == [2, 8]
     assert shown(positions=(0, 4, 5, 9)) == [0, 4, 5, 9]
     with pytest.raises(LayoutError, match="the last is 11"):
         shown(positions=(3, 12))

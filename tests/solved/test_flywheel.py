@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from functools import cache
+from itertools import pairwise
 from math import pi
 from typing import Any
 
@@ -133,7 +134,9 @@ def test_an_indicator_gives_the_work_of_its_area() -> None:
         [(0, 4e5), (0.02, 2.6e5), (0.05, 1.2e5), (0.08, 0.4e5), (0.11, -0.1e5), (1, -0.1e5)],
         [(0, 4e5), (0.27, 4e5), (0.35, 2.9e5), (0.5, 1.6e5), (0.7, 0.7e5), (1, -0.1e5)],
     ]
-    out, back = (np.trapezoid(*np.array(rows).T[::-1]) for rows in strokes)
+    out, back = (
+        sum((b[0] - a[0]) * (a[1] + b[1]) / 2 for a, b in pairwise(rows)) for rows in strokes
+    )
     assert near(compressor.work_per_cycle, 0.0314 * 0.18 * float(back - out))
     assert abs(compressor.delta_reached - 1 / 30) < 1e-9
     engine = Flywheel(load(path_of("machines/engine")))

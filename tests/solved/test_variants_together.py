@@ -9,7 +9,7 @@ from typing import Any
 
 import msgspec
 import numpy as np
-from cases import each, some, thinned
+from cases import each, sampled, some, thinned
 from click.testing import CliRunner
 
 from planmethod.check.exchange.keyrecord import key_record
@@ -73,9 +73,8 @@ def varied(file: Path, count: int) -> list[Problem]:
         ]
         if type(table["driver"].get("phi")) in (int, float):
             cells.append(f"driver.phi = {table['driver']['phi'] + spread.uniform(-20, 20):.4g}")
-        rows.append(f'"{k}" = {{ {", ".join(cells)} }}')
-    whole = text + "\n[variants]\n" + "\n".join(rows) + "\n"
-    return [loads(whole, name=file.stem, variant=str(k)) for k in range(count)]
+        rows.append(f'{text}\n[variants]\n"{k}" = {{ {", ".join(cells)} }}\n')
+    return [loads(whole, name=file.stem, variant=str(k)) for k, whole in enumerate(rows)]
 
 
 def encoded(record: Any) -> bytes:
@@ -90,14 +89,14 @@ def together(problems: list[Problem]) -> dict[int, bytes]:
     return found
 
 
-@each("file", thinned(plain_files(), 4))
+@each("file", sampled(thinned(plain_files(), 4), 3))
 def test_a_variant_among_others_has_the_bytes_of_one_alone(file: Path) -> None:
     problems = varied(file, 8)
     for k, text in together(problems).items():
         assert text == encoded(record_in_columns(Solution(problems[k]))), (file.name, k)
 
 
-@each("file", thinned(loaded_files(), 9))
+@each("file", sampled(thinned(loaded_files(), 9), 2))
 def test_a_variant_with_loads_has_among_others_the_bytes_of_one_alone(file: Path) -> None:
     problems = varied(file, 6)
     found = together(problems)
@@ -156,7 +155,7 @@ def test_arrays_of_few_positions_are_those_of_a_sweep() -> None:
                 assert np.allclose(found[array], values, rtol=1e-9, atol=1e-9), (name, array)
 
 
-@each("file", thinned([PROBLEMS / "linkages" / "ex3.toml", *loaded_files()], 12))
+@each("file", sampled(thinned([PROBLEMS / "linkages" / "ex3.toml", *loaded_files()], 12), 2))
 def test_the_key_of_a_variant_is_among_others_what_it_is_alone(file: Path) -> None:
     problems = varied(file, 4)
     found = keys_together(problems, DEFAULT)

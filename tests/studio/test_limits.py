@@ -9,6 +9,7 @@ import time
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
+from unittest.mock import ANY
 
 import odd_acts
 import pytest
@@ -107,6 +108,30 @@ def test_who_waits_is_told_the_place_and_quick_things_go_first(client: TestClien
     assert places == sorted(places, reverse=True)
     assert max(moment for moment, _ in told["slow 2"]) > began
     assert all("said" in told[name][-1][1]["found"] for name in told)  # none is lost
+
+
+def test_what_is_typed_later_takes_the_place_of_what_waits(client: TestClient) -> None:
+    told: dict[str, Any] = {}
+
+    def ask(name: str, who: dict[str, str]) -> None:
+        told[name] = lines(client, who, name)
+
+    def start(name: str, who: dict[str, str]) -> threading.Thread:
+        one = threading.Thread(target=ask, args=(name, who))
+        one.start()
+        time.sleep(0.1)
+        return one
+
+    who = enter(client)
+    at_work = [start(f"sleep 0.9{k}", enter(client)) for k in range(2)]
+    waiting = [start("old", who), start("other", enter(client)), start("new", who)]
+    for one in (*at_work, *waiting):
+        one.join()
+    assert told["old"][-1]["found"] == {"superseded": True, "files_at": ANY}
+    assert told["new"][0] == {"place": 1}  # before who came later than the older one
+    assert told["new"][-1]["found"]["said"] == "new"
+    assert told["other"][-1]["found"]["said"] == "other"
+    assert told["new"][-1]["waited"] > 0
 
 
 def test_one_session_cannot_fill_the_queue(client: TestClient) -> None:

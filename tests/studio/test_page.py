@@ -3,41 +3,22 @@
 from __future__ import annotations
 
 import base64
-import contextlib
 import re
 import shutil
 import subprocess
-import sys
+import time
 import urllib.request
 from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
 from browser import PROGRAM, Page, browsing
-from worked import PROBLEMS, ROOT
+from studying import DRAWN, at, begin, click, studio, take, text, works
+from worked import PROBLEMS
 
 pytest.importorskip("starlette", reason="the studio's extra is not installed")
 pytest.importorskip("uvicorn", reason="the studio's extra is not installed")
 pytestmark = pytest.mark.skipif(PROGRAM is None, reason="Chromium looks at the page")
-
-DRAWN = (
-    "document.querySelector('#sketch').naturalWidth > 0 &&"
-    " !document.querySelector('#scheme').classList.contains('old')"
-)
-
-
-@contextlib.contextmanager
-def studio(*args: str) -> Iterator[list[str]]:
-    """Start a studio at a free port; its address, and the instructor's where it is served."""
-    command = [sys.executable, "-m", "planmethod", "studio", "--port", "0", "--lang", "en", *args]
-    with subprocess.Popen(command, stdout=subprocess.PIPE, text=True, cwd=ROOT) as running:
-        assert running.stdout is not None
-        lines = [running.stdout.readline() for _ in range(1 + ("--serve" in args))]
-        try:
-            yield [re.findall(r"http://\S+", line)[0] for line in lines]
-        finally:
-            running.terminate()
-            running.wait(20)
 
 
 @pytest.fixture(scope="module")
@@ -52,52 +33,16 @@ def page(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Page]:
         yield page
 
 
-def click(page: Page, name: str) -> None:
-    page.ask(f"document.querySelector({name!r}).click()")
-
-
-def text(page: Page, name: str) -> str:
-    return str(page.ask(f"document.querySelector({name!r}).textContent"))
-
-
-def at(page: Page, words: str, replaced: str) -> None:
-    """Select words in the editor as a reader would, and type others in their place."""
-    page.ask(
-        "{ const view = studio.typed.view, at = studio.text().indexOf(" + repr(words) + ");"
-        f" view.dispatch({{ selection: {{ anchor: at, head: at + {len(words)} }} }});"
-        " view.focus(); }"
-    )
-    page.call("Input.insertText", text=replaced)
-
-
-def begin(page: Page, address: str, width: int = 1360) -> None:
-    page.open(f"{address}?lang=ru", width=width, height=900 if width > 600 else 740)
-    page.ask("localStorage.clear()")
-    page.open(f"{address}?lang=ru", width=width, height=900 if width > 600 else 740)
-    page.said.clear()
-    page.wait("document.querySelectorAll('#tasks li').length > 3")
-
-
-def take(page: Page, words: str) -> None:
-    page.ask(
-        "{ const box = document.querySelector('#search');"
-        f" box.value = {words!r}; box.dispatchEvent(new Event('input')); }}"
-    )
-    button = f"#tasks button[aria-label$=': {words}']"
-    page.wait(
-        f"document.querySelectorAll('#tasks li').length < 9 && !!document.querySelector({button!r})"
-    )
-    click(page, button)
-    page.wait(DRAWN)
-
-
 def test_a_student_comes_from_an_empty_page_to_a_pdf(page: Page, address: str) -> None:
     begin(page, address)
     take(page, "linkages-ex3")
     assert "Замечаний нет" in text(page, "#faults")
     at(page, "DE = 0.18", "DE = 0.18 m")
     page.wait("document.querySelector('.cm-lintRange-error')")
-    assert "строка 23" in text(page, "#faults")
+    assert text(page, "#faults").count("строка 23") == 1
+    # the scheme of before is still there, as an old one
+    assert page.ask("document.querySelector('#sketch').naturalWidth") > 0
+    assert page.ask("document.querySelector('#scheme').classList.contains('old')")
     assert page.ask("studio.text().split('\\n')[22]") == "DE = 0.18 m"
     at(page, "DE = 0.18 m", "DE = 0.18")
     page.wait("document.querySelector('#faults').textContent.includes('Замечаний нет')")
@@ -149,7 +94,7 @@ def test_a_segment_is_measured_in_mm_and_in_its_unit(page: Page, address: str) -
         " all.value = [...all.options].find(one => /^p-?b +μ_v/.test(one.text)).value;"
         " all.dispatchEvent(new Event('change')); }"
     )
-    assert re.search(r"= 64 мм × μ_v 0,05 = 3,2 м/с$", text(page, "#measured"))
+    assert re.search(r"= 64 мм × μv 0,05 = 3,2 м/с$", text(page, "#measured"))
     # the same by two clicks near its ends
     ends = page.ask(
         "[...document.querySelectorAll('#sheet circle')].map(one => {"
@@ -162,7 +107,7 @@ def test_a_segment_is_measured_in_mm_and_in_its_unit(page: Page, address: str) -
             "document.querySelector('#sheet').dispatchEvent(new MouseEvent('click',"
             f" {{ clientX: {x}, clientY: {y}, bubbles: true }}))"
         )
-    assert "64 мм × μ_v 0,05 = 3,2 м/с" in text(page, "#measured")
+    assert "64 мм × μv 0,05 = 3,2 м/с" in text(page, "#measured")
 
 
 def test_positions_move_with_their_plans(page: Page, address: str) -> None:
@@ -182,6 +127,9 @@ def test_answers_are_compared_while_one_types_and_judged(page: Page, address: st
     click(page, "#ask")
     page.wait("document.querySelectorAll('#rows tr').length > 5")
 
+    click(page, "#judge")
+    assert text(page, "#answers .told") == "Пока не заполнен ни один ответ."
+
     def fill(name: str, value: str) -> None:
         page.ask(
             f"{{ const box = document.querySelector({name!r}); box.value = {value!r};"
@@ -196,6 +144,14 @@ def test_answers_are_compared_while_one_types_and_judged(page: Page, address: st
     assert "сходится" in text(page, "#rows tr:nth-child(1)")
     click(page, "#judge")
     page.wait("document.querySelector('#verdicts iframe')")
+    # a frame would be cut where a sheet of paper ends: its page is printed by itself
+    page.call("Emulation.setEmulatedMedia", media="print")
+    shown = "document.querySelector({!r}).checkVisibility()"
+    assert page.ask(shown.format("#rows th")) and page.ask(shown.format("#verdicts .own"))
+    assert not page.ask(shown.format("#verdicts iframe"))
+    page.call("Emulation.setEmulatedMedia", media="")
+    with urllib.request.urlopen(page.ask("document.querySelector('.own a + a').href")) as answer:
+        assert answer.read(5) == b"%PDF-"
     assert page.said == []
 
 
@@ -203,11 +159,7 @@ def test_an_instructor_comes_from_a_table_to_marks(page: Page, address: str) -> 
     begin(page, address)
     take(page, "linkages-ex3-variants")
     click(page, "#to-group")
-    root = page.call("DOM.getDocument")["root"]["nodeId"]
-    node = page.call("DOM.querySelector", nodeId=root, selector="#chosen")["nodeId"]
-    works = PROBLEMS / "groups/ex3.csv"
-    page.call("DOM.setFileInputFiles", nodeId=node, files=[str(works)])
-    page.wait("document.querySelector('#works li')")
+    works(page, PROBLEMS / "groups/ex3.csv")
     click(page, "#check")
     page.wait("document.querySelectorAll('#marks tbody tr').length === 30", 300)
     before = text(page, "#marks tbody tr")
@@ -218,6 +170,37 @@ def test_an_instructor_comes_from_a_table_to_marks(page: Page, address: str) -> 
     page.wait(f"document.querySelector('#marks tbody tr').textContent !== {before!r}", 300)
     for box in ("#statistics", "#page"):
         page.wait(f"document.querySelector('{box} iframe')")
+    assert page.ask("document.querySelector('#page .own a:last-child').href").endswith(".pdf")
+    # taken back by its button, the mark is what it was
+    click(page, "#entered button")
+    page.wait(f"document.querySelector('#marks tbody tr').textContent === {before!r}", 300)
+    assert page.said == []
+
+
+def test_variants_and_questions_are_made_and_downloaded_by_clicks(
+    page: Page, address: str, tmp_path: Path
+) -> None:
+    begin(page, address)
+    take(page, "linkages-ex3")
+    click(page, "#to-group")
+    page.ask("document.querySelector('#how-many').value = '3'")
+    click(page, "#vary button")
+    made = "[...document.querySelectorAll('#desk > .made a')].map(one => one.textContent)"
+    page.wait(f"{made}.length > 1", 120)
+    assert "Подобрано вариантов: 3 из 3" in text(page, "#varied")
+    assert page.ask(made)[1:] == ["linkages-ex3-moodle.xml", "linkages-ex3-variants.toml"]
+    page.call("Browser.setDownloadBehavior", behavior="allow", downloadPath=str(tmp_path))
+    for name, tells in (("moodle.xml", "<quiz>"), ("variants.toml", "[variants]")):
+        click(page, f"#desk > .made a[href*='{name}']")
+        written = tmp_path / f"linkages-ex3-{name}"
+        end = time.monotonic() + 20
+        while not written.exists() and time.monotonic() < end:
+            time.sleep(0.05)
+        assert tells in written.read_text("utf-8")
+    # for a variant of theirs the key is a button, too
+    click(page, "#key")
+    page.wait(f"{made}.some(one => /key[.]pdf$/.test(one))", 120)
+    assert page.said == []
 
 
 def test_an_address_opens_a_task_and_replaces_nothing_typed_since(page: Page, address: str) -> None:

@@ -52,10 +52,10 @@ def tangential_along_link(scene: MistakeContext) -> Iterator[Change]:
 def driver_reversed(scene: MistakeContext) -> Iterator[Change]:
     """V2: the driver moves the other way."""
     drive = scene.problem.drive
-    name = drive.coordinate.rates[0]
-    if name in scene.made and drive.rate:
+    name = NumberName(drive.coordinate.rates[0])
+    if name in scene.made and (rate := scene.exact(name)):
         # That one sense is wrong says nothing yet of the driver.
-        yield Change("V2", drive.link, data={name: -drive.rate}, prior=0.04)
+        yield Change("V2", drive.link, data={name: -rate}, prior=0.04)
 
 
 def similarity_wrong(scene: MistakeContext) -> Iterator[Change]:

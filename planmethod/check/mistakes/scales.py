@@ -71,11 +71,11 @@ def scale_by(scene: MistakeContext, plan: PlanKind, factor: float) -> Change:
 def units_of_speed(scene: MistakeContext) -> Iterator[Change]:
     """S2: rev/min for 1/s, n/30 without π, degrees for radians."""
     drive = scene.problem.drive
-    name = drive.coordinate.rates[0]
-    if drive.pivot is None or name not in scene.made or not drive.rate:
+    name = NumberName(drive.coordinate.rates[0])
+    if drive.pivot is None or name not in scene.made or not (rate := scene.exact(name)):
         return
     for factor in (30.0 / math.pi, 1.0 / math.pi, 180.0 / math.pi, math.pi / 30.0):
-        yield Change("S2", drive.link, data={name: drive.rate * factor})
+        yield Change("S2", drive.link, data={name: rate * factor})
 
 
 def units_of_length(scene: MistakeContext) -> Iterator[Change]:
@@ -164,7 +164,7 @@ def _other_poses(scene: MistakeContext, step: steps.Hold) -> Iterator[Change]:
 def other_angle(scene: MistakeContext) -> Iterator[Change]:
     """P1: the angle of the crank counted the other way, or from another axis."""
     drive = scene.problem.drive
-    name = drive.coordinate.name
+    name = drive.given[0]
     if drive.pivot is None or name not in scene.made:
         return
     phi = scene.exact(NumberName(name))

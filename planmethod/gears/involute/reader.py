@@ -18,9 +18,9 @@ from planmethod.languages import say
 from planmethod.problem import fields
 from planmethod.problem.fields import Faults
 from planmethod.problem.flat import read_flat
-from planmethod.problem.head import MESHING_EXAMPLE, MeshingTable
 from planmethod.problem.reader import varied
 from planmethod.problem.sheet import read_head
+from planmethod.problem.tables import MESHING_EXAMPLE, MeshingTable
 
 TOP = ("title", "source", "stamp", "sheet", "variants", "meshing")
 """Tables of the file that a meshing may have."""

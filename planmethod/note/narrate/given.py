@@ -18,6 +18,7 @@ from planmethod.plans.motion.leads import has_slot_name, slot_name, track_direct
 from planmethod.problem.head import KindProblem
 from planmethod.problem.model import Body, Drive, Geared, Lifted, Posed, PosedBy, Problem, Slide
 from planmethod.problem.names import UNITS, split_names
+from planmethod.solved.driving import driven
 from planmethod.solved.solution import Solution
 
 NBSP = "\u00a0"
@@ -86,7 +87,7 @@ def given(problem: Problem, words: Language, positions: Sequence[float] | None =
     if drive.posed is not None and drive.posed.by is PosedBy.LENGTH:
         return lines
     if drive.followed is not None:
-        return [*lines, *_lifted(drive, drive.followed, text)]
+        return [*lines, *_lifted(drive, drive.followed, text, asked)]
     if drive.is_crank:
         lines += [] if drive.geared is None else _through(drive.geared, words)
         constant = "" if drive.acceleration else " = const"
@@ -194,7 +195,7 @@ def _numbered(text: As, asked: Sequence[float]) -> str:
         symbol=drive.coordinate.symbol,
         first=facts[0],
         step=facts[1],
-        sense=text.words.cycle["senses"]["against" if against else "along"],
+        sense=text.words.cycle["senses"][drive.mover]["against" if against else "along"],
         count=len(asked),
     )
 
@@ -271,18 +272,27 @@ def _through(geared: Geared, words: Language) -> list[str]:
     return lines
 
 
-def _lifted(drive: Drive, led: Lifted, text: As) -> list[str]:
-    """Return which angle of the cam it is, and the motion that its follower has there."""
-    say = text.say
-    turn = f"{say.given(led.angle)}{say.units['deg']}"
-    lines = [text.words.note.given_cam.format(n=text.number(led.n, "rev/min", "cam.n"), phi=turn)]
-    names = (f"ω_{{{drive.link}}}", f"ε_{{{drive.link}}}") if drive.is_crank else ("v", "a")
-    units = ("1/s", "1/s²") if drive.is_crank else ("m/s", "m/s²")
-    rates = zip(names, (drive.rate, drive.acceleration), units, strict=True)
-    return [
-        *lines,
-        *(f"{name} = {say.found(rate)} {say.units[unit]}" for name, rate, unit in rates),
-    ]
+def _lifted(drive: Drive, led: Lifted, text: As, asked: Sequence[float]) -> list[str]:
+    """Return the cam that drives, its lowest place, and the motion that its follower gives.
+
+    Of several positions that is in their tables: here stands where the follower rests.
+    """
+    say, note, path = text.say, text.words.note, f"driver.{drive.given[0]}"
+    lowest = text.number(led.lowest, "deg", path) if led.turns else text.metres(led.lowest, path)
+    symbol = f"φ_{{{drive.link}}}" if led.turns else "s"
+    speed = text.number(led.n, "rev/min", "cam.n")
+    lines = [note.given_cam.format(n=speed, lowest=f"{symbol} = {lowest}")]
+    _, rates, gains = map(np.asarray, driven(drive, np.asarray(asked, dtype=float)))
+    resting = np.flatnonzero((rates == 0.0) & (gains == 0.0))
+    if len(asked) == 1:
+        names = (f"ω_{{{drive.link}}}", f"ε_{{{drive.link}}}") if led.turns else ("v", "a")
+        units = ("1/s", "1/s²") if led.turns else ("m/s", "m/s²")
+        told = zip(names, (rates, gains), units, strict=True)
+        lines += [f"{name} = {say.found(of[0])} {say.units[unit]}" for name, of, unit in told]
+        return [*lines, note.given_rest] if resting.size else lines
+    if resting.size:
+        lines.append(note.given_rests.format(numbers=", ".join(map(str, resting))))
+    return lines
 
 
 def told_beside(guide: str, problem: Problem) -> Slide | None:
@@ -423,11 +433,14 @@ def asked_points(solution: Solution) -> list[str]:
 
 
 def asked_links(solution: Solution) -> list[str]:
-    """Return the links whose angular velocity is not given and not zero by nature."""
-    kin = solution.construction.kinematics
-    drive = solution.problem.drive.link
+    """Return the links whose angular velocity is not given and not zero by nature.
+
+    That of a link which a cam's follower swings is given in one position, in several it is told.
+    """
+    kin, drive = solution.construction.kinematics, solution.problem.drive
+    given = "" if drive.followed is not None and len(solution.positions) > 1 else drive.link
     return [
-        link for link in solution.problem.mechanism.links if link in kin.omega and link != drive
+        link for link in solution.problem.mechanism.links if link in kin.omega and link != given
     ]
 
 

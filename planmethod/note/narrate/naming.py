@@ -176,7 +176,7 @@ class Names:
                 guide = self.guide(line)
                 if guide is not None:
                     return LineDirection(guide, 0.0)
-                if angle == self.solution.problem.drive.coordinate.name:
+                if angle == self.solution.problem.drive.given[0]:
                     drive = self.solution.problem.bodies[self.solution.problem.drive.link]
                     if drive.axis is not None:
                         return LineDirection("".join(drive.axis), 0.0)

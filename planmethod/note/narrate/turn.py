@@ -91,7 +91,7 @@ def turn_facts(turn: Turn, words: Language) -> list[str]:
     if turn.range is None and turn.tightest is not None:
         closest, at = turn.tightest
         facts.append(said.tightest.format(links=", ".join(closest), phi=place(at)))
-    senses = said["senses"]
+    senses = said["senses"][turn.solution.problem.drive.mover]
     way = senses["against" if turn.is_against else "along"]
     facts.append(said.zero.format(phi=place(float(turn.positions[0])), sense=way))
     if turn.turns > 1:
@@ -104,7 +104,8 @@ def turn_facts(turn: Turn, words: Language) -> list[str]:
     facts += stroke_facts(turn, words)
     if turn.stroke is None and turn.why_no_stroke is not None:
         facts.append(_none("H" if output.slide is not None else "ψ", turn.why_no_stroke, words))
-    ratio = ratio_facts(turn, words)
+    # The strokes of a cam have its dwells in them: their ratio is no K_v.
+    ratio = ratio_facts(turn, words) if turn.solution.problem.drive.revolves else []
     facts += ratio
     why = working_fact(turn, words) if ratio else ""
     facts += [why] if why else []
@@ -122,10 +123,11 @@ def turn_facts(turn: Turn, words: Language) -> list[str]:
 def range_fact(turn: Turn, words: Language) -> str:
     """Return how far the crank turns."""
     if turn.range is None:
-        return words.cycle.full_turn
+        return str(words.cycle["full_turn"][turn.solution.problem.drive.mover])
     low, high = (degrees(limit, words) for limit in turn.range)
     links = tuple(dict.fromkeys(link for end in turn.range for link in turn.stopping(end)))
-    return words.cycle.range.format(low=low, high=high, links=", ".join(links))
+    said = words.cycle["range"][turn.solution.problem.drive.mover]
+    return str(said.format(low=low, high=high, links=", ".join(links)))
 
 
 def _none(what: str, why: NoNumber, words: Language) -> str:

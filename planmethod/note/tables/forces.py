@@ -334,7 +334,7 @@ def forces_tables(solution: Solution, words: Words, index: int, sigmas: Sigmas) 
         facts["point"] = point_name(pushed.at)
         facts["way"] = push_way(solution.problem, words)
     yield Note(balance.format(**facts))
-    if statics.lever is None:
+    if statics.lever_at(index) is None:
         yield Note(words.lever_stands)
         return
     assert drawn.discrepancy_sigma is not None and drawn.balances is not None

@@ -154,7 +154,7 @@ def deviations_title(solution: Solution, words: Language) -> str:
 def cycle_tables(solution: Solution, words: Language) -> Iterator[Node]:
     """Yield the turn: facts, table by positions, deviations."""
     turn, diagrams, said = turn_of(solution), diagrams_of(solution), words.cycle
-    yield Chapter(said.title, numbered=False)
+    yield Chapter(str(said["title"][turn.solution.problem.drive.mover]), numbered=False)
     yield Paragraph("; ".join(turn_facts(turn, words)) + ".")
     for title, columns in (
         (said.table, cycle_columns(diagrams, words)),

@@ -169,13 +169,14 @@ class _Picture(Flowable):  # type: ignore[misc]
 
     def __init__(self, view: document.DrawableView, tallest: float) -> None:
         super().__init__()
-        self._view, self._tallest = view, tallest
+        self._view, self._tallest, self.at_most = view, tallest, 1.0
         self._share, self._width = 1.0, 0.0
 
     def wrap(self, width: float, height: float) -> tuple[float, float]:
         """Return the room that the picture takes, points."""
         wide, high = (side * mm for side in self._view.size)
-        self._share, self._width = min(1.0, width / wide, self._tallest / high), width
+        self._share = self.at_most * min(1.0, width / wide, self._tallest / high)
+        self._width = width
         return width, high * self._share
 
     def draw(self) -> None:
@@ -297,7 +298,10 @@ class _Setter:
                 shown = self._say.figure.format(number=number, text=caption) if number else caption
                 style = self._style(align=TA_CENTER, indent=0.0, around=6.0, leading=1.2)
                 below = [self._text(shown, style)] if shown else []
-                yield Floating([Spacer(0, 6), _Picture(view, self._tallest), *below])
+                picture = _Picture(view, self._tallest)
+                floating = Floating([Spacer(0, 6), picture, *below])
+                floating.shrunk = picture
+                yield floating
             case document.References(entries):
                 for k, entry in enumerate(entries, 1):
                     yield self._text(f"{k}.\u00a0{entry}", self._style())

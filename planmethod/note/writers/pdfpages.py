@@ -10,38 +10,63 @@ MOST = 12
 """Paragraphs and formulas that may go before what has no room, at the most."""
 
 
+LEAST = 0.78
+"""Share of a picture that it may be shrunk to where no text can go before.
+
+Its letters of 3.2 mm are 2.5 mm high then.
+"""
+
+
+_SLACK = 0.1  # points that a picture stays off the foot of the page
+
+
 class Floating(KeepTogether):  # type: ignore[misc]
     """What stands on one page, if need be on the next (то, что не разрывается)."""
 
     passed = 0
     """Texts that went before it."""
 
+    shrunk: Any = None
+    """The picture that may be smaller: ``at_most`` is the share of its size that it is shown in."""
+
 
 class FloatingPages(BaseDocTemplate):  # type: ignore[misc]
     """Pages without room left over: what has no room waits, the text after it goes before.
 
-    It waits no longer than to the next heading.
+    It waits no longer than to the next heading. A picture that cannot wait is made smaller, if it
+    has room then.
     """
 
     def filterFlowables(self, flowables: list[Any]) -> None:  # noqa: N802
         """Put the text after a picture or table before it where that has no room."""
         first = flowables[0]
-        if not isinstance(first, Floating) or first.passed >= MOST or self._fits(first):
+        if not isinstance(first, Floating) or (missing := self._missing(first)) <= 0.0:
             return
         end = 2
         while end < len(flowables) and flowables[end - 1].getKeepWithNext():
             end += 1
         group = flowables[1:end]
-        if group and all(map(_is_text, group)):
-            first.passed += len(group)
-            mended = getattr(self, "_multiBuildEdits", None)
-            if mended:
-                mended((setattr, first, "passed", 0))
+        if group and all(map(_is_text, group)) and first.passed < MOST:
+            self._set(first, "passed", first.passed + len(group), before=0)
             flowables[:end] = [*group, first]
+        elif (picture := first.shrunk) is not None and picture.at_most == 1.0:
+            high = picture.wrap(self.frame._aW, 0.0)[1]
+            share = (high - missing - _SLACK) / high
+            if share >= LEAST:
+                self._set(picture, "at_most", share, before=1.0)
 
-    def _fits(self, one: Floating) -> bool:
+    def _set(self, one: Any, name: str, value: float, *, before: float) -> None:
+        """Change a number for this run over the pages: the next one begins with what it was."""
+        mended = getattr(self, "_multiBuildEdits", None)
+        if mended:
+            mended((setattr, one, name, before))
+        setattr(one, name, value)
+
+    def _missing(self, one: Floating) -> float:
+        """Return the height that is missing for something, points; none where it has room."""
         one.wrapOn(self.canv, self.frame._aW, 1e6)
-        return bool(self.frame._atTop or self.frame._y - self.frame._y1p >= one._H)
+        room = self.frame._y - self.frame._y1p
+        return 0.0 if self.frame._atTop else float(one._H - room)
 
 
 def _is_text(flowable: Flowable) -> bool:

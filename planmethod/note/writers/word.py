@@ -36,7 +36,7 @@ from planmethod.note.writers.sentences import (
 )
 from planmethod.note.writers.wordfile import opened, timeless, wish_for_fields
 from planmethod.note.writers.wordframe import PageFrame, fields_of_note
-from planmethod.note.writers.wordpages import PageFlow, plain
+from planmethod.note.writers.wordpages import PageFlow, flowing, plain
 from planmethod.note.writers.wordpicture import put_picture
 from planmethod.note.writers.wordstyles import (
     BOTTOM,
@@ -73,6 +73,9 @@ from planmethod.note.writers.wordtext import (
 
 SIDE = 16.0
 """Room beside a formula for its number, and as much on the other side, mm."""
+
+BELOW = 12.0
+"""Room of the name of a figure, mm."""
 
 _LANGUAGES = {"ru": "ru-RU", "en": "en-US"}
 
@@ -149,7 +152,8 @@ class _Writer:
         self._headings = list(document.headings_of(written))
         self._title = ""
         numbered = list(document.numbers_of(written))
-        for (node, number), after in zip_longest(numbered, written.nodes[1:]):
+        told = zip_longest(numbered, written.nodes[1:])
+        for (node, number), after in flowing(told, self._flow, self._height):
             self._leads = leads(node, after)
             if not isinstance(node, document.TitlePage):
                 self._with_pages()
@@ -160,6 +164,17 @@ class _Writer:
         last = self._file.element.body[-2] if len(self._file.element.body) > 1 else None
         if last is not None and last.tag == qn("w:tbl"):
             small_paragraph(self._file.add_paragraph())  # Word wants one after a table
+
+    def _height(self, figure: Figure) -> float:
+        """Return the height of a figure with its name, mm."""
+        return figure.view.size[1] * self._share(figure) + BELOW
+
+    def _share(self, figure: Figure) -> float:
+        """Return how many times larger a figure is shown than it is: it fits a page."""
+        width, height = figure.view.size
+        section = self._file.sections[-1]
+        tall = (section.page_height - section.top_margin - section.bottom_margin) / Mm(1) - 25.0
+        return float(min(1.0, self._width / width, tall / height))
 
     def _with_pages(self) -> None:
         """Begin to number the pages, in a frame if that is wished."""
@@ -378,13 +393,10 @@ class _Writer:
 
     def _figure(self, figure: Figure, number: str) -> None:
         """Put a picture in the middle, as large as it is if there is room, its name below."""
-        width, height = figure.view.size
-        section = self._file.sections[-1]
-        tall = (section.page_height - section.top_margin - section.bottom_margin) / Mm(1) - 25.0
-        share = min(1.0, self._width / width, tall / height)
+        share = self._share(figure)
         place = self._paragraph("Figure")
-        put_picture(place.add_run(), figure, width * share, share, self._file.part)
-        self._flow.put(height * share + 12.0)
+        put_picture(place.add_run(), figure, figure.view.size[0] * share, share, self._file.part)
+        self._flow.put(self._height(figure))
         caption = figure.caption
         if number:
             caption = self._say.figure.format(number=number, text=caption)

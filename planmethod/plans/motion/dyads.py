@@ -35,7 +35,7 @@ def drive_motion(kin: Kinematics, motion: MotionBoard) -> None:
     if drive.pivot is not None:
         if motion.kind is PlanKind.VELOCITY:
             kin.omega[drive.link] = b.known(f"omega_{drive.link}")
-        elif drive.acceleration != 0:
+        elif drive.accelerates:
             kin.epsilon[drive.link] = b.known(f"epsilon_{drive.link}")
         points = kin.draft.problem.bodies[drive.link].points
         first = next((p for p in points if points[p] != points[drive.pivot]), None)

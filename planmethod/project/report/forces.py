@@ -335,10 +335,11 @@ class ForceChapter:
     def _lever(self) -> Iterator[Node]:
         said: Words = self.said
         report, reading, statics = self.report, self.reading, self.reading.statics
-        if statics.lever_plan is None:
+        lever = statics.lever_at(reading.index)
+        if lever is None:
             yield sentences(said.lever_stands.format())
             return
-        if not self._readable(statics.lever_plan.balance):
+        if not self._readable(lever.balance):
             yield sentences(said.unreadable.format())
             return
         voice = LeverNarrator(self.context)

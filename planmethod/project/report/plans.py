@@ -67,7 +67,7 @@ class PlanChapter:
         if section.group is None:
             template = said.driver if drive.is_crank else said.driver_slider
             lead = [template.format(link=drive.link)]
-            if self.kind is PlanKind.ACCELERATION and drive.is_crank and not drive.acceleration:
+            if self.kind is PlanKind.ACCELERATION and drive.is_crank and not drive.accelerates:
                 lead.append(said.constant.format())
             yield sentences(*lead)
         else:

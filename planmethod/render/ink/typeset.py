@@ -224,15 +224,20 @@ def text_bounds(text: Text) -> Bounds:
 
 def text_corners(text: Text) -> list[complex]:
     """Return the corners of the ink box of a run, mm, turned as the text and leaning."""
-    lettering = in_use()
-    wide = lettering.width(text.text, text.height)
-    side = min(lettering.side * text.height, wide / 2)
-    up = lettering.ascent(text.text, text.height)
-    down = lettering.descent(text.text, text.height)
-    turn = cmath.exp(1j * radians(text.angle))
+    at = text.at
+    return [at + corner for corner in _corners(text.text, text.height, text.angle, in_use())]
+
+
+@lru_cache(maxsize=8192)  # the same letters stand at many places
+def _corners(
+    text: str, height: float, angle: float, lettering: OutlineLettering
+) -> tuple[complex, ...]:
+    wide = lettering.width(text, height)
+    side = min(lettering.side * height, wide / 2)
+    up, down = lettering.ascent(text, height), lettering.descent(text, height)
+    turn = cmath.exp(1j * radians(angle))
     corners = (side - 1j * down, wide - side - 1j * down, wide - side + 1j * up, side + 1j * up)
-    leaning = (corner + lettering.leaning(corner.imag, text.height) for corner in corners)
-    return [text.at + turn * corner for corner in leaning]
+    return tuple(turn * (corner + lettering.leaning(corner.imag, height)) for corner in corners)
 
 
 class _Setter:

@@ -36,6 +36,12 @@ _ALONG = 0.2  # radians: less between them and they run along each other
 _AT = 0.3  # mm: a line nearer goes through the point
 _SAGITTA = 0.05  # how far the chords of a large arc may be off, mm
 _PIECE = 12.0  # longest piece of a line in the tree, mm
+_PAIRS = 1 << 19  # of places and lines looked at at once: each that meets takes a hundred bytes
+
+
+LED_STRANGER = 0.5
+"""Part of the cost of standing nearer to another label's point for one whose leader line tells its
+own."""
 
 
 class Paper:
@@ -153,11 +159,14 @@ class Paper:
         ask = np.flatnonzero(so_far < CROSSED)
         lines = linestrings(paths[ask])
         if self._lines is not None and len(ask):
-            which, line = self._lines.query(lines)
-            met = crossing(paths[ask], self.segments, which, line)
             heavy = np.repeat([c.label.manner.heavy for c in many], [len(c.boxes) for c in many])
-            found = ask[which[met]]
-            np.add.at(costs, found, np.where(self.breakable[line[met]], _BETWEEN, heavy[found]))
+            step = max(1, _PAIRS // len(self.segments))
+            for first in range(0, len(ask), step):
+                some = ask[first : first + step]
+                which, line = self._lines.query(lines[first : first + step])
+                met = crossing(paths[some], self.segments, which, line)
+                found = some[which[met]]
+                np.add.at(costs, found, np.where(self.breakable[line[met]], _BETWEEN, heavy[found]))
         lines, ask = lines[led[ask]], ask[led[ask]]
         if self._areas is not None and len(ask):
             which, area = self._areas.query(lines, predicate="intersects")
@@ -207,10 +216,10 @@ def _square(place: complex, half: float) -> Bounds:
 
 
 def _stranger_costs(candidates: Candidates, so_far: Floats, strangers: Sequence[complex]) -> Floats:
-    """Return the cost of standing, without a leader line, nearer to another label's point."""
+    """Return the cost of standing nearer to another label's point, less of it at a leader line."""
     costs = np.zeros(len(so_far))
     dislike = candidates.label.manner.stranger
-    ask = np.flatnonzero((so_far < CROSSED) & ~candidates.led)
+    ask = np.flatnonzero(so_far < CROSSED)
     if not dislike or not len(ask):
         return costs
     anchor = candidates.label.anchor
@@ -219,7 +228,8 @@ def _stranger_costs(candidates: Candidates, so_far: Floats, strangers: Sequence[
         return costs
     boxes = candidates.boxes[ask]
     own = distances(boxes, np.asarray([anchor]))[:, 0]
-    costs[ask] = np.where(distances(boxes, others).min(axis=1) < own + 0.4, dislike, 0.0)
+    dislikes = np.where(candidates.led[ask], LED_STRANGER * dislike, dislike)
+    costs[ask] = np.where(distances(boxes, others).min(axis=1) < own + 0.4, dislikes, 0.0)
     return costs
 
 

@@ -53,9 +53,13 @@ class Block(Protocol):
 
 
 class Shapes(Struct, frozen=True):
-    """A block that can be laid out in several ways (варианты блока); alone it is the first one."""
+    """A block that can be laid out in several ways (варианты блока); alone it is the first one.
+
+    ``grows``: of two ways the larger one is at a larger scale, and not only looser.
+    """
 
     ways: tuple[Block, ...]
+    grows: bool = False
 
     @property
     def width(self) -> float:
@@ -72,10 +76,10 @@ class Shapes(Struct, frozen=True):
         return self.ways[0].place(corner)
 
 
-def shaped(ways: Iterable[Block]) -> Block:
+def shaped(ways: Iterable[Block], *, grows: bool = False) -> Block:
     """Return a block that can be laid out in several ways, or the only one."""
     found = tuple(ways)
-    return Shapes(found) if len(found) > 1 else found[0]
+    return Shapes(found, grows) if len(found) > 1 else found[0]
 
 
 class Spacer(Struct, frozen=True):

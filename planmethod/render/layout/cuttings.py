@@ -37,6 +37,11 @@ class Packed(Struct, frozen=True):
         """The block in all its ways."""
         return self.block.ways if isinstance(self.block, Shapes) else (self.block,)
 
+    @property
+    def grows(self) -> bool:
+        """Whether larger ways are at larger scales."""
+        return isinstance(self.block, Shapes) and self.block.grows
+
 
 class Group(Struct, frozen=True):
     """Parts and groups that stay together (группа блоков).
@@ -194,6 +199,61 @@ def _pareto(sizes: list[_Size]) -> list[_Size]:
         return best
     step = (len(best) - 1) / (_OPTIONS - 1)
     return [best[round(k * step)] for k in range(_OPTIONS)]
+
+
+# Larger ways --------------------------------------------------------------------------------------
+
+
+def grown(node: Node, ways: Sequence[Sequence[Leaf]], room: tuple[float, float]) -> Node:
+    """Return a cutting whose blocks stand in larger ways, as far as all of it fits the room.
+
+    A larger way is one that is wider or higher and nowhere smaller: a picture at a larger scale.
+    Blocks grow in turn, a way each. ``ways`` are those of every block by its number, none of those
+    that do not grow.
+    """
+    standing = {leaf.number: leaf for leaf in _leaves(node)}
+    refused: list[Leaf] = []
+    turns = list(standing)
+    while turns:
+        for number in tuple(turns):
+            now = standing[number]
+            larger = [way for way in ways[number] if _is_larger(way, now) and way not in refused]
+            if not larger:
+                turns.remove(number)
+                continue
+            way = min(larger, key=lambda way: way.width * way.height)
+            tried = _with(node, replace(way, group=now.group))
+            if fits(tried, room):
+                node, standing[number] = tried, way
+            else:
+                refused.append(way)  # nor will it when others have grown
+    return node
+
+
+def _is_larger(one: Leaf, two: Leaf) -> bool:
+    wider, higher = one.width - two.width, one.height - two.height
+    return min(wider, higher) >= 0.0 and max(wider, higher) > 0.0
+
+
+def _leaves(node: Node) -> Iterator[Leaf]:
+    if isinstance(node, Leaf):
+        yield node
+    else:
+        yield from _leaves(node.first)
+        yield from _leaves(node.second)
+
+
+def _with(node: Node, way: Leaf) -> Node:
+    """Return a cutting with a block in another way."""
+    if isinstance(node, Leaf):
+        return way if node.number == way.number else node
+    one, two = _with(node.first, way), _with(node.second, way)
+    both = ((one.width, two.width), (one.height, two.height))
+    wide, high = (max, sum) if node.across else (sum, max)
+    gap = complex(0.0, GAP) if node.across else complex(GAP, 0.0)
+    return replace(
+        node, first=one, second=two, width=wide(both[0]) + gap.real, height=high(both[1]) + gap.imag
+    )
 
 
 # Room ---------------------------------------------------------------------------------------------

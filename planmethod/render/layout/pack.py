@@ -10,10 +10,11 @@ fit, that of the least cost is taken, of equals the first. The cost is the sum o
 2. `BACK` for every paper's height that the eye goes back up from a group to the next one;
 3. `VOID` times the part of the paper that the largest empty rectangle takes.
 
-Blocks stand on a grid (`planmethod.render.layout.grid`): within their boxes they are moved to as
-few left edges and upper lines as can be. Neighbouring texts stand together: set to one left edge
-under one another, to one upper edge side by side. The last block stands on the title block in the
-lower right corner, to its left edge where it is not wider, or to the left of it.
+In the cutting that is chosen blocks stand in larger ways as long as it fits: pictures at larger
+scales. Blocks stand on a grid (`planmethod.render.layout.grid`): within their boxes they are moved
+to as few left edges and upper lines as can be. Neighbouring texts stand together: set to one left
+edge under one another, to one upper edge side by side. The last block stands on the title block in
+the lower right corner, to its left edge where it is not wider, or to the left of it.
 """
 
 from __future__ import annotations
@@ -37,6 +38,7 @@ from planmethod.render.layout.cuttings import (
     corners_of,
     cuttings,
     fits,
+    grown,
     units_of,
 )
 from planmethod.render.layout.grid import on_grid
@@ -101,7 +103,9 @@ def _packed(
         return option.cost + VOID * emptiest_share([*boxes, option.last, stamp, *taken], inner)
 
     best = min(found[:_LOOKED_AT], key=cost)
-    *units, end = best.units
+    ways = [some if one.grows else () for one, some in zip(whole.parts(), best.ways, strict=True)]
+    larger = _units(grown(best.node, ways, _room(inner)), inner, best.last, taken)
+    *units, end = larger or best.units
     if not units:
         best = best._replace(last=_alone(best.last, inner, stamp, taken))
     units = on_grid(units, complex(best.last[0], best.last[3]), [*taken, best.last])
@@ -112,12 +116,24 @@ def _packed(
 
 
 def _alone(box: Bounds, inner: Bounds, stamp: Bounds, taken: Sequence[Bounds]) -> Bounds:
-    """Return the box of the only block of a sheet in the middle of what the title block leaves."""
-    low, high = max(stamp[3], box[1]), min([inner[3], *(other[1] for other in taken)])
-    across = (inner[0] + inner[2] - box[0] - box[2]) / 2
-    up = max(0.0, (low + high - box[1] - box[3]) / 2)
-    moved = (box[0] + across, box[1] + up, box[2] + across, box[3] + up)
-    return moved if box[1] >= stamp[3] and moved[3] <= high else box
+    """Return the box of the only block of a sheet in the middle of what the title block leaves.
+
+    That is below what must stay free, or beside it.
+    """
+    if box[1] < stamp[3]:
+        return box
+    middle = (inner[0] + inner[2]) / 2
+    left = max([inner[0], *(other[2] for other in taken if other[2] < middle)])
+    right = min([inner[2], *(other[0] for other in taken if other[0] > middle)])
+    below = (inner[0], inner[2], min([inner[3], *(other[1] for other in taken)]))
+    for start, end, high in (below, (left, right, inner[3])):
+        across = (start + end - box[0] - box[2]) / 2
+        up = max(0.0, (max(stamp[3], box[1]) + high - box[1] - box[3]) / 2)
+        moved = (box[0] + across, box[1] + up, box[2] + across, box[3] + up)
+        clear = not any(overlap(moved, other, CLEAR) for other in taken)
+        if clear and moved[0] >= start and moved[3] <= high:
+            return moved
+    return box
 
 
 def _last_corners(last: Block, inner: Bounds, stamp: Bounds) -> list[complex]:
@@ -136,11 +152,16 @@ Placed: TypeAlias = tuple[Block, complex]
 
 
 class _Option(NamedTuple):
-    """A cutting that fits: its cost without empty rectangles, its units, the last block's box."""
+    """A cutting that fits: its cost without empty rectangles, its units, the last block's box.
+
+    ``ways`` are those of all blocks that it was cut of.
+    """
 
     cost: float
     units: list[Unit]
     last: Bounds
+    node: Node
+    ways: Sequence[Sequence[Leaf]]
 
 
 def _options(
@@ -154,7 +175,7 @@ def _options(
 ) -> Iterator[_Option]:
     """Yield the cuttings that fit with the last block in a certain way and place."""
     parts = tuple(whole.parts())
-    room = (inner[2] - inner[0] - 2 * EDGE, inner[3] - inner[1] - 2 * EDGE)
+    room = _room(inner)
     leaves = [
         [Leaf(k, way, way.width, way.height, part.text) for way in part.ways]
         for k, part in enumerate(parts)
@@ -169,14 +190,26 @@ def _options(
     turns = _turns(whole)
     for asked in (whole, *_with_the_last(whole)):
         for node in cuttings(asked, iter(leaves), room, whole=True, settled=settled):
-            units = list(units_of(node, box, anchored=True))
-            if taken:
-                moved = [_clear(unit, taken) for unit in units[:-1]]
-                if None in moved or any(overlap(last, other, CLEAR) for other in taken):
-                    continue
-                units = [*(unit for unit in moved if unit is not None), units[-1]]
-            cost = _unevenness(units, room) + BACK * _way_back(units, turns, room)
-            yield _Option(cost, units, last)
+            units = _units(node, inner, last, taken)
+            if units:
+                cost = _unevenness(units, room) + BACK * _way_back(units, turns, room)
+                yield _Option(cost, units, last, node, leaves)
+
+
+def _units(node: Node, inner: Bounds, last: Bounds, taken: Sequence[Bounds]) -> list[Unit]:
+    """Return the room of each unit of a cutting, clear of boxes; none where it cannot be."""
+    box = (inner[0] + EDGE, inner[1] + EDGE, inner[2] - EDGE, inner[3] - EDGE)
+    units = list(units_of(node, box, anchored=True))
+    if taken:
+        moved = [_clear(unit, taken) for unit in units[:-1]]
+        if None in moved or any(overlap(last, other, CLEAR) for other in taken):
+            return []
+        units = [*(unit for unit in moved if unit is not None), units[-1]]
+    return units
+
+
+def _room(inner: Bounds) -> tuple[float, float]:
+    return (inner[2] - inner[0] - 2 * EDGE, inner[3] - inner[1] - 2 * EDGE)
 
 
 def _with_the_last(whole: Group) -> Iterator[Group]:

@@ -232,7 +232,7 @@ class _Cutting:
 
     def _tried(self) -> Reals:
         """Return the positions of a turn, or of the driver's way."""
-        if not self.drive.is_crank:
+        if not self.drive.goes_round:
             return np.linspace(*self.scene.way, self.frames)
         sense = -1.0 if self.drive.rate < 0 else 1.0
         return self.scene.start + sense * 360.0 * np.arange(self.frames) / self.frames
@@ -244,9 +244,9 @@ class _Cutting:
         for view in self.views[1:]:
             rows = rows + [ref[0] + k for ref in _refs(view) for k in (0, 1)]
         there = np.asarray(np.isfinite(values[rows]).all(axis=0))
-        if there.all() and self.drive.is_crank:
+        if there.all() and self.drive.goes_round:
             return tried, True
-        if not there.all() and self.drive.is_crank:  # a turn that begins behind a gap
+        if not there.all() and self.drive.goes_round:  # a turn that begins behind a gap
             tried = np.concatenate([tried, tried + (tried[1] - tried[0]) * len(tried)])
             there = np.tile(there, 2)
         cuts = np.flatnonzero(np.diff(there.astype(int))) + 1
@@ -285,10 +285,10 @@ class _Cutting:
             scene.words.say.units[self.drive.coordinate.unit],
             self.drive.coordinate.symbol,
         )
-        space = "" if self.drive.is_crank else " "
+        space = "" if self.drive.goes_round else " "
         for position in self.positions:
-            turn = position % 360.0 if self.drive.is_crank else position
-            digits = f"{turn:.1f}" if self.drive.is_crank else f"{turn:.4f}"
+            turn = position % 360.0 if self.drive.goes_round else position
+            digits = f"{turn:.1f}" if self.drive.goes_round else f"{turn:.4f}"
             text = typeset(f"{symbol} = {scene.words.say.number(digits)}{space}{unit}", LETTER)
             made.readings.append(list(text.at(complex(4.0, 4.0))))
         return made
@@ -323,7 +323,7 @@ class _Cutting:
         count = len(self.positions)
         ends = [*range(count), *([0] if self.closed else [])]
         way = self.positions[ends].astype(float)
-        if self.drive.is_crank and self.closed and count == self.frames:
+        if self.drive.goes_round and self.closed and count == self.frames:
             way[-1] = way[-2] + (way[1] - way[0])
         knots = np.arange(len(way))
         fine = np.interp(np.linspace(0, len(way) - 1, _FINER * (len(way) - 1) + 1), knots, way)

@@ -96,8 +96,19 @@ function at(x) {  // all outputs in a position of the driver; the guard that fai
   return D.motion ? [...solved(x), steady(x)] : solved(x);
 }
 
+function driven(x) {  // place, rate and acceleration of the link that a cam's follower moves
+  const { pieces, lowest, degrees, rate } = D.cam, along = within(x, 0, TURN) * Math.PI / 180;
+  const of = pieces.findLast(piece => piece.start <= along + 1e-11), t = along - of.start;
+  const turn = of.rate * t + of.phase, [s, v, a] = of.powers.reduceRight(
+    ([p, d, dd], factor) => [p * t + factor, d * t + p, dd * t + 2 * d], [0, 0, 0]);
+  const way = s + of.size * Math.sin(turn);
+  return [lowest + (degrees ? way * 180 / Math.PI : way),
+    (v + of.size * of.rate * Math.cos(turn)) * rate,
+    (a - of.size * of.rate ** 2 * Math.sin(turn)) * rate ** 2];
+}
+
 function solved(x) {
-  const sides = D.branches.map(one => branch(one, x));
+  const sides = [...D.cam ? driven(x) : [], ...D.branches.map(one => branch(one, x))];
   if (!D.loads) return run(x, ...sides);
   const nothing = D.loads.list.flatMap(load => load.place === undefined ? [0] : [0, 0]);
   const still = run(x, ...sides, ...nothing), told = loads(x, still), out = run(x, ...sides, ...told);

@@ -180,6 +180,18 @@ class _Page:
 
     # Data ------------------------------------------------------------------------------------
 
+    def _cam(self) -> dict[str, Any] | None:
+        """Return the law by which a cam's follower drives."""
+        drive = self.problem.drive
+        if drive.followed is None:
+            return None
+        return {
+            "pieces": [piece._asdict() for piece in drive.followed.pieces],
+            "lowest": drive.followed.lowest,
+            "degrees": drive.followed.turns,
+            "rate": drive.rate,
+        }
+
     def _scene(self) -> dict[str, Any]:
         scene, drive, say, said = self.scene, self.problem.drive, self.words.say, self.words.live
         closings = scene.sweep.branches.values()
@@ -189,16 +201,17 @@ class _Page:
             "rows": [row.name for row in scene.sweep.rows],
             "way": list(scene.way),
             "start": scene.start,
-            "crank": drive.is_crank,
+            "crank": drive.goes_round,
             "sense": -1 if drive.rate < 0 else 1,
             "symbol": runs(drive.coordinate.symbol),
-            "unit": ("" if drive.is_crank else " ") + _plain(say.units[drive.coordinate.unit]),
+            "unit": ("" if drive.goes_round else " ") + _plain(say.units[drive.coordinate.unit]),
             "branches": [
                 {"places": one.followed.places, "values": one.values, "turn": one.followed.period}
                 if isinstance(one, Start)
                 else {"changes": list(one.changes), "start": one.start, "turn": one.turn}
                 for one in closings
             ],
+            "cam": self._cam(),
             "loads": scene.loads(),
             "places": scene.rows_of(lambda kind: kind is QuantityKind.PLACE),
             "forces": forces,

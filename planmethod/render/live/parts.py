@@ -133,7 +133,7 @@ def _on_frame(scheme: Scheme, slide: Slide) -> Iterator[MovingPart]:
 def _sense(scheme: Scheme) -> list[Item]:
     """Return the arrow of a crank's sense."""
     drive = scheme.solution.problem.drive
-    if drive.pivot is None:
+    if not drive.revolves or drive.pivot is None:
         return []
     sense = (drive.rate > 0) - (drive.rate < 0)
     return turn_arrow(scheme.at(drive.pivot), 7.0 * scheme.factor, sense, middle=45.0, sweep=80.0)

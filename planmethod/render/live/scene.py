@@ -38,7 +38,7 @@ from planmethod.solved.forces.loads import applied, only_in_positions
 from planmethod.solved.forces.statics import Planned, plan_forces, statics_of
 from planmethod.solved.labelled import quantities_for
 from planmethod.solved.many.sweep import Sweep
-from planmethod.solved.scaling import OUTLIER
+from planmethod.solved.scaling import OUTLIER, typical
 from planmethod.solved.selfcheck import verify
 from planmethod.solved.solution import Solution
 
@@ -353,11 +353,11 @@ class LiveScene:
     def _look(self) -> None:
         """Look where the mechanism can go; choose the scales."""
         drive = self.problem.drive
-        if drive.is_crank:
+        if drive.goes_round:
             self.way = (0.0, cycle_deg(self.problem))
         else:
             self.way = self._reach()
-        count = _STEPS[drive.is_crank] * _LOOKS
+        count = _STEPS[drive.goes_round] * _LOOKS
         self.grid = np.linspace(*self.way, count + 1)
         values, failed = self._run(self.grid)
         own = np.asarray(drive.positions, dtype=float)
@@ -381,7 +381,7 @@ class LiveScene:
         chosen = able if able.size else mine
         self.shown = Solution(self.problem, positions=chosen.tolist(), scales=unit)
         self.start = float(mine[0] if mine.size else able[0])
-        if drive.is_crank:
+        if drive.goes_round:
             self.start %= self.way[1]
 
     def _run(self, positions: Array) -> tuple[Array, Array]:
@@ -434,7 +434,7 @@ class LiveScene:
             ends = np.array([self._values(ref) for ref in refs])
             ends = ends[:, ~np.isnan(ends).any(axis=0)]
             sizes = np.maximum(np.ptp(ends.real, axis=0), np.ptp(ends.imag, axis=0))
-            ends = ends[:, sizes <= OUTLIER * np.median(sizes)] if sizes.size else np.zeros((1, 1))
+            ends = ends[:, sizes <= OUTLIER * typical(sizes)] if sizes.size else np.zeros((1, 1))
             extent = max(np.ptp(ends.real) / BOX[0], np.ptp(ends.imag) / BOX[1])
             view.per_mm = self._scale(float(extent))
             view.box = _box(ends.ravel() / view.per_mm, 22.0 if view.pushes else 13.0)

@@ -23,6 +23,12 @@ from planmethod.solved.turn.turn import turn_of
 TRAJECTORY = "trajectory"
 """Tag of the line that a point moves along: ``trajectory B``."""
 
+AWAY = 0.5
+"""So many times the size of what is drawn in the positions a line of a point goes beyond it.
+
+Further off it runs towards what no sheet has room for: a dead position lies between two drawn ones.
+"""
+
 _FLAT = 0.02  # mm off its chord: a straight line on the paper
 _THIN = 0.05  # area of a closed line over that of a circle as long: it has no inside below that
 
@@ -67,16 +73,22 @@ class Paths(Struct, frozen=True, dict=True):
 
     # Lines -----------------------------------------------------------------------------------
 
-    def lines(self, point: str) -> list[Item]:
+    def lines(self, point: str, shown: Complexes) -> list[Item]:
         """Return the thin line that a point moves along: circle, arc or smooth curve.
 
-        A point that moves in a straight line has none: the axis of its guide is there.
+        A point that moves in a straight line has none: the axis of its guide is there. Where it
+        goes far beyond the places that are ``shown``, of shape (n,) in mm, the line breaks off.
         """
         places = self.of(point)
         tag = f"{TRAJECTORY} {point}"
         pivot = self.pivot(point)
         if pivot is not None and not np.isnan(places).any():
             return _arc(places, pivot, tag)
+        middle = complex(_middle(shown.real), _middle(shown.imag))
+        wide, high = float(np.ptp(shown.real)), float(np.ptp(shown.imag))
+        more, off = AWAY * max(wide, high), places - middle
+        far = (np.abs(off.real) > wide / 2 + more) | (np.abs(off.imag) > high / 2 + more)
+        places = np.where(far, np.nan, places)
         return [
             Stroke(tuple(complex(p) for p in part), Pen.THIN, tag=tag)
             for part in _unbroken(places)
@@ -142,7 +154,7 @@ class Paths(Struct, frozen=True, dict=True):
         """
         if self.output is None:
             return ()
-        if self.course.closed and self.solution.problem.drive.is_crank:
+        if self.course.closed and self.solution.problem.drive.goes_round:
             ends = turn_of(self.solution).ends or ()
             return tuple(sorted(round(end.phi % TURN, 9) % TURN for end in ends))
         link, point = self.output
@@ -173,6 +185,10 @@ class Paths(Struct, frozen=True, dict=True):
         step = float(self.course.positions[1] - self.course.positions[0])
         # The vertex of the parabola through three places.
         return float(self.course.positions[k]) + step * (a - c) / (2 * bend)
+
+
+def _middle(values: Reals) -> float:
+    return float(np.min(values) + np.max(values)) / 2
 
 
 def _unbroken(places: Complexes) -> list[Complexes]:

@@ -14,6 +14,7 @@ from collections.abc import Iterable, Sequence
 from enum import IntEnum
 from functools import cached_property
 
+import numpy as np
 from msgspec import Struct
 from msgspec.structs import replace
 
@@ -169,8 +170,10 @@ class Positions:
         for index in self.numbers:
             if index != self.bold:
                 items += self._links(index)
+        places = (self.at(point, index) for point in self.points for index in self.numbers)
+        shown = np.fromiter(places, complex)
         for point in self.points:
-            items += self.paths.lines(point)
+            items += self.paths.lines(point, shown)
         return items
 
     def _links(self, index: int) -> Iterable[Item]:

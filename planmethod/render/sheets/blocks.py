@@ -11,6 +11,7 @@ from collections.abc import Callable, Mapping, Sequence
 from types import MappingProxyType
 from typing import TypeAlias
 
+import numpy as np
 from msgspec import Struct
 
 from planmethod.plans.model import PlanKind
@@ -75,7 +76,7 @@ def _scheme(solution: Solution, indices: Sequence[int], manner: Manner) -> Block
 
 
 def _plan(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
-    still = manner.entry.of is PlanKind.VELOCITY and not solution.problem.drive.rate
+    still = manner.entry.of is PlanKind.VELOCITY and not np.any(solution.driven[1])
     if manner.entry.droppable and still:  # a plan of nothing
         return Column([])
     if len(solution.positions) == 1:

@@ -173,27 +173,36 @@ class Misfit(Struct, frozen=True):
     """What is said where nothing has room on any paper.
 
     ``error`` is that of a paper and an advice; ``less`` says what to ask less of where there is no
-    larger paper; ``scales`` are those of the file, which may be too fine.
+    larger paper; ``scales`` are those of the file, which may be too fine. ``fits`` tries a paper:
+    without it the next one is named untried.
     """
 
     error: Callable[[str, str], LayoutError]
     less: str
     scales: Scales | None = None
+    fits: Callable[[str], bool] | None = None
 
     def advice(self, formats: Sequence[str], tried: Blank) -> str:
         """Return what to do: take coarser scales, a larger paper than the tried one, or less."""
-        given = self.scales
-        if given and any(mu is not None for mu in (given.mu_l, given.mu_v, given.mu_a)):
+        given, fits = self.scales, self.fits
+        has_scales = given and any(mu is not None for mu in (given.mu_l, given.mu_v, given.mu_a))
+        if has_scales and not (fits and tried.is_asked):
             return say("Take coarser scales in [scales], or leave them out.")
         sides = sorted((tried.format.width, tried.format.height))
         for name in (*formats, *BASIC):
             larger = paper_format(name)
             short, long = sorted((larger.width, larger.height))
             if short >= sides[0] and long >= sides[1] and short * long > sides[0] * sides[1]:
+                if fits and tried.is_asked and not fits(name):
+                    continue
+                if has_scales:
+                    return say("Take --paper {}, or coarser scales in [scales].", name)
                 if tried.is_asked and name in formats:
                     return say("Take --paper {}, or leave it out.", name)
                 return say("Take --paper {}.", name)
-        return self.less
+        return (
+            say("Take coarser scales in [scales], or leave them out.") if has_scales else self.less
+        )
 
 
 class Packing(Struct, frozen=True):

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 
 import numpy as np
 from msgspec import Struct
@@ -44,6 +44,9 @@ from planmethod.solved.solution import Solution
 
 WIDE, HIGH, SIDE = 0.8, 0.3, 0.45
 """Length and height of a diagram, and side of a polar diagram, as parts of the width of a text."""
+
+HIGHER, LARGER = (1.0, 1.5), (1.0, 1.5, 2.2)
+"""So many times as high a diagram, and as large a polar diagram, stands where there is room."""
 
 PENS = (Pen.MAIN, Pen.THIN, Pen.HIDDEN, Pen.AXIS)
 """Lines of the curves of one diagram, in turn."""
@@ -114,15 +117,23 @@ class _Frame(Struct, frozen=True):
         return "; ".join(scale_inscription(scale, convention, say) for scale in (up, self.scale))
 
 
-def _diagram_sizes(manner: Manner) -> tuple[float, float]:
+def _as_high(manner: Manner, draw: Callable[[float, float], Viewed]) -> Block:
+    """Return a diagram of a length in the heights that it may have, the usual one first, mm."""
     column = manner.width(manner.sizes.column)
-    return WIDE * column, HIGH * column
+    found: dict[Scale | None, Viewed] = {}
+    for times in HIGHER:
+        one = draw(WIDE * column, times * HIGH * column)
+        found.setdefault(one.scale, one)
+    return shaped(found.values(), grows=True)
 
 
-def balance_diagram(solution: Solution, indices: Sequence[int], manner: Manner) -> Viewed:
+def balance_diagram(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
     """Return what balances the driver over the cycle, and what both methods find on paper."""
+    return _as_high(manner, lambda width, height: _balance(solution, manner, width, height))
+
+
+def _balance(solution: Solution, manner: Manner, width: float, height: float) -> Viewed:
     forces = cycle(solution)
-    width, height = _diagram_sizes(manner)
     frame = _Frame.of(solution, forces, width)
     statics, balancing = statics_of(solution), solution.problem.drive.balancing
     words, say = manner.words, manner.words.say
@@ -176,10 +187,13 @@ def _chords(forces: Cycle, manner: Manner) -> list[str]:
     return [] if forces.smooth else [manner.words.sheets.chords]
 
 
-def reaction_diagram(solution: Solution, indices: Sequence[int], manner: Manner) -> Viewed:
+def reaction_diagram(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
     """Return the sizes of the reactions of one force plan over the cycle."""
+    return _as_high(manner, lambda width, height: _reactions(solution, manner, width, height))
+
+
+def _reactions(solution: Solution, manner: Manner, width: float, height: float) -> Viewed:
     forces = cycle(solution)
-    width, height = _diagram_sizes(manner)
     frame = _Frame.of(solution, forces, width)
     links = statics_of(solution).board.plans[manner.entry.number].links
     own = [k for k, joint in enumerate(forces.joints) if joint.on in links]
@@ -225,9 +239,18 @@ def _alike(one: Sequence[Sequence[complex]], two: Sequence[Sequence[complex]]) -
 
 
 def hodographs(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
-    """Return the polar diagrams of the reactions in the revolute joints, in rows."""
-    forces = cycle(solution)
-    side, words = SIDE * manner.width(manner.sizes.column), manner.words
+    """Return the polar diagrams of the reactions in the revolute joints, in rows.
+
+    They may be larger: the packer takes what fills the paper.
+    """
+    usual = SIDE * manner.width(manner.sizes.column)
+    ways = (way for times in LARGER for way in _in_rows(solution, manner, times * usual))
+    return shaped(ways, grows=True)
+
+
+def _in_rows(solution: Solution, manner: Manner, side: float) -> Iterator[Viewed]:
+    """Yield the polar diagrams in squares of a side, mm, by the number of them in a row."""
+    forces, words = cycle(solution), manner.words
     convention = solution.problem.scales.convention
     cells: list[Block] = []
     scale = statics_of(solution).scale
@@ -247,13 +270,11 @@ def hodographs(solution: Solution, indices: Sequence[int], manner: Manner) -> Bl
     title = Line(typeset(name, manner.title))
     chords = [_line(manner, text) for text in _chords(forces, manner)]
     asked = manner.entry.per_row
-    ways = []
     for step in dict.fromkeys(min(k, len(cells)) for k in ((asked,) if asked else (3, 2, 4, 5))):
         found = range(0, len(cells), step)
         rows = [Row(cells[k : k + step], gap=10.0, align="bottom") for k in found]
         block = Column([title, *rows, *chords], gap=7.0, align="centre")
-        ways.append(Viewed(block, "hodograph", scale))
-    return shaped(ways)
+        yield Viewed(block, "hodograph", scale)
 
 
 def _symbol(forces: Cycle, number: int) -> str:

@@ -94,7 +94,7 @@ def _balance_columns(
         cells = []
         for text in texts:
             size = text.removeprefix("-") if sense else text
-            turning = 0 if not float(text) else (-1 if text.startswith("-") else 1)
+            turning = 0 if not abs(float(text)) > 0 else (-1 if text.startswith("-") else 1)
             cells.append(TableCell(say.number(size), turning if sense else None))
         return TableColumn(head, tuple(cells), unit=unit)
 

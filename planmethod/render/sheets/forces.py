@@ -143,7 +143,7 @@ def lever_view(solution: Solution, indices: Sequence[int], manner: Manner) -> Bl
     reading = _reading(solution, indices, manner)
     words = manner.words
     title = manner.entry.title or words.sheets.lever
-    if reading.statics.lever_plan is None:
+    if reading.statics.lever_at(reading.index) is None:
         return heading(title, manner.title)  # the reason stands beside it
     scale = LeverReading(reading).scale
     said = [
@@ -216,7 +216,7 @@ def lever_block(solution: Solution, indices: Sequence[int], manner: Manner) -> B
     reading = _reading(solution, indices, manner)
     height, width = manner.text(manner.sizes.text), manner.width(manner.sizes.column)
     told = [manner.words.sheets.lever_stands]
-    if reading.statics.lever_plan is not None:
+    if reading.statics.lever_at(reading.index) is not None:
         told = LeverNarrator(lettered(reading, manner.words)).lines()
     lines = blocks_of(map(Formula, told), height, width=width)
     title = [heading(manner.entry.title, height, width=width)] if manner.entry.title else []

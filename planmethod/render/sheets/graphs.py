@@ -145,7 +145,7 @@ def graph_labels(solution: Solution, manner: Manner) -> tuple[str, ...]:
     A block that asks for the output alone has that where nothing else is asked.
     """
     task, own = solution.problem.cycle, manner.entry.asked
-    if not solution.problem.drive.is_crank:
+    if not solution.problem.drive.goes_round:
         return ()
     of_file = task.graphs if task is not None else ()
     return manner.extras.asked or (() if own == (OUTPUT,) else own) or of_file or own
@@ -162,15 +162,17 @@ def graphs_view(solution: Solution, indices: Sequence[int], manner: Manner) -> B
     diagrams = diagrams_of(solution)
     usual = diagrams.scales[-1]
     inverse = solution.problem.scales.in_mm_per_unit
-    finer = usual.per_mm
+    finer = coarser = usual.per_mm
     while finer > usual.per_mm / 1.5:
         finer = next_scale(finer, finer=True, mm_per_unit=inverse)
+    while coarser < usual.per_mm * 1.5:
+        coarser = next_scale(coarser, finer=False, mm_per_unit=inverse)
     ways: list[Viewed] = []
-    for tall, per_mm in product(HEIGHTS, (usual.per_mm, finer)):
+    for tall, per_mm in product(HEIGHTS, (usual.per_mm, finer, coarser)):
         ways += _ways(diagrams, labels, manner, replace(usual, per_mm=per_mm), tall)
     # First the one that is shaped as the sheet.
     ways.sort(key=lambda way: (way.width > manner.inside, abs(log(way.width / way.height / 1.4))))
-    return shaped(ways)
+    return shaped(ways, grows=True)
 
 
 def _ways(

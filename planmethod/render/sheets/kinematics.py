@@ -11,6 +11,7 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from planmethod.construct.drafting import PROFILES, Profile
+from planmethod.construct.scale import next_scale
 from planmethod.errors import LayoutError
 from planmethod.languages import LANGUAGES, say
 from planmethod.note.wording import Language, language
@@ -33,7 +34,7 @@ from planmethod.render.sheets.compositions import SHIPPED
 from planmethod.render.sheets.model import Composition, Extras
 from planmethod.render.sheets.pages import pages_of
 from planmethod.solved.room import FEW
-from planmethod.solved.scaling import MOST_DRAWN, Views
+from planmethod.solved.scaling import MOST_DRAWN, PLAN, Views, least_plan
 from planmethod.solved.selfcheck import verify
 from planmethod.solved.solution import Solution
 
@@ -42,6 +43,9 @@ STEPS = 3
 
 SMALLER = (0.8, 0.65)
 """Parts of their boxes that plans get rather than being left out of a sheet of one position."""
+
+LEAST_CHOSEN = 4
+"""Fewest positions of a turn for plans to be chosen among them."""
 
 KEYS = [FACTS[kind].scale for kind in reversed(MOTION)]
 """Keys of the scales, the plan that is to be largest first."""
@@ -116,7 +120,19 @@ def kinematics_sheets(
     moved = positions is not None
     strategy = _strategy(solution, layout, errors=errors, sigma=sigma, moved=moved, most=most,
                          asked=asked)  # fmt: skip
-    drawings = compose(problem, strategy, _misfit(problem), fields=fields, furniture=furniture)
+
+    def fits(name: str) -> bool:
+        other = replace(problem, sheet=replace(problem.sheet, paper=name))
+        tried = Solution(other, positions=positions, ruler=ruler, profile=profile)
+        again = _strategy(tried, layout, errors=errors, sigma=sigma, moved=moved, asked=asked)
+        try:
+            composed(other, again, _misfit(other), furniture or Furniture.of(other.sheet))
+        except LayoutError:
+            return False
+        return True
+
+    misfit = replace(_misfit(problem), fits=fits)
+    drawings = compose(problem, strategy, misfit, fields=fields, furniture=furniture)
     _refuse_many(strategy.solution, len(drawings), most)
     return drawings
 
@@ -200,7 +216,7 @@ def _over_the_cycle(solution: Solution) -> Solution:
     """
     from planmethod.solved.turn.numbering import numbered_positions
 
-    if not solution.problem.drive.is_crank:
+    if not solution.problem.drive.goes_round:
         return solution
     return solution.moved(numbered_positions(solution).tolist())
 
@@ -265,10 +281,16 @@ class Linkage(Struct, frozen=True):
 
     @property
     def formats(self) -> Sequence[str]:
-        """Formats of the composition, from the estimated one on where none is asked for."""
+        """Formats of the composition, from the estimated one on where none is asked for.
+
+        Smaller ones come first; scales that are decided are those of the others.
+        """
         formats = self.layout.formats
-        asked = self.solution.problem.sheet.paper
-        return formats if asked else formats[formats.index(self.views.paper) :]
+        problem = self.solution.problem
+        if problem.sheet.paper:
+            return formats
+        smaller = () if problem.scales.decided else self.layout.smaller
+        return (*smaller, *formats[formats.index(self.views.paper) :])
 
     def proposals(self, papers: Sequence[Blank]) -> Iterator[OnPaper]:
         """Yield scales and numbers of positions on a sheet, paper by paper.
@@ -322,7 +344,7 @@ class OnPaper(Struct, frozen=True):
         of, extras = self.of, self.of.extras
         solution = of.solved(self.views, self.scales)
         laid = self._laid(solution, extras)
-        if laid is None:
+        if laid is None or (self._is_smaller and _cut_down(laid)):
             return None
         if extras.traces and len(solution.positions) == 1 and _cut_down(laid):
             # The traces of the construction are not to push out what explains it.
@@ -343,15 +365,48 @@ class OnPaper(Struct, frozen=True):
         keys = {FACTS[kind].scale for kind in shown}
         free = [key for key in KEYS if key in keys and getattr(self.scales, key) is None]
         if not of.layout.grow or not free:
-            return replace(laid, scales=drawn)
-
-        def draw(scales: Mapping[str, float]) -> Laid | None:
-            wish: dict[str, Any] = dict(scales)
-            return self._laid(of.solved(views, replace(self.scales, **wish)), extras)
+            return self._with_plans(replace(laid, scales=drawn), extras)
 
         laid = replace(laid, scales={key: drawn[key] for key in free})
-        laid = enlarged(laid, free * STEPS, self.scales, draw)
-        return replace(laid, scales={**drawn, **laid.scales})
+        laid = enlarged(
+            laid, free * STEPS, self.scales, lambda scales: self._at(scales, extras, views)
+        )
+        return self._with_plans(replace(laid, scales={**drawn, **laid.scales}), extras)
+
+    def _at(self, scales: Mapping[str, float], extras: Extras, views: Views) -> Laid | None:
+        """Return the sheets at certain scales, or None when one does not fit."""
+        wish: dict[str, Any] = dict(scales)
+        return self._laid(self.of.solved(views, replace(self.scales, **wish)), extras)
+
+    def _with_plans(self, laid: Laid, extras: Extras) -> Laid:
+        """Return the sheets with the plans of as many positions of a turn as there is room for.
+
+        All of them, of every second position, or of every third, where the file names none; at a
+        coarser scale, too, as long as no plan of the turn is smaller than it shall be.
+        """
+        kinds = [
+            entry.of
+            for entry in self.of.layout.blocks
+            if entry.kind == "chosen-plans" and entry.of and not entry.positions
+        ]
+        solution = self.of.solution
+        count = len(solution.positions) // solution.problem.turns
+        if not kinds or count < LEAST_CHOSEN:
+            return laid
+        key, wishes = FACTS[kinds[0]].scale, [dict(laid.scales)]
+        least = least_plan(solution.construction, solution.si, kinds[0])
+        while getattr(self.scales, key) is None and len(wishes) <= STEPS:
+            coarser = next_scale(
+                wishes[-1][key], finer=False, mm_per_unit=self.scales.in_mm_per_unit
+            )
+            if least < PLAN * coarser:
+                break
+            wishes.append({**wishes[-1], key: coarser})
+        for part, wish in product((1, 2, 3), wishes):
+            tried = self._at(wish, replace(extras, plans=count // part), self.views)
+            if tried is not None and tried.is_as_good_as(laid):
+                return replace(tried, scales=wish)
+        return laid
 
     def _with_smaller_plans(self) -> Iterator[Views]:
         """Yield the views with less room for the plans that would be left out otherwise."""
@@ -366,6 +421,11 @@ class OnPaper(Struct, frozen=True):
                 name: (part * wide, part * high) for name, (wide, high) in boxes.items()
             }
             yield replace(self.views, kept=self.views.kept | {*left_out}, **less)
+
+    @property
+    def _is_smaller(self) -> bool:
+        """Whether the paper is taken only where nothing is left out."""
+        return not self.paper.is_asked and self.paper.name in self.of.layout.smaller
 
     def _laid(self, solution: Solution, extras: Extras) -> Laid | None:
         """Return the sheets at the scales of a solution, or None when one does not fit."""

@@ -1,6 +1,9 @@
 """Table of what the plans of all positions give, beside the exact values (измеренное и точное).
 
-Of every quantity: what is exact, what is measured, and how far off that is in per cent.
+Of every quantity: what is exact, what is measured, and how far off that is in per cent. What is the
+same by nature stands once: ω₂ = ω₃ of a sliding pair. What was computed and laid off has nothing to
+be compared: points that a proportion gives have their exact values alone, and what is the same in
+all positions, as the velocity of the crank's pin, stands under the table.
 """
 
 from __future__ import annotations
@@ -10,19 +13,27 @@ from math import inf
 
 from msgspec.structs import replace
 
+from planmethod.construct.steps import Measure, MeasureAlong, Name, operands
 from planmethod.note.narrate.given import told
 from planmethod.note.numbers import alike, is_noise
 from planmethod.plans.legend import MOTION_KINDS, Quantity
-from planmethod.render.layout.block import Block, shaped
+from planmethod.render.frame.frame import STAMP_WIDTH
+from planmethod.render.layout.block import Block, Column, Shapes, paragraph
 from planmethod.render.layout.tables import TableCell, TableColumn, table_block
 from planmethod.render.sheets.model import Manner
 from planmethod.render.sheets.results import MOST_OFF, position_columns, results_block, table_width
-from planmethod.solved.reading import Reals
+from planmethod.solved.reading import Reals, remembered
 from planmethod.solved.room import FEW
 from planmethod.solved.solution import Solution
 
 WIDE = 0.72
 """Part of the paper's width that the table may take where rows of many positions are high."""
+
+HALF = 0.6
+"""Part of a table's width that is enough for half of its columns and those that are repeated."""
+
+RULED = (Measure, MeasureAlong)
+"""Steps that give what a ruler gives."""
 
 
 def measured_table(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
@@ -33,23 +44,70 @@ def measured_table(solution: Solution, indices: Sequence[int], manner: Manner) -
     if manner.extras.sigma:
         return results_block(solution, indices, manner)
     words = manner.words
-    columns = position_columns(solution, indices, words)
-    for quantity in told(solution, *MOTION_KINDS):
-        exact, read = solution.exact(quantity), solution.read_off(quantity.label)
-        columns.append(_column(quantity, quantity.symbol, exact, exact, indices, manner))
-        symbol = words.sheets.read_symbol.format(symbol=quantity.symbol)
-        measured = _column(quantity, symbol, read, exact, indices, manner)
-        columns.append(replace(measured, joined=True))
-        columns.append(_off(read, exact, indices, manner))
+    columns, known = position_columns(solution, indices, words), list[str]()
+    for quantity, symbols in _once(told(solution, *MOTION_KINDS)):
+        exact, symbol = solution.exact(quantity), " = ".join(symbols)
+        column = _column(quantity, symbol, exact, exact, indices, manner)
+        if _is_measured(solution, quantity):
+            read = solution.read_off(quantity.label)
+            symbol = words.sheets.read_symbol.format(symbol=symbols[0])
+            measured = _column(quantity, symbol, read, exact, indices, manner)
+            columns += [column, replace(measured, joined=True), _off(read, exact, indices, manner)]
+        elif len(set(column.cells)) > 1:
+            columns.append(column)
+        else:
+            known.append(f"{symbol} = {_signed(column.cells[0])} {column.unit}")
     height = manner.text(min(manner.sizes.text, 3.5))
     title = manner.entry.title or words.sheets.measured
-    said, usual = title.format(ruler=words.say.given(solution.profile.ruler)), table_width(manner)
-    wide = max(usual, WIDE * manner.inside) if len(indices) > FEW else usual
-    return shaped(
-        table_block(columns, height, max_width=width, leading=2, row_height=2.0 * height,
-                    title=said)
-        for width in dict.fromkeys((usual, wide))
-    )  # fmt: skip
+    said = title.format(ruler=words.say.given(solution.profile.ruler))
+    below = [words.sheets.known.format(values="; ".join(known))] if known else []
+
+    def table(width: float) -> Column:
+        made = table_block(columns, height, max_width=width, leading=2, row_height=2.0 * height,
+                           title=said)  # fmt: skip
+        return Column([made, *(paragraph(note, height, made.width) for note in below)], 3.0)
+
+    usual = table(table_width(manner))
+    if len(indices) <= FEW:
+        return usual
+    # Rows of many positions are high: one wide table, or half of it under the other.
+    other = table(WIDE * manner.inside)
+    if (other.width, other.height) == (usual.width, usual.height):
+        other = table(max(STAMP_WIDTH, HALF * usual.width))
+    return usual if other.width == usual.width else Shapes((usual, other))
+
+
+def _is_measured(solution: Solution, quantity: Quantity) -> bool:
+    """Tell whether the ruler gives a quantity: the segment of a vector, something of a number."""
+    if quantity.size is None:
+        return False
+    if quantity.kind.is_number:
+        return quantity.size in read_names(solution)
+    step = solution.construction.step
+    return any(isinstance(step(name), RULED) for name, _ in operands(step(quantity.size)))
+
+
+@remembered
+def read_names(solution: Solution) -> frozenset[Name]:
+    """Return the names of a construction that hang on what the ruler gives."""
+    found: set[Name] = set()
+    for step in solution.construction.program.steps:
+        if isinstance(step, RULED) or not found.isdisjoint(name for name, _ in operands(step)):
+            found.add(step.out)
+    return frozenset(found)
+
+
+def _signed(cell: TableCell) -> str:
+    """Return a value with its sign, which a table shows by an arrow."""
+    return f"−{cell.text}" if (cell.sense or 0) < 0 else cell.text
+
+
+def _once(quantities: Sequence[Quantity]) -> list[tuple[Quantity, list[str]]]:
+    """Return quantities with their symbols, those that one number stands for together."""
+    found: dict[tuple[object, ...], tuple[Quantity, list[str]]] = {}
+    for quantity in quantities:
+        found.setdefault((quantity.kind, quantity.size), (quantity, []))[1].append(quantity.symbol)
+    return list(found.values())
 
 
 def _off(read: Reals, exact: Reals, indices: Sequence[int], manner: Manner) -> TableColumn:

@@ -84,6 +84,8 @@ class Composition(Struct, frozen=True):
     ----------
     formats : tuple of str
         Formats tried in turn when none is asked for.
+    smaller : tuple of str
+        Formats tried before them: taken where nothing is left out, as a larger one would be white.
     per_sheet : tuple of int
         Positions on one sheet: as many as fit; the others go on further sheets.
     grow : bool
@@ -103,6 +105,7 @@ class Composition(Struct, frozen=True):
     name: str
     about: str
     formats: tuple[str, ...]
+    smaller: tuple[str, ...]
     per_sheet: tuple[int, ...]
     grow: bool
     turn: bool
@@ -162,7 +165,9 @@ class Extras(Struct, frozen=True):
     ``errors`` are ellipses around points, ``sigma`` stands in the tables; None: in that of the
     results of one position alone. ``turn``: it is that of a turn, and the scheme has the
     construction of the extreme positions. ``traces``: there is room for those of the construction
-    where nobody asks for them. ``asked`` are the quantities whose graphs are drawn.
+    where nobody asks for them. ``asked`` are the quantities whose graphs are drawn. ``plans``: how
+    many positions of a turn have their plans chosen where nobody names them; 0: one of either
+    stroke.
     """
 
     words: Language
@@ -171,6 +176,7 @@ class Extras(Struct, frozen=True):
     turn: bool = False
     traces: bool = True
     asked: tuple[str, ...] = ()
+    plans: int = 0
 
 
 class Manner(Struct, frozen=True):

@@ -31,7 +31,7 @@ def position_text(solution: Solution, index: int, say: Notation) -> str:
     Where none is a whole turn away, angles are as they were given, negative ones, too.
     """
     value = float(solution.positions[index])
-    if not solution.problem.drive.is_crank:
+    if not solution.problem.drive.goes_round:
         return say.given(value)
     if value in solution.problem.numbered:
         return say.given(solution.problem.shown(value))

@@ -21,7 +21,7 @@ from planmethod.note.numbers import half_up
 from planmethod.note.tables.turn import Columns, cycle_columns, deviation_columns, deviations_title
 from planmethod.plans.model import FACTS, PlanKind
 from planmethod.problem.model import Convention
-from planmethod.render.layout.block import Block, Picture
+from planmethod.render.layout.block import Block, Picture, shaped
 from planmethod.render.layout.tables import TableColumn, table_block
 from planmethod.render.pictures.kinematic import kinematic_picture
 from planmethod.render.pictures.polar import polar_picture
@@ -37,8 +37,9 @@ from planmethod.solved.travel import without_corners
 from planmethod.solved.turn.diagrams import diagrams_of
 from planmethod.solved.turn.turn import TURN, Turn, turn_of
 
-SIDE = 0.4
-"""Side of a hodograph as a part of the width of a text."""
+SIDE, LARGER = 0.5, (1.0, 1.5, 2.2)
+"""Side of a hodograph as a part of the width of a text, and how many times as large it stands where
+there is room."""
 
 MOST = 150.0
 """Side up to which a hodograph of a project keeps the scale of its plans, mm."""
@@ -81,21 +82,29 @@ def diagrams_view(solution: Solution, indices: Sequence[int], manner: Manner) ->
 def chosen_plans(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
     """Return plans of the positions that the block names.
 
-    Without them those of either stroke: after a sixth and two thirds of a turn.
+    Without them those of as many as there is room for, evenly from 0 on; of two, those of either
+    stroke: after a sixth and two thirds of a turn.
     """
-    kind = manner.entry.of
+    kind, words = manner.entry.of, manner.words
     assert kind is not None
-    count = len(solution.positions) // solution.problem.turns  # the second turn is as the first
-    chosen = manner.entry.positions or tuple(
-        dict.fromkeys((round(count / 6), round(2 * count / 3) % count))
-    )
-    picture, *_ = plan_grid(solution, kind, chosen, manner.words, in_row=manner.entry.per_row)
-    title = manner.entry.title or manner.words.sheets["views"][kind.value][len(chosen) > 1]
-    said = [scale_inscription(solution.scales[kind], solution.problem.scales.convention,
-                              manner.words.say)]  # fmt: skip
-    block = named(picture, title, said, manner)
-    return PlanViewed(
-        block, kind.value, solution.scales[kind], solution, kind, chosen, by_hand=True
+    every = len(solution.positions) // solution.problem.turns  # the second turn is as the first
+    two = dict.fromkeys((round(every / 6), round(2 * every / 3) % every))
+    count = manner.extras.plans
+    even = range(0, every, -(-every // count)) if count else two
+    chosen = manner.entry.positions or tuple(even)
+    pictures = plan_grid(solution, kind, chosen, words, in_row=manner.entry.per_row)
+    if not count:  # the usual way alone: they grow, and are not to push the others aside
+        pictures = pictures[:1]
+    names, scale = words.sheets["views"][kind.value], solution.scales[kind]
+    title = manner.entry.title or names[len(chosen) > 1]
+    said = scale_inscription(scale, solution.problem.scales.convention, words.say)
+    if len(chosen) < every:
+        shown = ", ".join(map(str, chosen))
+        said = f"{said}; {words.cycle.chosen.format(shown=shown, last=every - 1)}"
+    blocks = [named(picture, title, [said], manner) for picture in pictures]
+    return shaped(
+        PlanViewed(block, kind.value, scale, solution, kind, chosen, by_hand=True)
+        for block in blocks
     )
 
 
@@ -180,14 +189,22 @@ def hodograph(solution: Solution, kind: PlanKind, side: float) -> Hodograph:
 
 
 def hodograph_view(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
-    """Return the hodograph of velocities or accelerations of a point about one pole."""
+    """Return the hodograph of velocities or accelerations of a point about one pole.
+
+    It may be larger: the packer takes what fills the paper.
+    """
     kind, words = manner.entry.of, manner.words
     assert kind is not None
-    one = hodograph(solution, kind, SIDE * manner.width(manner.sizes.column))
-    title = words.cycle["hodograph"][kind.value].format(of=point_name(one.point))
-    said = [scale_inscription(one.scale, solution.problem.scales.convention, words.say)]
-    block = named(one.picture(manner.letter), manner.entry.title or title, said, manner)
-    return Viewed(block, "hodograph", one.scale)
+    ways: dict[float, Viewed] = {}
+    for times in LARGER:
+        one = hodograph(solution, kind, times * SIDE * manner.width(manner.sizes.column))
+        if one.scale.per_mm in ways:
+            continue
+        title = words.cycle["hodograph"][kind.value].format(of=point_name(one.point))
+        said = [scale_inscription(one.scale, solution.problem.scales.convention, words.say)]
+        block = named(one.picture(manner.letter), manner.entry.title or title, said, manner)
+        ways[one.scale.per_mm] = Viewed(block, "hodograph", one.scale)
+    return shaped(ways.values(), grows=True)
 
 
 # Tables ------------------------------------------------------------------------------------------

@@ -32,6 +32,9 @@ from planmethod.solved.clearest import clearest_position
 from planmethod.solved.enlarging import least_shown
 from planmethod.solved.solution import Solution
 
+POINT = 1e-6
+"""What is shorter on a plan, mm, is the rounding of a mechanism that rests."""
+
 NO_VIEWS: Mapping[int, complex] = MappingProxyType({})
 
 
@@ -79,7 +82,7 @@ def plan_spans(
     named = {
         frozenset((vector.tail, vector.head)): vector
         for vector, size in zip(plan.vectors, sizes, strict=True)
-        if not is_nothing(size, max(sizes))
+        if size > POINT and not is_nothing(size, max(sizes))
     }
     knots = [knot for knot in solution.knots_of(kind, index) if knot.number in views]
     shown = {frozenset(pair): knot for knot in knots for pair in knot.ends}

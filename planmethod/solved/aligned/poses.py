@@ -85,6 +85,8 @@ class _Sizes(Struct):
         drive, rng = self.problem.drive, Random(1)
         # The output tells a position that nobody has looked for yet, and it is no number.
         asked = (0.0,) if drive.posed is not None else drive.judged or drive.positions
+        if drive.followed is not None:  # positions are of the cam: it is moved from its lowest
+            asked = (drive.followed.lowest,)
         first = [radians(p) if drive.is_crank else p for p in asked]
         reach = max(first) - min(first) if len(first) > 1 else self.size
         step = STEP if drive.is_crank else reach / STEPS

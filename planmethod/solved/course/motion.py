@@ -133,7 +133,7 @@ class TurnMotion:
 
     def __init__(self, problem: Problem) -> None:
         drive = problem.drive
-        if not drive.is_crank:
+        if not drive.revolves:
             raise _fault(
                 problem,
                 "driver",

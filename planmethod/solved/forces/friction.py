@@ -26,6 +26,7 @@ from planmethod.plans.forces.polygons import reaction_symbol
 from planmethod.problem.load_records import FrictionTask, PairFriction
 from planmethod.problem.model import Problem, Slide
 from planmethod.problem.names import pair_name, segment
+from planmethod.solved.driving import driven
 from planmethod.solved.forces.contact import JointForce, SlideReaction, slide_between
 from planmethod.solved.forces.loads import STILL
 from planmethod.solved.forces.reading import ForceReading
@@ -213,7 +214,8 @@ class Friction(Remembering):
         driving, drive = self._planned.driving, self.solution.problem.drive
         balance = reading.number(driving.balance)
         pushes = balance if driving.moment is None else reading.number(driving.moment)
-        return np.asarray(forces), np.asarray(moments), np.asarray((balance, pushes * drive.rate))
+        _, rate, _ = driven(drive, self.solution.positions)
+        return np.asarray(forces), np.asarray(moments), np.asarray((balance, pushes * rate))
 
     @cached_property
     def _linear(self) -> tuple[list[npt.NDArray[np.complex128]], float]:

@@ -179,12 +179,12 @@ def _of_mass(solution: MotionValues, gravity: float, link: str, mass: Mass) -> I
 def _stands(solution: MotionValues) -> bool:
     """Whether the driver stands, and all links with it."""
     drive = solution.problem.drive
-    return drive.rate == 0 and drive.acceleration == 0
+    return drive.rate == 0 and not drive.accelerates
 
 
 def _may_accelerate(solution: MotionValues, link: str, point: str) -> bool:
     drive, plan = solution.problem.drive, solution.construction.kinematics.acceleration
-    even = link == drive.link and not drive.is_crank and drive.acceleration == 0
+    even = link == drive.link and not drive.is_crank and not drive.accelerates
     return not even and not _stands(solution) and plan.point[link, point] != plan.pole
 
 

@@ -311,6 +311,11 @@ class Statics(Remembering):
         """The same by the Zhukovsky lever; None where the driver stands."""
         return None if self.lever_plan is None else self._number(self.lever_plan.balance)
 
+    def lever_at(self, index: int) -> Lever | None:
+        """Return the lever of a position; None where the driver stands, be it there alone."""
+        rates = np.broadcast_to(self.solution.driven[1], self.solution.positions.shape)
+        return self.lever_plan if rates[index] else None
+
     @cached_property
     def largest_forces(self) -> Reals:
         """Size of the largest force of each position, load or reaction, N."""

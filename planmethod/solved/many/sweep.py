@@ -19,6 +19,7 @@ from planmethod.plans.legend import ZERO, Quantity, QuantityKind
 from planmethod.plans.model import PlanKind
 from planmethod.problem.model import Problem
 from planmethod.solved.closings import drive_data
+from planmethod.solved.driving import driven
 from planmethod.solved.failures import Cause, Failure, Place
 from planmethod.solved.impossible import explain, failing
 from planmethod.solved.labelled import quantities_for
@@ -119,12 +120,13 @@ class Sweep:
         self.program = results.program.needed_for([*(r.name for r in (*chosen, *moved)), *drawn])
         self.steps = len(self.program.steps)
         self.driver = problem.drive.coordinate.name
+        self._followed = problem.drive.given if problem.drive.followed is not None else ()
         data = drive_data(problem, results.draft, np.zeros(1))
         data.update(results.numbers)
         self.constants: dict[str, complex | float] = {
             name: complex(value) if np.iscomplexobj(value) else float(np.asarray(value).real)
             for name, value in data.items()
-            if name != self.driver and name not in results.draft.branches
+            if name != self.driver and name not in (*results.draft.branches, *self._followed)
         }
         own = drive_data(problem, solution.construction.draft, np.zeros(1))
         self.branches = results.draft.branches
@@ -136,7 +138,7 @@ class Sweep:
         self._check(varied)
         self.varied = tuple(varied)
         fixed = {name: v for name, v in self.constants.items() if name not in self.varied}
-        given = (*self.branches, *(() if self.loads is None else self.loads.names))
+        given = (*self._followed, *self.branches, *(() if self.loads is None else self.loads.names))
         inputs = (self.driver, *self.varied, *given)
         written = write(self.program, fixed, inputs, solution.construction.parts)
         self.rows, refs, depends = rows_of(chosen, written, results.draft.origin, moved, drawn)
@@ -205,7 +207,7 @@ class Sweep:
         Parameters
         ----------
         positions : ndarray of shape (n,)
-            phi in degrees, or s in metres.
+            phi in degrees, or s in metres; angles of a cam that drives, degrees.
         parameters : mapping of str to ndarray of shape (n,), (v, 1) or scalar, optional
             Values of `varied`. Of shape (v, 1) they make v variants of every position.
         out : ndarray of shape (k, ...), optional
@@ -304,8 +306,10 @@ class Sweep:
         return self.run(angle, parameters, out=out, failed=failed)
 
     def _loaded(self, positions: Array) -> list[Array]:
-        """Return the columns of branches and loads that differ from position to position."""
-        columns = [closing.branch(positions) for closing in self.branches.values()]
+        """Return the columns that differ from position to position: cam, branches and loads."""
+        motion = driven(self.problem.drive, positions) if self._followed else ()
+        columns = [np.asarray(one) for one in motion]
+        columns += [closing.branch(positions) for closing in self.branches.values()]
         if self.loads is not None:
             columns += self.loads.at(positions)
         return [column.astype(self._runner.dtype) for column in columns]
@@ -385,6 +389,8 @@ class Sweep:
         if not np.isfinite(position):
             return Failure(Cause.NO_NUMBER, Place.of(self.problem, at, 0))
         data: dict[str, Any] = {**self.constants, self.driver: at}
+        if self._followed:
+            data.update(zip(self._followed, driven(self.problem.drive, at), strict=True))
         data.update({name: closing.branch(at) for name, closing in self.branches.items()})
         if self.loads is not None:
             data.update(zip(self.loads.names, self.loads.at(at), strict=True))

@@ -160,7 +160,7 @@ class SelectorSteps:
     @cached_property
     def _transfers(self) -> TransferSteps:
         drive = self.solution.problem.drive
-        if not drive.is_crank or drive.rate == 0.0:
+        if not drive.revolves or drive.rate == 0.0:
             raise NoValueError(NoValue.NO_CRANK)
         return TransferSteps(self.kin, self.draft, by_values=True)
 

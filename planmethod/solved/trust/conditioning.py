@@ -11,6 +11,7 @@ from planmethod.construct.condition import UNIT_ROUNDOFF, reach
 from planmethod.construct.steps import Join
 from planmethod.plans.dimensions import DimensionKind
 from planmethod.plans.legend import ZERO, Quantity, QuantityKind
+from planmethod.solved.driving import driven
 from planmethod.solved.quantities import natural_size, quantities_of
 from planmethod.solved.reading import Reals
 from planmethod.solved.solution import FEW_ROWS, UNIT_SCALES, Solution
@@ -88,7 +89,8 @@ def _extent(solution: Solution) -> float:
     ]
     lengths += [abs(place) for place in draft.places.values()]
     if not solution.problem.drive.is_crank:
-        lengths.append(float(np.max(np.abs(solution.positions))))
+        places, _, _ = driven(solution.problem.drive, solution.positions)
+        lengths.append(float(np.max(np.abs(places))))
     return max(lengths)
 
 

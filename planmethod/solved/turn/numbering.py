@@ -31,7 +31,7 @@ def number(problem: Problem) -> Problem:
         the machine starts in another position than the cycle.
     """
     drive = problem.drive
-    if problem.cycle is None or not drive.is_crank:
+    if problem.cycle is None or not drive.goes_round:
         return problem
     given = bool(np.isfinite(drive.positions).all())
     try:

@@ -24,6 +24,7 @@ from planmethod.problem.cycle_records import CycleTask, Zero
 from planmethod.problem.load_records import TurningSense
 from planmethod.problem.model import Problem
 from planmethod.solved.closings import drive_data
+from planmethod.solved.driving import near_piece
 from planmethod.solved.reading import Flags, Reading, Reals, Remembering, remembered
 from planmethod.solved.solution import Solution
 from planmethod.solved.turn.output import Output, find_output, pressure_on
@@ -96,7 +97,7 @@ class Turn(Remembering):
     def __init__(self, solution: Solution) -> None:
         super().__init__()
         problem = solution.problem
-        if not problem.drive.is_crank:
+        if not problem.drive.goes_round:
             raise ProblemError(
                 problem.name,
                 [
@@ -295,7 +296,7 @@ class Turn(Remembering):
         for k in crossings(rates):
             at = root(self.rate, float(looks[k]), float(looks[k + 1]))
             if abs(self.rate(np.array([at]))[0]) < 1e-6 * self.fastest:
-                found.append(at)
+                found.append(near_piece(self.unit.problem.drive, at))
         if not found:
             return []
         places = np.array(found)

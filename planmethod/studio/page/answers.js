@@ -1,5 +1,5 @@
 // The form of the answers: mm × μ beside the value while one types, the verdicts, the work as JSON.
-import { D, W, byId, download, framed, lettered, long, made } from "./api.js";
+import { D, W, byId, download, framed, lettered, long, made, pdfOf } from "./api.js";
 
 const AGREE = 0.01;  // as in the form for spreadsheets
 let asked = null, rows = [], scales = {}, home = "";
@@ -88,7 +88,9 @@ export function handIn(problem) {
 }
 
 export async function judge(problem) {
-  const found = await long("verdicts", { ...problem, work: work(problem) }, byId("answers").querySelector(".told"));
+  const own = work(problem), told = byId("answers").querySelector(".told");
+  if (!own.answers.length) { told.textContent = W.nothing_filled; return; }
+  const found = await long("verdicts", { ...problem, work: own }, told);
   const page = found?.files.find(one => one.name.startsWith("pages/") && one.name.endsWith(".html"));
-  if (page) framed(byId("verdicts"), found.files_at + encodeURI(page.name), W.judge);
+  if (page) framed(byId("verdicts"), found.files_at + encodeURI(page.name), W.judge, { pdf: pdfOf(found, page) });
 }

@@ -1,4 +1,6 @@
-// What the page asks of its server, and how it tells what becomes of it.
+// What the page asks for, and how it tells what becomes of it.
+import { ask, show as shown } from "./transport.js";
+
 export const D = JSON.parse(document.getElementById("data").textContent);
 export const W = D.words;
 export const byId = id => document.getElementById(id);
@@ -21,7 +23,7 @@ if (token) sessionStorage.setItem("token", token);
 let session = null;
 
 export function enter() {
-  session ??= fetch("/api/session", { method: "POST", body: JSON.stringify({ token }) }).then(async answer => {
+  session ??= ask("api/session", { method: "POST", body: JSON.stringify({ token }) }).then(async answer => {
     if (!answer.ok) throw new Error(await answer.text());
     return answer.json();
   }).catch(error => { session = null; throw error; });
@@ -32,7 +34,7 @@ export async function call(path, options = {}) {  // with the key of the session
   for (let turn = 0; ; turn++) {
     const { key } = await enter();
     const mark = path.includes("?") ? "&" : "?";
-    const answer = await fetch(`${path}${mark}lang=${D.lang}`,
+    const answer = await ask(`${path}${mark}lang=${D.lang}`,
       { ...options, headers: { ...options.headers, "x-studio": key } });
     if (answer.status !== 401 || turn) return answer;
     session = null;
@@ -46,7 +48,7 @@ export async function compute(act, body, { signal, told = () => {}, tries = 0 } 
   for (let turn = 0; ; turn++) {
     let answer;
     try {
-      answer = await call(`/api/do/${act}`, { method: "POST", body: JSON.stringify(body), signal });
+      answer = await call(`api/do/${act}`, { method: "POST", body: JSON.stringify(body), signal });
     } catch (error) {
       if (signal?.aborted || turn >= tries) throw error;
       answer = null;
@@ -81,7 +83,7 @@ async function lines(answer, told) {
 // One long computation at a time, with its place, its share and a way to stop it ------------------
 
 let stopping = null;
-byId("stop").addEventListener("click", () => stopping?.abort());
+byId("stop").addEventListener("click", () => stopping?.abort("stop"));
 
 export async function long(act, body, told) {  // null where it is stopped or refused; told: where it is said
   stopping?.abort();
@@ -92,12 +94,13 @@ export async function long(act, body, told) {  // null where it is stopped or re
     byId("told").textContent = one.place ? say("waiting", one) : W.working;
     if (one.share === undefined) share.removeAttribute("value"); else share.value = one.share;
   };
-  told.textContent = "";
+  told.textContent = byId("done").textContent = "";
   show({});
   try {
     const found = await compute(act, body, { signal: own.signal, told: show });
     const faults = (found.faults || []).map(one => faultText(one));
     told.textContent = [found.refused, found.errors, ...faults].filter(Boolean).join("\n");
+    if (!told.textContent) byId("done").textContent = W.done;  // for who hears the page
     return found.refused || faults.length ? null : found;
   } catch (error) {
     if (!own.signal.aborted) told.textContent = error.message === "Failed to fetch" ? W.gone : error.message;
@@ -109,34 +112,41 @@ export async function long(act, body, told) {  // null where it is stopped or re
 
 export const faultText = one => [one.path && `${one.path}: `, one.message, one.hint && `. ${one.hint}`].filter(Boolean).join("");
 
-export function note(text, doing = {}) {  // tells something, with what can be done about it
+export function note(text, doing = {}, stays = false) {  // tells something, with what can be done about it
   byId("note").hidden = !text;
   byId("said").textContent = text;
   byId("said-do").replaceChildren();
   for (const [label, act] of Object.entries(doing)) {
     made(byId("said-do"), "button", label).addEventListener("click", () => { note(""); act(); });
   }
-  if (text && !Object.keys(doing).length) setTimeout(() => { if (byId("said").textContent === text) note(""); }, 8000);
+  if (text && !stays && !Object.keys(doing).length) setTimeout(() => { if (byId("said").textContent === text) note(""); }, 8000);
 }
 
 export function fileList(list, found) {  // what was made, to download
   list.replaceChildren();
+  if (found.files.length > 1) made(made(list, "li"), "a", W.zip, { href: `${found.files_at}all.zip`, download: "" });
   for (const one of found.files) {
     const item = made(list, "li");
     made(item, "a", one.name, { href: `${found.files_at}${encodeURI(one.name)}?download`, download: one.name.split("/").pop() });
     item.append(` ${Math.max(1, Math.round(one.bytes / 1024))} КБ`.replace("КБ", D.lang === "ru" ? "КБ" : "kB"));
   }
-  if (found.files.length > 1) made(made(list, "li"), "a", W.zip, { href: `${found.files_at}all.zip`, download: "" });
 }
 
-export function framed(box, address, title, live = false) {  // a page that was made, kept apart from this one
+export function pdfOf(found, page) {  // the address of the same page for paper
+  const name = page.name.replace(/html$/, "pdf");
+  return found.files.some(one => one.name === name) ? found.files_at + encodeURI(name) : "";
+}
+
+export function framed(box, address, title, { live = false, pdf = "" } = {}) {  // a page that was made, kept apart from this one
   const frame = document.createElement("iframe");
   frame.title = title;
   frame.setAttribute("sandbox", live ? "allow-scripts" : "");
-  frame.src = address;
+  shown(frame, address, live);
   for (const old of box.querySelectorAll("iframe, .own")) old.remove();
   box.append(frame);
-  made(made(box, "p", "", { class: "own" }), "a", W.own_tab, { href: address, target: "_blank", rel: "noopener" });
+  const own = made(box, "p", "", { class: "own" });
+  made(own, "a", W.own_tab, { href: address, target: "_blank", rel: "noopener" });
+  if (pdf) { own.append(" · "); made(own, "a", "PDF", { href: pdf, target: "_blank", rel: "noopener" }); }
 }
 
 export function lettered(node, text) {  // with its indices below: v_B3, aᵏ_B3B2
@@ -174,9 +184,10 @@ export function tabs(list, shown) {  // by click and by arrows
   for (const [k, tab] of all.entries()) {
     tab.addEventListener("click", () => open(tab.getAttribute("aria-controls")));
     tab.addEventListener("keydown", event => {
-      const step = { ArrowRight: 1, ArrowLeft: -1 }[event.key];
-      if (!step) return;
-      const other = all[(k + step + all.length) % all.length];
+      const next = { ArrowRight: k + 1, ArrowLeft: k - 1, Home: 0, End: -1 }[event.key];
+      if (next === undefined) return;
+      event.preventDefault();
+      const other = all.at(next % all.length);
       other.focus();
       open(other.getAttribute("aria-controls"));
     });

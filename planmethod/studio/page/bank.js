@@ -1,5 +1,6 @@
 // What there is to start from: the tasks of the textbooks, templates, files.
 import { D, W, byId, made, note, say } from "./api.js";
+import { ask } from "./transport.js";
 
 const STEP = 24;
 let tasks = [], shown = 0, asked = 0;
@@ -15,7 +16,7 @@ export async function bank(take) {
 
 async function find(take) {
   const own = ++asked, words = byId("search").value;
-  const answer = await fetch(`/api/tasks?search=${encodeURIComponent(words)}`);
+  const answer = await ask(`api/tasks?search=${encodeURIComponent(words)}`);
   if (own !== asked || !answer.ok) return;
   tasks = await answer.json();
   shown = 0;
@@ -27,7 +28,7 @@ async function find(take) {
 function more(take) {
   for (const task of tasks.slice(shown, shown + STEP)) {
     const item = made(byId("tasks"), "li");
-    made(item, "img", "", { src: `/picture/${encodeURIComponent(task.name)}.svg`, loading: "lazy",
+    made(item, "img", "", { src: `picture/${encodeURIComponent(task.name)}.svg`, loading: "lazy",
       alt: say("shown_as", { name: task.name }) });
     made(item, "b", task.title);
     made(item, "span", `${task.name}${task.groups.length ? ` · ${task.groups.join("+")}` : ""}`, { class: "hint" });
@@ -39,15 +40,16 @@ function more(take) {
       made(choice, "option", W.main_part, { value: "" });
       for (const name of task.variants) made(choice, "option", name, { value: name });
     }
-    made(row, "button", W.take, { "aria-label": `${W.take}: ${task.name}` })
-      .addEventListener("click", () => start(task.name, choice?.value || "", take));
+    const taken = () => start(task.name, choice?.value || "", take);
+    made(row, "button", W.take, { "aria-label": `${W.take}: ${task.name}` }).addEventListener("click", taken);
+    item.firstChild.addEventListener("click", taken);
   }
   shown = Math.min(tasks.length, shown + STEP);
   byId("more").hidden = shown === tasks.length;
 }
 
 export async function start(name, variant, take) {
-  const answer = await fetch(`/api/start/${encodeURIComponent(name)}?variant=${encodeURIComponent(variant)}`);
+  const answer = await ask(`api/start/${encodeURIComponent(name)}?variant=${encodeURIComponent(variant)}`);
   if (!answer.ok) { note(say("no_task", { name })); return; }
   const found = await answer.json();
   take(variant ? `${found.name}-${variant}` : found.name, found.text);

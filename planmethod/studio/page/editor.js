@@ -1,6 +1,7 @@
 // The editor of the problem file: CodeMirror with the keys of the schema and faults at their place.
 import * as cm from "./codemirror.js";
 import { D, W, faultText } from "./api.js";
+import { ask } from "./transport.js";
 
 const own = { "&": { color: "var(--ink)", backgroundColor: "var(--paper)", fontSize: "14px" },
   ".cm-content": { caretColor: "var(--ink)", fontFamily: 'ui-monospace, "DejaVu Sans Mono", Consolas, monospace' },
@@ -15,7 +16,7 @@ const inks = cm.HighlightStyle.define([
   { tag: cm.tags.bracket, fontWeight: "600" }]);
 
 let schema = null;
-fetch(`/api/schema?lang=${D.lang}`).then(answer => answer.json()).then(found => { schema = found; }, () => {});
+ask(`api/schema?lang=${D.lang}`).then(answer => answer.json()).then(found => { schema = found; }, () => {});
 
 const resolved = node => {
   for (let n = 0; node?.$ref && n < 9; n++) node = schema.$defs[node.$ref.split("/").pop()];

@@ -1,5 +1,5 @@
 // The instructor: works dropped on the page, their marks, what is set by hand, variants and questions.
-import { D, W, byId, call, enter, fileList, framed, lettered, long, made, note, say } from "./api.js";
+import { D, W, byId, call, enter, fileList, framed, lettered, long, made, note, pdfOf, say } from "./api.js";
 
 let found = null, byHand = [];
 const told = byId("group").querySelector(".told");
@@ -16,7 +16,7 @@ export async function group(problem) {
     drop.addEventListener(name, event => { event.preventDefault(); drop.classList.toggle("over", is); });
   }
   drop.addEventListener("drop", event => take([...event.dataTransfer.files]));
-  byId("forget").addEventListener("click", async () => list(await (await call("/api/works/all", { method: "DELETE" })).json()));
+  byId("forget").addEventListener("click", async () => list(await (await call("api/works/all", { method: "DELETE" })).json()));
   byId("check").addEventListener("click", () => check(problem()));
   byId("who").addEventListener("change", student);
   byId("by-hand").addEventListener("submit", event => {
@@ -32,7 +32,7 @@ export async function group(problem) {
 
 async function take(files) {
   for (const file of files) {
-    const answer = await call(`/api/works/${encodeURIComponent(file.name)}`, { method: "PUT", body: file });
+    const answer = await call(`api/works/${encodeURIComponent(file.name)}`, { method: "PUT", body: file });
     if (answer.ok) list(await answer.json()); else note(await answer.text());
   }
 }
@@ -81,7 +81,7 @@ function student() {
   which.value = [...which.options].some(one => one.value === chosen) ? chosen : "";
   const plain = text => text.normalize("NFC").replace(/[^\p{L}\p{N}]+/gu, "-");
   const page = found.files.find(one => one.name.endsWith(".html") && plain(one.name.replace(/^pages\/|\.html$/g, "")) === plain(who));
-  if (page) framed(byId("page"), found.files_at + encodeURI(page.name), who);
+  if (page) framed(byId("page"), found.files_at + encodeURI(page.name), who, { pdf: pdfOf(found, page) });
   else byId("page").replaceChildren();
 }
 

@@ -1,5 +1,5 @@
 // Sheets as pages: turned, zoomed, measured with a ruler.
-import { D, W, byId, long, made, picture, say } from "./api.js";
+import { D, W, byId, lettered, long, made, picture, say } from "./api.js";
 
 let pages = [], at = 0, zoom = 0, ends = [], measures = false;
 const paper = byId("paper"), box = byId("sheet"), SVG = "http://www.w3.org/2000/svg";
@@ -113,7 +113,7 @@ function measured() {
   const name = span ? `${span.name} = ` : "";
   const facts = view && { mm: number(mm, 4), scale: `${view.scale} ${number(view.per_mm, 4)}`, unit: view.unit,
     value: number(mm * view.per_mm / (span?.share || 1), 4) };
-  told.textContent = name + (view ? say("measured_as", facts) : say("measured", { mm: number(mm, 4) }));
+  lettered(told, name + (view ? say("measured_as", facts) : say("measured", { mm: number(mm, 4) })));
   const place = (a[0] + b[0]) / 2 * zoom;
   if (byId("spans").value) paper.scrollTo(place - paper.clientWidth / 2, y((a[1] + b[1]) / 2) * zoom - paper.clientHeight / 2);
 }

@@ -5,6 +5,7 @@ import { bank, start } from "./bank.js";
 import { editor } from "./editor.js";
 import { group } from "./group.js";
 import * as sheets from "./sheets.js";
+import { starting } from "./transport.js";
 
 const PAUSE = 250, REST = 900;  // ms without a letter: the scheme; what moves
 const HOME = "planmethod.text";
@@ -27,7 +28,7 @@ byId("theme").addEventListener("click", () => {
 });
 for (const lang of D.langs) made(byId("lang"), "option", lang === "ru" ? "Русский" : "English", { value: lang });
 byId("lang").value = D.lang;
-byId("lang").addEventListener("change", event => { location.search = `?lang=${event.target.value}`; });
+byId("lang").addEventListener("change", event => { location.assign(D.pages?.[event.target.value] ?? `?lang=${event.target.value}`); });
 
 const room = tabs(byId("rooms"), name => { if (name === "group") byId("works-of").textContent = say("works_of", { title: kept.name }); });
 const turnTo = tabs(byId("views"), name => { view = name; refresh(); });
@@ -80,7 +81,7 @@ let savedText = null;
 const unsaved = () => { byId("saved").textContent = kept.file ? kept.text === savedText ? W.saved : W.unsaved : W.kept; };
 
 async function openFile(name) {
-  const answer = await call(`/api/file/${encodeURIComponent(name)}`);
+  const answer = await call(`api/file/${encodeURIComponent(name)}`);
   if (!answer.ok) return;
   const { text, mark } = await answer.json();
   savedText = text;
@@ -101,7 +102,7 @@ const conflict = (text, mark) => note(W.conflict, {
 async function save() {
   if (!kept.file) return;
   const text = kept.text;
-  const answer = await call(`/api/file/${encodeURIComponent(kept.file)}`, { method: "POST", body: JSON.stringify({ text, mark: kept.mark }) });
+  const answer = await call(`api/file/${encodeURIComponent(kept.file)}`, { method: "POST", body: JSON.stringify({ text, mark: kept.mark }) });
   const told = answer.headers.get("content-type")?.includes("json") ? await answer.json() : { said: await answer.text() };
   if (answer.ok) { kept.mark = told.mark; savedText = text; keep(); unsaved(); }
   else if (told.mark) conflict(told.text, told.mark);
@@ -113,15 +114,15 @@ addEventListener("keydown", event => {
 });
 setInterval(async () => {
   if (!kept.file || document.hidden || !byId("note").hidden) return;
-  const answer = await call(`/api/file/${encodeURIComponent(kept.file)}?mark`).catch(() => null);
+  const answer = await call(`api/file/${encodeURIComponent(kept.file)}?mark`).catch(() => null);
   if (!answer?.ok || (await answer.json()).mark === kept.mark) return;
-  const { text, mark } = await (await call(`/api/file/${encodeURIComponent(kept.file)}`)).json();
+  const { text, mark } = await (await call(`api/file/${encodeURIComponent(kept.file)}`)).json();
   if (mark !== kept.mark) conflict(text, mark);
 }, 3000);
 
 // The scheme --------------------------------------------------------------------------------------
 
-let pause = 0, rest = 0, running = false, again = false;
+let pause = 0, rest = 0, asking = null, again = false;
 
 function soon(wait = PAUSE) {
   for (const name of ["motion", "sheets", "tables", "protocol", "structure", "assemblies"]) stale.add(name);
@@ -132,21 +133,26 @@ function soon(wait = PAUSE) {
   if (["motion", "tables", "structure", "protocol"].includes(view)) rest = setTimeout(refresh, REST);
 }
 
-async function sketch() {  // one at a time; what was typed meanwhile is drawn next
-  if (running) { again = true; return; }
+async function sketch() {  // one at work at a time; where it waits yet, what was typed since takes its place
+  if (asking && !asking.waits) { again = true; return; }
   if (!kept.text.trim()) { show({ faults: [] }); byId("sketch").removeAttribute("src"); return; }
-  running = true;
-  const text = kept.text, began = performance.now();
+  const text = kept.text, began = performance.now(), own = asking = { waits: false };
   try {
-    const found = await compute("sketched", problem(), { tries: 5 });
+    const found = await compute("sketched", problem(), { tries: 5, told: one => {
+      own.waits = one.place > 0;
+      if (own.waits && again) { again = false; sketch(); }
+    } });
+    if (asking !== own) return;
+    again ||= found.superseded;
     if (found.refused) note(found.refused);
     byId("scheme").dataset.ms = Math.round(performance.now() - began);
-    if (kept.text === text || found.svg) show(found);
-    if (kept.text === text) byId("scheme").classList.remove("old");
+    if (found.svg || (kept.text === text && !found.superseded)) show(found);
+    if (found.svg && kept.text === text && !again) byId("scheme").classList.remove("old");
   } catch (error) {
+    if (asking !== own) return;
     note(error.message === "Failed to fetch" ? W.gone : error.message, { [W.again]: () => soon(0) });
   }
-  running = false;
+  asking = null;
   if (again || kept.text !== text) { again = false; soon(0); }
 }
 
@@ -158,8 +164,9 @@ function show(found) {
   list.replaceChildren();
   for (const one of found.faults || []) {
     const item = made(list, "li");
-    if (one.line) made(item, "button", say("line", one)).addEventListener("click", () => typed.go(one.line, one.column));
-    item.append(` ${faultText(one)}`);
+    const tells = /\s/.test(one.path);  // line 23, column 11
+    if (one.line) made(item, "button", tells ? one.path : say("line", one)).addEventListener("click", () => typed.go(one.line, one.column));
+    item.append(` ${faultText(tells && one.line ? { ...one, path: "" } : one)}`);
   }
   if (!list.children.length) made(list, "li", W.no_faults, { class: "good" });
   const variant = byId("variant"), names = found.variants || [];
@@ -196,7 +203,7 @@ async function refresh() {
   if (view === "motion") {
     const found = await long("command", { ...problem(), what: "live" }, told);
     const page = found?.files.find(one => one.name.endsWith(".html"));
-    if (page) framed(panel, found.files_at + encodeURI(page.name), W.motion, true);
+    if (page) framed(panel, found.files_at + encodeURI(page.name), W.motion, { live: true });
   }
   if (["tables", "protocol", "structure"].includes(view)) {
     const found = await long("command", { ...problem(), what: view }, told);
@@ -234,7 +241,9 @@ export function ruled(text, rules) {  // the text with these rules in [assembly]
 for (const button of byId("makes").querySelectorAll("button")) {
   button.addEventListener("click", async () => {
     const found = await long("command", { ...problem(), what: button.dataset.what }, byId("files").querySelector(".told"));
-    if (found) fileList(byId("files").querySelector(".made"), found);
+    const list = byId("files").querySelector(".made");
+    if (found) fileList(list, found);
+    if (found?.files.length === 1) list.querySelector("a").click();  // it is downloaded at once
   });
 }
 
@@ -246,6 +255,7 @@ byId("answering").addEventListener("submit", event => event.preventDefault());
 // The beginning -----------------------------------------------------------------------------------
 
 globalThis.studio = { put: text => typed.put(text), text: () => kept.text, typed };
+starting((key, facts) => note(key && say(key, facts), key && key !== "loading" ? { [W.again]: () => location.reload() } : {}, true));
 byId("save").hidden = !kept.file;
 unsaved();
 room(kept.text.trim() ? "work" : "task");

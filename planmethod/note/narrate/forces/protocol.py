@@ -113,9 +113,10 @@ def _balances(context: ForceContext, plan: ForcePlan) -> Iterator[Node]:
 
 def _lever(context: ForceContext) -> Iterator[Node]:
     yield Chapter(context.said.title_lever)
-    if context.reading.statics.lever_plan is None:
+    lever = context.reading.statics.lever_at(context.reading.index)
+    if lever is None:
         yield Step((context.said.stands,))
-    elif not _readable(context, context.reading.statics.lever_plan.balance):
+    elif not _readable(context, lever.balance):
         yield Step((context.said.unreadable,))
     else:
         for lines in LeverNarrator(context).items():

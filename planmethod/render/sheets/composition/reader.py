@@ -35,6 +35,7 @@ from planmethod.render.sheets.model import Composition, Entry
 TOP = (
     "about",
     "formats",
+    "smaller",
     "per_sheet",
     "grow",
     "turn",
@@ -98,6 +99,7 @@ def read_composition(text: str, *, name: str) -> Composition:
     given = read_keys(faults, "", table, TOP)
     about = read_line(faults, "about", given.get("about", ""))
     formats = _read_formats(faults, given.get("formats", ["A3", "A2", "A1", "A0"]))
+    smaller = _read_formats(faults, given["smaller"], "smaller") if "smaller" in given else ()
     per_sheet = _read_per_sheet(faults, given.get("per_sheet", [12, 6, 4, 2, 1]))
     grow = read_switch(faults, "grow", given.get("grow", False))
     turn = read_switch(faults, "turn", given.get("turn", False))
@@ -108,6 +110,7 @@ def read_composition(text: str, *, name: str) -> Composition:
         name=name,
         about=about,
         formats=formats,
+        smaller=smaller,
         per_sheet=per_sheet,
         grow=grow,
         turn=turn,
@@ -122,10 +125,10 @@ def read_composition(text: str, *, name: str) -> Composition:
     return made
 
 
-def _read_formats(faults: Faults, value: object) -> tuple[str, ...]:
+def _read_formats(faults: Faults, value: object, key: str = "formats") -> tuple[str, ...]:
     found: list[str] = []
-    for k, name in enumerate(read_list(faults, "formats", value, "paper formats", 20)):
-        path = f"formats[{k}]"
+    for k, name in enumerate(read_list(faults, key, value, "paper formats", 20)):
+        path = f"{key}[{k}]"
         if not isinstance(name, str):
             faults.expected(path, "a paper format", name, 'For example: "A2".')
             continue

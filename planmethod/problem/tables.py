@@ -1,0 +1,372 @@
+"""Flat tables of problem files: higher pairs, wheels and their mesh, cams (таблицы задач)."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+from msgspec import Struct
+
+from planmethod.problem.declared import (
+    ChoiceKey,
+    FlagKey,
+    NumberKey,
+    OwnKey,
+    WholeKey,
+)
+
+
+class HigherPairTable(Struct, frozen=True):
+    """Two profiles that touch (высшая пара), as the file has them."""
+
+    name: Annotated[
+        str,
+        OwnKey("letter of the contact", required=True, missing='Name the contact: name = "K".'),
+    ]
+    links: Annotated[
+        tuple[str, ...],
+        OwnKey(
+            'the two links that touch, `["1", "2"]`; `"0"` is the frame',
+            required=True,
+            missing='Name the links that touch: links = ["1", "2"].',
+        ),
+    ]
+    centres: Annotated[
+        tuple[str, ...],
+        OwnKey(
+            "centres of curvature of both profiles, a point of each link; one point, of the first "
+            "link, where the profile of the second is straight",
+            required=True,
+            missing='Name the centres of curvature, a point of each link: centres = ["O", "C"].',
+        ),
+    ]
+    distance: Annotated[
+        float | None,
+        OwnKey("distance of both centres, m: the sum of the radii, or their difference"),
+    ] = None
+    slides: Annotated[
+        dict[str, object] | None,
+        OwnKey(
+            "straight profile of the second link: `along`, `through`, `angle`, `offset` as in "
+            "`slides` of a link; the offset of the centre is the radius of the first profile"
+        ),
+    ] = None
+    roller: Annotated[
+        str,
+        OwnKey(
+            "number of the roller that turns on the second link about its centre: it counts among "
+            "the links and their mobilities"
+        ),
+    ] = ""
+    by: Annotated[
+        str, OwnKey("number of the link that replaces the pair; the next free one when absent")
+    ] = ""
+
+
+MESHING_EXAMPLE = '[meshing] z = [12, 30], m = 5, x = "blocking"'
+MESHING_HINT = "Lengths of [meshing] are millimetres, as the standard has them."
+
+
+class MeshingTable(Struct, frozen=True, kw_only=True):
+    """``[meshing]``: two wheels with involute teeth (эвольвентное зацепление)."""
+
+    z: Annotated[
+        tuple[int, int],
+        OwnKey("teeth of the driving wheel 1 and of wheel 2, 5 to 1000", required=True),
+    ]
+    m: Annotated[
+        float,
+        NumberKey("module", "a module", "mm", 0.05, 100.0, hint=MESHING_HINT, required=True),
+    ]
+    internal: Annotated[
+        bool,
+        FlagKey(
+            "wheel 2 has internal teeth (внутреннее зацепление), and more of them than wheel 1"
+        ),
+    ] = False
+    cutter: Annotated[
+        int | None,
+        WholeKey(
+            "teeth of the pinion cutter (долбяк) of an internal wheel 2, fewer than the wheel's",
+            8,
+            200,
+            absent="20",
+        ),
+    ] = None
+    alpha: Annotated[
+        float,
+        NumberKey(
+            "profile angle of the rack", "an angle", "degrees", 10.0, 30.0, hint=MESHING_HINT
+        ),
+    ] = 20.0
+    beta: Annotated[
+        float,
+        NumberKey(
+            "helix angle of both wheels (угол наклона зуба); m, alpha, ha, c, x are then those of "
+            "the normal section",
+            "an angle", "degrees", 0.0, 45.0, hint=MESHING_HINT,
+        ),
+    ] = 0.0  # fmt: skip
+    b: Annotated[
+        float | None,
+        NumberKey(
+            "working width of the rims, for the overlap ratio of helical wheels",
+            "a width", "mm", 0.05, 1e4, hint=MESHING_HINT, absent="not known",
+        ),
+    ] = None  # fmt: skip
+    ha: Annotated[
+        float,
+        NumberKey(
+            "addendum factor h_a* of the rack",
+            "a factor of the module", low=0.5, high=1.3, hint=MESHING_HINT,
+        ),
+    ] = 1.0  # fmt: skip
+    c: Annotated[
+        float,
+        NumberKey(
+            "clearance factor c* of the rack",
+            "a factor of the module", low=0.05, high=0.5, hint=MESHING_HINT,
+        ),
+    ] = 0.25  # fmt: skip
+    x: Annotated[
+        tuple[float, float] | None,
+        OwnKey(
+            "shifts of the rack in modules, `[0.5, 0.3]`; or how they are chosen within the "
+            'blocking limits: `"blocking"`, `"equal-sliding"`, `"contact-ratio"`'
+        ),
+    ] = None
+    x1: Annotated[
+        float | None,
+        NumberKey(
+            "shift of wheel 1 alone, beside `a_w`",
+            "a shift", "modules", -2.0, 3.0, hint=MESHING_HINT, more="; the other one follows",
+        ),
+    ] = None  # fmt: skip
+    x2: Annotated[
+        float | None,
+        NumberKey(
+            "shift of wheel 2 alone, beside `a_w`",
+            "a shift", "modules", -2.0, 3.0, hint=MESHING_HINT, more="; the other one follows",
+        ),
+    ] = None  # fmt: skip
+    a_w: Annotated[
+        float | None,
+        NumberKey(
+            "distance of the axes", "a distance", "mm", 0.1, 1e5, hint=MESHING_HINT,
+            more="; the sum of the shifts follows, and the limits choose how it is shared",
+        ),
+    ] = None  # fmt: skip
+    s_a_min: Annotated[
+        float,
+        NumberKey(
+            "least tooth thickness at the tip",
+            "a thickness", "modules", 0.0, 1.0, hint=MESHING_HINT,
+        ),
+    ] = 0.25  # fmt: skip
+    epsilon_min: Annotated[
+        float,
+        NumberKey("least contact ratio", "a contact ratio", low=1.0, high=2.0, hint=MESHING_HINT),
+    ] = 1.2
+
+
+CAM_EXAMPLE = '[cam] follower = "translating", stroke = 0.04, rise = 120, return = 120'
+CHOOSE = "choose"
+"""Word in place of a size of the cam: it is chosen."""
+
+CAM_LAWS = (
+    "constant-acceleration", "cosine", "sine", "trapezoidal", "modified-trapezoidal", "linear",
+    "3-4-5", "4-5-6-7", "table", "piecewise-linear",
+)  # fmt: skip
+"""Laws of motion of a follower."""
+
+CamSize = float | str | None
+"""A size in metres, or ``choose``."""
+
+
+class CamTable(Struct, frozen=True, kw_only=True):
+    """``[cam]``: a cam and its follower (кулачковый механизм)."""
+
+    follower: Annotated[
+        str,
+        ChoiceKey(
+            'how the follower moves: `"translating"` or `"oscillating"`',
+            ("translating", "oscillating"),
+            required=True,
+        ),
+    ]
+    contact: Annotated[
+        str,
+        ChoiceKey(
+            'what touches the cam: `"roller"`, `"pointed"` or `"flat"`',
+            ("roller", "pointed", "flat"),
+        ),
+    ] = "roller"
+    closure: Annotated[
+        str,
+        ChoiceKey(
+            'what keeps them together: `"force"`, a spring, or `"form"`, a groove of two sides',
+            ("force", "form"),
+        ),
+    ] = "force"
+    stroke: Annotated[
+        float | None,
+        NumberKey("stroke of a translating follower", "a length", "m", 1e-4, 10.0, positive=True),
+    ] = None
+    swing: Annotated[
+        float | None,
+        NumberKey("swing of an oscillating one", "an angle", "degrees", 0.1, 120.0, positive=True),
+    ] = None
+    arm: Annotated[
+        float | None,
+        NumberKey(
+            "from the pivot of an oscillating one to its roller; to where its plate ends",
+            "a length", "m", 1e-3, 10.0, positive=True,
+        ),
+    ] = None  # fmt: skip
+    sense: Annotated[
+        str,
+        ChoiceKey(
+            'whether an oscillating one rises `"opposite"` to the turning of the cam or the '
+            '`"same"` way',
+            ("opposite", "same"),
+        ),
+    ] = "opposite"
+    rise: Annotated[
+        float,
+        NumberKey("angle of the rise", "an angle", "degrees", 1.0, 359.0, required=True),
+    ]
+    upper_dwell: Annotated[
+        float, NumberKey("angle of the upper dwell", "an angle", "degrees", 0.0, 358.0)
+    ] = 0.0
+    return_: Annotated[
+        float,
+        NumberKey(
+            "angle of the return", "an angle", "degrees", 1.0, 359.0, required=True, name="return"
+        ),
+    ]
+    lower_dwell: Annotated[
+        float | None,
+        NumberKey(
+            "angle of the lower dwell", "an angle", "degrees", 0.0, 358.0,
+            absent="what the others leave of a turn",
+        ),
+    ] = None  # fmt: skip
+    law: Annotated[
+        object,
+        OwnKey(
+            "law of motion, of both or `{ rise = .., return = .. }`: "
+            + ", ".join(f'`"{law}"`' for law in CAM_LAWS)
+            + ', or a table: `{ law = "table", values = [..] }`',
+            absent='`"3-4-5"`',
+        ),
+    ] = None
+    pressure: Annotated[
+        object,
+        OwnKey(
+            "allowed pressure angle, degrees, or `{ rise = 30, return = 45 }`",
+            absent="30 of the rise, 45 of an oscillating follower; of the return any, in a groove "
+            "that of the rise",
+        ),
+    ] = None
+    offset: Annotated[
+        CamSize,
+        OwnKey('offset e of the line of a translating follower, m, or `"choose"`; 0 under a plate'),
+    ] = None
+    centre: Annotated[
+        CamSize,
+        OwnKey('from the axis of the cam to the pivot of an oscillating one, m, or `"choose"`'),
+    ] = None
+    r_min: Annotated[
+        CamSize,
+        OwnKey('least radius of the theoretical profile, m, or `"choose"`'),
+    ] = None
+    roller: Annotated[
+        CamSize,
+        OwnKey(
+            'radius of the roller, m, or `"choose"`: at most 0.4 of `r_min` and 0.8 of the least '
+            "radius of curvature"
+        ),
+    ] = None
+    curvature: Annotated[
+        float,
+        NumberKey(
+            "least radius of curvature under a plate, by which `r_min` is chosen",
+            "a length", "m", 0.0, 10.0,
+        ),
+    ] = 0.0  # fmt: skip
+    count: Annotated[int, WholeKey("positions from the rise to the next rise", 3, 720)] = 24
+    parts: Annotated[
+        int, WholeKey("parts of rise and of return in the diagrams that are constructed", 4, 30)
+    ] = 12
+    n: Annotated[
+        float | None,
+        NumberKey(
+            "speed of the cam, counter-clockwise positive", "a speed", "rev/min", -1e5, 1e5,
+            absent="that of the crank of the file, if it has one",
+        ),
+    ] = None  # fmt: skip
+    mass: Annotated[float, NumberKey("mass of the follower", "a mass", "kg", 0.0, 1e5)] = 0.0
+    load: Annotated[float, NumberKey("force against the rise", "a force", "N", 0.0, 1e8)] = 0.0
+    margin: Annotated[
+        float,
+        NumberKey("by how much the spring is stronger than it must be", "a factor", low=1.0,
+                  high=10.0),
+    ] = 1.2  # fmt: skip
+
+
+class PictureTable(Struct, frozen=True):
+    """``[gears.picture]``: scales of the pictures of velocities (масштабы картин скоростей)."""
+
+    mu_l: Annotated[float, NumberKey("scale of the scheme", "a scale", "m/mm", 1e-9, 1e6)] = 0.001
+    longest_mm: Annotated[
+        float,
+        NumberKey(
+            "no segment of the picture of linear velocities is longer", "a length", "mm", 1.0, 1e4
+        ),
+    ] = 60.0
+    pole_mm: Annotated[
+        float | None,
+        NumberKey(
+            "distance of the pole of the rays; their scale follows from it then", "a length", "mm",
+            1.0, 1e4, absent="from a round scale",
+        ),
+    ] = None  # fmt: skip
+
+
+class PlanetaryTask(Struct, frozen=True, kw_only=True):
+    """``[gears.design]``: what a planetary train was to be (проектирование передачи)."""
+
+    U: Annotated[
+        float | None,
+        NumberKey(
+            "ratio that was asked, with its sign: U_1H, of a set with two like rows U_H1",
+            "a ratio", low=-1e6, high=1e6, hint="A ratio is a number: U = 6.5.",
+            absent="that of the train",
+        ),
+    ] = None  # fmt: skip
+    within: Annotated[
+        float,
+        NumberKey(
+            "allowed share of U, both ways", "a share", low=0.0, high=0.5, hint="2 % are 0.02."
+        ),
+    ] = 0.02
+    z_min: Annotated[int, WholeKey("least number of teeth", 6, 400)] = 17
+    z_max: Annotated[int, WholeKey("most teeth of wheels with external teeth", 6, 400)] = 120
+    ring_max: Annotated[int, WholeKey("most teeth of wheels with internal teeth", 6, 400)] = 250
+    k_min: Annotated[int, WholeKey("least number of satellites that is compared", 1, 24)] = 3
+    k_max: Annotated[int, WholeKey("most satellites that are compared", 1, 24)] = 6
+    count: Annotated[int, WholeKey("how many variants of each number are shown", 1, 10)] = 3
+
+
+class GearWheelTable(Struct, frozen=True):
+    """A wheel of ``[gears]`` that is a table (колесо)."""
+
+    z: Annotated[int | None, WholeKey("number of teeth (of a worm: starts)", 1, 10_000)] = None
+    r: Annotated[
+        float | None,
+        OwnKey("pitch radius, m, in place of teeth; beside wheels with teeth it needs `module`"),
+    ] = None
+    x: Annotated[float, NumberKey("shift, in modules", "a shift", low=-5.0, high=5.0)] = 0.0
+    axis: Annotated[
+        tuple[float, float, float] | None,
+        OwnKey("of a bevel wheel: `[x, y, z]` from the apex towards the wheel; z is the main axis"),
+    ] = None

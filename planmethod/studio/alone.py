@@ -1,0 +1,116 @@
+"""The studio where there is no server: what its routes do, in a Python of the browser."""
+
+from __future__ import annotations
+
+import json
+import shutil
+import sys
+from collections.abc import Callable
+from pathlib import Path
+from tempfile import mkdtemp
+from types import ModuleType
+from typing import Any
+from urllib.parse import parse_qs, unquote, urlsplit
+
+from msgspec import Struct
+
+from planmethod.languages import LANGUAGES, say, speaking
+from planmethod.problem import schema_text
+from planmethod.render.sheets.compositions import SHIPPED
+from planmethod.studio.asking import (
+    ACTS,
+    asked_of,
+    found_tasks,
+    named_work,
+    object_of,
+    start_of,
+)
+from planmethod.studio.limits import OWN
+from planmethod.studio.sessions import StudioSession
+
+Answer = tuple[int, bytes]
+"""Status and body, as those of the server."""
+
+
+def begun(act: Callable[[dict[str, Any], Callable[[float], None]], dict[str, Any]]) -> Alone:
+    """Return what answers the page; ``act`` does what is asked."""
+    for name in ("termios", "tty"):  # click's bar imports them for nothing; a browser has none
+        sys.modules.setdefault(name, ModuleType(name))
+    session = StudioSession("", Path(mkdtemp(prefix="planmethod-studio-")), True, 0.0)
+    session.works.mkdir()
+    return Alone(act, session)
+
+
+class Alone(Struct):
+    """Answers the addresses of the server to the one who has the page (студия без сервера)."""
+
+    act: Callable[[dict[str, Any], Callable[[float], None]], dict[str, Any]]
+    session: StudioSession
+
+    def answer(
+        self, method: str, address: str, body: bytes, tell: Callable[[float], None]
+    ) -> Answer:
+        """Answer one request.
+
+        Parameters
+        ----------
+        address : str
+            Path with what is behind its ``?``, as the page asks for it.
+        tell : callable
+            Gets the share that is done, 0 to 1.
+        """
+        parts = urlsplit(address)
+        more = {key: values[0] for key, values in parse_qs(parts.query).items()}
+        path, lang = unquote(parts.path), more.get("lang", LANGUAGES[0])
+        match path.split("/", 2):
+            case ["api", "do", do] if do in ACTS:
+                return self._done(do, bytes(body), lang, tell)
+            case ["api", "tasks"]:
+                return _json(found_tasks(more.get("search", "")))
+            case ["api", "schema"]:
+                return 200, schema_text(lang).encode()
+            case ["api", "start", name]:
+                found = start_of(name, more.get("variant") or None)
+                return (404, b"") if found is None else _json(found)
+            case ["api", "works", name]:
+                return self._work(method, name, bytes(body), lang)
+            case ["files", number, "all.zip"]:
+                return 200, self.session.zipped(number)
+            case ["files", number, name]:
+                file = self.session.file(number, name)
+                return (404, b"") if file is None else (200, file.read_bytes())
+        return 404, b""
+
+    def _done(self, do: str, body: bytes, lang: str, tell: Callable[[float], None]) -> Answer:
+        session = self.session
+        told = object_of(body) or {}
+        asked = asked_of(do, told, lang=lang, layouts=tuple(SHIPPED), works=session.works)
+        if asked is None:
+            return 404, b""
+        number, folder = session.new_folder(OWN.kept)
+        asked["folder"] = str(folder)
+        try:
+            found = self.act(asked, tell)
+        except (MemoryError, RecursionError):
+            with speaking(lang):
+                said = say("This takes more memory than there is for it. Ask for less.")
+            found = {"refused": str(said)}
+        return _json({"found": {**found, "files_at": f"files/{number}/"}})
+
+    def _work(self, method: str, name: str, data: bytes, lang: str) -> Answer:
+        works = self.session.works
+        if method == "DELETE":
+            shutil.rmtree(works)
+            works.mkdir()
+            return _json([])
+        plain = named_work(name)
+        if plain is None:
+            with speaking(lang):
+                said = "'{}': works are *.csv, *.xlsx, *.json, *.toml, or drawings *.dxf, *.svg."
+                return 415, str(say(said, name[:120])).encode()
+        (works / plain).write_bytes(data)
+        return _json(sorted(path.name for path in works.iterdir()))
+
+
+def _json(found: object) -> Answer:
+    return 200, json.dumps(found, ensure_ascii=False).encode() + b"\n"

@@ -1,0 +1,43 @@
+"""Figures of a document of Word that let text go before them."""
+
+from __future__ import annotations
+
+from planmethod.note.document import Chapter, Figure, Node, Paragraph
+from planmethod.note.writers.wordpages import PageFlow, Told, flowing
+from planmethod.render.backends.view import DrawingView
+from planmethod.render.ink.drawing import Drawing
+
+FIGURE = Figure(DrawingView(Drawing(80.0, 60.0, "Plan")), "Plan")
+PAGE = 100.0
+
+
+def order(nodes: list[Node]) -> list[Node]:
+    """Return nodes as they are put on pages where a paragraph takes 10 mm."""
+    flow, found = PageFlow(PAGE), []
+    told: list[Told] = [
+        ((node, ""), after) for node, after in zip(nodes, [*nodes[1:], None], strict=True)
+    ]
+    for (node, _), _after in flowing(told, flow, lambda figure: figure.view.size[1]):
+        flow.put(FIGURE.view.size[1] if isinstance(node, Figure) else 10.0)
+        found.append(node)
+    return found
+
+
+def lines(count: int, first: int = 0) -> list[Node]:
+    return [Paragraph(f"{k}") for k in range(first, first + count)]
+
+
+def test_text_goes_before_a_figure_until_the_page_is_full() -> None:
+    found = order([*lines(7), FIGURE, *lines(8, 7)])
+    assert found.index(FIGURE) == 11  # ten lines fill the page, the eleventh tells that it is full
+    assert [node for node in found if node is not FIGURE] == lines(15)
+
+
+def test_a_figure_that_has_room_stays_and_waits_for_no_heading() -> None:
+    assert order([*lines(3), FIGURE, *lines(4, 3)]).index(FIGURE) == 3
+    found = order([*lines(7), FIGURE, *lines(1, 7), Chapter("Next"), *lines(3, 8)])
+    assert found.index(FIGURE) == 8 and isinstance(found[9], Chapter)
+
+
+def test_the_last_figure_is_put() -> None:
+    assert order([*lines(7), FIGURE, *lines(1, 7)])[-1] is FIGURE

@@ -1,0 +1,63 @@
+"""The table of what is measured on the plans of several positions, beside what is exact."""
+
+from __future__ import annotations
+
+import pytest
+from worked import problem_of
+
+from planmethod.note.narrate.given import told
+from planmethod.plans.legend import MOTION_KINDS
+from planmethod.render.ink.drawing import Drawing, Text
+from planmethod.render.sheets.kinematics import kinematics_sheets
+from planmethod.render.sheets.measured import read_names
+from planmethod.solved.solution import Solution
+
+THREE = [20.0, 140.0, 260.0]
+
+
+def table_of(sheet: Drawing) -> list[str]:
+    """Return the texts of the table and of what stands about it, which reach to its left edge."""
+    texts = [item for item in sheet.items if isinstance(item, Text)]
+    (title,) = (one for one in texts if one.text.startswith("Измеренные на планах"))
+    low = min(one.at.imag for one in texts if one.text.startswith("Известно до построения"))
+    return [
+        one.text
+        for one in texts
+        if one.at.real >= title.at.real - 1.0 and low - 1.0 <= one.at.imag <= title.at.imag + 1.0
+    ]
+
+
+def test_what_is_laid_off_stands_under_the_table_and_not_in_it() -> None:
+    (sheet,) = kinematics_sheets(problem_of("linkages/ex3"), positions=THREE)
+    table = table_of(sheet)
+    known = "".join(table[next(k for k, t in enumerate(table) if t.startswith("Известно")) :])
+    assert known.startswith("Известно до построения планов: v") and "3,200" in known
+    assert sum(text == "3,200" for text in table) == 0  # the pin of the crank has no column
+
+
+def test_what_turns_alike_has_one_column() -> None:
+    (sheet,) = kinematics_sheets(problem_of("linkages/ex3"), positions=THREE)
+    heads = table_of(sheet)
+    for letter in "ωε":  # of links 2 and 3 together, measured of them, of link 4, measured of it
+        assert sum(text.count(letter) for text in heads) == 2 + 1 + 1 + 1
+        assert sum(f"= {letter}" in text for text in heads) == 1
+
+
+def test_what_a_proportion_gives_hangs_on_a_reading_but_is_none() -> None:
+    solution = Solution(problem_of("linkages/ex3"), positions=THREE)
+    read = read_names(solution)
+    quantities = {one.label: one for one in told(solution, *MOTION_KINDS)}
+    assert quantities["v_B"].size not in read and quantities["a_B"].size not in read
+    assert {quantities[label].size for label in ("v_B3", "v_D", "v_E", "omega_3")} <= read
+    (sheet,) = kinematics_sheets(problem_of("linkages/ex3"), positions=THREE)
+    primed = sum(text == "Δ" for text in table_of(sheet))
+    # v_B3, v_E, ω₂ = ω₃, ω₄; a_B3, a_E, ε₂ = ε₃, ε₄: not v_D, a_D, laid off by proportion
+    assert primed == 8
+
+
+@pytest.mark.parametrize(("name", "count"), [("levers/task-11", 12), ("linkages/ex3", 3)])
+def test_the_table_leaves_the_sheet_one(name: str, count: int) -> None:
+    problem = problem_of(name)
+    first = problem.drive.positions[0]
+    sheets = kinematics_sheets(problem, positions=[first + 360 * k / count for k in range(count)])
+    assert len(sheets) == 1

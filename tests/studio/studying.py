@@ -1,0 +1,79 @@
+"""What who tries the studio in a browser does there: opens it, takes a task, types, clicks."""
+
+from __future__ import annotations
+
+import contextlib
+import re
+import subprocess
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+
+from browser import Page
+from worked import ROOT
+
+DRAWN = (
+    "document.querySelector('#sketch').naturalWidth > 0 &&"
+    " !document.querySelector('#scheme').classList.contains('old')"
+)
+
+
+@contextlib.contextmanager
+def studio(*args: str) -> Iterator[list[str]]:
+    """Start a studio at a free port; its address, and the instructor's where it is served."""
+    command = [sys.executable, "-m", "planmethod", "studio", "--port", "0", "--lang", "en", *args]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, text=True, cwd=ROOT) as running:
+        assert running.stdout is not None
+        lines = [running.stdout.readline() for _ in range(1 + ("--serve" in args))]
+        try:
+            yield [re.findall(r"http://\S+", line)[0] for line in lines]
+        finally:
+            running.terminate()
+            running.wait(20)
+
+
+def click(page: Page, name: str) -> None:
+    page.ask(f"document.querySelector({name!r}).click()")
+
+
+def text(page: Page, name: str) -> str:
+    return str(page.ask(f"document.querySelector({name!r}).textContent"))
+
+
+def at(page: Page, words: str, replaced: str) -> None:
+    """Select words in the editor as a reader would, and type others in their place."""
+    page.ask(
+        "{ const view = studio.typed.view, at = studio.text().indexOf(" + repr(words) + ");"
+        f" view.dispatch({{ selection: {{ anchor: at, head: at + {len(words)} }} }});"
+        " view.focus(); }"
+    )
+    page.call("Input.insertText", text=replaced)
+
+
+def begin(page: Page, address: str, width: int = 1360, lang: str = "ru") -> None:
+    page.open(f"{address}?lang={lang}", width=width, height=900 if width > 600 else 740)
+    page.ask("localStorage.clear()")
+    page.open(f"{address}?lang={lang}", width=width, height=900 if width > 600 else 740)
+    page.said.clear()
+    page.wait("document.querySelectorAll('#tasks li').length > 3")
+
+
+def take(page: Page, words: str) -> None:
+    page.ask(
+        "{ const box = document.querySelector('#search');"
+        f" box.value = {words!r}; box.dispatchEvent(new Event('input')); }}"
+    )
+    button = f"#tasks button[aria-label$=': {words}']"
+    page.wait(
+        f"document.querySelectorAll('#tasks li').length < 9 && !!document.querySelector({button!r})"
+    )
+    click(page, button)
+    page.wait(DRAWN)
+
+
+def works(page: Page, file: Path) -> None:
+    """Give works to the instructor's page."""
+    root = page.call("DOM.getDocument")["root"]["nodeId"]
+    node = page.call("DOM.querySelector", nodeId=root, selector="#chosen")["nodeId"]
+    page.call("DOM.setFileInputFiles", nodeId=node, files=[str(file)])
+    page.wait("document.querySelector('#works li')")

@@ -1,0 +1,168 @@
+"""Keyboard, screen reader and eyes reach everything on the studio's pages."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+from browser import PROGRAM, Page, browsing
+from studying import begin, click, studio, take
+
+pytest.importorskip("starlette", reason="the studio's extra is not installed")
+pytest.importorskip("uvicorn", reason="the studio's extra is not installed")
+pytestmark = pytest.mark.skipif(PROGRAM is None, reason="Chromium looks at the page")
+
+ROLES = {"button", "link", "textbox", "searchbox", "combobox", "checkbox", "tab", "spinbutton",
+         "slider", "Iframe", "DisclosureTriangle", "region"}  # fmt: skip
+CONTROLS = "a[href], button, input, select, summary, iframe, [contenteditable=true], [tabindex]"
+HERE = (
+    f"[...document.querySelectorAll({CONTROLS!r})].filter(one => one.checkVisibility()"
+    " && one.id !== 'main' && !one.disabled && !one.classList.contains('cm-scroller'))"
+)
+"""What can be worked with in what is shown; the content itself is where a link leads."""
+
+LOADED = (
+    "document.querySelector('#motion iframe') && performance.getEntriesByType('resource')"
+    ".some(one => one.initiatorType === 'iframe' && one.responseEnd)"
+)
+FAINT = (Path(__file__).parent / "contrast.js").read_text("utf-8")
+
+
+@pytest.fixture(scope="module")
+def page(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Page]:
+    with browsing(tmp_path_factory.mktemp("browser")) as page:
+        yield page
+
+
+@pytest.fixture(scope="module")
+def address() -> Iterator[str]:
+    with studio() as (address,):
+        yield address
+
+
+def visited(page: Page, address: str, lang: str, look: Callable[[str], None]) -> None:
+    """Show every page of the studio and look at it."""
+    begin(page, address, lang=lang)
+    look("task")
+    take(page, "linkages-ex3")
+    page.ask("studio.put(studio.text().replace('DE = 0.18', 'DE = 0.18 m'))")
+    page.wait("document.querySelector('#faults button')")
+    look("faults")
+    page.ask("studio.put(studio.text().replace('DE = 0.18 m', 'DE = 0.18'))")
+    page.wait("document.querySelector('#faults .good')")
+    for view, shown in (
+        ("motion", LOADED),
+        ("sheets", "document.querySelector('#sheet img')?.naturalWidth > 0"),
+        ("tables", "document.querySelector('#tables pre').textContent"),
+        ("assemblies", "document.querySelector('#ways button')"),
+        ("files", "true"),
+    ):
+        click(page, f"#to-{view}")
+        page.wait(shown)
+        if shown == LOADED:
+            time.sleep(0.5)  # its script runs apart
+        look(view)
+    click(page, "[data-what=pdf]")
+    page.wait("document.querySelector('#files .made a')")
+    look("made")
+    click(page, "#to-answers")
+    click(page, "#ask")
+    page.wait("document.querySelector('#rows tr')")
+    page.ask("document.querySelector('#rows td:nth-of-type(3) input').value = '3,2'")
+    click(page, "#judge")
+    page.wait("document.querySelector('#verdicts iframe')")
+    look("answers")
+    click(page, "#to-group")
+    page.ask("document.querySelector('#results').hidden = false")
+    look("group")
+    assert page.said == []
+
+
+def nameless(page: Page) -> list[str]:
+    """Return the controls that a screen reader has no role or no name for."""
+    page.ask(f"{HERE}.forEach((one, k) => {{ one.dataset.control = k; }})")
+    nodes = page.call("Accessibility.getFullAXTree")["nodes"]
+    told = {node["backendDOMNodeId"]: node for node in nodes if "backendDOMNodeId" in node}
+    root = page.call("DOM.getDocument", depth=-1)["root"]["nodeId"]
+    found = page.call("DOM.querySelectorAll", nodeId=root, selector="[data-control]")["nodeIds"]
+    lacking = []
+    for number in found:
+        node = page.call("DOM.describeNode", nodeId=number)["node"]
+        heard: dict[str, Any] = told.get(node["backendNodeId"], {})
+        role = heard.get("role", {}).get("value")
+        name = heard.get("name", {}).get("value", "")
+        if not name.strip() or role not in ROLES:
+            lacking.append(f"{node['localName']} {node.get('attributes')}: {role} {name!r}")
+    page.ask(
+        "document.querySelectorAll('[data-control]').forEach(one => delete one.dataset.control)"
+    )
+    assert len(found) > 10
+    return lacking
+
+
+def unreached(page: Page) -> list[str]:
+    """Return what Tab does not come to from the top of the page."""
+    reached = (  # a page without controls is read in the tab that the link below it opens
+        "(one => one.tagName === 'IFRAME' ? one.sandbox.contains('allow-scripts')"
+        " : one.tabIndex >= 0 || one.isContentEditable)"
+    )
+    wanted = page.ask(f"globalThis.all = {HERE}.filter({reached}); all.length")
+    page.ask("document.activeElement.blur(); scrollTo(0, 0); document.body.focus()")
+    page.call("Page.bringToFront")
+    missed, turn = {*range(wanted)}, 0
+    frames = page.ask("all.filter(one => one.tagName === 'IFRAME').length")
+    while missed and turn < 2 * (wanted + 10 + 60 * frames):  # a trap would keep what is behind it
+        for kind in ("rawKeyDown", "keyUp"):
+            page.call("Input.dispatchKeyEvent", type=kind, key="Tab", code="Tab",
+                      windowsVirtualKeyCode=9)  # fmt: skip
+        missed.discard(page.ask("all.indexOf(document.activeElement)"))
+        turn += 1
+    name = "one => `${one.tagName}#${one.id} ${one.textContent.slice(0, 30)}`"
+    told: list[str] = page.ask(f"{sorted(missed)}.map(k => all[k]).map({name})")
+    return told
+
+
+@pytest.mark.parametrize("lang", ["ru", "en"])
+def test_every_control_has_a_role_and_a_name_and_is_come_to_by_tab(
+    page: Page, address: str, lang: str
+) -> None:
+    faults: dict[str, list[str]] = {}
+
+    def look(name: str) -> None:
+        faults[name] = [*nameless(page), *unreached(page)]
+
+    visited(page, address, lang, look)
+    assert {name: found for name, found in faults.items() if found} == {}
+    assert page.ask("document.querySelectorAll('iframe').length") == page.ask(
+        "document.querySelectorAll('iframe + .own').length"
+    )
+    # what is told is heard
+    live = page.ask(
+        "[...document.querySelectorAll('.told, #said, #told, #done, #faults, #measured')]"
+        ".filter(one => !one.closest('[role=status], [role=alert], [aria-live]')).length"
+    )
+    assert live == 0
+    # and a control without a name is found
+    page.ask("document.querySelector('#theme').removeAttribute('title')")
+    page.ask("document.querySelector('#theme').removeAttribute('aria-label')")
+    page.ask("document.querySelector('#theme').textContent = ''")
+    page.ask("document.querySelector('#key').tabIndex = -1")
+    assert [one.split()[0] for one in nameless(page)] == ["button"]
+
+
+@pytest.mark.parametrize("theme", ["light", "dark"])
+def test_letters_stand_out_from_what_is_behind_them(page: Page, address: str, theme: str) -> None:
+    faint: dict[str, Any] = {}
+
+    def look(name: str) -> None:
+        page.ask(f"document.documentElement.dataset.theme = {theme!r}")
+        faint[name] = page.ask(FAINT)
+
+    visited(page, address, "en", look)
+    assert {name: found for name, found in faint.items() if found} == {}
+    page.ask("document.querySelector('#desk h2').style.color = '#888'")
+    page.ask("document.querySelector('#desk h2').style.background = '#999'")
+    assert [one[1] for one in page.ask(FAINT)] != []
