@@ -46,12 +46,13 @@ _HALF = 4e-15
 def trimmed(value: float, digits: int | None = None) -> str:
     """Return a given number as the problem writes it: no more digits than it has.
 
-    Without ``digits``: all that it has, to ten; four of a number that has more, zeros among
-    them, and two decimals at least, as angles have.
+    Without ``digits``: all that it has, to eight; four of a number that has more, zeros among
+    them, and two decimals at least, as angles have. One in a hundred numbers of sixteen digits
+    is one of ten within its rounding, one in ten thousand one of eight.
     """
     text = significant(value, digits or 6)
     if digits is None and math.isfinite(value):
-        longer = (significant(value, n) for n in range(6, 11))
+        longer = (significant(value, n) for n in range(6, 9))
         text = next((t for t in longer if abs(float(t) - value) <= 1e-12 * abs(value)), "")
         if not text:
             return significant(value) if abs(value) < 100.0 else f"{half_up(value, 2):.2f}"

@@ -21,7 +21,7 @@ from planmethod.solved.forces.statics import statics_of
 from planmethod.solved.many.positions import impossible_steps
 from planmethod.solved.reading import Complexes, Reals, Remembering, remembered
 from planmethod.solved.solution import Solution
-from planmethod.solved.travel import Travel
+from planmethod.solved.travel import Travel, without_corners
 
 STEP, LEAST = 1.0, 120
 """Step of the crank, degrees, and number of steps at the least: no corner shows on the paper."""
@@ -87,7 +87,8 @@ class Cycle(Remembering):
         assert solution.problem.dynamics is not None
         self.smooth = not only_in_positions(solution.problem.dynamics)
         if self.smooth:
-            found = self._with_jumps(self.course.positions)
+            positions, rows, jumps = self._with_jumps(self.course.positions)
+            found = without_corners(positions, rows, self._read, jumps)
         else:
             found = self.course.drawn, self._asked(), np.zeros(len(self.course.drawn) - 1, bool)
         self.positions, self._rows, self._jumps = found

@@ -145,6 +145,10 @@ CROWDED = 1.5
 PLAN = 60.0
 """Larger side that a plan shall have, mm."""
 
+FULL, AROUND_PLAN = 25.0, 20.0
+"""Vectors per square decimetre of the plan of one position, and the room around it that is counted,
+mm: of more most have no name, and the plan is to be larger."""
+
 STEP = 0.55
 """What of these sizes is enough: the scales of the series lie as far apart."""
 
@@ -428,7 +432,20 @@ class _Chosen(Struct, frozen=True):
 
         What the file gives a scale for is as large as it is.
         """
-        return all(self._large(kind, self.per_mm[kind]) >= STEP for kind in self.free)
+        return all(
+            self._large(kind, self.per_mm[kind]) >= STEP and not self._is_full(kind)
+            for kind in self.free
+        )
+
+    def _is_full(self, kind: PlanKind) -> bool:
+        """Tell whether the plan of one position has no room for the names of its vectors."""
+        one = self.drawn[kind]
+        if one.si.count > 1 or kind is PlanKind.POSITION:
+            return False
+        vectors = one.extents.construction.plan(kind).vectors
+        count = len({frozenset((vector.tail, vector.head)) for vector in vectors})
+        wide, high = (side / self.per_mm[kind] + 2 * AROUND_PLAN for side in one.size)
+        return count > FULL * wide * high / 1e4
 
     def _large(self, kind: PlanKind, per_mm: float) -> float:
         """Return what of the size that it shall have a view has at a scale."""

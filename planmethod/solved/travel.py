@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from functools import cached_property
 from math import ceil
 
 import numpy as np
+import numpy.typing as npt
 from msgspec import Struct
 
-from planmethod.solved.reading import Reals
+from planmethod.solved.reading import Complexes, Reals
 from planmethod.solved.solution import Solution
 
 TURN = 360.0
@@ -16,6 +18,10 @@ TURN = 360.0
 _SAME = 1e-6  # degrees within which positions are one
 _PARTS = 12  # parts of a step of a driving slider
 _MOST = 720  # points of a line
+
+_SAG = 1.5e-3  # of the largest value: a corner of a curve that goes further out is seen
+_HALVINGS = 6
+_ADDED = 400  # positions more, at the most
 
 
 class Travel(Struct, frozen=True, dict=True):
@@ -93,3 +99,49 @@ class Travel(Struct, frozen=True, dict=True):
         drawn = self.asked
         gaps = np.diff(np.append(drawn, drawn[:1] + self._turn))
         return len(drawn) > 2 and bool(np.ptp(gaps) < 1e-6)
+
+
+def without_corners(
+    positions: Reals,
+    rows: Complexes,
+    read: Callable[[Reals], Complexes],
+    jumps: npt.NDArray[np.bool_] | None = None,
+) -> tuple[Reals, Complexes, npt.NDArray[np.bool_]]:
+    """Return a curve with positions between those where its chords would show corners.
+
+    Parameters
+    ----------
+    positions : ndarray of shape (m,)
+        Driver positions, in order.
+    rows : ndarray of shape (k, m)
+        Ends of vectors there, NaN where there are none; each row is a curve.
+    read : callable
+        Returns the rows of other positions; of one curve its values.
+    jumps : ndarray of shape (m - 1,)
+        Between which positions something jumps: nothing smooth lies there.
+    """
+    jumps = np.zeros(len(positions) - 1, dtype=bool) if jumps is None else jumps
+    largest = np.nanmax(np.abs(rows), axis=1, initial=0.0)
+    least = _SAG * np.where(largest > 0.0, largest, np.inf)[:, np.newaxis]
+    most = len(positions) + _ADDED
+    for _ in range(_HALVINGS):
+        corners = (_sags(rows) > least).any(axis=0) & ~jumps[1:] & ~jumps[:-1]
+        halved = np.zeros(len(jumps), dtype=bool)
+        halved[1:] |= corners
+        halved[:-1] |= corners
+        where = np.flatnonzero(halved)
+        if not where.size or len(positions) + where.size > most:
+            break
+        between = (positions[where] + positions[where + 1]) / 2
+        rows = np.insert(rows, where + 1, np.atleast_2d(read(between)), axis=1)
+        positions = np.insert(positions, where + 1, between)
+        jumps = np.insert(jumps, where + 1, False)
+    return positions, rows, jumps
+
+
+def _sags(rows: Complexes) -> Reals:
+    """Return how far every inner point of curves is from the line of its neighbours."""
+    before, chord = rows[:, :-2], rows[:, 2:] - rows[:, :-2]
+    length = np.maximum(np.abs(chord), 1e-300)
+    across = np.abs(((rows[:, 1:-1] - before) * chord.conj()).imag) / length
+    return np.asarray(np.nan_to_num(across), dtype=float)

@@ -124,6 +124,7 @@ def test_wide_tables_are_cut_and_keep_their_leading_columns() -> None:
         (-45.0, "-45"),
         (360 / 7, "51.43"),
         (89.99999912345, "90.00"),  # not 90, and as near to it as four digits say
+        (-0.06903979086003997, "-0.06904"),  # ten digits within its rounding
         (218.918918918919, "218.92"),  # two decimals at least
         (math.nan, "—"),
     ],

@@ -14,6 +14,7 @@ from loaded import loaded_problem
 from msgspec.structs import replace
 from worked import path_of, problem_of
 
+from planmethod import loads
 from planmethod.cli import cli
 from planmethod.errors import LayoutError, PlanMethodError, ProblemError
 from planmethod.note.wording import language
@@ -26,6 +27,7 @@ from planmethod.render.pictures.diagram import AXIS, CURVE
 from planmethod.render.pictures.polar import HODOGRAPH, POLE
 from planmethod.render.sheets.composition.reader import shipped
 from planmethod.render.sheets.controlled import paper_of
+from planmethod.render.sheets.cycletable import _balance_columns
 from planmethod.render.sheets.kinematics import kinematics_sheets
 from planmethod.solved.cycle import Cycle
 from planmethod.solved.errors.forces import drawn_forces
@@ -255,6 +257,48 @@ def test_random_mechanisms(seed: int) -> None:
     sheet = draw(problem, asked)
     assert errors(sheet) == []
     assert any(isinstance(item, Fill) for item in sheet.items)
+
+
+FAST = """
+title = "A rocker that turns fast for a moment"
+[frame]
+O = [0, 0]
+C = [0, -0.44]
+[links.1]
+points = ["O", "A"]
+OA = 0.4
+[links.2]
+points = ["A"]
+slides = { on = "3", along = "CB" }
+[links.3]
+points = ["C", "B", "S3"]
+CB = 1.36
+S3 = { on = "CB", at = 0.68 }
+[driver]
+link = "1"
+phi = 0
+omega = -20
+[dynamics]
+gravity = 9.81
+[dynamics.links.3]
+mass = 11
+centre = "S3"
+inertia = 0.1
+"""
+
+
+def test_the_difference_has_the_digits_of_what_it_is_the_difference_of() -> None:
+    """Where the balance has a narrow peak, each of its numbers has decimals of its own."""
+    solution = Solution(loads(FAST, name="fast"), positions=TURN)
+    (_, plans, lever, off, *_) = _balance_columns(solution, range(12), language("ru"))
+
+    def decimals(text: str) -> int:
+        return len(text.partition(",")[2])
+
+    cells = list(zip(*([cell.text for cell in c.cells] for c in (plans, lever, off)), strict=True))
+    assert len({decimals(one) for one, _, _ in cells}) > 1
+    for one, two, difference in cells:
+        assert decimals(difference) <= min(decimals(text) for text in (one, two))
 
 
 def test_a_line_of_a_point_breaks_off_where_it_runs_away() -> None:

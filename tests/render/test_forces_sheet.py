@@ -461,9 +461,11 @@ def test_more_arms_than_a_reader_can_tell_apart_are_left_to_the_equations() -> N
     assert arm_items(arms, [], 3.5, "lever", say) == ([], [])
 
 
-def test_plans_are_drawn_smaller_before_they_are_left_out() -> None:
-    """At their own size the plans of task 1 have no room on A1 beside its forces."""
-    (sheet,) = kinematics_sheets(problem_of("levers/task-1"), layout="forces")
+@pytest.mark.parametrize("number", [1, 37, 49])
+def test_plans_are_drawn_smaller_before_they_are_left_out(number: int) -> None:
+    """At their own size the plans have no room on A1 beside the forces; of two tasks the scheme is
+    smaller, too."""
+    (sheet,) = kinematics_sheets(problem_of(f"levers/task-{number}"), layout="forces")
     kinds = [view.kind for view in sheet.views]
     assert sheet.width == 841
     assert {"velocity", "acceleration"} <= {*kinds}

@@ -5,6 +5,8 @@ from __future__ import annotations
 import pytest
 from worked import problem_of
 
+from benchmarks.generator import random_problem
+from planmethod import loads
 from planmethod.note.narrate.given import told
 from planmethod.plans.legend import MOTION_KINDS
 from planmethod.render.ink.drawing import Drawing, Text
@@ -61,3 +63,18 @@ def test_the_table_leaves_the_sheet_one(name: str, count: int) -> None:
     first = problem.drive.positions[0]
     sheets = kinematics_sheets(problem, positions=[first + 360 * k / count for k in range(count)])
     assert len(sheets) == 1
+
+
+def test_what_is_measured_ends_with_no_zeros_of_a_finer_ruler() -> None:
+    """At 0.002 (m/s)/mm half a millimetre is 0.001 m/s."""
+    problem = loads(random_problem(91303)[0], name="random")
+    (sheet,) = kinematics_sheets(problem, positions=[26.8464 + 30.0 * k for k in range(12)])
+    texts = table_of(sheet)
+    assert {"0,057", "0,062"} <= {*texts} and not {"0,05700", "0,06200"} & {*texts}
+
+
+def test_what_is_laid_off_exactly_has_no_zeros_behind_it() -> None:
+    (sheet,) = kinematics_sheets(problem_of("linkages/ex3"))
+    texts = [item.text for item in sheet.items if isinstance(item, Text)]
+    assert "3,200" in texts  # what is exact has its four digits
+    assert "3,2" in texts

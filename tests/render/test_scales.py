@@ -10,12 +10,14 @@ from msgspec.structs import replace
 from scales import uneven_scales
 from worked import PROBLEMS, problem_of
 
+from benchmarks.generator import random_problem
 from planmethod.construct.drafting import PROFILES
 from planmethod.kinds import kind_of
-from planmethod.plans.model import FACTS, MOTION
+from planmethod.plans.model import FACTS, MOTION, RATES
 from planmethod.problem import loads
 from planmethod.render.sheets.kinematics import kinematics_sheets, sheet_scales
 from planmethod.solved.clearest import clear_position
+from planmethod.solved.scaling import AROUND_PLAN, FULL
 from planmethod.solved.solution import Solution
 
 TURN = [30.0 * k for k in range(12)]
@@ -143,3 +145,17 @@ epsilon = 50
 B = "above C"
 E = "above B"
 """
+
+
+def test_a_plan_of_many_short_vectors_takes_a_larger_paper() -> None:
+    """On A2 22 vectors of its acceleration plan lie within 36 × 48 mm."""
+    solution = Solution(loads(random_problem(91304)[0], name="crowded"))
+    assert solution.views.paper == "A1"
+    for kind in RATES:
+        (wide,), (high,) = (
+            side / solution.scales[kind].per_mm for side in solution.extents.plans[kind]
+        )
+        count = len({frozenset((v.tail, v.head)) for v in solution.construction.plan(kind).vectors})
+        assert count <= FULL * (wide + 2 * AROUND_PLAN) * (high + 2 * AROUND_PLAN) / 1e4
+    (sheet,) = kinematics_sheets(solution.problem)
+    assert sheet.width == 841

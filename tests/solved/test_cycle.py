@@ -11,8 +11,9 @@ from planmethod import loads
 from planmethod.errors import PlanMethodError
 from planmethod.solved.cycle import Cycle
 from planmethod.solved.forces.statics import statics_of
+from planmethod.solved.reading import Complexes, Reals
 from planmethod.solved.solution import Solution
-from planmethod.solved.travel import Travel
+from planmethod.solved.travel import Travel, without_corners
 
 TURN = [30.0 * k for k in range(12)]
 RESISTANCE = "force = 2000 # Н\nangle = -90"
@@ -170,3 +171,38 @@ def test_the_course_keeps_what_is_asked() -> None:
     assert course.drawn.tolist() == [10.0, 25.0, 40.0] and not course.closed
     assert set(course.drawn) <= set(course.positions)
     assert len(course.positions) == 121
+
+
+@pytest.mark.parametrize("name", ["levers/task-49", "levers/task-1"])
+def test_a_curve_has_no_corner_that_is_seen(name: str) -> None:
+    """Halfway between its points a reaction is on the chord, to a thousandth of its largest."""
+    cycle = Cycle(Solution(problem_of(name), positions=TURN))
+    halves = np.unique((cycle.positions[1:] + cycle.positions[:-1]) / 2)
+    between = statics_of(cycle.solution.moved(halves.tolist())).reactions
+    for number, joint in enumerate(between):
+        (piece,) = cycle.force(number)
+        start, chord = piece.values[:-1], np.diff(piece.values)
+        off = np.abs(((joint.force - start) * chord.conj()).imag) / np.maximum(np.abs(chord), 1e-9)
+        assert off.max() < 1e-3 * np.abs(piece.values).max()
+
+
+def spike(positions: Reals) -> Complexes:
+    """Return a hodograph that turns round within a degree, at 100.4."""
+    return np.exp(1j * np.arctan((positions - 100.4) / 0.4))[np.newaxis]
+
+
+def test_positions_are_added_at_the_corners_alone() -> None:
+    even = np.linspace(0.0, 360.0, 361)
+    positions, rows, jumps = without_corners(even, spike(even), spike)
+    assert set(even) < set(positions) and len(jumps) == len(positions) - 1
+    added = np.setdiff1d(positions, even)
+    assert 10 < len(added) < 150 and np.abs(added - 100.4).max() < 15.0
+    way, chord = spike((positions[1:] + positions[:-1]) / 2)[0] - rows[0, :-1], np.diff(rows[0])
+    assert (np.abs((way * chord.conj()).imag) / np.abs(chord)).max() < 1e-3
+
+
+def test_nothing_is_added_at_a_jump() -> None:
+    even = np.linspace(0.0, 360.0, 361)
+    jump = np.where(even < 180.0, 1.0 + 0j, 5j)[np.newaxis]
+    positions, _, jumps = without_corners(even, jump, spike, np.abs(np.diff(jump[0])) > 1.0)
+    assert np.array_equal(positions, even) and jumps.sum() == 1

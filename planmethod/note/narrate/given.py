@@ -74,7 +74,7 @@ def given(problem: Problem, words: Language, positions: Sequence[float] | None =
         if through is None:
             lines += _guide(guide, base, angle, text)
         elif guide in carried:
-            beside = _beside(guide, problem)
+            beside = told_beside(guide, problem)
             lines.append(_given_guide(guide, through, beside, text))
             told |= set() if beside is None else {beside.slider}
     pins = [slide.pin for slide in problem.slides.values() if slide.offset]
@@ -295,8 +295,13 @@ def _lifted(drive: Drive, led: Lifted, text: As, asked: Sequence[float]) -> list
     return lines
 
 
-def _beside(guide: str, problem: Problem) -> Slide | None:
-    """Return the one slide of a guide, where it runs beside the point that the guide is laid to."""
+def told_beside(guide: str, problem: Problem) -> Slide | None:
+    """Return the one slide of a guide, where it runs beside the point that the guide is laid to.
+
+    Then the guide is told, and drawn, where the slider runs; else where the file has it.
+    """
+    if problem.guides[guide][0] is None:
+        return None
     on = [s for s in problem.slides.values() if s.host == FRAME and s.label == guide]
     return on[0] if len(on) == 1 and on[0].offset else None
 

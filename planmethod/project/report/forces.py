@@ -344,7 +344,8 @@ class ForceChapter:
             return
         voice = LeverNarrator(self.context)
         template = said.lever_about if reading.balancing.turns else said.lever_about_force
-        yield sentences(template.format(pole=report.names.pole(PlanKind.VELOCITY)))
+        about = template.format(pole=report.names.pole(PlanKind.VELOCITY))
+        yield sentences(about, *voice.larger())
         yield figure(
             lambda letter: lever_picture(reading, letter, report.say),
             said.lever_figure.format(position=report.in_position),

@@ -10,6 +10,7 @@ from msgspec import Struct, field
 
 from planmethod.construct.steps import PointName
 from planmethod.mechanism.model import FRAME, Revolute
+from planmethod.note.narrate.given import told_beside
 from planmethod.plans.draft import cis
 from planmethod.plans.motion.leads import has_slot_name, slot_name
 from planmethod.problem.model import Slide
@@ -293,7 +294,11 @@ class Scheme(Struct):
         self.bodies += symbols.guide_plates(
             pin, angle=angle, length=length, sides=sides, factor=self.factor, pen=self.pen
         )
-        name = self.solution.problem.guide_name(slide.label)
+        problem = self.solution.problem
+        if abs(offset) > 0.2 and told_beside(slide.label, problem) is None:
+            self.guides += axis_line(start + u * low, start + u * high, tag="guide")
+            offset = 0j  # the letters stand at the line that is given
+        name = problem.guide_name(slide.label)
         self.axis_ends.append((name, start + u * low + offset, start + u * high + offset))
 
     def clearance(self, place: complex) -> float:

@@ -107,9 +107,8 @@ def _balance_columns(
         return columns
     both = alike([*chosen(balances.plans), *chosen(balances.lever)])
     plans, lever = both[: len(indices)], both[len(indices) :]
-    decimals = max(len(text.partition(".")[2]) for text in both)
     apart = [float(two) - float(one) for one, two in zip(plans, lever, strict=True)]
-    differences = [f"{half_up(value, decimals) + 0.0:.{decimals}f}" for value in apart]
+    differences = [_apart(one, two) for one, two in zip(plans, lever, strict=True)]
     columns.append(column(said.cycle_plans, plans, sense=balancing.turns))
     columns.append(column(said.cycle_lever, lever, sense=balancing.turns))
     columns.append(column("Δ", differences, sense=False))
@@ -120,3 +119,9 @@ def _balance_columns(
     columns.append(TableColumn("Δ", tuple(map(say.number, shares)), unit="%"))
     columns.append(column("σ_{Δ}", alike(chosen(sigma), 2), sense=False))
     return columns
+
+
+def _apart(one: str, two: str) -> str:
+    """Return a second number less the first, with the decimals that both of them have."""
+    decimals = min(len(text.partition(".")[2]) for text in (one, two) if float(text) or one == two)
+    return f"{half_up(float(two) - float(one), decimals) + 0.0:.{decimals}f}"

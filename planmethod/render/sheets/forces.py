@@ -40,6 +40,7 @@ from planmethod.render.sheets.composer import Viewed
 from planmethod.render.sheets.model import Manner
 from planmethod.render.sheets.texts import stated
 from planmethod.render.sheets.views import named, shown_position
+from planmethod.solved.forces.lever import LeverReading
 from planmethod.solved.forces.reading import ForceReading, force_reading
 from planmethod.solved.solution import Solution
 
@@ -144,14 +145,13 @@ def lever_view(solution: Solution, indices: Sequence[int], manner: Manner) -> Bl
     title = manner.entry.title or words.sheets.lever
     if reading.statics.lever_at(reading.index) is None:
         return heading(title, manner.title)  # the reason stands beside it
-    kind = PlanKind.VELOCITY
-    scale = solution.own_scale(kind, reading.index)
+    scale = LeverReading(reading).scale
     said = [
         words.sheets.lever_turned,
         scale_inscription(scale, solution.problem.scales.convention, words.say),
     ]
     block = named(lever_picture(reading, manner.letter, words.say), title, said, manner)
-    return Viewed(block, kind.value, scale)
+    return Viewed(block, PlanKind.VELOCITY.value, scale)
 
 
 # Texts -------------------------------------------------------------------------------------------

@@ -41,8 +41,9 @@ from planmethod.solved.solution import Solution
 STEPS = 3
 """Most members of the series that a scale goes on by."""
 
-SMALLER = (0.8, 0.65)
-"""Parts of their boxes that plans get rather than being left out of a sheet of one position."""
+SMALLER = ((0.8, 1.0), (0.65, 1.0), (0.65, 0.8), (0.5, 0.8))
+"""Parts of their boxes that plans get, and the scheme, rather than plans being left out of a sheet
+of one position."""
 
 LEAST_CHOSEN = 4
 """Fewest positions of a turn for plans to be chosen among them."""
@@ -415,12 +416,15 @@ class OnPaper(Struct, frozen=True):
             for entry in self.of.layout.blocks
             if entry.droppable and entry.of and getattr(self.scales, FACTS[entry.of].scale) is None
         ]
-        boxes = {kind.value: getattr(self.views, kind.value) for kind in left_out}
-        for part in SMALLER if boxes else ():
+        for of_plans, of_scheme in SMALLER if left_out else ():
+            parts = dict.fromkeys(left_out, of_plans)
+            if of_scheme < 1.0 and self.scales.mu_l is None:
+                parts[PlanKind.POSITION] = of_scheme
             less: dict[str, Any] = {
-                name: (part * wide, part * high) for name, (wide, high) in boxes.items()
+                kind.value: tuple(part * side for side in getattr(self.views, kind.value))
+                for kind, part in parts.items()
             }
-            yield replace(self.views, kept=self.views.kept | {*left_out}, **less)
+            yield replace(self.views, kept=self.views.kept | {*parts}, **less)
 
     @property
     def _is_smaller(self) -> bool:

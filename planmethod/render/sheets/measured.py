@@ -129,13 +129,30 @@ def _column(
     indices: Sequence[int],
     manner: Manner,
 ) -> TableColumn:
-    """Return the values of a quantity with as many decimals as its exact ones have."""
+    """Return the values of a quantity with as many decimals as its exact ones have.
+
+    Of what is measured no zeros stand that all of them end with: the ruler has no such digits.
+    """
     say, peak = manner.words.say, max(abs(float(value)) for value in exact)
     shown = [float(values[i]) for i in indices]
     shown = [0.0 if is_noise(value, peak) else value for value in shown]
-    turns = quantity.kind.is_number
+    turns, texts = quantity.kind.is_number, alike([abs(value) for value in shown])
+    texts = texts if values is exact else _without_zeros(texts)
     cells = tuple(
         TableCell(say.number(text), ((value > 0) - (value < 0)) if turns else None)
-        for text, value in zip(alike([abs(value) for value in shown]), shown, strict=True)
+        for text, value in zip(texts, shown, strict=True)
     )
     return TableColumn(symbol, cells, unit=say.units[quantity.kind.unit])
+
+
+def _without_zeros(texts: Sequence[str]) -> list[str]:
+    """Return decimal numbers without the zeros that all of them end with; a plain 0 has none.
+
+    >>> _without_zeros(["0.05700", "0.06200", "0"])
+    ['0.057', '0.062', '0']
+    """
+    some = [text for text in texts if "." in text and "e" not in text]
+    if len(some) < sum(text != "0" for text in texts):
+        return list(texts)
+    spare = min((len(text) - len(text.rstrip("0")) for text in some), default=0)
+    return [text[: len(text) - spare].removesuffix(".") if text in some else text for text in texts]

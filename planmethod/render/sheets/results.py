@@ -64,7 +64,7 @@ def _sigma_rows(
         else rounded_to(abs(read), sigma)
     )
     fine = len(sigma_text(sigma).partition(".")[2])
-    while sigma and text.endswith("0") and len(text.partition(".")[2]) > fine:
+    while text.endswith("0") and len(text.partition(".")[2]) > fine:
         text = text[:-1].removesuffix(".")
     return (
         TableCell(say.number(text), _sense(read) if turns else None),

@@ -54,7 +54,7 @@ def scheme_view(solution: Solution, indices: Sequence[int], manner: Manner) -> V
     else:
         picture = scheme_picture(solution, bold, letter_height=letter, errors=errors, traces=traces)
     said = _extremes(solution, indices, manner)
-    block = with_scale(solution, kind, picture, manner, (bold,), said)
+    block = with_scale(solution, kind, picture, manner, indices, said)
     return Viewed(block, kind.value, solution.scales[kind])
 
 

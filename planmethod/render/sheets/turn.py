@@ -33,6 +33,7 @@ from planmethod.render.sheets.texts import stated
 from planmethod.render.sheets.views import PlanViewed, named
 from planmethod.solved.reading import Complexes, Reals
 from planmethod.solved.solution import Solution
+from planmethod.solved.travel import without_corners
 from planmethod.solved.turn.diagrams import diagrams_of
 from planmethod.solved.turn.turn import TURN, Turn, turn_of
 
@@ -94,7 +95,8 @@ def chosen_plans(solution: Solution, indices: Sequence[int], manner: Manner) -> 
     pictures = plan_grid(solution, kind, chosen, words, in_row=manner.entry.per_row)
     if not count:  # the usual way alone: they grow, and are not to push the others aside
         pictures = pictures[:1]
-    title, scale = manner.entry.title or words.sheets["views"][kind.value][1], solution.scales[kind]
+    names, scale = words.sheets["views"][kind.value], solution.scales[kind]
+    title = manner.entry.title or names[len(chosen) > 1]
     said = scale_inscription(scale, solution.problem.scales.convention, words.say)
     if len(chosen) < every:
         shown = ", ".join(map(str, chosen))
@@ -170,7 +172,8 @@ def hodograph(solution: Solution, kind: PlanKind, side: float) -> Hodograph:
 
     first, last = float(turn.positions[0]), float(turn.positions[-1])
     last = last if turn.range is not None else first + turn.sense * TURN
-    ends, curve = vectors(turn.positions), vectors(np.linspace(first, last, 361))
+    even, ends = np.linspace(first, last, 361), vectors(turn.positions)
+    (curve,) = without_corners(even, vectors(even)[np.newaxis], vectors)[1]
     there = np.concatenate([[0j], curve[np.isfinite(curve)], ends[np.isfinite(ends)]])
     size = (float(np.ptp(there.real)), float(np.ptp(there.imag)))
     inverse = solution.problem.scales.convention is Convention.MM_PER_UNIT

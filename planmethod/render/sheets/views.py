@@ -195,24 +195,26 @@ def with_scale(
     kind: PlanKind,
     picture: Block,
     manner: Manner,
-    ellipses: Sequence[int],
+    drawn: Sequence[int],
     more: Sequence[str] = (),
 ) -> Column:
-    """Return a picture with its name and scale; ``ellipses`` are the positions that have them.
+    """Return a picture of the ``drawn`` positions with its name and scale.
 
     ``more`` is said under the scale.
     """
     words = manner.words
     one, many = words.sheets["views"][kind.value]
-    chosen = manner.entry.position is not None and kind is not PlanKind.POSITION
-    title = manner.entry.title or (one if len(solution.positions) == 1 or chosen else many)
+    title = manner.entry.title or (one if len(drawn) == 1 else many)
     said = []
     if solution.has_common(kind):
         said.append(
             scale_inscription(solution.scales[kind], solution.problem.scales.convention, words.say)
         )
     said += more
-    said += ellipse_inscription(solution, kind, ellipses, words) if manner.extras.errors else []
+    if manner.extras.errors:
+        of_scheme = kind is PlanKind.POSITION  # which has them around one position
+        shown = (shown_position(solution, drawn, manner),) if of_scheme else drawn
+        said += ellipse_inscription(solution, kind, shown, words)
     return named(picture, title, said, manner)
 
 

@@ -11,6 +11,7 @@ from math import copysign, isfinite
 from typing import TypeAlias
 
 from msgspec import Struct
+from msgspec.structs import replace
 
 from planmethod.construct.steps import NumberName, PointName
 from planmethod.plans.forces.board import GivenLoad
@@ -92,6 +93,10 @@ class LeverReading:
 
     Attributes
     ----------
+    times : float
+        How many times larger than the velocity plan it is drawn.
+    scale : Scale
+        That of its segments.
     forces : list of LeverForce
         Those that do work; last the balancing one of a driving slider.
     couples : list of LeverCouple
@@ -104,7 +109,10 @@ class LeverReading:
         solution, index = reading.solution, reading.index
         assert reading.statics.lever_plan is not None
         self.reading = reading
-        self.per_mm = solution.own_scale(PlanKind.VELOCITY, index).per_mm
+        self.times = float(reading.statics.lever_times[index])
+        own = solution.own_scale(PlanKind.VELOCITY, index)
+        self.scale = replace(own, per_mm=own.per_mm / self.times)
+        self.per_mm = self.scale.per_mm
         self.forces: list[LeverForce] = []
         self.couples: list[LeverCouple] = []
         self.shifts: list[LeverShift] = []
@@ -122,7 +130,7 @@ class LeverReading:
                 assert given.force is not None and one.point is not None
                 way = reading.way(given.force)
                 force = way * (abs(force) / abs(way))
-                size, arm = reading.read_load(given), reading.read_number(hung.arm)
+                size, arm = reading.read_load(given), reading.read_number(hung.arm) * self.times
                 self.forces.append(LeverForce(one.name, place, force, arm, size, one.point))
                 self._shift(given, place)
         self._balance(reading.statics.lever_plan.balance)
@@ -144,19 +152,19 @@ class LeverReading:
             arm, size = _across(place, force), abs(reading.read_number(balance))
             measured = reading.statics.lever_plan.arm if reading.statics.lever_plan else None
             if measured is not None:
-                arm = copysign(reading.read_number(measured), arm)
+                arm = copysign(reading.read_number(measured) * self.times, arm)
             self.forces.append(LeverForce(reading.balancing_symbol, place, force, arm, size, pin))
 
     def place(self, point: PointName) -> complex:
         """Return a point of the velocity plan on the lever as the hand has it, mm from the pole."""
         solution, index = self.reading.solution, self.reading.index
         drawn, exact = (r.point(point)[index] for r in (solution.by_hand, solution.paper))
-        return 1j * complex(drawn if isfinite(abs(drawn)) else exact)
+        return 1j * self.times * complex(drawn if isfinite(abs(drawn)) else exact)
 
     def _hung(self, at: PointName, pole: PointName) -> complex:
         """Return where a force hangs as the hand has it, mm from the pole; else the exact place."""
         drawn = self.reading.by_hand(pole, at)
-        return drawn if isfinite(abs(drawn)) else self.reading.end(at)
+        return self.times * (drawn if isfinite(abs(drawn)) else self.reading.end(at))
 
     def _couple(self, symbol: str, link: str, moment: float) -> LeverCouple:
         turned = -moment * self._omega(link) / self.per_mm

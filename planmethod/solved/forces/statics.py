@@ -33,6 +33,7 @@ from planmethod.problem.load_records import BearingTable, Dynamics
 from planmethod.problem.model import Convention
 from planmethod.solved.failures import PositionError
 from planmethod.solved.forces.contact import JointForce, SlideReaction, contacts
+from planmethod.solved.forces.leverscale import lever_times
 from planmethod.solved.forces.loads import applied
 from planmethod.solved.forces.resultants import UnshiftedInertia, shifted_inertia
 from planmethod.solved.impossible import explain, failing
@@ -406,7 +407,16 @@ class Statics(Remembering):
         for plan, share in zip(self.board.plans, self.shares, strict=True):
             for edge in plan.reactions:
                 enlarged.setdefault(segments.drawn(edge.ends), share)
+        if self.lever_plan is not None and (self.lever_times > 1.0).any():
+            arms = [load.arm for load in self.lever_plan.loads] + [self.lever_plan.arm]
+            enlarged |= {arm: self.lever_times for arm in arms if arm is not None}
         return replace(own, enlarged={**own.enlarged, **enlarged})
+
+    @cached_property
+    def lever_times(self) -> Reals:
+        """How many times larger than the velocity plan the lever is drawn, shape (n,)."""
+        assert self.lever_plan is not None
+        return lever_times(self.lever_plan, self.paper)
 
     @property
     def per_mm(self) -> dict[str, Number]:

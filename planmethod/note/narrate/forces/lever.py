@@ -10,6 +10,7 @@ from msgspec import Struct
 from planmethod.note.formula import fraction
 from planmethod.note.narrate.forces.common import ForceContext, arm_symbol, signed_sum
 from planmethod.note.narrate.forces.resultants import force_symbol
+from planmethod.note.narrate.scales import scale_inscription
 from planmethod.note.numbers import significant
 from planmethod.note.rounding import sigma_text
 from planmethod.plans.model import PlanKind
@@ -148,7 +149,7 @@ class LeverNarrator:
 
     def items(self) -> Iterator[list[str]]:
         """Tell the steps."""
-        yield [self.said.turned.format(pole=self.names.pole(PlanKind.VELOCITY))]
+        yield [self.said.turned.format(pole=self.names.pole(PlanKind.VELOCITY)), *self.larger()]
         if not self.lever.forces and not self.lever.couples:
             yield [self.said.no_work.format(symbol=self.balancing)]
             return
@@ -159,6 +160,14 @@ class LeverNarrator:
             yield [self.said.lever_arms.format(arms=arms)]
         yield [self.said.lever_sum, *self._equation()]
         yield self._compared()
+
+    def larger(self) -> list[str]:
+        """Return at which scale the lever is drawn, where that is not the velocity plan's."""
+        if self.lever.times == 1.0:
+            return []
+        convention = self.context.solution.problem.scales.convention
+        scale = scale_inscription(self.lever.scale, convention, self.notation)
+        return [self.said.larger.format(scale=scale)]
 
     def _hung(self) -> list[str]:
         """Tell which force goes to which point, and which go nowhere."""

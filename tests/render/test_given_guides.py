@@ -1,0 +1,57 @@
+"""Guides of the frame stand on the scheme where what is given has them."""
+
+from __future__ import annotations
+
+import pytest
+
+from planmethod import loads
+from planmethod.construct.steps import PointName
+from planmethod.note.narrate.given import given
+from planmethod.note.wording import language
+from planmethod.plans.model import PlanKind
+from planmethod.render.ink.drawing import Stroke
+from planmethod.render.pictures.schemeview import SchemeView
+from planmethod.solved.solution import Solution
+
+MECHANISM = """
+title = "A slider beside its guide"
+[frame]
+O = [0, 0]
+guides.x-x = {{ through = {through}, angle = 0 }}
+[links.1]
+points = ["O", "A"]
+OA = 0.1
+[links.2]
+points = ["A", "B"]
+AB = 0.35
+[links.3]
+points = ["B"]
+slides = {{ on = "x-x", offset = 0.05 }}
+[driver]
+link = "1"
+phi = 50
+omega = 10
+[assembly]
+B = "right of A"
+"""
+
+
+@pytest.mark.parametrize(
+    ("through", "told", "metres"),
+    [
+        ("[0, -0.03]", "y_{x-x} = −0,03 м", -0.03),
+        ('"O"', "направляющая x-x отстоит от точки O на 0,05 м", 0.05),
+    ],
+)
+def test_a_guide_is_lettered_where_it_is_told_to_be(through: str, told: str, metres: float) -> None:
+    problem = loads(MECHANISM.format(through=through), name="beside")
+    assert told in given(problem, language("ru"))
+    solution = Solution(problem)
+    pin = PointName("B")
+    scheme = SchemeView.drawn(solution, 0, 5.0).scheme
+    ((_, *ends),) = scheme.axis_ends
+    per_mm = solution.scales[PlanKind.POSITION].per_mm
+    assert [end.imag * per_mm for end in ends] == pytest.approx([metres, metres])
+    lines = [i.points for i in scheme.guides if isinstance(i, Stroke) and i.tag == "guide"]
+    heights = {round(end.imag * per_mm, 6) for line in lines for end in line}
+    assert heights == {metres, round(solution.place(pin)[0].imag, 6)}

@@ -1,0 +1,82 @@
+"""The lever of many loads is drawn larger than the velocity plan, and read as it is drawn."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from lettered import lever_lines
+from worked import path_of, problem_of
+
+from planmethod import loads
+from planmethod.note.narrate.forces.common import lettered
+from planmethod.note.narrate.forces.lever import LeverNarrator
+from planmethod.note.wording import language
+from planmethod.plans.model import PlanKind
+from planmethod.render.ink.drawing import Text
+from planmethod.render.sheets.kinematics import kinematics_sheets
+from planmethod.solved.forces.lever import LeverReading
+from planmethod.solved.forces.leverscale import TIMES
+from planmethod.solved.forces.reading import ForceReading
+from planmethod.solved.forces.statics import statics_of
+from planmethod.solved.solution import Solution
+
+RU = language("ru")
+SHIPPED = ("levers/six-link", "levers/task12", "press/press", "levers/task-66")
+
+
+def solved(more: int) -> Solution:
+    """Return the solution of the six-link mechanism with so many loads more."""
+    text = path_of("levers/six-link").read_text("utf-8")
+    for k in range(more):
+        text += f'\n[[loads]]\nname = "F_{{a{k}}}"\nlink = "2"\nat = "{("B", "C", "S2")[k % 3]}"\n'
+        text += f"force = {300 + 40 * k}\nangle = {29 * k + 11}\n"
+    return Solution(loads(text, name="loaded"))
+
+
+@pytest.fixture(scope="module")
+def crowded() -> ForceReading:
+    return ForceReading(solved(12), 0)
+
+
+@pytest.mark.parametrize("name", SHIPPED)
+def test_a_lever_of_few_loads_is_the_turned_plan(name: str) -> None:
+    solution = Solution(problem_of(name))
+    assert (statics_of(solution).lever_times == 1.0).all()
+    assert LeverNarrator(lettered(ForceReading(solution, 0), RU)).larger() == []
+
+
+def test_a_full_lever_has_a_scale_of_its_own(crowded: ForceReading) -> None:
+    lever, plan = LeverReading(crowded), crowded.solution.own_scale(PlanKind.VELOCITY, 0)
+    assert lever.times in TIMES
+    assert lever.scale.per_mm * lever.times == pytest.approx(plan.per_mm)
+    motion = crowded.solution.construction.kinematics.velocity
+    on_plan = crowded.solution.by_hand.point(motion.point[motion.named["C"]])[0]
+    assert lever.place(motion.point[motion.named["C"]]) == pytest.approx(1j * lever.times * on_plan)
+    (said,) = LeverNarrator(lettered(crowded, RU)).larger()
+    assert RU.say.given(1.0 / lever.scale.per_mm) in said  # the file has mm per unit
+
+
+def test_its_arms_are_read_with_the_ruler_where_they_are_drawn(crowded: ForceReading) -> None:
+    """To half a millimetre of the lever, not of the plan that is smaller; they are in balance."""
+    lever, ruler = LeverReading(crowded), crowded.solution.hand.ruler
+    arms = np.array([one.arm for one in lever.forces])
+    assert np.allclose(arms / ruler, np.round(arms / ruler), atol=1e-6)
+    assert (np.round(arms / ruler) % lever.times > 0).any()
+    for one in lever.forces:
+        across = (one.at.conjugate() * one.force).imag / abs(one.force)
+        assert one.arm == pytest.approx(across, abs=ruler / 2 + 1e-6)
+    moments = [one.size * one.arm for one in lever.forces]
+    moments += [one.lever_moment for one in lever.couples]
+    assert sum(moments) == pytest.approx(0.0, abs=1e-6 * max(map(abs, moments)))
+
+
+def test_the_sheet_tells_the_scale_and_the_lengths_of_the_lever(crowded: ForceReading) -> None:
+    sheet, *_ = kinematics_sheets(crowded.solution.problem, layout="forces")
+    levers = [view for view in sheet.views if view.kind == "velocity"]
+    plan, own = crowded.solution.scales[PlanKind.VELOCITY], LeverReading(crowded).scale
+    assert own.per_mm in [pytest.approx(view.per_mm) for view in levers]
+    assert own.per_mm != pytest.approx(plan.per_mm)
+    written = "".join(item.text for item in sheet.items if isinstance(item, Text))
+    arm = max(abs(one.arm) for one in LeverReading(crowded).forces)
+    assert RU.say.ruled(arm) in written
+    assert any(RU.say.ruled(arm) in line for line in lever_lines(crowded))
