@@ -14,7 +14,7 @@ from planmethod.problem import loads
 from planmethod.render.control.texts import lint, writings_of
 from planmethod.render.ink.drawing import Arc, Disc, Fill, Item, Pen, Stroke, Text
 from planmethod.render.labels import UNDER_LABEL
-from planmethod.render.labels.crowd import CROWD, densest
+from planmethod.solved.crowd import CROWD, densest
 from planmethod.render.layout.block import Picture
 from planmethod.render.pictures.extremes import STROKE
 from planmethod.render.pictures.paths import TRAJECTORY, Paths

@@ -13,7 +13,7 @@ from planmethod.render.ink.drawing import Item
 from planmethod.render.ink.extent import ink_bounds
 from planmethod.render.labels import BUSY, Label, Placed, place_labels
 from planmethod.render.labels.candidates import untidiness
-from planmethod.render.labels.crowd import CROWD, densest
+from planmethod.solved.crowd import CROWD, densest
 from planmethod.render.layout.block import Picture
 from planmethod.render.pictures.ellipses import Ellipses, error_ellipses
 from planmethod.render.pictures.extremes import construction_items, stroke_items
