@@ -69,6 +69,12 @@ class Candidates(Struct, frozen=True, dict=True):
         return segments
 
     @cached_property
+    def within(self) -> tuple[Floats, Floats]:
+        """Lower left and upper right corner of the box around all places, mm."""
+        around = self.around
+        return around[:, :2].min(axis=0), around[:, 2:].max(axis=0)
+
+    @cached_property
     def around(self) -> Floats:
         """Boxes around the places and their leader lines, shape (n, 4), mm."""
         low = np.fmin(self.boxes[:, :2], np.fmin(self.leaders[:, 0], self.leaders[:, 1]))
