@@ -127,6 +127,7 @@ class Others:
             found[have] += FORBIDDEN * hit[:theirs_hit]
             found[has] += FORBIDDEN * hit[theirs_hit:]
             pairs = np.flatnonzero(both)
-            found[pairs] += LEADERS_CROSS * crossing(own, led, pairs, pairs)
+            if len(pairs):
+                found[pairs] += LEADERS_CROSS * crossing(own, led, pairs, pairs)
         costs[row, other] = found
         return costs
