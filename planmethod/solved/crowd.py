@@ -63,8 +63,8 @@ def _lettered(construction: Construction, si: Reading, per_mm: float) -> Iterato
     still = [complex(si.point(PointName(point))[0]) for point in sorted(fixed)]
     for start in range(0, si.count, DOZEN):
         own = slice(start, start + DOZEN)
-        moving = [
-            np.unique(np.round(si.point(PointName(point))[own] / (TOGETHER * per_mm)))
-            for point in sorted(placed - fixed - problem.centres)
-        ]
-        yield np.concatenate([np.asarray(still) / per_mm, *(TOGETHER * one for one in moving)])
+        places = [place / per_mm for place in still]
+        for point in sorted(placed - fixed - problem.centres):
+            steps = np.round(si.point(PointName(point))[own] / (TOGETHER * per_mm))
+            places += [TOGETHER * step for step in dict.fromkeys(steps.tolist())]
+        yield np.asarray(places)
