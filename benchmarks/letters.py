@@ -14,8 +14,8 @@ from planmethod.errors import PlanMethodError
 from planmethod.problem import load
 from planmethod.render.control.misleading import holds, is_of_point, own_and_other
 from planmethod.render.control.texts import writings_of
-from planmethod.render.labels.crowd import SIDE, densest
 from planmethod.render.sheets.kinematics import kinematics_sheets
+from planmethod.solved.crowd import SIDE, densest
 
 PROBLEMS = Path(__file__).parent.parent / "problems"
 

@@ -17,6 +17,7 @@ from planmethod.paper import FORMATS, TRIED, paper_format
 from planmethod.plans.build import Construction
 from planmethod.plans.model import FACTS, MOTION, RATES, PlanKind
 from planmethod.problem.model import Problem, Scales
+from planmethod.solved.crowd import is_crowded
 from planmethod.solved.enlarging import AROUND, NAMED, times_beside
 from planmethod.solved.reading import Reading, Reals
 from planmethod.solved.room import FEW, Box, Texts, Ways, has_room
@@ -138,6 +139,9 @@ made coarser: rows of many plans take less, as letters of the one stand in hollo
 SPARE = 0.93
 """So much of the height of the paper the estimate may take at a finer scale of many positions: the
 table of measured values is higher than the estimated one. Of one and of few it may take all."""
+
+FULL = 1.0
+"""So much of it a scheme may take whose letters would be thinned without."""
 
 CROWDED = 1.5
 """So many times wider the scheme of many positions shall be, to be no tangle."""
@@ -418,6 +422,21 @@ class _Chosen(Struct, frozen=True):
             if not (self.drawn[small].stretches(now[small]) and found.has_room(spare)):
                 now[small] = before
                 free.remove(small)
+        return found._with_legible_scheme(asked) if many else found
+
+    def _with_legible_scheme(self, asked: Scales) -> _Chosen:
+        """Return a scheme of many positions finer while its letters are too many for its area.
+
+        It takes what was to spare; the texts get smaller letters for it.
+        """
+        kind, found = PlanKind.POSITION, self
+        one = self.drawn[kind]
+        while kind in self.free and one.is_crowded(found.per_mm[kind]):
+            finer = _next(found.per_mm[kind], asked, finer=True)
+            larger = replace(found, per_mm={**found.per_mm, kind: finer})
+            if not (one.stretches(finer) and larger.has_room(FULL)):
+                break
+            found = larger
         return found
 
     def has_room(self, over: float = 1.0) -> bool:
@@ -531,6 +550,10 @@ class _Drawn(Struct, frozen=True, dict=True):
         step = per_row(self.si.count)
         lines = [float(high[k : k + step].max()) for k in range(0, self.si.count, step)]
         return max(sum(lines[k : k + ROWS]) for k in range(0, len(lines), ROWS))
+
+    def is_crowded(self, per_mm: float) -> bool:
+        """Tell whether a scheme has more letters at a scale than its area bears."""
+        return is_crowded(self.extents.construction, self.si, per_mm)
 
     def stretches(self, per_mm: float, times: float = STRETCH) -> bool:
         """Tell whether it is not too wide, nor a single view too high, at a scale."""

@@ -58,7 +58,8 @@ class Travel(Struct, frozen=True, dict=True):
     @cached_property
     def asked(self) -> Reals:
         """The asked positions in order, each once."""
-        asked = np.unique(self.solution.positions)
+        # Not np.unique: with it numpy.ma is imported.
+        asked = np.asarray(sorted(set(self.solution.positions.tolist())))
         if len(asked) < 2 or np.ptp(asked) <= self._turn + _SAME:
             return asked
         return np.unique(asked[0] + np.round((asked - asked[0]) % self._turn, 9) % self._turn)

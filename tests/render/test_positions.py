@@ -14,7 +14,6 @@ from planmethod.problem import loads
 from planmethod.render.control.texts import lint, writings_of
 from planmethod.render.ink.drawing import Arc, Disc, Fill, Item, Pen, Stroke, Text
 from planmethod.render.labels import UNDER_LABEL
-from planmethod.render.labels.crowd import CROWD, densest
 from planmethod.render.layout.block import Picture
 from planmethod.render.pictures.extremes import STROKE
 from planmethod.render.pictures.paths import TRAJECTORY, Paths
@@ -22,6 +21,7 @@ from planmethod.render.pictures.positions import PRIMES, Positions, Thinned, wri
 from planmethod.render.pictures.seriesview import series_picture
 from planmethod.render.sheets.kinematics import kinematics_sheets
 from planmethod.solved.clearest import clearest_position
+from planmethod.solved.crowd import CROWD, densest
 from planmethod.solved.scaling import Views
 from planmethod.solved.solution import Solution
 from planmethod.solved.turn.turn import turn_of

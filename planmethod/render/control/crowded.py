@@ -13,7 +13,7 @@ from planmethod.render.control.misleading import holds, is_of_point
 from planmethod.render.control.remarks import Facts, Finding
 from planmethod.render.control.texts import Writing
 from planmethod.render.ink.drawing import View
-from planmethod.render.labels.crowd import CROWD, SIDE, densest
+from planmethod.solved.crowd import CROWD, SIDE, densest
 
 NAMED, NAMED_OF_SEVERAL = 5.0, 8.0
 """Length from which a vector has its name, and on a plan of several positions, mm."""

@@ -69,11 +69,21 @@ class Candidates(Struct, frozen=True, dict=True):
         return segments
 
     @cached_property
+    def within(self) -> tuple[Floats, Floats]:
+        """Lower left and upper right corner of the box around all places, mm."""
+        around = self.around
+        return around[:, :2].min(axis=0), around[:, 2:].max(axis=0)
+
+    @cached_property
     def around(self) -> Floats:
         """Boxes around the places and their leader lines, shape (n, 4), mm."""
-        low = np.fmin(self.boxes[:, :2], np.fmin(self.leaders[:, 0], self.leaders[:, 1]))
-        high = np.fmax(self.boxes[:, 2:], np.fmax(self.leaders[:, 0], self.leaders[:, 1]))
-        return np.concatenate([low, high], axis=1)
+        around = self.boxes.copy()
+        rows = np.flatnonzero(self.led)
+        if len(rows):
+            one, two = self.leaders[rows, 0], self.leaders[rows, 1]
+            around[rows, :2] = np.minimum(around[rows, :2], np.minimum(one, two))
+            around[rows, 2:] = np.maximum(around[rows, 2:], np.maximum(one, two))
+        return around
 
 
 def near(label: Label) -> Candidates:
@@ -170,8 +180,10 @@ def _leader_ends(label: Label, boxes: Floats) -> tuple[Complexes, Complexes]:
 
 def as_segments(starts: Complexes, ends: Complexes) -> Floats:
     """Return an array of shape (n, 2, 2) of the segments' ends."""
-    pairs = np.stack([starts, ends], axis=1)
-    return np.stack([pairs.real, pairs.imag], axis=2)
+    segments = np.empty((len(starts), 2, 2))
+    segments[:, 0, 0], segments[:, 0, 1] = starts.real, starts.imag
+    segments[:, 1, 0], segments[:, 1, 1] = ends.real, ends.imag
+    return segments
 
 
 def inside(segments: Floats, boxes: Floats) -> Floats:

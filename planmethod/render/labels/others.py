@@ -45,6 +45,8 @@ class Others:
         self._around = np.full((len(labels), 4), np.nan)
         self._there: dict[int, None] = {}
         self._stamps = np.full(len(labels), -1)
+        self.changes = 0
+        """How often a label was put down or lifted."""
 
     def put(self, k: int, candidates: Candidates, row: int, stamp: int) -> None:
         """Note the place that a label takes; no other place has its ``stamp``."""
@@ -53,10 +55,12 @@ class Others:
         self._around[k] = candidates.around[row]
         self._there[k] = None
         self._stamps[k] = stamp
+        self.changes += 1
 
     def lift(self, k: int) -> None:
         """Forget the place of a label."""
         self._there.pop(k, None)
+        self.changes += 1
 
     def but(self, k: int) -> Numbers:
         """Return the numbers of the labels that are there, but for one."""
@@ -69,12 +73,22 @@ class Others:
 
     def met(self, choice: Met, rows: Numbers, there: Numbers) -> Floats:
         """Return what `each` does of certain places: of labels that stand as they did, as then."""
-        moved = there[choice.stamps[there] != self._stamps[there]]
+        old = choice.stamps[there] != self._stamps[there]
+        away = np.zeros(0, dtype=np.intp)
+        if len(rows) == 1 and old.any():  # of one place only those near it are looked at
+            around, white = choice.candidates.around[rows[0]], self._widest
+            theirs = self._around[there]
+            meets = (theirs[:, 2:] > around[:2] - white) & (theirs[:, :2] < around[2:] + white)
+            near = meets[:, 0] & meets[:, 1]
+            away, old = np.flatnonzero(old & ~near), old & near
+        moved = there[old]
         if len(moved):
             every = np.arange(len(choice.costs))
             choice.costs[:, moved] = self.each(choice.candidates, every, moved)
             choice.stamps[moved] = self._stamps[moved]
-        return np.asarray(choice.costs[rows[:, None], there])
+        found = choice.costs[rows[:, None], there]
+        found[:, away] = 0.0
+        return np.asarray(found)
 
     def each(self, candidates: Candidates, rows: Numbers, others: Numbers) -> Floats:
         """Return what each of some labels costs each place, shape (n, len(others))."""
@@ -82,10 +96,13 @@ class Others:
         if not len(rows) or not len(others):
             return costs
         # Only a label near a place can meet it.
-        mine, theirs, white = candidates.around[rows], self._around[others], self._widest
-        low, high = mine[:, :2].min(axis=0) - white, mine[:, 2:].max(axis=0) + white
-        (close,) = np.nonzero(((theirs[:, 2:] > low) & (theirs[:, :2] < high)).all(axis=1))
-        theirs = theirs[close]
+        theirs, white = self._around[others], self._widest
+        low, high = candidates.within
+        near = (theirs[:, 2:] > low - white) & (theirs[:, :2] < high + white)
+        (close,) = np.nonzero(near[:, 0] & near[:, 1])
+        if not len(close):
+            return costs
+        mine, theirs = candidates.around[rows], theirs[close]
         (row, other) = np.nonzero(
             (mine[:, None, 0] - white < theirs[:, 2])
             & (mine[:, None, 2] + white > theirs[:, 0])
@@ -110,6 +127,7 @@ class Others:
             found[have] += FORBIDDEN * hit[:theirs_hit]
             found[has] += FORBIDDEN * hit[theirs_hit:]
             pairs = np.flatnonzero(both)
-            found[pairs] += LEADERS_CROSS * crossing(own, led, pairs, pairs)
+            if len(pairs):
+                found[pairs] += LEADERS_CROSS * crossing(own, led, pairs, pairs)
         costs[row, other] = found
         return costs

@@ -155,7 +155,8 @@ class Paper:
         A line between them makes a reader take the label for another's, leader line or not.
         """
         costs = np.zeros(len(so_far))
-        paths = np.concatenate([as_segments(c.starts, c.ends) for c in many])
+        starts, ends = [c.starts for c in many], [c.ends for c in many]
+        paths = as_segments(np.concatenate(starts), np.concatenate(ends))
         ask = np.flatnonzero(so_far < CROSSED)
         lines = linestrings(paths[ask])
         if self._lines is not None and len(ask):

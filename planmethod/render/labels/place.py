@@ -143,6 +143,7 @@ class _Places:
         self.choices = [[choice] for choice in self._free(sets)]
         self.others = Others(self.labels)
         self.lined: set[int] = set()
+        self._costs: dict[int, tuple[int, float]] = {}
 
     # A series --------------------------------------------------------------------------------
 
@@ -278,8 +279,12 @@ class _Places:
 
     def _cost(self, k: int) -> float:
         """Return what the place of a label costs with all others where they are now."""
-        choice, row = self.taken[k].choice, self.taken[k].row
-        return float(choice.costs[row] + self._met(k, choice, np.array([row]))[0])
+        changes, cost = self._costs.get(k, (-1, 0.0))
+        if changes != self.others.changes:
+            choice, row = self.taken[k].choice, self.taken[k].row
+            cost = float(choice.costs[row] + self._met(k, choice, np.array([row]))[0])
+            self._costs[k] = self.others.changes, cost
+        return cost
 
     def look_again(self) -> None:
         """Let every label look for a better place now that all are there."""

@@ -27,14 +27,12 @@ from planmethod.render.ink.typeset import typeset
 from planmethod.render.labels import CROWDED, Label
 from planmethod.render.pictures.paths import Paths
 from planmethod.render.pictures.scheme import Scheme
+from planmethod.solved.crowd import TOGETHER
 from planmethod.solved.room import FEW
 from planmethod.solved.solution import Solution
 
 PRIMES = ("′", "″")
 """What the extreme positions are called, in the order of the driver's motion."""
-
-TOGETHER = 0.5
-"""Points nearer than this are one on the paper and share a label, mm."""
 
 _MARK = 0.7  # radius of the circle at a joint in another position, mm
 _LEAST_MARK = 0.45  # where circles would run into each other, mm

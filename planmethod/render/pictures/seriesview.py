@@ -13,7 +13,6 @@ from planmethod.render.ink.drawing import Item
 from planmethod.render.ink.extent import ink_bounds
 from planmethod.render.labels import BUSY, Label, Placed, place_labels
 from planmethod.render.labels.candidates import untidiness
-from planmethod.render.labels.crowd import CROWD, densest
 from planmethod.render.layout.block import Picture
 from planmethod.render.pictures.ellipses import Ellipses, error_ellipses
 from planmethod.render.pictures.extremes import construction_items, stroke_items
@@ -27,6 +26,7 @@ from planmethod.render.pictures.schemeview import (
 from planmethod.render.pictures.senses import small
 from planmethod.render.pictures.special import special_points
 from planmethod.render.pictures.traces import Shown
+from planmethod.solved.crowd import CROWD, densest
 from planmethod.solved.reading import remembered
 from planmethod.solved.solution import Solution
 from planmethod.solved.turn.construction import extreme_construction

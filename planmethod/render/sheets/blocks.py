@@ -127,7 +127,7 @@ def _cycle() -> Mapping[str, Maker]:
 
 
 def _turn() -> Mapping[str, Maker]:
-    from planmethod.render.sheets import graphs, measured, turn
+    from planmethod.render.sheets import graphs, turn
 
     return {
         "graphs": graphs.graphs_view,
@@ -137,8 +137,13 @@ def _turn() -> Mapping[str, Maker]:
         "hodograph": turn.hodograph_view,
         "turn-table": turn.turn_table,
         "deviations": turn.deviations_table,
-        "measured-results": measured.measured_table,
     }
+
+
+def _measured() -> Mapping[str, Maker]:
+    from planmethod.render.sheets import measured
+
+    return {"measured-results": measured.measured_table}
 
 
 def _flywheel() -> Mapping[str, Maker]:
@@ -221,7 +226,7 @@ BLOCKS: Mapping[str, BlockKind] = MappingProxyType(
         "chosen-plans": BlockKind(_turn, ("of", "positions", "per_row", *_VIEW[:-1])),
         "hodograph": BlockKind(_turn, ("of", *_DIAGRAM)),
         "graphs": BlockKind(_turn, ("asked", *_VIEW[:-1], "per_row")),
-        "measured-results": BlockKind(_turn, _TEXT),
+        "measured-results": BlockKind(_measured, _TEXT),
         "turn-table": BlockKind(_turn, _TEXT),
         "deviations": BlockKind(_turn, _TEXT),
         "machine-statement": BlockKind(_flywheel, _TEXT),

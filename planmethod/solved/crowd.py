@@ -1,0 +1,70 @@
+"""How many inscriptions stand in one part of a picture (плотность надписей)."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+import numpy as np
+
+from planmethod.construct.steps import PointName
+from planmethod.mechanism.model import FRAME
+from planmethod.plans.build import Construction
+from planmethod.solved.reading import Complexes, Reading
+
+SIDE = 50.0
+"""Side of the square in which inscriptions are counted, mm: what one looks at at once."""
+
+CROWD = 14
+"""Most inscriptions of a scheme in such a square: each has a finger's breadth, 13 mm, of it."""
+
+TOGETHER = 0.5
+"""Points nearer than this are one on the paper and share a label, mm."""
+
+DOZEN = 12
+"""Positions on a sheet of many."""
+
+
+def densest(places: Sequence[complex] | Complexes) -> tuple[int, complex]:
+    """Return the most places in one square of `SIDE`, and the middle of that square, mm.
+
+    The square is looked for with a place in its middle, so that the count is one of a place and
+    those about it.
+    """
+    if not len(places):
+        return 0, 0j
+    at = np.asarray(places, dtype=complex)
+    apart = at[:, None] - at[None, :]
+    near = (np.abs(apart.real) <= SIDE / 2) & (np.abs(apart.imag) <= SIDE / 2)
+    counts = near.sum(axis=1)
+    k = int(np.argmax(counts))
+    return int(counts[k]), complex(at[k])
+
+
+def is_crowded(construction: Construction, si: Reading, per_mm: float) -> bool:
+    """Tell whether a scheme of many positions has too many letters of points for its area.
+
+    Those of links and axes stand beside them, so that as many points as there may be letters are
+    too many. Centres of mass do not count: their letters are the first to be left out.
+
+    Parameters
+    ----------
+    si : Reading
+        Exact, at unit scales.
+    per_mm : float
+        Scale of the scheme, m/mm.
+    """
+    return any(densest(places)[0] >= CROWD for places in _lettered(construction, si, per_mm))
+
+
+def _lettered(construction: Construction, si: Reading, per_mm: float) -> Iterator[Complexes]:
+    """Yield where the points stand on a sheet after another, those that coincide once, mm."""
+    problem, placed = construction.draft.problem, construction.draft.points()
+    fixed = placed & set(problem.bodies[FRAME].points)
+    still = [complex(si.point(PointName(point))[0]) for point in sorted(fixed)]
+    for start in range(0, si.count, DOZEN):
+        own = slice(start, start + DOZEN)
+        places = [place / per_mm for place in still]
+        for point in sorted(placed - fixed - problem.centres):
+            steps = np.round(si.point(PointName(point))[own] / (TOGETHER * per_mm))
+            places += [TOGETHER * step for step in dict.fromkeys(steps.tolist())]
+        yield np.asarray(places)
