@@ -40,7 +40,7 @@ def densest(places: Sequence[complex] | Complexes) -> tuple[int, complex]:
     return int(counts[k]), complex(at[k])
 
 
-def is_crowded(construction: Construction, si: Reading, per_mm: float) -> bool:
+def is_crowded(construction: Construction, si: Reading, per_mm: float, more: int = 0) -> bool:
     """Tell whether a scheme of many positions has too many letters of points for its area.
 
     Those of links and axes stand beside them, so that as many points as there may be letters are
@@ -52,8 +52,10 @@ def is_crowded(construction: Construction, si: Reading, per_mm: float) -> bool:
         Exact, at unit scales.
     per_mm : float
         Scale of the scheme, m/mm.
+    more : int
+        Letters that stand among them besides, of extreme positions.
     """
-    return any(densest(places)[0] >= CROWD for places in _lettered(construction, si, per_mm))
+    return any(densest(places)[0] + more >= CROWD for places in _lettered(construction, si, per_mm))
 
 
 def _lettered(construction: Construction, si: Reading, per_mm: float) -> Iterator[Complexes]:

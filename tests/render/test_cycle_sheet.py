@@ -311,6 +311,13 @@ def test_a_line_of_a_point_breaks_off_where_it_runs_away() -> None:
     assert heights and max(heights) - min(heights) < 300.0
 
 
+@pytest.mark.parametrize(("name", "wide"), [("machines/compressor", 594.0), ("press/press", 841.0)])
+def test_a_smaller_paper_keeps_the_letters_of_the_positions(name: str, wide: float) -> None:
+    """The crank of the press is small beside its mechanism: on A2 its pin has no room for names."""
+    (sheet,) = kinematics_sheets(problem_of(name), layout="forces-cycle")
+    assert sheet.width == wide
+
+
 def test_sheets_are_small_where_nothing_is_left_out_on_them() -> None:
     """A short calculation of forces takes A2, whose diagrams are as large as it has room for."""
     (sheet,) = kinematics_sheets(problem_of("machines/engine"), layout="forces-cycle")

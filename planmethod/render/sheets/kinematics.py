@@ -4,9 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from itertools import chain, product
+from math import isfinite
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 from msgspec import Struct
 from msgspec.structs import replace
 
@@ -20,6 +22,7 @@ from planmethod.plans.model import FACTS, MOTION, PlanKind
 from planmethod.problem.model import Problem, Scales
 from planmethod.render.frame.furniture import Furniture
 from planmethod.render.ink.drawing import Drawing
+from planmethod.render.pictures.paths import Paths
 from planmethod.render.sheets.composer import (
     Blank,
     Laid,
@@ -33,6 +36,7 @@ from planmethod.render.sheets.composition.reader import composition
 from planmethod.render.sheets.compositions import SHIPPED
 from planmethod.render.sheets.model import Composition, Extras
 from planmethod.render.sheets.pages import pages_of
+from planmethod.solved.crowd import is_crowded
 from planmethod.solved.room import FEW
 from planmethod.solved.scaling import MOST_DRAWN, PLAN, Views, least_plan
 from planmethod.solved.selfcheck import verify
@@ -365,14 +369,15 @@ class OnPaper(Struct, frozen=True):
         shown = {PlanKind.POSITION, *(entry.of for entry in of.layout.blocks if entry.of)}
         keys = {FACTS[kind].scale for kind in shown}
         free = [key for key in KEYS if key in keys and getattr(self.scales, key) is None]
-        if not of.layout.grow or not free:
-            return self._with_plans(replace(laid, scales=drawn), extras)
-
-        laid = replace(laid, scales={key: drawn[key] for key in free})
-        laid = enlarged(
-            laid, free * STEPS, self.scales, lambda scales: self._at(scales, extras, views)
-        )
-        return self._with_plans(replace(laid, scales={**drawn, **laid.scales}), extras)
+        if of.layout.grow and free:
+            laid = replace(laid, scales={key: drawn[key] for key in free})
+            laid = enlarged(
+                laid, free * STEPS, self.scales, lambda scales: self._at(scales, extras, views)
+            )
+        laid = replace(laid, scales={**drawn, **laid.scales})
+        if self._is_smaller and self._is_crowded(laid):
+            return None
+        return self._with_plans(laid, extras)
 
     def _at(self, scales: Mapping[str, float], extras: Extras, views: Views) -> Laid | None:
         """Return the sheets at certain scales, or None when one does not fit."""
@@ -428,8 +433,22 @@ class OnPaper(Struct, frozen=True):
 
     @property
     def _is_smaller(self) -> bool:
-        """Whether the paper is taken only where nothing is left out."""
+        """Whether the paper is taken only where nothing is left out, nor letters of positions."""
         return not self.paper.is_asked and self.paper.name in self.of.layout.smaller
+
+    def _is_crowded(self, laid: Laid) -> bool:
+        """Tell whether a scheme of many positions has too many letters for its area."""
+        one = self.of.solution
+        if len(one.positions) <= FEW or all(e.kind != "scheme" for e in self.of.layout.blocks):
+            return False
+        turn, more = one.problem.drive.coordinate.turn, 0
+        for end in Paths(one).extremes:
+            off = one.positions - end
+            if isfinite(turn):
+                off = off - turn * np.round(off / turn)
+            more += bool(np.abs(off).min() > 1e-6)  # else it shares the letters of a position
+        per_mm = laid.scales[FACTS[PlanKind.POSITION].scale]
+        return is_crowded(one.construction, one.si, per_mm, more)
 
     def _laid(self, solution: Solution, extras: Extras) -> Laid | None:
         """Return the sheets at the scales of a solution, or None when one does not fit."""
