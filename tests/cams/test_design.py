@@ -133,7 +133,7 @@ def test_the_centre_of_an_arm_that_is_given_is_kept(tmp_path: Path) -> None:
 def test_the_roller_is_chosen_by_both_limits(sharp: bool, tmp_path: Path) -> None:
     keys = {name: value for name, value in WANTED.items() if name != "roller"}
     if sharp:
-        # With an offset, too: the mildest place at a distance is searched for, and is not meant here.
+        # With an offset no place of the axis is searched for: that is not meant here.
         keys |= {"law": {"law": "linear", "blend": 0.02}, "r_min": 0.06, "offset": 0.0}
     design = designed(tmp_path, keys)
     by_size, by_bend = 0.4 * design.bare.r_min, 0.8 * design.rho_min.value
