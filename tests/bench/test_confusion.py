@@ -65,8 +65,9 @@ def test_what_follows_from_a_number_of_ones_own_loses_nothing(
         return replace(found, answers=tuple(replace(a, points=0.0) for a in found.answers))
 
     monkeypatch.setattr(confusion, "check", unfair)
-    found = confusion.by_routes(task, 1)
-    assert found.lost == found.answers
+    (least,) = tasks_of([problem_of("linkages/ex1")])
+    found = confusion.by_routes(least, 1)
+    assert found.lost == found.answers > 0
 
 
 def test_the_angle_of_another_variant_is_rightly_called_that_variant() -> None:

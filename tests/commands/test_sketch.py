@@ -223,13 +223,20 @@ def test_a_watched_file_is_drawn_again_and_its_faults_stand_in_place_of_the_shee
     ) as running:
         try:
             whole = _changed(picture, 0)
-            file.write_text(without(EX3, "DE"), encoding="utf-8")
+            _saved(file, without(EX3, "DE"))
             fault = _changed(picture, whole)
             assert fault < whole / 2
-            file.write_text(EX3, encoding="utf-8")
+            _saved(file, EX3)
             assert _changed(picture, fault) == whole
         finally:
             running.terminate()
+
+
+def _saved(file: Path, text: str) -> None:
+    """Put a text in the place of a file at once: half written, it would be drawn, too."""
+    whole = file.with_suffix(".new")
+    whole.write_text(text, encoding="utf-8")
+    whole.replace(file)
 
 
 def _changed(picture: Path, size: int) -> int:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from math import pi
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -12,7 +13,7 @@ from worked import path_of
 from planmethod.gears.involute.cuttingpicture import cutting_picture, cutting_view
 from planmethod.gears.involute.diagrams import HIGH, LOW, Contour, Window, working
 from planmethod.gears.involute.meshdimensions import mesh_dimensions
-from planmethod.gears.involute.meshpicture import MeshView, view_for
+from planmethod.gears.involute.meshpicture import MeshView, meshing_picture, view_for
 from planmethod.gears.involute.quantities import SolvedMeshing
 from planmethod.gears.involute.reader import load
 from planmethod.note.wording import language
@@ -114,3 +115,19 @@ def test_the_radius_of_the_rack_ends_on_its_tip(name: str) -> None:
     assert outline.distance(Point(start.real, start.imag)) == pytest.approx(
         size * view.scale, abs=0.02
     )
+
+
+def test_a_base_radius_is_named_where_it_is_drawn(tmp_path: Path) -> None:
+    """N₂ of many teeth is far away: no line goes there, and no letter stands in the air."""
+    far = tmp_path / "far.toml"
+    far.write_text("[meshing]\nz = [17, 40]\nm = 4\nbeta = 15\nb = 40\nx = [0.63, 0.81]\n", "utf-8")
+    told = []
+    for path in (path_of(FILES[0]), far):
+        view = view_for(SolvedMeshing(load(path)), 360.0, 550.0)
+        items, labels = mesh_dimensions(view, 5.0)
+        drawn = meshing_picture(view, language("en"), 5.0, items, labels).items
+        lines = [one for one in drawn if isinstance(one, Stroke) and one.tag == "base radius"]
+        named = [one.name for one in labels if " r_{b" in one.name]
+        assert len(named) == len(lines)
+        told.append(len(named))
+    assert min(told) == 1

@@ -103,7 +103,9 @@ def random_loaded(seed: int, ruler: float | None = None) -> Solution:
 
 
 def every(ruler: float | None = None) -> list[Solution]:
-    return [random_loaded(seed, ruler) for seed in SEEDS]
+    """Return the random mechanisms; with a ruler of their own every other one in make test."""
+    seeds = SEEDS if ruler is None else sampled(SEEDS, 2)
+    return [random_loaded(seed, ruler) for seed in seeds]
 
 
 @cache
@@ -202,7 +204,7 @@ def test_with_a_fine_ruler_all_forces_are_exact() -> None:
             step = 0.06 * statics_of(solution).scale.per_mm
             assert abs(value - exact) <= 2e-3 * abs(exact) + (step if exact < peak else 0.0)
             count += 1
-    assert count > some(400, few=200)
+    assert count > some(400, few=10 * len(every(1e-9)))
 
 
 @pytest.mark.parametrize("name", LOADED)

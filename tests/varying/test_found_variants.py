@@ -14,6 +14,7 @@ from pathlib import Path
 from random import Random
 
 import pytest
+from cases import sampled
 from click.testing import CliRunner, Result
 from worked import PROBLEMS, path_of
 
@@ -259,7 +260,7 @@ def test_candidates_judged_together_are_what_each_is_alone(name: str) -> None:
     read = source.read({str(k): own for k, own in enumerate(drawn)})
     problems = [one for one in read if isinstance(one, Problem)]
     together = list(judge.judge(problems))
-    for problem, found in zip(problems, together, strict=True):
+    for problem, found in sampled([*zip(problems, together, strict=True)], 3):
         (alone,) = judge.judge([problem])
         if isinstance(found, Refused) or isinstance(alone, Refused):
             assert isinstance(found, Refused) and isinstance(alone, Refused)

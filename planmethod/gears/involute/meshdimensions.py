@@ -13,7 +13,7 @@ from typing import TypeAlias
 
 import numpy as np
 
-from planmethod.gears.involute.meshpicture import MeshView
+from planmethod.gears.involute.meshpicture import MeshView, shows_end
 from planmethod.render.ink.drawing import Item, Pen, Stroke
 from planmethod.render.ink.typeset import typeset
 from planmethod.render.labels import BUSY, Label
@@ -106,8 +106,9 @@ def _clearance(view: MeshView) -> tuple[list[Item], Named]:
 def _radii(view: MeshView) -> Iterator[tuple[list[Item], Named]]:
     """Yield the radii of the wheels whose centres are drawn: r_w, r_f, r_a, r_b.
 
-    That of the base circle and the working one have their lines, to N and to P; a ring has its
-    centre on the side of the other wheel, where they would cover one another.
+    That of the base circle and the working one have their lines, to N and to P, the first where N
+    is not too far away to be drawn; a ring has its centre on the side of the other wheel, where
+    they would cover one another.
     """
     for wheel, tooth in enumerate(view.solved.teeth):
         if tooth.side < 0 or view.is_broken(wheel):
@@ -115,10 +116,10 @@ def _radii(view: MeshView) -> Iterator[tuple[list[Item], Named]]:
         centre, number = view.centre(wheel), wheel + 1
         foot = view.on_line(0.0 if wheel == 0 else float(view.solved.pair.line))
         turn = float(np.angle((foot - centre) / -centre))
-        named: Named = [
-            (f"r_{{w{number}}}", centre / 2, complex(-np.sign((foot - centre).real))),
-            (f"r_{{b{number}}}", (centre + foot) / 2, (foot - centre) * 1j * np.sign(turn)),
-        ]
+        named: Named = [(f"r_{{w{number}}}", centre / 2, complex(-np.sign((foot - centre).real)))]
+        if shows_end(view, wheel):
+            beside = (foot - centre) * 1j * np.sign(turn)
+            named.append((f"r_{{b{number}}}", (centre + foot) / 2, beside))
         items: list[Item] = []
         for name, share in (("f", 1 / 3), ("a", 2 / 3)):
             least = min(share * abs(turn), _WITHIN * share * pi / tooth.z)

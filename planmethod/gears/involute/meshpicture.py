@@ -282,7 +282,7 @@ def _line_of_action(view: MeshView) -> Iterator[Item]:
     for wheel, tip in ((0, start), (1, end)):
         beyond = view.along * (-_OVER if wheel == 0 else _OVER) / 2
         yield Stroke((tip, tip + beyond), Pen.THIN, tag="line of action")
-        if _shows_end(view, wheel):
+        if shows_end(view, wheel):
             foot = view.drawn_centre(wheel)
             if view.is_broken(wheel):
                 way = view.centre(wheel) - tip
@@ -302,12 +302,13 @@ def _near(view: MeshView, wheel: int) -> complex:
     full = view.on_line(0.0 if wheel == 0 else float(view.solved.pair.line))
     if wheel and view.solved.pair.side < 0:  # N₂ of a ring lies beyond N₁
         return view.along * _farthest(view)
-    if _shows_end(view, wheel):
+    if shows_end(view, wheel):
         return full
     return full / abs(full) * _farthest(view)
 
 
-def _shows_end(view: MeshView, wheel: int) -> bool:
+def shows_end(view: MeshView, wheel: int) -> bool:
+    """Return whether N₁ or N₂ is drawn, and with it the base radius of its wheel."""
     if wheel and view.solved.pair.side < 0:
         return False
     full = view.on_line(0.0 if wheel == 0 else float(view.solved.pair.line))
@@ -391,7 +392,7 @@ def _letters(view: MeshView, height: float) -> list[Label]:
     named += [
         (f"N_{{{wheel + 1}}}", _near(view, wheel), view.along * (1 if wheel else -1))
         for wheel in (0, 1)
-        if _shows_end(view, wheel)
+        if shows_end(view, wheel)
     ]
     labels = [
         Label(typeset(letters, height), at, prefer=way, gap=2.0, name=letters, manner=BUSY)
