@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-_BAR = re.compile(r"planmethod\s+\[.*?\]\s+(\d+)%[^\r\n]*")
+_BAR = re.compile(r"planmethod\s+\[[^\]\r\n]*+\]\s+(\d++)%[^\r\n]*")
 _ORDERS = re.compile(r"\x1b\[[?\d;]*[a-zA-Z]")
 MOST_TEXT = 400_000
 """Letters that are kept of what a command prints."""

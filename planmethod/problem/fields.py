@@ -115,6 +115,10 @@ def is_number(value: object) -> TypeGuard[int | float]:
     return isinstance(value, int | float) and not isinstance(value, bool)
 
 
+TINY = 1e-30
+"""Numbers nearer to zero are mistakes: their squares and quotients leave the range of numbers."""
+
+
 def read_number(
     faults: Faults,
     path: str,
@@ -155,6 +159,10 @@ def read_number(
         number = math.inf if value > 0 else -math.inf
     if not math.isfinite(number):
         faults.add(path, say("expected {}, got {:g}", what, number), "The number must be finite.")
+        return None
+    if 0 < abs(number) < TINY:
+        said = say("expected {}, got {:g}", what, number)
+        faults.add(path, said, "So small a number is zero here: check its power of ten.")
         return None
     if positive and number <= 0:
         faults.add(path, say("expected {} greater than 0, got {:g}", what, number))

@@ -175,7 +175,7 @@ def test_too_large_a_file(tmp_path: Path) -> None:
             "driver.phi.count: over a billion positions, the limit is 10000",
         ),
         (
-            "[driver]\nphi = { from = 0, to = 360, step = 1e-300 }",
+            "[driver]\nphi = { from = 0, to = 360, step = 1e-20 }",
             "driver.phi: over a billion positions, the limit is 10000",
         ),
         (
