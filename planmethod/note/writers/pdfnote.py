@@ -75,8 +75,8 @@ LEAST = 22 * mm
 NEARLY_EMPTY = 0.2
 """Share of the last page of a chapter from which on it is worth a page."""
 
-TIGHT = (0.9, 0.8)
-"""Shares of the pictures of a chapter that save its nearly empty page, the larger first."""
+TIGHT = 0.85
+"""Share of their size that the pictures of a chapter get where that saves its nearly empty page."""
 
 CLOSE = [(f"{side}PADDING", (0, 0), (-1, -1), 0) for side in ("LEFT", "RIGHT", "TOP", "BOTTOM")]
 """Cells without white around what is in them."""
@@ -108,14 +108,14 @@ def pdf_note(written: Document, words: Language, *, author: str = "") -> bytes:
     """
     written = document.referred(written)
     made, ends = _built(written, words, author, {})
-    tight: dict[int, float] = {}
-    for share in TIGHT:
-        low = [k for k, end in enumerate(ends) if end.is_nearly_empty and k not in tight]
-        if not low:
-            break
-        _, closer = _built(written, words, author, {**tight, **dict.fromkeys(low, share)})
-        tight |= {k: share for k in low if closer[k].count < ends[k].count}
-    return _built(written, words, author, tight)[0] if tight else made
+    low = [k for k, end in enumerate(ends) if end.is_nearly_empty]
+    if not low:
+        return made
+    closer, found = _built(written, words, author, dict.fromkeys(low, TIGHT))
+    saved = {k: TIGHT for k in low if found[k].count < ends[k].count}
+    if len(saved) == len(low):
+        return closer
+    return _built(written, words, author, saved)[0] if saved else made
 
 
 def _built(
