@@ -140,7 +140,7 @@ SPARE = 0.93
 """So much of the height of the paper the estimate may take at a finer scale of many positions: the
 table of measured values is higher than the estimated one. Of one and of few it may take all."""
 
-FULL = 1.0
+WHOLE = 1.0
 """So much of it a scheme may take whose letters would be thinned without."""
 
 CROWDED = 1.5
@@ -434,7 +434,7 @@ class _Chosen(Struct, frozen=True):
         while kind in self.free and one.is_crowded(found.per_mm[kind]):
             finer = _next(found.per_mm[kind], asked, finer=True)
             larger = replace(found, per_mm={**found.per_mm, kind: finer})
-            if not (one.stretches(finer) and larger.has_room(FULL)):
+            if not (one.stretches(finer) and larger.has_room(WHOLE)):
                 break
             found = larger
         return found

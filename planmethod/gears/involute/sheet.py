@@ -123,7 +123,7 @@ class _Meshing(Struct, frozen=True):
         mesh = meshing_picture(view, words, sizes.letter, *mesh_dimensions(view, sizes.letter))
         width = share * (free - mesh.width)
         plane = contour_picture(contour, words, width, share * 0.36 * high, sizes.letter)
-        low = share * 0.2 * high
+        low = share * 0.24 * high
         sliding = sliding_picture(solved, words, width, low, sizes.letter)
         pinion = solved.cuttings[0]
         assert pinion is not None  # only wheel 2 may be a ring
