@@ -15,6 +15,7 @@ from worked import ROOT
 from planmethod.errors import LayoutError
 from planmethod.languages import LANGUAGES
 from planmethod.problem import keys
+from planmethod.problem.head import TITLE_BLOCK
 from planmethod.render.control.texts import lint
 from planmethod.render.frame.forms import FORM_1, FORM_2, FORM_2A, Form
 from planmethod.render.frame.frame import (
@@ -480,7 +481,7 @@ texts_of_fields = st.text(alphabet="Жащфу. -№WI1_{^\\", min_size=1, max_s
 
 @settings(deadline=None)
 @given(
-    st.dictionaries(st.sampled_from(sorted(keys.known("stamp"))), texts_of_fields),
+    st.dictionaries(st.sampled_from(sorted(TITLE_BLOCK)), texts_of_fields),
     st.sampled_from(sorted(FORMS)),
     st.sampled_from(["A4", "A3", "A3:portrait"]),
 )
