@@ -6,7 +6,7 @@ import io
 import json
 import zipfile
 from collections.abc import Callable, Iterator, Mapping
-from importlib.metadata import distribution
+from importlib.metadata import PackageNotFoundError, PackagePath, distribution
 from importlib.resources import files
 from pathlib import Path
 from typing import Any
@@ -37,9 +37,10 @@ LOADED = ("numpy", "shapely", "matplotlib", "lxml", "msgspec")
 
 PACKED = (
     "click", "svgwrite", "openpyxl", "et_xmlfile", "python-docx", "typing_extensions", "reportlab",
-    "charset-normalizer", "mpmath", "ezdxf",
+    "charset-normalizer", "chardet", "mpmath", "ezdxf",
 )  # fmt: skip
-"""Libraries that are Python alone: those that are installed go into the archive."""
+"""Libraries that are Python alone: those that are installed go into the archive. Of the two that
+guess an encoding reportlab brings one or the other."""
 
 ARCHIVE = "planmethod.zip"
 
@@ -182,10 +183,18 @@ def archive() -> bytes:
             for path in sorted(root.rglob("*")):
                 _put(book, path, f"{above}/{path.relative_to(root).as_posix()}")
         for name in PACKED:
-            for one in distribution(name).files or ():
+            for one in _files_of(name):
                 if ".." not in one.parts:
                     _put(book, Path(str(one.locate())), one.as_posix())
     return made.getvalue()
+
+
+def _files_of(name: str) -> list[PackagePath]:
+    """Return the files of a library; none where it is not installed."""
+    try:
+        return distribution(name).files or []
+    except PackageNotFoundError:
+        return []
 
 
 def _put(book: zipfile.ZipFile, path: Path, name: str) -> None:
