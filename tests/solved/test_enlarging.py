@@ -113,6 +113,9 @@ def test_a_small_plan_of_many_is_shown_enlarged_beside_itself_and_read_there() -
         for name, knot in solution.read_on(k).items():  # those of the velocity plan have their own
             read = float(solution.by_hand.number(name)[k]) * knot.times
             assert read / 0.5 == pytest.approx(round(read / 0.5), abs=1e-6)
+    words = language("ru")
+    every = [k for found in solution.small_plans.values() for k in found.values()]
+    assert len({knot_letter(knot, words) for knot in every}) == len(every) > 12  # of nine letters
     (sheet,) = kinematics_sheets(problem, positions=positions)
     (view,) = (v for v in sheet.views if v.kind == "acceleration")
     tags = {i.tag for i in sheet.items if isinstance(i, Arc) and i.tag.startswith(ENLARGED)}

@@ -174,10 +174,14 @@ def view_name(knot: Knot, words: Language) -> str:
 
 
 def knot_letter(knot: Knot, words: Language) -> str:
-    """Return the letter of an enlarged view, none that looks like that of a point."""
+    """Return the letter of an enlarged view, none that looks like that of a point.
+
+    Where the letters are too few they begin anew with a number: ``Б1``.
+    """
     every: tuple[str, ...] = words.sheets["knots"]
     letters = [one for one in every if fold(one) not in knot.initials] or every
-    return letters[knot.number % len(letters)]
+    again, which = divmod(knot.number, len(letters))
+    return f"{letters[which]}{again or ''}"
 
 
 def _shown(value: float) -> float:
