@@ -438,18 +438,22 @@ def _write_key(path: Path, keys: list[Key], asked: KeyFiles) -> None:
         click.echo(str(target))
 
 
-def asked_of(todo: Todo, settings: Settings, lang: str | None) -> Asked:
-    """Return the key of a problem of any kind, and its question in a language."""
+def asked_of(todo: Todo, settings: Settings, lang: str | None, *, mistakes: bool = True) -> Asked:
+    """Return the key of a problem of any kind, and its question in a language.
+
+    Without ``mistakes`` it tells none: to find them is half of the work.
+    """
     from planmethod.check.group import task_of_problem
     from planmethod.check.key import key_of_task
 
     task = task_of_problem(todo.kind, todo.problem, settings)
+    key = key_of_task(task, named=None if mistakes else lambda _: ())
     if lang is None:
-        return Asked(key_of_task(task), None)
+        return Asked(key, None)
     from planmethod.check.exchange.variant import question_of
     from planmethod.note.wording import language
 
-    return Asked(key_of_task(task), question_of(task, todo.kind, language(lang)))
+    return Asked(key, question_of(task, todo.kind, language(lang)))
 
 
 def keys_ahead(todo: Sequence[Todo], settings: Settings) -> dict[int, Asked]:

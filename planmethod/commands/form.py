@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import click
 
 from planmethod.commands.helptext import Spoken
-from planmethod.commands.problems import Todo, each, finish, guarded, stem
+from planmethod.commands.problems import each, finish, guarded, stem
 from planmethod.options import PathType, UsageError, lang_option, out_option, problem_options
 
 if TYPE_CHECKING:
@@ -50,7 +50,7 @@ def form(
     """
     from planmethod.check.form import fingerprint_of, form_of
     from planmethod.check.marks import DEFAULT
-    from planmethod.commands.check import keys_ahead
+    from planmethod.commands.check import asked_of, keys_ahead
     from planmethod.render.backends.output import write
 
     if students is not None and names is not None:
@@ -77,19 +77,9 @@ def form(
             write(path, data)
             click.echo(str(path))
 
+    act = partial(asked_of, settings=DEFAULT, lang=None, mistakes=False)
     ahead = partial(keys_ahead, settings=DEFAULT)
-    finish(each(problems, variant, all_variants, _asked, take=make, ahead=ahead))
-
-
-def _asked(todo: Todo) -> Asked:
-    """Return the key of a problem without the usual mistakes: a form tells none."""
-    from planmethod.check.group import task_of_problem
-    from planmethod.check.key import key_of_task
-    from planmethod.check.marks import DEFAULT
-    from planmethod.commands.check import Asked
-
-    task = task_of_problem(todo.kind, todo.problem, DEFAULT)
-    return Asked(key_of_task(task, named=lambda _: ()), None)
+    finish(each(problems, variant, all_variants, act, take=make, ahead=ahead))
 
 
 def _read_names(path: Path) -> list[str]:

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from enum import Enum
-from math import inf
+from math import inf, isinf
 from typing import TYPE_CHECKING, Annotated, Any, NamedTuple
 
 from msgspec import Struct, field
@@ -158,6 +158,11 @@ class Coordinate(Struct, frozen=True):
     symbol: str
     rates: tuple[str, str]
     turn: float
+
+    def apart(self, one: float, two: float) -> float:
+        """Return how far apart two positions are, within a turn."""
+        way, turn = one - two, self.turn
+        return abs(way) if isinf(turn) else abs((way + turn / 2) % turn - turn / 2)
 
     def told(self, value: float, unit: str, digits: int = 12) -> str:
         """Return a value for a message, lengths in the unit of the file: ``phi = 20 deg``."""

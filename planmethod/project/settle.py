@@ -167,8 +167,8 @@ def _calculated(problem: Problem, solution: Solution, asked: tuple[float, ...]) 
             )
         return task.calculated
     if len(asked) == 1:
-        turn = problem.drive.coordinate.turn
-        off = [abs((p - asked[0] + turn / 2) % turn - turn / 2) for p in problem.drive.positions]
+        apart = problem.drive.coordinate.apart
+        off = [apart(p, asked[0]) for p in problem.drive.positions]
         if count == 1 or min(off) < SAME_DEG:
             return int(np.argmin(off))
     return calculated_position(solution)

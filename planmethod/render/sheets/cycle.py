@@ -36,7 +36,7 @@ from planmethod.render.pictures.diagram import (
 from planmethod.render.sheets.composer import Viewed
 from planmethod.render.sheets.model import Manner
 from planmethod.render.sheets.texts import stated
-from planmethod.render.sheets.views import named
+from planmethod.render.sheets.views import LARGER, at_scales, named
 from planmethod.solved.cycle import Cycle, Piece, ReactionPeak, cycle
 from planmethod.solved.errors.forces import drawn_forces
 from planmethod.solved.forces.statics import statics_of
@@ -45,8 +45,8 @@ from planmethod.solved.solution import Solution
 WIDE, HIGH, SIDE = 0.8, 0.3, 0.45
 """Length and height of a diagram, and side of a polar diagram, as parts of the width of a text."""
 
-HIGHER, LARGER = (1.0, 1.5), (1.0, 1.5, 2.2)
-"""So many times as high a diagram, and as large a polar diagram, stands where there is room."""
+HIGHER = (1.0, 1.5)
+"""So many times as high a diagram stands where there is room."""
 
 PENS = (Pen.MAIN, Pen.THIN, Pen.HIDDEN, Pen.AXIS)
 """Lines of the curves of one diagram, in turn."""
@@ -120,11 +120,7 @@ class _Frame(Struct, frozen=True):
 def _as_high(manner: Manner, draw: Callable[[float, float], Viewed]) -> Block:
     """Return a diagram of a length in the heights that it may have, the usual one first, mm."""
     column = manner.width(manner.sizes.column)
-    found: dict[Scale | None, Viewed] = {}
-    for times in HIGHER:
-        one = draw(WIDE * column, times * HIGH * column)
-        found.setdefault(one.scale, one)
-    return shaped(found.values(), grows=True)
+    return at_scales(draw(WIDE * column, times * HIGH * column) for times in HIGHER)
 
 
 def balance_diagram(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:

@@ -4,11 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from itertools import chain, product
-from math import isfinite
 from pathlib import Path
 from typing import Any
 
-import numpy as np
 from msgspec import Struct
 from msgspec.structs import replace
 
@@ -441,12 +439,9 @@ class OnPaper(Struct, frozen=True):
         one = self.of.solution
         if len(one.positions) <= FEW or all(e.kind != "scheme" for e in self.of.layout.blocks):
             return False
-        turn, more = one.problem.drive.coordinate.turn, 0
-        for end in Paths(one).extremes:
-            off = one.positions - end
-            if isfinite(turn):
-                off = off - turn * np.round(off / turn)
-            more += bool(np.abs(off).min() > 1e-6)  # else it shares the letters of a position
+        apart, positions = one.problem.drive.coordinate.apart, one.positions.tolist()
+        # One that is a position shares its letters.
+        more = sum(min(apart(p, end) for p in positions) > 1e-6 for end in Paths(one).extremes)
         per_mm = laid.scales[FACTS[PlanKind.POSITION].scale]
         return is_crowded(one.construction, one.si, per_mm, more)
 

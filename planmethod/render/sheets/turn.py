@@ -30,16 +30,15 @@ from planmethod.render.sheets.model import Manner
 from planmethod.render.sheets.results import table_width
 from planmethod.render.sheets.several import plan_grid
 from planmethod.render.sheets.texts import stated
-from planmethod.render.sheets.views import PlanViewed, named
-from planmethod.solved.reading import Complexes, Reals
+from planmethod.render.sheets.views import LARGER, PlanViewed, at_scales, named
+from planmethod.solved.reading import Complexes, Reals, remembered
 from planmethod.solved.solution import Solution
 from planmethod.solved.travel import without_corners
 from planmethod.solved.turn.diagrams import diagrams_of
 from planmethod.solved.turn.turn import TURN, Turn, turn_of
 
-SIDE, LARGER = 0.5, (1.0, 1.5, 2.2)
-"""Side of a hodograph as a part of the width of a text, and how many times as large it stands where
-there is room."""
+SIDE = 0.5
+"""Side of a hodograph as a part of the width of a text."""
 
 MOST = 150.0
 """Side up to which a hodograph of a project keeps the scale of its plans, mm."""
@@ -150,12 +149,9 @@ class Hodograph(Struct, frozen=True):
         return polar_picture(self.parts, self.ends, letter, name, FACTS[self.kind].pole)
 
 
-def hodograph(solution: Solution, kind: PlanKind, side: float) -> Hodograph:
-    """Return the hodograph of velocities or accelerations that fills a square, its side in mm.
-
-    One of a project has the scale of the plans, as a plan of all positions about one pole, unless
-    it is larger than `MOST` or small beside it then: it fills that square, whatever the side.
-    """
+@remembered
+def _hodograph_of(solution: Solution, kind: PlanKind) -> tuple[str, Complexes, Complexes]:
+    """Return the point, its curve, and the ends of its vectors in the positions; m/s or m/s²."""
     turn = turn_of(solution)
     point = hodograph_point(turn) or turn.output.point
     drive, kin = solution.problem.drive, turn.unit.construction.kinematics
@@ -174,6 +170,16 @@ def hodograph(solution: Solution, kind: PlanKind, side: float) -> Hodograph:
     last = last if turn.range is not None else first + turn.sense * TURN
     even, ends = np.linspace(first, last, 361), vectors(turn.positions)
     (curve,) = without_corners(even, vectors(even)[np.newaxis], vectors)[1]
+    return point, curve, ends
+
+
+def hodograph(solution: Solution, kind: PlanKind, side: float) -> Hodograph:
+    """Return the hodograph of velocities or accelerations that fills a square, its side in mm.
+
+    One of a project has the scale of the plans, as a plan of all positions about one pole, unless
+    it is larger than `MOST` or small beside it then: it fills that square, whatever the side.
+    """
+    point, curve, ends = _hodograph_of(solution, kind)
     there = np.concatenate([[0j], curve[np.isfinite(curve)], ends[np.isfinite(ends)]])
     size = (float(np.ptp(there.real)), float(np.ptp(there.imag)))
     inverse = solution.problem.scales.convention is Convention.MM_PER_UNIT
@@ -195,16 +201,16 @@ def hodograph_view(solution: Solution, indices: Sequence[int], manner: Manner) -
     """
     kind, words = manner.entry.of, manner.words
     assert kind is not None
-    ways: dict[float, Viewed] = {}
-    for times in LARGER:
-        one = hodograph(solution, kind, times * SIDE * manner.width(manner.sizes.column))
-        if one.scale.per_mm in ways:
-            continue
+    usual = SIDE * manner.width(manner.sizes.column)
+
+    def view(side: float) -> Viewed:
+        one = hodograph(solution, kind, side)
         title = words.cycle["hodograph"][kind.value].format(of=point_name(one.point))
         said = [scale_inscription(one.scale, solution.problem.scales.convention, words.say)]
         block = named(one.picture(manner.letter), manner.entry.title or title, said, manner)
-        ways[one.scale.per_mm] = Viewed(block, "hodograph", one.scale)
-    return shaped(ways.values(), grows=True)
+        return Viewed(block, "hodograph", one.scale)
+
+    return at_scales(view(times * usual) for times in LARGER)
 
 
 # Tables ------------------------------------------------------------------------------------------

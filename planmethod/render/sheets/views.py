@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping, Sequence
 from types import MappingProxyType
 
+from planmethod.construct.scale import Scale
 from planmethod.note.narrate.formulas import knot_letter, view_name
 from planmethod.note.narrate.letters import shown_letters
 from planmethod.note.narrate.scales import scale_inscription
@@ -36,6 +37,9 @@ POINT = 1e-6
 """What is shorter on a plan, mm, is the rounding of a mechanism that rests."""
 
 NO_VIEWS: Mapping[int, complex] = MappingProxyType({})
+
+LARGER = (1.0, 1.5, 2.2)
+"""So many times as large a polar diagram stands where there is room."""
 
 
 class PlanViewed(Viewed, frozen=True):
@@ -216,6 +220,14 @@ def with_scale(
         shown = (shown_position(solution, drawn, manner),) if of_scheme else drawn
         said += ellipse_inscription(solution, kind, shown, words)
     return named(picture, title, said, manner)
+
+
+def at_scales(ways: Iterable[Viewed]) -> Block:
+    """Return a view that may stand at several scales, the usual one first."""
+    found: dict[Scale | None, Viewed] = {}
+    for way in ways:
+        found.setdefault(way.scale, way)
+    return shaped(found.values(), grows=True)
 
 
 def named(picture: Block, title: str, said: Iterable[str | Block], manner: Manner) -> Column:

@@ -354,8 +354,8 @@ def _chosen(
             posed.key,
         )
     if posed.near is not None:
-        turn = drive.coordinate.turn
-        return min((p for p, _ in kept), key=lambda p: _apart(p - (posed.near or 0.0), turn))
+        asked, apart = posed.near, drive.coordinate.apart
+        return min((p for p, _ in kept), key=lambda p: apart(p, asked))
     ways_of = GOING.get(posed.by.value, ("", ""))
     if posed.going:
         kept = [one for one in kept if one[1] == (1.0 if posed.going == ways_of[0] else -1.0)]
@@ -383,11 +383,6 @@ def _chosen(
         )
     message = say("{} fits {}, and one is meant", said, told)
     raise ProblemError(problem.name, [Fault("driver.root", message, hint)])
-
-
-def _apart(way: float, turn: float) -> float:
-    """Return how far apart two positions of the driver are, within a turn."""
-    return abs(way) if np.isinf(turn) else abs((way + turn / 2) % turn - turn / 2)
 
 
 def _told(posed: Posed, value: float, problem: Problem) -> str:
