@@ -8,6 +8,7 @@ from math import acos, atan2, cos, hypot, pi, radians, sin, tan
 from pathlib import Path
 from typing import Any
 
+import mpmath
 import numpy as np
 import pytest
 from cases import each, some
@@ -26,7 +27,7 @@ from planmethod.gears.involute.cuttingpicture import (
 )
 from planmethod.gears.involute.generation import RackCutting
 from planmethod.gears.involute.meshpicture import CURVE
-from planmethod.gears.involute.profile import Tooth
+from planmethod.gears.involute.profile import LineOfAction, Tooth
 from planmethod.gears.involute.sizes import Pair, Rack
 from planmethod.note.wording import language
 from planmethod.render.ink.drawing import Disc, Stroke, Text
@@ -204,6 +205,65 @@ def test_undercut_begins_where_the_boundary_point_reaches_the_base_circle(
     # B_l is where the boundary line of the rack, h_a* below its reference line, crosses the line.
     point = there.on_line(there.boundary)
     assert point.real == pytest.approx(there.displacement - there.tooth.pair.rack.straight * 5)
+
+
+def left_by_the_rack(z: int, m: float, x: float, beta: float) -> tuple[float, float]:
+    """Return ρ at the lowest point of an undercut involute, mm, and how far beyond it B_l lies.
+
+    In 50 digits: the rounded tip of the rack rolls, and what it reaches is compared with the
+    involute at the same radius.
+    """
+    with mpmath.workdps(50):
+        alpha, size, lean = mpmath.radians(20), mpmath.mpf(m), mpmath.cos(mpmath.mpf(beta))
+        transverse = mpmath.atan(mpmath.tan(alpha) / lean)
+        radius, shift = size * z / 2 / lean, mpmath.mpf(x) * size
+        base, rho = radius * mpmath.cos(transverse), size / 4 / (1 - mpmath.sin(alpha))
+        depth = 5 * size / 4 - rho - shift
+        wide = (size * mpmath.pi / 4 - (depth + shift) * mpmath.tan(alpha)
+                - rho / mpmath.cos(alpha)) / lean  # fmt: skip
+        half = (mpmath.pi / 2 * size + 2 * shift * mpmath.tan(alpha)) / lean / (2 * radius)
+
+        def tip(theta: Any) -> Any:
+            beside = (depth + rho * mpmath.cos(theta)) * mpmath.tan(theta) * lean
+            rolled = (beside - rho * mpmath.sin(theta) / lean - wide) / radius
+            point = mpmath.mpc(radius - depth - rho * mpmath.cos(theta), beside)
+            return point * mpmath.expj(-rolled - mpmath.pi / z)
+
+        def is_cut(theta: Any) -> bool:
+            point = tip(theta)
+            if abs(point) < base:
+                return True
+            angle = mpmath.acos(base / abs(point))
+            lag = mpmath.tan(angle) - angle - mpmath.tan(transverse) + transverse
+            return bool(mpmath.arg(point) > lag - half)
+
+        low, high = mpmath.mpf(0), mpmath.pi / 2 - alpha
+        beyond = mpmath.sqrt(abs(tip(high)) ** 2 - base**2)
+        for _ in range(160):
+            middle = (low + high) / 2
+            low, high = (middle, high) if is_cut(middle) else (low, middle)
+        return float(mpmath.sqrt(abs(tip(low)) ** 2 - base**2)), float(beyond)
+
+
+def test_undercut_leaves_what_the_rolled_rack_leaves() -> None:
+    """Of 72 wheels: from a trace of undercut down to a deep one, straight and helical."""
+    draw = np.random.default_rng(46)
+    for number in range(some(72, few=18)):
+        z, m = int(draw.integers(8, 41)), float(draw.choice([1, 2, 2.5, 4, 6, 10]))
+        beta = radians(float(draw.choice([10, 25]))) if number % 3 == 2 else 0.0
+        pair = Pair((z, 60), m, Rack(radians(20)), np.zeros(2), 0, beta)
+        less = 10 ** draw.uniform(-6, -2) if number % 6 == 1 else draw.uniform(0.1, 0.5)
+        x = float(pair.x_min[0]) - float(less)
+        pair = pair.shifted((x, 0.4))
+        one, two = Tooth(pair, 0), Tooth(pair, 1)
+        due, beyond = left_by_the_rack(z, m, x, beta)
+        assert one.rho_low == pytest.approx(due, rel=1e-8), (z, m, x, beta)
+        assert -one.size("rho_l") == pytest.approx(beyond, rel=1e-8)
+        # What is drawn ends there, and the contact ratio is that of what is left.
+        assert abs(one.fillet(one.theta) - one.flank(one.rho_low)) < 1e-9 * m
+        start = max(float(pair.line) - two.rho_high, due)
+        end = min(one.rho_high, float(pair.line) - two.rho_low)
+        assert LineOfAction.of(one, two).overlap(pair) == pytest.approx((end - start) / pair.p_b)
 
 
 # What is told -------------------------------------------------------------------------------------

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from functools import cached_property
-from math import cos, pi
+from math import atan, atan2, cos, pi, sin, sqrt, tan
 
 import numpy as np
 from msgspec import Struct
@@ -20,8 +20,8 @@ from planmethod.gears.involute.sizes import Pair, Reals
 
 Points = NDArray[np.complex128]
 
-_HALVINGS = 80
-_SCANNED = 2000  # places of the fillet among which its crossing with the involute is looked for
+_HALVINGS = 100
+_SMALL = 0.05  # below it x − arctan x is a sum of powers, its difference would lose digits
 
 
 class Tooth(Struct, frozen=True, dict=True):
@@ -96,34 +96,56 @@ class Tooth(Struct, frozen=True, dict=True):
         place = float(pair.a_w0) + pair.d_a0 / 2 * np.exp(1j * chi)
         return np.asarray(place * np.exp(1j * (turned - pi / self.z)))
 
-    def _inside(self, theta: Reals) -> Reals:
-        """Return how far the fillet lies within the involute, rad; NaN below the base circle."""
-        points = self.fillet(theta)
-        base = self.size("d_b") / 2
-        rho = np.sqrt(np.where(np.abs(points) >= base, np.abs(points) ** 2 - base**2, np.nan))
-        return np.asarray(np.angle(points) + self.half(rho))
+    @cached_property
+    def _crossing(self) -> tuple[float, float]:
+        """Where the fillet of an undercut tooth meets its involute: θ, and the radius there, mm.
+
+        With θ the fillet moves away from the centre all the way. Where it passes the base circle
+        it lies within the tooth; where it ends, at the other branch of the involute beyond N, it
+        lies outside. In between it crosses the involute. Everything is reckoned from that end,
+        from which a trace of undercut is no farther than the square of its ρ_l.
+        """
+        last, radius, base = self._last, self.size("d") / 2, self.size("d_b") / 2
+        m, narrow = self.pair.m, cos(self.pair.beta)
+        corner, rho = self.pair.rack.corner * m, self.pair.rack.rho * m
+        depth = -corner.imag - float(self.pair.x[self.wheel]) * m
+        low = depth + rho * cos(last)
+        end = complex(radius - low, low * tan(last) * narrow)
+        beyond = self.size("rho_l") / base
+
+        def at(back: float) -> tuple[float, float]:
+            """Square of ρ/r_b, and how far the fillet lies within the involute, rad."""
+            half = 2 * sin(back / 2)
+            d_sine, d_low = -cos(last - back / 2) * half, rho * sin(last - back / 2) * half
+            d_tangent = -sin(back) / (cos(last) * cos(last - back))
+            d_beside = narrow * (depth * d_tangent + rho * d_sine)
+            turned = (d_beside - rho * d_sine / narrow) / radius
+            moved = complex(-d_low, d_beside)
+            across = end.conjugate() * moved
+            squared = beyond**2 + (2 * across.real + abs(moved) ** 2) / base**2
+            angle = atan2(across.imag, abs(end) ** 2 + across.real) - turned
+            return squared, angle - _lag(-beyond) - _lag(sqrt(max(squared, 0.0)))
+
+        lowest = halved(lambda back: at(back)[0] > 0, 0.0, last)
+        back = halved(lambda back: at(back)[1] < 0, 0.0, lowest)
+        return last - back, base * sqrt(max(at(back)[0], 0.0))
+
+    @property
+    def _last(self) -> float:
+        """Where the rounded tip of the rack ends at its straight flank, rad."""
+        return pi / 2 - self.pair.rack.alpha
 
     @cached_property
     def theta(self) -> float:
         """Where the fillet ends at the involute, rad: before π/2 − α where it cuts it off."""
         if self.side < 0:
             return self.pair.alpha_a0 - float(self.pair.alpha_w0)
-        last = pi / 2 - self.pair.rack.alpha
-        if self.size("rho_l") >= 0:
-            return last
-        tried = np.linspace(0.0, last, _SCANNED)
-        cut = np.flatnonzero(self._inside(tried) > 0)
-        # A trace of undercut may be between the last place and the end.
-        k = min(int(cut[-1]), _SCANNED - 2) if len(cut) else _SCANNED - 2
-        return halved(lambda at: float(self._inside(np.array(at))) > 0, tried[k], tried[k + 1])
+        return self._crossing[0] if self.is_cut else self._last
 
     @cached_property
     def rho_low(self) -> float:
         """Radius of curvature at the lowest point that the involute has, mm."""
-        if self.size("rho_l") >= 0 or self.side < 0:
-            return self.size("rho_l")
-        reach = abs(complex(self.fillet(self.theta)))
-        return float(np.sqrt(max(reach**2 - self.size("d_b") ** 2 / 4, 0.0)))
+        return self._crossing[1] if self.is_cut else self.size("rho_l")
 
     @cached_property
     def rho_high(self) -> float:
@@ -159,6 +181,14 @@ class Tooth(Struct, frozen=True, dict=True):
         root = abs(self.size("d_f")) / 2 * np.exp(-1j * pi / self.z)
         lower = np.concatenate([[root], self.fillet_points(count), self.flank_points(count)[1:]])
         return np.concatenate([lower, lower[::-1].conj()])
+
+
+def _lag(roll: float) -> float:
+    """Return x − arctan x, by which the involute has turned at ρ = x·r_b."""
+    if abs(roll) >= _SMALL:
+        return roll - atan(roll)
+    square = roll * roll
+    return roll * sum(-((-square) ** k) / (2 * k + 1) for k in range(1, 9))
 
 
 def halved(holds: Callable[[float], bool], low: float, high: float) -> float:
