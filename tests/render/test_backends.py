@@ -452,6 +452,15 @@ def test_svg_holds_each_letter_once_and_each_run_that_recurs() -> None:
     assert [g.attrib["data-tag"] for g in root.iter() if "data-tag" in g.attrib] == ["имя"] * 2
 
 
+def test_svg_knows_a_run_again_however_its_height_and_turn_were_computed() -> None:
+    ways = [(5.0, 0.0), (5, 0), (5.000000000000001, -0.0), (4.999999999999999, 0.0)]
+    plain, odd = (
+        [Text(complex(2, 3 * k), "vB", height, angle) for k, (height, angle) in enumerate(asked)]
+        for asked in (ways[:1] * 4, ways)
+    )
+    assert render(sheet_of(*odd), "svg") == render(sheet_of(*plain), "svg")
+
+
 def test_svg_letters_advance_as_the_lettering_says() -> None:
     text = Text(1 + 1j, "План ab", 3.5)
     root = ET.fromstring(render(sheet_of(text), "svg"))

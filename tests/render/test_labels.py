@@ -13,11 +13,13 @@ from shapely import LineString, box
 
 from planmethod.render.control.texts import lint
 from planmethod.render.ink.drawing import Arc, Bounds, Fill, Item, Pen, Stroke, Text
+from planmethod.render.ink.lettering import lettering, using
 from planmethod.render.ink.typeset import typeset
 from planmethod.render.labels import (
     CROWDED,
     UNDER_LABEL,
     Label,
+    LabelStyle,
     Placed,
     paper,
     place,
@@ -153,6 +155,34 @@ def test_same_input_same_places() -> None:
     first = place_labels(many, lines, BOUNDS)
     place._placed.cache_clear()
     assert place_labels(many, lines, BOUNDS) == first
+
+
+def test_places_are_those_of_the_lettering_in_use() -> None:
+    """Upright and slanted letters may be as wide, and yet the ink of other texts is elsewhere."""
+    rng = np.random.default_rng(5)
+    wanted = [label("B", 50 + 50j), label("A", 60 + 55j, 1j)]
+    places = 45 + 25 * rng.random(40) + 1j * (40 + 25 * rng.random(40))
+    upright, differ = lettering("B-upright"), 0
+    for at in places:
+        texts = [Text(complex(at), "8", 5.0), Text(complex(at) + 9 - 7j, "B", 7.0)]
+        slanted = place_labels(wanted, texts, BOUNDS)
+        with using(upright):
+            after = place_labels(wanted, texts, BOUNDS)
+            place._placed.cache_clear()
+            assert place_labels(wanted, texts, BOUNDS) == after
+        differ += slanted != after
+    assert differ
+
+
+def test_a_style_equal_to_that_of_few_is_that_of_few() -> None:
+    rng = np.random.default_rng(6)
+    hedge: list[Item] = [Stroke((complex(40, y), complex(70, y))) for y in range(40, 61)]
+    for at in 40 + 30 * rng.random(20) + 1j * (40 + 20 * rng.random(20)):
+        few = [label("B", complex(at)), label("A", complex(at) + 3)]
+        same = [replace(one, manner=LabelStyle()) for one in few]
+        found = [(one.at, one.ground) for one in place_labels(few, hedge, BOUNDS)]
+        place._placed.cache_clear()
+        assert [(one.at, one.ground) for one in place_labels(same, hedge, BOUNDS)] == found
 
 
 def test_places_are_the_same_however_few_are_compared_at_once(

@@ -32,6 +32,12 @@ def test_plain_text_is_one_run() -> None:
     assert line.ascent >= 5
 
 
+def test_a_height_is_no_other_one_for_being_a_whole_number() -> None:
+    """What is kept for 7 mm is given to who asks for 7.0, too."""
+    made = typeset("W_{9}", 7)
+    assert {type(height) for height in (made.height, *(run.height for run in made.runs))} == {float}
+
+
 @pytest.mark.parametrize("markup", ["v_{C}", "v_C"])
 def test_index_below(markup: str) -> None:
     letter, index = typeset(markup, 5).runs

@@ -193,13 +193,15 @@ class SvgCanvas(Canvas):
 
     def _run(self, item: Text) -> str:
         """Return the name of a run of letters, which is put together once, wherever it stands."""
-        key = f"{item.text} {item.height} {item.angle}"
+        # As far as it can be seen: 5 mm and 5.0, 0° and -0.0 are one, whoever computed them.
+        height, angle = round(item.height, 6) + 0.0, round(item.angle, 6) + 0.0
+        key = f"{item.text} {height} {angle}"
         name = f"t{crc32(key.encode(errors='replace')):x}"
         while self._keys.setdefault(name, key) != key:
             name += "x"
         if name not in self._runs:
-            unit = _number(item.height / self._lettering.cap_height, 8)
-            turn = f"rotate({_number(-item.angle, 4)})" if item.angle else ""
+            unit = _number(height / self._lettering.cap_height, 8)
+            turn = f"rotate({_number(-angle, 4)})" if angle else ""
             placed = [(char, pen) for char, pen in self._lettering.places(item.text)
                       if self._lettering.glyph(char).strokes]  # fmt: skip
             self._letters.update(char for char, _ in placed)

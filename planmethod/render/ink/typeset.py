@@ -189,7 +189,8 @@ def typeset(markup: str, height: float) -> Inscription:
     LayoutError
         If braces do not pair, an index has nothing in it, or a command is unknown.
     """
-    return _typeset(inlined(markup), height, in_use())
+    # Kept for equal heights: 5 and 5.0 are one, and what is kept has the height of the first.
+    return _typeset(inlined(markup), float(height), in_use())
 
 
 @lru_cache(maxsize=4096)

@@ -146,7 +146,7 @@ def _beside(label: Label, start: complex, end: complex) -> Candidates:
     centres: list[complex] = []
     dislike: list[float] = []
     reach = abs(normal.real) * half_w + abs(normal.imag) * half_h
-    alone = label.manner is ALONE
+    alone = label.manner == ALONE
     for beyond in _BESIDE if alone else label.manner.rings:
         for side in (first, -first):
             for part in _ALONG:

@@ -186,7 +186,7 @@ class Paper:
         costs = np.zeros(len(so_far))
         label = candidates.label
         ask = np.flatnonzero(candidates.led & (so_far < CROSSED))
-        if self._lines is None or label.manner is ALONE or not len(ask):
+        if self._lines is None or label.manner == ALONE or not len(ask):
             return costs
         ways = self._ways_from(label.anchor)
         lines = candidates.ends[ask] - candidates.starts[ask]

@@ -16,6 +16,7 @@ from msgspec import Struct
 from numpy.typing import NDArray
 
 from planmethod.render.ink.drawing import Bounds, Item
+from planmethod.render.ink.lettering import OutlineLettering, in_use
 from planmethod.render.labels.candidates import (
     Candidates,
     Floats,
@@ -64,14 +65,22 @@ def place_labels(
         In the order of ``labels``, without the optional ones that found no free place. Where there
         is no room at all a label overlaps or leaves the bounds, and is not ``free``.
     """
-    return list(_placed(tuple(labels), tuple(obstacles), bounds, breaking=breaking))
+    return list(_placed(tuple(labels), tuple(obstacles), bounds, in_use(), breaking=breaking))
 
 
 @lru_cache(maxsize=64)
 def _placed(
-    labels: tuple[Label, ...], obstacles: tuple[Item, ...], bounds: Bounds, *, breaking: bool
+    labels: tuple[Label, ...],
+    obstacles: tuple[Item, ...],
+    bounds: Bounds,
+    _lettering: OutlineLettering,
+    *,
+    breaking: bool,
 ) -> tuple[Placed, ...]:
-    """Return the labels with their places: of a picture that was tried on other paper, as there."""
+    """Return the labels with their places: of a picture that was tried on other paper, as there.
+
+    How far the ink of texts among the obstacles goes depends on the lettering that is in use.
+    """
     if not labels:
         return ()
     places = _Places(Paper(obstacles, bounds), labels)
@@ -81,7 +90,7 @@ def _placed(
     places.fill([k for k in firm if labels[k].series])
     if not breaking and len(places.unfree()) >= _HOPELESS:
         return places.result()
-    if any(labels[k].manner is not ALONE for k in firm):
+    if any(labels[k].manner != ALONE for k in firm):
         places.look_again()
         places.improve()
     for k in places.unfree():
@@ -205,7 +214,7 @@ class _Places:
         best = self._cheapest(k, choice(k, 0))
         # One of a crowd looks further before its leader line crosses others, but rather breaks a
         # line than stands at the other end of the drawing.
-        alone = self.labels[k].manner is ALONE
+        alone = self.labels[k].manner == ALONE
         for number in (1, 2) if alone else (1,):
             if best.cost < (CROSSED if alone else _FAR_IF):
                 break
@@ -355,7 +364,7 @@ class _Places:
     def break_lines(self, k: int) -> None:
         """Put a label of a crowd on thin lines that its white ground breaks: the last resort."""
         label = self.labels[k]
-        if label.manner is ALONE or self._cost(k) < CROSSED:
+        if label.manner == ALONE or self._cost(k) < CROSSED:
             return
         for number in (0, 1):
             choice = self._wider(k, number)
@@ -372,7 +381,7 @@ class _Places:
 
     def far_away(self) -> list[int]:
         """Return the letters of a crowd at the ends of leader lines that the eye follows badly."""
-        crowd = (k for k in self._firm if self.labels[k].manner is not ALONE)
+        crowd = (k for k in self._firm if self.labels[k].manner != ALONE)
         return [k for k in crowd if k not in self.lined and self._leader(k) > _LONG]
 
     def _leader(self, k: int) -> float:
