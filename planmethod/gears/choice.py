@@ -9,7 +9,7 @@ from fractions import Fraction
 import numpy as np
 import numpy.typing as npt
 
-from planmethod.gears.conditions import RING_LESS, SIN2, ring_room
+from planmethod.gears.conditions import SIN2, ring_fits
 from planmethod.gears.model import MeshKind
 from planmethod.gears.teeth import Chosen, TeethSet, TrainScheme, Wanted
 
@@ -165,17 +165,15 @@ def _meshes(kind: MeshKind, one: Ints, other: Ints) -> Mask:
     """Return where standard teeth of two wheels neither interfere nor cut each other.
 
     The tip of the larger wheel stays short of where the line of action touches the base circle of
-    the smaller; an internal mesh also needs `RING_LESS` teeth of difference. Of a ring and a
-    wheel, the ring is ``one`` or ``other``, whichever is larger.
+    the smaller. Of a ring and a wheel, the ring is ``one`` or ``other``, whichever is larger.
     """
     small, large = np.minimum(one, other), np.maximum(one, other)
-    room: Reals
-    squared: Reals
-    room, squared = ring_room(small)
     if kind is MeshKind.INTERNAL:
-        return (large - small >= RING_LESS) & (room > 0) & (large * room >= squared)
-    room = 4 - 2 * small * SIN2
-    return (room <= 0) | (large * room <= squared)
+        inside: Mask = ring_fits(small, large)
+        return inside
+    room: Reals = 4 - 2 * small * SIN2
+    fits: Mask = (room <= 0) | (large * room <= small**2 * SIN2 - 4)
+    return fits
 
 
 def _turn_together(

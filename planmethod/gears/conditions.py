@@ -11,6 +11,7 @@ from msgspec import Struct, field
 
 from planmethod.gears.model import PARALLEL, Mesh, MeshKind
 from planmethod.gears.motion import TrainMotion
+from planmethod.note.numbers import MINUS
 from planmethod.note.wording import Language
 
 LEAST_TEETH = 17
@@ -19,8 +20,10 @@ LEAST_TEETH = 17
 RING_LESS = 8
 """Least difference of teeth in an internal mesh."""
 
-SIN2 = math.sin(math.radians(20)) ** 2
-"""Of the pressure angle of the standard rack."""
+ALPHA = 20.0
+"""Pressure angle of the standard rack, degrees."""
+
+SIN2 = math.sin(math.radians(ALPHA)) ** 2
 
 MOST_SATELLITES = 24
 
@@ -35,11 +38,14 @@ class Condition(Struct, frozen=True):
         ``satellites``: words are under it.
     facts : mapping
         What its sentence names.
+    said : str
+        What its sentence is under where that is not its name.
     """
 
     name: str
     holds: bool
     facts: Mapping[str, str] = field(default_factory=dict)
+    said: str = ""
 
 
 def conditions(motion: TrainMotion) -> tuple[Condition, ...]:
@@ -51,7 +57,7 @@ def sentence(condition: Condition, words: Language) -> str:
     """Return a condition in words."""
     decimal = words.note.decimal
     facts = {name: value.replace(".", decimal) for name, value in condition.facts.items()}
-    said: str = words.gears["conditions"][condition.name]
+    said: str = words.gears["conditions"][condition.said or condition.name]
     return said.format(**facts)
 
 
@@ -214,6 +220,9 @@ def _apart(size: Fraction, distance: Fraction, count: int) -> bool:
     return count == 1 or math.sin(math.pi / count) > float((size + 2) / distance)
 
 
+# Inner meshes ------------------------------------------------------------------------------------
+
+
 def ring_room(small: Any) -> tuple[Any, Any]:
     """Return the lower and the upper part of the least teeth of a ring around a standard wheel.
 
@@ -222,6 +231,41 @@ def ring_room(small: Any) -> tuple[Any, Any]:
     17 teeth of the wheel, there is no such ring.
     """
     return 2 * small * SIN2 - 4, small**2 * SIN2 - 4
+
+
+def ring_fits(small: Any, ring: Any) -> Any:
+    """Return whether a standard wheel runs in a standard ring without interference of teeth.
+
+    The ring has `RING_LESS` teeth more, and its tips stay short of the base circle's tangent
+    point: the one rule for conditions, choice and design. Arrays of teeth give an array.
+    """
+    room, reach = ring_room(small)
+    return (ring - small >= RING_LESS) & (ring * room >= reach)
+
+
+def _inner(motion: TrainMotion, mesh: Mesh) -> Condition:
+    """Judge an internal mesh: standard teeth by their numbers, shifted ones by their sizes."""
+    train, sizes = motion.train, motion.axes.sizes
+    small, ring = sorted((mesh.first, mesh.second), key=lambda label: sizes[label])
+    teeth, shifts = ([float(sizes[x]) for x in (small, ring)],
+                     [float(train.wheels[x].shift) for x in (small, ring)])  # fmt: skip
+    said = {"ring": ring, "wheel": small, "teeth": _shown(sizes[small])}
+    room, reach = ring_room(teeth[0])
+    if room > 0 and not any(shifts):
+        less = sizes[ring] - sizes[small]
+        least = max(Fraction(RING_LESS), math.ceil(reach / room - 1e-9) - sizes[small])
+        said |= {"less": _shown(less), "least": _shown(least)}
+        return Condition("interference", bool(ring_fits(*teeth)), said)
+    from planmethod.gears.angles import ring_margins
+
+    beyond, tips = ring_margins(teeth, shifts, math.radians(ALPHA))
+    said |= {
+        "beyond": f"{beyond:.3f}".replace("-", MINUS),
+        "tips": f"{tips:.4f}".replace("-", MINUS),
+    }
+    if not any(shifts):
+        return Condition("interference", bool(ring_fits(*teeth)), said, "interference_of_few")
+    return Condition("interference", beyond >= 0 and tips >= 0, said, "interference_shifted")
 
 
 # Teeth -------------------------------------------------------------------------------------------
@@ -234,14 +278,8 @@ def _teeth(motion: TrainMotion) -> Iterator[Condition]:
     rings: set[str] = set()
     for mesh in train.meshes:
         if mesh.kind is MeshKind.INTERNAL:
-            small, ring = sorted((mesh.first, mesh.second), key=lambda label: sizes[label])
-            rings.add(ring)
-            less, least = sizes[ring] - sizes[small], Fraction(RING_LESS)
-            room, reach = ring_room(float(sizes[small]))
-            if room > 0 and not (train.wheels[small].shift or train.wheels[ring].shift):
-                least = max(least, math.ceil(reach / room - 1e-9) - sizes[small])
-            said = {"ring": ring, "wheel": small, "less": _shown(less), "least": _shown(least)}
-            yield Condition("interference", less >= least, said)
+            rings.add(max(mesh.first, mesh.second, key=lambda label: sizes[label]))
+            yield _inner(motion, mesh)
     spur = {
         label
         for mesh in train.meshes

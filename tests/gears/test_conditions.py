@@ -8,13 +8,18 @@ import re
 from fractions import Fraction
 from math import gcd
 from pathlib import Path
+from typing import Any
 
+import mpmath
+import numpy as np
 import pytest
 from cases import each, some
 from trains import closed, mesh, planetary, solved, told
 from worked import PROBLEMS
 
+from planmethod.gears.choice import _meshes
 from planmethod.gears.conditions import Condition, conditions, judgement, sentence
+from planmethod.gears.model import MeshKind
 from planmethod.gears.motion import TrainMotion, solve_motion
 from planmethod.gears.reader import load
 from planmethod.note.wording import LANGUAGES, language
@@ -194,3 +199,70 @@ def test_interference_is_judged_by_what_is_told(tmp_path: Path) -> None:
         assert numbers is not None, said
         assert int(numbers[1]) == ring - 40
         assert one.holds == holds == (int(numbers[1]) >= int(numbers[2]))
+
+
+def ring_apart(z: tuple[int, int], x: tuple[float, float]) -> tuple[float, float]:
+    """Return how far the ring's tips stay from N, and the tips from each other, by triangles.
+
+    In modules and radians, in 30 digits; -inf where there are no such teeth.
+    """
+    with mpmath.workdps(30):
+        alpha, (one, two), (x_1, x_2) = mpmath.radians(20), z, map(mpmath.mpf, x)
+
+        def inv(angle: Any) -> Any:
+            return mpmath.tan(angle) - angle
+
+        lag = inv(alpha) + 2 * (x_2 - x_1) * mpmath.tan(alpha) / (two - one)
+        if lag <= 0:
+            return -math.inf, -math.inf
+        working = mpmath.findroot(lambda t: inv(t) - lag, mpmath.mpf("0.4"))
+        apart = mpmath.mpf(two - one) / 2 * mpmath.cos(alpha) / mpmath.cos(working)
+        base = [teeth * mpmath.cos(alpha) / 2 for teeth in z]
+        tip = [two / mpmath.mpf(2) + x_2 + 1 - apart, apart + one / mpmath.mpf(2) + x_1 - 1]
+        if tip[0] < base[0] or tip[1] < base[1]:
+            return -math.inf, -math.inf
+        short = mpmath.sqrt(tip[1] ** 2 - base[1] ** 2) - apart * mpmath.sin(working)
+        far = [mpmath.acos((tip[1]**2 - tip[0]**2 - apart**2) / (2 * tip[0] * apart)),
+               mpmath.acos((apart**2 + tip[1]**2 - tip[0]**2) / (2 * tip[1] * apart))]  # fmt: skip
+        turn = [teeth * (inv(mpmath.acos(b / t)) + angle)
+                for teeth, b, t, angle in zip(z, base, tip, far, strict=True)]  # fmt: skip
+        return float(short), float((turn[0] - turn[1] + (two - one) * lag) / one)
+
+
+def test_inner_meshes_are_judged_by_where_the_tips_of_the_ring_come(tmp_path: Path) -> None:
+    """Of 40 pairs, half of them without shifts: a train and a choice of teeth say the same."""
+    draw, judged = random.Random(46), set()
+    for number in range(some(40, few=16)):
+        z = draw.randint(12, 45)
+        ring = z + draw.choice((draw.randint(5, 14), draw.randint(15, 150)))
+        x = (0.0, 0.0) if number % 2 else (draw.uniform(-0.2, 0.8), draw.uniform(-0.2, 0.8))
+        wheels = f"1 = {{ z = {z}, x = {x[0]} }}, 3 = {{ z = {ring}, x = {x[1]} }}"
+        text = (
+            f"wheels = {{ {wheels} }}\nmeshes = [ {mesh('1', '3', 'internal')} ]\nn = {{ 1 = 1 }}"
+        )
+        (one,) = found(solved(tmp_path, text), "interference")
+        short, tips = ring_apart((z, ring), x)
+        if number % 2:
+            assert one.holds == (short >= 0 and ring - z >= 8), (z, ring)
+            assert bool(_meshes(MeshKind.INTERNAL, np.array([z]), np.array([ring]))) == one.holds
+        else:
+            assert one.holds == (short >= 0 and tips >= 0), (z, ring, x)
+            value = float(one.facts["beyond"].replace("−", "-"))
+            assert value == pytest.approx(short, abs=6e-4)
+            assert float(one.facts["tips"].replace("−", "-")) == pytest.approx(tips, abs=6e-5)
+        judged.add((number % 2, one.holds))
+    assert len(judged) == 4
+
+
+@each("wheel, ring, value", [(16, 74, "−0.584"), (17, 64, "−0.502"), (12, 250, None)])
+def test_no_standard_ring_fits_a_wheel_of_few_teeth(
+    wheel: int, ring: int, value: str | None, tmp_path: Path
+) -> None:
+    """√(r_a² − r_b²) − a_w·sin α of the ring is negative for every ring."""
+    text = told({"1": wheel, "3": ring}, [mesh("1", "3", "internal")], "n = { 1 = 1 }")
+    (one,) = found(solved(tmp_path, text), "interference")
+    assert not one.holds
+    said = judgement(one, language("en"))
+    assert f"z_1 = {wheel}" in said
+    assert said.endswith("not met")
+    assert value is None or f"{value}·m" in said

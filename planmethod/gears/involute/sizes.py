@@ -22,7 +22,7 @@ import numpy as np
 from msgspec import Struct
 from numpy.typing import NDArray
 
-from planmethod.gears.angles import angle_of_involute, involute
+from planmethod.gears.angles import angle_of_involute, involute, tips_apart
 from planmethod.problem.head import KindProblem
 
 Reals: TypeAlias = NDArray[np.float64]
@@ -392,23 +392,11 @@ class Pair(Struct, frozen=True, dict=True):
 
     @cached_property
     def tips(self) -> Reals:
-        """Angle that is left between the tips of an internal pair outside the mesh, rad.
-
-        z₁(inv α_a1 + δ₁) − z₂(inv α_a2 + δ₂) + (z₂ − z₁) inv α_w over z₁, as a turn of wheel 1, δ
-        being the angles at the centres to where the tip circles cross; not negative where the tips
-        do not meet.
-        """
-        (one, two), a_w = np.abs(self.d_a) / 2, np.abs(self.a_w)
-        z = np.abs(np.array(self.z))
-
-        def angle(cosine: Reals) -> Reals:
-            return np.arccos(np.clip(cosine, -1.0, 1.0))
-
-        delta = angle((two**2 - one**2 - a_w**2) / (2 * one * a_w))
-        other = angle((a_w**2 + two**2 - one**2) / (2 * two * a_w))
-        own = z[0] * (involute(self.alpha_a[0]) + delta)
-        ring = z[1] * (involute(self.alpha_a[1]) + other)
-        return np.asarray((own - ring + (z[1] - z[0]) * self.inv_alpha_w) / z[0])
+        """Angle that is left between the tips of an internal pair outside the mesh, rad."""
+        one, two = np.abs(self.z)
+        tip, lag = np.abs(self.d_a) / 2, involute(self.alpha_a)
+        a_w = np.abs(self.a_w)
+        return tips_apart((one, two), (tip[0], tip[1]), (lag[0], lag[1]), a_w, self.inv_alpha_w)
 
     def sliding(self, rho: Reals) -> Reals:
         """Return the specific sliding ϑ of both profiles (удельное скольжение).
