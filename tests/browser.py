@@ -13,6 +13,8 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
+from waiting import PATIENCE
+
 PROGRAM = shutil.which("chromium")
 
 
@@ -72,6 +74,15 @@ class Page:
         self.call("Emulation.setEmulatedMedia", features=[scheme])
         self._loaded = False
         self.call("Page.navigate", url=page if isinstance(page, str) else page.resolve().as_uri())
+        self._until_loaded()
+
+    def leave(self, expression: str) -> None:
+        """Do what leads to another page, and go on there: on the way nobody answers."""
+        self._loaded = False
+        self.ask(expression)
+        self._until_loaded()
+
+    def _until_loaded(self) -> None:
         while not self._loaded:
             self._next()
 
@@ -81,9 +92,9 @@ class Page:
         assert "exceptionDetails" not in told, told["exceptionDetails"]
         return told["result"].get("value")
 
-    def wait(self, expression: str, seconds: float = 60.0) -> Any:
+    def wait(self, expression: str) -> Any:
         """Return the value of an expression as soon as it is one that counts."""
-        end = time.monotonic() + seconds
+        end = time.monotonic() + PATIENCE
         plain = f"(found => found instanceof Node || found)({expression})"
         while not (value := self.ask(plain)):
             assert time.monotonic() < end, (expression, self.said)
@@ -120,7 +131,10 @@ def browsing(folder: Path) -> Iterator[Page]:
     try:
         yield Page(send, receive)
     finally:
-        done.terminate()
-        done.wait(timeout=20)
+        # Told to close it removes its own temporary folder; killed it does not.
+        os.write(send, b'{"id": 0, "method": "Browser.close"}\0')
+        while os.read(receive, 1 << 20):  # it cannot end while nobody hears what it has to say
+            pass
+        done.wait()
         os.close(send)
         os.close(receive)

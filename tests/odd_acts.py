@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import time
+from pathlib import Path
 from typing import Any
 
 
@@ -17,6 +18,9 @@ def act(asked: dict[str, Any], tell: Any) -> dict[str, Any]:
                 for part in range(10):
                     tell(part / 10)
                     time.sleep(float(number) / 10)
+            if word == "hold":  # until there is a file
+                while not Path(number).exists():
+                    time.sleep(0.01)
             if word == "fill":
                 held = [bytearray(1 << 20) for _ in range(int(number))]
                 return {"held": len(held)}

@@ -30,6 +30,8 @@ from benchmarks.attack.patterns import LENGTH, patterns, slow
 
 SECONDS, MEGABYTES, OWN = 5.0, 500.0, 100.0
 """Processor time and memory that one file may take."""
+HUNG = 100.0
+"""Seconds of the clock after which a process that tells nothing hangs in C, however busy it is."""
 
 CHUNK = 250
 """Files that one process is given."""
@@ -149,7 +151,7 @@ def _late(*_: object) -> None:
     raise _LateError
 
 
-def _child(door: str, seeds: Sequence[int], pipe: Connection) -> None:
+def _child(door: str, seeds: Sequence[int], pipe: Connection, place: Path) -> None:
     import resource
 
     signal.signal(signal.SIGVTALRM, _late)
@@ -158,20 +160,19 @@ def _child(door: str, seeds: Sequence[int], pipe: Connection) -> None:
     # What the process that forks has kept is none of the file's.
     before = max(0.0, resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024 - OWN)
     home = Path.cwd()
-    with tempfile.TemporaryDirectory() as name:
-        for seed in seeds:
-            folder = Path(name) / str(seed)
-            folder.mkdir()
-            pipe.send((seed, None, 0.0, 0.0))
-            code, seconds = attempt(DOORS[door](seed), folder)
-            os.chdir(home)
-            peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024 - before
-            pipe.send((seed, code, seconds, peak))
-            if peak > MEGABYTES:
-                break  # of the next file it would not be known
-            for path in sorted(folder.rglob("*"), reverse=True):
-                path.rmdir() if path.is_dir() and not path.is_symlink() else path.unlink()
-            folder.rmdir()
+    for seed in seeds:
+        folder = place / str(seed)
+        folder.mkdir()
+        pipe.send((seed, None, 0.0, 0.0))
+        code, seconds = attempt(DOORS[door](seed), folder)
+        os.chdir(home)
+        peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024 - before
+        pipe.send((seed, code, seconds, peak))
+        if peak > MEGABYTES:
+            break  # of the next file it would not be known
+        for path in sorted(folder.rglob("*"), reverse=True):
+            path.rmdir() if path.is_dir() and not path.is_symlink() else path.unlink()
+        folder.rmdir()
     pipe.close()
     os._exit(0)
 
@@ -184,7 +185,7 @@ def attack(door: str, seeds: Sequence[int], *, jobs: int = 1) -> Found:
     while left or running:
         while left and len(running) < jobs:
             chunk = left.pop(0)
-            running.append((_watched(door, chunk, found), chunk))
+            running.append((_within(door, chunk, found), chunk))
         for one in list(running):
             try:
                 next(one[0])
@@ -195,11 +196,17 @@ def attack(door: str, seeds: Sequence[int], *, jobs: int = 1) -> Found:
     return found
 
 
-def _watched(door: str, seeds: list[int], found: Found) -> Iterator[None]:
+def _within(door: str, seeds: list[int], found: Found) -> Iterator[None]:
+    """Run a process in a folder that goes with it, however it ends."""
+    with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as name:
+        yield from _watched(door, seeds, found, Path(name))
+
+
+def _watched(door: str, seeds: list[int], found: Found, place: Path) -> Iterator[None]:
     """Run a process over files; those that are done are taken from the list."""
     context = multiprocessing.get_context("fork")
     ours, theirs = context.Pipe(duplex=False)
-    process = context.Process(target=_child, args=(door, seeds, theirs))
+    process = context.Process(target=_child, args=(door, seeds, theirs, place))
     process.start()
     theirs.close()
     at_work: int | None = None
@@ -207,7 +214,7 @@ def _watched(door: str, seeds: list[int], found: Found) -> Iterator[None]:
     while True:
         try:
             if not ours.poll(0.2):
-                if time.monotonic() - began > 20 * SECONDS and at_work is not None:
+                if time.monotonic() - began > HUNG and at_work is not None:
                     process.kill()  # hung in C
                 yield
                 continue

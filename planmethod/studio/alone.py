@@ -11,6 +11,7 @@ from tempfile import mkdtemp
 from types import ModuleType
 from typing import Any
 from urllib.parse import parse_qs, unquote, urlsplit
+from weakref import finalize
 
 from msgspec import Struct
 
@@ -33,15 +34,17 @@ Answer = tuple[int, bytes]
 
 
 def begun(act: Callable[[dict[str, Any], Callable[[float], None]], dict[str, Any]]) -> Alone:
-    """Return what answers the page; ``act`` does what is asked."""
+    """Return what answers the page; ``act`` does what is asked. Its folder goes with it."""
     for name in ("termios", "tty"):  # click's bar imports them for nothing; a browser has none
         sys.modules.setdefault(name, ModuleType(name))
     session = StudioSession("", Path(mkdtemp(prefix="planmethod-studio-")), True, 0.0)
     session.works.mkdir()
-    return Alone(act, session)
+    alone = Alone(act, session)
+    finalize(alone, shutil.rmtree, session.folder, ignore_errors=True)
+    return alone
 
 
-class Alone(Struct):
+class Alone(Struct, weakref=True):
     """Answers the addresses of the server to the one who has the page (студия без сервера)."""
 
     act: Callable[[dict[str, Any], Callable[[float], None]], dict[str, Any]]

@@ -5,13 +5,13 @@ from __future__ import annotations
 import os
 import subprocess
 import sys
-import time
 import tomllib
 from math import cos
 from pathlib import Path
 
 import pytest
 from click.testing import CliRunner, Result
+from waiting import wait_until
 
 from planmethod.cli import cli
 from planmethod.errors import ExitCode
@@ -241,8 +241,5 @@ def _saved(file: Path, text: str) -> None:
 
 def _changed(picture: Path, size: int) -> int:
     """Return the size of a file once it is another one."""
-    for _ in range(600):
-        if picture.exists() and picture.stat().st_size != size:
-            return picture.stat().st_size
-        time.sleep(0.05)
-    pytest.fail("nothing was drawn")
+    wait_until(lambda: picture.exists() and picture.stat().st_size != size)
+    return picture.stat().st_size

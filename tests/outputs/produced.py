@@ -27,6 +27,7 @@ from zlib import crc32
 from click.testing import CliRunner
 from openpyxl import load_workbook
 
+from planmethod.check.pages.files import PACKAGES
 from planmethod.cli import COMMANDS, cli
 from planmethod.problem import FAMILIES, OTHER_FAMILIES
 from planmethod.render.backends import BACKENDS, PAGED
@@ -340,6 +341,8 @@ def _cells(path: Path) -> Iterator[str]:
     for sheet in load_workbook(path):
         yield f"{sheet.title}\n"
         for row in sheet.iter_rows():
+            if row[0].value in PACKAGES:  # with its version
+                continue
             for cell in row:
                 if cell.value is not None:
                     yield f"{cell.coordinate} {_rounded(str(cell.value), DIGITS, FORMATTED)}\n"

@@ -29,7 +29,7 @@ def studio(*args: str) -> Iterator[list[str]]:
             yield [re.findall(r"http://\S+", line)[0] for line in lines]
         finally:
             running.terminate()
-            running.wait(20)
+            running.wait()
 
 
 def click(page: Page, name: str) -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import functools
+import gc
 import http.server
 import json
 import os
@@ -128,6 +129,15 @@ def test_works_are_taken_checked_and_forgotten() -> None:
     assert [row[0] for row in found["marks"][1:]] == ["Иванов", "Петров"]
     assert alone.answer("DELETE", "api/works/all", b"", silent)[1] == b"[]\n"
     assert not [*alone.session.works.iterdir()]
+
+
+def test_its_folder_goes_with_it() -> None:
+    alone, found = answered("command", what="svg")
+    folder = alone.session.folder
+    assert [*folder.rglob(found["files"][0]["name"])]
+    del alone
+    gc.collect()
+    assert not folder.exists()
 
 
 def test_more_memory_than_there_is_is_told() -> None:
@@ -279,10 +289,9 @@ def test_without_its_runtime_the_page_says_so_and_shows_the_tasks(
         page.ask("studio.put('title = 1')")
         page.wait("document.querySelector('#said').textContent.includes('has not loaded')")
         page.ask("document.querySelector('#lang').value = 'ru'")
-        page.ask("document.querySelector('#lang').dispatchEvent(new Event('change'))")
-        page.wait(
-            "document.documentElement?.lang === 'ru' && location.pathname.endsWith('index.html')"
-        )
+        page.leave("document.querySelector('#lang').dispatchEvent(new Event('change'))")
+        assert page.ask("document.documentElement.lang") == "ru"
+        assert page.ask("location.pathname").endswith("index.html")
         assert not [said for said in page.said if "Security Policy" in said]
 
 
@@ -294,8 +303,7 @@ def of_command(*args: str) -> str:
 def drawn(page: Page) -> None:
     page.wait(
         "document.querySelector('#sketch').naturalWidth > 0 &&"
-        " !document.querySelector('#scheme').classList.contains('old')",
-        180,
+        " !document.querySelector('#scheme').classList.contains('old')"
     )
 
 
@@ -312,25 +320,23 @@ def test_python_in_the_browser_does_what_the_commands_do(tmp_path: Path) -> None
             ("structure", ("structure", "--no-drawing", "--lang", "ru")),
         ):
             page.ask(f"document.querySelector('#to-{view}').click()")
-            said = page.wait(f"document.querySelector('#{view} pre').textContent", 120)
+            said = page.wait(f"document.querySelector('#{view} pre').textContent")
             assert said.splitlines()[1:] == of_command(*command).splitlines()[1:], view
         page.ask("document.querySelector('#to-motion').click()")
-        page.wait("document.querySelector('#motion iframe')?.src.endsWith('frame.html')", 120)
+        page.wait("document.querySelector('#motion iframe')?.src.endsWith('frame.html')")
         page.ask("document.querySelector('#to-sheets').click()")
-        page.wait("document.querySelector('#sheet img')?.naturalWidth", 180)
+        page.wait("document.querySelector('#sheet img')?.naturalWidth")
         page.ask("studio.put(studio.text().replace('AB = ', 'AV = '))")
-        page.wait("document.querySelector('#faults button')", 120)
+        page.wait("document.querySelector('#faults button')")
         page.ask("studio.put(studio.text().replace('AV = ', 'AB = '))")
-        page.wait("document.querySelector('#faults .good')", 120)
+        page.wait("document.querySelector('#faults .good')")
         page.ask("document.querySelector('#to-answers').click()")
         page.ask("document.querySelector('#ask').click()")
-        page.wait("document.querySelectorAll('#rows tr').length > 3", 120)
+        page.wait("document.querySelectorAll('#rows tr').length > 3")
         page.ask(
             "{ const field = document.querySelector('#rows tr input[aria-label]');"
             " field.value = '3.2'; field.dispatchEvent(new Event('input'));"
             " document.querySelector('#judge').click(); }"
         )
-        assert "Проверка работы" in page.wait(
-            "document.querySelector('#verdicts iframe')?.srcdoc", 120
-        )
+        assert "Проверка работы" in page.wait("document.querySelector('#verdicts iframe')?.srcdoc")
         assert not [said for said in page.said if "Security Policy" in said]

@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 import sys
 import threading
-import time
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -14,18 +13,19 @@ from unittest.mock import ANY
 import odd_acts
 import pytest
 from msgspec.structs import replace
+from waiting import PATIENCE, wait_until
 
 pytest.importorskip("starlette", reason="the studio's extra is not installed")
 pytest.importorskip("httpx2", reason="starlette's test client needs httpx2")
 
 from starlette.testclient import TestClient
 
-from planmethod.studio.limits import MB, STRANGERS, Bucket
+from planmethod.studio.limits import MB, STRANGERS, Bucket, StudioLimits
 from planmethod.studio.server import StudioSettings, application
 from planmethod.studio.sessions import Desk, Sessions
 
 LIMITS = replace(
-    STRANGERS, seconds=1.0, trusted_seconds=5.0, memory=500 * MB, text=4096, upload=2000,
+    STRANGERS, seconds=PATIENCE, trusted_seconds=PATIENCE, memory=500 * MB, text=4096, upload=2000,
     uploads=3000, waiting=6, own=2, sessions=40, rate=0.001, burst=30.0, kept=3,
 )  # fmt: skip
 TOKEN = "a token of the instructor"
@@ -33,8 +33,18 @@ TOKEN = "a token of the instructor"
 
 @pytest.fixture(scope="module")
 def client(tmp_path_factory: pytest.TempPathFactory) -> Iterator[TestClient]:
-    settings = StudioSettings(limits=LIMITS, served=True, token=TOKEN, processes=2)
-    root = tmp_path_factory.mktemp("studio") / "sessions"
+    yield from serving(tmp_path_factory, LIMITS)
+
+
+@pytest.fixture(scope="module")
+def hurried(tmp_path_factory: pytest.TempPathFactory) -> Iterator[TestClient]:
+    """Where strangers have little time."""
+    yield from serving(tmp_path_factory, replace(LIMITS, seconds=0.5))
+
+
+def serving(factory: pytest.TempPathFactory, limits: StudioLimits) -> Iterator[TestClient]:
+    settings = StudioSettings(limits=limits, served=True, token=TOKEN, processes=2)
+    root = factory.mktemp("studio") / "sessions"
     with TestClient(application(settings, odd_acts.act, root)) as client:
         yield client
     assert not root.exists()  # nothing is left behind
@@ -54,17 +64,18 @@ def found(client: TestClient, who: dict[str, str], text: str, do: str = "sketche
     return lines(client, who, text, do)[-1]["found"]
 
 
-def test_what_takes_too_long_is_stopped_and_another_process_goes_on(client: TestClient) -> None:
-    who = enter(client)
-    before = time.monotonic()
-    assert found(client, who, "sleep 30")["refused"].startswith("This takes longer than 1 s")
-    assert time.monotonic() - before < 15
-    assert found(client, who, "good morning")["said"] == "good morning"
+def test_what_takes_too_long_is_stopped_and_another_process_goes_on(
+    hurried: TestClient, tmp_path: Path
+) -> None:
+    said = found(hurried, enter(hurried), f"hold {tmp_path / 'never'}")["refused"]
+    assert said.startswith("This takes longer than 0.5 s")
+    who = enter(hurried, TOKEN)
+    assert found(hurried, who, "good morning")["said"] == "good morning"
 
 
-def test_an_instructor_has_more_time(client: TestClient) -> None:
-    told = lines(client, enter(client, TOKEN), "sleep 1.5")
-    assert told[-1]["found"]["said"] == "sleep 1.5"
+def test_an_instructor_has_more_time(hurried: TestClient) -> None:
+    told = lines(hurried, enter(hurried, TOKEN), "sleep 1")
+    assert told[-1]["found"]["said"] == "sleep 1"
     shares = [one["share"] for one in told if "share" in one]
     assert shares == sorted(shares)
     assert len(shares) == 10
@@ -85,69 +96,92 @@ def test_a_process_that_dies_is_replaced(client: TestClient) -> None:
     assert isinstance(first, int)
 
 
-def test_who_waits_is_told_the_place_and_quick_things_go_first(client: TestClient) -> None:
-    told: dict[str, list[Any]] = {}
+class Asking(threading.Thread):
+    """One who asks and is at work or in the queue when this is made; ``told`` by name."""
 
-    def ask(name: str, do: str) -> None:
-        told[name] = [
-            (time.monotonic(), one) for one in lines(client, enter(client), "sleep 0.8", do)
-        ]
+    def __init__(self, client: TestClient, who: dict[str, str], text: str, do: str) -> None:
+        super().__init__()
+        self.client, self.who, self.text, self.what = client, who, text, do
+        self.told: list[Any] = []
+        before = taken(client)
+        self.start()
+        wait_until(lambda: taken(client) > before or not self.is_alive())
 
-    slow = [threading.Thread(target=ask, args=(f"slow {k}", "sheets")) for k in range(3)]
-    for one in slow:
-        one.start()
-        time.sleep(0.1)
-    began = time.monotonic()
-    quick = found(client, enter(client), "at once")
-    assert quick["said"] == "at once"
-    assert client.get("/health").json()["waiting"] >= 1  # the long ones have one process
-    for one in slow:
+    def run(self) -> None:
+        self.told = lines(self.client, self.who, self.text, self.what)
+
+
+def taken(client: TestClient) -> int:
+    """Return how many the server has ever taken, that are not superseded."""
+    told = client.get("/health").json()
+    return int(told["busy"] + told["waiting"] + told["done"])
+
+
+def waiting(client: TestClient) -> int:
+    return int(client.get("/health").json()["waiting"])
+
+
+def test_who_waits_is_told_the_place_and_quick_things_go_first(
+    client: TestClient, tmp_path: Path
+) -> None:
+    def ask(do: str, name: str) -> Asking:
+        return Asking(client, enter(client), f"hold {tmp_path / name}", do)
+
+    long = [ask("sheets", "long") for _ in range(3)]
+    assert waiting(client) == 2  # the long ones have one process
+    assert found(client, enter(client), "at once")["said"] == "at once"
+    assert waiting(client) == 2
+    quick = [ask("sketched", "quick") for _ in range(2)]
+    assert waiting(client) == 3
+    (tmp_path / "quick").touch()
+    for one in quick:
         one.join()
-    places = [one["place"] for _, one in told["slow 2"] if one.get("place")]
+    assert waiting(client) == 2
+    (tmp_path / "long").touch()
+    for one in long:
+        one.join()
+    assert quick[1].told[0] == {"place": 1}  # before the long ones that were there
+    places = [one["place"] for one in long[2].told if one.get("place")]
     assert places[0] == 2
     assert places == sorted(places, reverse=True)
-    assert max(moment for moment, _ in told["slow 2"]) > began
-    assert all("said" in told[name][-1][1]["found"] for name in told)  # none is lost
+    assert all("said" in one.told[-1]["found"] for one in (*long, *quick))  # none is lost
 
 
-def test_what_is_typed_later_takes_the_place_of_what_waits(client: TestClient) -> None:
-    told: dict[str, Any] = {}
-
-    def ask(name: str, who: dict[str, str]) -> None:
-        told[name] = lines(client, who, name)
-
-    def start(name: str, who: dict[str, str]) -> threading.Thread:
-        one = threading.Thread(target=ask, args=(name, who))
-        one.start()
-        time.sleep(0.1)
-        return one
-
-    who = enter(client)
-    at_work = [start(f"sleep 0.9{k}", enter(client)) for k in range(2)]
-    waiting = [start("old", who), start("other", enter(client)), start("new", who)]
-    for one in (*at_work, *waiting):
+def test_what_is_typed_later_takes_the_place_of_what_waits(
+    client: TestClient, tmp_path: Path
+) -> None:
+    who, gate = enter(client), tmp_path / "gate"
+    at_work = [Asking(client, enter(client), f"hold {gate}", "sketched") for _ in range(2)]
+    old = Asking(client, who, "old", "sketched")
+    other = Asking(client, enter(client), "other", "sketched")
+    new = threading.Thread(target=lambda: told.extend(lines(client, who, "new")))
+    told: list[Any] = []
+    new.start()
+    old.join()  # it goes while the others wait
+    assert waiting(client) == 2
+    gate.touch()
+    for one in (*at_work, other, new):
         one.join()
-    assert told["old"][-1]["found"] == {"superseded": True, "files_at": ANY}
-    assert told["new"][0] == {"place": 1}  # before who came later than the older one
-    assert told["new"][-1]["found"]["said"] == "new"
-    assert told["other"][-1]["found"]["said"] == "other"
-    assert told["new"][-1]["waited"] > 0
+    assert old.told[-1]["found"] == {"superseded": True, "files_at": ANY}
+    assert told[0] == {"place": 1}  # before who came later than the older one
+    assert told[-1]["found"]["said"] == "new"
+    assert other.told[-1]["found"]["said"] == "other"
+    assert told[-1]["waited"] > 0
 
 
-def test_one_session_cannot_fill_the_queue(client: TestClient) -> None:
-    who = enter(client)
-    codes: list[int] = []
-
-    def ask() -> None:
-        answer = client.post("/api/do/sheets?lang=en", headers=who, json={"text": "sleep 0.5"})
-        codes.append(answer.status_code)
-
-    asking = [threading.Thread(target=ask) for _ in range(5)]
-    for one in asking:
-        one.start()
-    for one in asking:
+def test_one_session_cannot_fill_the_queue(client: TestClient, tmp_path: Path) -> None:
+    who, gate = enter(client), tmp_path / "gate"
+    two = [Asking(client, who, f"hold {gate}", "sheets") for _ in range(2)]
+    codes = [
+        client.post("/api/do/sheets?lang=en", headers=who, json={"text": "x"}).status_code
+        for _ in range(3)
+    ]
+    assert codes == [503] * 3
+    gate.touch()
+    for one in two:
         one.join()
-    assert sorted(codes) == [200, 200, 503, 503, 503]
+    assert all("said" in one.told[-1]["found"] for one in two)
+    assert found(client, who, "x", "sheets")["said"] == "x"
 
 
 def test_who_asks_too_often_is_told_to_wait(client: TestClient) -> None:

@@ -6,7 +6,6 @@ import base64
 import re
 import shutil
 import subprocess
-import time
 import urllib.request
 from collections.abc import Iterator
 from pathlib import Path
@@ -14,6 +13,7 @@ from pathlib import Path
 import pytest
 from browser import PROGRAM, Page, browsing
 from studying import DRAWN, at, begin, click, studio, take, text, works
+from waiting import wait_until
 from worked import PROBLEMS
 
 pytest.importorskip("starlette", reason="the studio's extra is not installed")
@@ -161,19 +161,19 @@ def test_an_instructor_comes_from_a_table_to_marks(page: Page, address: str) -> 
     click(page, "#to-group")
     works(page, PROBLEMS / "groups/ex3.csv")
     click(page, "#check")
-    page.wait("document.querySelectorAll('#marks tbody tr').length === 30", 300)
+    page.wait("document.querySelectorAll('#marks tbody tr').length === 30")
     before = text(page, "#marks tbody tr")
     page.ask(
         "document.querySelector('#points').value = '0';"
         "document.querySelector('#by-hand button').click()"
     )
-    page.wait(f"document.querySelector('#marks tbody tr').textContent !== {before!r}", 300)
+    page.wait(f"document.querySelector('#marks tbody tr').textContent !== {before!r}")
     for box in ("#statistics", "#page"):
         page.wait(f"document.querySelector('{box} iframe')")
     assert page.ask("document.querySelector('#page .own a:last-child').href").endswith(".pdf")
     # taken back by its button, the mark is what it was
     click(page, "#entered button")
-    page.wait(f"document.querySelector('#marks tbody tr').textContent === {before!r}", 300)
+    page.wait(f"document.querySelector('#marks tbody tr').textContent === {before!r}")
     assert page.said == []
 
 
@@ -186,20 +186,18 @@ def test_variants_and_questions_are_made_and_downloaded_by_clicks(
     page.ask("document.querySelector('#how-many').value = '3'")
     click(page, "#vary button")
     made = "[...document.querySelectorAll('#desk > .made a')].map(one => one.textContent)"
-    page.wait(f"{made}.length > 1", 120)
+    page.wait(f"{made}.length > 1")
     assert "Подобрано вариантов: 3 из 3" in text(page, "#varied")
     assert page.ask(made)[1:] == ["linkages-ex3-moodle.xml", "linkages-ex3-variants.toml"]
     page.call("Browser.setDownloadBehavior", behavior="allow", downloadPath=str(tmp_path))
     for name, tells in (("moodle.xml", "<quiz>"), ("variants.toml", "[variants]")):
         click(page, f"#desk > .made a[href*='{name}']")
         written = tmp_path / f"linkages-ex3-{name}"
-        end = time.monotonic() + 20
-        while not written.exists() and time.monotonic() < end:
-            time.sleep(0.05)
+        wait_until(written.exists)
         assert tells in written.read_text("utf-8")
     # for a variant of theirs the key is a button, too
     click(page, "#key")
-    page.wait(f"{made}.some(one => /key[.]pdf$/.test(one))", 120)
+    page.wait(f"{made}.some(one => /key[.]pdf$/.test(one))")
     assert page.said == []
 
 
@@ -211,8 +209,8 @@ def test_an_address_opens_a_task_and_replaces_nothing_typed_since(page: Page, ad
     assert 'title = "Рычажный механизм"' in page.ask("studio.text()")
     assert "#" not in page.ask("location.href")
     page.ask("studio.put('# typed\\n')")
-    page.call("Page.reload")
-    page.wait("document.readyState === 'complete' && !!globalThis.studio")
+    page.leave("location.reload()")
+    page.wait("!!globalThis.studio")
     assert page.ask("studio.text()") == "# typed\n"
     page.ask("location.hash = '#task=no-such-task'")
     page.wait("document.querySelector('#said').textContent.includes('no task no-such-task')")
