@@ -81,7 +81,13 @@ def slide_between(problem: Problem, joint: Joint) -> Slide | None:
     return None
 
 
-def _unknowns(problem: Problem, joints: Iterable[Joint], pose: Pose) -> list[_Unknown]:
+Ends = tuple[tuple[str, str], tuple[str, str]]
+"""Point and body of the first end of an actuator, and of the second."""
+
+
+def _unknowns(
+    problem: Problem, joints: Iterable[Joint], pose: Pose, ends: Ends | None
+) -> list[_Unknown]:
     found = []
     for joint in joints:
         slide = slide_between(problem, joint)
@@ -94,7 +100,21 @@ def _unknowns(problem: Problem, joints: Iterable[Joint], pose: Pose) -> list[_Un
                 _Unknown(joint, at, pose.along(slide) * 1j, 0.0),
                 _Unknown(joint, at, 0j, 1.0),
             ]
-    return [*found, _driving(problem, pose)]
+    return [*found, _driving(problem, pose) if ends is None else _pushing(problem, pose, ends)]
+
+
+def _pushing(problem: Problem, pose: Pose, ends: Ends) -> _Unknown:
+    """Return the force of an actuator: on its second end, and back on the first, in one line."""
+    (one, body), (two, other) = ends
+
+    def place(point: str) -> Number:
+        for link in problem.mechanism.links:
+            if point in problem.bodies[link].points:
+                return pose.place(link, point)
+        return problem.bodies[FRAME].points[point]
+
+    apart = place(two) - place(one)
+    return _Unknown(("", other, body), place(two), apart / abs(apart), 0.0)
 
 
 def _driving(problem: Problem, pose: Pose) -> _Unknown:
@@ -112,6 +132,7 @@ def solve_all(
     pose: Pose,
     loads: Iterable[Acting],
     context: Any = None,
+    ends: Ends | None = None,
 ) -> Answer:
     """Solve the equilibrium of all moving links at once.
 
@@ -121,9 +142,11 @@ def solve_all(
         Every pair once.
     context : mpmath context, optional
         Who solves; numpy when absent.
+    ends : Ends, optional
+        An actuator that drives between two bodies, in place of the driving link's couple or force.
     """
     row = {link: 3 * i for i, link in enumerate(problem.mechanism.links)}
-    unknowns = _unknowns(problem, joints, pose)
+    unknowns = _unknowns(problem, joints, pose, ends)
     count = 3 * len(row)
     assert len(unknowns) == count, "N_y = 3n equations, N_F = 2p + W unknowns"
     about = unknowns[-1].at

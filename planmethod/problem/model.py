@@ -19,7 +19,7 @@ from planmethod.mechanism.model import FRAME, Mechanism
 from planmethod.problem.cycle_records import CycleTask, ProjectTask
 from planmethod.problem.declared import FlagKey, NumberKey, WordKey
 from planmethod.problem.head import KindProblem
-from planmethod.problem.names import told_length
+from planmethod.problem.names import split_pair, told_length
 
 if TYPE_CHECKING:
     from fractions import Fraction
@@ -189,6 +189,7 @@ class BalancingQuantity(Struct, frozen=True):
 MOMENT = BalancingQuantity("moment", "moment", "balancing moment", "M", "N·m", turns=True)
 FORCE = BalancingQuantity("force", "force", "balancing force", "F", "N", turns=False)
 PUSH = BalancingQuantity("push", "force", "balancing force", "F", "N", turns=False)
+THRUST = BalancingQuantity("thrust", "force", "balancing force", "F", "N", turns=False)
 
 
 class Geared(Struct, frozen=True):
@@ -369,6 +370,13 @@ class Drive(Struct, frozen=True):
         return self.is_crank or self.followed is not None
 
     @property
+    def actuator(self) -> tuple[str, str] | None:
+        """The ends of the actuator that drives, where one does."""
+        if self.posed is None or self.posed.by is not PosedBy.LENGTH:
+            return None
+        return split_pair(self.posed.of)
+
+    @property
     def mover(self) -> str:
         """Whose turn its positions are of, a key of sentences: ``crank`` or ``cam``."""
         return "crank" if self.followed is None else "cam"
@@ -401,6 +409,8 @@ class Drive(Struct, frozen=True):
     @property
     def balancing(self) -> BalancingQuantity:
         """What balances it."""
+        if self.actuator is not None:
+            return THRUST
         if not self.is_crank:
             return FORCE
         return MOMENT if self.pushed is None else PUSH

@@ -167,6 +167,11 @@ def forces_records(solution: Solution) -> Records:
                     if pushed and statics.moment is not None
                     else {}
                 ),
+                **(
+                    {"between": [[*ends]] * count, "moment": [None] * count}
+                    if (ends := solution.problem.drive.actuator) is not None
+                    else {}
+                ),
                 "read": listed(drawn.read(BALANCE)),
                 "sigma": listed(drawn.spreads[BALANCE].sigma),
             }
@@ -220,7 +225,8 @@ def forces_columns(solution: Solution, words: Words) -> list[list[str]]:
         for size in [np.abs(joint.force)]
     ]
     drive = solution.problem.drive
-    head = f"{drive.balancing.letter}{drive.link}, {words['units'][drive.balancing.unit]}"
+    of = drive.link if drive.actuator is None else " " + "".join(map(point_name, drive.actuator))
+    head = f"{drive.balancing.letter}{of}, {words['units'][drive.balancing.unit]}"
     columns.append([head, *(found(float(value), words) for value in statics.balance)])
     if rubbed(solution.problem):
         from planmethod.solved.forces.friction import friction_of  # few files have any
@@ -333,6 +339,11 @@ def forces_tables(solution: Solution, words: Words, index: int, sigmas: Sigmas) 
         facts["moment"] = f"{found(float(statics.moment[index]), words)} {words['units']['N·m']}"
         facts["point"] = point_name(pushed.at)
         facts["way"] = push_way(solution.problem, words)
+    if statics.thrust is not None:
+        facts["line"] = "".join(map(point_name, statics.thrust.ends))
+        facts["one"], facts["two"] = map(solution.problem.mechanism.called, statics.thrust.links)
+        apart = statics.balance[index] >= 0
+        facts["way"] = words.push_apart if apart else words.pull_together
     yield Note(balance.format(**facts))
     if statics.lever_at(index) is None:
         yield Note(words.lever_stands)

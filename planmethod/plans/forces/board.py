@@ -7,6 +7,8 @@ number, N·m. Places are those of the position plan, so arms are measured where 
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
+from copy import copy
+from itertools import count
 
 from msgspec import Struct
 from msgspec.structs import replace
@@ -85,7 +87,9 @@ class ForceBoard:
     groups that hang on it do to it. ``symbols`` are the letters of the couples; ``shifts`` are the
     forces of inertia, by link, that stand for their couples as well. ``arms`` are those that were
     measured: about a point, of a force at a place and of a size. ``changing`` are loads that differ
-    from position to position, by name, with the known numbers that hold them.
+    from position to position, by name, with the known numbers that hold them. ``starts`` are the
+    pole and the first points of the plans and of the lever, in this order; ``loose`` are those of
+    plans that are only tried.
     """
 
     def __init__(self, draft: Draft, kin: Kinematics, dynamics: Dynamics | None = None) -> None:
@@ -99,15 +103,26 @@ class ForceBoard:
         self.symbols: dict[NumberName, str] = {}
         self.shifts: dict[str, Shift] = {}
         self.starts: list[PointName] = []
+        self.loose: list[PointName] = []
         self.arms: dict[tuple[PointName, PointName, NumberName], NumberName] = {}
         self.changing: list[tuple[str, tuple[NumberName, ...]]] = []
         self._masses: dict[str, NumberName] = {}
         self._moments: dict[tuple[PointName, PointName, Ends], NumberName] = {}
         self._gravity: NumberName | None = None
-        self._count = 0
+        self._counted = count(1)
         self.segments = Segments(draft.b, draft.b.known(SCALE), PREFIX)
         self.accelerations = kin.acceleration.segments.on(draft.b)
         self.pole = self.start()
+
+    def trial(self) -> ForceBoard:
+        """Return a board on which the same loads are tried: what it finds is none of this one's."""
+        tried = copy(self)
+        tried.forces = {link: [*forces] for link, forces in self.forces.items()}
+        tried.couples = {link: [*couples] for link, couples in self.couples.items()}
+        tried.reactions, tried.plans, tried.starts = [], [], self.loose
+        tried.symbols, tried.arms, tried._moments = dict(self.symbols), dict(self.arms), {}
+        tried.segments = self.segments.on(self.draft.b)
+        return tried
 
     @property
     def scale(self) -> NumberName:
@@ -116,8 +131,7 @@ class ForceBoard:
 
     def name(self, hint: str) -> str:
         """Return a name that nothing has."""
-        self._count += 1
-        return f"{PREFIX}{hint}{self._count}"
+        return f"{PREFIX}{hint}{next(self._counted)}"
 
     def known(self, hint: str, value: Number) -> NumberName:
         """Take numbers of all positions as known."""

@@ -65,12 +65,16 @@ class Driving(Struct, frozen=True):
     along : (PointName, PointName) or None
         A segment in the direction that the file gives the force at a point of a crank; None where
         that is across the crank.
+    between : (str, str) or None
+        The ends of an actuator: ``force`` is what it does to the second, positive where it pushes
+        them apart.
     """
 
     balance: NumberName
     force: Force | None = None
     moment: NumberName | None = None
     along: Ends | None = None
+    between: tuple[str, str] | None = None
 
 
 def group_forces(board: ForceBoard, group: AssurGroup) -> None:
@@ -262,6 +266,51 @@ def _sliding(board: ForceBoard, group: AssurGroup) -> None:
             (*known, guide),
         )
     )
+
+
+def unbalanced(board: ForceBoard) -> NumberName:
+    """Return what the forces on the driving link leave: a moment, N·m, or along its guide, N."""
+    drive = board.draft.problem.drive
+    if drive.pivot is not None:
+        return board.moment((drive.link,), PointName(drive.pivot))
+    b, start = board.draft.b, board.start()
+    loaded = board.chain(start, drive.link, [])
+    guide = board.draft.direction(board.draft.problem.slides[drive.link])
+    end = b.meet_lines(board.name("x"), b.parallel(loaded, guide), b.perpendicular(start, guide))
+    return board.segments.read_along(end, loaded, guide, "F_x")
+
+
+def stand_forces(board: ForceBoard) -> NumberName:
+    """Find the reaction of the frame on a driving link that its forces leave in equilibrium.
+
+    Return what the plans leave of them, N·m, or N along its guide: nothing, if they are exact.
+    """
+    b, drive, start = board.draft.b, board.draft.problem.drive, board.start()
+    links, loads = (drive.link,), list[Edge]()
+    loaded = board.chain(start, drive.link, loads)
+    known, called = board.couples_on(drive.link), board.called(FRAME)
+    if drive.pivot is not None:
+        at = PointName(drive.pivot)
+        left = board.moment(links, at)
+        board.react(drive.pivot, drive.link, FRAME, Force(at, loaded, start))
+        stands = reaction_edge(drive.link, called, at, loaded, start)
+        moments = Moments(links, at, tuple(loads), known)
+    else:
+        problem = board.draft.problem
+        slide = problem.slides[drive.link]
+        at, guide = PointName(slide.pin), board.draft.direction(slide)
+        lines = b.parallel(loaded, guide), b.perpendicular(start, guide)
+        end = b.meet_lines(board.name("x"), *lines)
+        left = board.segments.read_along(end, loaded, guide, "F_x")
+        couple = board.negative(board.moment(links, at))
+        held = board.react_guide(slide.pin, drive.link, FRAME, Force(at, end, start), couple)
+        direction = track_direction(slide, problem, turned=True)
+        stands = reaction_edge(drive.link, called, at, end, start, direction)
+        moments, known = of_guide(held, loads, known), (*known, held)
+    polygon = (*loads, stands)
+    balances = (Balance(links, polygon),)
+    board.read_off(ForcePlan(links, polygon, balances=balances, moments=(moments,), couples=known))
+    return left
 
 
 def drive_forces(board: ForceBoard) -> Driving:

@@ -53,7 +53,18 @@ class LeverLoad(Struct, frozen=True):
     arm: NumberName | None = None
 
 
-def plan_lever(board: ForceBoard, driving: Driving) -> Lever | None:
+class Hung(Struct, frozen=True):
+    """The given loads on the turned velocity plan (нагрузки на рычаге).
+
+    ``whole`` is their power, W.
+    """
+
+    pole: PointName
+    whole: NumberName
+    loads: tuple[LeverLoad, ...]
+
+
+def hang_loads(board: ForceBoard) -> Hung | None:
     """Hang the given loads on the turned velocity plan; None where the driver stands."""
     b, motion, drive = board.draft.b, board.kin.velocity, board.draft.problem.drive
     if drive.rate == 0:
@@ -82,14 +93,39 @@ def plan_lever(board: ForceBoard, driving: Driving) -> Lever | None:
         # The plan is turned by +90°: a moment on it is the power with the other sign.
         factors = ((arm, 1), (board.size(given.force), 1), (motion.segments.scale, 1))
         powers.append(b.compute(board.name("P"), *factors, factor=-1.0))
-    rate = NumberName(drive.coordinate.rates[0])
-    whole = b.total(board.name("P"), *powers)
+    return Hung(pole, b.total(board.name("P"), *powers), tuple(loads))
+
+
+def plan_lever(board: ForceBoard, driving: Driving) -> Lever | None:
+    """Find on the lever what balances the driving link; None where the driver stands."""
+    hung, b, drive = hang_loads(board), board.draft.b, board.draft.problem.drive
+    if hung is None:
+        return None
+    pole, whole, rate = hung.pole, hung.whole, NumberName(drive.coordinate.rates[0])
     balance = moment = b.compute(board.name("M"), (whole, 1), (rate, -1), factor=-1.0)
     measured: NumberName | None = None
     if drive.pivot is not None and driving.force is not None:
         balance, measured = _of_force(board, driving, drive.pivot, pole, whole, moment)
     off = b.total(board.name("d"), balance, board.negative(driving.balance))
-    return Lever(pole, balance, off, tuple(loads), moment if drive.is_crank else None, measured)
+    return Lever(pole, balance, off, hung.loads, moment if drive.is_crank else None, measured)
+
+
+def weigh_actuator(board: ForceBoard, hung: Hung, ends: tuple[str, str]) -> Lever:
+    """Find on the lever the force of an actuator, a pair of forces in the points of its two ends.
+
+    The force plans have it from here: their difference is not known yet.
+    """
+    b, motion = board.draft.b, board.kin.velocity
+    one, two = (
+        b.carry(
+            board.name("z"), hung.pole, motion.pole, motion.point[motion.named[end]], turned=True
+        )
+        for end in ends
+    )
+    arm = b.measure_arm(board.name("h"), one, two, *map(PointName, ends))
+    powers = ((hung.whole, 1), (arm, -1), (motion.segments.scale, -1))
+    balance = board.segments.compute("F_lever", *powers)
+    return Lever(hung.pole, balance, balance, hung.loads, arm=arm)
 
 
 def _of_force(

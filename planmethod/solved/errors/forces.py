@@ -82,7 +82,8 @@ class DrawnForces(Errors):
     def __init__(self, statics: Statics) -> None:
         self.statics, self.solution = statics, statics.solution
         # The poles and the first points of the plans may stand anywhere.
-        free = {plan.pole for plan in self.solution.construction.plans} | {*statics.board.starts}
+        board, plans = statics.board, self.solution.construction.plans
+        free = {plan.pole for plan in plans} | {*board.starts, *board.loose}
         super().__init__(
             Drafted(
                 statics.program,
@@ -183,6 +184,9 @@ def _enlarged(statics: Statics) -> dict[str, Number]:
         for given in statics.board.given:
             if given.force is not None and given.applied.link in plan.links:
                 found.setdefault(given.force.head, share)
+        thrust = statics.thrust
+        if thrust is not None and {link for link, _ in thrust.pushes} & {*plan.links}:
+            found.setdefault(thrust.force.head, share)
     for step in statics.program.steps:
         if isinstance(step, Parallel | Perpendicular | AtAngle) and step.through in found:
             found[step.out] = found[step.through]

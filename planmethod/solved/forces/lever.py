@@ -15,8 +15,9 @@ from msgspec.structs import replace
 
 from planmethod.construct.steps import NumberName, PointName
 from planmethod.plans.forces.board import GivenLoad
+from planmethod.plans.forces.dyads import Driving
 from planmethod.plans.model import PlanKind
-from planmethod.plans.motion.board import letter
+from planmethod.plans.motion.board import MotionBoard, letter
 from planmethod.solved.forces.reading import ForceReading
 
 _Own: TypeAlias = tuple[
@@ -138,6 +139,9 @@ class LeverReading:
     def _balance(self, balance: NumberName) -> None:
         reading, drive = self.reading, self.reading.solution.problem.drive
         pushing = reading.statics.driving.force
+        if reading.statics.driving.between is not None:
+            self._push(reading.statics.driving)
+            return
         if pushing is None:
             if self.forces or self.couples:  # where they cancel, too
                 moment = reading.read_number(balance)
@@ -154,6 +158,25 @@ class LeverReading:
             if measured is not None:
                 arm = copysign(reading.read_number(measured) * self.times, arm)
             self.forces.append(LeverForce(reading.balancing_symbol, place, force, arm, size, pin))
+
+    def _push(self, driving: Driving) -> None:
+        """Hang the force of an actuator in both its ends: the second has the arm of the pair."""
+        reading, hung = self.reading, self.reading.statics.lever_plan
+        assert driving.between is not None and driving.force is not None
+        assert hung is not None and hung.arm is not None
+        force, motion = reading.of_force(driving.force), self._motion
+        if not force or not (self.forces or self.couples):
+            return
+        size = abs(reading.read_number(hung.balance))
+        arm = reading.read_number(hung.arm) * self.times
+        arm = -arm if reading.number(driving.balance) < 0 else arm
+        for end, way, turns in zip(driving.between, (-force, force), (0.0, arm), strict=True):
+            place = self.place(motion.point[motion.named[end]])
+            self.forces.append(LeverForce(reading.balancing_symbol, place, way, turns, size, end))
+
+    @property
+    def _motion(self) -> MotionBoard:
+        return self.reading.solution.construction.kinematics.velocity
 
     def place(self, point: PointName) -> complex:
         """Return a point of the velocity plan on the lever as the hand has it, mm from the pole."""

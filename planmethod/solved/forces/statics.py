@@ -28,6 +28,7 @@ from planmethod.plans.forces.dyads import Driving, drive_forces, group_forces
 from planmethod.plans.forces.lever import Lever, plan_lever
 from planmethod.plans.forces.loads import Applied, numbers_of
 from planmethod.plans.forces.polygons import ForcePlan
+from planmethod.plans.forces.thrust import Thrust, close_thrust, find_thrust
 from planmethod.plans.model import FACTS, PlanKind
 from planmethod.problem.load_records import BearingTable, Dynamics
 from planmethod.problem.model import Convention
@@ -65,12 +66,13 @@ FAINT = 1e-6
 class Planned(Struct, frozen=True):
     """Force plans of a problem as steps that go on from its kinematics (планы сил).
 
-    ``lever`` is None where the driver stands.
+    ``lever`` is None where the driver stands; ``thrust`` is the force of an actuator.
     """
 
     board: ForceBoard
     driving: Driving
     lever: Lever | None
+    thrust: Thrust | None = None
 
 
 def plan_forces(
@@ -97,12 +99,18 @@ def plan_forces(
     start = len(draft.b.steps)
     board = ForceBoard(draft, solution.construction.kinematics, _dynamics(solution))
     board.load(loads, single)
+    thrust = None
+    if solution.problem.drive.actuator is not None:
+        thrust = find_thrust(board, solution.structure.groups, hung=hung)
     for group in reversed(solution.structure.groups):
         group_forces(board, group)
-    driving = drive_forces(board)
-    lever = plan_lever(board, driving) if hung else None
+    if thrust is None:
+        driving = drive_forces(board)
+        lever = plan_lever(board, driving) if hung else None
+    else:
+        driving, lever = close_thrust(board, thrust)
     draft.note_plan(PlanKind.FORCE, start)
-    return Planned(board, driving, lever)
+    return Planned(board, driving, lever, thrust)
 
 
 class Loads(Struct, frozen=True):
@@ -207,6 +215,7 @@ class Statics(Remembering):
         draft = solution.construction.draft.copy()
         planned = plan_forces(solution, draft, loads.applied, loads.single, hung=not rubbing)
         self.board, self.driving, self.lever_plan = planned.board, planned.driving, planned.lever
+        self.thrust = planned.thrust
         self.program: Program = self.board.draft.b.program().needed_for(self._asked())
 
     def _asked(self) -> list[Name]:

@@ -13,7 +13,7 @@ from planmethod.note.narrate.given import point_name
 from planmethod.note.numbers import MINUS
 from planmethod.plans.forces.board import Force
 from planmethod.plans.forces.polygons import CoupleOn, Edge, ForcePlan, Moments, Share
-from planmethod.plans.model import Direction, Relation
+from planmethod.plans.model import Direction, PlanKind, Relation
 from planmethod.solved.forces.guides import Guided, guide_of
 
 SIDES = ("right", "up", "left", "down")
@@ -84,8 +84,9 @@ class MomentNarrator:
             )
             peak, turn = reading.peak, 1.0 if reading.turns(edge, equation.about) else -1.0
             arm, length, measured = self._arm(equation, edge)
+        elif couple is None:
+            return self._checked(head, forces, couples)
         else:
-            assert couple is not None
             symbol, unit, nothing = self.symbol(couple.symbol), "N·m", reading.is_no_couple(couple)
             value, peak, turn = reading.read_number(couple.moment), reading.peak_moment, 1.0
         if nothing and not forces and not couples:
@@ -106,6 +107,29 @@ class MomentNarrator:
             if forces or couples
             else f"{symbol} ≈ 0",
             value,
+        )
+
+    def _checked(
+        self,
+        head: str,
+        forces: Sequence[tuple[str, float, float]],
+        couples: Sequence[tuple[str, float]],
+    ) -> MomentText | None:
+        """Return an equation that finds nothing: what is left of the moments, N·m."""
+        if not forces and not couples:
+            return None
+        letters = [(a, f"{name}·{arm_symbol(name)}") for name, _, a in forces]
+        letters += [(moment, name) for name, moment in couples]
+        metres = self.context.say.per_mm(PlanKind.POSITION)
+        left = sum(size * arm * metres for _, size, arm in forces)
+        left += sum(moment for _, moment in couples)
+        numbers = self._numbers(forces, couples, 1.0)
+        return MomentText(
+            f"{head} = {signed_sum(letters)}",
+            tuple(f"{arm_symbol(n)} = {self.context.ruled(abs(a))}" for n, _, a in forces),
+            "",
+            f"{head} = {numbers} = {self.found(left)} {self.units['N·m']}",
+            left,
         )
 
     def _arm(self, equation: Moments, edge: Edge) -> tuple[str, str, str]:
@@ -176,6 +200,8 @@ class MomentNarrator:
                 yield self._component(equation, equation.force)
             elif equation.couple is not None and self._is_balancing(equation.couple):
                 yield self._balancing(equation, equation.couple)
+            elif equation.couple is None and (told := self.told(equation)) is not None:
+                yield [*self._sum(equation, told), f"{told.result} ≈ 0.", self.said.in_balance]
 
     def _is_balancing(self, couple: CoupleOn) -> bool:
         return couple.moment == self.statics.driving.balance

@@ -21,6 +21,7 @@ from planmethod.note.narrate.scales import scale_inscription
 from planmethod.plans.forces.board import Reaction
 from planmethod.plans.forces.loads import LoadKind
 from planmethod.plans.forces.polygons import CoupleOn, Edge, ForcePlan, Share, reaction_symbol
+from planmethod.plans.forces.thrust import Thrust
 from planmethod.plans.model import Relation
 
 
@@ -75,10 +76,10 @@ class ForcePlanNarrator:
             pushed = self.context.solution.problem.drive.pushed
             point = "" if pushed is None else point_name(pushed.at)
             balancing = template.format(symbol=symbol, point=point)
-            return [
-                said.freed_driver.format(reactions=reactions, balancing=balancing),
-                *self._known,
-            ]
+            freed = said.freed_driver.format(reactions=reactions, balancing=balancing)
+            if self.statics.thrust is not None:
+                freed = said.freed_actuated.format(reactions=reactions)
+            return [freed, *self._pushed, *self._known]
         lines = [said.freed.format(reactions=reactions)]
         if self.is_nothing:
             return lines
@@ -88,7 +89,23 @@ class ForcePlanNarrator:
             symbols = {"whole": whole, "normal": normal, "tangential": tangential}
             said_of = {key: self.context.symbol(edge.symbol) for key, edge in symbols.items()}
             lines.append(said.components.format(line=line, **said_of))
-        return lines + self._known
+        return [*lines, *self._pushed, *self._known]
+
+    @property
+    def _pushed(self) -> list[str]:
+        """Where the force of an actuator acts on the links, if it does."""
+        thrust = self.statics.thrust
+        if thrust is None:
+            return []
+        symbol = self.context.symbol(self.reading.balancing_symbol)
+        line = "".join(map(point_name, thrust.ends))
+        return [
+            self.said.thrust.format(
+                symbol=symbol, line=line, link=link, point=point_name(str(force.at))
+            )
+            for link, force in thrust.pushes
+            if link in self.plan.links
+        ]
 
     def _is_outer(self, reaction: Reaction) -> bool:
         return reaction.on in self.plan.links and reaction.by not in self.plan.links
@@ -208,7 +225,18 @@ class ForcePlanNarrator:
             return self._lay(
                 edge, self.said.way_back.format(other=other), back=edge.tail == step.out
             )
+        thrust = self.statics.thrust
+        if thrust is not None and {step.tail, step.head} == {*thrust.force.ends}:
+            return self._lay(edge, self._along(thrust, edge), back=edge.tail == step.out)
         return self._lay(edge, self._way(step), back=edge.tail == step.out)
+
+    def _along(self, thrust: Thrust, edge: Edge) -> str:
+        """Return the way of the force of an actuator: from one of its ends towards the other."""
+        ends = list(map(point_name, thrust.ends))
+        one, two = (self.reading.place(PointName(end)) for end in thrust.ends)
+        if (self.reading.force(edge) * (two - one).conjugate()).real < 0:
+            ends.reverse()
+        return self.said.way_thrust.format(line="".join(ends), first=ends[0], second=ends[1])
 
     def _side(self, one: PointName, other: PointName) -> Edge:
         """Return the side of the polygon between two points, whichever way it points."""

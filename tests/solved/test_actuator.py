@@ -1,0 +1,181 @@
+"""Forces of mechanisms that an actuator drives: against all links at once, and by virtual work."""
+
+from __future__ import annotations
+
+from collections import Counter
+from functools import cache
+
+import numpy as np
+import pytest
+from actuated import actuated_problem
+from cases import each, some
+from full_system import (
+    Acting,
+    Answer,
+    Ends,
+    cross,
+    loads_of,
+    pose_of,
+    power_of,
+    slide_between,
+    solve_all,
+)
+from newton import Motion
+from newton import solve as newton
+
+from planmethod.mechanism.model import FRAME
+from planmethod.problem import loads
+from planmethod.problem.model import Problem
+from planmethod.solved.forces.statics import Statics
+from planmethod.solved.solution import Solution
+from planmethod.solved.turn.posed import pose
+
+SEEDS = range(46000, 46000 + some(240, few=24))
+LIMIT = 1e-9
+
+SCISSOR = """units = "mm"
+[frame]
+O = [0, 0]
+guides.floor = { through = "O", angle = 0 }
+[links.1]
+points = ["O", "M", "B", "P"]
+OM = 500
+OB = 1000
+M = { on = "OB", at = 500 }
+P = { on = "OB", at = 200 }
+[links.2]
+points = ["A", "M", "E", "Q"]
+AE = 1000
+M = { on = "AE", at = 500 }
+Q = { on = "AE", at = 700 }
+[links.3]
+points = ["A"]
+slides = { on = "floor" }
+CYLINDER[driver]
+link = "1"
+PQ = 400
+v_PQ = 20
+root = "near 52"
+[assembly]
+A = "right of O"
+[dynamics]
+gravity = 0
+[[loads]]
+link = "1"
+at = "B"
+force = 1000
+angle = -90
+[[loads]]
+link = "2"
+at = "E"
+force = 1000
+angle = -90
+"""
+CYLINDER = """[links.4]
+points = ["P"]
+slides = { on = "5", through = "Q" }
+[links.5]
+points = ["Q"]
+"""
+
+
+def stands(seed: int) -> bool:
+    return seed % 4 == 3
+
+
+@cache
+def drawn(seed: int) -> tuple[Problem, Motion, Ends]:
+    problem, start, ends = actuated_problem(seed, triad=seed % 5 == 0, stands=stands(seed))
+    return problem, newton(problem, problem.drive.positions[0], start), ends
+
+
+@cache
+def solved(seed: int) -> Statics:
+    return Statics(Solution(drawn(seed)[0]))
+
+
+@cache
+def acting(seed: int) -> list[Acting]:
+    problem, motion, _ = drawn(seed)
+    return loads_of(problem, motion)
+
+
+@cache
+def refereed(seed: int) -> Answer:
+    problem, motion, ends = drawn(seed)
+    joints = [(r.joint, r.on, r.by) for r in solved(seed).reactions]
+    return solve_all(problem, joints, pose_of(motion), acting(seed), ends=ends)
+
+
+def largest(seed: int) -> float:
+    """Largest force, N."""
+    answer = refereed(seed)
+    return float(max(answer.largest, *(abs(load.force) for load in acting(seed))))
+
+
+def test_every_kind_of_actuator_occurs() -> None:
+    seen: Counter[str] = Counter()
+    for seed in SEEDS:
+        problem, _, ((_, one), (_, two)) = drawn(seed)
+        seen["own links" if one == "101" else "only a distance"] += 1
+        seen["from the frame" if FRAME in (one, two) else "between moving links"] += 1
+        seen["crank" if problem.drive.is_crank else "slider"] += 1
+        seen["a triad"] += any(
+            len(group.links) > 2 for group in solved(seed).solution.structure.groups
+        )
+    assert len(seen) == 7
+    assert min(seen.values()) >= some(20, few=1)
+
+
+@each("seed", SEEDS)
+def test_all_forces_are_those_of_all_links_at_once(seed: int) -> None:
+    problem, motion, _ = drawn(seed)
+    limit, answer = LIMIT * largest(seed), refereed(seed)
+    assert abs(solved(seed).balance[0] - answer.balance) <= limit
+    for r in solved(seed).reactions:
+        joint = (r.joint, r.on, r.by)
+        force, moment = answer.joints[joint]
+        assert abs(r.force[0] - force) <= limit, joint
+        slide, found = slide_between(problem, joint), r.moment[0]
+        if slide is not None:
+            found += cross(r.at[0] - motion.position[slide.slider, slide.pin], r.force[0])
+        assert abs(found - moment) <= limit, joint
+
+
+@each("seed", SEEDS)
+def test_its_power_is_that_of_the_loads(seed: int) -> None:
+    statics = solved(seed)
+    if stands(seed):
+        assert statics.lever is None
+        return
+    problem, motion, ((one, _), (two, _)) = drawn(seed)
+    places = {point: (z, 0j) for point, z in problem.bodies[FRAME].points.items()}
+    for link in problem.mechanism.links:
+        for point in problem.bodies[link].points:
+            if point not in places:
+                places[point] = motion.position[link, point], motion.velocity[link, point]
+    apart, rate = (places[two][k] - places[one][k] for k in (0, 1))
+    grows = (rate * apart.conjugate()).real / abs(apart)
+    powers = power_of(problem, motion, acting(seed))
+    limit = LIMIT * sum(map(abs, powers))
+    assert abs(sum(powers) + statics.balance[0] * grows) <= limit
+    assert statics.lever is not None
+    assert abs(statics.lever[0] - statics.balance[0]) * abs(grows) <= limit
+
+
+@pytest.mark.parametrize("own", [True, False])
+@pytest.mark.parametrize("rate", [20, 0])
+def test_the_cylinder_of_a_scissor_lift(own: bool, rate: int) -> None:
+    """By hand: 2·1000·|v_B|/v_PQ, and each support has half of the weight."""
+    text = SCISSOR.replace("CYLINDER", CYLINDER if own else "").replace("= 20\n", f"= {rate}\n")
+    statics = Statics(Solution(pose(loads(text, name="scissor"))))
+    forces = {(r.joint, r.on, r.by): r.force[0] for r in statics.reactions}
+    assert statics.balance[0] == pytest.approx(4216.370213557839, rel=1e-12)
+    assert statics.moment is None
+    for support in (("O", "1", FRAME), ("A", "3", FRAME)):
+        assert forces[support] == pytest.approx(1000j, rel=1e-9, abs=1e-9)
+    if own:  # its pins have its force
+        pins = [abs(forces["P", "4", "1"]), abs(forces["Q", "5", "2"])]
+        assert pins == pytest.approx([statics.balance[0]] * 2, rel=1e-12)
+        assert abs(forces["P", "4", "5"]) < 1e-9
+    assert np.isfinite(statics.by_hand.number(statics.driving.balance)).all()
