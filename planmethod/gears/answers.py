@@ -2,19 +2,16 @@
 
 from __future__ import annotations
 
-import math
 from fractions import Fraction
 
 from msgspec import Struct
 
 from planmethod.gears.asked import SoughtQuantity, parse
+from planmethod.gears.axes import cannot_mesh
 from planmethod.gears.conditions import satellites_held
 from planmethod.gears.linear import solve
-from planmethod.gears.model import PARALLEL, Mesh, MeshKind
+from planmethod.gears.model import PARALLEL, Mesh
 from planmethod.gears.motion import TrainMotion, mesh_row
-
-ALPHA = math.radians(20)
-"""Pressure angle of the standard rack, rad."""
 
 
 class Answer(Struct, frozen=True):
@@ -122,40 +119,31 @@ def _size(motion: TrainMotion, name: str, asked: SoughtQuantity) -> Answer:
     if train.toothed and train.module is None and (asked.kind == "a_w" or train.counted(label)):
         return _none(name, "module")
     if asked.kind == "r":
-        return _exact(name, sizes[label] * train.unit_m * 1000, "mm")
+        return _exact(name, motion.axes.radii[label] * train.unit_m * 1000, "mm")
     one, other = (train.body_of[x] for x in asked.labels)
     if one not in heights or other not in heights:
         return _none(name, "wheel", label)
-    apart = abs(heights[one] - heights[other]) * train.unit_m * 1000
-    share = _spread(motion, one, other)
-    if share is None:
-        return _exact(name, apart, "mm")
-    if math.isnan(share):
+    mesh = _between(motion, one, other)
+    apart = abs(heights[one] - heights[other]) if mesh is None else motion.axes.apart[mesh.name]
+    if mesh is not None and cannot_mesh(motion.axes, mesh):
         return _none(name, "wheel", label)
-    return Answer(name, float(apart) * share, None, "mm")
+    apart *= train.unit_m * 1000
+    if not motion.axes.shifted:
+        return _exact(name, apart, "mm")
+    return Answer(name, float(apart), None, "mm")
 
 
-def _spread(motion: TrainMotion, one: str, other: str) -> float | None:
-    """Return a_w/a of the two axes that wheels with shifts stand on; None without shifts."""
-    train, axis = motion.train, motion.axes.axis_of
-    for mesh in train.meshes:
-        ends = {axis[body] for body in train.ends(mesh)}
-        if mesh.kind not in PARALLEL or ends != {axis[one], axis[other]}:
-            continue
-        way = 1 if mesh.kind is MeshKind.EXTERNAL else -1
-        pair = sorted((mesh.first, mesh.second), key=lambda label: motion.axes.sizes[label])
-        z, x = (
-            [float(size) for size in sizes]
-            for sizes in (
-                [motion.axes.sizes[label] for label in pair],
-                [train.wheels[label].shift for label in pair],
-            )
-        )
-        if train.toothed and x[1] + way * x[0]:
-            from planmethod.gears.angles import spread
-
-            return spread(z[1] + way * z[0], x[1] + way * x[0], ALPHA)
-    return None
+def _between(motion: TrainMotion, one: str, other: str) -> Mesh | None:
+    """Return the mesh whose axes are those of two bodies, with shifts if there is one so."""
+    axis = motion.axes.axis_of
+    found = [
+        mesh
+        for mesh in motion.train.meshes
+        if mesh.kind in PARALLEL
+        and {axis[body] for body in motion.train.ends(mesh)} == {axis[one], axis[other]}
+    ]
+    own = [mesh for mesh in found if {one, other} == set(motion.train.ends(mesh))]
+    return next(iter([*own, *found]), None)
 
 
 def efficiency(motion: TrainMotion) -> Fraction | None:

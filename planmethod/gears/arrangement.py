@@ -187,7 +187,7 @@ class Arrangement(Struct, frozen=True, dict=True):
                 case AxisPart.WEB:
                     (ring,) = station.rims
                     for way in ring.ways:
-                        ends = sorted((ring.centre, ring.centre + way * ring.radius))
+                        ends = sorted((ring.centre, ring.centre + way * ring.reach(way)))
                         yield number, ends[0], ends[1], ring.body
                 case AxisPart.APEX:
                     assert station.across is not None

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from fractions import Fraction
 from itertools import product
 
 from msgspec import Struct, field
+from msgspec.structs import replace
 
 from planmethod.errors import Fault
 from planmethod.gears.linear import LinearSolution, Row, solve
@@ -19,6 +21,15 @@ MOST_CHOSEN = 10
 
 HINT = "Check the teeth, and which wheels share an axis."
 
+CLOSE = Fraction(2, 100)
+"""Modules by which ways by shifted wheels may differ and be coaxial: shifts are rounded."""
+
+NEAR = Fraction(1, 4)
+"""Modules by which they may differ and be one train still: a small shift more cures it."""
+
+ALPHA = math.radians(20)
+"""Pressure angle of the standard rack, rad."""
+
 
 class TrainDimensions(Struct, frozen=True):
     """Sizes of all wheels and heights of all axes that are at known distances (размеры).
@@ -27,6 +38,13 @@ class TrainDimensions(Struct, frozen=True):
     ----------
     sizes : mapping
         By label: teeth or half modules, metres where no wheel has teeth.
+    radii : mapping
+        Of the pitch circles by label, in half modules of the train (or metres).
+    apart : mapping
+        Distances of parallel axes by the name of the mesh, in the same unit: those of the pitch
+        circles, or of wheels with shifts without backlash.
+    shifted : frozenset of str
+        Names of the meshes whose shifts alter it.
     heights : mapping
         By body, from the main axis upwards, in half modules (or metres).
     axis_of : mapping
@@ -34,6 +52,9 @@ class TrainDimensions(Struct, frozen=True):
     """
 
     sizes: Mapping[str, Fraction]
+    radii: Mapping[str, Fraction]
+    apart: Mapping[str, Fraction]
+    shifted: frozenset[str]
     heights: Mapping[str, Fraction]
     axis_of: Mapping[str, str]
 
@@ -121,7 +142,8 @@ def _place(
     start, new = ends if lines.line[ends[0]] in heights else ends[::-1]
     size, height = _distance(train, mesh), heights[lines.line[start]]
     at_main = lines.line[start] == lines.main
-    returns = size is None or height is None or abs(height) == size
+    slack = 2 * CLOSE if is_shifted(train) else 0
+    returns = size is None or height is None or abs(abs(height) - size) <= slack
     between = any(
         new in both and other is not mesh and lines.line[start] in {lines.line[b] for b in both}
         for other in train.meshes
@@ -136,11 +158,69 @@ def _place(
         heights[lines.line[new]] = height + size
 
 
+def is_shifted(train: Train) -> bool:
+    """Whether a wheel of a train is cut with a shift."""
+    return train.toothed and any(wheel.shift for wheel in train.wheels.values())
+
+
+def cannot_mesh(axes: TrainDimensions, mesh: Mesh) -> bool:
+    """Whether wheels with shifts cannot come as near as they would have to."""
+    one, other = axes.radii[mesh.first], axes.radii[mesh.second]
+    plain = one + other if mesh.kind is MeshKind.EXTERNAL else abs(one - other)
+    return mesh.name in axes.shifted and axes.apart[mesh.name] == plain
+
+
+def _radius(train: Train, label: str) -> Fraction | None:
+    size = train.wheels[label].size
+    return None if size is None else size * train.share(label)
+
+
 def _distance(train: Train, mesh: Mesh) -> Fraction | None:
-    one, other = (train.wheels[label].size for label in (mesh.first, mesh.second))
+    """Return the distance of the axes of a mesh, with the shifts; None while teeth are unknown.
+
+    Wheels that cannot come so near to each other stand as without shifts.
+    """
+    one, other = (_radius(train, label) for label in (mesh.first, mesh.second))
     if one is None or other is None:
         return None
-    return one + other if mesh.kind is MeshKind.EXTERNAL else abs(one - other)
+    plain = one + other if mesh.kind is MeshKind.EXTERNAL else abs(one - other)
+    _, teeth, shifts = _pair(train, mesh)
+    if not train.toothed or not shifts or not teeth:
+        return plain
+    from planmethod.gears.angles import spread
+
+    share = spread(float(teeth), float(shifts), ALPHA)
+    return plain if math.isnan(share) else plain * Fraction(share)
+
+
+def _pair(train: Train, mesh: Mesh) -> tuple[int, Fraction, Fraction]:
+    """Return +1 of an external mesh, -1 of an internal one, and the sums or differences.
+
+    Of an internal mesh they are those of the ring less those of the wheel in it.
+    """
+    way = 1 if mesh.kind is MeshKind.EXTERNAL else -1
+    both = [train.wheels[label] for label in (mesh.first, mesh.second)]
+    small, large = sorted(both, key=lambda wheel: wheel.size or 0)
+    assert small.size is not None and large.size is not None
+    return way, large.size + way * small.size, large.shift + way * small.shift
+
+
+def shift_for(train: Train, mesh: Mesh, distance: Fraction) -> tuple[str, float]:
+    """Return the wheel whose shift would set the axes of a mesh so far apart, and that shift.
+
+    Of an internal mesh it is the ring. The distance is in half modules.
+    """
+    from planmethod.gears.angles import involute
+
+    _, teeth, shifts = _pair(train, mesh)
+    large = max((mesh.first, mesh.second), key=lambda label: train.wheels[label].size or 0)
+    plain = teeth * train.share(large)
+    cosine = float(plain / distance) * math.cos(ALPHA) if distance else 2.0
+    if cosine >= 1:
+        return large, math.nan
+    grown = float(involute(math.acos(cosine)) - involute(ALPHA)) * float(teeth)
+    less = float(shifts - train.wheels[large].shift)
+    return large, grown / (2 * math.tan(ALPHA)) - less
 
 
 def _beside(train: Train, lines: _Lines, body: str) -> set[str]:
@@ -185,10 +265,15 @@ def _solve(
     for turns in product((1, -1), repeat=len(chosen)):
         side = likely | {m: likely[m] * turn for m, turn in zip(chosen, turns, strict=True)}
         rows = [_equation(train, lines, mesh, side.get(mesh)) for mesh in meshes]
+        if is_shifted(train) and not unknown:
+            rows = _brought_together(names, list(zip(meshes, rows, strict=True)), train)
         found = solve(names, rows)
         fault = _judge(train, found, unknown)
         if fault is None:
-            axes = _axes(train, lines, found)
+            axes = _axes(train, lines, found, meshes)
+            if unknown and is_shifted(train):  # teeth are told by pitch circles, axes by shifts
+                wheels = {x: replace(w, size=axes.sizes[x]) for x, w in train.wheels.items()}
+                return _solve(replace(train, wheels=wheels, unknown=()), lines, meshes)
             fault = _positive(train, axes, meshes)
             if fault is None:
                 return axes, []
@@ -262,16 +347,44 @@ def _equation(train: Train, lines: _Lines, mesh: Mesh, side: int | None) -> Row[
         out = up
     else:
         out = other
-    for label in (mesh.first, mesh.second):
+    if not train.unknown and (apart := _distance(train, mesh)) is not None:
+        return coefficients, side * apart
+    for label in (mesh.first, mesh.second):  # by the pitch circles, which are linear in the teeth
         sign = side
         if mesh.kind is MeshKind.INTERNAL and label != _ring_label(train, mesh, out):
             sign = -side
-        size = train.wheels[label].size
+        size = _radius(train, label)
         if size is None:
-            coefficients["z", label] = coefficients.get(("z", label), Fraction(0)) - sign
+            factor = coefficients.get(("z", label), Fraction(0))
+            coefficients["z", label] = factor - sign * train.share(label)
         else:
             right += sign * size
     return coefficients, right
+
+
+def _brought_together(
+    names: Sequence[tuple[str, str]],
+    rows: list[tuple[Mesh, Row[tuple[str, str]]]],
+    train: Train,
+) -> list[Row[tuple[str, str]]]:
+    """Return equations of heights in which ways that come as good as together do so exactly.
+
+    Shifts are rounded, so that two ways of shifted wheels to one axis differ by a little. The first
+    tells the height: the meshes without shifts, then those in the order of the file.
+    """
+    done = [row for mesh, row in rows if not _pair(train, mesh)[2]]
+    left = [row for mesh, row in rows if _pair(train, mesh)[2]]
+    while left:
+        values = solve(names, done).values
+        at = next((k for k, (row, _) in enumerate(left) if not row.keys() - values.keys()), None)
+        if at is None:
+            known = (k for k, (row, _) in enumerate(left) if len(row.keys() - values.keys()) == 1)
+            done.append(left.pop(next(known, 0)))
+            continue
+        row, right = left.pop(at)
+        reached = sum((factor * values[name] for name, factor in row.items()), Fraction(0))
+        done.append((row, reached if abs(reached - right) <= 2 * NEAR else right))
+    return done
 
 
 def _ring_label(train: Train, mesh: Mesh, out: str) -> str:
@@ -305,17 +418,27 @@ def _judge(
     return None
 
 
-def _axes(train: Train, lines: _Lines, found: LinearSolution[tuple[str, str]]) -> TrainDimensions:
+def _axes(
+    train: Train,
+    lines: _Lines,
+    found: LinearSolution[tuple[str, str]],
+    meshes: Sequence[Mesh],
+) -> TrainDimensions:
     sizes: dict[str, Fraction] = {}
     for label, wheel in train.wheels.items():
         sizes[label] = found.values["z", label] if wheel.size is None else wheel.size
+    wheels = {label: replace(wheel, size=sizes[label]) for label, wheel in train.wheels.items()}
+    whole = replace(train, wheels=wheels, unknown=())
+    radii = {label: size * train.share(label) for label, size in sizes.items()}
+    apart = {mesh.name: _distance(whole, mesh) or Fraction(0) for mesh in meshes}
+    shifted = frozenset(m.name for m in meshes if train.toothed and _pair(whole, m)[2])
     heights: dict[str, Fraction] = {}
     for body, line in lines.line.items():
         if line == lines.main:
             heights[body] = Fraction(0)
         elif ("h", line) in found.values:
             heights[body] = found.values["h", line]
-    return TrainDimensions(sizes, heights, lines.line)
+    return TrainDimensions(sizes, radii, apart, shifted, heights, lines.line)
 
 
 def _positive(train: Train, axes: TrainDimensions, meshes: Sequence[Mesh]) -> Fault | None:
@@ -327,9 +450,10 @@ def _positive(train: Train, axes: TrainDimensions, meshes: Sequence[Mesh]) -> Fa
         if mesh.kind is MeshKind.INTERNAL and one == other:
             told = say("{} and {} mesh internally and are of one size", mesh.first, mesh.second)
             return Fault("gears.meshes", told, HINT)
-        wanted = one + other if mesh.kind is MeshKind.EXTERNAL else abs(one - other)
+        wanted = axes.apart[mesh.name]
         known = first in axes.heights and second in axes.heights
-        if known and abs(apart) != wanted:
+        slack = 2 * NEAR if is_shifted(train) else 0
+        if known and abs(abs(apart) - wanted) > slack:
             told = say(
                 "the train is not coaxial at {}: its axes are {} apart, its wheels need {}",
                 mesh.name,
@@ -350,7 +474,7 @@ def _say_why(train: Train, lines: _Lines, meshes: Sequence[Mesh]) -> Fault | Non
             continue
         (name,) = names
         before, height = seen.setdefault(name, (mesh, size))
-        if height != size:
+        if abs(height - size) > (2 * NEAR if is_shifted(train) else 0):
             told = say(
                 "the train is not coaxial: the axis of {} is {} from the main axis by the "
                 "mesh {}, and {} by {}",
@@ -360,7 +484,12 @@ def _say_why(train: Train, lines: _Lines, meshes: Sequence[Mesh]) -> Fault | Non
                 _shown(size),
                 mesh.name,
             )
-            return Fault("gears.wheels", told, HINT)
+            hint = HINT
+            if is_shifted(train):
+                label, shift = shift_for(train, mesh, height)
+                if abs(shift) < 1:
+                    hint = say("With x = {:.3f} of wheel {} the axes would coincide.", shift, label)
+            return Fault("gears.wheels", told, hint)
     return None
 
 

@@ -9,6 +9,7 @@ from typing import Any
 
 from msgspec import Struct, field
 
+from planmethod.gears.axes import CLOSE, shift_for
 from planmethod.gears.model import PARALLEL, Mesh, MeshKind
 from planmethod.gears.motion import TrainMotion
 from planmethod.note.numbers import MINUS
@@ -57,6 +58,8 @@ def sentence(condition: Condition, words: Language) -> str:
     """Return a condition in words."""
     decimal = words.note.decimal
     facts = {name: value.replace(".", decimal) for name, value in condition.facts.items()}
+    if "unit" in facts:
+        facts["unit"] = words.gears["units"][facts["unit"]]
     said: str = words.gears["conditions"][condition.said or condition.name]
     return said.format(**facts)
 
@@ -77,9 +80,57 @@ Terms = tuple[tuple[int, str], ...]
 
 def _coaxial(motion: TrainMotion) -> Iterator[Condition]:
     for name, height, ways in coaxial_ways(motion):
+        meshes = [_meshes_of(motion, way) for way in ways]
+        if motion.axes.shifted & {mesh.name for mesh in (*meshes[0], *meshes[1])}:
+            yield _coaxial_shifted(motion, name, ways)
+            continue
+        if len({motion.train.module_of(label) for way in ways for _, label in way}) > 1:
+            sums = " = ".join(_sum(motion, way, height, "r") for way in ways)
+            value = f"{float(abs(height) * motion.train.unit_m * 1000):g}"
+            yield Condition("coaxiality", True, {"sums": sums, "axis": name, "value": value},
+                            "coaxiality_mm")  # fmt: skip
+            continue
         sums = " = ".join(_sum(motion, way, height) for way in ways)
         facts = {"sums": sums, "axis": name, "value": _shown(abs(height))}
         yield Condition("coaxiality", True, facts)
+
+
+def _meshes_of(motion: TrainMotion, way: Terms) -> list[Mesh]:
+    """Return the meshes that a way of terms goes by, two terms each."""
+    by = {frozenset((mesh.first, mesh.second)): mesh for mesh in motion.train.meshes}
+    return [by[frozenset((one, other))] for (_, one), (_, other) in zip(way[::2], way[1::2],
+                                                                      strict=True)]  # fmt: skip
+
+
+def _coaxial_shifted(motion: TrainMotion, axis: str, ways: tuple[Terms, Terms]) -> Condition:
+    """Judge two ways of which shifted wheels are on one: their distances of axes are compared."""
+    train, axes = motion.train, motion.axes
+    per = Fraction(1, 2) if train.module is None else train.unit_m * 1000
+    heights, sums = [], []
+    for way in ways:
+        parts, height = [], Fraction(0)
+        for mesh, (sign, _) in zip(_meshes_of(motion, way), way[::2], strict=True):
+            height += sign * axes.apart[mesh.name]
+            parts.append((sign, mesh.name))
+        turn = -1 if height < 0 else 1
+        text = " ".join(f"{'+' if sign * turn > 0 else '−'} a_w{name}" for sign, name in parts)
+        heights.append(abs(height))
+        sums.append(f"{text.removeprefix('+ ')} = {_places(abs(height) * per)}")
+    off = heights[1] - heights[0]
+    said = {"axis": axis, "sums": ", ".join(sums), "off": _places(abs(off) * per)}
+    said["unit"] = "modules" if train.module is None else "mm"
+    if abs(off) <= 2 * CLOSE:
+        return Condition("coaxiality", True, said, "coaxiality_shifted")
+    last = _meshes_of(motion, ways[1])
+    if len(last) == 1 and len(ways[0]) == 2:
+        wheel, shift = shift_for(train, last[0], heights[0])
+        said |= {"wheel": wheel, "shift": f"{shift:.3f}".replace("-", MINUS)}
+        return Condition("coaxiality", False, said, "coaxiality_cured")
+    return Condition("coaxiality", False, said, "coaxiality_off")
+
+
+def _places(value: Fraction) -> str:
+    return f"{float(value):.3f}"
 
 
 def coaxial_ways(motion: TrainMotion) -> Iterator[tuple[str, Fraction, tuple[Terms, Terms]]]:
@@ -132,9 +183,9 @@ def _step(motion: TrainMotion, mesh: Mesh, far: int) -> Terms:
     return (side, ring), (-side, small)
 
 
-def _sum(motion: TrainMotion, terms: Terms, height: Fraction) -> str:
+def _sum(motion: TrainMotion, terms: Terms, height: Fraction, letter: str = "") -> str:
     """Write a sum of sizes as a positive height: ``z_1 + z_2``."""
-    letter = "z" if motion.train.toothed else "r"
+    letter = letter or ("z" if motion.train.toothed else "r")
     turn = -1 if height < 0 else 1
     parts = [f"{'+' if sign * turn > 0 else '−'} {letter}_{label}" for sign, label in terms]
     return " ".join(parts).removeprefix("+ ")
@@ -179,19 +230,24 @@ def _sets(motion: TrainMotion) -> Iterator[Condition]:
         yield Condition("assembly", _assembles(whole, count), said | value)
         room = {
             "left": f"{math.sin(math.pi / count):.4f}",
-            "right": f"{float((size + 2) / distance):.4f}",
+            "right": f"{float(size / distance):.4f}",
         }
         yield Condition("neighbourhood", _apart(size, distance, count), said | room)
 
 
 def _set_of(motion: TrainMotion, carrier: str) -> tuple[Fraction, Fraction, Fraction] | None:
-    """Return what k must divide, the largest rim of the satellite, and twice its distance/m."""
+    """Return what k must divide, the diameter of the satellite's tips, and twice its distance.
+
+    Both in modules of the train.
+    """
     train, sizes = motion.train, motion.axes.sizes
     satellites = motion.roles.satellites[carrier]
     if len(satellites) != 1 or not train.toothed or satellites[0] in motion.roles.across:
         return None
     (satellite,) = satellites
-    rims, rows = [], []
+    rims: list[Fraction] = []
+    tips: dict[str, Fraction] = {}
+    rows = []
     for mesh in train.meshes:
         ends = train.ends(mesh)
         if train.carrier(mesh) != carrier or satellite not in ends:
@@ -200,6 +256,8 @@ def _set_of(motion: TrainMotion, carrier: str) -> tuple[Fraction, Fraction, Frac
             return None
         own, other = (mesh.first, mesh.second)[:: 1 if ends[0] == satellite else -1]
         rims.append(sizes[own])
+        tip = (sizes[own] + 2 * (1 + _raised(motion, mesh, own))) * train.share(own)
+        tips[own] = min(tip, tips.get(own, tip))
         sign = 1 if mesh.kind is MeshKind.EXTERNAL else -1
         rows.append((sizes[own], sign * sizes[other]))
     distance = abs(motion.axes.heights.get(satellite, Fraction(0)))
@@ -208,7 +266,20 @@ def _set_of(motion: TrainMotion, carrier: str) -> tuple[Fraction, Fraction, Frac
     (own_1, central_1), (own_3, central_3) = rows
     both = abs(central_1 * own_3 - central_3 * own_1)
     whole = both / math.gcd(own_1.numerator, own_3.numerator)
-    return whole, max(rims), distance
+    return whole, max(tips.values()), distance
+
+
+def _raised(motion: TrainMotion, mesh: Mesh, label: str) -> Fraction:
+    """Return by how many modules the tips of a wheel are farther out: x − Δy, of its own mesh."""
+    train, axes = motion.train, motion.axes
+    if mesh.name not in axes.shifted:
+        return train.wheels[label].shift
+    way = 1 if mesh.kind is MeshKind.EXTERNAL else -1
+    small, large = sorted((mesh.first, mesh.second), key=lambda x: axes.sizes[x])
+    shifts = train.wheels[large].shift + way * train.wheels[small].shift
+    plain = axes.sizes[large] + way * axes.sizes[small]
+    grown = (axes.apart[mesh.name] / train.share(label) - plain) / 2
+    return train.wheels[label].shift - way * (shifts - grown)
 
 
 def _assembles(whole: Fraction, count: int) -> bool:
@@ -216,8 +287,8 @@ def _assembles(whole: Fraction, count: int) -> bool:
 
 
 def _apart(size: Fraction, distance: Fraction, count: int) -> bool:
-    """Neighbouring satellites do not touch with their tips, one module high."""
-    return count == 1 or math.sin(math.pi / count) > float((size + 2) / distance)
+    """Neighbouring satellites do not touch with their tips."""
+    return count == 1 or math.sin(math.pi / count) > float(size / distance)
 
 
 # Inner meshes ------------------------------------------------------------------------------------
@@ -259,10 +330,8 @@ def _inner(motion: TrainMotion, mesh: Mesh) -> Condition:
     from planmethod.gears.angles import ring_margins
 
     beyond, tips = ring_margins(teeth, shifts, math.radians(ALPHA))
-    said |= {
-        "beyond": f"{beyond:.3f}".replace("-", MINUS),
-        "tips": f"{tips:.4f}".replace("-", MINUS),
-    }
+    for name, text in (("beyond", f"{beyond:.3f}"), ("tips", f"{tips:.4f}")):
+        said[name] = text.replace("-inf", "-∞").replace("-", MINUS)
     if not any(shifts):
         return Condition("interference", bool(ring_fits(*teeth)), said, "interference_of_few")
     return Condition("interference", beyond >= 0 and tips >= 0, said, "interference_shifted")

@@ -7,6 +7,7 @@ from fractions import Fraction
 from typing import Any
 
 from msgspec import Struct, field
+from msgspec.structs import replace
 
 from planmethod.gears.model import FLEXIBLE, HALF_MODULES, GearRim, Mesh, MeshKind
 from planmethod.languages import say
@@ -169,7 +170,11 @@ def read_meshes(faults: Faults, value: object, draft: TrainDraft) -> tuple[Mesh,
 
 
 def _check_radii(faults: Faults, meshes: Sequence[Mesh], draft: TrainDraft) -> None:
-    """Check the radii beside teeth: of two wheels, only a belt's need not make whole teeth."""
+    """Check the radii beside teeth: of two wheels, only a belt's need not make whole teeth.
+
+    A radius of a wheel with teeth stands for their number; that of a pulley is a radius.
+    """
+    toothed: set[str] = set()
     for mesh in meshes:
         pair = [w for w in (draft.wheels.get(x) for x in (mesh.first, mesh.second)) if w]
         flexible = mesh.kind in FLEXIBLE and all(wheel.plain for wheel in pair)
@@ -177,11 +182,14 @@ def _check_radii(faults: Faults, meshes: Sequence[Mesh], draft: TrainDraft) -> N
             path = f"gears.wheels.{segment(wheel.label)}.r"
             if not wheel.plain or wheel.size is None or flexible:
                 continue
+            toothed.add(wheel.label)
             if draft.module is None:
                 hint = "Give module = ... (mm), or every wheel by its radius."
                 faults.add(path, "a radius beside teeth needs the module", hint)
             elif wheel.size.denominator != 1:
                 faults.add(path, say("2r/m = {:g} teeth, not whole", float(wheel.size)))
+    for label in toothed:
+        draft.wheels[label] = replace(draft.wheels[label], plain=False)
 
 
 def _read_mesh(faults: Faults, path: str, table: Any, draft: TrainDraft) -> Mesh | None:

@@ -50,7 +50,9 @@ class GearRim(Struct, frozen=True):
     axis : tuple of float or None
         Of a bevel wheel: direction of its axis from the apex towards the wheel.
     plain : bool
-        Given by a radius beside wheels with teeth: a pulley, where there is no module.
+        A pulley or a sprocket given by its radius beside wheels with teeth.
+    module : Fraction or None, m
+        Its own, where rows have different ones.
     """
 
     label: str
@@ -58,6 +60,7 @@ class GearRim(Struct, frozen=True):
     shift: Fraction = Fraction(0)
     axis: tuple[float, float, float] | None = None
     plain: bool = False
+    module: Fraction | None = None
 
     @property
     def number(self) -> str:
@@ -127,6 +130,7 @@ class Train(Struct, frozen=True):
     unit : str
         ``n`` for rev/min, ``omega`` for 1/s.
     module : Fraction or None, m
+        Of all wheels that have none of their own; the unit of sizes and heights is half of it.
     toothed : bool
         Sizes are teeth (or half modules), not metres.
     satellites : mapping
@@ -186,7 +190,27 @@ class Train(Struct, frozen=True):
 
     def counted(self, label: str) -> bool:
         """Whether the size of a wheel is a number of teeth."""
-        return self.toothed and (self.module is not None or not self.wheels[label].plain)
+        return self.toothed and not self.wheels[label].plain
+
+    def module_of(self, label: str) -> Fraction | None:
+        """Return the module of a wheel, m; None where it is not given, or of a pulley."""
+        wheel = self.wheels[label]
+        return None if wheel.plain else wheel.module or self.module
+
+    def share(self, label: str) -> Fraction:
+        """Return the module of a wheel by that of the train, which half modules are counted in."""
+        module = self.module_of(label)
+        return Fraction(1) if module is None or self.module is None else module / self.module
+
+    @property
+    def modules(self) -> dict[Fraction, tuple[str, ...]]:
+        """Modules of the rows with the wheels that have them, in the order of the wheels, m."""
+        found: dict[Fraction, tuple[str, ...]] = {}
+        for label in self.wheels:
+            module = self.module_of(label)
+            if module is not None:
+                found[module] = (*found.get(module, ()), label)
+        return found
 
     def ends(self, mesh: Mesh) -> tuple[str, str]:
         """Bodies of the two wheels of a mesh."""

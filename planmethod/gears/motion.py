@@ -148,8 +148,9 @@ def mesh_row(train: Train, roles: Roles, axes: TrainDimensions, mesh: Mesh) -> d
     ``(w_a - w_c) z_a + (w_b - w_c) z_b = 0`` for an external mesh.
     """
     one, other = train.ends(mesh)
-    first = axes.sizes[mesh.first]
-    second = Fraction(1) if mesh.kind is MeshKind.RACK else axes.sizes[mesh.second]
+    rack = mesh.kind is MeshKind.RACK
+    first = axes.radii[mesh.first] if rack else axes.sizes[mesh.first]
+    second = Fraction(1) if rack else axes.sizes[mesh.second]
     sign = {MeshKind.EXTERNAL: 1, MeshKind.CROSSED: 1, MeshKind.BEVEL: 0}.get(mesh.kind, -1)
     if mesh.kind is MeshKind.WORM and mesh.left:
         sign = 1

@@ -12,7 +12,7 @@ from fractions import Fraction
 from msgspec import Struct
 
 from planmethod.construct.scale import rounded, series_near
-from planmethod.gears.model import PARALLEL, MeshKind, PictureSettings, Train
+from planmethod.gears.model import PARALLEL, Mesh, MeshKind, PictureSettings, Train
 from planmethod.gears.motion import TrainMotion
 
 
@@ -101,11 +101,8 @@ def draw(motion: TrainMotion, settings: PictureSettings | None = None) -> Veloci
     settings = settings or train.picture
     points: list[tuple[ContactPoint, Fraction, Fraction]] = []
     for mesh in train.meshes:
-        one, other = train.ends(mesh)
-        up = 1 if axes.heights[other] > axes.heights[one] else -1
-        if mesh.kind is MeshKind.INTERNAL and axes.sizes[mesh.first] < axes.sizes[mesh.second]:
-            up = -up
-        height = axes.heights[one] + up * axes.sizes[mesh.first]
+        one = train.ends(mesh)[0]
+        height = axes.heights[one] + _to_pole(motion, mesh)
         pitch = ContactPoint(ContactKind.PITCH, mesh.name)
         points.append((pitch, height, _at(motion, one, height)))
     for body, height in axes.heights.items():
@@ -123,6 +120,19 @@ def draw(motion: TrainMotion, settings: PictureSettings | None = None) -> Veloci
     per = pole * scale / mm
     rays = tuple((label, motion.speed(label) * per) for label in train.numbers)
     return VelocityPictures(settings.mu_l, pole, per_mm, contacts, rays, train.rate)
+
+
+def _to_pole(motion: TrainMotion, mesh: Mesh) -> Fraction:
+    """Return how much higher the pitch point of a mesh is than the axis of its first wheel.
+
+    It divides the distance of the axes as the teeth do, whatever the shifts.
+    """
+    axes = motion.axes
+    one, other = motion.train.ends(mesh)
+    far, (first, second) = axes.heights[other] - axes.heights[one], (
+        axes.sizes[mesh.first], axes.sizes[mesh.second]
+    )  # fmt: skip
+    return far * first / (first + (second if mesh.kind is MeshKind.EXTERNAL else -second))
 
 
 def _round_speed(train: Train, least: Fraction) -> Fraction:

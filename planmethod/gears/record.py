@@ -31,7 +31,7 @@ def record(problem: GearProblem, lang: str) -> dict[str, Any]:
     words = language(lang).gears
     train = motion.train
     sizes = motion.axes.sizes
-    metres = {x: size * train.unit_m for x, size in sizes.items() if not train.counted(x)}
+    metres = {x: r * train.unit_m for x, r in motion.axes.radii.items() if not train.counted(x)}
     told: dict[str, Any] = {
         "mobility": motion.structure.mobility,
         "kind": motion.structure.kind.value,

@@ -33,6 +33,8 @@ class Rim(Struct, frozen=True):
     centre, radius : float, mm
     ways : tuple of int
         On which sides of its axis it meshes there: +1 above.
+    reaches : tuple of float, mm
+        How far it reaches on each of them, where shifts make that different from ``radius``.
     """
 
     label: str
@@ -41,11 +43,16 @@ class Rim(Struct, frozen=True):
     radius: float
     ring: bool
     ways: tuple[int, ...]
+    reaches: tuple[float, ...] = ()
+
+    def reach(self, way: int) -> float:
+        """Return how far it reaches on a side of its axis, mm."""
+        return dict(zip(self.ways, self.reaches, strict=False)).get(way, self.radius)
 
     def spans(self) -> Iterator[tuple[float, float]]:
         """Yield the heights that its halves take; of a ring nothing but its rim."""
         for way in self.ways:
-            far = self.centre + way * self.radius
+            far = self.centre + way * self.reach(way)
             yield (far, far) if self.ring else (min(self.centre, far), max(self.centre, far))
 
 
@@ -136,17 +143,46 @@ class SchemeData(Struct, frozen=True, dict=True):
             return None if line[body] in known else (line[body], 0.0)
         if mesh.kind is MeshKind.RACK:
             return None
-        radii = [self.radius(label) for label in (mesh.first, mesh.second)]
-        apart = sum(radii) if mesh.kind is MeshKind.EXTERNAL else abs(radii[0] - radii[1])
-        apart = apart if mesh.kind in PARALLEL else BELT * sum(radii)
+        if mesh.kind in PARALLEL:
+            apart = float(self.motion.axes.apart[mesh.name]) * self.mm
+        else:
+            apart = BELT * sum(self.radius(label) for label in (mesh.first, mesh.second))
         for one, other in (ends, ends[::-1]):
             if line[one] in known and line[other] not in known:
                 return line[other], known[line[one]] + apart
         return None
 
     def radius(self, label: str) -> float:
-        """Return the radius of a wheel, mm."""
-        return float(self.motion.axes.sizes[label]) * self.mm
+        """Return the radius of a wheel, mm: of the circle that rolls, the mean of several."""
+        rolling = self.rolling.get(label)
+        if rolling is None:
+            return float(self.motion.axes.radii[label]) * self.mm
+        return sum(rolling.values()) / len(rolling)
+
+    @cached_property
+    def rolling(self) -> Mapping[str, Mapping[str, float]]:
+        """Radii of the circles that roll on each other, by wheel and mesh, where shifts alter them.
+
+        They divide the distance of the axes, as it is drawn, as the teeth do.
+        """
+        found: dict[str, dict[str, float]] = {}
+        axes = self.motion.axes
+        touched = {x for m in self.motion.train.meshes if m.name in axes.shifted
+                   for x in (m.first, m.second)}  # fmt: skip
+        for mesh in self.motion.train.meshes:
+            labels = (mesh.first, mesh.second)
+            one, other = self.motion.train.ends(mesh)
+            if mesh.kind not in PARALLEL or not touched & set(labels):
+                continue
+            if one not in axes.heights or other not in axes.heights:
+                continue
+            apart = float(abs(axes.heights[one] - axes.heights[other])) * self.mm
+            way = 1 if mesh.kind is MeshKind.EXTERNAL else -1
+            first, second = (float(axes.sizes[label]) for label in labels)
+            for label, size in zip(labels, (first, second), strict=True):
+                share = size / abs(first + way * second)
+                found.setdefault(label, {})[mesh.name] = apart * share
+        return found
 
     def _cones(self, turned: str) -> Iterator[tuple[str, Mesh, float]]:
         """Yield the level bodies that a body across meshes with, and their radii."""
@@ -261,7 +297,7 @@ class SchemeData(Struct, frozen=True, dict=True):
                 yield tuple(worm.rim for worm in self.worms if worm.label in both)
                 continue
             labels = [mesh.first] if mesh.kind is MeshKind.RACK else [mesh.first, mesh.second]
-            radii = [self.radius(label) for label in labels]
+            radii = [self.rolling.get(x, {}).get(mesh.name, self.radius(x)) for x in labels]
             bodies = [train.body_of[label] for label in labels]
             if len(labels) == 1:
                 yield (Rim(labels[0], bodies[0], self.heights[bodies[0]], radii[0], False, (-1,)),)
@@ -282,7 +318,11 @@ class SchemeData(Struct, frozen=True, dict=True):
 def _joined(before: Rim | None, rim: Rim) -> Rim:
     if before is None:
         return rim
-    return replace(before, ways=tuple(dict.fromkeys((*before.ways, *rim.ways))))
+    ways = tuple(dict.fromkeys((*before.ways, *rim.ways)))
+    reaches = tuple((before if way in before.ways else rim).reach(way) for way in ways)
+    if all(abs(one - before.radius) < EPS for one in reaches):
+        return replace(before, ways=ways)
+    return replace(before, ways=ways, radius=sum(reaches) / len(reaches), reaches=reaches)
 
 
 def _fits(column: Mapping[str, Rim], *rims: Rim) -> bool:

@@ -190,7 +190,7 @@ def _extent(motion: TrainMotion) -> float:
     scheme = SchemeData(motion, 1.0)
     rims = [rim for column in scheme.columns for rim in column] if not scheme.undrawn else []
     rims += [] if scheme.undrawn else [cone.rim for one in scheme.across for cone in one.cones]
-    ends = [rim.centre + way * rim.radius for rim in rims for way in (1, -1)]
+    ends = [rim.centre + way * rim.reach(way) for rim in rims for way in (1, -1)]
     return max(ends) - min(ends) if ends else 100.0
 
 

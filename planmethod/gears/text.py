@@ -212,8 +212,10 @@ def equation_of(motion: TrainMotion, mesh: Mesh) -> tuple[str, str]:
         return f"({train.letter}_{{{label}}} − {train.letter}_{{{mesh.carrier}}})"
 
     sign = MINUS if row[other] > 0 else ""
-    size = "" if mesh.kind is MeshKind.RACK else f"·{fraction_text(abs(row[other]))}"
-    left = f"{speed(mesh.first, one)}·{fraction_text(row[one])}"
+    # Pulleys are told by their radii in millimetres.
+    per = Fraction(1) if train.counted(mesh.first) or not train.toothed else train.unit_m * 1000
+    size = "" if mesh.kind is MeshKind.RACK else f"·{fraction_text(abs(row[other]) * per)}"
+    left = f"{speed(mesh.first, one)}·{fraction_text(row[one] * per)}"
     hat = "" if mesh.carrier is None else f"^{{{mesh.carrier}}}"
     ratio = f"U{hat}_{{{mesh.first}-{mesh.second}}} = {fraction_text(-row[other] / row[one])}"
     return f"{left} = {sign}{speed(mesh.second, other)}{size}", ratio
@@ -229,7 +231,8 @@ def _wheels(motion: TrainMotion, words: Language) -> Table:
         mark = "*" if label in train.unknown else ""
         shown = [_size(x, words) if x is not None else "—" for x in (size, height)]
         if train.toothed and not train.counted(label):
-            shown[0] = f"r = {shown[0]} {say['units']['mm']}"
+            mm = motion.axes.radii[label] * train.unit_m * 1000
+            shown[0] = f"r = {_size(mm, words)} {say['units']['mm']}"
         rows.append([label + mark, *shown])
     return table_of([head.format(**said) for head in say["columns_wheels"]], rows)
 

@@ -25,7 +25,7 @@ def unit_of(one: Answer, words: Language) -> str:
 
 def indexed(text: str) -> str:
     """Return plain text with indices as rich text: ``z_2'`` gives ``z_{2'}``."""
-    return re.sub(r"_([\w']+)", r"_{\1}", text)
+    return re.sub(r"_([^\W²]+'*(?:-[^\W²]+'*)?)", r"_{\1}", text)
 
 
 def given(motion: TrainMotion, words: Language) -> list[str]:
@@ -39,6 +39,9 @@ def given(motion: TrainMotion, words: Language) -> list[str]:
             value = f"{say.given(float(size * train.unit_m))} {words.gears['units']['m']}"
         by = told.by_coaxiality if label in train.unknown else "{symbol} = {value}"
         facts.append(by.format(symbol=letter, value=value))
+    for label, wheel in train.wheels.items():
+        if wheel.shift:
+            facts.append(f"x_{{{label}}} = {say.given(float(wheel.shift))}")
     unit = raised(words.gears["units"][train.units[0]])
     for body, speed in train.inputs.items():
         value = say.given(float(speed))

@@ -158,7 +158,7 @@ class _Velocities:
     def _arm(self, point: _Point, body: str) -> Rich:
         """Return the letters of an arm: the radius of the wheel in mesh there, or the points."""
         train, arm = self.motion.train, abs(point.height - self.axes[body])
-        for label, size in self.motion.axes.sizes.items():
+        for label, size in self.motion.axes.radii.items():
             if train.body_of[label] == body and size * train.unit_m == arm:
                 return f"r_{{{label}}}"
         return (

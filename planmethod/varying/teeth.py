@@ -21,7 +21,8 @@ Solved = tuple[str, Row]
 def coaxial_rows(motion: TrainMotion, varied: Sequence[str]) -> list[Solved]:
     """Return the equations that varied wheels have to keep, each solved for one of them.
 
-    An equation with a wheel whose teeth the reader finds itself is none: it follows.
+    An equation with a wheel whose teeth the reader finds itself is none: it follows. Nor is one
+    with wheels whose shifts set the distance of their axes.
 
     Parameters
     ----------
@@ -34,7 +35,10 @@ def coaxial_rows(motion: TrainMotion, varied: Sequence[str]) -> list[Solved]:
         row: Row = {}
         for sign, terms in ((1, one), (-1, other)):
             for turn, label in terms:
-                row[label] = row.get(label, Fraction(0)) + sign * turn
+                share = motion.train.share(label)
+                row[label] = row.get(label, Fraction(0)) + sign * turn * share
+        if sum(factor * sizes[label] for label, factor in row.items()):
+            continue
         if unknown & {label for label, factor in row.items() if factor}:
             continue
         given = sum((factor * sizes[x] for x, factor in row.items() if x not in varied), Fraction())

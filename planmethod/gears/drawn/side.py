@@ -169,7 +169,7 @@ class SideView(Struct, frozen=True, dict=True):
             for way in ring.ways:
                 yield from bell_profile(
                     complex(column, ring.centre),
-                    ring.radius,
+                    ring.reach(way),
                     web=x - column,
                     way=way,
                     bore=self._bore(ring.body),
@@ -182,10 +182,13 @@ class SideView(Struct, frozen=True, dict=True):
             if not rim.ring:
                 ways = self._halves(number, rim)
                 bore, tag = self._bore(rim.body), f"link {rim.body}"
-                yield from wheel_profile(at, rim.radius, ways=ways, bore=bore, tag=tag)
+                if not rim.reaches:
+                    yield from wheel_profile(at, rim.radius, ways=ways, bore=bore, tag=tag)
+                for way in ways if rim.reaches else ():
+                    yield from wheel_profile(at, rim.reach(way), ways=(way,), bore=bore, tag=tag)
             elif rim.body in self.arrangement.scheme.motion.train.fixed:
                 for way in rim.ways:
-                    yield from ring_profile(at, rim.radius, stem=4.0, way=way)
+                    yield from ring_profile(at, rim.reach(way), stem=4.0, way=way)
 
     def _is_conic(self, number: int) -> bool:
         column = self.arrangement.stations[number].column
@@ -340,8 +343,11 @@ class SideView(Struct, frozen=True, dict=True):
             for (x0, one), (x1, rim) in pairwise(places):
                 inside = -1 if not rim.ring else 1
                 for way in {*one.ways, *rim.ways}:
-                    y = rim.centre + way * (rim.radius + inside * SIZES.mesh / 2)
-                    yield Stroke((complex(x0, y), complex(x1, y)), tag=f"link {label}")
+                    ends = [
+                        complex(x, r.centre + way * (r.reach(way) + inside * SIZES.mesh / 2))
+                        for x, r in ((x0, one), (x1, rim))
+                    ]
+                    yield Stroke(tuple(ends), tag=f"link {label}")
 
     # Points and letters --------------------------------------------------------------------------
 
@@ -357,9 +363,9 @@ class SideView(Struct, frozen=True, dict=True):
                 if mesh.first in rims and mesh.second in rims:
                     own = rims[mesh.first]
                     other = rims[mesh.second]
-                    levels = [{r.centre + w * r.radius for w in r.ways} for r in (own, other)]
-                    both = [a for a in levels[0] if any(abs(a - b) < 1e-6 for b in levels[1])]
-                    found[ContactPoint(ContactKind.PITCH, mesh.name)] = complex(x, both[0])
+                    levels = [[r.centre + w * r.reach(w) for w in r.ways] for r in (own, other)]
+                    level = min(levels[0], key=lambda a: min(abs(a - b) for b in levels[1]))
+                    found[ContactPoint(ContactKind.PITCH, mesh.name)] = complex(x, level)
         for body in self.arrangement.reach:
             axis = ContactPoint(ContactKind.AXIS, body)
             if axis in self.letters:
@@ -392,7 +398,7 @@ class SideView(Struct, frozen=True, dict=True):
                 way = ways[-1]
                 at = complex(x, rim.centre + way * 0.6 * rim.radius)
                 if rim.ring:
-                    at = complex(x, rim.centre + way * (rim.radius + SIZES.mesh / 2))
+                    at = complex(x, rim.centre + way * (rim.reach(way) + SIZES.mesh / 2))
                 yield self._label(rim.label, at, 1j * way if rim.ring else 1, height)
         train = self.arrangement.scheme.motion.train
         for mesh in train.meshes:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
+from fractions import Fraction
 from itertools import groupby
 
 import numpy as np
@@ -155,7 +156,8 @@ def willis(motion: TrainMotion, mesh: Mesh, report: Report) -> Rich:
         return f"{train.letter}_{{{label}}} − {train.letter}_{{{mesh.carrier}}}"
 
     letters = [f"{'z' if train.counted(x) else 'r'}_{{{x}}}" for x in (mesh.second, mesh.first)]
-    sizes = [fraction_text(abs(row[x])) for x in (other, one)]
+    mm = Fraction(1) if train.counted(mesh.first) or not train.toothed else train.unit_m * 1000
+    sizes = [fraction_text(abs(row[x]) * mm) for x in (other, one)]
     sign = MINUS if row[other] / row[one] > 0 else ""
     hat = "" if mesh.carrier is None else f"^{{({mesh.carrier})}}"
     ratio = fraction_text(-row[other] / row[one])
