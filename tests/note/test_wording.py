@@ -17,7 +17,7 @@ from planmethod.note.audit.audit import AuditVerdict
 from planmethod.note.numbers import Notation
 from planmethod.note.wording import LANGUAGES, Language, UnknownLanguageError, Words, language
 from planmethod.problem import FAMILIES, OTHER_FAMILIES
-from planmethod.problem.model import FORCE, MOMENT, PUSH
+from planmethod.problem.model import FORCE, MOMENT, PUSH, THRUST
 from planmethod.solved.selectors.steps import NoValue
 
 HOME = Path(planmethod.__file__).parent
@@ -119,8 +119,8 @@ def test_a_language_has_the_names_of_what_it_tells(lang: str) -> None:
     lever = {f"lever {one.quantity}" for one in (MOMENT, FORCE)}
     rubbing = {"friction force", "friction moment"}
     assert set(words.say.symbols) == {MOMENT.symbol, FORCE.symbol} | lever | MACHINE | rubbing
-    for balance in (words.note["balance"], words.forces["and_balance"]):
-        assert set(balance) == {MOMENT.said, FORCE.said, PUSH.said}
+    assert set(words.forces["and_balance"]) == {MOMENT.said, FORCE.said, PUSH.said}
+    assert set(words.note["balance"]) == {MOMENT.said, FORCE.said, PUSH.said, THRUST.said}
     assert set(words.sheets["balance"]) == {MOMENT.quantity, FORCE.quantity}
     assert list(words.families) == [*FAMILIES, *OTHER_FAMILIES]
     audit = words.audit

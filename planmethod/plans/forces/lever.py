@@ -54,7 +54,7 @@ class LeverLoad(Struct, frozen=True):
 
 
 class Hung(Struct, frozen=True):
-    """The given loads on the turned velocity plan (нагрузки на рычаге).
+    """The given loads on the turned velocity plan.
 
     ``whole`` is their power, W.
     """

@@ -26,7 +26,7 @@ _TRIED_MM = 100.0
 
 
 class Trial(Struct, frozen=True):
-    """What is balanced on the driving link by a force that is tried (пробная сила).
+    """What a tried force does to the driving link, where there is no lever.
 
     ``without`` it this is left there, N·m or N, and the ``tried`` force, N, alone gives ``given``.
     """
@@ -37,7 +37,7 @@ class Trial(Struct, frozen=True):
 
 
 class Thrust(Struct, frozen=True):
-    """Force of an actuator (сила в приводе).
+    """Force of an actuator (сила гидроцилиндра).
 
     Attributes
     ----------

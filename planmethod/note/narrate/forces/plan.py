@@ -71,15 +71,16 @@ class ForcePlanNarrator:
         reactions = ", ".join(self._reaction(reaction) for reaction in outer)
         drive = self.context.solution.problem.drive.link
         if self.plan.links == (drive,):
+            if self.statics.thrust is not None:
+                freed = said.freed_actuated.format(reactions=reactions)
+                return [freed, *self._pushed, *self._known]
             symbol = self.context.symbol(self.reading.balancing_symbol)
             template = said["and_balance"][self.reading.balancing.said]
             pushed = self.context.solution.problem.drive.pushed
             point = "" if pushed is None else point_name(pushed.at)
             balancing = template.format(symbol=symbol, point=point)
             freed = said.freed_driver.format(reactions=reactions, balancing=balancing)
-            if self.statics.thrust is not None:
-                freed = said.freed_actuated.format(reactions=reactions)
-            return [freed, *self._pushed, *self._known]
+            return [freed, *self._known]
         lines = [said.freed.format(reactions=reactions)]
         if self.is_nothing:
             return lines
