@@ -13,10 +13,10 @@ from planmethod.mechanism.model import FRAME
 from planmethod.problem import fields, keys
 from planmethod.problem.fields import Faults, Table
 from planmethod.problem.links import LinkText
-from planmethod.problem.load_records import Against, Couple, Fixed, Load
+from planmethod.problem.load_records import Against, Couple, Fixed, Load, SizeTable
 from planmethod.problem.model import Drive
 from planmethod.problem.names import indexed, listed, near_hint
-from planmethod.problem.sizes import TURN, read_phase, read_size
+from planmethod.problem.sizes import LIKE, TURN, liken, read_phase, read_size
 
 NAME_LIMIT = 40
 _NAME_RE = r"(?:[^_^{}\\]|[_^](?:[^_^{}\\]|\{[^_^{}\\]+\}))+\Z"
@@ -86,13 +86,21 @@ def read_loads(faults: Faults, value: object, scene: LoadScope) -> tuple[Load | 
         return ()
     names = _read_names(faults, value)
     taken = {name for name in names if name is not None}
-    found: list[Load | Couple] = []
+    found: dict[int, Load | Couple] = {}
     for index, (body, name) in enumerate(zip(value, names, strict=True)):
         load = _read_load(faults, f"loads[{index}]", body, name, taken, scene)
         if load is not None:
-            found.append(load)
+            found[index] = load
             taken.add(load.name)
-    return tuple(found)
+    # a name whose load has a fault is no unknown one
+    known: dict[str, object] = {name: None for name in names if name is not None}
+    known |= {load.name: load.size for load in found.values()}
+    for index, load in found.items():
+        if isinstance(load.size, SizeTable) and load.size.like is not None:
+            where = f"loads[{index}]" if "like" in value[index] else f"loads[{index}].force"
+            size = liken(faults, where, load.name, load.size, known)
+            found[index] = load if size is None else replace(load, size=size)
+    return tuple(found.values())
 
 
 def _read_names(faults: Faults, bodies: Iterable[Table]) -> list[str | None]:
@@ -146,6 +154,15 @@ def _read_load(
     elif whole:
         faults.add(f"{path}.link", "missing", say("Name the link: {}.", listed(scene.links)))
     load: Load | Couple | None = None
+    likened = {key: given[key] for key in keys.LIKE if key in given}
+    if likened and ("force" in given or "couple" in given):
+        hint = "Keep like and shift, or the size of the load."
+        faults.add(f"{path}.{next(iter(likened))}", "the size of the load is given, too", hint)
+    elif "like" in likened:
+        given = {**given, "force": likened}
+    elif likened:
+        faults.add(f"{path}.shift", "goes with like only", LIKE)
+        whole = False
     if "force" in given and "couple" in given:
         hint = "Write them as two [[loads]]."
         faults.add(f"{path}.couple", "force and couple are both given", hint)
@@ -196,7 +213,8 @@ def _read_force(
     elif whole:
         hint = 'Give angle = -90 (degrees from +x) or against = "velocity".'
         faults.add(path, "expected a direction, got neither angle nor against", hint)
-    size = read_size(faults, f"{path}.force", given["force"], scene.drive, turn=scene.cycle)
+    where = path if "like" in given else f"{path}.force"
+    size = read_size(faults, where, given["force"], scene.drive, turn=scene.cycle)
     phase = None
     if "phases" in given:
         still = at if fixed else None

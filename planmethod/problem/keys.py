@@ -95,9 +95,11 @@ MOVING = ("x", "y", "r", "phi", "s", "radius", "wheel", "theta", "t", "show")
 ROLLING = ("radius", "r", "angle", "on", "within", "arm")
 """Keys of ``point.wheel``."""
 CONFIG = ("stamp", "sheet")
-TABLE = ("law", "over", "values", "interpolation", "strokes", "area", "sides", "area_2")
-INDICATOR = ("strokes", "area", "sides", "area_2")
+INDICATOR = ("strokes", "area", "sides", "area_2", "like", "shift")
 """Keys of a table that is an indicator diagram."""
+LIKE = ("like", "shift")
+"""Those of one that is another piston's, later."""
+TABLE = ("law", "over", "values", "interpolation", *INDICATOR)
 MOTOR_FORMS = {
     "kloss": (("M_max", "s_k", "n_sync"), ("P_nom", "n_nom", "n_sync", "lambda")),
     "line": (("M_start", "n_idle"), ("M_nom", "n_nom", "n_idle")),

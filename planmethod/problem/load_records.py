@@ -83,6 +83,10 @@ class SizeTable(Struct, frozen=True):
     interpolation : Interpolation
     turn : float, degrees
         A table over phi repeats after so many.
+    like : str or None
+        Of an indicator: the load whose diagram it is too, of another piston.
+    shift : float, degrees
+        So much of the cycle later than that load begins its first stroke this one does.
     """
 
     over: Over
@@ -90,6 +94,8 @@ class SizeTable(Struct, frozen=True):
     values: tuple[float, ...]
     interpolation: Interpolation = Interpolation.LINEAR
     turn: float = 360.0
+    like: str | None = None
+    shift: float = 0.0
 
 
 class Fixed(Struct, frozen=True):
@@ -178,6 +184,16 @@ class LoadEntry(Struct, frozen=True):
     phases: Annotated[
         Phase, OwnKey("when it acts (фазы действия), see below; always when absent")
     ] = Phase()
+    like: Annotated[
+        str,
+        OwnKey(
+            "in place of `force`: the load of another piston, whose indicator diagram this one has"
+        ),
+    ] = ""
+    shift: Annotated[
+        float | None,
+        OwnKey("with `like`: how many degrees of the cycle later, the firing interval"),
+    ] = None
 
 
 class Load(Struct, frozen=True):

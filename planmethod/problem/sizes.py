@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 from bisect import bisect_left, bisect_right
+from collections.abc import Mapping
 from itertools import pairwise
+
+from msgspec.structs import replace
 
 from planmethod.languages import say
 from planmethod.problem import fields, keys
@@ -11,7 +14,7 @@ from planmethod.problem.fields import Faults, Table
 from planmethod.problem.flat import read_flat
 from planmethod.problem.load_records import Interpolation, LoadLaw, Over, Phase, SizeTable
 from planmethod.problem.model import Drive
-from planmethod.problem.names import listed
+from planmethod.problem.names import indexed, listed
 
 TURN = 360.0
 """A table over phi repeats after so many degrees."""
@@ -64,6 +67,8 @@ def _read_table(
     given = fields.read_keys(faults, path, value, keys.TABLE)
     whole = len(faults) == before
     law = None
+    if "like" in given:
+        return _read_like(faults, path, given, drive, turn, couple=couple)
     if "law" in given:
         law = fields.read_member(faults, f"{path}.law", given["law"], LoadLaw)
         if law is None:
@@ -72,7 +77,8 @@ def _read_table(
         return _read_indicator(faults, path, given, drive, couple=couple, whole=whole)
     for key in keys.INDICATOR:
         if key in given:
-            faults.add(f"{path}.{key}", 'goes with law = "indicator" only')
+            hint = LIKE if key in keys.LIKE else ""
+            faults.add(f"{path}.{key}", 'goes with law = "indicator" only', hint)
     if law is not None:
         given = {**_LAWS[law], **given}
     if whole and "over" not in given:
@@ -101,6 +107,77 @@ _LAWS = {
 """What a law says where the file does not."""
 
 
+def _read_like(
+    faults: Faults, path: str, given: Table, drive: Drive | None, cycle: float, *, couple: bool
+) -> SizeTable | None:
+    """Read an indicator diagram that is another piston's, later; its rows come with `liken`."""
+    before = len(faults)
+    if couple:
+        faults.add(f"{path}.like", "'indicator' does not go with a couple", "A piston has a force.")
+    if drive is not None and not drive.is_crank:
+        faults.add(f"{path}.like", say("link {} slides: there is no cycle of a crank", drive.link))
+    for key in given:
+        if key not in (*keys.LIKE, "law") or (key == "law" and given[key] != "indicator"):
+            faults.add(f"{path}.{key}", "does not go with like", LIKE)
+    name = fields.read_text(faults, f"{path}.like", given["like"], limit=40)
+    shift = None
+    if "shift" in given:
+        shift = fields.read_angle(faults, f"{path}.shift", given["shift"])
+    else:
+        faults.add(f"{path}.shift", "missing", LIKE)
+    if shift is not None and not 0.0 <= shift < cycle:
+        message = say("expected from 0 to less than {:g} degrees, got {:g}", cycle, shift)
+        faults.add(f"{path}.shift", message, _SHIFT)
+    if len(faults) != before or name is None or shift is None:
+        return None
+    return SizeTable(Over.STROKES, (), (), like=indexed(name), shift=shift)
+
+
+LIKE = (
+    'For example: { like = "P3", shift = 180 }: the diagram of load P3, 180 degrees of the cycle '
+    "later."
+)
+_SHIFT = (
+    "It is how much later than the other piston this one works; [machine] cycle_deg says how long "
+    "the cycle is."
+)
+
+
+def liken(
+    faults: Faults, path: str, own: str, size: SizeTable, known: Mapping[str, object]
+) -> SizeTable | None:
+    """Return a diagram that is another piston's with the rows of that one; None after a fault.
+
+    Parameters
+    ----------
+    own : str
+        The name of its load.
+    known : mapping of str to object
+        Sizes of the forces of the file by name; None of one that could not be read.
+    """
+    assert size.like is not None
+    path = f"{path}.like"
+    if size.like == own:
+        faults.add(path, say("load {} cannot be like itself", own), LIKE)
+        return None
+    if size.like not in known:
+        others = [name for name in known if name != own]
+        fields.report_unknown(faults, path, size.like, others, said="unknown load '{}'")
+        return None
+    other = known[size.like]
+    if other is None:
+        return None
+    if not isinstance(other, SizeTable) or other.over is not Over.STROKES:
+        message = say("load {} is no indicator diagram", size.like)
+        faults.add(path, message, 'It has law = "indicator" and its strokes.')
+        return None
+    if other.like is not None:
+        message = say("load {} is like {} itself", size.like, other.like)
+        faults.add(path, message, "Name the load that has the strokes.")
+        return None
+    return replace(other, like=size.like, shift=size.shift)
+
+
 def _read_indicator(
     faults: Faults,
     path: str,
@@ -119,6 +196,8 @@ def _read_indicator(
     for key in ("over", "values", "interpolation"):
         if key in given:
             faults.add(f"{path}.{key}", 'does not go with law = "indicator"', _INDICATOR)
+    if "shift" in given:
+        faults.add(f"{path}.shift", "goes with like only", LIKE)
     for key in ("strokes", "area"):
         if key not in given and whole:
             faults.add(f"{path}.{key}", "missing", _INDICATOR)

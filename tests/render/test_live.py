@@ -14,7 +14,7 @@ import pytest
 from browser import PROGRAM, Page, browsing
 from cases import each, some
 from click.testing import CliRunner
-from worked import PROBLEMS, path_of, problem_of
+from worked import PROBLEMS, ROOT, path_of, problem_of
 
 from benchmarks.generator import random_problem
 from planmethod.cli import cli
@@ -26,6 +26,7 @@ from planmethod.render.live.page import live_page
 from planmethod.render.live.scene import LiveScene
 from planmethod.solved.machine.flywheel import Flywheel
 from planmethod.solved.many.sweep import Sweep
+from planmethod.solved.turn.numbering import number
 
 AGREE = 1e-12
 """Of the largest value of a row."""
@@ -61,6 +62,28 @@ LOADS = {
     'couple = { over = "phi", values = [[20, 1], [100, 4], [300, 7]], interpolation = "linear" }',
     "a couple against the rotation": 'link = "3"\ncouple = 2\nagainst = "rotation"',
 }
+
+
+SWUNG = """
+frame = { A = [0, 0], D = [0.4, 0.1] }
+driver = { link = "1", phi = 5, omega = -2 }
+assembly = { C = "above B" }
+[links.1]
+points = ["A", "B"]
+AB = 0.1
+[links.2]
+points = ["B", "C"]
+BC = 0.35
+[links.3]
+points = ["C", "D"]
+CD = 0.25
+[[loads]]
+link = "3"
+at = "C"
+against = "velocity"
+force = { law = "path", values = [[0, 5], [0.3, 9], [0.31, 2], [1, 4]] }
+"""
+"""A load over the arc of a rocker."""
 
 
 def watt(load: str = "") -> Problem:
@@ -259,6 +282,10 @@ def test_what_does_not_exist_is_said_and_play_turns_back(page: Page, tmp_path: P
 def test_loads_that_change_are_those_of_the_program(page: Page, tmp_path: Path) -> None:
     problems = {told: watt(load) for told, load in LOADS.items()}
     problems |= {name: problem_of(f"machines/{name}") for name in ("engine", "compressor")}
+    # its second piston begins at the bottom
+    text = (ROOT / "tests/data/turn/two-cylinders.toml").read_text("utf-8")
+    problems["two"] = number(loads(text, name="two"))
+    problems["arc"] = loads(SWUNG, name="arc")
     for told, problem in problems.items():
         scene = opened(page, problem, tmp_path)
         assert scene.loads() is not None, told

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from itertools import compress
 from math import degrees, isinf, pi
 from typing import TypeAlias
 
@@ -9,11 +10,12 @@ import numpy as np
 
 from planmethod.construct.scale import Scale
 from planmethod.note import formula
-from planmethod.note.narrate.forces.statement import mass_lines
+from planmethod.note.narrate.forces.statement import like_line, mass_lines
 from planmethod.note.narrate.given import given, of_turn
 from planmethod.note.narrate.scales import scale_inscription
 from planmethod.note.numbers import alike, half_up
 from planmethod.note.wording import Language, Words
+from planmethod.problem.load_records import SizeTable
 from planmethod.problem.machine_records import ConstantMoment, Quadrature, WeightSigns
 from planmethod.problem.model import Convention
 from planmethod.solved.machine.drawing import FlywheelDrawing, split
@@ -78,6 +80,10 @@ class MachineTeller:
         assert problem.dynamics is not None
         _, *lines = given(problem, self.words, [self.flywheel.turn.start_deg])
         lines += mass_lines(problem, self.words)
+        loads = problem.dynamics.loads
+        sizes = [load.size for load in loads]
+        likened = [isinstance(size, SizeTable) and size.like is not None for size in sizes]
+        lines += [like_line(load, self.words) for load in compress(loads, likened)]
         if machine.crank_inertia:
             inertia = self.say.given(machine.crank_inertia)
             lines.append(f"{self.letter('crank inertia')} = {inertia} {self.unit('kg·m²')}")

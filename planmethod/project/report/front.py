@@ -268,6 +268,9 @@ def _load(load: Load | Couple, report: Report) -> Rich:
     if isinstance(load.size, SizeTable):
         largest = report.quantity(max(load.size.values, key=abs), unit)
         size = (said.table if force else said.table_couple).format(value=largest)
+        if load.size.like is not None:
+            shift = with_unit(report.say.given(load.size.shift), report.unit("deg"))
+            size = said.like.format(other=load.size.like, shift=shift)
     else:
         size = said.constant.format(value=with_unit(report.say.short(load.size), report.unit(unit)))
     against = said.against if force else said.against_couple

@@ -17,7 +17,7 @@ from planmethod.problem.load_records import (
 )
 from planmethod.problem.model import Problem
 from planmethod.solved.course.motion import TurnMotion
-from planmethod.solved.forces.loads import AHEAD
+from planmethod.solved.forces.loads import AHEAD, in_time
 
 
 def cycle_deg(problem: Problem) -> float:
@@ -45,10 +45,10 @@ def moving_loads(
         Outputs of the tape by their columns.
     """
     assert problem.dynamics is not None
-    by_name = {load.name: load for load in problem.dynamics.loads}
+    numbers = {load.name: k for k, load in enumerate(problem.dynamics.loads)}
     bodies = (problem.bodies[link] for link in problem.mechanism.links)
     return {
-        "list": [_load(problem, by_name[name], row) for name in names],
+        "list": [_load(problem, numbers[name], row) for name in names],
         "speeds": [row[f"{point}.vx"] for point in points],
         "omegas": [row[f"{link}.omega"] for link in problem.mechanism.links],
         "reach": max(abs(z) for body in bodies for z in body.points.values()) or 1.0,
@@ -56,15 +56,18 @@ def moving_loads(
     }
 
 
-def _load(problem: Problem, load: Load | Couple, row: Mapping[str, int]) -> dict[str, Any]:
+def _load(problem: Problem, index: int, row: Mapping[str, int]) -> dict[str, Any]:
+    assert problem.dynamics is not None
+    load = problem.dynamics.loads[index]
     size, phase = load.size, load.phase
     data: dict[str, Any] = {"omega": row[f"{load.link}.omega"]}
     if isinstance(size, SizeTable):
+        if size.over in (Over.PATH, Over.STROKES):
+            turn = TurnMotion(problem)
+            data["stroke"], size = _stroke(turn, index), in_time(turn.first, size, index)
         data["over"], data["step"] = size.over.value, size.interpolation is Interpolation.STEP
         data["at"], data["values"] = list(size.at), list(size.values)
         data["turn"] = size.turn
-        if size.over in (Over.PATH, Over.STROKES) and isinstance(load, Load):
-            data["stroke"] = _stroke(problem, load.at)
     else:
         data["size"] = size
     if phase is not None:
@@ -85,10 +88,14 @@ def _load(problem: Problem, load: Load | Couple, row: Mapping[str, int]) -> dict
     return data
 
 
-def _stroke(problem: Problem, point: str) -> dict[str, Any]:
-    turn = TurnMotion(problem)
-    stroke = turn.stroke(point)
+def _stroke(turn: TurnMotion, index: int) -> dict[str, Any]:
+    stroke = turn.stroke_of(index)
+    arc: dict[str, Any] = {}
+    if stroke.centre is not None:
+        arc = {"centre": [stroke.centre.real, stroke.centre.imag], "swing": stroke.swing}
     return {
+        **arc,
+        "back": int(stroke.back),
         "start": [stroke.start.real, stroke.start.imag],
         "towards": [stroke.towards.real, stroke.towards.imag],
         "dead": stroke.dead.tolist(),

@@ -31,15 +31,24 @@ function within(x, start, turn) {  // angle from a start, [0, turn)
 }
 
 function course(load, x, out) {  // share of the stroke of a point, or strokes done in the cycle
-  const { start, towards, dead, first, sense, cycle } = load.stroke;
-  const along = (out[load.place] - start[0]) * towards[0] + (out[load.place + 1] - start[1]) * towards[1];
-  const share = Math.min(1, Math.max(0, along / (towards[0] ** 2 + towards[1] ** 2)));
+  const { start, towards, centre, swing, dead, first, sense, cycle, back } = load.stroke;
+  const ray = (from, end) => [end[0] - from[0], end[1] - from[1]];
+  const place = [out[load.place], out[load.place + 1]];
+  let along;
+  if (centre) {
+    const [[a, b], [c, d]] = [ray(centre, start), ray(centre, place)];
+    along = Math.atan2(a * d - b * c, a * c + b * d) / swing;
+  } else {
+    const [x, y] = ray(start, place);
+    along = (x * towards[0] + y * towards[1]) / (towards[0] ** 2 + towards[1] ** 2);
+  }
+  const share = Math.min(1, Math.max(0, along));
   if (load.over === "path") return share;
   let turned = modulo(sense * (x - first) * Math.PI / 180, cycle);
   if (turned > cycle - 1e-9) turned = 0;
   const since = modulo(turned - dead[0], cycle);
   const number = [...dead.map(angle => angle - dead[0]), cycle].filter(m => m <= since + 1e-9).length - 1;
-  const done = number >= dead.length ? 0 : number % 2 ? 1 - share : share;
+  const done = number >= dead.length ? 0 : number % 2 === back ? share : 1 - share;
   return Number.isNaN(share) ? NaN : number % dead.length + done;
 }
 

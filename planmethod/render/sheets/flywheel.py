@@ -11,10 +11,11 @@ import numpy as np
 from planmethod.construct.scale import Scale, choose_scale
 from planmethod.errors import LayoutError
 from planmethod.note.document import Caption, Formula, Paragraph
+from planmethod.note.narrate.forces.statement import like_line
 from planmethod.note.narrate.given import point_name
 from planmethod.note.narrate.machine import MachineTeller
 from planmethod.note.narrate.reduction import ReductionTeller
-from planmethod.problem.load_records import Load, SizeTable
+from planmethod.problem.load_records import Load, Over, SizeTable
 from planmethod.problem.machine_records import WheelShape
 from planmethod.render.ink.drawing import Arc, Disc, Item, Pen, Span, Stroke
 from planmethod.render.ink.extent import ink_bounds
@@ -147,7 +148,10 @@ def _diagram_room(manner: Manner) -> tuple[float, float]:
 
 
 def load_diagrams(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
-    """Return the forces that change, over the strokes of their points, one beside another."""
+    """Return the forces that change, over the strokes of their points, one beside another.
+
+    A diagram that is another load's, later, is told with that one.
+    """
     tell, flywheel = _teller(solution, manner), flywheel_of(solution)
     width, height = _diagram_room(manner)
     dynamics = solution.problem.dynamics
@@ -155,8 +159,8 @@ def load_diagrams(solution: Solution, indices: Sequence[int], manner: Manner) ->
     blocks: list[Block] = []
     turned = _fine(flywheel)
     moved = flywheel.turn.at(turned)
-    for load in dynamics.loads:
-        if not isinstance(load, Load) or not isinstance(load.size, SizeTable):
+    for number, load in enumerate(dynamics.loads):
+        if not isinstance(load, Load) or not isinstance(load.size, SizeTable) or load.size.like:
             continue
         (force,) = (one.force for one in external(moved, dynamics, load.link)
                     if one.name == load.name)  # fmt: skip
@@ -165,6 +169,8 @@ def load_diagrams(solution: Solution, indices: Sequence[int], manner: Manner) ->
         stroke = float(np.ptp(along))
         # from the end where position 0 is, or nearer to
         start = along.min() if along[0] - along.min() <= along.max() - along[0] else along.max()
+        if load.size.over is Over.STROKES:  # from the top dead centre
+            start = (flywheel.turn.stroke_of(number).start * way.conjugate()).real
         share = np.abs(along - start) / stroke
         values = (force * way.conjugate()).real
         if values[int(np.argmax(np.abs(values)))] < 0.0:
@@ -191,7 +197,9 @@ def load_diagrams(solution: Solution, indices: Sequence[int], manner: Manner) ->
             )
         )
         title = manner.entry.title or tell.said.load.format(name=load.name, point=name)
-        blocks.append(named(picture, title, [told], manner))
+        later = [like_line(one, manner.words) for one in dynamics.loads
+                 if isinstance(one.size, SizeTable) and one.size.like == load.name]  # fmt: skip
+        blocks.append(named(picture, title, [told, *later], manner))
     return (
         Row(blocks[:2], gap=12.0, align="bottom") if blocks else Picture((), (0.0, 0.0, 0.0, 0.0))
     )

@@ -19,7 +19,7 @@ from planmethod.render.layout.block import Block, Column
 from planmethod.render.pictures.diagram import Abscissae, Curve, Mark, Ordinates, diagram_picture
 from planmethod.render.sheets.model import Manner
 from planmethod.render.sheets.views import named, shown_position
-from planmethod.solved.forces.loads import abscissae, acting, closed, external, read
+from planmethod.solved.forces.loads import abscissae, acting, closed, external, in_time, read
 from planmethod.solved.solution import Solution
 
 _ACROSS, _UP = 0.5, 0.15
@@ -42,7 +42,7 @@ def load_curves(solution: Solution, indices: Sequence[int], manner: Manner) -> B
             continue
         same = [one for one in external(solution, dynamics, load.link) if one.name == load.name]
         acts = any(one.force[index] if one.point else one.couple[index] for one in same)
-        table = _from_zero(load.size)
+        table = _from_zero(in_time(solution, load.size, number))
         if table.over is Over.PHI and load.phase is not None:
             table = _limited(table, acting(solution, load, 0.0, table.turn))
         at = float(abscissae(solution, load, number)[index])

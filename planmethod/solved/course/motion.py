@@ -14,7 +14,7 @@ from planmethod.errors import Fault, ProblemError
 from planmethod.languages import say
 from planmethod.mechanism.model import FRAME
 from planmethod.plans.build import Construction
-from planmethod.problem.load_records import TurningSense
+from planmethod.problem.load_records import Load, Over, SizeTable, TurningSense
 from planmethod.problem.model import Problem
 from planmethod.problem.names import told_length
 from planmethod.solved.course.curve import Piecewise, resolved
@@ -27,7 +27,15 @@ PANELS = 24
 STRAIGHT = 1e-7
 """Share of its stroke that a point on a straight path may be off it."""
 
+LEANING = np.radians(30.0)
+"""By how much a bottom dead centre must be nearer to position 0 than a top one, rad, for the
+strokes of an indicator to be counted from it."""
+
+ASTRAY = np.radians(45.0)
+"""How far from its dead position a piston may be that works like another one after a shift, rad."""
+
 _SAME = 1e-9  # share of the largest size by which the ends of a cycle may differ
+_NEAR = 1e-6  # rad within which a dead position at the very start is found at either end, or not
 
 _COLUMNS = 6  # of a point: x and y of its place, velocity and acceleration
 
@@ -57,18 +65,21 @@ class PointStroke(Struct, frozen=True):
     Attributes
     ----------
     start, towards : complex, m
-        The end of the path that position 0 is nearer to, and the vector to its other end.
+        The end of the path that shares are counted from, and the vector to its other end.
     dead : ndarray of shape (m,), rad
-        Where the point stands, angles turned from position 0, rising within a cycle. The first is
-        the last before position 0 or the next after it, whichever is nearer along the path.
+        Where the point stands, angles turned from position 0, rising within a cycle. From the first
+        one strokes are counted; it may be before position 0.
     centre : complex or None, m
         Of the arc; None of a straight path.
+    back : bool
+        The first stroke of the cycle leads back to the start; else away from it.
     """
 
     start: complex
     towards: complex
     dead: Reals
     centre: complex | None = None
+    back: bool = False
 
     @property
     def swing(self) -> float:
@@ -101,14 +112,14 @@ class PointStroke(Struct, frozen=True):
         return complex(self.centre + (self.start - self.centre) * np.exp(1j * self.swing * share))
 
     def progress(self, turned: Reals, place: Complexes, cycle: float) -> Reals:
-        """Return how many strokes of the cycle are done, from 0 at the start, shape (n,)."""
+        """Return how many strokes of the cycle are done since the first began, shape (n,)."""
         since = np.mod(turned - self.dead[0], cycle)
         slack = 1e-9  # rounding of a dead position, as of one that the file asks
         count = len(self.dead)
         marks = np.append(self.dead - self.dead[0], cycle)
         number = np.searchsorted(marks, since + slack, side="right") - 1
         share = self.share(place)
-        done = np.where(number % 2 == 0, share, 1.0 - share)
+        done = np.where(number % 2 == int(self.back), share, 1.0 - share)
         return np.asarray(np.mod(number, count) + np.where(number >= count, 0.0, done), dtype=float)
 
 
@@ -233,6 +244,11 @@ class TurnMotion:
         return Moved(self, self.problem, self.construction, self.phi(turned), points, links)
 
     @cached_property
+    def first(self) -> Moved:
+        """The motion in position 0."""
+        return self.at(np.zeros(1))
+
+    @cached_property
     def sampled(self) -> Moved:
         """The motion at angles that come near to everything that happens."""
         return self.at(self.curve.samples)
@@ -263,8 +279,125 @@ class TurnMotion:
     def _strokes(self) -> dict[str, PointStroke]:
         return {}
 
+    @cached_property
+    def _courses(self) -> dict[str, PointStroke]:
+        return {}
+
+    def stroke_of(self, index: int) -> PointStroke:
+        """Return the stroke over which the table of a load is read (ход, по которому нагрузка).
+
+        A path counts from its end that position 0 is nearer to, an indicator diagram from the top
+        dead centre of its own piston.
+
+        Parameters
+        ----------
+        index : int
+            The number of the load in the file.
+
+        Raises
+        ------
+        ProblemError
+            As of `stroke`; or the cycle has other strokes than the diagram, or the piston of a
+            diagram that is like another one is not at a dead position after the shift.
+        """
+        load = self._load(index)
+        assert isinstance(load.size, SizeTable)
+        if load.size.over is not Over.STROKES:
+            return self.stroke(load.at)
+        if load.name not in self._courses:
+            self._courses[load.name] = self._indicated(index)
+        return self._courses[load.name]
+
+    def _load(self, index: int) -> Load:
+        dynamics = self.problem.dynamics
+        assert dynamics is not None
+        load = dynamics.loads[index]
+        assert isinstance(load, Load), "a couple has no point"
+        return load
+
+    def _indicated(self, index: int) -> PointStroke:
+        """Return the stroke of a piston from its top dead centre, and with which it begins."""
+        load = self._load(index)
+        assert isinstance(load.size, SizeTable)
+        own = self._from_top(self.stroke(load.at))
+        given, there = round(load.size.at[-1]), len(own.dead)
+        if given != there:
+            raise _fault(
+                self.problem,
+                f"loads[{index}].force.strokes",
+                say(
+                    "{} strokes, point {} makes {} in a cycle of {:g} degrees",
+                    given,
+                    load.at,
+                    there,
+                    np.degrees(self.cycle),
+                ),
+                "A four-stroke engine has [machine] cycle_deg = 720.",
+            )
+        dead = np.mod(own.dead, self.cycle)
+        below = own.share(self.at(dead).points[load.at].place) > 0.5
+        if load.size.like is None:
+            off = self._apart(dead, 0.0)
+            back = bool(off[below].min() < off[~below].min() - LEANING)
+        else:
+            first = self.stroke_of(self._number(load.size.like))
+            back, began = first.back, first.dead[0] + np.radians(load.size.shift)
+            off = self._apart(dead, began)
+            self._check_shift(index, dead[below == back] - first.dead[0], off[below == back])
+        start = dead[int(np.argmin(np.where(below == back, off, np.inf)))]
+        since = np.sort(np.mod(dead - start + _NEAR, self.cycle)) - _NEAR
+        start -= self.cycle if start > self.cycle / 2.0 else 0.0
+        return replace(own, dead=np.asarray(start + since), back=back)
+
+    def _number(self, name: str) -> int:
+        dynamics = self.problem.dynamics
+        assert dynamics is not None
+        return next(k for k, load in enumerate(dynamics.loads) if load.name == name)
+
+    def _apart(self, dead: Reals, angle: float) -> Reals:
+        """Return how far dead positions are from an angle turned, rad, either way."""
+        ahead = np.mod(dead - angle, self.cycle)
+        return np.minimum(ahead, self.cycle - ahead)
+
+    def _check_shift(self, index: int, after: Reals, off: Reals) -> None:
+        """Refuse a shift after which a piston does not come to its dead position, nearly."""
+        if off.min() <= ASTRAY:
+            return
+        load = self._load(index)
+        assert isinstance(load.size, SizeTable)
+        turned = np.sort(np.mod(np.degrees(after) + 1e-6, np.degrees(self.cycle)))
+        known = ", ".join(f"{angle:.4g}" for angle in turned)
+        raise _fault(
+            self.problem,
+            f"loads[{index}].force.shift",
+            say(
+                "{0:g} degrees after the first stroke of {1} point {2} does not begin such a "
+                "stroke: it does {3} degrees after it",
+                load.size.shift,
+                load.size.like,
+                load.at,
+                known,
+            ),
+            "Give one of these angles.",
+        )
+
+    def _from_top(self, stroke: PointStroke) -> PointStroke:
+        """Return a stroke from its end that is farthest from the axis of the crank.
+
+        Where both are as far from it, from the end that position 0 is nearer to.
+        """
+        pivot = self.problem.drive.pivot
+        assert pivot is not None, "a crank drives"
+        axis, end = self.problem.bodies[FRAME].points[pivot], stroke.start + stroke.towards
+        if abs(end - axis) - abs(stroke.start - axis) <= STRAIGHT * abs(stroke.towards):
+            return stroke
+        return replace(stroke, start=end, towards=-stroke.towards)
+
     def stroke(self, point: str) -> PointStroke:
         """Return the stroke of a point that moves to and fro on a straight line or an arc.
+
+        It starts at the end of the path that position 0 is nearer to; strokes are counted from the
+        last dead position before position 0 or the next one, whichever is nearer along the path.
 
         Raises
         ------
@@ -281,12 +414,11 @@ class TurnMotion:
             dead = self.column(point, way, velocity=True).roots()
         else:
             dead = self.omega(rocker[0]).roots()
-        first = self.at(np.zeros(1)).points[point]
+        first = self.first.points[point]
         speeds = np.abs(self.sampled.points[point].velocity)
         at_start = abs(first.velocity[0]) <= 1e-9 * float(np.max(speeds))
-        near = 1e-6  # a dead position at the very start is found at either end of the cycle, or not
         if at_start:
-            dead = np.append(0.0, dead[(dead > near) & (dead < self.cycle - near)])
+            dead = np.append(0.0, dead[(dead > _NEAR) & (dead < self.cycle - _NEAR)])
         places = self.at(dead).points[point].place
         if len(dead) < 2 or float(np.ptp((places * way.conjugate()).real)) == 0.0:
             raise _fault(

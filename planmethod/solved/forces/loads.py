@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from bisect import bisect_left, bisect_right
 from collections.abc import Iterator, Mapping
 from typing import Protocol
 
@@ -314,7 +315,30 @@ def _size(solution: MotionValues, load: Load | Couple, index: int) -> Reals | fl
     if size.over is Over.POSITION:
         what = "force" if isinstance(load, Load) else "couple"
         return np.asarray(size.values)[_numbers(solution, f"loads[{index}].{what}")]
-    return read(closed(size), abscissae(solution, load, index))
+    return read(closed(in_time(solution, size, index)), abscissae(solution, load, index))
+
+
+def in_time(solution: MotionValues, table: SizeTable, index: int) -> SizeTable:
+    """Return the table of a load with the rows of each stroke in the order in which they come.
+
+    Those of an indicator count from the top dead centre; a first stroke that leads back to it goes
+    through them from the last one.
+
+    Parameters
+    ----------
+    index : int
+        The number of the load in the file.
+    """
+    if table.over is not Over.STROKES or not _turn(solution).stroke_of(index).back:
+        return table
+    rows: list[tuple[float, float]] = []
+    for number in range(round(table.at[-1])):
+        # its ends are in two rows: the last of the stroke before, and its own
+        first, last = bisect_right(table.at, number) - 1, bisect_left(table.at, number + 1)
+        own = zip(table.at[first : last + 1], table.values[first : last + 1], strict=True)
+        rows += [(2 * number + 1 - at, value) for at, value in [*own][::-1]]
+    at, values = zip(*rows, strict=True)
+    return replace(table, at=at, values=values)
 
 
 def abscissae(solution: MotionValues, load: Load | Couple, index: int) -> Reals:
@@ -339,23 +363,9 @@ def abscissae(solution: MotionValues, load: Load | Couple, index: int) -> Reals:
         case Over.PATH | Over.STROKES:
             assert isinstance(load, Load), "a couple has no point"
             turn, place = _turn(solution), solution.points[load.at].place
-            stroke = turn.stroke(load.at)
+            stroke = turn.stroke_of(index)
             if size.over is Over.PATH:
                 return stroke.share(place)
-            given, there = round(size.at[-1]), len(stroke.dead)
-            if given != there:
-                fault = Fault(
-                    f"loads[{index}].force.strokes",
-                    say(
-                        "{} strokes, point {} makes {} in a cycle of {:g} degrees",
-                        given,
-                        load.at,
-                        there,
-                        np.degrees(turn.cycle),
-                    ),
-                    "A four-stroke engine has [machine] cycle_deg = 720.",
-                )
-                raise ProblemError(solution.problem.name, [fault])
             turned = turn.turned(solution.positions)
             return stroke.progress(turned, place, turn.cycle)
 

@@ -111,7 +111,7 @@ def reduced_curves(turn: TurnMotion, machine: Machine) -> Piecewise:
     for index, load in enumerate(dynamics.loads):
         if isinstance(load.size, SizeTable) and load.size.over is Over.POSITION:
             raise _load_fault(turn, index, "{} is given for the positions of the file only", _OVER)
-    cuts = [turn.curve.edges, *(_breaks(turn, load) for load in dynamics.loads)]
+    cuts = [turn.curve.edges, *(_breaks(turn, load, k) for k, load in enumerate(dynamics.loads))]
     edges = np.unique(np.concatenate(cuts))
     edges = edges[np.append(True, np.diff(edges) > 1e-12)]
     edges[0], edges[-1] = 0.0, turn.cycle
@@ -151,12 +151,12 @@ def _load_fault(turn: TurnMotion, index: int, message: str, hint: str) -> Proble
     return ProblemError(turn.problem.name, [fault])
 
 
-def _breaks(turn: TurnMotion, load: Load | Couple) -> Reals:
+def _breaks(turn: TurnMotion, load: Load | Couple, index: int) -> Reals:
     """Return where a load may jump or have a kink, angles turned, rad, in no order."""
-    return np.concatenate([np.zeros(0), *_found_breaks(turn, load)])
+    return np.concatenate([np.zeros(0), *_found_breaks(turn, load, index)])
 
 
-def _found_breaks(turn: TurnMotion, load: Load | Couple) -> Iterator[Reals]:
+def _found_breaks(turn: TurnMotion, load: Load | Couple, index: int) -> Iterator[Reals]:
     phase, size = load.phase, load.size
     if phase is not None and phase.phi:
         yield _all_turns(turn, np.array(phase.phi).ravel(), 360.0)
@@ -184,7 +184,7 @@ def _found_breaks(turn: TurnMotion, load: Load | Couple) -> Iterator[Reals]:
         yield from (place.roots(node - slack) for node in nodes)
     else:
         assert isinstance(load, Load)
-        stroke = turn.stroke(load.at)
+        stroke = turn.stroke_of(index)
         yield np.mod(stroke.dead, turn.cycle)
         shares = np.unique(np.append(np.mod(nodes, 1.0), np.mod(-nodes, 1.0)))
         for share in shares:

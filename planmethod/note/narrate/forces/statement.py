@@ -106,6 +106,8 @@ def _load(solution: Solution, load: Load | Couple, words: Language) -> str:
     unit = say.units["N" if isinstance(load, Load) else "N·m"]
     if not isinstance(load.size, SizeTable):
         return f"{load.name} = {say.short(load.size)} {unit}"
+    if load.size.like is not None:
+        return like_line(load, words)
     largest = max(load.size.values, key=abs)
     match load.size.over:
         case Over.PHI:
@@ -126,6 +128,13 @@ def _load(solution: Solution, load: Load | Couple, words: Language) -> str:
     return words.sheets.load_table.format(
         name=load.name, over=over, peak=peak, largest=largest_told
     )
+
+
+def like_line(load: Load | Couple, words: Language) -> str:
+    """Return whose indicator diagram a load has, and how much later (второй цилиндр)."""
+    assert isinstance(load.size, SizeTable) and load.size.like is not None
+    shift = f"{words.say.given(load.size.shift)}{words.say.units['deg']}"
+    return words.sheets.load_like.format(name=load.name, other=load.size.like, shift=shift)
 
 
 def cycle_wanted(solution: Solution, say: Notation) -> str:
