@@ -19,6 +19,9 @@ from planmethod.construct.drafting import PROFILES
 from planmethod.errors import ProblemError
 from planmethod.note.audit.audit import AuditVerdict, audit
 from planmethod.note.audit.machine import chain
+from planmethod.note.narrate.machine import MachineTeller
+from planmethod.note.narrate.reduction import ReductionTeller
+from planmethod.note.wording import language
 from planmethod.problem import load, loads
 from planmethod.problem.machine_records import Quadrature
 from planmethod.solved.machine.drawing import FlywheelDrawing, split
@@ -145,6 +148,23 @@ def test_an_indicator_gives_the_work_of_its_area() -> None:
     assert abs(engine.delta_reached - 1 / 80) < 1e-9
     drawn = FlywheelDrawing(engine, PROFILES["board"])
     assert near(drawn.inertia, drawn.points.tangents.inertia)
+
+
+def test_a_share_of_the_largest_load_is_that_of_the_diagram() -> None:
+    """The diagram's peak of 1000 N lies between two positions, of which none has more than 786."""
+    text = path_of("machines/compressor").read_text("utf-8")
+    text = text.replace(
+        text[text.index("law = ") : text.index("[machine]")],
+        'law = "path"\nvalues = [[0, 0], [0.6, 0], [0.86, 1000], [0.9, 0], [1, 0]]\n',
+    )
+    text = text.replace("angle = 180\n", 'angle = 180\nphases = { moving = "right" }\n')
+    made = FlywheelDrawing(Flywheel(loads(text, name="peak")), PROFILES["board"])
+    columns = ReductionTeller(MachineTeller(made, language("en"))).moments()
+    cells = {head: values for head, _, values in columns}
+    shares, sizes = (next(v for h, v in cells.items() if h.startswith(k)) for k in ("\\frac", "P"))
+    assert 0.0 < max(map(float, sizes)) < 900.0
+    for share, size in zip(shares, sizes, strict=True):
+        assert abs(float(share) - float(size) / 1000.0) < 1e-3
 
 
 def test_both_sides_of_a_piston_work_one_stroke_apart() -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from functools import cached_property
 from typing import TypeAlias
 
 import numpy as np
@@ -11,6 +12,7 @@ from msgspec import Struct
 from planmethod.note.formula import Rich, fraction
 from planmethod.note.narrate.machine import MachineTeller
 from planmethod.note.numbers import MINUS, alike
+from planmethod.problem.load_records import SizeTable
 from planmethod.problem.machine_records import WeightSigns
 from planmethod.solved.forces.loads import external
 from planmethod.solved.machine.reduced import power
@@ -60,6 +62,15 @@ class ReductionTeller:
         self.order = np.argsort(flywheel.turn.numbers(self.count)[:-1])
         self.omega = f"ω_{{{self.problem.drive.link}}}"
         self.terms = [*self._loads(), *self._weights()]
+
+    @cached_property
+    def _peaks(self) -> dict[str, float]:
+        """The largest size in the table or the diagram of each load that has one."""
+        dynamics = self.problem.dynamics
+        assert dynamics is not None
+        tables = ((load.name, load.size) for load in dynamics.loads)
+        return {name: max(map(abs, size.values)) for name, size in tables
+                if isinstance(size, SizeTable)}  # fmt: skip
 
     def _loads(self) -> Iterator[ReducedTerm]:
         dynamics = self.problem.dynamics
@@ -115,7 +126,7 @@ class ReductionTeller:
         columns, speeds = [*self._leads()], set[str]()
         for term in self.terms:
             size = np.abs(term.size)
-            peak = float(size.max())
+            peak = self._peaks.get(term.name, float(size.max()))
             if float(np.ptp(size)) > _STILL * peak:
                 name, index, end = term.name.partition("_{")
                 most = f"{name}_{{{end.removesuffix('}')}{' ' if index else ''}max}}"
