@@ -15,9 +15,10 @@ from planmethod.cams.text import MM
 from planmethod.construct.drafting import Profile
 from planmethod.construct.evaluate import Trace
 from planmethod.construct.steps import NumberName
+from planmethod.note.compared import ComparedNumber
 from planmethod.note.document import Table, table_of
 from planmethod.note.formula import Rich
-from planmethod.note.rounding import rounded_to, sigma_text
+from planmethod.note.rounding import sigma_text
 from planmethod.note.wording import Language
 
 SYMBOLS = {"r_min": "r_{min}", "e": "e", "centre_distance": "a"}
@@ -45,26 +46,23 @@ class CamReadings(Struct, frozen=True, dict=True):
         trace: Any = self.built.exact if exact else self.ruled
         return float(np.ravel(trace.value[NumberName(name)])[0])
 
-    def found(self) -> Iterator[tuple[str, float, float, float]]:
-        """Yield what is read of the region: name, exact, read, sigma; m."""
+    def found(self) -> Iterator[tuple[str, ComparedNumber]]:
+        """Yield what is read of the region beside the exact sizes, mm."""
         geometry = self.built.design.geometry
         exact = {
             "r_min": geometry.r_min, "e": geometry.e, "centre_distance": geometry.centre,
         }  # fmt: skip
         for name, of in self.built.results.items():
-            yield name, exact[name], self.number(of), self.sigma[of]
+            yield name, ComparedNumber(MM * exact[name], MM * self.number(of), MM * self.sigma[of])
 
     def table(self) -> Table:
         """Return what is read of the region beside the exact sizes, mm."""
         say, rows, symbols = self.words.say, [], dict(SYMBOLS)
         if self.built.design.problem.contact is Contact.FLAT:
             symbols["r_min"] = "r_{0}"
-        for name, exact, read, sigma in self.found():
-            shown = rounded_to(MM * read, MM * sigma)
-            rows.append(
-                (symbols[name], say.found(MM * exact), say.number(shown),
-                 say.number(sigma_text(MM * sigma)))
-            )  # fmt: skip
+        for name, one in self.found():
+            read, sigma = say.number(one.read_text), say.number(one.sigma_text)
+            rows.append((symbols[name], say.found(one.exact), read, sigma))
         return table_of(self.words.cam["region_heads"], rows)
 
     def off(self, trace: Trace) -> float:

@@ -24,6 +24,7 @@ from planmethod.gears.motion import (
 from planmethod.gears.picture import draw
 from planmethod.gears.roles import Roles
 from planmethod.gears.velocities import by_velocities
+from planmethod.note.compared import ComparedNumber
 from planmethod.note.document import (
     Caption,
     Item,
@@ -331,7 +332,8 @@ def _published(problem: GearProblem, motion: TrainMotion, words: Language) -> It
     say, rows, notes = words.say, [], []
     for one in problem.published:
         exact, name = answer(motion, one.what).value, escape(one.name)
-        off = "" if not exact else say.found(100 * (one.value - exact) / abs(exact))
+        percent = ComparedNumber(exact or 0.0, one.value).percent
+        off = "" if percent is None else say.found(percent)
         printed = say.number(f"{one.value:g}")
         rows.append([name, printed, "—" if exact is None else say.found(exact), off])
         if one.note:

@@ -13,8 +13,8 @@ from planmethod.gears.derivation import DerivedLine, derivation
 from planmethod.gears.motion import TrainMotion
 from planmethod.gears.text import equation_of, fraction_text, kind_of, mobility
 from planmethod.gears.velocities import by_velocities
+from planmethod.note.compared import ComparedNumber
 from planmethod.note.numbers import raised
-from planmethod.note.rounding import sigma_text
 from planmethod.note.wording import Language
 
 
@@ -119,7 +119,7 @@ def results(
         if name not in found or seen is None:
             yield (*row, "—", "—", "—")
             continue
-        value = float(seen.read.value[found[name].read])
-        sigma = seen.sigma[found[name].read]
-        off = "—" if not one.value else say.number(f"{100 * (value / one.value - 1) + 0.0:.2f}")
-        yield (*row, say.found(value), say.number(sigma_text(sigma)), off)
+        read = found[name].read
+        both = ComparedNumber(one.value, float(seen.read.value[read]), float(seen.sigma[read]))
+        off = say.number(both.percent_text(2))
+        yield (*row, say.found(both.read), say.number(both.sigma_text), off)

@@ -24,12 +24,12 @@ from planmethod.moving.model import PointProblem
 from planmethod.moving.motion import LEGEND
 from planmethod.moving.sheet import read_rows, sheet_scales
 from planmethod.moving.text import law, moment, title
+from planmethod.note.compared import ComparedNumber
 from planmethod.note.document import Caption, Chapter, Node, Paragraph, steps_of, table_of
 from planmethod.note.formula import Rich, escape, fraction
 from planmethod.note.narrate.narrator import Line, Reading, StepNarrator
 from planmethod.note.narrate.scales import scale_inscription
 from planmethod.note.numbers import significant, with_unit
-from planmethod.note.rounding import rounded_to, sigma_text
 from planmethod.note.wording import Language
 
 
@@ -85,12 +85,10 @@ def _hodograph(course: Course, scale: Scale, words: Language, profile: Profile) 
     for k, read, sigma, exact in zip(
         chords.at, chords.read, chords.sigma, chords.exact, strict=True
     ):
-        cells = [str(k), say.given(float(course.marks.columns["t"][k]))]
-        cells += [say.number(significant(float(exact)))]
-        cells += [say.number(rounded_to(float(read), float(sigma)))]
-        cells += [say.number(sigma_text(float(sigma)))]
-        cells += [say.number(significant(float(read - exact), 2))]
-        rows.append(cells)
+        one = ComparedNumber(float(exact), float(read), float(sigma))
+        texts = (significant(one.exact), one.read_text, one.sigma_text, one.off_text)
+        at = say.given(float(course.marks.columns["t"][k]))
+        rows.append([str(k), at, *map(say.number, texts)])
     yield table_of(said["chords"], rows, names=0)
 
 

@@ -25,6 +25,7 @@ from planmethod.moving.pictures import (
     vector_scales,
 )
 from planmethod.moving.text import head_of, law, moment, textbook
+from planmethod.note.compared import ComparedNumber
 from planmethod.note.document import Formula, Note
 from planmethod.note.narrate.given import unbroken
 from planmethod.note.narrate.scales import scale_inscription
@@ -276,10 +277,11 @@ def read_rows(
     """Yield what the drawing gives beside the exact values, rich text: symbol, exact, read, σ."""
     ruled, sigma, say = built.ruled(profile.ruler), built.sigma(profile), words.say
     for name in built.results:
-        exact = significant(float(marks.columns[name][k]) + 0.0)
-        read = say.number(rounded_to(ruled[name], sigma[name])) if np.isfinite(ruled[name]) else "—"
-        error = say.number(sigma_text(sigma[name])) if np.isfinite(sigma[name]) else "—"
-        yield head_of(name, say), say.number(exact), read, error
+        one = ComparedNumber(float(marks.columns[name][k]) + 0.0, ruled[name], sigma[name])
+        exact, read, error = map(
+            say.number, (significant(one.exact), one.read_text, one.sigma_text)
+        )
+        yield head_of(name, say), exact, read, error
 
 
 class _Sheets(Struct, frozen=True):

@@ -86,7 +86,7 @@ def test_verdicts(
 
 def test_differences() -> None:
     item = Audited(Published("ω3", -15.0), exact=-16.0, per_mm=0.25)
-    assert (item.difference, item.percent, item.mm) == (1.0, 6.25, 4.0)
+    assert (item.difference, item.percent, item.mm) == (1.0, -6.25, 4.0)  # of a size too small
     assert Audited(Published("v", 0.3), exact=0.1 + 0.2).difference == 0.0
     assert Audited(Published("v", 0.3), exact=0.0).percent is None
     absent = Audited(Published("v", 0.3), per_mm=1.0)
@@ -238,7 +238,7 @@ def test_slips_smaller_than_drafting_are_told_in_the_remark(
 
 def test_size_of_the_six_links_errors() -> None:
     """The drawing of the source was off where the mechanism is sensitive."""
-    expected = {"v_H": 38, "ε2": -20, "a_C": -10, "ε3": 11, "a_H = a_S5": -10}
+    expected = {"v_H": 38, "ε2": -20, "a_C": -10, "ε3": -11, "a_H = a_S5": -10}
     for name, percent in expected.items():
         found = audited("six-link")[name].percent
         assert found is not None
@@ -247,7 +247,7 @@ def test_size_of_the_six_links_errors() -> None:
 
 def test_size_of_the_errors_of_the_wrong_arm() -> None:
     """An arm of 54 mm for 38: the pressure of the rocker doubles, the driving moment vanishes."""
-    expected = {"F36": 146, "F32 = F23": 145, "M1д": 80}  # of the moment: less, and it is negative
+    expected = {"F36": 146, "F32 = F23": 145, "M1д": -80}
     for name, percent in expected.items():
         found = audited("six-link")[name].percent
         assert found is not None

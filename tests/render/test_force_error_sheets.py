@@ -19,6 +19,7 @@ from worked import drawn_sheets, path_of, problem_of
 
 from planmethod import loads
 from planmethod.construct.drafting import PROFILES
+from planmethod.note.compared import NONE
 from planmethod.note.records.solution import record
 from planmethod.note.wording import language, wording
 from planmethod.render.control.remarks import Severity
@@ -32,7 +33,6 @@ from planmethod.render.sheets.guides import guided_at, is_couple
 from planmethod.render.sheets.kinematics import kinematics_sheets
 from planmethod.render.sheets.model import Entry, Extras, Manner
 from planmethod.render.sheets.reactionerrors import (
-    NO_ERROR,
     angle_column,
     balance_columns,
     moment_column,
@@ -268,7 +268,7 @@ def test_columns_of_the_reactions(name: str) -> None:
             (moment, moment_label(joint)),
         ):
             if column is moment and not is_couple(guided_at(reading, k)):
-                assert column.cells[k].text == NO_ERROR
+                assert column.cells[k].text == NONE
                 continue
             text = column.cells[k].text
             if label not in drawn.items:

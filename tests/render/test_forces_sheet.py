@@ -20,7 +20,7 @@ from planmethod import loads
 from planmethod.cli import cli
 from planmethod.errors import ExitCode, ProblemError
 from planmethod.note.document import Equation, Term
-from planmethod.note.narrate.forces.lever import both_balances, difference
+from planmethod.note.narrate.forces.lever import both_balances, compared_balances
 from planmethod.note.narrate.forces.statement import statement, wanted
 from planmethod.note.numbers import alike, significant
 from planmethod.note.wording import language
@@ -344,7 +344,8 @@ def test_the_lever_is_in_balance(name: str) -> None:
     moments = [abs(one.force) * one.arm for one in lever.forces]
     moments += [one.lever_moment for one in lever.couples]
     assert sum(moments) == pytest.approx(0.0, abs=1e-6 * max(map(abs, moments)))
-    assert difference(reading) == pytest.approx(0.0, abs=1e-4)
+    both = compared_balances(reading.statics, 0)
+    assert both is not None and both.percent == pytest.approx(0.0, abs=1e-4)
     for one in lever.couples:
         if one.segment is not None:
             start, end = one.segment
@@ -388,7 +389,8 @@ def test_the_lever_has_the_forces_that_do_work(name: str) -> None:
     symbols = [RU.say.symbol(one.symbol) for one in lever.couples]
     assert sorted(couples(sheet, view)) == sorted(symbols)
     assert lever.couples[-1].symbol == MOMENT.symbol
-    assert 0.0 < (difference(reading) or 0.0) < 5.0
+    both = compared_balances(reading.statics, 0)
+    assert both is not None and 0.0 < both.share < 5.0
 
 
 def test_a_driving_slider_is_balanced_by_a_force() -> None:

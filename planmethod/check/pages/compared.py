@@ -4,14 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 
+from msgspec.structs import replace
+
 from planmethod.check.model import CheckedWork, Judged, Unread, Verdict
 from planmethod.check.pages.speech import Speech, quoted, told
 from planmethod.languages import say
+from planmethod.note.compared import NONE, ComparedNumber
 from planmethod.note.document import Caption, Document, Node, Paragraph, table_of
 from planmethod.note.numbers import trimmed
 from planmethod.note.wording import Language, Words
-
-_NONE = "—"
 
 _FAINT = 1e-6
 """Share of a difference below which an exact value is nothing: no per cent of it is told."""
@@ -37,19 +38,19 @@ def _nodes(checked: Sequence[CheckedWork], words: Language) -> Iterator[Node]:
 def _cells(judged: Judged, speech: Speech) -> Iterator[str]:
     key, value = judged.key, judged.value
     yield speech.symbol(judged)
-    yield speech.own(judged) or _NONE
+    yield speech.own(judged) or NONE
     if key is None:
-        yield from (_NONE, _NONE, _NONE)
+        yield from (NONE, NONE, NONE)
         return
     yield speech.si(told(key.exact, key), key)
     if value is None:
-        yield from (_NONE, _NONE)
+        yield from (NONE, NONE)
         return
-    off = told(value, key) - told(key.exact, key)
+    one = ComparedNumber(told(key.exact, key), told(value, key))
+    percent = replace(one, nothing=_FAINT * abs(one.off)).percent
     number = speech.words.say.number
-    yield speech.with_unit(number(trimmed(off / key.per, 2)), key)
-    share = 100.0 * off / abs(key.exact) if abs(key.exact) > _FAINT * abs(off) else None
-    yield _NONE if share is None else number(trimmed(share, 2))
+    yield speech.with_unit(number(trimmed(one.off / key.per, 2)), key)
+    yield NONE if percent is None else number(trimmed(percent, 2))
 
 
 ASIDE = (Unread.COLUMN, Unread.KEY, Unread.VERTEX, Unread.OPEN, Unread.TURNED)

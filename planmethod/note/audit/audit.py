@@ -12,6 +12,7 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from planmethod.languages import LANGUAGES
+from planmethod.note.compared import ComparedNumber
 from planmethod.note.numbers import significant
 from planmethod.note.plaintext import fixed, given, spoken
 from planmethod.note.wording import language, wording
@@ -87,9 +88,10 @@ class Audited(Struct, frozen=True):
     @property
     def percent(self) -> float | None:
         """Difference in percent of the exact value; None beside an exact zero."""
-        if self.difference is None or not self.exact:
+        exact, difference = self.exact, self.difference
+        if exact is None or difference is None:
             return None
-        return 100.0 * self.difference / abs(self.exact)
+        return ComparedNumber(exact, self.published.value if difference else exact).percent
 
     @property
     def mm(self) -> float | None:

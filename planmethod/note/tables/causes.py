@@ -7,6 +7,7 @@ from typing import assert_never
 
 from planmethod.construct import steps
 from planmethod.construct.steps import PointName, Step
+from planmethod.note.compared import marked
 from planmethod.note.document import Caption, Item, Node, Paragraph
 from planmethod.note.formula import Rich
 from planmethod.note.narrate.given import told
@@ -14,7 +15,6 @@ from planmethod.note.narrate.naming import Names
 from planmethod.note.narrate.transfers import even_letter
 from planmethod.note.plaintext import fixed, spoken
 from planmethod.note.rounding import rounded_to, sigma_text
-from planmethod.note.tables.sigmas import marked
 from planmethod.plans.legend import MOTION_KINDS, Quantity
 from planmethod.plans.model import FACTS, PlanKind
 from planmethod.plans.motion.position import link_of_axis

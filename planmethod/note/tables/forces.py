@@ -8,9 +8,11 @@ from typing import Any
 import numpy as np
 
 from planmethod.note.columns import listed, named, pairs, sizes
+from planmethod.note.compared import NONE
 from planmethod.note.document import Caption, Node, Note
 from planmethod.note.formula import Rich
 from planmethod.note.narrate.forces.bearings import bearing_text, redundant
+from planmethod.note.narrate.forces.lever import compared_balances
 from planmethod.note.narrate.forces.resultants import kept_lines, shift_lines
 from planmethod.note.narrate.given import point_name
 from planmethod.note.numbers import plain
@@ -348,16 +350,15 @@ def forces_tables(solution: Solution, words: Words, index: int, sigmas: Sigmas) 
     if statics.lever_at(index) is None:
         yield Note(words.lever_stands)
         return
-    assert drawn.discrepancy_sigma is not None and drawn.balances is not None
-    plans, hung = float(drawn.balances.plans[index]), float(drawn.balances.lever[index])
-    share, expected = drawn.balances.share(index), float(drawn.discrepancy_sigma[index])
+    both = compared_balances(statics, index)
+    assert both is not None
     yield Note(
         words.lever_note.format(
-            lever=found(hung, words),
-            plans=found(plans, words),
-            difference=found(hung - plans, words),
-            share="—" if share is None else fixed(share, words),
-            sigma=found(expected, words),
+            lever=found(both.read, words),
+            plans=found(both.exact, words),
+            difference=found(both.off, words),
+            share=NONE if both.percent is None else fixed(both.percent, words),
+            sigma=found(both.sigma, words),
             unit=unit,
         )
     )

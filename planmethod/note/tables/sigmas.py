@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING
 
+from planmethod.note.compared import DRAWN, marked
 from planmethod.note.document import Node, Paragraph, Table, table_of
 from planmethod.note.formula import Rich
 from planmethod.note.plaintext import spoken
@@ -14,20 +15,6 @@ if TYPE_CHECKING:
     from planmethod.note.wording import Words
     from planmethod.solved.errors.spread import Errors
     from planmethod.solved.solution import Solution
-
-DRAWN = "*"
-"""Mark of a sigma that was found by random draws, first order failing there."""
-
-
-def marked(errors: Errors, label: str, index: int) -> tuple[float, str]:
-    """Return a quantity's sigma in one position and its mark, `DRAWN` or nothing.
-
-    What the drawing does not give, as the ω of a link that does not turn, has no error.
-    """
-    spread = errors.spreads.get(label)
-    if spread is None:
-        return 0.0, ""
-    return float(spread.sigma[index]), DRAWN if spread.drawn[index] else ""
 
 
 class Sigmas:

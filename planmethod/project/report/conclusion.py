@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from math import isfinite
 
 from planmethod.cams.design import CamDesign
 from planmethod.cams.model import CamProblem
@@ -11,12 +12,13 @@ from planmethod.gears.involute.quantities import SolvedMeshing
 from planmethod.gears.involute.sizes import MeshingProblem
 from planmethod.gears.model import GearProblem
 from planmethod.mechanism.structure import roman
+from planmethod.note.compared import ComparedNumber, percent_text
 from planmethod.note.document import Item, Node, References, StructuralHeading, Table
 from planmethod.note.formula import Rich, escape, inlined
 from planmethod.note.narrate.balancing import BalancingTeller
 from planmethod.note.narrate.forces.common import lettered as lettered_forces
 from planmethod.note.narrate.forces.friction import FrictionTeller
-from planmethod.note.narrate.forces.lever import both_balances, difference, expected
+from planmethod.note.narrate.forces.lever import both_balances, compared_balances
 from planmethod.note.numbers import with_unit
 from planmethod.note.tables.forces import rubbed
 from planmethod.note.wording import Words
@@ -73,11 +75,12 @@ def _structure(report: Report, said: Words) -> Rich:
 def _motion(report: Report, said: Words) -> Rich:
     say, facts = report.say, {}
     for plan in RATES:
-        name, most = plan.value, worst(compared(report.one, 0, *kinds_on(plan)))
-        if most is None:
+        name, found = plan.value, worst(compared(report.one, 0, *kinds_on(plan)))
+        if found is None:
             return ""
-        facts[name] = most.quantity.symbol
-        facts[f"{name}_percent"] = say.number(f"{most.percent:.1f}")
+        quantity, most = found
+        facts[name] = quantity.symbol
+        facts[f"{name}_percent"] = say.number(percent_text(most.share))
         facts[f"{name}_sigmas"] = say.number(f"{most.sigmas:.1f}")
     later = float(facts["acceleration_percent"].replace(say.decimal, "."))
     earlier = float(facts["velocity_percent"].replace(say.decimal, "."))
@@ -113,7 +116,7 @@ def _forces(report: Report, said: Words) -> Iterator[Rich]:
     joints = reading.statics.reactions
     most = max(joints, key=lambda joint: abs(complex(joint.force[0])))
     read = float(drawn_forces(reading.statics).read(size_label(most))[0])
-    plans, lever = both_balances(reading)
+    plans, _ = both_balances(reading)
     balancing = reading.balancing
     (*_, whole) = "", *largest_reactions(report)
     told = said.forces.format(
@@ -128,12 +131,14 @@ def _forces(report: Report, said: Words) -> Iterator[Rich]:
     if rubbed(report.every.problem):
         tell = FrictionTeller(lettered_forces(reading, report.words), sizes=True)
         yield " ".join([said.friction.format(), *tell.results(), *tell.turn()])
-    share, sigma = difference(reading), expected(reading)
-    if lever is None or share is None or sigma is None or not plans:
+    both = compared_balances(reading.statics, reading.index)
+    if both is None or both.percent is None or both.expected is None or not isfinite(both.sigma):
         return
-    part = 100.0 * sigma / abs(plans)
+    share, part = both.share, both.expected
     template = said.lever_far if share > MUCH and share < 3.0 * part else said.lever
-    yield template.format(share=say.number(f"{share:.1f}"), sigma=say.number(f"{part:.1f}"))
+    yield template.format(
+        share=say.number(percent_text(share)), sigma=say.number(percent_text(part))
+    )
 
 
 def _flywheel(report: Report, said: Words) -> Iterator[Rich]:
@@ -147,7 +152,7 @@ def _flywheel(report: Report, said: Words) -> Iterator[Rich]:
         delta=tell.delta,
         symbol=tell.letter("flywheel"),
         value=report.quantity(read, "kg·m²"),
-        whole=say.number(f"{100.0 * abs(read / exact - 1.0):.1f}"),
+        whole=say.number(percent_text(ComparedNumber(exact, read).share)),
     )
     size = said.flywheel_sizes.format(
         diameter=report.quantity(sizes.diameter, "m"),

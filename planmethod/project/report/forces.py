@@ -4,10 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from functools import partial
+from math import isfinite
 
 import numpy as np
 
 from planmethod.construct.steps import Name
+from planmethod.note.compared import ComparedNumber, percent_text
 from planmethod.note.document import Chapter, Equations, Node, Part, Table, table_of_columns
 from planmethod.note.formula import Rich, fraction
 from planmethod.note.narrate.forces.bearings import bearing_text, undetermined
@@ -15,8 +17,7 @@ from planmethod.note.narrate.forces.common import ForceContext, balance_equation
 from planmethod.note.narrate.forces.lever import (
     LeverNarrator,
     both_balances,
-    difference,
-    expected,
+    compared_balances,
 )
 from planmethod.note.narrate.forces.loads import LoadNarrator
 from planmethod.note.narrate.forces.moments import MomentNarrator, MomentText
@@ -289,16 +290,15 @@ class ForceChapter:
             exact = abs(complex(joint.force[0]))
             exact = 0.0 if exact <= VANISHING * largest else exact
             read = float(drawn.read(size_label(joint))[0])
-            off = report.say.number(f"{100.0 * abs(read - exact) / exact:.2f}") if exact else "—"
-            sigma = float(drawn.spreads[size_label(joint)].sigma[0])
+            one = ComparedNumber(exact, read, float(drawn.spreads[size_label(joint)].sigma[0]))
             rows.append(
                 (
                     mark(joint.joint),
                     report.reaction(joint),
                     self.find(read),
                     self.find(exact),
-                    off,
-                    report.say.number(sigma_text(sigma)),
+                    report.say.number(one.percent_text(2)),
+                    report.say.number(sigma_text(one.sigma)),
                 )
             )
         yield Part(said.table_part.format())
@@ -374,7 +374,8 @@ class ForceChapter:
         plans, lever = both_balances(reading)
         assert lever is not None
         symbol, unit = voice.balancing, voice.unit
-        share, sigma = difference(reading), expected(reading)
+        both = compared_balances(reading.statics, reading.index)
+        assert both is not None
         yield sentences(
             said.lever_found.format(
                 symbol=symbol,
@@ -382,15 +383,15 @@ class ForceChapter:
                 lever=f"{self.find(abs(lever))} {unit}",
             )
         )
-        if share is not None:
+        if both.percent is not None:
             one, two = self.find(abs(lever)), self.find(abs(plans))
             share_of = fraction(f"|{one} − {two}|", two)
-            sides = f"{share_of}·100 % = {say.number(f'{share:.1f}')} %"
+            sides = f"{share_of}·100 % = {say.number(percent_text(both.share))} %"
             yield displayed(f"Δ = {sides}.")
-        if sigma is not None:
-            told = f"{say.number(sigma_text(sigma))} {unit}"
-            if plans:
-                part = say.number(f"{100.0 * sigma / abs(plans):.1f}")
+        if isfinite(both.sigma):
+            told = f"{say.number(sigma_text(both.sigma))} {unit}"
+            if both.expected is not None:
+                part = say.number(percent_text(both.expected))
                 yield sentences(said.lever_expected.format(sigma=told, share=part))
             else:
                 yield sentences(said.lever_expected_alone.format(sigma=told))

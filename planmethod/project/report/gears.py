@@ -31,6 +31,7 @@ from planmethod.gears.text import (
     fraction_text,
 )
 from planmethod.gears.told import given, indexed, ratios, results
+from planmethod.note.compared import ComparedNumber
 from planmethod.note.document import Chapter, Node, Part, Table
 from planmethod.note.formula import Rich, fraction
 from planmethod.note.narrate.structure import pair_classes
@@ -245,7 +246,7 @@ def _pictures(
     )
     if drawn is not None and seen is not None:
         offs = [
-            100.0 * abs(float(seen.read.value[one.read]) / float(one.exact) - 1.0)
+            ComparedNumber(float(one.exact), float(seen.read.value[one.read])).share
             for one in drawn.found
             if one.exact
         ]

@@ -5,20 +5,19 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 
 import numpy as np
-from msgspec import Struct
 
+from planmethod.note.compared import ComparedNumber, percent_text
 from planmethod.note.document import Node, Part, Table, table_of_columns
 from planmethod.note.formula import Rich
 from planmethod.note.narrate.given import told
-from planmethod.note.numbers import alike, significant
+from planmethod.note.numbers import alike
 from planmethod.note.rounding import sigma_text
 from planmethod.note.tables.results import lead_columns
-from planmethod.note.tables.sigmas import marked
+from planmethod.note.tables.series import motion_series
 from planmethod.note.wording import Words
 from planmethod.plans.legend import MOTION_KINDS, Quantity, QuantityKind, kinds_on
 from planmethod.plans.model import PlanKind
 from planmethod.project.report.context import Report, sentences
-from planmethod.solved.errors.motion import drafting_of
 from planmethod.solved.solution import Solution
 
 MANY_SIGMAS = 3.0
@@ -28,49 +27,24 @@ FAINT = 1e-6
 """Share of the largest of its kind below which a quantity is nothing."""
 
 
-class PlannedValue(Struct, frozen=True):
-    """A quantity by the plan and exactly, SI (сравнение)."""
-
-    quantity: Quantity
-    read: float
-    exact: float
-    sigma: float
-
-    @property
-    def off(self) -> float:
-        """Difference of the plan."""
-        return self.read - self.exact
-
-    @property
-    def percent(self) -> float:
-        """The same, per cent of the exact value."""
-        return 100.0 * abs(self.off / self.exact) if self.exact else 0.0
-
-    @property
-    def sigmas(self) -> float:
-        """The same, in sigmas."""
-        return abs(self.off) / self.sigma if self.sigma else 0.0
-
-
-def compared(solution: Solution, index: int, *kinds: QuantityKind) -> list[PlannedValue]:
+def compared(
+    solution: Solution, index: int, *kinds: QuantityKind
+) -> list[tuple[Quantity, ComparedNumber]]:
     """Return the quantities of some kinds in a position; those that are something."""
-    errors, found = drafting_of(solution), []
-    for quantity in told(solution, *kinds):
-        exact = float(solution.exact(quantity)[index])
-        read = float(solution.read_off(quantity.label)[index])
-        sigma, _ = marked(errors, quantity.label, index)
-        found.append(PlannedValue(quantity, read, exact, sigma))
-    sizes = {kind: [abs(c.exact) for c in found if c.quantity.kind is kind] for kind in kinds}
+    every = [(one.quantity, one.compared(index)) for one in motion_series(solution, *kinds)]
+    peaks = {kind: [abs(one.exact) for of, one in every if of.kind is kind] for kind in kinds}
     return [
-        c
-        for c in found
-        if np.isfinite(c.read) and abs(c.exact) > FAINT * max(sizes[c.quantity.kind])
+        (of, one)
+        for of, one in every
+        if np.isfinite(one.read) and abs(one.exact) > FAINT * max(peaks[of.kind])
     ]
 
 
-def worst(found: Sequence[PlannedValue]) -> PlannedValue | None:
+def worst(
+    found: Sequence[tuple[Quantity, ComparedNumber]],
+) -> tuple[Quantity, ComparedNumber] | None:
     """Return the quantity whose difference is the largest share of it."""
-    return max(found, key=lambda one: one.percent, default=None)
+    return max(found, key=lambda pair: pair[1].share, default=None)
 
 
 def results_parts(report: Report) -> Iterator[Node]:
@@ -107,14 +81,14 @@ def _compared(report: Report, said: Words) -> Iterator[Node]:
     yield sentences(said.intro_compared.format(position=report.of_position))
     rows = [
         (
-            f"{one.quantity.symbol}, {report.unit(one.quantity.kind.unit)}",
+            f"{of.symbol}, {report.unit(of.kind.unit)}",
             say.found(one.read),
             say.found(one.exact),
-            say.number(significant(one.off, 2)),
-            say.number(f"{one.percent:.2f}"),
+            say.number(one.off_text),
+            say.number(one.percent_text(2)),
             say.number(sigma_text(one.sigma)),
         )
-        for one in found
+        for of, one in found
         if one.sigma  # what is given has no error
     ]
     yield Table(
@@ -123,42 +97,42 @@ def _compared(report: Report, said: Words) -> Iterator[Node]:
         name=said.compared_table.format(position=report.in_position),
         key="compared",
     )
-    beyond = [one.quantity.symbol for one in found if one.sigmas > MANY_SIGMAS]
+    beyond = [of.symbol for of, one in found if one.sigmas > MANY_SIGMAS]
     most = worst(found)
     yield sentences(
         said.beyond.format(symbols=", ".join(beyond))
         if beyond
-        else said.within.format(most=say.number(f"{max(one.sigmas for one in found) + 0.05:.1f}")),
+        else said.within.format(
+            most=say.number(f"{max(one.sigmas for _, one in found) + 0.05:.1f}")
+        ),
         ""
         if most is None
         else said.largest.format(
-            symbol=most.quantity.symbol, percent=say.number(f"{most.percent:.1f}")
+            symbol=most[0].symbol, percent=say.number(percent_text(most[1].share))
         ),
     )
 
 
 def _largest(report: Report, said: Words) -> Iterator[Node]:
     """Yield the largest difference of each quantity in all positions."""
-    every, say = report.every, report.say
-    errors, rows = drafting_of(every), []
-    for quantity in told(every, *MOTION_KINDS):
-        exact, read = every.exact(quantity), every.read_off(quantity.label)
-        off = np.abs(read - exact)
-        peak = float(np.nanmax(np.abs(exact)))
+    every, say, rows = report.every, report.say, []
+    for series in motion_series(every, *MOTION_KINDS):
+        quantity, off = series.quantity, np.abs(series.reads() - series.exact)
+        peak = float(np.nanmax(np.abs(series.exact)))
         if not np.isfinite(off).any() or peak == 0.0:
             continue
         k = int(np.nanargmax(off))
-        sigma, _ = marked(errors, quantity.label, k)
-        if not sigma:
+        one = series.compared(k)
+        if not one.sigma:
             continue  # given, not read
         rows.append(
             (
                 f"{quantity.symbol}, {report.unit(quantity.kind.unit)}",
                 say.found(peak),
-                say.number(alike([float(off[k])], 2)[0]),
-                say.number(f"{100.0 * off[k] / peak:.2f}"),
+                say.number(alike([abs(one.off)], 2)[0]),
+                say.number(percent_text(100.0 * abs(one.off) / peak, 2)),
                 str(k),
-                say.number(sigma_text(sigma)),
+                say.number(sigma_text(one.sigma)),
             )
         )
     yield sentences(said.all_intro.format())

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from planmethod.note.compared import ComparedNumber, sense_of
 from planmethod.note.narrate.given import NBSP
 from planmethod.note.narrate.scales import scale_inscription
 from planmethod.note.numbers import Notation, alike, half_up
@@ -94,8 +95,7 @@ def _balance_columns(
         cells = []
         for text in texts:
             size = text.removeprefix("-") if sense else text
-            turning = 0 if not abs(float(text)) > 0 else (-1 if text.startswith("-") else 1)
-            cells.append(TableCell(say.number(size), turning if sense else None))
+            cells.append(TableCell(say.number(size), sense_of(float(text)) if sense else None))
         return TableColumn(head, tuple(cells), unit=unit)
 
     def chosen(values: Reals) -> list[float]:
@@ -107,21 +107,22 @@ def _balance_columns(
         return columns
     both = alike([*chosen(balances.plans), *chosen(balances.lever)])
     plans, lever = both[: len(indices)], both[len(indices) :]
-    apart = [float(two) - float(one) for one, two in zip(plans, lever, strict=True)]
-    differences = [_apart(one, two) for one, two in zip(plans, lever, strict=True)]
+    pairs = list(zip(plans, lever, strict=True))
+    differences = [_apart(one, two, sense=balancing.turns) for one, two in pairs]
     columns.append(column(said.cycle_plans, plans, sense=balancing.turns))
     columns.append(column(said.cycle_lever, lever, sense=balancing.turns))
     columns.append(column("Δ", differences, sense=False))
-    shares = [
-        f"{round(100.0 * off / abs(float(one)), 1) + 0.0:.1f}" if float(one) else "—"
-        for off, one in zip(apart, plans, strict=True)
-    ]
+    shares = [ComparedNumber(float(one), float(two)).percent_text() for one, two in pairs]
     columns.append(TableColumn("Δ", tuple(map(say.number, shares)), unit="%"))
     columns.append(column("σ_{Δ}", alike(chosen(sigma), 2), sense=False))
     return columns
 
 
-def _apart(one: str, two: str) -> str:
-    """Return a second number less the first, with the decimals that both of them have."""
+def _apart(one: str, two: str, *, sense: bool) -> str:
+    """Return a second number less the first, with the decimals that both of them have.
+
+    Where a sense stands beside their sizes, it is the difference of these.
+    """
     decimals = min(len(text.partition(".")[2]) for text in (one, two) if float(text) or one == two)
-    return f"{half_up(float(two) - float(one), decimals) + 0.0:.{decimals}f}"
+    both = ComparedNumber(float(one), float(two))
+    return f"{half_up(both.size_off if sense else both.off, decimals) + 0.0:.{decimals}f}"

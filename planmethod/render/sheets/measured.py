@@ -9,20 +9,25 @@ all positions, as the velocity of the crank's pin, stands under the table.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from math import inf
 
 from msgspec.structs import replace
 
 from planmethod.construct.steps import Measure, MeasureAlong, Name, operands
-from planmethod.note.narrate.given import told
-from planmethod.note.numbers import alike, is_noise
+from planmethod.note.compared import MOST_OFF
+from planmethod.note.tables.series import Series, motion_series
+from planmethod.note.wording import Language
 from planmethod.plans.legend import MOTION_KINDS, Quantity
 from planmethod.render.frame.frame import STAMP_WIDTH
 from planmethod.render.layout.block import Block, Column, Shapes, paragraph
 from planmethod.render.layout.tables import TableCell, TableColumn, table_block
 from planmethod.render.sheets.model import Manner
-from planmethod.render.sheets.results import MOST_OFF, position_columns, results_block, table_width
-from planmethod.solved.reading import Reals, remembered
+from planmethod.render.sheets.results import (
+    position_columns,
+    results_block,
+    table_width,
+    value_column,
+)
+from planmethod.solved.reading import remembered
 from planmethod.solved.room import FEW
 from planmethod.solved.solution import Solution
 
@@ -45,18 +50,15 @@ def measured_table(solution: Solution, indices: Sequence[int], manner: Manner) -
         return results_block(solution, indices, manner)
     words = manner.words
     columns, known = position_columns(solution, indices, words), list[str]()
-    for quantity, symbols in _once(told(solution, *MOTION_KINDS)):
-        exact, symbol = solution.exact(quantity), " = ".join(symbols)
-        column = _column(quantity, symbol, exact, exact, indices, manner)
-        if _is_measured(solution, quantity):
-            read = solution.read_off(quantity.label)
-            symbol = words.sheets.read_symbol.format(symbol=symbols[0])
-            measured = _column(quantity, symbol, read, exact, indices, manner)
-            columns += [column, replace(measured, joined=True), _off(read, exact, indices, manner)]
+    for series, symbols in _once(motion_series(solution, *MOTION_KINDS)):
+        column = value_column(series, indices, words.say, sigma=False, alone=False)
+        column = replace(column, head=" = ".join(symbols))
+        if _is_measured(solution, series.quantity):
+            columns += [column, *_measured(series, column, indices, words)]
         elif len(set(column.cells)) > 1:
             columns.append(column)
         else:
-            known.append(f"{symbol} = {_signed(column.cells[0])} {column.unit}")
+            known.append(f"{column.head} = {_signed(column.cells[0])} {column.unit}")
     height = manner.text(min(manner.sizes.text, 3.5))
     title = manner.entry.title or words.sheets.measured
     said = title.format(ruler=words.say.given(solution.profile.ruler))
@@ -102,47 +104,34 @@ def _signed(cell: TableCell) -> str:
     return f"−{cell.text}" if (cell.sense or 0) < 0 else cell.text
 
 
-def _once(quantities: Sequence[Quantity]) -> list[tuple[Quantity, list[str]]]:
+def _once(every: Sequence[Series]) -> list[tuple[Series, list[str]]]:
     """Return quantities with their symbols, those that one number stands for together."""
-    found: dict[tuple[object, ...], tuple[Quantity, list[str]]] = {}
-    for quantity in quantities:
-        found.setdefault((quantity.kind, quantity.size), (quantity, []))[1].append(quantity.symbol)
+    found: dict[tuple[object, ...], tuple[Series, list[str]]] = {}
+    for one in every:
+        of = one.quantity
+        found.setdefault((of.kind, of.size), (one, []))[1].append(of.symbol)
     return list(found.values())
 
 
-def _off(read: Reals, exact: Reals, indices: Sequence[int], manner: Manner) -> TableColumn:
-    """Return how far off what is measured is, %; "—" where there is nothing to be off from."""
-    peak, cells = max(abs(float(value)) for value in exact), []
-    for i in indices:
-        nothing = is_noise(float(exact[i]), peak)
-        off = inf if nothing else 100.0 * float(read[i] - exact[i]) / abs(float(exact[i]))
-        shown = f"{round(off, 1) + 0.0:.1f}" if abs(off) < MOST_OFF else "—"
-        cells.append(manner.words.say.number(shown))
-    return TableColumn("Δ", tuple(cells), unit="%", least=9.0, joined=True)
-
-
-def _column(
-    quantity: Quantity,
-    symbol: str,
-    values: Reals,
-    exact: Reals,
-    indices: Sequence[int],
-    manner: Manner,
-) -> TableColumn:
-    """Return the values of a quantity with as many decimals as its exact ones have.
+def _measured(
+    series: Series, exact: TableColumn, indices: Sequence[int], words: Language
+) -> list[TableColumn]:
+    """Return what is measured and how far off that is, %; "—" where there is nothing to be off of.
 
     Of what is measured no zeros stand that all of them end with: the ruler has no such digits.
     """
-    say, peak = manner.words.say, max(abs(float(value)) for value in exact)
-    shown = [float(values[i]) for i in indices]
-    shown = [0.0 if is_noise(value, peak) else value for value in shown]
-    turns, texts = quantity.kind.is_number, alike([abs(value) for value in shown])
-    texts = texts if values is exact else _without_zeros(texts)
-    cells = tuple(
-        TableCell(say.number(text), ((value > 0) - (value < 0)) if turns else None)
-        for text, value in zip(texts, shown, strict=True)
+    say, values = words.say, series.shown(series.reads(), indices)
+    texts = _without_zeros(series.texts(values))
+    read = tuple(
+        TableCell(say.number(text), series.sense(value))
+        for text, value in zip(texts, values, strict=True)
     )
-    return TableColumn(symbol, cells, unit=say.units[quantity.kind.unit])
+    off = tuple(say.number(series.measured(i).percent_text(most=MOST_OFF)) for i in indices)
+    head = words.sheets.read_symbol.format(symbol=series.quantity.symbol)
+    return [
+        TableColumn(head, read, unit=exact.unit, joined=True),
+        TableColumn("Δ", off, unit="%", least=9.0, joined=True),
+    ]
 
 
 def _without_zeros(texts: Sequence[str]) -> list[str]:

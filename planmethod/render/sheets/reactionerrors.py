@@ -4,15 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from planmethod.note.compared import NONE, marked
+from planmethod.note.narrate.forces.lever import compared_balances
 from planmethod.note.numbers import Notation
 from planmethod.note.rounding import as_long, rounded_to, sigma_text
-from planmethod.note.tables.sigmas import marked
 from planmethod.note.wording import Language
 from planmethod.render.layout.tables import TableCell, TableColumn
 from planmethod.render.sheets.guides import guided_at, is_couple
 from planmethod.solved.errors.forces import (
     BALANCE,
-    DIFFERENCE,
     LEVER,
     angle_label,
     drawn_forces,
@@ -21,13 +21,11 @@ from planmethod.solved.errors.forces import (
 )
 from planmethod.solved.forces.reading import ForceReading
 
-NO_ERROR = "—"
-
 
 def sigma_cell(reading: ForceReading, label: str | None, say: Notation) -> str:
     """Return the error of a quantity in the position, with its mark; a dash of none."""
     if label is None or label not in drawn_forces(reading.statics).items:
-        return NO_ERROR
+        return NONE
     sigma, mark = marked(drawn_forces(reading.statics), label, reading.index)
     return say.number(sigma_text(sigma)) + mark
 
@@ -93,14 +91,13 @@ def balance_columns(
     say = words.say
     exact, plans, lever, share = columns
     found = [_with_error(reading, *pair, say) for pair in ((plans, BALANCE), (lever, LEVER))]
-    off = NO_ERROR
-    if share.cells[0].text != NO_ERROR:
-        sigma, mark = marked(drawn_forces(reading.statics), DIFFERENCE, reading.index)
-        part = 100.0 * sigma / abs(read_value(reading, BALANCE))
-        off = say.number(sigma_text(part)) + mark
+    both = compared_balances(reading.statics, reading.index)
+    off = NONE
+    if both is not None and both.percent is not None and both.expected is not None:
+        off = say.number(sigma_text(both.expected)) + both.mark
     return [
         TableColumn("", (words.sheets.value, "±σ")),
-        TableColumn(exact.head, (exact.cells[0], _like(exact, NO_ERROR))),
+        TableColumn(exact.head, (exact.cells[0], _like(exact, NONE))),
         *found,
         TableColumn(share.head, (share.cells[0], off)),
     ]

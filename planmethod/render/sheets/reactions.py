@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from planmethod.note.narrate.forces.lever import both_balances, difference
+from planmethod.note.compared import NONE, sense_of
+from planmethod.note.narrate.forces.lever import both_balances, compared_balances
 from planmethod.note.narrate.given import point_name
 from planmethod.note.numbers import alike
 from planmethod.note.wording import Language
@@ -80,21 +81,18 @@ def _balances(reading: ForceReading, words: Language) -> list[TableColumn]:
     unit = say.units[reading.balancing.unit]
     exact = float(reading.statics.balance[reading.index])
     plans, lever = both_balances(reading)
-    share = difference(reading)
-    sense = reading.balancing.turns
+    both = compared_balances(reading.statics, reading.index)
+    share = NONE if both is None else say.number(both.percent_text())
+    turns = reading.balancing.turns
 
     def cell(value: float | None) -> TableCell:
         if value is None:
-            return TableCell("—")
-        return TableCell(
-            say.found(abs(value)), (1 if value > 0 else -1) if sense and value else None
-        )
+            return TableCell(NONE)
+        return TableCell(say.found(abs(value)), sense_of(value) if turns and value else None)
 
     return [
         TableColumn(f"{symbol}, {unit}", (cell(exact),)),
         TableColumn(said.by_plans, (cell(plans),)),
         TableColumn(said.by_lever, (cell(lever),)),
-        TableColumn(
-            said.difference, (TableCell("—" if share is None else say.number(f"{share:.1f}")),)
-        ),
+        TableColumn(said.difference, (TableCell(share),)),
     ]

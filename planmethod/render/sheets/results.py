@@ -7,22 +7,18 @@ from math import inf
 
 import numpy as np
 
-from planmethod.note.narrate.given import solution_peak, told
-from planmethod.note.numbers import Notation, alike, is_noise, to_decimals
+from planmethod.note.compared import DRAWN, MOST_OFF
+from planmethod.note.numbers import Notation, to_decimals
 from planmethod.note.rounding import as_long, rounded_to, sigma_text
-from planmethod.note.tables.sigmas import DRAWN, marked
+from planmethod.note.tables.series import Series, motion_series
 from planmethod.note.wording import Language
-from planmethod.plans.legend import MOTION_KINDS, Quantity
+from planmethod.plans.legend import MOTION_KINDS
 from planmethod.render.frame.frame import STAMP_WIDTH
 from planmethod.render.layout.block import Block, Column, paragraph
 from planmethod.render.layout.pack import EDGE
 from planmethod.render.layout.tables import TableCell, TableColumn, table_block
 from planmethod.render.sheets.model import Manner
-from planmethod.solved.errors.motion import drafting_of
 from planmethod.solved.solution import Solution
-
-MOST_OFF = 100.0
-"""A reading that is further off than so many per cent is none: the segment is too short."""
 
 
 def position_text(solution: Solution, index: int, say: Notation) -> str:
@@ -40,40 +36,52 @@ def position_text(solution: Solution, index: int, say: Notation) -> str:
     return say.turned(value)
 
 
-def _sense(value: float) -> int:
-    return (value > 0) - (value < 0)
+def value_column(
+    series: Series, indices: Sequence[int], say: Notation, *, sigma: bool, alone: bool
+) -> TableColumn:
+    """Return the exact values of a quantity, their senses beside them, by positions.
+
+    With ``sigma`` they have their errors beside them, and a single position (``alone``) has rows
+    for what was read, for how far off that is, and for its error.
+    """
+    values, cells = series.shown(series.exact, indices), list[TableCell]()
+    texts = series.texts(values)
+    for i, text, value in zip(indices, texts, values, strict=True):
+        error, mark = series.error(i) if sigma else (0.0, "")
+        written = say.number(as_long(text, abs(value), error))
+        if error and not alone:
+            written += f" ± {say.number(sigma_text(error))}{mark}"
+        cells.append(TableCell(written, series.sense(value)))
+    if sigma and alone:
+        cells += _read_cells(series, indices[0], texts[0], say)
+    unit = series.quantity.kind.unit
+    return TableColumn(
+        series.quantity.symbol, tuple(cells), unit="" if unit == "1" else say.units[unit]
+    )
 
 
-def _sigma_rows(
-    solution: Solution, quantity: Quantity, index: int, say: Notation, like: str
-) -> tuple[TableCell, ...]:
+def _read_cells(series: Series, index: int, like: str, say: Notation) -> list[TableCell]:
     """Return what was read on the plans, how far off, and the error.
 
     What was read has as many decimals as the exact value, ``like``, but where that is nothing; no
     zeros at its end are finer than the error.
     """
-    read = float(solution.read_off(quantity.label)[index])
-    sigma, mark = marked(drafting_of(solution), quantity.label, index)
-    turns = quantity.kind.is_number
-    exact = float(solution.exact(quantity)[index])
-    off = 100.0 * (read - exact) / exact if abs(exact) > sigma else inf
-    decimals = len(like.partition(".")[2])
-    text = (
-        to_decimals(abs(read), decimals)
-        if like != "0" and "e" not in like
-        else rounded_to(abs(read), sigma)
-    )
-    fine = len(sigma_text(sigma).partition(".")[2])
-    while text.endswith("0") and len(text.partition(".")[2]) > fine:
+    room = 0 if series.turns else None  # for the sign that others of the column have
+    one = series.compared(index, lost=True)
+    size = one.read if series.signed else abs(one.read)
+    as_exact = like != "0" and "e" not in like
+    text = to_decimals(size, _decimals(like)) if as_exact else rounded_to(size, one.sigma)
+    while text.endswith("0") and _decimals(text) > _decimals(sigma_text(one.sigma)):
         text = text[:-1].removesuffix(".")
-    return (
-        TableCell(say.number(text), _sense(read) if turns else None),
-        TableCell(
-            say.number(f"{round(off, 1) + 0.0:.1f}") if abs(off) < MOST_OFF else "—",
-            0 if turns else None,
-        ),
-        TableCell(say.number(sigma_text(sigma)) + mark, 0 if turns else None),
-    )
+    return [
+        TableCell(say.number(text), series.sense(one.read)),
+        TableCell(say.number(one.percent_text(most=MOST_OFF)), room),
+        TableCell(say.number(one.sigma_text), room),
+    ]
+
+
+def _decimals(text: str) -> int:
+    return len(text.partition(".")[2])
 
 
 def result_columns(
@@ -90,32 +98,25 @@ def result_columns(
     With ``sigma`` a single position has rows for what was read and for its error, and the values
     of many have their errors beside them.
     """
-    alone, said, say = len(solution.positions) == 1, words.sheets, words.say
-
-    def column(quantity: Quantity) -> TableColumn:
-        numbers, peak = solution.exact(quantity), solution_peak(solution, quantity.kind)
-        shown = [float(numbers[i]) for i in indices]
-        shown = [0.0 if is_noise(value, peak) else value for value in shown]
-        texts = alike([abs(value) for value in shown])
-        turns = quantity.kind.is_number
-        errors = [(0.0, "") for _ in shown]
-        if sigma:
-            errors = [marked(drafting_of(solution), quantity.label, i) for i in indices]
-        cells = []
-        for text, value, (error, mark) in zip(texts, shown, errors, strict=True):
-            written = say.number(as_long(text, abs(value), error))
-            if error and not alone:
-                written += f" ± {say.number(sigma_text(error))}{mark}"
-            cells.append(TableCell(written, _sense(value) if turns else None))
-        if sigma and alone:
-            cells += _sigma_rows(solution, quantity, indices[0], say, texts[0])
-        return TableColumn(quantity.symbol, tuple(cells), unit=say.units[quantity.kind.unit])
-
     shown = [kind for kind in MOTION_KINDS if not kinds or kind.sign in kinds]
-    columns = [column(quantity) for quantity in told(solution, *shown)]
-    if sigma and alone:
-        columns.insert(0, TableColumn("", (said.exact, said.read, "Δ, %", "±σ")))
-    return columns if alone else [*position_columns(solution, indices, words), *columns]
+    return columns_of(motion_series(solution, *shown), solution, indices, words, sigma=sigma)
+
+
+def columns_of(
+    every: Sequence[Series],
+    solution: Solution,
+    indices: Sequence[int],
+    words: Language,
+    *,
+    sigma: bool,
+) -> list[TableColumn]:
+    """Return the columns of quantities, those of the positions before them."""
+    alone, said = len(solution.positions) == 1, words.sheets
+    columns = [value_column(one, indices, words.say, sigma=sigma, alone=alone) for one in every]
+    if not alone:
+        return [*position_columns(solution, indices, words), *columns]
+    rows = (said.exact, said.read, "Δ, %", "±σ")
+    return [TableColumn("", rows), *columns] if sigma else columns
 
 
 def position_columns(

@@ -4,26 +4,20 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-import numpy as np
-
 from planmethod.note.document import Caption, Formula
 from planmethod.note.narrate.formulas import Formulas
 from planmethod.note.narrate.naming import Names
 from planmethod.note.narrate.transfers import TransferNarrator
-from planmethod.note.numbers import alike, is_noise, to_decimals
-from planmethod.note.rounding import sigma_text
-from planmethod.note.tables.sigmas import marked
-from planmethod.plans.legend import Quantity
+from planmethod.note.tables.series import transfer_series
 from planmethod.plans.model import PlanKind
 from planmethod.render.layout.block import Block, Column, Row, Shapes, paragraph
 from planmethod.render.layout.nodes import blocks_of
-from planmethod.render.layout.tables import TableColumn, table_block
+from planmethod.render.layout.tables import table_block
 from planmethod.render.sheets.model import Manner
-from planmethod.render.sheets.results import MOST_OFF, position_columns, table_width, with_note
+from planmethod.render.sheets.results import columns_of, table_width, with_note
 from planmethod.render.sheets.views import shown_position
-from planmethod.solved.errors.motion import drafting_of
 from planmethod.solved.solution import Solution
-from planmethod.solved.transfers import Transfers, transfers_of
+from planmethod.solved.transfers import transfers_of
 
 
 def formulas_block(solution: Solution, indices: Sequence[int], manner: Manner) -> Block:
@@ -55,45 +49,16 @@ def transfer_table(solution: Solution, indices: Sequence[int], manner: Manner) -
     transfers, words = transfers_of(solution), manner.words
     if transfers is None:
         return Column([])
-    alone = len(solution.positions) == 1
-    columns = [
-        _column(transfers, one, indices, manner, alone=alone) for one in transfers.quantities
-    ]
-    said, height = words.sheets, manner.text(min(manner.sizes.text, 3.5))
-    lead = position_columns(solution, indices, words)
-    if alone:
-        lead = [TableColumn("", (said.exact, said.read, "Δ, %", "±σ"))]
+    alone, said = len(solution.positions) == 1, words.sheets
+    columns = columns_of(transfer_series(transfers), solution, indices, words, sigma=alone)
+    height = manner.text(min(manner.sizes.text, 3.5))
     table = table_block(
-        [*lead, *columns],
+        columns,
         height,
         max_width=table_width(manner),
-        leading=len(lead),
+        leading=1 if alone else 2,
         title=manner.entry.title or said.transfer_table,
     )
     if not alone:
         return table
     return with_note(table, columns, height, solution.profile.name, words)
-
-
-def _column(
-    transfers: Transfers, quantity: Quantity, indices: Sequence[int], manner: Manner, *, alone: bool
-) -> TableColumn:
-    """Return the values of a transfer function, ratios with their sign."""
-    say, every = manner.words.say, transfers.exact(quantity)
-    peak = float(np.max(np.abs(every), initial=0.0))
-    exact = [0.0 if is_noise(float(every[i]), peak) else float(every[i]) for i in indices]
-    cells = texts = alike(exact)
-    if alone:
-        index, value = indices[0], exact[0]
-        read = float(transfers.read_off(quantity)[index])
-        sigma, mark = marked(drafting_of(transfers.solution), quantity.label, index)
-        off = 100.0 * (read - value) / value if abs(value) > sigma else np.inf
-        decimals = len(texts[0].partition(".")[2])
-        cells = [
-            texts[0],
-            to_decimals(read, decimals),
-            f"{round(off, 1) + 0.0:.1f}" if abs(off) < MOST_OFF else "—",
-            sigma_text(sigma) + mark,
-        ]
-    unit = "" if quantity.kind.unit == "1" else say.units[quantity.kind.unit]
-    return TableColumn(quantity.symbol, tuple(map(say.number, cells)), unit=unit)

@@ -5,7 +5,6 @@ The errors of position and acceleration plans go on into the force plans: it is 
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Iterator
 from functools import cached_property, partial
 
@@ -59,12 +58,6 @@ class Balances(Struct, frozen=True):
 
     plans: Reals
     lever: Reals
-
-    def share(self, index: int) -> float | None:
-        """Return how far the lever is from the force plans, per cent; None of 0 or of nothing."""
-        plans, lever = float(self.plans[index]), float(self.lever[index])
-        share = 100.0 * abs(lever - plans) / abs(plans) if plans else math.nan
-        return share if math.isfinite(share) else None
 
 
 class DrawnForces(Errors):

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from math import isfinite
 
-import numpy as np
 from msgspec import Struct
 
+from planmethod.note.compared import ComparedNumber, marked, percent_text
 from planmethod.note.formula import fraction
 from planmethod.note.narrate.forces.common import ForceContext, arm_symbol, signed_sum
 from planmethod.note.narrate.forces.resultants import force_symbol
@@ -14,9 +15,10 @@ from planmethod.note.narrate.scales import scale_inscription
 from planmethod.note.numbers import significant
 from planmethod.note.rounding import sigma_text
 from planmethod.plans.model import PlanKind
-from planmethod.solved.errors.forces import drawn_forces
+from planmethod.solved.errors.forces import DIFFERENCE, drawn_forces
 from planmethod.solved.forces.lever import LeverCouple, LeverReading, LeverShift, OnLink
 from planmethod.solved.forces.reading import ForceReading
+from planmethod.solved.forces.statics import Statics
 
 
 class PairText(Struct, frozen=True):
@@ -40,18 +42,17 @@ def both_balances(reading: ForceReading) -> tuple[float, float | None]:
     return plans, None if hung is None else reading.read_number(hung.balance)
 
 
-def difference(reading: ForceReading) -> float | None:
-    """Return how far the lever is from the force plans, per cent; None where there is neither."""
-    balances = drawn_forces(reading.statics).balances
-    return None if balances is None else balances.share(reading.index)
+def compared_balances(statics: Statics, index: int) -> ComparedNumber | None:
+    """Return what the lever gives beside what the force plans give; None where the driver stands.
 
-
-def expected(reading: ForceReading) -> float | None:
-    """Return one sigma of lever minus force plans; None where a drawing cannot tell it."""
-    sigma = drawn_forces(reading.statics).discrepancy_sigma
-    if sigma is None or not np.isfinite(sigma[reading.index]):
+    Sigma is that of their difference; not finite where a drawing cannot tell it.
+    """
+    drawn = drawn_forces(statics)
+    if drawn.balances is None:
         return None
-    return float(sigma[reading.index])
+    plans, lever = float(drawn.balances.plans[index]), float(drawn.balances.lever[index])
+    sigma, mark = marked(drawn, DIFFERENCE, index)
+    return ComparedNumber(plans, lever, sigma, mark)
 
 
 class LeverNarrator:
@@ -130,11 +131,11 @@ class LeverNarrator:
         lines += [text.replace("; ", ";  ") for text in self.segments()]
         lines += [self.shift(one) for one in self.lever.shifts]
         lines.append(said.lever_found.format(symbol=self.balancing, **self._both()))
-        share, sigma = difference(self.reading), expected(self.reading)
-        if share is not None:
-            lines.append(said.lever_difference.format(share=number(f"{share:.1f}")))
-            if sigma is not None:
-                off = f"{number(sigma_text(sigma))} {self.unit}"
+        one = compared_balances(self.reading.statics, self.reading.index)
+        if one is not None and one.percent is not None:
+            lines.append(said.lever_difference.format(share=number(percent_text(one.share))))
+            if isfinite(one.sigma):
+                off = f"{number(sigma_text(one.sigma))} {self.unit}"
                 lines.append(said.lever_expected.format(sigma=off))
         return lines
 
@@ -271,25 +272,23 @@ class LeverNarrator:
 
     def _compared(self) -> list[str]:
         """Tell how far lever and force plans are apart, and what a drawing lets expect."""
-        plans, value = both_balances(self.reading)
-        assert value is not None
-        share, sigma, number = (
-            difference(self.reading),
-            expected(self.reading),
+        one, number = (
+            compared_balances(self.reading.statics, self.reading.index),
             self.notation.number,
         )
-        decimals = len(significant(plans).partition(".")[2])  # of what it is the difference
+        assert one is not None
+        decimals = len(significant(one.exact).partition(".")[2])  # of what it is the difference
         lines = [
             self.said.compared.format(
                 symbol=self.balancing,
                 **self._both(),
-                difference=number(f"{abs(value - plans):.{decimals}f}"),
+                difference=number(f"{abs(one.off):.{decimals}f}"),
                 unit=self.unit,
-                share="" if share is None else f" ({number(f'{share:.1f}')} %)",
+                share="" if one.percent is None else f" ({number(percent_text(one.share))} %)",
             )
         ]
-        if sigma is not None:
-            part = f" ({number(f'{100.0 * sigma / abs(plans):.1f}')} %)" if plans else ""
-            off = number(sigma_text(sigma))
+        if isfinite(one.sigma):
+            part = "" if one.expected is None else f" ({number(percent_text(one.expected))} %)"
+            off = number(sigma_text(one.sigma))
             lines.append(self.said.expected.format(sigma=off, unit=self.unit, share=part))
         return lines

@@ -1,0 +1,136 @@
+"""A number that a drawing gives, beside the exact one: how far off it is, and how that is written.
+
+Every table and sentence that sets one number beside another is made of this (сравнение).
+"""
+
+from __future__ import annotations
+
+from math import inf, isfinite
+from typing import TYPE_CHECKING
+
+from msgspec import Struct
+
+from planmethod.note.numbers import significant
+from planmethod.note.rounding import rounded_to, sigma_text
+
+if TYPE_CHECKING:
+    from planmethod.solved.errors.spread import Errors
+
+NONE = "—"
+"""What stands in the place of a number that is none."""
+
+MOST_OFF = 100.0
+"""A reading that is further off than so many per cent is none: the segment is too short."""
+
+
+DRAWN = "*"
+"""Mark of a sigma that was found by random draws, first order failing there."""
+
+
+def marked(errors: Errors, label: str, index: int) -> tuple[float, str]:
+    """Return a quantity's sigma in one position and its mark, `DRAWN` or nothing.
+
+    What the drawing does not give, as the ω of a link that does not turn, has no error.
+    """
+    spread = errors.spreads.get(label)
+    if spread is None:
+        return 0.0, ""
+    return float(spread.sigma[index]), DRAWN if spread.drawn[index] else ""
+
+
+def sense_of(value: float) -> int:
+    """Return 1 counterclockwise, -1 clockwise, 0 of nothing (направление)."""
+    return (value > 0) - (value < 0)
+
+
+def percent_text(percent: float | None, decimals: int = 1, most: float = inf) -> str:
+    """Return per cent as plain text; a dash of none, and of what is `most` or more.
+
+    >>> percent_text(-0.04), percent_text(None), percent_text(-1.255, 2), percent_text(240.0)
+    ('0.0', '—', '-1.25', '240.0')
+    """
+    if percent is None or not abs(percent) < most:
+        return NONE
+    return f"{round(percent, decimals) + 0.0:.{decimals}f}"
+
+
+class ComparedNumber(Struct, frozen=True):
+    """A number found in some way, beside the one that it is judged by (сравниваемое число).
+
+    Usually what is read on a drawing, beside the exact value; also the lever beside the force
+    plans, or what a source prints. All are of one unit.
+
+    Attributes
+    ----------
+    exact, read : float
+    sigma : float
+        One sigma of ``read``; 0 of what is given, which nothing was drawn of.
+    mark : str
+        The mark of a sigma that was found by random draws.
+    nothing : float
+        The size up to which ``exact`` is nothing that a reading could be off from in per cent.
+    """
+
+    exact: float
+    read: float
+    sigma: float = 0.0
+    mark: str = ""
+    nothing: float = 0.0
+
+    @property
+    def off(self) -> float:
+        """Δ: how far the reading is off, read less exact."""
+        return self.read - self.exact
+
+    @property
+    def percent(self) -> float | None:
+        """Δ in per cent of the exact value, with the sign that the two numbers give.
+
+        Less than zero is a reading that is too small, clockwise as well as counterclockwise. None
+        where the exact value is nothing, or one of the two is no number.
+        """
+        if not abs(self.exact) > self.nothing:
+            return None
+        percent = 100.0 * self.off / self.exact
+        return percent if isfinite(percent) else None
+
+    @property
+    def size_off(self) -> float:
+        """Δ between the sizes, where a sense stands beside each: of the exact one's sense."""
+        return -self.off if self.exact < 0 else self.off
+
+    @property
+    def share(self) -> float:
+        """The size of Δ, per cent of the exact value; 0 where there is none."""
+        return abs(self.percent or 0.0)
+
+    @property
+    def expected(self) -> float | None:
+        """Sigma in per cent of the exact value; None where that is nothing."""
+        return 100.0 * self.sigma / abs(self.exact) if self.exact else None
+
+    @property
+    def sigmas(self) -> float:
+        """The size of Δ, in sigmas."""
+        return abs(self.off) / self.sigma if self.sigma else 0.0
+
+    # How it is written, as plain text ---------------------------------------------------------
+
+    @property
+    def read_text(self) -> str:
+        """The reading up to the last digit of its error; a dash where nothing can be read."""
+        return rounded_to(self.read, self.sigma) if isfinite(self.read) else NONE
+
+    @property
+    def sigma_text(self) -> str:
+        """Sigma with its mark; a dash where there is none."""
+        return sigma_text(self.sigma) + self.mark if isfinite(self.sigma) else NONE
+
+    @property
+    def off_text(self) -> str:
+        """Δ in the unit of the number, two digits."""
+        return significant(self.off, 2)
+
+    def percent_text(self, decimals: int = 1, most: float = inf) -> str:
+        """Return Δ in per cent; a dash where there is none, and beyond `most`."""
+        return percent_text(self.percent, decimals, most)

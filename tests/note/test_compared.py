@@ -1,0 +1,223 @@
+"""Numbers beside those they are judged by: in every table Δ follows from the two as they stand."""
+
+import re
+from collections.abc import Iterator, Sequence
+from contextlib import chdir
+from functools import cache
+from itertools import product
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import Any
+from unittest.mock import patch
+
+import pytest
+from cases import each, sampled
+from click.testing import CliRunner
+from msgspec import Struct
+from worked import PROBLEMS
+
+from planmethod.cli import cli
+from planmethod.note.document import Document, Table
+from planmethod.note.wording import language
+from planmethod.render.layout.tables import TablePart
+
+NONE = "—"
+
+
+class Line(Struct, frozen=True):
+    """A column of a table, or a row of one that is told by rows: its name and its cells."""
+
+    name: str
+    cells: Sequence[tuple[str, int | None]]
+
+
+class Range(Struct, frozen=True):
+    """All numbers that are written so."""
+
+    low: float
+    high: float
+
+    @property
+    def has_zero(self) -> bool:
+        return self.low <= 0.0 <= self.high
+
+
+def written(text: str, sense: int | None = None) -> Range | None:
+    """Return what a number of a table may stand for; None of a dash.
+
+    Zeros at the end of a whole number may be places that were rounded to.
+    """
+    plain = text.replace("−", "-").replace(",", ".").replace("*", "").strip()
+    plain = plain.partition(" ± ")[0]
+    found = re.fullmatch(r"(-?)(\d+)(\.\d+)?(?:·10\^\{(-?\d+)\})?", plain)
+    if found is None:
+        return None
+    sign, whole, fraction, power = found.groups()
+    places = -len(fraction) + 1 if fraction else len(whole) - len(whole.rstrip("0") or whole)
+    scale = 10.0 ** int(power or 0)
+    value = float(f"{sign}{whole}{fraction or ''}") * (sense or 1)
+    half = 0.5 * 10.0**places * (1 + 1e-9)
+    return Range((value - half) * scale, (value + half) * scale)
+
+
+@cache
+def names(lang: str) -> tuple[set[str], set[str], set[str]]:
+    """Return how the tables name what is judged by, what is judged, and the difference."""
+    words = language(lang)
+    sheets, said, point = words.sheets, words.report, words.point
+    compared, reactions = said["results"]["columns_compared"], said["forces"]["columns_reactions"]
+    train, results = said["gears"]["columns"], words.gears["sheet"]["columns_results"]
+    published, chords = words.gears["columns_published"], point["chords"]
+    exact = {sheets.exact, sheets.by_plans, sheets.cycle_plans, compared[2], reactions[3],
+             train[2], results[2], published[2], chords[2]}  # fmt: skip
+    read = {sheets.read, sheets.by_lever, sheets.cycle_lever, compared[1], reactions[2],
+            train[3], results[3], published[1], chords[3]}  # fmt: skip
+    off = {"Δ", "Δ, %", sheets.difference, results[5], published[3], chords[5]}
+    return exact, read, off
+
+
+def lines_of(table: TablePart | Table) -> list[Line]:
+    """Return the columns of a table; its rows where their names stand before them."""
+    if isinstance(table, Table):
+        columns = [
+            Line(head, [(row[k], None) for row in table.rows]) for k, head in enumerate(table.head)
+        ]
+    else:
+        sources = [column.source for column in table.columns]
+        columns = [
+            Line(
+                f"{one.head}, %" if one.unit == "%" else one.head,
+                [(cell.text, cell.sense) for cell in one.cells],
+            )
+            for one in sources
+        ]
+    if columns and not columns[0].name:
+        lead, *rest = columns
+        return [
+            Line(name, [column.cells[k] for column in rest])
+            for k, (name, _) in enumerate(lead.cells)
+        ]
+    return columns
+
+
+def comparisons(lines: Sequence[Line], lang: str) -> Iterator[tuple[Line, Line, Line]]:
+    """Yield what is judged by, what is judged, and their difference; a table may have many."""
+    exact_names, read_names, off_names = names(lang)
+    exact = read = None
+    for k, line in enumerate(lines):
+        if line.name.endswith("′"):
+            exact, read = lines[k - 1], line
+        elif line.name in exact_names:
+            exact = line
+        elif line.name in read_names:
+            read = line
+        if line.name in off_names:
+            assert exact is not None and read is not None, [one.name for one in lines]
+            yield exact, read, line
+
+
+class Told(Struct):
+    """What was looked at."""
+
+    tables: int = 0
+    rows: int = 0
+    dashes: int = 0
+    lost: int = 0
+
+
+def judge(lines: Sequence[Line], lang: str, told: Told) -> list[str]:
+    """Return the differences that the two numbers beside them do not give."""
+    wrong, looked = [], False
+    for exact, read, off in comparisons(lines, lang):
+        looked = True
+        for one, other, shown in zip(exact.cells, read.cells, off.cells, strict=True):
+            a, b, found = written(*one), written(*other), written(shown[0])
+            told.rows += 1
+            if a is None or b is None or found is None:
+                told.dashes += 1
+                continue
+            corners = list(product((a.low, a.high), (b.low, b.high)))
+            if off.name.endswith("%"):
+                if a.has_zero:
+                    told.lost += 1
+                    continue
+                given = [100.0 * (y - x) / x for x, y in corners]
+            else:
+                turned = -1.0 if one[1] is not None and a.high < 0 else 1.0
+                given = [turned * (y - x) for x, y in corners]
+            if not (min(given) <= found.high and found.low <= max(given)):
+                wrong.append(f"{exact.name} {one}, {read.name} {other}: {off.name} {shown[0]}")
+    told.tables += looked
+    return wrong
+
+
+def tables_of(*words: str) -> list[TablePart | Table]:
+    """Return the tables of what a command prints and draws."""
+    found: list[TablePart | Table] = []
+    document, place = Document.of.__func__, TablePart.place  # type: ignore[attr-defined]
+
+    def written_down(cls: type[Document], nodes: Any) -> Document:
+        made: Document = document(cls, nodes)
+        found.extend(node for node in made.nodes if isinstance(node, Table))
+        return made
+
+    def placed(part: TablePart, corner: complex) -> Any:
+        found.append(part)
+        return place(part, corner)
+
+    with (
+        patch.object(Document, "of", classmethod(written_down)),
+        patch.object(TablePart, "place", placed),
+        TemporaryDirectory() as folder,
+        chdir(folder),
+    ):
+        result = CliRunner().invoke(cli, words)
+    if result.exception is not None and not isinstance(result.exception, SystemExit):
+        raise result.exception
+    return found
+
+
+def told_of(path: Path, lang: str, told: Told, *lines: str) -> list[str]:
+    """Return what is wrong in the tables of commands."""
+    wrong = []
+    for line in lines:
+        command, *words = line.split()
+        for table in tables_of(command, str(path), "--lang", lang, *words):
+            wrong += [f"{line}: {one}" for one in judge(lines_of(table), lang, told)]
+    return wrong
+
+
+SAID = sorted([*PROBLEMS.glob("gears/*.toml"), *PROBLEMS.glob("point/*.toml")])
+"""Of these a document has differences; of linkages sheets and the note alone."""
+
+TURN = "0:360:30"
+DRAWN = (  # problem, what draws tables that others do not have
+    ("linkages/ex3", "sheet --phi 20,140,260"),
+    ("linkages/ex3", "sheet --sigma"),
+    ("linkages/2.1.5", f"sheet --layout coursework-12 --phi {TURN}"),
+    ("press/press", f"sheet --layout forces-cycle --phi {TURN}"),
+    ("press/press", "sheet --layout forces --sigma"),
+    ("press/flywheel", "note"),
+    ("gears/gears-ex1", "sheet"),
+)
+
+
+def test_what_is_written_stands_for_a_range() -> None:
+    some = written("−1,25·10^{3}")
+    assert some is not None and some.low == pytest.approx(-1255.0)
+    whole = written("390", -1)
+    assert whole is not None and (whole.low, whole.high) == pytest.approx((-395.0, -385.0))
+    assert written(NONE) is None
+
+
+@each("path", sampled(SAID, 3))
+def test_differences_follow_from_the_numbers_as_they_stand(path: Path) -> None:
+    told = Told()
+    assert told_of(path, "en", told, "solve", "protocol") == []
+
+
+@pytest.mark.parametrize(("name", "line"), DRAWN)
+def test_differences_on_sheets_and_in_notes_follow_from_the_numbers(name: str, line: str) -> None:
+    told = Told()
+    assert told_of(PROBLEMS / f"{name}.toml", "ru", told, line) == []
+    assert told.rows > told.dashes + told.lost
