@@ -22,8 +22,9 @@ if TYPE_CHECKING:
     from planmethod.solved.solution import Solution as Solution
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
     from typing import Any
+
+    import numpy.typing as npt
 
 __all__ = [
     "Problem",
@@ -55,7 +56,7 @@ _HOMES = {
 def solve(
     problem: Problem,
     *,
-    positions: Sequence[float] | None = None,
+    positions: npt.ArrayLike | None = None,
     ruler: float | None = None,
     profile: str = "board",
 ) -> Solution:

@@ -6,6 +6,7 @@ as it stands and turns `exit_code` into the exit code of the process.
 
 from __future__ import annotations
 
+import copyreg
 from collections.abc import Sequence
 from enum import IntEnum
 
@@ -33,6 +34,10 @@ class PlanMethodError(Exception):
 
     def __init__(self, message: str = "", *facts: object) -> None:
         super().__init__(say(message, *facts))
+
+    def __reduce__(self) -> tuple[object, ...]:
+        """Return what another process makes it of: its sentence as it was said, and its facts."""
+        return copyreg.__newobj__, (type(self), *self.args), vars(self)  # type: ignore[attr-defined]
 
 
 class Fault(Struct, frozen=True):

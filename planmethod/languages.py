@@ -11,6 +11,7 @@ import re
 import sys
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
+from contextvars import ContextVar
 from functools import cache
 from itertools import pairwise
 from pathlib import Path
@@ -34,7 +35,8 @@ WRITTEN = "en"
 VARIABLES = ("PLANMETHOD_LANG", "LC_ALL", "LC_MESSAGES", "LANG")
 """Variables of the environment that name a language, the first that outranks the others."""
 
-_spoken = WRITTEN
+_SPOKEN: ContextVar[str] = ContextVar("language", default=WRITTEN)
+"""Of the thread, or of what is computed beside others in it: two may speak at once."""
 
 
 class _Said(str):
@@ -76,7 +78,7 @@ def say(sentence: str, *facts: object, **named: object) -> str:
         return sentence
     text = translated(sentence)
     if facts or named:
-        if _spoken != WRITTEN:  # one word may be a name
+        if spoken() != WRITTEN:  # one word may be a name
             facts = tuple(translated(f) if isinstance(f, str) and " " in f else f for f in facts)
         fill = _SENTENCES.format if ":|" in text else str.format
         text = visible(fill(text, *facts, **named))
@@ -99,13 +101,14 @@ def translated(sentence: str) -> str:
 
     Of the catalogues of messages only those are parsed in which the sentence stands as a key.
     """
-    if _spoken != WRITTEN:
+    lang = spoken()
+    if lang != WRITTEN:
         import json
 
         key = f"{json.dumps(sentence, ensure_ascii=False)} = "  # as TOML writes a string, too
-        for room, text in _messages(_spoken).items():
+        for room, text in _messages(lang).items():
             if key in text:
-                return str(catalogue(_spoken, f"messages/{room}").get(sentence, sentence))
+                return str(catalogue(lang, f"messages/{room}").get(sentence, sentence))
     return sentence
 
 
@@ -137,7 +140,7 @@ def catalogue(lang: str, name: str) -> dict[str, Any]:
 
 def spoken() -> str:
     """Return the language that messages are in."""
-    return _spoken
+    return _SPOKEN.get()
 
 
 def spoken_to(args: Sequence[str], environ: Mapping[str, str] = os.environ) -> str:
@@ -160,10 +163,9 @@ def spoken_to(args: Sequence[str], environ: Mapping[str, str] = os.environ) -> s
 
 @contextmanager
 def speaking(lang: str) -> Iterator[None]:
-    """Speak a language for a while; where nobody asks for one, English is spoken."""
-    global _spoken
-    before, _spoken = _spoken, lang
+    """Speak a language for a while, in this thread; English where nobody asks for one."""
+    before = _SPOKEN.set(lang)
     try:
         yield
     finally:
-        _spoken = before
+        _SPOKEN.reset(before)

@@ -338,13 +338,15 @@ def causes_of(program: Program, data: Callable[[], Mapping[str, Any]], free: fro
     ``data`` gives the data of some position, where they have not been counted before.
     """
     key = (program, free)
-    if key not in _COUNTED:
-        if len(_COUNTED) >= _MOST_COUNTED:
-            _COUNTED.clear()
-        counted = Counted(PROFILES["board"], free)
-        evaluate(program, data(), counted)
-        _COUNTED[key] = counted.causes
-    return _COUNTED[key]
+    known = _COUNTED.get(key)
+    if known is not None:
+        return known
+    counted = Counted(PROFILES["board"], free)
+    evaluate(program, data(), counted)
+    if len(_COUNTED) >= _MOST_COUNTED:
+        _COUNTED.clear()
+    _COUNTED[key] = counted.causes
+    return counted.causes
 
 
 def sigmas(

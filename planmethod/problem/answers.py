@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-from collections import deque
 from collections.abc import Callable, Collection, Iterable, Mapping
 from functools import partial
 from typing import TYPE_CHECKING, Any
@@ -149,18 +148,21 @@ def read_answers(
         fields.read_flag(faults, "compare", given["compare"])
     value = given.get("answers", [])
     names = None if isinstance(scene, Plain) or faults else scene.names
+    global _KEPT
     for table, before, answers in _KEPT:
         if names is not None and table is value and before == names:
             return answers
     stated = len(faults.stated)
     found = _read_each(faults, value, scene)
     if names is not None and not faults and len(faults.stated) == stated:
-        _KEPT.append((value, names, found))
+        _KEPT = ((value, names, found), *_KEPT[:1])
     return found
 
 
-_KEPT: deque[tuple[object, tuple[object, ...], tuple[AskedAnswer, ...]]] = deque(maxlen=2)
-"""The last tables that had no fault: most variants of a file have that of its main part."""
+_KEPT: tuple[tuple[object, tuple[object, ...], tuple[AskedAnswer, ...]], ...] = ()
+"""The last tables that had no fault: most variants of a file have that of its main part. Never
+changed, but replaced: another thread may be looking through it.
+"""
 
 
 def _read_each(

@@ -9,7 +9,6 @@ depends on the one before it.
 
 from __future__ import annotations
 
-from collections import deque
 from collections.abc import Collection, Generator, Mapping, Sequence
 from itertools import islice
 
@@ -78,17 +77,20 @@ def construct(problem: Problem) -> Construction:
     StructureError, ProblemError, AssemblyError
         When the mechanism cannot be analysed or assembled.
     """
+    global _KEPT
     for known, made in _KEPT:
         if known is problem:
             return made
     structure = analyse(problem.mechanism)
     made = build(problem, structure, choose_closings(problem, structure))
-    _KEPT.append((problem, made))
+    _KEPT = ((problem, made), *_KEPT[:1])
     return made
 
 
-_KEPT: deque[tuple[Problem, Construction]] = deque(maxlen=2)
-"""The last problems, each itself and no other like it, and what is drawn of them."""
+_KEPT: tuple[tuple[Problem, Construction], ...] = ()
+"""The last problems, each itself and no other like it, and what is drawn of them. Never changed,
+but replaced: another thread may be looking through it.
+"""
 
 
 class WantedReading(Struct, frozen=True):

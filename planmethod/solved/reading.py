@@ -22,6 +22,17 @@ Asked = ParamSpec("Asked")
 Memory = TypeVar("Memory", bound="Remembering")
 
 
+Column = TypeVar("Column", bound=npt.NDArray[Any])
+
+
+def fixed(values: Column) -> Column:
+    """Return an array that nobody can write to: results are kept, and others have them, too."""
+    if values.flags.writeable:
+        values = values.view()
+        values.flags.writeable = False
+    return values
+
+
 class Reading(Struct, frozen=True):
     """A program read in one arithmetic (прочтение программы).
 
@@ -51,7 +62,7 @@ class Reading(Struct, frozen=True):
 
     def _column(self, value: npt.NDArray[Any]) -> npt.NDArray[Any]:
         shape = (self.count,)
-        return value if value.shape == shape else np.broadcast_to(value, shape)
+        return fixed(value) if value.shape == shape else np.broadcast_to(value, shape)
 
     def vector(self, tail: PointName, head: PointName) -> Complexes:
         """Return a segment as a vector, ndarray of shape (n,)."""
@@ -118,6 +129,10 @@ class Remembering:
 
     def __init__(self) -> None:
         self._worked_out: dict[Any, Any] = {}
+
+    def __getstate__(self) -> dict[str, Any]:
+        """Return what another process is told: what is worked out of it is worked out there."""
+        return vars(self) | {"_worked_out": {}}
 
     def once(self, work_out: Callable[..., Made], *arguments: Any, **named: Any) -> Made:
         """Return what a function makes of this, worked out when it is first asked for."""

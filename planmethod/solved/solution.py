@@ -29,7 +29,7 @@ from planmethod.solved.driving import driven
 from planmethod.solved.enlarging import Knot, find_knots, least_shown, measured, small_plans
 from planmethod.solved.failures import PositionError
 from planmethod.solved.impossible import explain, failing
-from planmethod.solved.reading import Complexes, Reading, Reals, Remembering
+from planmethod.solved.reading import Complexes, Reading, Reals, Remembering, fixed
 from planmethod.solved.scaling import (
     MOST_DRAWN,
     Extents,
@@ -112,7 +112,7 @@ class Solution(Remembering):
     Parameters
     ----------
     problem : Problem
-    positions : sequence of float, optional
+    positions : array_like of shape (n,), optional
         Other positions of the driver than the file asks (degrees, or m for a driving slider). The
         closings of the groups stay those of the file's own positions.
     ruler : float, mm, optional
@@ -154,7 +154,7 @@ class Solution(Remembering):
         self,
         problem: Problem,
         *,
-        positions: Sequence[float] | None = None,
+        positions: npt.ArrayLike | None = None,
         ruler: float | None = None,
         profile: Profile = PROFILES["board"],
         views: Views | None = None,
@@ -164,7 +164,7 @@ class Solution(Remembering):
         super().__init__()
         self.problem = problem
         asked = problem.drive.positions if positions is None else positions
-        self.positions: Reals = np.asarray(asked, dtype=float)
+        self.positions: Reals = fixed(np.array(asked, dtype=float))
         self.profile = profile if ruler is None else replace(profile, ruler=ruler)
         self.construction: Construction = construction or construct(problem)
         self._views = views
@@ -179,7 +179,7 @@ class Solution(Remembering):
         shown: str = resolve_name("planmethod.note.tables.results:results_part")(self)
         return shown
 
-    def moved(self, positions: Sequence[float]) -> Solution:
+    def moved(self, positions: npt.ArrayLike) -> Solution:
         """Return the same mechanism, assembled in the same way, in other positions."""
         return self._alike(positions=positions)
 
@@ -445,7 +445,7 @@ class Solution(Remembering):
 
     def place(self, name: PointName) -> Complexes:
         """Return the place of a point in the file's coordinates, m, ndarray of shape (n,)."""
-        return self.si.point(name) + self.construction.draft.origin
+        return fixed(self.si.point(name) + self.construction.draft.origin)
 
     # Results ---------------------------------------------------------------------------------
 
@@ -454,7 +454,7 @@ class Solution(Remembering):
         """Least margin of all steps in each position: nearness to a dead position."""
         none = np.ones(self.positions.shape)
         margins = [np.broadcast_to(m, none.shape) for m in self.si.trace.margin.values()]
-        return np.asarray(np.min([*margins, none], axis=0), dtype=float)
+        return fixed(np.asarray(np.min([*margins, none], axis=0), dtype=float))
 
     @cached_property
     def points(self) -> dict[str, PointMotion]:
@@ -473,14 +473,14 @@ class Solution(Remembering):
     def links(self) -> dict[str, LinkMotion]:
         """Motion of every moving link."""
         kin, draft = self.construction.kinematics, self.construction.draft
-        zero = np.zeros(self.positions.shape)
+        zero = fixed(np.zeros(self.positions.shape))
         result: dict[str, LinkMotion] = {}
         for link in self.problem.mechanism.links:
             direction = self.si.course(draft.axes[link])
             angle: Reals = np.degrees(np.angle(direction))
             omega, epsilon = kin.omega.get(link), kin.epsilon.get(link)
             result[link] = LinkMotion(
-                np.where(angle <= -180.0, 180.0, angle),
+                fixed(np.where(angle <= -180.0, 180.0, angle)),
                 zero if omega is None else self.si.number(omega),
                 zero if epsilon is None else self.si.number(epsilon),
             )
@@ -494,7 +494,7 @@ class Solution(Remembering):
     def _relative(self, r: Relative) -> RelativeMotion:
         def vector(tail: PointName | None, head: PointName | None) -> Complexes:
             assert tail is not None and head is not None
-            return self.si.vector(tail, head)
+            return fixed(self.si.vector(tail, head))
 
         return RelativeMotion(
             r.point,
@@ -527,8 +527,8 @@ class Solution(Remembering):
             return self.links[quantity.of].phi_deg
         if quantity.kind.is_number:
             value = self.si.number(NumberName(quantity.name))
-            return np.abs(value) if quantity.kind.is_size else value
-        return np.abs(self.si.point(quantity.name))
+            return fixed(np.abs(value)) if quantity.kind.is_size else value
+        return fixed(np.abs(self.si.point(quantity.name)))
 
     def read_off(self, label: str) -> Reals:
         """Return a quantity as the hand finds it, SI, ndarray of shape (n,).
@@ -538,17 +538,17 @@ class Solution(Remembering):
         """
         quantity = self.legend[label]
         if quantity.size is None:
-            return np.zeros(self.positions.shape)
+            return fixed(np.zeros(self.positions.shape))
         value = self.by_hand.number(quantity.size)
-        return np.abs(value) if quantity.kind.is_size else value
+        return fixed(np.abs(value)) if quantity.kind.is_size else value
 
     def segments(self, kind: PlanKind) -> list[SegmentReading]:
         """Return the segments of a plan in mm: exact, and read along the hand's own chain."""
         return [
             SegmentReading(
                 segment.name,
-                np.abs(self.paper.number(segment.length)),
-                np.abs(self.by_hand.number(segment.length)),
+                fixed(np.abs(self.paper.number(segment.length))),
+                fixed(np.abs(self.by_hand.number(segment.length))),
             )
             for segment in self.construction.segments
             if segment.kind is kind

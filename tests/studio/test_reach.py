@@ -110,8 +110,8 @@ def unreached(page: Page) -> list[str]:
         " : one.tabIndex >= 0 || one.isContentEditable)"
     )
     wanted = page.ask(f"globalThis.all = {HERE}.filter({reached}); all.length")
-    page.ask("document.activeElement.blur(); scrollTo(0, 0); document.body.focus()")
     page.call("Page.bringToFront")
+    page.ask("all[0].focus()")  # not in a frame that a room before had, and that is hidden now
     missed, turn = {*range(wanted)}, 0
     frames = page.ask("all.filter(one => one.tagName === 'IFRAME').length")
     while missed and turn < 2 * (wanted + 10 + 60 * frames):  # a trap would keep what is behind it

@@ -7,6 +7,7 @@ from itertools import chain, product
 from pathlib import Path
 from typing import Any
 
+import numpy.typing as npt
 from msgspec import Struct
 from msgspec.structs import replace
 
@@ -58,7 +59,7 @@ def kinematics_sheets(
     problem: Problem,
     *,
     paper: str | None = None,
-    positions: Sequence[float] | None = None,
+    positions: npt.ArrayLike | None = None,
     ruler: float | None = None,
     profile: Profile = PROFILES["board"],
     fields: Mapping[str, str] | None = None,
@@ -75,7 +76,7 @@ def kinematics_sheets(
     ----------
     paper : str, optional
         Format; the file's when absent, or the smallest that the blocks fit.
-    positions : sequence of float, optional
+    positions : array_like of shape (n,), optional
         Other driver positions than the file's.
     ruler : float, mm, optional
         Step of the ruler with which the plans are read; the profile's when absent.
@@ -143,7 +144,7 @@ def kinematics_sheets(
 def sheet_scales(
     problem: Problem,
     layout: str | Path | Composition | None = None,
-    positions: Sequence[float] | None = None,
+    positions: npt.ArrayLike | None = None,
 ) -> Scales:
     """Return the scales at which a layout shows a mechanism, decided (масштабы листа).
 

@@ -90,6 +90,10 @@ class DrawnForces(Errors):
             )
         )
 
+    def __reduce__(self) -> tuple[object, ...]:
+        """Return what another process finds the same by."""
+        return DrawnForces, (self.statics,)
+
     def _of_sheets(self, index: int) -> dict[str, float]:
         """Return the sigmas that random sheets of one position give: those of its own mechanism."""
         solution, own = self.solution.alone_at(index)

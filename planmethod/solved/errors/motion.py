@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from functools import cached_property
+from functools import cached_property, partial
 
 import numpy as np
 import numpy.typing as npt
@@ -56,6 +56,10 @@ class Drafting(Errors):
             solution.hand.enlarged,
         )
         super().__init__(drawing, draws=draws, seed=seed)
+
+    def __reduce__(self) -> tuple[object, ...]:
+        """Return what another process finds the same by."""
+        return partial(Drafting, draws=self.draws, seed=self.seed), (self.solution,)
 
     def _data(self, chosen: npt.NDArray[np.intp]) -> dict[str, Number]:
         known = {} if self._transfers is None else at_positions(self._transfers.numbers, chosen)

@@ -40,7 +40,7 @@ from planmethod.solved.errors.widths import (
     root_of,
     sigma_of,
 )
-from planmethod.solved.reading import Flags, Reals
+from planmethod.solved.reading import Flags, Reals, fixed
 
 Key = TypeVar("Key", bound=str)
 
@@ -313,7 +313,7 @@ class Errors:
         sigma[short] = again[short]
         for i in np.flatnonzero(strange):
             sigma[i] = self._of_sheets(int(i))[label]
-        return Spread(sigma, strange | short)
+        return Spread(fixed(sigma), fixed(strange | short))
 
     def _of_sheets(self, index: int) -> dict[str, float]:
         """Return the sigmas of all quantities that random sheets of one position give."""

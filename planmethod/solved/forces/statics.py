@@ -38,7 +38,7 @@ from planmethod.solved.forces.leverscale import lever_times
 from planmethod.solved.forces.loads import applied
 from planmethod.solved.forces.resultants import UnshiftedInertia, shifted_inertia
 from planmethod.solved.impossible import explain, failing
-from planmethod.solved.reading import Complexes, Reading, Reals, Remembering
+from planmethod.solved.reading import Complexes, Reading, Reals, Remembering, fixed
 from planmethod.solved.room import Box
 from planmethod.solved.solution import (
     EVERY,
@@ -278,11 +278,11 @@ class Statics(Remembering):
         return np.asarray(self.failing < 0)
 
     def _vector(self, force: Force) -> Complexes:
-        return self.si.vector(*force.ends)
+        return fixed(self.si.vector(*force.ends))
 
     def _number(self, name: NumberName | None) -> Reals:
         if name is None:
-            return np.zeros(self.solution.positions.shape)
+            return fixed(np.zeros(self.solution.positions.shape))
         return self.si.number(name)
 
     @cached_property
@@ -331,7 +331,7 @@ class Statics(Remembering):
         forces = [joint.force for joint in self.reactions]
         forces += [given.applied.force for given in self.board.given]
         none = np.zeros(self.solution.positions.shape)
-        return np.asarray(np.max([none, *(np.abs(f) + none for f in forces)], axis=0), dtype=float)
+        return fixed(np.asarray(np.max([none, *(np.abs(f) + none for f in forces)], axis=0)))
 
     def largest(self, index: int) -> float:
         """Return the size of the largest force of a position, load or reaction, N."""

@@ -104,11 +104,12 @@ class Sweep:
         drawn: Sequence[Name] = (),
         native: bool | None = None,
     ) -> None:
+        asked = (asked,) if isinstance(asked, str) else None if asked is None else tuple(asked)
+        varied = (varied,) if isinstance(varied, str) else tuple(varied)
+        self._made_of = (problem, asked, varied, dtype, forces, tuple(drawn), native)
         self.problem = problem
         if np.dtype(dtype) not in (np.dtype(np.float64), np.dtype(np.float32)):
             raise SweepError(f"a sweep is float64 or float32, not {np.dtype(dtype).name}")
-        asked = (asked,) if isinstance(asked, str) else None if asked is None else tuple(asked)
-        varied = (varied,) if isinstance(varied, str) else varied
         solution = Solution(problem, positions=[])
         results = quantities_for(solution, asked, forces=forces)
         chosen = results.choose(asked)
@@ -143,6 +144,10 @@ class Sweep:
         written = write(self.program, fixed, inputs, solution.construction.parts)
         self.rows, refs, depends = rows_of(chosen, written, results.draft.origin, moved, drawn)
         self._runner = Runner(written, refs, depends, dtype=dtype, native=native)
+
+    def __reduce__(self) -> tuple[object, ...]:
+        """Return what another process makes it of: it is compiled there anew."""
+        return _made_again, self._made_of
 
     def _changing(self, solution: Solution, results: Quantities) -> LoadColumns | None:
         """Return the loads that must be told for every position; None if there are none."""
@@ -398,6 +403,20 @@ class Sweep:
         if failing(self.program, reading.trace, 1)[0] < 0:
             return None
         return explain(self._draft, self.program, reading, at)
+
+
+def _made_again(
+    problem: Problem,
+    asked: Iterable[str] | None,
+    varied: Sequence[str],
+    dtype: npt.DTypeLike,
+    forces: bool,
+    drawn: Sequence[Name],
+    native: bool | None,
+) -> Sweep:
+    return Sweep(
+        problem, asked, varied=varied, dtype=dtype, forces=forces, drawn=drawn, native=native
+    )
 
 
 def sweep_variants(
