@@ -514,6 +514,9 @@ class Problem(KindProblem, frozen=True, kw_only=True):
         Unit in which the file gives lengths: ``m``, ``cm`` or ``mm``.
     stated : mapping of str to str
         Arithmetic that the file has for a number (``0.25/3``), by path.
+    given : mapping
+        What TOML made of the file, the variant being laid over it; empty of a problem that was
+        not read from one.
     """
 
     mechanism: Mechanism
@@ -534,6 +537,7 @@ class Problem(KindProblem, frozen=True, kw_only=True):
     tables: Mapping[str, Any] = field(default_factory=dict)
     unit: str = "m"
     stated: Mapping[str, str] = field(default_factory=dict)
+    given: Mapping[str, Any] = field(default_factory=dict)
 
     @property
     def turns(self) -> int:

@@ -191,7 +191,7 @@ def _read_varied(
     problem = read_parts(faults, table, name, train)
     if faults or problem is None:
         raise ProblemError(source, faults.found)
-    return replace(problem, source_file=source, variants=variants, variant=variant)
+    return replace(problem, source_file=source, variants=variants, variant=variant, given=table)
 
 
 def unknown_variant(variant: str, known: Mapping[str, Any]) -> Fault:

@@ -28,7 +28,8 @@ from planmethod.solved.errors.forces import drawn_forces
 from planmethod.solved.errors.motion import drafting_of
 from planmethod.solved.errors.spread import UnknownItemError
 from planmethod.solved.forces.statics import statics_of
-from planmethod.solved.many.sweep import Sweep, SweepError
+from planmethod.solved.many.sweep import Sweep
+from planmethod.solved.many.varied import SweepError
 from planmethod.solved.solution import Solution
 
 EX3 = str(path_of("linkages/ex3"))

@@ -16,7 +16,7 @@ from planmethod.compiled.straight import used_by
 from planmethod.compiled.symbolic import TapeProgram
 from planmethod.compiled.tape import Ref, Tape
 from planmethod.problem.model import Problem
-from planmethod.solved.many import sweep as sweeping
+from planmethod.solved.many import varied as sweeping
 from planmethod.solved.many.sweep import Sweep
 
 

@@ -17,7 +17,8 @@ from planmethod.construct.steps import PointName
 from planmethod.errors import ProblemError
 from planmethod.problem import load, loads
 from planmethod.problem.model import Problem
-from planmethod.solved.many.sweep import Sweep, SweepError, sweep_variants
+from planmethod.problem.reader import read_parsed
+from planmethod.solved.many.sweep import Sweep, sweep_variants
 from planmethod.solved.selfcheck import changed_branches, verify
 from planmethod.solved.solution import Solution
 
@@ -260,10 +261,21 @@ def test_a_slotted_link_keeps_its_side() -> None:
     )
 
 
-def test_lengths_that_move_the_change_points_are_not_swept() -> None:
+def test_lengths_move_the_change_points() -> None:
+    """A motion that goes on through change points has its own of every length."""
     problem, _ = four_bar(1, rule_of(1, ', keep = "continuous"'))
-    with pytest.raises(SweepError, match="sweep every value alone"):
-        Sweep(problem, ["C"], varied=["l_BC"])
     other, _ = four_bar(3, rule_of(3, ', keep = "continuous"'))
-    with pytest.raises(SweepError, match="the same change points"):
-        sweep_variants([problem, other], [10.0])
+    at = np.linspace(0.0, 700.0, 60)
+    _, found = sweep_variants([problem, other], at)
+    for k, one in enumerate((problem, other)):
+        alone = Sweep(one).run(at)
+        assert found[:, k] == pytest.approx(alone, rel=1e-9, abs=1e-9, nan_ok=True)
+    given = {
+        **problem.given,
+        "links": {**problem.given["links"], "2": dict(problem.given["links"]["2"])},
+    }
+    given["links"]["2"]["BC"] *= 1.004
+    moved = Sweep(read_parsed(given, source="x", name="x"), ["C", "v_C"]).run(at)
+    swept = Sweep(problem, ["C", "v_C"], varied=["l_BC"])
+    found = swept.run(at, {"l_BC": 1.004 * swept.parameters["l_BC"]})
+    assert found == pytest.approx(moved, rel=1e-9, abs=1e-9, nan_ok=True)

@@ -13,6 +13,7 @@ import numpy.typing as npt
 import pytest
 from cases import each, some
 from loaded import loaded_problem
+from msgspec.structs import replace
 from worked import DEAD, every_file, path_of
 
 from benchmarks.generator import KINDS
@@ -23,7 +24,7 @@ from planmethod.problem import load, loads
 from planmethod.problem.model import Problem
 from planmethod.solved.forces.statics import Statics
 from planmethod.solved.many.gaps import CHUNK, GappedSweep
-from planmethod.solved.many.sweep import Sweep, SweepError, sweep_variants
+from planmethod.solved.many.sweep import Sweep, sweep_variants
 from planmethod.solved.quantities import UnknownQuantityError
 from planmethod.solved.solution import Solution
 
@@ -278,13 +279,18 @@ def test_a_problem_without_loads_has_no_forces(label: str) -> None:
     assert "forces" not in str(caught.value)
 
 
-def test_parameters_and_variants_are_of_the_motion() -> None:
+def test_forces_of_variants_are_those_of_each_alone() -> None:
     problem = load(path_of("levers/task12"))
     assert not [name for name in Sweep(problem, ["M_dr"]).parameters if ":" in name]
-    with pytest.raises(SweepError, match="ask for no forces"):
-        Sweep(problem, ["M_dr"], varied=["omega_1"])
-    with pytest.raises(SweepError, match="without forces"):
-        sweep_variants([problem, problem], [0.0], ["M_dr"])
+    sweep = Sweep(problem, ["M_dr"], varied=["omega_1"])
+    rate = sweep.parameters["omega_1"]
+    found = sweep.run([10.0, 40.0], {"omega_1": np.array([[rate], [2.0 * rate]])})
+    drive = replace(problem.drive, rate=2.0 * rate)
+    faster = replace(problem, drive=drive)
+    _, both = sweep_variants([problem, faster], [10.0, 40.0], ["M_dr"])
+    for values in (found, both):
+        for k, one in enumerate((problem, faster)):
+            assert values[:, k] == pytest.approx(Sweep(one, ["M_dr"]).run([10.0, 40.0]), rel=1e-11)
 
 
 # Where forces do not exist ------------------------------------------------------------------------

@@ -20,7 +20,8 @@ from planmethod.errors import AssemblyError
 from planmethod.problem import load, loads
 from planmethod.problem.model import Problem
 from planmethod.solved.many.rows import SweepRow
-from planmethod.solved.many.sweep import Sweep, SweepError, sweep_variants
+from planmethod.solved.many.sweep import Sweep, sweep_variants
+from planmethod.solved.many.varied import SweepError
 from planmethod.solved.quantities import UnknownQuantityError
 from planmethod.solved.solution import Solution
 
@@ -422,10 +423,15 @@ def test_variants_that_differ_in_the_asked_position_only_are_alike() -> None:
 def test_variants_that_are_other_mechanisms_are_refused() -> None:
     with pytest.raises(SweepError, match="not built by the same steps as ex1"):
         sweep_variants([problem_of("ex1"), problem_of("ex3")], [0.0])
+
+
+def test_variants_may_have_their_fixed_points_elsewhere() -> None:
     text = path_of("linkages/ex1").read_text("utf-8")
     moved = loads(re.sub(r"(?m)^A = \[.*\]", "A = [0.01, 0.0]", text), name="ex1")
-    with pytest.raises(SweepError, match="places of A"):
-        sweep_variants([problem_of("ex1"), moved], [0.0])
+    problems = [problem_of("ex1"), moved]
+    _, found = sweep_variants(problems, [0.0, 20.0])
+    for k, problem in enumerate(problems):
+        assert found[:, k] == pytest.approx(Sweep(problem).run([0.0, 20.0]), rel=1e-12, abs=1e-13)
 
 
 # Impossible positions -----------------------------------------------------------------------------

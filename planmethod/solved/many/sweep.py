@@ -9,31 +9,20 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import numpy.typing as npt
 
-from planmethod.compiled import FEW, Array, Runner, write
+from planmethod.compiled import FEW, Array, Runner
 from planmethod.construct.arithmetic import Float64
 from planmethod.construct.evaluate import evaluate
 from planmethod.construct.steps import Name
-from planmethod.errors import PlanMethodError
-from planmethod.plans.closing import Start
-from planmethod.plans.legend import ZERO, Quantity, QuantityKind
 from planmethod.plans.model import PlanKind
 from planmethod.problem.model import Problem
-from planmethod.solved.closings import drive_data
-from planmethod.solved.driving import driven
 from planmethod.solved.failures import Cause, Failure, Place
 from planmethod.solved.impossible import explain, failing
-from planmethod.solved.labelled import quantities_for
-from planmethod.solved.many.rows import SweepRow, rows_of
-from planmethod.solved.quantities import Quantities
+from planmethod.solved.many.rows import SweepRow
+from planmethod.solved.many.varied import Case, CaseTape, SweepError, SweepTask, Varied
 from planmethod.solved.reading import Reading
-from planmethod.solved.solution import UNIT_SCALES, Solution
 
 if TYPE_CHECKING:
-    from planmethod.solved.many.loads import LoadColumns
-
-
-class SweepError(PlanMethodError, ValueError):
-    """Parameters or variants that one sweep cannot hold."""
+    from planmethod.solved.many.loads import Motion
 
 
 class Sweep:
@@ -49,9 +38,11 @@ class Sweep:
         Labels of results (``v_E``, ``omega_3``, ``F_B_2/1``), or ``positions``, ``velocities``,
         ``accelerations``, ``forces``, ``units``; everything of the motion when absent.
     varied : sequence of str
-        Known numbers that `run` will be given: ``l_BC``, ``omega_1``; see `parameters`. They are
-        numbers of the construction: a third point keeps its coordinates along and across its link
-        (``x_D``, ``y_D``) when a length of the link is varied, and a length must stay positive.
+        Numbers of the file that `run` will be given: ``l_BC``, ``omega_1``, ``x_C``; see
+        `parameters`, or dotted keys, ``links.2.D.at``. The results are those of the file with these
+        numbers: what follows from one, a side of a triangle or the way in which a group closes,
+        follows as it does when a file is read. A rate costs nothing; with each set of sizes the
+        file is read again, some milliseconds.
     dtype : dtype
         float64; float32 is for pictures only.
     forces : bool
@@ -69,7 +60,12 @@ class Sweep:
     ----------
     rows : tuple of SweepRow
     parameters : dict
-        Every known number of the motion and its value, SI and degrees.
+        Every number that the file gives and that can be varied, and its value, SI and degrees:
+        lengths ``l_AB`` (of slots ``e_B``), third points of links along and across them ``x_D``,
+        ``y_D`` (``x_B_D`` of one counted from B), fixed points and guides ``x_O``, ``y_O``,
+        ``x_x-x``, angles ``angle_x-x``, ``angle_3``, ``angle_BAD``, rates ``omega_1``,
+        ``epsilon_1``, ``v``, ``a``; where forces are asked for also masses and moments of inertia
+        ``m_2``, ``J_2``, ``g``, loads by their name ``F_5`` and ``angle_F_5``.
     forces : bool
         Forces are among the results.
     branches : dict
@@ -110,59 +106,35 @@ class Sweep:
         self.problem = problem
         if np.dtype(dtype) not in (np.dtype(np.float64), np.dtype(np.float32)):
             raise SweepError(f"a sweep is float64 or float32, not {np.dtype(dtype).name}")
-        solution = Solution(problem, positions=[])
-        results = quantities_for(solution, asked, forces=forces)
-        chosen = results.choose(asked)
-        self.forces = any(result.kind.is_force for result in chosen)
-        self.loads = self._changing(solution, results)
-        # Loads against a motion are known only where all steps of that motion exist.
-        moved = _motion(results) if self.loads is not None and self.loads.need_motion else []
-        self._draft = results.draft
-        self.program = results.program.needed_for([*(r.name for r in (*chosen, *moved)), *drawn])
+        self._settings: tuple[Any, bool | None] = np.dtype(dtype), native
+        self._drawn = tuple(drawn)
+        task = SweepTask(asked, forces, self._drawn, _motion_of)
+        self._case = task.of(problem)
+        self.forces = any(result.kind.is_force for result in self._case.chosen)
+        self.loads, self._draft = self._case.loads, self._case.results.draft
+        self.program, self.constants = self._case.program, self._case.constants
+        self.branches = self._draft.branches
         self.steps = len(self.program.steps)
         self.driver = problem.drive.coordinate.name
-        self._followed = problem.drive.given if problem.drive.followed is not None else ()
-        data = drive_data(problem, results.draft, np.zeros(1))
-        data.update(results.numbers)
-        self.constants: dict[str, complex | float] = {
-            name: complex(value) if np.iscomplexobj(value) else float(np.asarray(value).real)
-            for name, value in data.items()
-            if name != self.driver and name not in (*results.draft.branches, *self._followed)
-        }
-        own = drive_data(problem, solution.construction.draft, np.zeros(1))
-        self.branches = results.draft.branches
-        self.parameters: dict[str, float] = {
-            name: value
-            for name, value in self.constants.items()
-            if isinstance(value, float) and name in own and name not in (*UNIT_SCALES, ZERO)
-        }
-        self._check(varied)
-        self.varied = tuple(varied)
-        fixed = {name: v for name, v in self.constants.items() if name not in self.varied}
-        given = (*self._followed, *self.branches, *(() if self.loads is None else self.loads.names))
-        inputs = (self.driver, *self.varied, *given)
-        written = write(self.program, fixed, inputs, solution.construction.parts)
-        self.rows, refs, depends = rows_of(chosen, written, results.draft.origin, moved, drawn)
-        self._runner = Runner(written, refs, depends, dtype=dtype, native=native)
+        self.varied = varied
+        self._varied = Varied(self._case, task, varied)
+        self.parameters = self._varied.offered
+        self._tape = self._written(self._case, self._varied.probed())
+        self._tapes = {self._case.kind: self._tape}
+        self._met: dict[Name, int] = {}  # guards that only other cases have
+        self.rows = self._tape.rows
 
     def __reduce__(self) -> tuple[object, ...]:
         """Return what another process makes it of: it is compiled there anew."""
         return _made_again, self._made_of
 
-    def _changing(self, solution: Solution, results: Quantities) -> LoadColumns | None:
-        """Return the loads that must be told for every position; None if there are none."""
-        if not (self.forces and results.changing):
-            return None
-        from planmethod.solved.many.loads import LoadColumns
+    def _written(self, case: Case, free: Sequence[str]) -> CaseTape:
+        dtype, native = self._settings
+        return CaseTape(case, free, self._drawn, dtype, native)
 
-        motion: list[Sweep] = []
-
-        def swept(positions: Array) -> dict[str, Array]:
-            if not motion:
-                motion.append(Sweep(self.problem))
-            return motion[0].table(positions)
-
-        return LoadColumns(self.problem, solution.construction, results.changing, swept)
+    @property
+    def _runner(self) -> Runner:
+        return self._tape.runner
 
     @property
     def operations(self) -> int:
@@ -178,26 +150,6 @@ class Sweep:
     def uncompiled(self) -> str:
         """Why there is no machine code; empty if there is."""
         return self._runner.uncompiled
-
-    def _check(self, varied: Sequence[str]) -> None:
-        unknown = [name for name in varied if name not in self.parameters]
-        if unknown:
-            known = ", ".join(sorted(self.parameters))
-            raise SweepError(f"no parameter {', '.join(unknown)} to vary. Known: {known}.")
-        if varied and any(isinstance(branch, Start) for branch in self.branches.values()):
-            raise SweepError(
-                "the assembly of a group of class III was followed with these sizes, and others "
-                "may have another: sweep every value alone"
-            )
-        if varied and self.branches:
-            raise SweepError(
-                'parameters move the change points of keep = "continuous": sweep every value alone'
-            )
-        if varied and self.forces:
-            raise SweepError(
-                "parameters are varied for results of the motion only: ask for no forces, or sweep "
-                "every value alone"
-            )
 
     def run(
         self,
@@ -233,28 +185,134 @@ class Sweep:
         angle = np.asarray(positions, dtype=self._runner.dtype)
         # Alone they are of one shape: there is nothing to be looked at.
         if not (self.varied or parameters) and angle.ndim == 1 and out is None and failed is None:
-            found = self._runner.few(lambda: [angle, *self._loaded(angle)], len(angle))
+            found = self._runner.few(lambda: [angle, *self._told(angle)], len(angle))
             if found is not None:
                 return found
         parameters = parameters or {}
         if set(parameters) != set(self.varied):
             raise SweepError(f"run() takes the parameters {', '.join(self.varied) or '(none)'}")
-        extra = [np.asarray(parameters[name], dtype=self._runner.dtype) for name in self.varied]
-        shape = self._shape(angle, extra, out, failed)
+        # A size goes into a file, which is double whatever the sweep is.
+        given = {name: np.asarray(parameters[name], dtype=float) for name in self.varied}
+        shape = self._shape(angle, list(given.values()), out, failed)
+        rates = {own: given[name] for name, own in self._varied.rates.items()}
+        cases, which = self._cases([given[name] for name in self._varied.sizes])
+        return self._run(angle, shape, cases, which, rates, out, failed)
+
+    def _run(
+        self,
+        angle: Array,
+        shape: tuple[int, ...],
+        cases: Sequence[Case],
+        which: Array,
+        rates: Mapping[str, Array],
+        out: Array | None,
+        failed: npt.NDArray[np.int16] | None,
+    ) -> Array:
+        """Run cases in some positions; ``which`` and ``rates`` go together with ``shape``."""
+        tapes = self._held(cases)
+        alike = len(set(map(id, tapes))) == 1
+        if out is None and alike and tapes[0] is self._tape and not self._case.given:
+            columns = self._tape.columns(cases, which, rates)
+            few = None
+            if failed is None and len(shape) == 1:
+                few = self._runner.few(lambda: [angle, *columns], shape[0])
+            if few is not None:
+                return few
         if out is None:
-            if self.varied and len(shape) == 1 and failed is None:
-                found = self._runner.few(lambda: [angle, *extra], shape[0])
-                if found is not None:
-                    return found
             out = np.empty((len(self.rows), *shape), self._runner.dtype)
         self._runner.expect(math.prod(shape))
-        if len(shape) == 2 and (self.branches or self.loads):  # known for one row of positions
-            for i, here in enumerate(angle):
-                columns = [here, *self._loaded(here)]
-                self._runner.run(columns, out[:, i], None if failed is None else failed[i])
+        one = len(cases) == 1 and len(shape) == 1
+        if alike and (one or not self._case.given):
+            columns = tapes[0].columns(cases, which, rates)
+            told = self._typed(cases[0].at(angle)) if self._case.given else []
+            tapes[0].runner.run([angle, *columns, *told], out, failed)
+            self._number_guards(tapes[0], failed)
             return out
-        self._runner.run([angle, *extra, *self._loaded(angle)], out, failed)
+        whole = np.broadcast_to(angle, shape).ravel()
+        of = np.broadcast_to(which, shape).ravel()
+        wide = {name: np.broadcast_to(rate, shape).ravel() for name, rate in rates.items()}
+        gaps = None if failed is None else np.empty(whole.shape, failed.dtype)
+        values = np.empty((len(self.rows), len(whole)), self._runner.dtype)
+        # What differs from position to position is known for the positions of one case.
+        apart = list(range(len(cases))) if self._case.given else [id(tape) for tape in tapes]
+        for part in dict.fromkeys(apart):
+            mine = np.array([own == part for own in apart])
+            first, at = int(np.flatnonzero(mine)[0]), np.flatnonzero(mine[of])
+            tape, here = tapes[first], whole[at]
+            columns = tape.columns(cases, of[at], {n: rate[at] for n, rate in wide.items()})
+            told = self._typed(cases[first].at(here))
+            found = np.empty((len(self.rows), len(at)), self._runner.dtype)
+            codes = None if gaps is None else np.empty(len(at), gaps.dtype)
+            tape.runner.run([here, *columns, *told], found, codes)
+            self._number_guards(tape, codes)
+            values[:, at] = found
+            if gaps is not None and codes is not None:
+                gaps[at] = codes
+        out[...] = values.reshape(out.shape)
+        if failed is not None and gaps is not None:
+            failed[...] = gaps.reshape(failed.shape)
         return out
+
+    def _beside(
+        self, problems: Sequence[Problem], positions: npt.ArrayLike
+    ) -> tuple[tuple[SweepRow, ...], Array]:
+        """Return the rows and the results of variants, shape (k, v, n)."""
+        cases = [self._varied.task.of(problem) for problem in problems]
+        for case in cases:
+            if case.program.steps != self.program.steps:
+                raise SweepError(
+                    "{} is not built by the same steps as {}: sweep it alone",
+                    _named(case.problem),
+                    _named(self.problem),
+                )
+        angle, which = np.asarray(positions, dtype=float), np.arange(len(cases))[:, np.newaxis]
+        shape = (len(cases), len(angle))
+        return self.rows, self._run(angle, shape, cases, which, {}, None, None)
+
+    def _cases(self, sizes: list[Array]) -> tuple[list[Case], Array]:
+        """Return the cases of some sizes, and the number of that of each, in their common shape."""
+        if not sizes:
+            return [self._case], np.zeros((), np.intp)
+        shape = np.broadcast_shapes(*(value.shape for value in sizes))
+        columns = np.stack([np.broadcast_to(value, shape).ravel() for value in sizes])
+        unlike, which = np.unique(columns, axis=1, return_inverse=True)
+        cases = self._varied.cases(list(self._varied.sizes.values()), unlike)
+        return cases, which.reshape(shape)
+
+    def _held(self, cases: Sequence[Case]) -> list[CaseTape]:
+        """Return the tape of every case; a number in which cases differ becomes an input of it."""
+        alike: dict[tuple[object, ...], list[Case]] = {}
+        kinds = [self._case.kind if one is self._case else one.kind for one in cases]
+        for one, kind in zip(cases, kinds, strict=True):
+            alike.setdefault(kind, []).append(one)
+        for kind, members in alike.items():
+            tape = self._tapes.get(kind) or self._written(
+                members[0], list(self._varied.rates.values())
+            )
+            more = tape.lacks(members)
+            if more:
+                tape = self._written(tape.case, (*tape.free, *more))
+            if tape.rows != self.rows:
+                raise SweepError(
+                    "{} has results of its own ({}): sweep it alone",
+                    members[0].told or _named(members[0].problem),
+                    ", ".join({row.label: "" for row in tape.rows if row not in self.rows}),
+                )
+            self._tapes[kind] = tape
+        self._tape = self._tapes[self._case.kind]
+        return [self._tapes[kind] for kind in kinds]
+
+    def _number_guards(self, tape: CaseTape, failed: npt.NDArray[np.int16] | None) -> None:
+        """Give the guards of another tape the numbers by which `reason` knows them."""
+        if failed is None or tape is self._tape or not (failed >= 0).any():
+            return
+        mine = {step: number for number, step in enumerate(self._runner.guards)}
+        numbers = [
+            mine.get(step, len(mine) + self._met.setdefault(step, len(self._met)))
+            for step in tape.runner.guards
+        ]
+        bad = failed >= 0
+        failed[bad] = np.array(numbers)[failed[bad]]
 
     def bind(
         self,
@@ -276,16 +334,18 @@ class Sweep:
             Of nothing; it fills ``out`` (and ``failed``) and returns it, the same array every time.
         """
         angle = np.asarray(positions, dtype=self._runner.dtype)
-        given = {k: np.asarray(v, dtype=self._runner.dtype) for k, v in (parameters or {}).items()}
+        given = {k: np.asarray(v, dtype=float) for k, v in (parameters or {}).items()}
         filled = self.run(angle, given, out=out, failed=failed)
         out = np.array(filled, order="C") if out is None else out
         self._runner.compile()
-        if not self._runner.takes(out, failed) or (out.ndim == 3 and self.branches):
+        apart = bool(self._varied.sizes) or (out.ndim == 3 and bool(self._case.given))
+        if apart or not self._runner.takes(out, failed):
             return lambda: self._again(angle, given, out, failed)
-        loaded = self._loaded(angle)
-        columns = [angle, *(given[name] for name in self.varied), *loaded]
-        call = self._runner.bound(columns, out, failed)
-        if not loaded:
+        told = self._told(angle)
+        rates = {own: given[name] for name, own in self._varied.rates.items()}
+        numbers = self._tape.columns([self._case], np.zeros((), np.intp), rates)
+        call = self._runner.bound([angle, *numbers, *told], out, failed)
+        if not told:
 
             def bound() -> Array:
                 call()
@@ -294,7 +354,7 @@ class Sweep:
             return bound
 
         def bound_loads() -> Array:
-            for column, value in zip(loaded, self._loaded(angle), strict=True):
+            for column, value in zip(told, self._told(angle), strict=True):
                 column[...] = value
             call()
             return out
@@ -310,13 +370,11 @@ class Sweep:
             return out
         return self.run(angle, parameters, out=out, failed=failed)
 
-    def _loaded(self, positions: Array) -> list[Array]:
+    def _told(self, positions: Array) -> list[Array]:
         """Return the columns that differ from position to position: cam, branches and loads."""
-        motion = driven(self.problem.drive, positions) if self._followed else ()
-        columns = [np.asarray(one) for one in motion]
-        columns += [closing.branch(positions) for closing in self.branches.values()]
-        if self.loads is not None:
-            columns += self.loads.at(positions)
+        return self._typed(self._case.at(positions))
+
+    def _typed(self, columns: Sequence[Array]) -> list[Array]:
         return [column.astype(self._runner.dtype) for column in columns]
 
     def _shape(
@@ -357,7 +415,11 @@ class Sweep:
     def guards(self) -> list[tuple[Name, PlanKind]]:
         """Step and plan of every margin that is watched, by the numbers of `reason`."""
         plans = self._draft.plans
-        return [(step, plans.get(step, PlanKind.POSITION)) for step in self._runner.guards]
+        return [(step, plans.get(step, PlanKind.POSITION)) for step in self._guards]
+
+    @property
+    def _guards(self) -> tuple[Name, ...]:
+        return (*self._runner.guards, *self._met)
 
     def javascript(self) -> str:
         """Return the source of a function of JavaScript: of a position, branches and loads.
@@ -368,7 +430,7 @@ class Sweep:
 
     def reason(self, guard: int) -> str:
         """Return the step behind a guard's number; empty for -1, which no guard has."""
-        return "" if guard < 0 else str(self._runner.guards[guard])
+        return "" if guard < 0 else str(self._guards[guard])
 
     def explain(self, position: float, *, number: int | None = None) -> str:
         """Return why a position is impossible, in the words and numbers of the drawing.
@@ -393,12 +455,8 @@ class Sweep:
         at = np.array([position], dtype=float)
         if not np.isfinite(position):
             return Failure(Cause.NO_NUMBER, Place.of(self.problem, at, 0))
-        data: dict[str, Any] = {**self.constants, self.driver: at}
-        if self._followed:
-            data.update(zip(self._followed, driven(self.problem.drive, at), strict=True))
-        data.update({name: closing.branch(at) for name, closing in self.branches.items()})
-        if self.loads is not None:
-            data.update(zip(self.loads.names, self.loads.at(at), strict=True))
+        told = zip(self._case.given, self._case.at(at), strict=True)
+        data: dict[str, Any] = {**self.constants, self.driver: at, **dict(told)}
         reading = Reading(evaluate(self.program, data, Float64()), 1)
         if failing(self.program, reading.trace, 1)[0] < 0:
             return None
@@ -435,45 +493,22 @@ def sweep_variants(
     Raises
     ------
     SweepError
-        When the variants are not built by the same steps, or a fixed point moves.
+        When the variants are not built by the same steps.
     """
-    labels = None if asked is None else tuple(asked)
-    each = [Sweep(problem, labels) for problem in problems]
-    first = each[0]
-    if any(sweep.forces for sweep in each):
-        raise SweepError("variants are swept together without forces: sweep each alone")
-    for other in each[1:]:
-        if other.branches != first.branches:
-            raise SweepError("the variants do not have the same change points: sweep each alone")
-        if other.program != first.program:
-            raise SweepError(
-                f"{_named(other.problem)} is not built by the same steps as "
-                f"{_named(first.problem)}: sweep it alone"
-            )
-    differing = {
-        name
-        for other in each[1:]
-        for name, value in other.constants.items()
-        if value != first.constants[name]
-    }
-    moved = sorted(name for name in differing if name not in first.parameters)
-    if moved:
-        raise SweepError(f"the variants differ in the places of {', '.join(moved)}: sweep each")
-    varied = sorted(differing)
-    values = {name: np.array([[s.parameters[name]] for s in each]) for name in varied}
-    whole = Sweep(first.problem, labels, varied=varied)
-    angle = np.asarray(positions, dtype=float)
-    if not varied:
-        one = whole.run(angle)
-        return whole.rows, np.repeat(one[:, np.newaxis], len(each), axis=1)
-    return whole.rows, whole.run(angle, values)
+    return Sweep(problems[0], asked)._beside(problems, positions)
 
 
 def _named(problem: Problem) -> str:
     return problem.name + (f" ({problem.variant})" if problem.variant else "")
 
 
-def _motion(results: Quantities) -> list[Quantity]:
-    """Return the results that loads may depend on: places, velocities, rotations."""
-    kinds = (QuantityKind.PLACE, QuantityKind.VELOCITY, QuantityKind.OMEGA)
-    return [result for result in results.all if result.kind in kinds]
+def _motion_of(problem: Problem) -> Motion:
+    """Return what sweeps the motion of a problem; it is made when it is first asked."""
+    made: list[Sweep] = []
+
+    def swept(positions: Array) -> dict[str, Array]:
+        if not made:
+            made.append(Sweep(problem))
+        return made[0].table(positions)
+
+    return swept

@@ -189,7 +189,7 @@ def in_batches(problems: Sequence[Problem], profile: Profile) -> list[tuple[Batc
     each is to be solved alone.
     """
     plain = [k for k, problem in enumerate(problems) if _is_plain(problem)]
-    made = dict(zip(plain, _constructed([problems[k] for k in plain]), strict=True))
+    made = dict(zip(plain, constructed([problems[k] for k in plain]), strict=True))
     alike: dict[tuple[Any, ...], list[int]] = {}
     for k, construction in made.items():
         if construction is not None and construction.draft.origin == 0:
@@ -249,7 +249,7 @@ def _loads_kind(solution: Solution) -> tuple[object, ...] | None:
         return None  # it says why when it is solved alone
 
 
-def _constructed(problems: Sequence[Problem]) -> list[Construction | None]:
+def constructed(problems: Sequence[Problem]) -> list[Construction | None]:
     """Return the constructions of problems, None where there is none.
 
     Their closings are judged side by side: what is drawn by the same steps is read at once.

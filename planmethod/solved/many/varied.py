@@ -1,0 +1,350 @@
+"""Cases of a sweep: a problem as a program with its numbers, the file with others (случаи).
+
+What follows from a size, the height of a triangle or the way in which a group closes, follows as it
+does where the file has that size: each case is the file read again.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from typing import TYPE_CHECKING
+
+import numpy as np
+from msgspec import Struct
+from msgspec.structs import replace
+
+from planmethod.compiled import Array, Runner, write
+from planmethod.construct.program import Program
+from planmethod.construct.steps import Name
+from planmethod.errors import AssemblyError, PlanMethodError, ProblemError
+from planmethod.plans.build import Construction, build
+from planmethod.plans.closing import Choice
+from planmethod.plans.legend import Quantity, QuantityKind
+from planmethod.problem.model import Problem
+from planmethod.problem.parameters import Parameter, Parameters
+from planmethod.solved.closings import construct, drive_data
+from planmethod.solved.driving import driven
+from planmethod.solved.labelled import quantities_for
+from planmethod.solved.many.rows import SweepRow, rows_of
+from planmethod.solved.many.variants import constructed
+from planmethod.solved.quantities import Quantities
+from planmethod.solved.solution import Solution
+from planmethod.solved.turn.posed import pose
+
+if TYPE_CHECKING:
+    from planmethod.solved.many.loads import LoadColumns, Motion
+
+
+class SweepError(PlanMethodError, ValueError):
+    """Parameters or variants that one sweep cannot hold."""
+
+
+class Case(Struct, frozen=True, eq=False):
+    """A problem as a sweep needs it: the program of what is asked, and its numbers (случай).
+
+    Attributes
+    ----------
+    problem : Problem
+    construction : Construction
+    results : Quantities
+    chosen, moved : tuple of Quantity
+        What is asked, and what loads depend on besides.
+    program : Program
+        Steps that are needed.
+    constants : mapping
+        Data that are the same in every position.
+    loads : LoadColumns or None
+        Loads that must be told for every position.
+    told : str
+        Of a file with other numbers, those: ``l_AB = 0.3``.
+    """
+
+    problem: Problem
+    construction: Construction
+    results: Quantities
+    chosen: tuple[Quantity, ...]
+    moved: tuple[Quantity, ...]
+    program: Program
+    constants: Mapping[str, complex | float]
+    loads: LoadColumns | None
+    told: str = ""
+
+    @property
+    def followed(self) -> tuple[str, ...]:
+        """What a cam's follower tells in every position."""
+        drive = self.problem.drive
+        return drive.given if drive.followed is not None else ()
+
+    @property
+    def given(self) -> tuple[str, ...]:
+        """What differs from position to position beside the driver's coordinate."""
+        loads = () if self.loads is None else self.loads.names
+        return (*self.followed, *self.results.draft.branches, *loads)
+
+    def at(self, positions: Array) -> list[Array]:
+        """Return the columns of `given` in some positions: cam, branches and loads."""
+        motion = driven(self.problem.drive, positions) if self.followed else ()
+        columns = [np.asarray(one) for one in motion]
+        columns += [one.branch(positions) for one in self.results.draft.branches.values()]
+        return columns if self.loads is None else columns + self.loads.at(positions)
+
+    @property
+    def kind(self) -> tuple[object, ...]:
+        """What cases have in common that one tape holds."""
+        return self.program.steps, self.results.draft.origin, self.given, tuple(self.constants)
+
+
+class SweepTask(Struct, frozen=True):
+    """What is asked of a sweep, of whichever numbers.
+
+    Attributes
+    ----------
+    asked : tuple of str or None
+    forces : bool
+    drawn : tuple of Name
+    motion : callable
+        Gives what sweeps the motion of a problem.
+    """
+
+    asked: tuple[str, ...] | None
+    forces: bool
+    drawn: tuple[Name, ...]
+    motion: Callable[[Problem], Motion]
+
+    def of(self, problem: Problem, construction: Construction | None = None) -> Case:
+        """Return the case of a problem."""
+        solution = Solution(problem, positions=[], construction=construction)
+        results = quantities_for(solution, self.asked, forces=self.forces)
+        chosen = results.choose(self.asked)
+        loads = self._loads(solution, results, chosen)
+        # Loads against a motion are known only where all steps of that motion exist.
+        moved = _motion(results) if loads is not None and loads.need_motion else ()
+        names = [result.name for result in (*chosen, *moved)]
+        program = results.program.needed_for([*names, *self.drawn])
+        constants = _constants(problem, results)
+        return Case(
+            problem, solution.construction, results, chosen, moved, program, constants, loads
+        )
+
+    def like(self, case: Case, problem: Problem, construction: Construction) -> Case:
+        """Return the case of a problem: where it is drawn as another one, numbers alone are new."""
+        whole = case.loads is None and not any(one.kind.is_force for one in case.chosen)
+        draft, known = construction.draft, case.results
+        whole = whole and tuple(draft.numbers) == tuple(known.numbers)
+        if not whole or construction.program.steps != case.construction.program.steps:
+            return self.of(problem, construction)
+        own = Quantities(known.program, draft.numbers, known.all, draft)
+        constants = _constants(problem, own)
+        return Case(
+            problem, construction, own, case.chosen, case.moved, case.program, constants, None
+        )
+
+    def _loads(
+        self, solution: Solution, results: Quantities, chosen: Sequence[Quantity]
+    ) -> LoadColumns | None:
+        """Return the loads that must be told for every position; None if there are none."""
+        if not (results.changing and any(result.kind.is_force for result in chosen)):
+            return None
+        from planmethod.solved.many.loads import LoadColumns
+
+        problem = solution.problem
+        return LoadColumns(problem, solution.construction, results.changing, self.motion(problem))
+
+
+def _constants(problem: Problem, results: Quantities) -> dict[str, complex | float]:
+    draft, drive = results.draft, problem.drive
+    data = drive_data(problem, draft, np.zeros(1))
+    data.update(results.numbers)
+    followed = drive.given if drive.followed is not None else ()
+    return {
+        name: complex(value) if np.iscomplexobj(value) else float(np.asarray(value).real)
+        for name, value in data.items()
+        if name != drive.coordinate.name and name not in (*draft.branches, *followed)
+    }
+
+
+def _motion(results: Quantities) -> tuple[Quantity, ...]:
+    """Return the results that loads may depend on: places, velocities, rotations."""
+    kinds = (QuantityKind.PLACE, QuantityKind.VELOCITY, QuantityKind.OMEGA)
+    return tuple(result for result in results.all if result.kind in kinds)
+
+
+class CaseTape:
+    """Cases of one kind written on one tape: numbers in which they differ are inputs (лента).
+
+    Parameters
+    ----------
+    case : Case
+        The first of them.
+    free : sequence of str
+        Numbers that are inputs.
+    drawn : sequence of Name
+    dtype : dtype
+    native : bool or None
+    """
+
+    def __init__(
+        self,
+        case: Case,
+        free: Sequence[str],
+        drawn: Sequence[Name],
+        dtype: np.dtype[np.floating],
+        native: bool | None,
+    ) -> None:
+        self.case, self.free = case, tuple(free)
+        fixed = {name: v for name, v in case.constants.items() if name not in self.free}
+        inputs = [case.problem.drive.coordinate.name]
+        for name in self.free:
+            place = isinstance(case.constants[name], complex)
+            inputs += [f"{name}.x", f"{name}.y"] if place else [name]
+        written = write(case.program, fixed, (*inputs, *case.given), case.construction.parts)
+        origin = case.results.draft.origin
+        self.rows: tuple[SweepRow, ...]
+        self.rows, refs, depends = rows_of(case.chosen, written, origin, case.moved, drawn)
+        self.runner = Runner(written, refs, depends, dtype=dtype, native=native)
+
+    def lacks(self, cases: Sequence[Case]) -> list[str]:
+        """Return the numbers in which cases differ from the first one that are no inputs."""
+        mine = self.case.constants
+        return [
+            name
+            for name, value in mine.items()
+            if name not in self.free and any(one.constants[name] != value for one in cases)
+        ]
+
+    def columns(
+        self, cases: Sequence[Case], which: Array, rates: Mapping[str, Array]
+    ) -> list[Array]:
+        """Return the inputs that are numbers: rates as they are, others of the cases ``which``."""
+        found: list[Array] = []
+        for name in self.free:
+            if name in rates:
+                found.append(rates[name])
+                continue
+            values = np.array([one.constants[name] for one in cases])[which]
+            found += [values.real, values.imag] if np.iscomplexobj(values) else [values]
+        return [column.astype(self.runner.dtype, copy=False) for column in found]
+
+
+class Varied:
+    """Numbers of the file that a sweep varies (что варьируется).
+
+    Parameters
+    ----------
+    case : Case
+        With the numbers of the file.
+    task : SweepTask
+    names : sequence of str
+
+    Attributes
+    ----------
+    rates : dict of str to str
+        Rates of the driver by the names under which they are varied: they are inputs as they are.
+    sizes : dict of str to Parameter
+        All other ones: the file is read again with them.
+
+    Raises
+    ------
+    SweepError
+    """
+
+    def __init__(self, case: Case, task: SweepTask, names: Sequence[str]) -> None:
+        self.case, self.task = case, task
+        self.parameters = Parameters(case.problem, pose)
+        forces = any(one.kind.is_force for one in case.chosen)
+        self.offered = {
+            name: one.value
+            for name, one in self.parameters.by_name.items()
+            if forces or one.part != "dynamics"
+        }
+        self.rates: dict[str, str] = {}
+        self.sizes: dict[str, Parameter] = {}
+        if not names:
+            return
+        found = {name: self.parameters.find(name) for name in names}
+        unknown = [name for name, one in found.items() if one is None]
+        if unknown:
+            known = ", ".join(self.offered)
+            follows = [name for name in unknown if name in case.constants]
+            if follows:
+                raise SweepError(
+                    "{} follows from other numbers of the file, and is not varied alone. Known: "
+                    "{}.",
+                    ", ".join(follows),
+                    known,
+                )
+            raise SweepError("no parameter {} to vary. Known: {}.", ", ".join(unknown), known)
+        own = [one for one in found.values() if one is not None]
+        if len({one.key for one in own}) < len(own):
+            raise SweepError("two of the parameters {} are one number", ", ".join(names))
+        try:
+            self.parameters.check(own)
+        except ProblemError as error:
+            raise SweepError(str(error)) from error
+        for name, one in found.items():
+            assert one is not None
+            # A rate of nothing leaves steps out.
+            if one.part == "drive" and one.value and not forces and one.name in case.constants:
+                self.rates[name] = one.name
+            else:
+                self.sizes[name] = one
+
+    def probed(self) -> list[str]:
+        """Return the numbers of the program that each size alone changes, near that of the file."""
+        found = dict.fromkeys(self.rates.values())
+        for one in self.sizes.values():
+            try:
+                near = self.cases([one], np.array([[1.001 * one.value or 0.001]]))[0]
+            except SweepError:
+                continue
+            if near.kind == self.case.kind:
+                own = self.case.constants
+                found |= {name: None for name, v in near.constants.items() if v != own[name]}
+        return list(found)
+
+    def cases(self, sizes: Sequence[Parameter], values: Array) -> list[Case]:
+        """Return the case of every column of values, shape (sizes, cases).
+
+        Raises
+        ------
+        SweepError
+            The file is faulty with these numbers.
+        """
+        told = [
+            ", ".join(f"{one.name} = {v:g}" for one, v in zip(sizes, column, strict=True))
+            for column in values.T.tolist()
+        ]
+        problems = []
+        for column, named in zip(values.T.tolist(), told, strict=True):
+            try:
+                problems.append(self.parameters.read(dict(zip(sizes, column, strict=True))))
+            except (ProblemError, AssemblyError) as error:
+                raise SweepError("with {} the file is refused. {}", named, str(error)) from error
+        found = []
+        for problem, made, named in zip(problems, constructed(problems), told, strict=True):
+            try:
+                built = self._told_alike(made or self._unclosed(problem))
+                case = self.task.like(self.case, problem, built)
+            except ProblemError as error:
+                raise SweepError("with {} the file is refused. {}", named, str(error)) from error
+            found.append(replace(case, told=named))
+        return found
+
+    def _told_alike(self, made: Construction) -> Construction:
+        """Return a construction with the special points of the first one, not with better ones."""
+        mine, choice = self.case.construction.draft.choice, made.draft.choice
+        kept = {
+            links: replace(closing, third=mine[links].third) for links, closing in choice.items()
+        }
+        if kept == choice:
+            return made
+        return build(made.draft.problem, made.structure, kept)
+
+    def _unclosed(self, problem: Problem) -> Construction:
+        """Return the construction of a problem that the positions of the file do not close."""
+        try:
+            return construct(problem)
+        except AssemblyError:  # the steps are there, and tell in which positions they fail
+            mine = self.case.construction
+            choice: Choice = mine.draft.choice
+            return build(problem, mine.structure, choice)
