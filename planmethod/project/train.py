@@ -80,6 +80,28 @@ def output_of(motion: TrainMotion) -> str | None:
     return train.output or (moving[-1] if moving else None)
 
 
+def quick_shaft(project: Project) -> tuple[str, float] | None:
+    """Return the input of the train that turns the crank, and how much quicker it is; else None.
+
+    The crank turns with a link of the train; of several inputs the quickest one is meant.
+    """
+    part, drive = project.part(PartName.GEARS), project.problem.drive
+    if part is None or not isinstance(part.problem, GearProblem):
+        return None
+    if not drive.is_crank or not drive.rate:
+        return None
+    motion = solve_motion(part.problem)
+    train, crank = motion.train, abs(drive.rate)
+    speeds = {body: abs(float(motion.speeds.get(body, 0)) * train.rate)
+              for body in train.bodies if body not in train.racks}  # fmt: skip
+    inputs = [body for body in train.inputs if body in speeds]
+    if not inputs or not any(abs(x - crank) <= ALIKE * crank for x in speeds.values()):
+        return None
+    quickest = max(inputs, key=speeds.__getitem__)
+    ratio = speeds[quickest] / crank
+    return (quickest, ratio) if ratio > 1.0 + ALIKE else None
+
+
 def train_apart(project: Project) -> str | None:
     """Return a warning of a train no link of which turns as fast as the crank; else None."""
     part, drive = project.part(PartName.GEARS), project.problem.drive

@@ -237,6 +237,25 @@ def test_an_indicator_has_as_many_strokes_as_the_cycle() -> None:
         Flywheel(loads(text, name="short"))
 
 
+@each("wheel", ["", "flywheel.density = 7200", 'flywheel = { shape = "rim", ratio = 3 }',
+                'flywheel = { shape = "rim", density = 7100, speed = 5 }'])  # fmt: skip
+def test_the_adopted_flywheel_has_a_round_diameter_and_the_same_inertia(wheel: str) -> None:
+    text = PRESS.replace("[machine]", f"[machine]\n{wheel}", 1)
+    made = FlywheelDrawing(Flywheel(loads(text, name="wheel")), PROFILES["board"])
+    tell = MachineTeller(made, language("en"))
+    found, sizes = tell.calculated, tell.sizes
+    assert found is not None and sizes is not None
+    D, bore = sizes.diameter, sizes.bore
+    assert abs(D - found.diameter) <= 0.011 and abs(D * 1e3 - round(D * 1e3)) < 1e-9
+    assert near(sizes.mass * (D**2 + bore**2) / 8.0, found.inertia)
+    density = 7800 if not wheel or "density" not in wheel else float(wheel.split("= ")[-1]
+                                                  if "{" not in wheel else 7100)  # fmt: skip
+    assert near(density * pi * sizes.width * (D**2 - bore**2) / 4.0, sizes.mass)
+    assert sizes.speed <= made.flywheel.machine.wheel.greatest_speed * (1 + 1e-9)
+    told = " ".join(tell.size_formulas())
+    assert all(f"{letter} = " in told for letter in "Dmb")
+
+
 def test_a_driving_slider_has_no_flywheel_and_loads_are_needed() -> None:
     text = path_of("linkages/ex1").read_text("utf-8") + "\n[machine]\ndelta = 0.05\n"
     with pytest.raises(ProblemError, match=r"there are no \[\[loads\]\]"):

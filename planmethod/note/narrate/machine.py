@@ -7,6 +7,7 @@ from math import degrees, isinf, pi
 from typing import TypeAlias
 
 import numpy as np
+from msgspec.structs import replace
 
 from planmethod.construct.scale import Scale
 from planmethod.note import formula
@@ -21,7 +22,16 @@ from planmethod.problem.model import Convention
 from planmethod.solved.machine.drawing import FlywheelDrawing, split
 from planmethod.solved.machine.flywheel import Flywheel, SpeedExtreme
 from planmethod.solved.machine.runup import MOST_CYCLES, NEAR, RunUp, TimeCourse, run_up_of
-from planmethod.solved.machine.sizes import FlywheelSizes, size_of
+from planmethod.solved.machine.sizes import (
+    DISC_WIDTH,
+    RIM_BORE,
+    RIM_WIDTH,
+    STEEL_FACTOR,
+    FlywheelSizes,
+    adopted,
+    density_of,
+    size_of,
+)
 from planmethod.solved.reading import Reals
 
 _Column: TypeAlias = tuple[str, str, list[str]]
@@ -268,17 +278,77 @@ class MachineTeller:
     # Sizes -----------------------------------------------------------------------------------
 
     @property
-    def sizes(self) -> FlywheelSizes | None:
-        """Sizes of the exact flywheel."""
+    def calculated(self) -> FlywheelSizes | None:
+        """Sizes of the flywheel that is adopted, its diameter as the formula has it."""
         flywheel = self.flywheel
-        return size_of(flywheel.machine.wheel, flywheel.exact.inertia, flywheel.middle_speed)
+        return size_of(flywheel.machine.wheel, self.drawing.adopted, flywheel.middle_speed)
+
+    @property
+    def sizes(self) -> FlywheelSizes | None:
+        """Sizes of the flywheel that is adopted: of the same inertia, its diameter round."""
+        found = self.calculated
+        return None if found is None else adopted(self.flywheel.machine.wheel, found)
+
+    def on_shaft(self, ratio: float) -> FlywheelSizes | None:
+        """Return the sizes of the flywheel on a shaft that is so much quicker than the crank."""
+        flywheel = self.flywheel
+        wheel = replace(flywheel.machine.wheel, ratio=ratio)
+        found = size_of(wheel, self.drawing.adopted, flywheel.middle_speed)
+        return None if found is None else adopted(wheel, found)
+
+    def size_formulas(self) -> list[str]:
+        """Return the formulas of the diameter, the mass and the width, with numbers."""
+        found, sizes, wheel, say = (
+            self.calculated, self.sizes, self.flywheel.machine.wheel, self.say,
+        )  # fmt: skip
+        assert found is not None and sizes is not None
+        J, inertia = self.letter("flywheel"), say.found(sizes.inertia)  # noqa: N806
+        J = J if wheel.ratio == 1.0 else f"J_{{{self.said.own}}}"  # noqa: N806
+        density, metre, kg = say.found(density_of(wheel)), self.unit("m"), self.unit("kg")
+        hollow, share = bool(sizes.bore), say.given(RIM_WIDTH if sizes.bore else DISC_WIDTH)
+        if found.held:
+            omega = self.letter("mean speed")
+            turning = omega if wheel.ratio == 1.0 else f"{say.given(wheel.ratio)}·{omega}"
+            speeds = "v", turning
+            numbers = say.given(wheel.greatest_speed), say.found(2 * found.speed / found.diameter)
+            diameter = " = ".join(formula.fraction(f"2·{a}", b) for a, b in (speeds, numbers))
+        elif hollow or wheel.density is not None:
+            rest = f"·(1 − {say.given(RIM_BORE)}^{{4}})" if hollow else ""
+            diameter = " = ".join(
+                f"({formula.fraction(f'32·{a}', f'π·{share}·{b}{rest}')})^{{1/5}}"
+                for a, b in ((J, "ρ"), (inertia, density))
+            )
+        else:
+            factor = say.given(STEEL_FACTOR)
+            diameter = f"{factor}·{J}^{{1/5}} = {factor}·{inertia}^{{1/5}}"
+        lines = [
+            self.said.diameter.format(
+                formula=f"D = {diameter} = {say.found(found.diameter)} {metre}",
+                value=f"D = {say.given(sizes.diameter)} {metre}",
+            )
+        ]
+        D, bore = say.given(sizes.diameter), say.given(round(sizes.bore, 6))  # noqa: N806
+        if hollow:
+            lines.append(f"D_{{1}} = {say.given(RIM_BORE)}·D = {bore} {metre}")
+        plus = ("D^{2} + D_{1}^{2}", f"{D}^{{2}} + {bore}^{{2}}")
+        minus = (f"π·ρ·({plus[0].replace('+', '−')})",
+                 f"π·{density}·({plus[1].replace('+', '−')})")  # fmt: skip
+        if not hollow:
+            plus, minus = ("D^{2}", f"{D}^{{2}}"), ("π·ρ·D^{2}", f"π·{density}·{D}^{{2}}")
+        mass, width = f"{say.found(sizes.mass)} {kg}", f"{say.found(sizes.width)} {metre}"
+        above = (f"8·{J}", f"8·{inertia}"), ("4·m", f"4·{say.found(sizes.mass)}")
+        masses, widths = ("m", above[0], plus, mass), ("b", above[1], minus, width)
+        for letter, tops, bottoms, value in (masses, widths):
+            parts = (formula.fraction(*pair) for pair in zip(tops, bottoms, strict=True))
+            lines.append(" = ".join([letter, *parts, value]))
+        return lines
 
     def size_lines(self, sizes: FlywheelSizes) -> list[str]:
         """Return the sizes of a flywheel with numbers."""
         say, metre = self.say, self.unit("m")
-        lines = [f"D = {say.found(sizes.diameter)} {metre}"]
+        lines = [f"D = {say.given(sizes.diameter)} {metre}"]
         if sizes.bore:
-            lines.append(f"D_{{1}} = {say.found(sizes.bore)} {metre}")
+            lines.append(f"D_{{1}} = {say.given(round(sizes.bore, 6))} {metre}")
         lines.append(f"b = {say.found(sizes.width)} {metre}")
         lines.append(f"m = {say.found(sizes.mass)} {self.unit('kg')}")
         lines.append(f"v = {say.found(sizes.speed)} {self.unit('m/s')}")

@@ -13,7 +13,7 @@ from planmethod.problem.machine_records import Quadrature
 from planmethod.solved.machine.drawing import FlywheelDrawing, drawing_of, split
 from planmethod.solved.machine.flywheel import Flywheel, SpeedExtreme
 from planmethod.solved.machine.runup import MOST_CYCLES, RunUp, TimeCourse, run_up_of
-from planmethod.solved.machine.sizes import size_of
+from planmethod.solved.machine.sizes import adopted, size_of
 
 
 def machine_record(flywheel: Flywheel, profile: Profile) -> dict[str, Any]:
@@ -28,6 +28,8 @@ def machine_record(flywheel: Flywheel, profile: Profile) -> dict[str, Any]:
     lever = flywheel.lever(machine.count)
     exact = flywheel.exact.inertia
     sizes = size_of(machine.wheel, exact, middle)
+    told = size_of(machine.wheel, drawing.adopted, middle)
+    wheel = None if told is None else adopted(machine.wheel, told)
     columns = {
         "phi_deg": rows.phi_deg,
         "M": rows.moment,
@@ -89,7 +91,7 @@ def machine_record(flywheel: Flywheel, profile: Profile) -> dict[str, Any]:
             "pole_mm": plain(drawing.pole),
         },
         "flywheel": None
-        if sizes is None
+        if sizes is None or wheel is None
         else {
             "shape": sizes.shape.value,
             "J": plain(sizes.inertia),
@@ -99,6 +101,14 @@ def machine_record(flywheel: Flywheel, profile: Profile) -> dict[str, Any]:
             "b": plain(sizes.width),
             "rim_speed": plain(sizes.speed),
             "held_by_speed": sizes.held,
+            "adopted": {
+                "J": plain(wheel.inertia),
+                "D": plain(wheel.diameter),
+                **({"D_1": plain(wheel.bore)} if wheel.bore else {}),
+                "m": plain(wheel.mass),
+                "b": plain(wheel.width),
+                "rim_speed": plain(wheel.speed),
+            },
         },
         **run_up_record(flywheel),
     }

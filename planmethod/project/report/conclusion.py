@@ -151,11 +151,11 @@ def _flywheel(report: Report, said: Words) -> Iterator[Rich]:
     main = said.flywheel.format(
         delta=tell.delta,
         symbol=tell.letter("flywheel"),
-        value=report.quantity(read, "kg·m²"),
+        value=report.quantity(tell.drawing.adopted, "kg·m²"),
         whole=say.number(percent_text(ComparedNumber(exact, read).share)),
     )
     size = said.flywheel_sizes.format(
-        diameter=report.quantity(sizes.diameter, "m"),
+        diameter=with_unit(say.given(sizes.diameter), report.unit("m")),
         width=report.quantity(sizes.width, "m"),
         mass=report.quantity(sizes.mass, "kg"),
     )

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from itertools import takewhile
 
 from planmethod.note.document import Chapter, Node, Part, Table, table_of_quantities
-from planmethod.note.formula import Rich, fraction
+from planmethod.note.formula import Rich, escape, fraction
 from planmethod.note.narrate.machine import MachineTeller
 from planmethod.note.narrate.reduction import ReductionTeller
 from planmethod.note.numbers import half_up, with_unit
@@ -15,9 +15,11 @@ from planmethod.problem.load_records import Load, SizeTable
 from planmethod.problem.machine_records import Quadrature, WheelShape
 from planmethod.project.report.context import NBSP, Report, chain, displayed, sentences
 from planmethod.project.report.figures import figure, of_sheet
+from planmethod.project.train import ALIKE, quick_shaft
 from planmethod.render.pictures.flywheel import construction_picture
 from planmethod.solved.machine.drawing import drawing_of, split
 from planmethod.solved.machine.flywheel import flywheel_of
+from planmethod.solved.machine.sizes import density_of
 
 COLUMN = 240.0
 """Width of the texts of the sheet, which its diagrams are measured by, mm."""
@@ -201,17 +203,29 @@ def _checked(report: Report, tell: MachineTeller, said: Words) -> Iterator[Rich]
     )
 
 
+def _quicker(report: Report, tell: MachineTeller, said: Words) -> Rich:
+    """Return what the flywheel would be on the quick shaft of the train; nothing without one."""
+    shaft = quick_shaft(report.project)
+    if shaft is None or abs(shaft[1] / tell.flywheel.machine.wheel.ratio - 1.0) <= ALIKE:
+        return ""
+    label, ratio = shaft
+    sizes = tell.on_shaft(ratio)
+    assert sizes is not None, "it is needed on the crank"
+    return said.quicker.format(
+        link=escape(label),
+        ratio=report.say.short(ratio),
+        inertia=tell.letter("flywheel"),
+        value=report.quantity(sizes.inertia, "kg·m²"),
+        diameter=with_unit(report.say.given(sizes.diameter), report.unit("m")),
+        width=report.quantity(sizes.width, "m"),
+        mass=report.quantity(sizes.mass, "kg"),
+    )
+
+
 def _sizes(report: Report, tell: MachineTeller, said: Words) -> Iterator[Node]:
     sizes, say = tell.sizes, report.say
     assert sizes is not None
     disc = sizes.shape is WheelShape.DISC
-    found = [("D", sizes.diameter, "m"), ("D1", sizes.bore, "m"), ("b", sizes.width, "m"),
-             ("m", sizes.mass, "kg"), ("v", sizes.speed, "m/s")]  # fmt: skip
-    facts = [
-        str(said["size"][key]).format(value=report.quantity(value, unit))
-        for key, value, unit in found
-        if value
-    ]
     held = ""
     if sizes.held:
         limit = say.given(tell.flywheel.machine.wheel.greatest_speed)
@@ -221,12 +235,19 @@ def _sizes(report: Report, tell: MachineTeller, said: Words) -> Iterator[Node]:
         str(said["on_shaft"]["crank" if ratio == 1.0 else "other"]).format(
             ratio=say.given(ratio),
             inertia=tell.letter("flywheel"),
-            exact=say.found(tell.flywheel.exact.inertia),
+            value_of=say.found(tell.drawing.adopted),
             value=report.quantity(sizes.inertia, "kg·m²"),
         ),
         (said.disc if disc else said.rim).format(),
-        f"{', '.join(facts)}.",
+    )
+    yield from chain(tell.size_formulas())
+    yield sentences(
+        said.made.format(
+            density=report.quantity(density_of(tell.flywheel.machine.wheel), "kg/m³"),
+            speed=report.quantity(sizes.speed, "m/s"),
+        ),
         held,
+        _quicker(report, tell, said),
         said.wheel_text.format(),
     )
     made = of_sheet("flywheel", report.every, report.words, column=130.0)

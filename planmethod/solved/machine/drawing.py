@@ -205,6 +205,15 @@ class FlywheelDrawing:
         return float(self.by_hand.number(self.made.J_f)[0])
 
     @property
+    def adopted(self) -> float:
+        """J_f that the flywheel is made with, kg·m²: as the hand finds it; none if none is needed.
+
+        The exact one where the construction, too coarse, finds none.
+        """
+        exact = self.flywheel.exact.inertia
+        return 0.0 if exact <= 0.0 else max(self.read_inertia, 0.0) or exact
+
+    @property
     def sigma(self) -> float:
         """Drafting error of J_f, kg·m²."""
         return float(self.errors.spreads[self.made.J_f].sigma[0])

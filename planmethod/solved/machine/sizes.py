@@ -4,7 +4,7 @@ A disc of width 0.165·D has J = m·D²/8, so D = 0.38·J^(1/5) of steel: the fo
 coursework; with another density D = (32·J/(0.165·pi·rho))^(1/5). A rim D_1 = 0.8·D, b = 0.2·D has
 J = pi·rho·b·(D⁴ - D_1⁴)/32, spokes and hub left out. Where the rim would run quicker than it may, D
 is what its greatest speed allows, and the width grows; one that is wide for its diameter is warned
-of.
+of. What is made has a round diameter, and the mass and the width with which its J is the same.
 """
 
 from __future__ import annotations
@@ -25,6 +25,10 @@ DISC_WIDTH, RIM_WIDTH, RIM_BORE = 0.165, 0.2, 0.8
 
 WIDEST = 0.4
 """Width over diameter beyond which a flywheel is not made."""
+
+
+STEPS = ((0.5, 0.01), (0.2, 0.005), (0.1, 0.002), (0.0, 0.001))
+"""From which diameter on it is rounded to which step, m."""
 
 
 class FlywheelSizes(Struct, frozen=True):
@@ -69,7 +73,7 @@ def size_of(wheel: FlywheelTask, inertia: float, omega: float) -> FlywheelSizes 
     own, turning = inertia / wheel.ratio**2, omega * wheel.ratio
     disc = wheel.shape is WheelShape.DISC
     width, bore = (DISC_WIDTH, 0.0) if disc else (RIM_WIDTH, RIM_BORE)
-    density = STEEL if wheel.density is None else wheel.density
+    density = density_of(wheel)
     if disc and wheel.density is None:
         diameter = STEEL_FACTOR * own**0.2
     else:
@@ -83,6 +87,31 @@ def size_of(wheel: FlywheelTask, inertia: float, omega: float) -> FlywheelSizes 
         breadth = 4.0 * mass / (pi * density * diameter**2 * (1.0 - bore**2))
     speed = turning * diameter / 2.0
     return FlywheelSizes(wheel.shape, own, diameter, bore * diameter, breadth, mass, speed, held)
+
+
+def density_of(wheel: FlywheelTask) -> float:
+    """Return the density of a flywheel, kg/m³."""
+    return STEEL if wheel.density is None else wheel.density
+
+
+def adopted(wheel: FlywheelTask, sizes: FlywheelSizes) -> FlywheelSizes:
+    """Return a flywheel of the same inertia with a round diameter (принятый маховик).
+
+    The nearest one with which the rim does not run quicker than it may.
+    """
+    exact = sizes.diameter
+    step = next(step for least, step in STEPS if exact >= least)
+    turning = 2.0 * sizes.speed / exact
+    count = round(exact / step)
+    while count > 1 and count * step * turning / 2.0 > wheel.greatest_speed * (1.0 + 1e-9):
+        count -= 1
+    diameter = round(max(count, 1) * step, 6) if exact >= STEPS[-1][1] else exact
+    hollow = sizes.bore / exact
+    mass = 8.0 * sizes.inertia / (diameter**2 * (1.0 + hollow**2))
+    width = 4.0 * mass / (pi * density_of(wheel) * diameter**2 * (1.0 - hollow**2))
+    speed = turning * diameter / 2.0
+    return replace(sizes, diameter=diameter, bore=hollow * diameter, width=width, mass=mass,
+                   speed=speed)  # fmt: skip
 
 
 def too_wide(wheel: FlywheelTask, inertia: float, omega: float) -> str | None:
