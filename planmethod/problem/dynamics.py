@@ -205,6 +205,10 @@ def read_balancing_force(
         faults.add(path, "there are neither masses nor loads that it could balance", _MASSES)
     if drive is None or drive.link not in links:
         return None
+    if drive.actuator is not None:
+        hint = "Delete the table: what balances an actuator's mechanism is the force along it."
+        faults.add(path, say("the actuator {} drives", "".join(drive.actuator)), hint)
+        return None
     if drive.pivot is None:
         hint = "Delete the table: what balances a driving slider is a force along its guide."
         faults.add(path, say("link {} slides and has no turn", drive.link), hint)
@@ -249,7 +253,7 @@ def read_friction(
         return None
     if "dynamics" not in given and "loads" not in given:
         faults.add(path, "there are neither masses nor loads that could press", _MASSES)
-    if drive is not None and not drive.rate:
+    if drive is not None and drive.stands:
         hint = "Give the driver a speed: friction acts against the motion."
         faults.add(path, "the driver stands, so friction has no sense", hint)
     own = {"pairs": partial(_read_pairs, links=[*links, FRAME], points=points)}

@@ -328,9 +328,12 @@ def require_turning(
     if drive is not None and drive.followed is not None:
         what = "a cam's follower moves link {}, which does not turn all round"
         faults.add(path, say(what, drive.link), slides)
+    elif drive is not None and drive.actuator is not None:
+        what = "the actuator {} moves link {}, which does not turn all round"
+        faults.add(path, say(what, "".join(drive.actuator), drive.link), slides)
     elif drive is not None and not drive.is_crank:
         faults.add(path, say("link {} slides and has no turn", drive.link), slides)
-    elif drive is not None and not drive.rate:
+    elif drive is not None and drive.stands:
         faults.add(path, "the crank stands", stands)
 
 

@@ -377,6 +377,12 @@ class Drive(Struct, frozen=True):
         return split_pair(self.posed.of)
 
     @property
+    def stands(self) -> bool:
+        """Whether the file gives it no speed; that of an actuator is its own."""
+        acted = self.posed if self.actuator is not None else None
+        return not (self.rate if acted is None else acted.rates[0])
+
+    @property
     def mover(self) -> str:
         """Whose turn its positions are of, a key of sentences: ``crank`` or ``cam``."""
         return "crank" if self.followed is None else "cam"

@@ -71,6 +71,11 @@ def settle(problem: Problem, path: Path | None = None) -> Project:
         told = "the driving link is moved by a cam's follower, a course project is that of a crank"
         hint = "Draw it with planmethod sheet; its cam is a project's with a crank in [driver]."
         raise ProblemError(problem.name, [Fault("driver.cam", told, hint)])
+    if problem.drive.actuator is not None:
+        key = "".join(problem.drive.actuator)
+        told = "an actuator moves the driving link, a course project is that of a crank"
+        hint = "Draw it with planmethod sheet, and write it up with planmethod note."
+        raise ProblemError(problem.name, [Fault(f"driver.{key}", told, hint)])
     asked = problem.drive.positions
     problem = in_positions(problem)
     scales = replace(problem.scales, decided=True)

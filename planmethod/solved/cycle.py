@@ -13,7 +13,8 @@ import numpy as np
 import numpy.typing as npt
 from msgspec import Struct
 
-from planmethod.errors import LayoutError
+from planmethod.errors import Fault, LayoutError, ProblemError
+from planmethod.languages import say
 from planmethod.solved.forces.contact import JointForce
 from planmethod.solved.forces.loads import only_in_positions
 from planmethod.solved.forces.reading import FAINT_SHARE, require_dynamics
@@ -217,11 +218,16 @@ def cycle(solution: Solution) -> Cycle:
     Raises
     ------
     ProblemError
-        The problem file gives neither masses nor loads.
+        The problem file gives neither masses nor loads, or an actuator drives.
     LayoutError
         There is only one position.
     """
     require_dynamics(solution.problem)
+    if (ends := solution.problem.drive.actuator) is not None:
+        what = "the actuator {} drives link {}, and there are no forces over a turn of that"
+        hint = "Ask single positions: --phi 40,50, or variants with other lengths of the actuator."
+        fault = Fault("driver", say(what, "".join(ends), solution.problem.drive.link), hint)
+        raise ProblemError(solution.problem.name, [fault])
     if len(solution.positions) < 2:
         raise LayoutError(
             "{}: a layout with forces over the cycle needs several positions, 1 is "

@@ -47,7 +47,11 @@ def turn_efficiency(solution: Solution, count: int = COUNT) -> TurnEfficiency | 
     """
     problem = solution.problem
     assert problem.dynamics is not None
-    if not problem.drive.goes_round or only_in_positions(problem.dynamics):
+    if (
+        not problem.drive.goes_round
+        or problem.drive.actuator
+        or only_in_positions(problem.dynamics)
+    ):
         return None
     turned = 360.0 * problem.turns
     whole = count * problem.turns

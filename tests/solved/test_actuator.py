@@ -20,12 +20,18 @@ from full_system import (
     slide_between,
     solve_all,
 )
+from msgspec.structs import replace
 from newton import Motion
 from newton import solve as newton
 
+from planmethod.errors import ProblemError
 from planmethod.mechanism.model import FRAME
 from planmethod.problem import loads
+from planmethod.problem.load_records import FrictionTask
 from planmethod.problem.model import Problem
+from planmethod.project.settle import settle
+from planmethod.solved.cycle import cycle
+from planmethod.solved.forces.friction import Friction
 from planmethod.solved.forces.statics import Statics
 from planmethod.solved.solution import Solution
 from planmethod.solved.turn.posed import pose
@@ -163,6 +169,32 @@ def test_its_power_is_that_of_the_loads(seed: int) -> None:
     assert abs(statics.lever[0] - statics.balance[0]) * abs(grows) <= limit
 
 
+@each("seed", [seed for seed in SEEDS if not stands(seed)][: some(60, few=6)])
+def test_friction_is_carried_by_the_actuator(seed: int) -> None:
+    """Friction as a load on both links of a pair, and the power that is lost."""
+    problem, motion, ends = drawn(seed)
+    assert problem.dynamics is not None
+    task = FrictionTask(f=0.05, f_pin=0.05, radius=0.01)
+    rubbed = replace(problem, dynamics=replace(problem.dynamics, friction=task))
+    friction = Friction(Solution(rubbed))
+    if friction.jammed.any():
+        pytest.skip("friction grows without limit")
+    forces, joints = friction.converged, [(r.joint, r.on, r.by) for r in solved(seed).reactions]
+    loaded, lost = list(acting(seed)), 0.0
+    for pair, size in zip(friction.pairs, forces.friction, strict=True):
+        lost += float(size[0] * abs(pair.rate[0]))
+        pressed = abs(forces.reactions[pair.number][0]) if pair.sense[0] else 0.0
+        assert size[0] == pytest.approx(pair.share * pressed, rel=1e-9, abs=1e-9)
+        for one in pair.loads(size):
+            at = 0j if one.point is None else motion.position[one.link, one.point]
+            loaded.append(Acting(one.link, one.force[0], at, one.couple[0]))
+    answer = solve_all(problem, joints, pose_of(motion), loaded, ends=ends)
+    limit = LIMIT * max(largest(seed), answer.largest)
+    assert abs(forces.balance[0] - answer.balance) <= limit
+    powers = power_of(problem, motion, acting(seed))
+    assert forces.power[0] == pytest.approx(lost - sum(powers), rel=1e-8, abs=1e-8)
+
+
 @pytest.mark.parametrize("own", [True, False])
 @pytest.mark.parametrize("rate", [20, 0])
 def test_the_cylinder_of_a_scissor_lift(own: bool, rate: int) -> None:
@@ -179,3 +211,33 @@ def test_the_cylinder_of_a_scissor_lift(own: bool, rate: int) -> None:
         assert pins == pytest.approx([statics.balance[0]] * 2, rel=1e-12)
         assert abs(forces["P", "4", "5"]) < 1e-9
     assert np.isfinite(statics.by_hand.number(statics.driving.balance)).all()
+
+
+@pytest.mark.parametrize(
+    ("table", "path"),
+    [
+        ('[machine]\ndelta = "1/18"', "machine"),
+        ('[balancing_force]\nat = "B"', "balancing_force"),
+        ("[balancing]\n", "balancing"),
+    ],
+)
+def test_what_is_of_a_crank_that_turns_is_refused(table: str, path: str) -> None:
+    with pytest.raises(ProblemError) as caught:
+        loads(SCISSOR.replace("CYLINDER", "") + table, name="scissor")
+    told = [fault for fault in caught.value.faults if fault.path == path]
+    assert told
+    assert "actuator PQ" in told[0].message
+
+
+def test_no_turn_and_no_project_is_made_of_it() -> None:
+    problem = drawn(SEEDS[0])[0]
+    for ask in (settle, lambda one: cycle(Solution(one, positions=[1.0, 2.0]))):
+        with pytest.raises(ProblemError, match="actuator"):
+            ask(problem)
+
+
+def test_friction_wants_the_speed_of_the_actuator_itself() -> None:
+    rubs = SCISSOR.replace("CYLINDER", "") + "[friction]\nf = 0.1\n"
+    assert loads(rubs, name="scissor").dynamics is not None
+    with pytest.raises(ProblemError, match="stands"):
+        loads(rubs.replace("v_PQ = 20", "v_PQ = 0"), name="scissor")

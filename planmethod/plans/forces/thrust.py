@@ -75,7 +75,7 @@ def pushed_links(problem: Problem) -> tuple[str, str]:
     pin alone.
     """
     ends = problem.drive.actuator
-    assert ends is not None, "an actuator drives"
+    assert ends is not None
     bodies = problem.bodies
     for slide in problem.slides.values():
         if slide.host == FRAME:
@@ -99,7 +99,7 @@ def find_thrust(board: ForceBoard, groups: Iterable[AssurGroup], *, hung: bool) 
     """
     problem, groups = board.draft.problem, tuple(groups)
     ends, links = problem.drive.actuator, pushed_links(problem)
-    assert ends is not None, "an actuator drives"
+    assert ends is not None
     on_lever = hang_loads(board) if hung else None
     if on_lever is not None:
         board.starts.remove(on_lever.pole)  # it comes after those of the plans

@@ -55,7 +55,7 @@ def lever_picture(reading: ForceReading, letter_height: float, say: Notation) ->
     arrows, letters_of_forces = force_items(placed, letter_height, prefix)
     lines, letters_of_shifts = shift_items(shifts, placed, letter_height, prefix)
     arms = [
-        arm_of(acting, 0j, force.arm)
+        arm_of(acting, force.about, force.arm)
         for acting, force in zip(forces, lever.forces, strict=True)
         if force.arm
     ]

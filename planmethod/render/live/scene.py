@@ -307,12 +307,16 @@ class LiveScene:
             elif hung.at is not None and hung.given.force is not None:
                 push(self._ref(hung.at), one.name, *hung.given.force.ends)
         drive, driving = self.problem.drive, self.planned.driving
-        if driving.force is None:
-            turn(drive.link, drive.balancing.symbol, lever.balance)
+        motion, symbol = self.construction.kinematics.velocity, drive.balancing.symbol
+        if driving.between is not None and driving.force is not None:
+            both = (driving.force.ends[::-1], driving.force.ends)
+            for end, ends in zip(driving.between, both, strict=True):
+                push([*self._ref(motion.point[motion.named[end]]), 1], symbol, *ends)
+        elif driving.force is None:
+            turn(drive.link, symbol, lever.balance)
         else:
-            motion = self.construction.kinematics.velocity
             pin = motion.point[drive.link, str(driving.force.at)]
-            push([*self._ref(pin), 1], drive.balancing.symbol, *driving.force.ends)
+            push([*self._ref(pin), 1], symbol, *driving.force.ends)
         return view
 
     def _segment_of(self, link: str) -> list[Ref]:

@@ -26,7 +26,6 @@ from planmethod.plans.forces.polygons import reaction_symbol
 from planmethod.problem.load_records import FrictionTask, PairFriction
 from planmethod.problem.model import Problem, Slide
 from planmethod.problem.names import pair_name, segment
-from planmethod.solved.driving import driven
 from planmethod.solved.forces.contact import JointForce, SlideReaction, slide_between
 from planmethod.solved.forces.loads import STILL
 from planmethod.solved.forces.reading import ForceReading
@@ -211,10 +210,9 @@ class Friction(Remembering):
             forces.append(reading.vector(*one.force.ends))
             none = np.zeros(len(self.solution.positions))
             moments.append(none if one.couple is None else reading.number(one.couple))
-        driving, drive = self._planned.driving, self.solution.problem.drive
+        driving, rate = self._planned.driving, self.statics.driving_rate
         balance = reading.number(driving.balance)
         pushes = balance if driving.moment is None else reading.number(driving.moment)
-        _, rate, _ = driven(drive, self.solution.positions)
         return np.asarray(forces), np.asarray(moments), np.asarray((balance, pushes * rate))
 
     @cached_property

@@ -33,7 +33,8 @@ class LeverForce(Struct, frozen=True):
     """Force on the lever: letter, where it hangs (mm from the pole), N, and its arm, mm.
 
     The arm is as the hand measures it, positive where the force turns counter-clockwise; ``size``
-    is the force as the hand has it, N. ``point`` is the point of the mechanism where it acts.
+    is the force as the hand has it, N. ``point`` is the point of the mechanism where it acts. The
+    arm is measured from the place ``about``, of a pair of forces where the other hangs.
     """
 
     symbol: str
@@ -42,6 +43,7 @@ class LeverForce(Struct, frozen=True):
     arm: float
     size: float
     point: str
+    about: complex = 0j
 
 
 class OnLink(Struct, frozen=True):
@@ -170,9 +172,10 @@ class LeverReading:
         size = abs(reading.read_number(hung.balance))
         arm = reading.read_number(hung.arm) * self.times
         arm = -arm if reading.number(driving.balance) < 0 else arm
-        for end, way, turns in zip(driving.between, (-force, force), (0.0, arm), strict=True):
-            place = self.place(motion.point[motion.named[end]])
-            self.forces.append(LeverForce(reading.balancing_symbol, place, way, turns, size, end))
+        one, two = (self.place(motion.point[motion.named[end]]) for end in driving.between)
+        symbol, (first, second) = reading.balancing_symbol, driving.between
+        self.forces.append(LeverForce(symbol, one, -force, 0.0, size, first))
+        self.forces.append(LeverForce(symbol, two, force, arm, size, second, one))
 
     @property
     def _motion(self) -> MotionBoard:

@@ -32,6 +32,7 @@ from planmethod.plans.forces.thrust import Thrust, close_thrust, find_thrust
 from planmethod.plans.model import FACTS, PlanKind
 from planmethod.problem.load_records import BearingTable, Dynamics
 from planmethod.problem.model import Convention
+from planmethod.solved.driving import driven
 from planmethod.solved.failures import PositionError
 from planmethod.solved.forces.contact import JointForce, SlideReaction, contacts
 from planmethod.solved.forces.leverscale import lever_times
@@ -314,6 +315,17 @@ class Statics(Remembering):
     def moment(self) -> Reals | None:
         """Balancing moment on the crank, N·m, whatever balances it; None of a driving slider."""
         return None if self.driving.moment is None else self._number(self.driving.moment)
+
+    @cached_property
+    def driving_rate(self) -> Reals | float:
+        """What the power of the driver is of: 1/s of its moment, m/s of its force, as it grows."""
+        drive = self.solution.problem.drive
+        if drive.actuator is None:
+            return driven(drive, self.solution.positions)[1]
+        one, two = (self.solution.points[end] for end in drive.actuator)
+        apart = two.place - one.place
+        relative = (two.velocity - one.velocity) * apart.conjugate()
+        return np.asarray(relative.real / np.abs(apart), dtype=float)
 
     @cached_property
     def lever(self) -> Reals | None:
