@@ -112,6 +112,8 @@ def _size(motion: TrainMotion, name: str, asked: SoughtQuantity) -> Answer:
     """Return teeth, a radius or a distance of axes, mm."""
     train, sizes, heights = motion.train, motion.axes.sizes, motion.axes.heights
     label = asked.labels[0]
+    if asked.kind == "r" and label in train.arms:
+        return _exact(name, train.arms[label] * 1000, "mm")
     if asked.kind != "a_w" and label not in sizes:
         return _none(name, "wheel", label)
     if asked.kind == "z":

@@ -15,6 +15,7 @@ from planmethod.gears.linear import LinearSolution, Row, solve
 from planmethod.gears.model import PARALLEL, Mesh, MeshKind, Train
 from planmethod.gears.roles import Roles
 from planmethod.languages import say
+from planmethod.problem.names import segment
 
 MOST_CHOSEN = 10
 """Most meshes in loops between wheels off the main axis: each may be on either side."""
@@ -89,7 +90,35 @@ def find_axes(train: Train, roles: Roles) -> tuple[TrainDimensions | None, list[
         if lines.line[one] == lines.line[other]:
             told = say("{} and {} mesh, and would turn about one axis", mesh.first, mesh.second)
             return None, [Fault("gears.meshes", told, HINT)]
-    return _solve(train, lines, meshes)
+    axes, faults = _solve(train, lines, meshes)
+    apart = [] if axes is None else _arms(train, roles, axes)
+    return (None, apart) if apart else (axes, faults)
+
+
+def _arms(train: Train, roles: Roles, axes: TrainDimensions) -> list[Fault]:
+    """Compare the radii of carriers that are given with where the axes of satellites are."""
+    found = []
+    for label, radius in train.arms.items():
+        carrier = train.body_of[label]
+        reached = {
+            body: abs(axes.heights[body] - axes.heights[carrier]) * train.unit_m
+            for body in roles.satellites.get(carrier, ())
+            if body in axes.heights and carrier in axes.heights
+        }
+        path = f"gears.wheels.{segment(label)}.r"
+        if train.toothed and train.module is None:
+            hint = "Give module = ... (mm), or every wheel by its radius."
+            found.append(Fault(path, say("a radius beside teeth needs the module"), hint))
+            continue
+        slack = 2 * CLOSE * train.unit_m if is_shifted(train) else radius / 1_000_000
+        if reached and min(abs(one - radius) for one in reached.values()) > slack:
+            body, far = min(reached.items(), key=lambda one: abs(one[1] - radius))
+            told = say(
+                "the train is not coaxial: r_{} = {:g} m, and the axis of {} is {:g} m from it by "
+                "the wheels", label, float(radius), body, float(far),
+            )  # fmt: skip
+            found.append(Fault(path, told, HINT))
+    return found
 
 
 def _find_lines(train: Train, roles: Roles) -> _Lines:

@@ -68,19 +68,26 @@ class PlanetaryComparison(Struct, frozen=True):
         return None if self.module_m is None else float(one.size * self.module_m * 1000)
 
 
-def planetary_labels(train: Train) -> tuple[TrainScheme, tuple[str, ...]] | None:
-    """Return the scheme of a train with a carrier, and its wheels in the order of a set.
+def planetary_labels(train: Train) -> tuple[str, TrainScheme, tuple[str, ...]] | None:
+    """Return the carrier of a planetary stage, its scheme, its wheels in the order of a set.
 
-    None where it is none of those that teeth are chosen for.
+    Other stages before or behind it make no difference. None where no carrier of the train has one
+    of the schemes that teeth are chosen for.
     """
-    if len(train.meshes) != 2 or not train.toothed:
-        return None
-    carriers = {train.carrier(mesh) for mesh in train.meshes}
-    held = [one for one in train.meshes if set(train.ends(one)) & train.fixed]
-    if len(carriers) != 1 or None in carriers or len(held) != 1:
+    for carrier in train.carriers:
+        found = _scheme_of(train, carrier)
+        if found is not None:
+            return carrier, *found
+    return None
+
+
+def _scheme_of(train: Train, carrier: str) -> tuple[TrainScheme, tuple[str, ...]] | None:
+    own_meshes = [mesh for mesh in train.meshes if train.carrier(mesh) == carrier]
+    held = [one for one in own_meshes if set(train.ends(one)) & train.fixed]
+    if len(own_meshes) != 2 or len(held) != 1 or not train.toothed:
         return None
     last = held[0]
-    first = next(one for one in train.meshes if one is not last)
+    first = next(one for one in own_meshes if one is not last)
     at = 0 if train.ends(last)[0] in train.fixed else 1
     satellite = train.ends(last)[1 - at]
     if satellite not in train.ends(first):
@@ -111,34 +118,40 @@ def compare(problem: GearProblem, motion: TrainMotion) -> PlanetaryComparison | 
 
     known = planetary_labels(train)
     sizes = motion.axes.sizes
-    if known is None or any(sizes[label].denominator != 1 for label in known[1]):
+    if known is None or any(sizes[label].denominator != 1 for label in known[2]):
         names = ", ".join(one.name for one in SCHEMES if one.carried)
         told = "the train is none of the planetary schemes that are compared"
         hint = say("They are: {}; the last wheel held, sizes in teeth.", names)
         raise ProblemError(problem.source_file, [Fault("gears.design", told, hint)])
-    scheme, labels = known
+    carrier, scheme, labels = known
     teeth = tuple(int(sizes[label]) for label in labels)
     ratio = fraction(task.U) if task.U is not None else None
-    own = set_of(_wanted(scheme, task, ratio or Fraction(1), 1), teeth)
+    modules = (train.module_of(labels[0]), train.module_of(labels[-1]))
+    rows = None if modules[0] is None or modules[1] is None else (modules[0], modules[1])
+    if rows is not None and rows[0] == rows[1]:
+        rows = None
+    own = set_of(_wanted(scheme, task, ratio or Fraction(1), 1, rows), teeth)
     ratio = ratio or own.ratio
-    (carrier,) = {train.carrier(mesh) for mesh in train.meshes}
-    assert carrier is not None
     count = train.satellites.get(carrier) or satellites_held(motion, carrier) or 1
     found, variants = {}, list[PlanetaryVariant]()
     for k in sorted({*range(task.k_min, task.k_max + 1), count}):
-        chosen = choose(_wanted(scheme, task, ratio, k))
+        chosen = choose(_wanted(scheme, task, ratio, k, rows))
         found[k] = chosen.found
         variants += [
             PlanetaryVariant(k, place, one, k == count and one.teeth == teeth)
             for place, one in enumerate(chosen.sets, 1)
             if place <= task.count or (k == count and one.teeth == teeth)
         ]
-    own = set_of(_wanted(scheme, task, ratio, count), teeth)
-    return PlanetaryComparison(
-        scheme, task, ratio, train.module, found, tuple(variants), own, count
-    )
+    own = set_of(_wanted(scheme, task, ratio, count, rows), teeth)
+    return PlanetaryComparison(scheme, task, ratio, modules[0], found, tuple(variants), own, count)
 
 
-def _wanted(scheme: TrainScheme, task: PlanetaryTask, ratio: Fraction, count: int) -> Wanted:
+def _wanted(
+    scheme: TrainScheme,
+    task: PlanetaryTask,
+    ratio: Fraction,
+    count: int,
+    rows: tuple[Fraction, Fraction] | None,
+) -> Wanted:
     within = fraction(task.within)
-    return Wanted(scheme, ratio, within, count, task.z_min, task.z_max, task.ring_max)
+    return Wanted(scheme, ratio, within, count, task.z_min, task.z_max, task.ring_max, rows)

@@ -51,7 +51,7 @@ class Condition(Struct, frozen=True):
 
 def conditions(motion: TrainMotion) -> tuple[Condition, ...]:
     """Return the conditions that can be judged of a train."""
-    return (*_coaxial(motion), *_sets(motion), *_teeth(motion))
+    return (*_coaxial(motion), *_arms(motion), *_sets(motion), *_teeth(motion))
 
 
 def sentence(condition: Condition, words: Language) -> str:
@@ -93,6 +93,28 @@ def _coaxial(motion: TrainMotion) -> Iterator[Condition]:
         sums = " = ".join(_sum(motion, way, height) for way in ways)
         facts = {"sums": sums, "axis": name, "value": _shown(abs(height))}
         yield Condition("coaxiality", True, facts)
+
+
+def _arms(motion: TrainMotion) -> Iterator[Condition]:
+    """Yield the radius of every carrier beside the sizes that set its satellites' axes."""
+    train, axes = motion.train, motion.axes
+    for label, radius in train.arms.items():
+        carrier = train.body_of[label]
+        for mesh in train.meshes:
+            ends = train.ends(mesh)
+            around = [body for body in ends if body in motion.roles.satellites.get(carrier, ())]
+            if train.carrier(mesh) != carrier or len(around) != 1 or mesh.kind not in PARALLEL:
+                continue
+            inner = mesh.kind is MeshKind.INTERNAL
+            one, other = sorted((mesh.first, mesh.second), key=lambda x: -axes.sizes[x] * inner)
+            told = f"r_{one} {'−' if inner else '+'} r_{other}"
+            told = f"a_w{mesh.name}" if mesh.name in axes.shifted else told
+            per = 1000 if train.toothed else 1
+            said = {"sums": f"{told} = r_{label}", "axis": around[0]}
+            said["value"] = f"{float(radius * per):g}"
+            form = "coaxiality_mm" if train.toothed else ""
+            yield Condition("coaxiality", True, said, form)
+            break
 
 
 def _meshes_of(motion: TrainMotion, way: Terms) -> list[Mesh]:

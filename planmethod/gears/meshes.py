@@ -31,7 +31,10 @@ class TrainDraft(Struct):
     """What is read so far of a train (черновик)."""
 
     module: Fraction | None
+    modules: dict[str, Fraction] = field(default_factory=dict)
     wheels: dict[str, GearRim] = field(default_factory=dict)
+    arms: dict[str, Fraction] = field(default_factory=dict)
+    listed: list[str] = field(default_factory=list)
     racks: list[str] = field(default_factory=list)
     carriers: list[str] = field(default_factory=list)
     names: list[str] = field(default_factory=list)
@@ -86,21 +89,43 @@ def read_labels(faults: Faults, path: str, value: object, limit: int) -> tuple[s
     return tuple(dict.fromkeys(label for label in found if label is not None))
 
 
-def read_wheels(faults: Faults, value: object, unknown: Sequence[str], draft: TrainDraft) -> None:
-    """Read ``wheels``: teeth by label, or a table."""
+def carried_by(value: object) -> frozenset[str]:
+    """Return the labels that meshes name as carriers and none as a wheel, without faults."""
+    silent = Faults()
+    tables = [one for one in value if isinstance(one, dict)] if isinstance(value, list) else []
+    wheels = [x for one in tables if isinstance(one.get("of"), list) for x in one["of"]]
+    both = ([one.get("carrier") for one in tables], wheels)
+    told = [{read_label(silent, "", x) for x in labels} for labels in both]
+    return frozenset(label for label in told[0] - told[1] if label is not None)
+
+
+def read_wheels(
+    faults: Faults,
+    value: object,
+    unknown: Sequence[str],
+    draft: TrainDraft,
+    carriers: frozenset[str] = frozenset(),
+) -> None:
+    """Read ``wheels``: teeth by label, or a table; of carriers their radii."""
     table = fields.read_table(faults, "gears.wheels", value, "wheels = { 1 = 20, 2 = 36 }") or {}
     if len(table) > WHEEL_LIMIT:
         faults.add("gears.wheels", say("{} wheels, the limit is {}", len(table), WHEEL_LIMIT))
         return
-    bodies = [entry for entry in table.values() if isinstance(entry, dict)]
-    draft.toothed = not (bodies and len(bodies) == len(table) and all("r" in b for b in bodies))
+    silent = Faults()
+    wheels = [one for key, one in table.items() if read_label(silent, "", key) not in carriers]
+    bodies = [entry for entry in wheels if isinstance(entry, dict)]
+    draft.toothed = not (bodies and len(bodies) == len(wheels) and all("r" in b for b in bodies))
     for key, entry in table.items():
         path = joined("gears.wheels", segment(key))
         label = read_label(faults, path, key)
         if label is None:
             continue
-        if label in draft.wheels:
+        if label in draft.listed:
             faults.add(path, say("wheel {} is given twice", label))
+        draft.listed.append(label)
+        if label in carriers:
+            _read_arm(faults, path, label, entry, draft)
+            continue
         wheel = _read_wheel(faults, path, label, entry, draft)
         if label in unknown:
             if wheel.size is not None:
@@ -111,6 +136,18 @@ def read_wheels(faults: Faults, value: object, unknown: Sequence[str], draft: Tr
         draft.wheels[label] = wheel
     for label in unknown:
         draft.wheels.setdefault(label, GearRim(label, None))
+    draft.listed += [label for label in draft.wheels if label not in draft.listed]
+
+
+def _read_arm(faults: Faults, path: str, label: str, entry: object, draft: TrainDraft) -> None:
+    """Read the radius of a carrier, which has no teeth."""
+    if not isinstance(entry, dict) or set(entry) != {"r"}:
+        hint = "Give {{ r = 0.05 }}, how far the axes of its satellites are, or leave it out."
+        faults.add(path, say("{} is a carrier and has no teeth", label), hint)
+        return
+    radius = fields.read_length(faults, f"{path}.r", entry["r"])
+    if radius is not None:
+        draft.arms[label] = fraction(radius)
 
 
 def _read_wheel(faults: Faults, path: str, label: str, entry: object, draft: TrainDraft) -> GearRim:
@@ -127,10 +164,9 @@ def _read_wheel(faults: Faults, path: str, label: str, entry: object, draft: Tra
         size = Fraction(given.z or 1)
     elif "r" in table:
         size = Fraction(1) if given.r is None else fraction(given.r)
-        if draft.toothed:
-            size *= HALF_MODULES if draft.module is None else 2 / draft.module
     plain = "r" in table and draft.toothed
-    return GearRim(label, size, fraction(given.x), given.axis, plain)
+    module = None if given.m is None else fraction(given.m) / 1000
+    return GearRim(label, size, fraction(given.x), given.axis, plain, module)
 
 
 def _read_axis(faults: Faults, path: str, value: object) -> tuple[float, float, float] | None:
@@ -161,12 +197,72 @@ def read_meshes(faults: Faults, value: object, draft: TrainDraft) -> tuple[Mesh,
             if {mesh.first, mesh.second} in [{m.first, m.second} for m in found]:
                 faults.add(path, say("the mesh {} is given twice", mesh.name))
             found.append(mesh)
+    _share_modules(faults, found, draft)
     _check_radii(faults, found, draft)
     meshing = {label for mesh in found for label in (mesh.first, mesh.second)}
     for label in draft.wheels:
         if label not in meshing and len(found) == len(value):
             faults.add(f"gears.wheels.{segment(label)}", say("wheel {} meshes with none", label))
     return tuple(found)
+
+
+def _rows(meshes: Sequence[Mesh]) -> list[tuple[list[Mesh], list[str]]]:
+    """Return what has one module: meshes of teeth that are joined by wheels, and those wheels."""
+    rows: list[tuple[list[Mesh], list[str]]] = []
+    for mesh in meshes:
+        if mesh.kind in FLEXIBLE:
+            continue
+        own = [mesh.first] if mesh.kind is MeshKind.RACK else [mesh.first, mesh.second]
+        near = [row for row in rows if set(row[1]) & set(own)]
+        rows = [row for row in rows if row not in near]
+        rows.append(([*(m for row in near for m in row[0]), mesh],
+                     [*dict.fromkeys([*(x for row in near for x in row[1]), *own])]))  # fmt: skip
+    return rows
+
+
+def _share_modules(faults: Faults, meshes: Sequence[Mesh], draft: TrainDraft) -> None:
+    """Give the wheels of every row their module: by the name of a mesh, or by one of them.
+
+    Radii beside teeth, which are metres until then, become teeth, or half modules of a pulley.
+    """
+    wheels = draft.wheels
+    by_mesh = {frozenset((mesh.first, mesh.second)): mesh for mesh in meshes}
+    names = [mesh.name for mesh in meshes if mesh.kind not in FLEXIBLE]
+    told: dict[Mesh, Fraction] = {}
+    is_told = bool(draft.modules) or any(wheel.module is not None for wheel in wheels.values())
+    for name, given_module in draft.modules.items():
+        mesh = by_mesh.get(frozenset(name.replace("′", "'").replace("’", "'").split("-")))
+        if mesh is None or mesh.kind in FLEXIBLE:
+            fields.report_unknown(
+                faults, f"gears.module.{segment(name)}", name, names, said="unknown mesh '{}'"
+            )
+        else:
+            told[mesh] = given_module
+    for row, labels in _rows(meshes):
+        given = [(f"gears.module.{segment(m.name)}", told[m]) for m in row if m in told]
+        own_modules = ((x, wheels[x].module) for x in labels if x in wheels)
+        given += [(f"gears.wheels.{segment(x)}.m", m) for x, m in own_modules if m is not None]
+        own = given[0][1] if given else None
+        for path, module in given[1:]:
+            if own is not None and module != own:
+                what = "{:g} mm, and {:g} mm of other wheels in its row"
+                what = say(what, float(module * 1000), float(own * 1000))
+                faults.add(path, what, "Wheels in mesh have one module.")
+        if own is None and is_told and draft.module is None:
+            what = say("the mesh {} has no module", row[0].name)
+            faults.add("gears.module", what, "Name every row, or give one module = ... (mm).")
+        for label in labels if own is not None else ():
+            if label in wheels:
+                wheels[label] = replace(wheels[label], module=own)
+    if draft.module is None:
+        every = [w.module for w in wheels.values() if w.module is not None]
+        draft.module = every[0] if every else None
+    for label, wheel in wheels.items():
+        if not wheel.plain or wheel.size is None:
+            continue
+        its = wheel.module or draft.module
+        per = HALF_MODULES if its is None else 2 / its
+        wheels[label] = replace(wheel, size=wheel.size * per)
 
 
 def _check_radii(faults: Faults, meshes: Sequence[Mesh], draft: TrainDraft) -> None:

@@ -131,6 +131,10 @@ class Train(Struct, frozen=True):
         ``n`` for rev/min, ``omega`` for 1/s.
     module : Fraction or None, m
         Of all wheels that have none of their own; the unit of sizes and heights is half of it.
+    listed : tuple of str
+        Wheels, and carriers whose radius is given, in file order.
+    arms : mapping
+        Radii of carriers by label, m: how far the axes of their satellites are.
     toothed : bool
         Sizes are teeth (or half modules), not metres.
     satellites : mapping
@@ -149,6 +153,8 @@ class Train(Struct, frozen=True):
     module: Fraction | None
     toothed: bool
     unknown: tuple[str, ...]
+    listed: tuple[str, ...]
+    arms: Mapping[str, Fraction]
     coaxial: tuple[tuple[str, ...], ...]
     satellites: Mapping[str, int]
     output: str | None

@@ -11,6 +11,7 @@ from planmethod.errors import ProblemError
 from planmethod.gears.asked import SoughtQuantityError, parse
 from planmethod.gears.meshes import (
     TrainDraft,
+    carried_by,
     fraction,
     read_label,
     read_labels,
@@ -24,7 +25,7 @@ from planmethod.problem.answers import Plain, read_answers
 from planmethod.problem.fields import Faults
 from planmethod.problem.flat import read_flat
 from planmethod.problem.head import Published
-from planmethod.problem.names import fold, is_label, joined, segment
+from planmethod.problem.names import UNITS, fold, is_label, joined, segment
 from planmethod.problem.reader import varied
 from planmethod.problem.selector import read_published
 from planmethod.problem.sheet import read_head
@@ -37,6 +38,7 @@ GROUP_LIMIT = 60
 TOP = (
     "title",
     "source",
+    "units",
     *keys.READING,
     "stamp",
     "sheet",
@@ -48,7 +50,7 @@ TOP = (
 )
 """Tables of the file that a gear train may have."""
 
-SHARED = ("title", "source", "stamp", "sheet", "variants", "gears")
+SHARED = ("title", "source", "units", "stamp", "sheet", "variants", "gears")
 """Tables that are read of the file of a linkage, whose project has a train."""
 
 
@@ -65,6 +67,8 @@ def load(path: str | Path, *, variant: str | None = None) -> GearProblem:
     if "links" in table:
         table = {key: value for key, value in table.items() if key in SHARED}
     given = fields.read_keys(faults, "", table, TOP)
+    if "units" in given:
+        faults.unit = fields.read_word(faults, "units", given["units"], UNITS) or faults.unit
     head = read_head(faults, given)
     body = fields.read_table(faults, "gears", given.get("gears", {}), "wheels = { 1 = 20, 2 = 36 }")
     train = None if body is None else read_train(faults, body)
@@ -82,18 +86,14 @@ def read_train(faults: Faults, table: Mapping[str, Any]) -> Train | None:
     """Read the table ``[gears]``; None where it has faults."""
     before = len(faults)
     given = fields.read_keys(faults, "gears", table, keys.GEARS)
-    module = None
-    if "module" in given:
-        told = fields.read_number(
-            faults, "gears.module", given["module"], "a module in mm", low=0.01, high=1000
-        )
-        module = None if told is None else fraction(told) / 1000
-    draft = TrainDraft(module)
+    module, modules = _read_module(faults, given)
+    draft = TrainDraft(module, modules)
     for key, example in (("wheels", "{ 1 = 20, 2 = 36 }"), ("meshes", "[{ of = [1, 2] }]")):
         if key not in given:
             faults.add(f"gears.{key}", "missing", say("For example: {} = {}", key, example))
     unknown = read_labels(faults, "gears.unknown", given.get("unknown", []), GROUP_LIMIT)
-    read_wheels(faults, given.get("wheels", {}), unknown, draft)
+    carriers = carried_by(given.get("meshes"))
+    read_wheels(faults, given.get("wheels", {}), unknown, draft, carriers)
     meshes = read_meshes(faults, given.get("meshes", []), draft)
     told_bodies = given.get("bodies", [])
     draft.names = _further_names(told_bodies)
@@ -132,9 +132,11 @@ def read_train(faults: Faults, table: Mapping[str, Any]) -> Train | None:
         fixed=frozenset(body_of[label] for label in fixed),
         inputs=speeds,
         unit=unit,
-        module=module,
+        module=draft.module,
         toothed=draft.toothed,
         unknown=unknown,
+        listed=tuple(draft.listed),
+        arms=draft.arms,
         coaxial=tuple(tuple(body_of[label] for label in group) for group in coaxial),
         satellites={body_of[c]: k for c, k in satellites.items()},
         output=None if output is None else body_of[output],
@@ -142,6 +144,22 @@ def read_train(faults: Faults, table: Mapping[str, Any]) -> Train | None:
         picture=picture,
         design=design,
     )
+
+
+def _read_module(
+    faults: Faults, given: Mapping[str, Any]
+) -> tuple[Fraction | None, dict[str, Fraction]]:
+    """Read ``module``: that of all wheels, or of rows by their meshes, m."""
+
+    def read(path: str, value: object) -> Fraction | None:
+        told = fields.read_number(faults, path, value, "a module in mm", low=0.01, high=1000)
+        return None if told is None else fraction(told) / 1000
+
+    value = given.get("module")
+    if not isinstance(value, Mapping):
+        return (None if value is None else read("gears.module", value)), {}
+    found = {name: read(f"gears.module.{segment(name)}", one) for name, one in value.items()}
+    return None, {name: one for name, one in found.items() if one is not None}
 
 
 def _known(faults: Faults, path: str, value: object, known: tuple[str, ...]) -> tuple[str, ...]:

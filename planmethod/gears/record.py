@@ -31,13 +31,21 @@ def record(problem: GearProblem, lang: str) -> dict[str, Any]:
     words = language(lang).gears
     train = motion.train
     sizes = motion.axes.sizes
-    metres = {x: r * train.unit_m for x, r in motion.axes.radii.items() if not train.counted(x)}
+    radii = motion.axes.radii
+    metres = {
+        x: train.arms[x] if x in train.arms else radii[x] * train.unit_m
+        for x in train.listed
+        if x in train.arms or not train.counted(x)
+    }
     told: dict[str, Any] = {
         "mobility": motion.structure.mobility,
         "kind": motion.structure.kind.value,
         "redundant": motion.structure.spatial,
         "teeth": {x: _number(size) for x, size in sizes.items() if train.counted(x)},
         "radii_m": {x: _number(size) for x, size in metres.items()},
+        "modules_mm": {
+            x: _number(module * 1000) for module, of in train.modules.items() for x in of
+        },
         "unit": train.units[0],
         "bodies": {label: _body(motion, label) for label in train.body_of},
         "asked": {name: _answer(answer(motion, name), words["reasons"]) for name in train.ask},

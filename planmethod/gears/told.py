@@ -32,7 +32,12 @@ def given(motion: TrainMotion, words: Language) -> list[str]:
     """Return what is given of a train, as rich text (дано)."""
     train, say, told = motion.train, words.say, words.gears["sheet"]
     facts = []
-    for label, size in motion.axes.sizes.items():
+    for label in train.listed:
+        if label in train.arms:
+            arm = f"{say.given(float(train.arms[label]))} {words.gears['units']['m']}"
+            facts.append(f"r_{{{label}}} = {arm}")
+            continue
+        size = motion.axes.sizes[label]
         letter, value = f"z_{{{label}}}", say.given(float(size))
         if not train.counted(label):
             letter = f"r_{{{label}}}"
@@ -46,8 +51,11 @@ def given(motion: TrainMotion, words: Language) -> list[str]:
     for body, speed in train.inputs.items():
         value = say.given(float(speed))
         facts.append(f"{train.letter}_{{{body}}} = {value} {unit}")
-    if train.module is not None:
-        facts.append(told.module.format(value=say.given(float(train.module * 1000))))
+    modules = train.modules if train.module is not None else {}
+    for module, wheels in modules.items():
+        value = say.given(float(module * 1000))
+        of = {"value": value, "labels": ", ".join(wheels)}
+        facts.append((told.module if len(modules) == 1 else told.module_of).format(**of))
     if train.fixed:
         labels = sorted(train.fixed)
         form = "one" if len(labels) == 1 else "many"

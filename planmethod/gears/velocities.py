@@ -161,6 +161,9 @@ class _Velocities:
         for label, size in self.motion.axes.radii.items():
             if train.body_of[label] == body and size * train.unit_m == arm:
                 return f"r_{{{label}}}"
+        for label, radius in train.arms.items():
+            if train.body_of[label] == body and radius == arm:
+                return f"r_{{{label}}}"
         return (
             f"OO_{{{point.letter[3:-1]}}}" if point.letter.startswith("O") else f"O{point.letter}"
         )

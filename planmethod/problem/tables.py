@@ -363,8 +363,18 @@ class GearWheelTable(Struct, frozen=True):
     z: Annotated[int | None, WholeKey("number of teeth (of a worm: starts)", 1, 10_000)] = None
     r: Annotated[
         float | None,
-        OwnKey("pitch radius, m, in place of teeth; beside wheels with teeth it needs `module`"),
+        OwnKey(
+            "pitch radius, m, in place of teeth; beside wheels with teeth it needs `module`, "
+            "except of a pulley. Of a carrier: how far the axes of its satellites are from its own"
+        ),
     ] = None
+    m: Annotated[
+        float | None,
+        NumberKey(
+            "module of its row, mm, where rows have different ones", "a module in mm",
+            low=0.01, high=1000.0,
+        ),
+    ] = None  # fmt: skip
     x: Annotated[float, NumberKey("shift, in modules", "a shift", low=-5.0, high=5.0)] = 0.0
     axis: Annotated[
         tuple[float, float, float] | None,

@@ -9,6 +9,7 @@ from math import pi
 from msgspec.structs import replace
 
 from planmethod.construct.scale import series_near
+from planmethod.errors import Fault, ProblemError
 from planmethod.gears.involute.sizes import MeshingProblem
 from planmethod.gears.model import HALF_MODULES, GearProblem, MeshKind, PictureSettings, Train
 from planmethod.gears.motion import TrainMotion, solve_motion
@@ -38,8 +39,13 @@ def meshed(train: Train, pair: MeshingProblem) -> tuple[str, str] | None:
 def in_mesh(parts: Sequence[ProjectPart]) -> tuple[ProjectPart, ...]:
     """Return the parts of a project, its train with what the meshing decides.
 
-    Wheels that mesh there are cut with its shifts. Its module is that of the train where the train
-    has none, and the scale of the scheme grows with it.
+    Wheels that mesh there are cut with its shifts and have its module, which is that of the train
+    where the train has none; the scale of the scheme grows with it then.
+
+    Raises
+    ------
+    ProblemError
+        The train gives the row of these wheels, or one of them, another module.
     """
     pair = next((x.problem for x in parts if isinstance(x.problem, MeshingProblem)), None)
     return tuple(
@@ -61,9 +67,21 @@ def _cut(problem: GearProblem, pair: MeshingProblem) -> GearProblem:
         else replace(wheel, shift=Fraction(repr(shifts[label])))
         for label, wheel in train.wheels.items()
     }  # fmt: skip
+    module = Fraction(repr(pair.m)) / 1000
+    for label in ends:
+        told = wheels[label].module
+        if told is not None and told != module:
+            what = say(
+                "wheels {} and {} have the module {:g} mm, and {:g} mm in [meshing]",
+                *ends, float(told * 1000), pair.m,
+            )  # fmt: skip
+            fault = Fault("gears.module", what, "Keep one of them.")
+            raise ProblemError(problem.source_file, [fault])
+        if train.module is not None:
+            wheels[label] = replace(wheels[label], module=module)
     train = replace(train, wheels=wheels)
     if train.module is None and not any(wheel.plain for wheel in wheels.values()):
-        module, picture = Fraction(repr(pair.m)) / 1000, train.picture
+        picture = train.picture
         if picture.mu_l == PictureSettings().mu_l:
             wanted = float(picture.mu_l * module * HALF_MODULES / 2)
             mu_l = series_near(wanted, up=False)

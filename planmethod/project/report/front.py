@@ -201,8 +201,13 @@ def _teeth(report: Report) -> Iterator[tuple[Rich, Rich, Rich]]:
             yield row(f"{train.letter}_train", symbol, _given(float(speed), unit, report), of=body)
         for carrier, count in train.satellites.items():
             yield row("satellites", "k", str(count), of=carrier)
-        if train.module is not None and ends is None:
-            yield row("module", "m", _given(float(train.module) * 1000.0, "mm", report))
+        is_told = ends is None or train.wheels[ends[0]].module is not None
+        for module, wheels in train.modules.items() if is_told else ():
+            labels = ", ".join(label for label in wheels if label not in (ends or ()))
+            key = "module" if len(train.modules) == 1 and ends is None else "module_of"
+            mm = _given(float(module) * 1000.0, "mm", report)
+            if labels:
+                yield row(key, "m", mm, labels=labels)
     if pair is not None:
         if ends is None:
             for k, count in enumerate(pair.z, 1):

@@ -93,7 +93,7 @@ def _module(report: Report, motion: TrainMotion, said: Words) -> Rich:
     train, ends = motion.train, wheels_of(report)
     if not train.toothed or draw(motion) is None:
         return ""
-    if ends is not None and train.module is not None:
+    if ends is not None and train.module is not None and train.wheels[ends[0]].module is None:
         return said.module_mesh.format(one=ends[0], other=ends[1])
     return said.module_assumed.format() if train.module is None else ""
 
