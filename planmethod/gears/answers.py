@@ -83,7 +83,8 @@ def _ratio(motion: TrainMotion, name: str, asked: SoughtQuantity) -> Answer:
     below = motion.speed(other, asked.carrier)
     if not below:
         return _none(name, "zero", other)
-    return _exact(name, motion.speed(one, asked.carrier) / below)
+    ratio = motion.speed(one, asked.carrier) / below
+    return _exact(name, ratio if motion.has_sign(one, other) else abs(ratio))
 
 
 def _speed(motion: TrainMotion, name: str, asked: SoughtQuantity) -> Answer:

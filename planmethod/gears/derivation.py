@@ -12,6 +12,7 @@ from fractions import Fraction
 from itertools import pairwise, permutations
 
 from msgspec import Struct
+from msgspec.structs import replace
 
 from planmethod.errors import PlanMethodError
 from planmethod.gears.asked import SoughtQuantity, parse
@@ -85,7 +86,8 @@ def by_speeds(motion: TrainMotion, asked: SoughtQuantity, words: Language) -> Ri
     hat = f"^{{({asked.carrier})}}" if asked.carrier else ""
     letters = (f"{motion.train.letter}{hat}_{{{label}}}" for label in asked.labels)
     one, other = (motion.speed(label, asked.carrier) for label in asked.labels)
-    return f"{asked.symbol} = {fraction(*letters)} = {_value(one / other, words)}"
+    ratio = one / other if motion.has_sign(*asked.labels) else abs(one / other)
+    return f"{asked.symbol} = {fraction(*letters)} = {_value(ratio, words)}"
 
 
 class _Derivation:
@@ -239,15 +241,29 @@ class _Derivation:
             path = find_path(self.stages, one, other)
         else:
             path = find_path(self._carried(train.body_of[asked.carrier]), one, other)
+        has_sign = self.motion.has_sign(*asked.labels)
         if not path:
             yield DerivedLine(by_speeds(self.motion, asked, self.words))
-            return
-        self._check(asked.symbol, self._whole(path).ratio, exact)
-        yield from self._once(self._explained(path, asked.symbol))
-        if asked.carrier is None and len(path) > 1 and not {one, other} & self.motion.roles.across:
+        else:
+            self._check(asked.symbol, self._whole(path).ratio, exact)
+            path = path if has_sign else _sizes(path)
+            yield from self._once(self._explained(path, asked.symbol))
+        if not has_sign:
+            yield from self._once([self._signless(asked.symbol, asked.labels)])
+        elif (
+            path
+            and asked.carrier is None
+            and len(path) > 1
+            and not {one, other} & self.motion.roles.across
+        ):
             first, last = asked.labels
             sense = str(self.say["senses"]["same" if exact > 0 else "other"])
             yield DerivedLine(sense.format(symbol=asked.symbol, one=first, other=last), False)
+
+    def _signless(self, symbol: Rich, labels: Sequence[str]) -> DerivedLine:
+        """Return the sentence on a ratio whose bodies turn about axes that are not parallel."""
+        one, other = map(_number, labels)
+        return DerivedLine(self.say.signless.format(symbol=symbol, one=one, other=other), False)
 
     def _once(self, lines: Iterable[DerivedLine]) -> Iterator[DerivedLine]:
         for line in lines:
@@ -369,8 +385,18 @@ class _Derivation:
             if not path:
                 continue
             whole, n = self._whole(path), self.speeds[source]
+            top = f"{letter}_{{{_number(source)}}}"
+            if not self.motion.has_sign(source, body):
+                yield from self._explained(_sizes(path), whole.symbol)
+                yield self._signless(whole.symbol, whole.labels)
+                sizes = fraction(_built(abs(n)), _built(abs(whole.ratio)))
+                is_less = n < 0 or whole.ratio < 0
+                formula = fraction(f"|{top}|" if is_less else top, whole.symbol)
+                derived = n / whole.ratio
+                yield self._speed(label, body, (formula, sizes), derived, is_size=is_less)
+                return
             yield from self._explained(path, whole.symbol)
-            formula = fraction(f"{letter}_{{{_number(source)}}}", whole.symbol)
+            formula = fraction(top, whole.symbol)
             is_whole = whole.ratio.denominator == 1
             numbers = fraction(_built(n), (_factor if is_whole else _built)(whole.ratio))
             yield self._speed(label, body, (formula, numbers), n / whole.ratio)
@@ -437,16 +463,29 @@ class _Derivation:
         return f"{self.train.letter}_{{{_number(body)}}}"
 
     def _speed(
-        self, label: str, body: str, sides: Iterable[Rich], derived: Fraction
+        self,
+        label: str,
+        body: str,
+        sides: Iterable[Rich],
+        derived: Fraction,
+        *,
+        is_size: bool = False,
     ) -> DerivedLine:
-        """Return a speed with its formula, and keep it for the next."""
+        """Return a speed with its formula, and keep it for the next; its size if it has no sign."""
         unit = raised(self.words.gears["units"][self.train.units[0]])
         symbol = f"{self.train.letter}_{{{label}}}"
         self._check(symbol, derived, self.motion.speeds[body])
         self.speeds[body] = derived
+        if is_size:
+            symbol, derived = f"|{symbol}|", abs(derived)
         value = _value(derived, self.words)
         whole = [side for side in sides if side != value.partition(" = ")[0]]
         return DerivedLine(" = ".join([symbol, *whole, f"{value} {unit}"]))
+
+
+def _sizes(path: Sequence[Stage]) -> list[Stage]:
+    """Return stages whose ratios are sizes, without signs."""
+    return [replace(stage, ratio=abs(stage.ratio)) for stage in path]
 
 
 def find_path(stages: Iterable[Stage], one: str, other: str) -> list[Stage]:

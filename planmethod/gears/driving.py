@@ -50,4 +50,5 @@ def driven(faults: Faults, table: Mapping[str, Any], label: object) -> Geared | 
     ratio = None
     if len(inputs) == 1 and speed and inputs[0][0] not in train.racks:
         ratio = motion.speeds[inputs[0][0]] / speed
+        ratio = ratio if motion.has_sign(inputs[0][0], body) else abs(ratio)
     return Geared(body, inputs, train.unit, ratio, float(speed) * train.rate)

@@ -12,7 +12,7 @@ from msgspec.structs import replace
 from planmethod.errors import Fault, ProblemError
 from planmethod.gears.axes import TrainDimensions, find_axes
 from planmethod.gears.linear import LinearSolution, Row, solve
-from planmethod.gears.model import GearProblem, Mesh, MeshKind, Train
+from planmethod.gears.model import FLEXIBLE, PARALLEL, GearProblem, Mesh, MeshKind, Train
 from planmethod.gears.roles import Roles, find_roles
 from planmethod.languages import say
 
@@ -80,6 +80,51 @@ class TrainMotion(Struct, frozen=True):
         if carrier is None or body in self.roles.across:
             return self.speeds[body]
         return self.speeds[body] - self.speeds[self.train.body_of[carrier]]
+
+    def has_sign(self, one: str, other: str) -> bool:
+        """Whether the ratio of two bodies has a sign: their angular velocities are parallel.
+
+        Axes are parallel along meshes of parallel axes, belts and chains, and where they are one.
+        A bevel mesh turns by a right angle; two of them lead back to the main direction, that of
+        the plane in which a scheme is drawn, in which senses are told. What a worm does is not
+        known: its wheel's axis crosses its own, in any direction.
+        """
+        levels = _levels(self)
+        first, second = (levels[self.train.body_of[label]] for label in (one, other))
+        return first == second or (first[0] == second[0] and not first[1] and not second[1])
+
+
+def _levels(motion: TrainMotion) -> dict[str, tuple[int, int, int]]:
+    """Return of every body its part of the train, bevel meshes from its main axis, its level.
+
+    Bodies of one part are joined without worms; the number of bevel meshes is 0 or 1, as two turn
+    back; bodies of one level are joined without bevel meshes.
+    """
+    train, axis = motion.train, motion.axes.axis_of
+    joined = [(*train.ends(m), m.kind is MeshKind.BEVEL) for m in train.meshes
+              if m.kind in (*PARALLEL, *FLEXIBLE, MeshKind.BEVEL)]  # fmt: skip
+    joined += [(one, other, False) for one in train.bodies for other in train.bodies
+               if axis[one] == axis[other]]  # fmt: skip
+    found: dict[str, tuple[int, int, int]] = {}
+    main = sorted(train.bodies, key=lambda body: motion.axes.heights.get(body, 1) != 0)
+    level = 0
+    for part, start in enumerate(main):
+        if start in found:
+            continue
+        found[start] = (part, int(start in motion.roles.across), level)
+        todo = [start]
+        while todo:  # a level is gone through before the next one begins
+            body = next((b for b in todo if found[b][2] == level), todo[0])
+            todo.remove(body)
+            for one, other, turned in joined:
+                for near, far in ((one, other), (other, one)):
+                    if near == body and far not in found:
+                        level += turned
+                        told = found[body][1] ^ turned, level if turned else found[body][2]
+                        found[far] = (part, *told)
+                        todo.append(far)
+        level += 1
+    return found
 
 
 def analyse(problem: GearProblem) -> tuple[Roles, TrainDimensions, Mobility]:

@@ -218,7 +218,10 @@ def equation_of(motion: TrainMotion, mesh: Mesh) -> tuple[str, str]:
     size = "" if mesh.kind is MeshKind.RACK else f"·{fraction_text(abs(row[other]) * per)}"
     left = f"{speed(mesh.first, one)}·{fraction_text(row[one] * per)}"
     hat = "" if mesh.carrier is None else f"^{{{mesh.carrier}}}"
-    ratio = f"U{hat}_{{{mesh.first}-{mesh.second}}} = {fraction_text(-row[other] / row[one])}"
+    share = -row[other] / row[one]
+    if mesh.kind is MeshKind.WORM or (mesh.kind is MeshKind.BEVEL and mesh.carrier is None):
+        share = abs(share)  # axes that cross: it has no sign
+    ratio = f"U{hat}_{{{mesh.first}-{mesh.second}}} = {fraction_text(share)}"
     return f"{left} = {sign}{speed(mesh.second, other)}{size}", ratio
 
 
@@ -266,10 +269,20 @@ def _speeds(motion: TrainMotion, words: Language) -> Iterator[Node]:
         other = words.say.found(float(speed) * train.factor)
         value = words.say.found(float(speed))
         rows.append([label, value, fraction_text(speed), other, escape("; ".join(relative))])
-    yield table_of([head.format(**said) for head in say["columns_speeds"]], rows)
+    heads = [head.format(**said) for head in say["columns_speeds"]]
+    if not train.carriers:
+        heads, rows = heads[:-1], [row[:-1] for row in rows]
+    yield table_of(heads, rows)
     for label in train.numbers:
         if train.body_of[label] in motion.roles.across:
-            yield Item(say.across.format(label=label))
+            told = say.across if _is_carried(motion, train.body_of[label]) else say.crossing
+            yield Item(told.format(label=label))
+
+
+def _is_carried(motion: TrainMotion, body: str) -> bool:
+    """Whether a body meshes on a carrier."""
+    train = motion.train
+    return any(train.carrier(m) is not None and body in train.ends(m) for m in train.meshes)
 
 
 def _tabular(motion: TrainMotion, turns: Turns, words: Language) -> Iterator[Node]:
