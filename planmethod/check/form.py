@@ -24,7 +24,7 @@ SCHEMA = 1
 _WIDTHS = (5, 14, 24, 16, 13, 14, 11, 28, 22)
 _SHOWN = (
     "name", "title", "sheet", "stamp", "published", "source", "variants", "variant",
-    "source_file",
+    "source_file", "given",
 )  # fmt: skip
 """What of a problem does not change what the answers are."""
 

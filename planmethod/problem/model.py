@@ -488,6 +488,16 @@ def _is_pair(name: str) -> bool:
     return half > 0 and name[half] in "-–" and name[:half] == name[half + 1 :]
 
 
+class FileTable(dict[str, Any]):
+    """What TOML made of a file: problems that say the same are equal, however it is written."""
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, FileTable)
+
+    def __ne__(self, other: object) -> bool:
+        return not self == other
+
+
 class Problem(KindProblem, frozen=True, kw_only=True):
     """Task as read (задача).
 
@@ -520,7 +530,7 @@ class Problem(KindProblem, frozen=True, kw_only=True):
         Unit in which the file gives lengths: ``m``, ``cm`` or ``mm``.
     stated : mapping of str to str
         Arithmetic that the file has for a number (``0.25/3``), by path.
-    given : mapping
+    given : FileTable
         What TOML made of the file, the variant being laid over it; empty of a problem that was
         not read from one.
     """
@@ -543,7 +553,7 @@ class Problem(KindProblem, frozen=True, kw_only=True):
     tables: Mapping[str, Any] = field(default_factory=dict)
     unit: str = "m"
     stated: Mapping[str, str] = field(default_factory=dict)
-    given: Mapping[str, Any] = field(default_factory=dict)
+    given: FileTable = field(default_factory=FileTable)
 
     @property
     def turns(self) -> int:

@@ -12,7 +12,7 @@ from msgspec.structs import replace
 from planmethod.errors import Fault, ProblemError
 from planmethod.languages import say, spoken
 from planmethod.problem.fields import Faults
-from planmethod.problem.model import Problem
+from planmethod.problem.model import FileTable, Problem
 from planmethod.problem.names import fold, listed, near
 from planmethod.problem.parts import TrainReader, read_parts
 from planmethod.problem.source import parse, read_source
@@ -191,7 +191,9 @@ def _read_varied(
     problem = read_parts(faults, table, name, train)
     if faults or problem is None:
         raise ProblemError(source, faults.found)
-    return replace(problem, source_file=source, variants=variants, variant=variant, given=table)
+    return replace(
+        problem, source_file=source, variants=variants, variant=variant, given=FileTable(table)
+    )
 
 
 def unknown_variant(variant: str, known: Mapping[str, Any]) -> Fault:
