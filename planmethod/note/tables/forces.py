@@ -268,6 +268,22 @@ def push_way(problem: Problem, words: Words) -> str:
     return words.push_angle.format(angle=given(pushed.angle, words))
 
 
+def driven_by(problem: Problem, words: Words) -> Iterator[Rich]:
+    """Yield what drives the mechanism where something else tells its position."""
+    drive = problem.drive
+    pushed, link = drive.pushed, problem.mechanism.called(drive.link)
+    if drive.followed is not None:
+        if pushed is not None:
+            yield words.drives_cam_push.format(link=link, point=point_name(pushed.at))
+        elif drive.pivot is not None:
+            yield words.drives_cam.format(link=link, pivot=point_name(drive.pivot))
+        else:
+            yield words.drives_cam_slide.format(link=link)
+    elif drive.posed is not None and drive.actuator is None:
+        what = words["drives_by"][drive.balancing.said]
+        yield words.drives_posed.format(key=drive.posed.key, link=link, what=what)
+
+
 def resultant_notes(solution: Solution, words: Words, index: int | None = None) -> Iterator[Rich]:
     """Yield where forces of inertia act that stand for couples, too, and which do not."""
     statics = statics_of(solution)
@@ -347,6 +363,7 @@ def forces_tables(solution: Solution, words: Words, index: int, sigmas: Sigmas) 
         apart = statics.balance[index] >= 0
         facts["way"] = words.push_apart if apart else words.pull_together
     yield Note(balance.format(**facts))
+    yield from map(Note, driven_by(solution.problem, words))
     if statics.lever_at(index) is None:
         yield Note(words.lever_stands)
         return

@@ -18,6 +18,7 @@ from planmethod.note.narrate.forces.lever import (
     LeverNarrator,
     both_balances,
     compared_balances,
+    thrust_lines,
 )
 from planmethod.note.narrate.forces.loads import LoadNarrator
 from planmethod.note.narrate.forces.moments import MomentNarrator, MomentText
@@ -26,7 +27,7 @@ from planmethod.note.narrate.letters import direction_text, mark
 from planmethod.note.narrate.scales import scale_inscription
 from planmethod.note.numbers import alike
 from planmethod.note.rounding import sigma_text
-from planmethod.note.tables.forces import rubbed
+from planmethod.note.tables.forces import driven_by, rubbed
 from planmethod.note.tables.results import lead_columns
 from planmethod.note.wording import Words
 from planmethod.plans.forces.board import GivenLoad
@@ -187,7 +188,7 @@ class ForceChapter:
         driver = plan.links == (self.drive,)
         yield Part(said.driver.format(link=links) if driver else said.group.format(links=links))
         if not number:
-            yield sentences(said.order.format())
+            yield sentences(said.order.format(), *thrust_lines(self.context))
         yield sentences(*voice.freed())
         if voice.is_nothing:
             yield sentences(said.nothing.format())
@@ -202,7 +203,7 @@ class ForceChapter:
         for equation in plan.moments:
             couple = equation.couple
             before = equation.force is not None or (
-                couple is not None and couple.moment == self.reading.statics.driving.balance
+                couple is None or couple.moment == self.reading.statics.driving.balance
             )
             if before:
                 yield from self._moments(moments, equation)
@@ -254,7 +255,9 @@ class ForceChapter:
             yield sentences(said.length.format(length=told.length))
         if told.result:
             yield sentences(lead)
-            yield from chain([told.result])
+            yield from chain([told.result.replace(whose, "ΣM", 1)])
+        if equation.force is None and equation.couple is None:
+            yield sentences(self.context.said.in_balance)
 
     def _cut(self, number: int, links: Rich, key: str, *, driver: bool) -> Node:
         reading, say = self.reading, self.report.say
@@ -311,10 +314,15 @@ class ForceChapter:
             key="reactions",
         )
         yield from map(sentences, self._beside())
+        words = report.words.note
+        yield from map(sentences, driven_by(report.one.problem, words))
         balancing, unit = self.reading.balancing, report.unit(self.reading.balancing.unit)
         plans, _ = both_balances(self.reading)
+        thrust = statics.thrust
+        template = said.balancing_thrust if thrust else said["balancing"][balancing.quantity]
         yield sentences(
-            str(said["balancing"][balancing.quantity]).format(
+            str(template).format(
+                line="" if thrust is None else "".join(map(mark, thrust.ends)),
                 symbol=self.context.symbol(self.reading.balancing_symbol),
                 value=f"{self.find(abs(plans))} {unit}",
                 exact=f"{self.find(abs(float(statics.balance[0])))} {unit}",
@@ -344,6 +352,7 @@ class ForceChapter:
             return
         voice = LeverNarrator(self.context)
         template = said.lever_about if reading.balancing.turns else said.lever_about_force
+        template = template if statics.thrust is None else said.lever_about_thrust
         about = template.format(pole=report.names.pole(PlanKind.VELOCITY))
         yield sentences(about, *voice.larger())
         yield figure(

@@ -11,8 +11,9 @@ from planmethod.note.compared import ComparedNumber, marked, percent_text
 from planmethod.note.formula import fraction
 from planmethod.note.narrate.forces.common import ForceContext, arm_symbol, signed_sum
 from planmethod.note.narrate.forces.resultants import force_symbol
+from planmethod.note.narrate.given import point_name
 from planmethod.note.narrate.scales import scale_inscription
-from planmethod.note.numbers import significant
+from planmethod.note.numbers import MINUS, significant
 from planmethod.note.rounding import sigma_text
 from planmethod.plans.model import PlanKind
 from planmethod.solved.errors.forces import DIFFERENCE, drawn_forces
@@ -53,6 +54,41 @@ def compared_balances(statics: Statics, index: int) -> ComparedNumber | None:
     plans, lever = float(drawn.balances.plans[index]), float(drawn.balances.lever[index])
     sigma, mark = marked(drawn, DIFFERENCE, index)
     return ComparedNumber(plans, lever, sigma, mark)
+
+
+def thrust_lines(context: ForceContext) -> list[str]:
+    """Tell how the force of an actuator is found, which the force plans have for known."""
+    statics, said = context.reading.statics, context.said
+    thrust = statics.thrust
+    if thrust is None:
+        return []
+    symbol, called = context.symbol(context.reading.balancing_symbol), statics.board.called
+    first, second = map(point_name, thrust.ends)
+    one, two = map(called, thrust.links)
+    facts = {"symbol": symbol, "first": first, "second": second, "one": one, "two": two}
+    facts["line"] = first + second
+    if thrust.trial is None:
+        if not isfinite(context.reading.read_number(thrust.value)):
+            return []
+        teller = LeverNarrator(context)
+        formula = teller.result() if teller.lever.forces else f"{symbol} = 0"
+        return [said.thrust_by_lever.format(formula=formula, **facts)]
+    turns = context.solution.problem.drive.is_crank
+    newtons, unit = context.units["N"], context.units["N·m" if turns else "N"]
+    told = {
+        key: context.found(context.reading.read_number(name))
+        for key, name in (
+            ("without", thrust.trial.without),
+            ("tried", thrust.trial.tried),
+            ("given", thrust.trial.given),
+            ("value", thrust.value),
+        )
+    }
+    product = fraction(f"{told['tried']}·({told['without']})", told["given"])
+    formula = f"{symbol} = {MINUS}{product} = {told['value']} {newtons}"
+    without, given = (f"{told[key]} {unit}" for key in ("without", "given"))
+    facts |= {"without": without, "given": given, "tried": f"{told['tried']} {newtons}"}
+    return [said.thrust_by_trial.format(formula=formula, **facts)]
 
 
 class LeverNarrator:
@@ -187,6 +223,9 @@ class LeverNarrator:
                 for point, symbols in at.items()
             )
             lines.append(self.said.hung.format(forces="; ".join(told)))
+        if (ends := self.reading.statics.driving.between) is not None and len(at) > 0:
+            points = ", ".join(self.names.point(motion.point[motion.named[end]]) for end in ends)
+            lines.append(self.said.hung_pair.format(symbol=self.balancing, points=points))
         lines += [
             self.said.shift_on_lever.format(
                 point=shift.letters[1], force=force_symbol(shift.link), formula=self.shift(shift)

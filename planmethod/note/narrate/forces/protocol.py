@@ -19,7 +19,7 @@ from planmethod.note.document import (
 from planmethod.note.narrate.equations import direction_note
 from planmethod.note.narrate.forces.bearings import undetermined
 from planmethod.note.narrate.forces.common import ForceContext, balance_equation, closed
-from planmethod.note.narrate.forces.lever import LeverNarrator
+from planmethod.note.narrate.forces.lever import LeverNarrator, thrust_lines
 from planmethod.note.narrate.forces.loads import LoadNarrator
 from planmethod.note.narrate.forces.moments import MomentNarrator
 from planmethod.note.narrate.forces.plan import ForcePlanNarrator
@@ -73,7 +73,8 @@ def _plans(context: ForceContext) -> Iterator[Node]:
     order = ", ".join(title[:1].lower() + title[1:] for title in titles)
     dyads = [group for group in groups if group is not None]
     lines = (said.order.format(order=order), said.indices.format(frame=frame))
-    yield Step((*lines, *([undetermined(dyads, words)] if dyads else [])))
+    found = thrust_lines(context)
+    yield Step((*lines, *found, *([undetermined(dyads, words)] if dyads else [])))
     for number, (plan, group) in enumerate(zip(context.reading.plans, groups, strict=True)):
         yield Part(driver if group is None else group_title(group, words))
         yield from _plan(context, plan, number)
