@@ -5,14 +5,21 @@ from __future__ import annotations
 from fractions import Fraction
 from pathlib import Path
 
+import numpy as np
+import pytest
 from cases import each
 from click.testing import CliRunner
 from trains import mesh, solved, told
 
 from planmethod.cli import cli
 from planmethod.gears.answers import answer
+from planmethod.gears.arrangement import arrange, best_order
 from planmethod.gears.derivation import derivation
+from planmethod.gears.drawn.side import SideView
+from planmethod.gears.motion import TrainMotion
+from planmethod.gears.scheme import SchemeData
 from planmethod.note.wording import LANGUAGES, language
+from planmethod.render.ink.drawing import Stroke
 
 SENTENCE = {"en": "is not defined: axes cross", "ru": "не определяется: на пути"}
 SENSES = {"en": ("turn in the same sense", "turn in opposite senses"),
@@ -122,3 +129,55 @@ def test_nothing_speaks_of_a_carrier_that_is_not_there(tmp_path: Path) -> None:
             assert "водил" not in run.output
         run = CliRunner().invoke(cli, ["sheet", str(path), "--format", "svg", "-o", str(tmp_path)])
         assert run.exit_code == 0, run.output
+
+
+# Senses on the scheme -----------------------------------------------------------------------------
+
+NEAR = np.array([0.0, 0.0, 1.0])
+"""Towards who looks at the scheme: x to the right and y upwards on it."""
+
+
+def arrows(motion: TrainMotion) -> list[complex]:
+    """Return from where to where the straight arrows of senses point, in the order of drawing."""
+    scheme = SchemeData(motion, 1.0)
+    side = SideView(arrange(scheme, best_order(scheme)), {})
+    heads = [one for one in side.items() if isinstance(one, Stroke) and one.tag == "sense"]
+    return [complex(one.points[-1] - one.points[0]) for one in heads]
+
+
+def front_of(omega: np.ndarray) -> complex:
+    """Return how the near side of a wheel moves that turns so, on the paper."""
+    x, y, _ = np.cross(omega, NEAR)
+    return complex(x, y)
+
+
+@each("speed", [100, -100])
+def test_arrows_of_a_bevel_pair_are_those_of_one_velocity_at_the_pitch_point(
+    speed: int, tmp_path: Path
+) -> None:
+    """The level wheel turns about x; at the pitch point above it both have one velocity."""
+    text = text_of(TRAINS["bevel pair"]).replace("100", str(speed))
+    one, other = arrows(solved(tmp_path, text))
+    level = np.array([float(np.sign(speed)), 0.0, 0.0])
+    pitch = np.cross(level, np.array([0.0, 1.0, 0.0]))
+    # The wheel stands left of the other, whose axis is upright: ω × (−x) is the same velocity.
+    across = next(turn * np.array([0.0, 1.0, 0.0]) for turn in (1, -1)
+                  if np.allclose(np.cross([0.0, turn, 0.0], [-1.0, 0.0, 0.0]), pitch))  # fmt: skip
+    for drawn, omega in ((one, level), (other, across)):
+        due = front_of(omega)
+        assert (drawn / abs(drawn) - due / abs(due)) == pytest.approx(0, abs=1e-9)
+
+
+@each("hand, speed", [("right", 100), ("right", -100), ("left", 100), ("left", -100)])
+def test_arrows_of_a_worm_are_those_of_its_hand(hand: str, speed: int, tmp_path: Path) -> None:
+    """The worm below the wheel turns about z; a right-handed thread that turns so goes along z."""
+    worm = f'{{ of = ["1", "2"], kind = "worm", hand = "{hand}" }}'
+    motion = solved(tmp_path, told({"1": 2, "2": 50}, [worm], f"n = {{ 1 = {speed} }}"))
+    (drawn,) = arrows(motion)
+    advance = np.sign(speed) * (1 if hand == "right" else -1) * NEAR
+    # The thread stands where it is and pushes the tooth at the lowest point of the wheel back.
+    tooth = -advance
+    omega = next(np.array([turn, 0.0, 0.0]) for turn in (1.0, -1.0)
+                 if np.allclose(np.cross([turn, 0.0, 0.0], [0.0, -1.0, 0.0]), tooth))  # fmt: skip
+    due = front_of(omega)
+    assert (drawn / abs(drawn) - due) == pytest.approx(0, abs=1e-9)

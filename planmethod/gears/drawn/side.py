@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from fractions import Fraction
 from functools import cached_property
 from itertools import pairwise
 
@@ -15,7 +16,17 @@ from planmethod.gears.scheme import Across, Rim, Worm
 from planmethod.render.ink.drawing import Arc, Disc, Ink, Item, Pen, Stroke
 from planmethod.render.ink.typeset import typeset
 from planmethod.render.labels import BUSY, Label
-from planmethod.render.symbols import SIZES, before_links, ground_line, guide_plates, revolute, unit
+from planmethod.render.symbols import (
+    SIZES,
+    before_links,
+    ground_line,
+    guide_plates,
+    revolute,
+    turn_arrow,
+    unit,
+    vector_arrow,
+)
+from planmethod.render.symbols.arrows import SMALL
 from planmethod.render.symbols.axes import axis_line, centre_lines
 from planmethod.render.symbols.gears import (
     PITCH_POINT,
@@ -32,6 +43,14 @@ SLOT = 13.0
 
 WALL = 1.7
 """From a shaft to the hollow one about it, mm."""
+
+ASIDE = 3.5
+"""From a wheel to the arrow of its sense, mm."""
+
+HALF_SENSE = 6.0
+"""Half the length of such an arrow, mm."""
+
+SENSE = "sense"
 
 BUSH = 3.0
 """Half the length of a bush, and how far a shaft goes out of one, mm."""
@@ -229,6 +248,11 @@ class SideView(Struct, frozen=True, dict=True):
                 yield Stroke(both, tag=tag)
                 rim_end = complex(x + way * abs((touch - out).real - x), height)
                 yield Stroke((complex(x + way * hub, height), rim_end), tag=tag)
+            if not across.carrier:
+                yield from self._sense(rim, at + side * ASIDE)
+                if cone == across.cones[0]:
+                    middle = complex(x - side * 0.5 * cone.radius, height - ASIDE)
+                    yield from self._sense_across(rim, side, middle, cone.radius)
         low, high = min(levels), max(levels)
         if across.carrier:
             for way in (1, -1):
@@ -269,6 +293,40 @@ class SideView(Struct, frozen=True, dict=True):
             if worm.is_level:
                 yield from revolute(at)
                 yield from self._thread(worm.rim)
+            yield from self._sense(
+                worm.rim, self._column(self._column_with(worm.rim.label)) - ASIDE
+            )
+            speed = scheme.motion.speeds[scheme.motion.train.body_of[worm.label]]
+            turned = worm.radius - ASIDE if worm.radius > 2 * ASIDE else worm.radius + ASIDE
+            yield from turn_arrow(
+                at, turned, _sign(speed), middle=225.0, sweep=min(110.0, 900.0 / turned),
+                tag=SENSE,
+            )  # fmt: skip
+
+    def _sense(self, rim: Rim, x: float) -> Iterator[Item]:
+        """Yield the arrow of how the near side of a level wheel moves: down if it turns positively.
+
+        A positive speed is then counter-clockwise seen from the right, and worm and wheel turn as
+        the equation of their mesh has it.
+        """
+        speed = self.arrangement.scheme.motion.speeds[rim.body]
+        middle = complex(x, rim.centre + 0.5 * rim.radius)
+        half = -1j * _sign(speed) * min(HALF_SENSE, 0.35 * rim.radius)
+        if speed:
+            yield from vector_arrow(middle - half, middle + half, pen=Pen.THIN, length=SMALL,
+                                    tag=SENSE)  # fmt: skip
+
+    def _sense_across(self, rim: Rim, side: int, middle: complex, radius: float) -> Iterator[Item]:
+        """Yield the arrow of the wheel across: both arrows point to the pitch point, or from it.
+
+        The near side of the level wheel, whose pitch point is above, moves down if it turns
+        positively: from that point, which is on the given side of the wheel across.
+        """
+        speed = self.arrangement.scheme.motion.speeds[rim.body]
+        half = -side * _sign(speed) * min(HALF_SENSE, 0.35 * radius)
+        if speed:
+            yield from vector_arrow(middle - half, middle + half, pen=Pen.THIN, length=SMALL,
+                                    tag=SENSE)  # fmt: skip
 
     def _worm(self, worm: Worm) -> complex:
         """Return where the axis of a worm, or of its wheel, stands across the paper."""
@@ -439,6 +497,10 @@ class SideView(Struct, frozen=True, dict=True):
             if round(at.imag, 3) not in seen:
                 seen.add(round(at.imag, 3))
                 yield Stroke((at, complex(x, at.imag)), Pen.THIN, tag="projection")
+
+
+def _sign(speed: Fraction) -> int:
+    return (speed > 0) - (speed < 0)
 
 
 def _mirrored(vector: complex, way: int) -> complex:
