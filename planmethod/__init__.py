@@ -26,6 +26,8 @@ if TYPE_CHECKING:
 
     import numpy.typing as npt
 
+    from planmethod.construct.drafting import Profile
+
 __all__ = [
     "Problem",
     "Solution",
@@ -58,21 +60,31 @@ def solve(
     *,
     positions: npt.ArrayLike | None = None,
     ruler: float | None = None,
-    profile: str = "board",
+    profile: Profile | str = "board",
 ) -> Solution:
     """Solve a problem, in the file's positions or in others (degrees, m for a slider).
 
     Parameters
     ----------
+    positions : array_like of shape (n,), optional
+        Other positions than the file's; they are copied.
     ruler : float, mm, optional
         Step of the ruler with which the hand reads the plans; the profile's when absent.
-    profile : str
+    profile : str or Profile
         How well the hand draws: ``cad``, ``board`` or ``coarse``.
 
     Raises
     ------
+    ArgumentError
+        An argument is none that this function takes.
     PlanMethodError
-        When the mechanism cannot be analysed or assembled.
+        When the mechanism cannot be analysed, or assembled in one of the positions.
+
+    Warns
+    -----
+    DoubtWarning
+        What `planmethod solve` warns of: few digits are left, a change point lies between two
+        positions, a number of the file is unlikely.
 
     Examples
     --------
@@ -84,10 +96,12 @@ def solve(
     >>> print(f"{turn.links['3'].omega.min():.3f} to {turn.links['3'].omega.max():.3f} 1/s")
     -69.565 to 18.391 1/s
     """
-    from planmethod.construct.drafting import PROFILES
+    from planmethod.solved.selfcheck import tell_doubts
     from planmethod.solved.solution import Solution
 
-    return Solution(problem, positions=positions, ruler=ruler, profile=PROFILES[profile])
+    solution = Solution(problem, positions=positions, ruler=ruler, profile=profile)
+    tell_doubts(solution)
+    return solution
 
 
 if not TYPE_CHECKING:  # what is imported above are the names that there are

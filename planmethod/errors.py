@@ -40,6 +40,10 @@ class PlanMethodError(Exception):
         return copyreg.__newobj__, (type(self), *self.args), vars(self)  # type: ignore[attr-defined]
 
 
+class DoubtWarning(UserWarning):
+    """What a program in Python should know of results that it gets all the same (сомнение)."""
+
+
 class Fault(Struct, frozen=True):
     """One fault of a problem file (ошибка в файле задачи).
 
@@ -87,6 +91,12 @@ class ConfigError(ProblemError):
 
     exit_code = ExitCode.USAGE
     head = "{0}: {1} fault{1:||s} in the config file"
+
+
+class ArgumentError(PlanMethodError, ValueError):
+    """A program in Python hands in what a function does not take."""
+
+    exit_code = ExitCode.USAGE
 
 
 class ProgramError(PlanMethodError):

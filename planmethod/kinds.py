@@ -7,6 +7,8 @@ from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from planmethod.arguments import of_type
+from planmethod.arguments import text as words
 from planmethod.cams.kind import Cams
 from planmethod.errors import ProblemError
 from planmethod.gears.involute.kind import Meshings
@@ -52,7 +54,7 @@ def load(path: str | Path, *, variant: str | None = None) -> Problem:
 
     Raises
     ------
-    ProblemError
+    ProblemError, ArgumentError
 
     Examples
     --------
@@ -61,7 +63,8 @@ def load(path: str | Path, *, variant: str | None = None) -> Problem:
     >>> problem.drive.positions
     (40.0,)
     """
-    (problem,) = load_each(path, (variant,))
+    path = Path(of_type("path", path, str | Path))
+    (problem,) = load_each(path, (None if variant is None else words("variant", variant),))
     return problem
 
 
@@ -76,6 +79,10 @@ def loads(text: str, *, name: str, variant: str | None = None) -> Problem:
     """Read the same from a text; ``name`` stands for the stem of the file."""
     from planmethod.problem.reader import loads as read
 
+    words("text", text)
+    words("name", name)
+    if variant is not None:
+        words("variant", variant)
     return _posed(read(text, name=name, variant=variant, train=_driven))
 
 

@@ -10,6 +10,7 @@ from typing import Any, cast
 from msgspec import Struct
 from msgspec.structs import replace
 
+from planmethod.arguments import of_type
 from planmethod.check.calculation import Calculation
 from planmethod.check.checking import check, unknown_variant
 from planmethod.check.key import Key, key_of_task
@@ -63,6 +64,7 @@ class Variants:
     def __init__(
         self, path: Path, settings: Settings = DEFAULT, default: str | None = None
     ) -> None:
+        path = Path(of_type("path", path, str | Path))
         self.path, self.settings, self.default = path, settings, default
         self.names: tuple[str, ...] = tuple(variant_names(path))
         self._tasks: dict[str | None, Task] = {}
@@ -143,6 +145,9 @@ def check_works(variants: Variants, works: Sequence[Work]) -> Iterator[CheckedWo
     Белов Никита: 17.7 of 19
     Васильев Олег: 19 of 19
     """
+    of_type("variants", variants, Variants)
+    for work in of_type("works", works, Sequence, "read_works()"):
+        of_type("works", work, Work, "read_works()")
     named = [_named(variants, work) for work in works]
     if len(set(named)) > FEW:
         variants.ahead(name for name in named if name is not _UNKNOWN)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from functools import partial
 
+from planmethod.arguments import number_of, of_type, text
 from planmethod.construct.steps import Compute, MeasureAlong, PointName
 from planmethod.mechanism.model import FRAME
 from planmethod.note.document import (
@@ -51,8 +52,8 @@ def document_of(solution: Solution, *, lang: str = "ru", position: int = 0) -> D
 
     Raises
     ------
-    IndexError
-        When there is no such position.
+    ArgumentError, UnknownLanguageError
+        When there is no such position, or language.
 
     Examples
     --------
@@ -65,7 +66,9 @@ def document_of(solution: Solution, *, lang: str = "ru", position: int = 0) -> D
 
     Its writers are in `planmethod.note.writers`; a notebook shows it as it is.
     """
-    return protocol_document(solution, language(lang), position)
+    of_type("solution", solution, Solution, "planmethod.solve()")
+    number_of("position", position, len(solution.positions))
+    return protocol_document(solution, language(text("lang", lang)), position)
 
 
 def protocol_document(solution: Solution, words: Language, position: int = 0) -> Document:

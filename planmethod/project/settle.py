@@ -14,6 +14,7 @@ from typing import assert_never
 import numpy as np
 from msgspec.structs import replace
 
+from planmethod.arguments import of_type
 from planmethod.cams.model import CamProblem
 from planmethod.errors import Fault, ProblemError
 from planmethod.kinds import KINDS
@@ -67,6 +68,8 @@ def settle(problem: Problem, path: Path | None = None) -> Project:
     >>> [part.name.value for part in decided.parts]
     ['kinematics', 'forces']
     """
+    of_type("problem", problem, Problem, "planmethod.load()")
+    path = None if path is None else Path(of_type("path", path, str | Path))
     if problem.drive.followed is not None:
         told = "the driving link is moved by a cam's follower, a course project is that of a crank"
         hint = "Draw it with planmethod sheet; its cam is a project's with a crank in [driver]."

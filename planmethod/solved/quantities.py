@@ -69,10 +69,11 @@ class Quantities(Struct, frozen=True):
         return tuple(chosen.values())
 
     def find(self, label: str) -> Sequence[Quantity]:
-        """Return the results that a label stands for; none if there are no such."""
+        """Return the results that a label, or the name of a column, stands for; none if none."""
         if label in WHOLE:
             return [result for result in self.all if result.kind in WHOLE[label]]
-        return [result for result in self.all if result.label == label]
+        found = [result for result in self.all if result.label == label]
+        return found or [result for result in self.all if label in result.columns]
 
     def _named(self, label: str) -> Sequence[Quantity]:
         found = self.find(label)

@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from warnings import warn
 
 import numpy as np
 
 from planmethod.construct.steps import PointName
-from planmethod.errors import PlanMethodError
+from planmethod.errors import DoubtWarning, PlanMethodError
 from planmethod.mechanism.groups import AssurGroup, triad_of
 from planmethod.mechanism.model import FRAME
 from planmethod.plans.motion.position import inner_point, parallelogram
+from planmethod.problem.unlikely import unlikely
 from planmethod.solved.changes import changes
 from planmethod.solved.closings import drive_data
 from planmethod.solved.failures import (
@@ -162,6 +164,23 @@ def verify(solution: Solution) -> None:
                 solution.problem.name, place, *what, float(error[i]), float(size[i])
             )
             raise SelfCheckError(told)
+
+
+def tell_doubts(solution: Solution) -> None:
+    """Check a solution as the commands do, and warn who called a function of the package.
+
+    Raises
+    ------
+    SelfCheckError, PositionError
+        As of `verify`.
+    """
+    said: list[object] = [*unlikely(solution.problem)]
+    if len(solution.positions):
+        said += changed_branches(solution)
+        verify(solution)
+        said += warnings(solution)
+    for doubt in said:
+        warn(f"{solution.problem.name}: {doubt}", DoubtWarning, stacklevel=3)
 
 
 def refused(solution: Solution) -> Flags:

@@ -12,12 +12,23 @@ import numpy.typing as npt
 from msgspec import Struct
 from msgspec.structs import replace
 
+from planmethod.arguments import (
+    Named,
+    above_zero,
+    chosen,
+    known,
+    number_of,
+    numbers,
+    of_type,
+    told,
+)
 from planmethod.construct.arithmetic import Arithmetic, Float64, Number
 from planmethod.construct.drafting import PROFILES, Profile
 from planmethod.construct.evaluate import evaluate
 from planmethod.construct.hand import Hand
 from planmethod.construct.scale import Scale
 from planmethod.construct.steps import NumberName, PointName
+from planmethod.errors import ArgumentError
 from planmethod.mechanism.structure import Structure
 from planmethod.plans.build import Construction
 from planmethod.plans.legend import Quantity, QuantityKind
@@ -117,8 +128,9 @@ class Solution(Remembering):
         closings of the groups stay those of the file's own positions.
     ruler : float, mm, optional
         Step of the ruler with which the hand reads the plans; the profile's when absent.
-    profile : Profile
-        How well the hand draws: what the drafting errors follow from.
+    profile : Profile or str
+        How well the hand draws: what the drafting errors follow from. By name ``cad``, ``board``
+        or ``coarse``.
     views : Views, optional
         Boxes that the plans shall fill where the file gives no scale.
     scales : mapping of PlanKind to Scale, optional
@@ -133,6 +145,8 @@ class Solution(Remembering):
 
     Raises
     ------
+    ArgumentError
+        An argument is none.
     StructureError, ProblemError, AssemblyError
         When the mechanism cannot be analysed or assembled.
 
@@ -156,18 +170,29 @@ class Solution(Remembering):
         *,
         positions: npt.ArrayLike | None = None,
         ruler: float | None = None,
-        profile: Profile = PROFILES["board"],
+        profile: Profile | str = PROFILES["board"],
         views: Views | None = None,
         scales: Mapping[PlanKind, Scale] | None = None,
         construction: Construction | None = None,
     ) -> None:
         super().__init__()
-        self.problem = problem
+        self.problem = of_type("problem", problem, Problem, "planmethod.load()")
         asked = problem.drive.positions if positions is None else positions
-        self.positions: Reals = fixed(np.array(asked, dtype=float))
-        self.profile = profile if ruler is None else replace(profile, ruler=ruler)
-        self.construction: Construction = construction or construct(problem)
-        self._views = views
+        self.positions: Reals = fixed(numbers("positions", asked))
+        if not isinstance(profile, Profile):
+            profile = PROFILES[chosen("profile", profile, PROFILES)]
+        if ruler is not None:
+            profile = replace(profile, ruler=above_zero("ruler", ruler))
+        self.profile = profile
+        if construction is None:
+            construction = construct(problem)
+        self.construction: Construction = of_type("construction", construction, Construction)
+        self._views = None if views is None else of_type("views", views, Views)
+        if scales is not None:
+            of_type("scales", scales, Mapping)
+            for kind, scale in scales.items():
+                of_type("scales", kind, PlanKind)
+                of_type("scales", scale, Scale)
         self._scales = scales
         self.origin = self
 
@@ -188,6 +213,8 @@ class Solution(Remembering):
 
         ``scales`` are those that are given; the problem's when absent.
         """
+        if scales is not None:
+            of_type("scales", scales, Scales)
         problem = self.problem if scales is None else replace(self.problem, scales=scales)
         return self._redrawn(problem=problem, views=views, scales=None)
 
@@ -243,16 +270,20 @@ class Solution(Remembering):
 
     def numbers_of(self, plan: Callable[[Construction], Mapping[str, float]]) -> dict[str, Number]:
         """Return the known numbers of what goes on from the construction."""
+        if not callable(plan):
+            raise ArgumentError("{}: a function is wanted, got {}.", "plan", told(plan))
         return dict(plan(self.construction))
 
     def length(self, link: str, p: str, q: str) -> float | Reals:
         """Return the given distance of two points of a link, m."""
-        points = self.problem.bodies[link].points
+        bodies = self.problem.bodies
+        points = bodies[known("link", link, bodies)].points
+        p, q = known("point", p, points), known("point", q, points)
         return abs(points[q] - points[p])
 
     def alone_at(self, index: int) -> tuple[Solution, int]:
         """Return the solution of the mechanism that a position is of, and its number there."""
-        return self, index
+        return self, number_of("position", index, len(self.positions))
 
     # Readings --------------------------------------------------------------------------------
 
@@ -262,6 +293,7 @@ class Solution(Remembering):
         chosen: npt.NDArray[np.intp] | slice = EVERY,
     ) -> dict[str, Any]:
         """Return the data of the program at given scales (unit per mm), for some positions."""
+        of_type("scales", scales, Mapping)
         data: dict[str, Any] = {**self._given_at(chosen), **at_positions(scales, chosen)}
         count = len(self.positions[chosen])
         if count <= FEW_ROWS:
@@ -281,7 +313,7 @@ class Solution(Remembering):
 
     def read_at(self, positions: Reals) -> Reading:
         """Read the whole program at unit scales in other positions."""
-        return self.moved(positions.tolist()).read(Float64())
+        return self.moved(positions).read(Float64())
 
     @cached_property
     def si(self) -> Reading:
@@ -311,6 +343,8 @@ class Solution(Remembering):
         """
         if self._scales is not None:
             return dict(self._scales)
+        if not len(self.positions):
+            raise ArgumentError("positions: at least one is wanted, got [].")
         scales = choose_scales(self.extents, self.views, self.given_scales)
         for kind, own in self._own_scales.items():
             if not np.isnan(own).any():  # there is no common one: one of them stands for it
@@ -337,6 +371,8 @@ class Solution(Remembering):
 
     def own_scale(self, kind: PlanKind, index: int) -> Scale:
         """Return the scale at which a plan is drawn in one position: mostly the common one."""
+        kind = of_type("kind", kind, PlanKind)
+        number_of("position", index, len(self.positions))
         common, own = self.scales[kind], self._own_scales.get(kind)
         if own is None or np.isnan(own[index]):
             return common
@@ -344,6 +380,7 @@ class Solution(Remembering):
 
     def has_common(self, kind: PlanKind) -> bool:
         """Tell whether plans of a kind have one scale."""
+        of_type("kind", kind, PlanKind)
         own = self._own_scales.get(kind)
         return own is None or bool(np.isnan(own).any())
 
@@ -404,11 +441,13 @@ class Solution(Remembering):
 
     def knots_of(self, kind: PlanKind, index: int) -> tuple[Knot, ...]:
         """Return what is enlarged of a plan in one position."""
-        small = self.small_plans[kind].get(index)
+        number_of("position", index, len(self.positions))
+        small = self.small_plans[of_type("kind", kind, PlanKind)].get(index)
         return self.knots[kind] if small is None else (small,)
 
     def read_on(self, index: int) -> dict[NumberName, Knot]:
         """Return the lengths that are read on an enlarged view in a position, and on which."""
+        number_of("position", index, len(self.positions))
         return {
             name: knot
             for kind in RATES
@@ -445,6 +484,8 @@ class Solution(Remembering):
 
     def place(self, name: PointName) -> Complexes:
         """Return the place of a point in the file's coordinates, m, ndarray of shape (n,)."""
+        if not isinstance(name, str) or name not in self.si.value:
+            known("point", name, self.construction.draft.points())
         return fixed(self.si.point(name) + self.construction.draft.origin)
 
     # Results ---------------------------------------------------------------------------------
@@ -467,7 +508,7 @@ class Solution(Remembering):
                 self.si.point(kin.velocity.point[link, place]),
                 self.si.point(kin.acceleration.point[link, place]),
             )
-        return result
+        return Named(result, "point")
 
     @cached_property
     def links(self) -> dict[str, LinkMotion]:
@@ -484,7 +525,7 @@ class Solution(Remembering):
                 zero if omega is None else self.si.number(omega),
                 zero if epsilon is None else self.si.number(epsilon),
             )
-        return result
+        return Named(result, "link")
 
     @cached_property
     def relatives(self) -> list[RelativeMotion]:
@@ -508,21 +549,25 @@ class Solution(Remembering):
     @cached_property
     def legend(self) -> dict[str, Quantity]:
         """Every quantity of the motion by its label."""
-        return {quantity.label: quantity for quantity in self.construction.legend}
+        return Named({one.label: one for one in self.construction.legend}, "quantity")
 
     def quantities(self, *kinds: QuantityKind) -> dict[str, list[Quantity]]:
         """Return the quantities of the motion of some kinds by what they are of."""
+        for kind in kinds:
+            of_type("kinds", kind, QuantityKind)
         found: dict[str, list[Quantity]] = {}
         for quantity in self.construction.legend:
             if quantity.kind in kinds:
                 found.setdefault(quantity.of, []).append(quantity)
         return found
 
-    def exact(self, quantity: Quantity) -> Reals:
-        """Return a quantity of the motion, SI and degrees, ndarray of shape (n,).
+    def exact(self, quantity: Quantity | str) -> Reals:
+        """Return a quantity of the motion, or that of a label, SI and degrees, shape (n,).
 
         A size where the hand finds nothing else. For places see `place`.
         """
+        if not isinstance(quantity, Quantity):
+            quantity = self.legend[quantity]
         if quantity.kind is QuantityKind.DIRECTION:
             return self.links[quantity.of].phi_deg
         if quantity.kind.is_number:
@@ -535,6 +580,11 @@ class Solution(Remembering):
 
         Sizes of vectors; angular velocities and accelerations with their sign. What does not move
         is zero; NaN where the plan gives nothing to find it by.
+
+        Raises
+        ------
+        UnknownNameError
+            There is no such label.
         """
         quantity = self.legend[label]
         if quantity.size is None:
@@ -544,6 +594,7 @@ class Solution(Remembering):
 
     def segments(self, kind: PlanKind) -> list[SegmentReading]:
         """Return the segments of a plan in mm: exact, and read along the hand's own chain."""
+        of_type("kind", kind, PlanKind)
         return [
             SegmentReading(
                 segment.name,

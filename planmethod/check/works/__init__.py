@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from planmethod.arguments import of_type
 from planmethod.check.model import Work
 from planmethod.check.works.csv_file import read_csv
 from planmethod.check.works.faults import WorksError, read_bytes
@@ -36,6 +37,7 @@ def read_works(path: Path) -> list[Work]:
     WorksError
         The file as a whole cannot be read.
     """
+    path = Path(of_type("path", path, str | Path))
     data = read_bytes(path)
     if data.startswith(_OLD_EXCEL):
         raise WorksError("{}: this is an old or encrypted workbook. Save it as XLSX.", path)

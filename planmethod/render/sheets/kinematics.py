@@ -11,9 +11,10 @@ import numpy.typing as npt
 from msgspec import Struct
 from msgspec.structs import replace
 
+from planmethod.arguments import number_of, numbers, of_type, text, texts
 from planmethod.construct.drafting import PROFILES, Profile
 from planmethod.construct.scale import next_scale
-from planmethod.errors import LayoutError
+from planmethod.errors import ArgumentError, LayoutError
 from planmethod.languages import LANGUAGES, say
 from planmethod.note.wording import Language, language
 from planmethod.paper import paper_format
@@ -48,6 +49,9 @@ SMALLER = ((0.8, 1.0), (0.65, 1.0), (0.65, 0.8), (0.5, 0.8))
 """Parts of their boxes that plans get, and the scheme, rather than plans being left out of a sheet
 of one position."""
 
+MOST_SHEETS = 1_000_000
+"""No limit of sheets is as large."""
+
 LEAST_CHOSEN = 4
 """Fewest positions of a turn for plans to be chosen among them."""
 
@@ -61,7 +65,7 @@ def kinematics_sheets(
     paper: str | None = None,
     positions: npt.ArrayLike | None = None,
     ruler: float | None = None,
-    profile: Profile = PROFILES["board"],
+    profile: Profile | str = PROFILES["board"],
     fields: Mapping[str, str] | None = None,
     furniture: Furniture | None = None,
     errors: bool = False,
@@ -80,7 +84,7 @@ def kinematics_sheets(
         Other driver positions than the file's.
     ruler : float, mm, optional
         Step of the ruler with which the plans are read; the profile's when absent.
-    profile : Profile
+    profile : Profile or str
         How well the plans are drawn.
     fields : mapping, optional
         Texts of the title block that outrank the file's.
@@ -101,6 +105,8 @@ def kinematics_sheets(
 
     Raises
     ------
+    ArgumentError
+        An argument is none that this function takes.
     UnknownQuantityError
         There is no such quantity.
     LayoutError
@@ -118,6 +124,20 @@ def kinematics_sheets(
     >>> render(sheet, "pdf")[:5]
     b'%PDF-'
     """
+    problem = of_type("problem", problem, Problem, "planmethod.load()")
+    if positions is not None and not len(numbers("positions", positions)):
+        raise ArgumentError("positions: at least one is wanted, got [].")
+    if paper is not None:
+        text("paper", paper)
+    if fields is not None:
+        texts("fields", [*of_type("fields", fields, Mapping), *fields.values()])
+    if furniture is not None:
+        of_type("furniture", furniture, Furniture)
+    if layout is not None and not isinstance(layout, str | Path):
+        of_type("layout", layout, Composition)
+    if most is not None:
+        number_of("most", most, MOST_SHEETS)
+    asked = texts("asked", asked)
     if paper:
         problem = replace(problem, sheet=replace(problem.sheet, paper=paper_format(paper).name))
     solution = Solution(problem, positions=positions, ruler=ruler, profile=profile)

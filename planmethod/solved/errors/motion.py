@@ -9,6 +9,7 @@ import numpy as np
 import numpy.typing as npt
 from msgspec.structs import replace
 
+from planmethod.arguments import of_type
 from planmethod.construct.arithmetic import Number
 from planmethod.construct.evaluate import Trace
 from planmethod.construct.steps import NumberName, PointName
@@ -114,7 +115,7 @@ class Drafting(Errors):
 
 def drafting_of(solution: Solution) -> Drafting:
     """Return how far the hand's drawing may be off, worked out when it is first asked for."""
-    return solution.once(Drafting)
+    return of_type("solution", solution, Solution, "planmethod.solve()").once(Drafting)
 
 
 def _plan_points(solution: Solution) -> tuple[PointName, ...]:

@@ -15,6 +15,7 @@ import numpy as np
 import numpy.typing as npt
 from msgspec import Struct
 
+from planmethod.arguments import known, number_of, text, texts
 from planmethod.construct.arithmetic import Number
 from planmethod.construct.drafting import EVEN, Even, Propagated, Sampled, causes_of
 from planmethod.construct.dual import Dual, as_dual
@@ -46,6 +47,9 @@ Key = TypeVar("Key", bound=str)
 
 DRAWS = 4000
 """Random sheets where first order does not hold."""
+
+MOST_DRAWS = 10_000_000
+"""Random sheets that may be asked for."""
 
 STRAINED = 0.1
 """Sigma of a step's margin, in parts of it, from which first order is not believed."""
@@ -328,8 +332,9 @@ class Errors:
         self, index: int, *, draws: int | None = None, seed: int | None = None
     ) -> dict[str, Reals]:
         """Return every quantity of one position from random sheets: arrays of shape (draws,)."""
-        count = self.draws if draws is None else draws
-        seed = (self.seed if seed is None else seed) * 1_000_003 + index
+        count = self.draws if draws is None else number_of("draws", draws, MOST_DRAWS + 1)
+        seed = self.seed if seed is None else number_of("seed", seed, 2**32)
+        seed = seed * 1_000_003 + self._at_position(index)
         chosen = np.array([index])
         times = self.drawing.times(chosen)
         pencil = Sampled(self.profile, self.drawing.free, count, seed, times)
@@ -353,10 +358,14 @@ class Errors:
         ------
         UnknownItemError
         """
-        asked = list(labels)
+        asked = list(texts("labels", labels))
         self._check(asked)
+        self._at_position(index)
         rows = np.array([self._slope(label, index) for label in asked])
         return np.asarray(rows @ rows.T, dtype=float)
+
+    def _at_position(self, index: int) -> int:
+        return number_of("position", index, self.drawing.count)
 
     def _check(self, labels: list[str]) -> None:
         unknown = [label for label in labels if label not in self.items]
@@ -367,7 +376,8 @@ class Errors:
 
     def ellipse(self, point: PointName, index: int) -> Reals:
         """Return the covariance of a point on its plan, mm², ndarray of shape (2, 2)."""
-        if point not in self._first.points:
+        self._at_position(index)
+        if not isinstance(point, str) or point not in self._first.points:
             raise UnknownItemError(
                 "no plan has a point {}. Known: {}.", point, ", ".join(sorted(self._first.points))
             )
@@ -375,7 +385,8 @@ class Errors:
 
     def causes(self, label: str, index: int = 0) -> list[tuple[str, float]]:
         """Return the steps by their share of a quantity's variance, the largest first."""
-        self._check([label])
+        self._check([text("label", label)])
+        self._at_position(index)
         slope = self._slope(label, index) ** 2
         shares: dict[str, float] = {}
         for step, part in zip(self._at(index).strokes, slope, strict=True):
@@ -393,6 +404,7 @@ class _Spreads(Mapping[str, Spread]):
         self._found: dict[str, Spread] = {}
 
     def __getitem__(self, label: str) -> Spread:
+        known("quantity", label, self._errors.items)
         if label not in self._found:
             self._found[label] = self._errors._spread(label)
         return self._found[label]

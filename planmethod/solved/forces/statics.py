@@ -15,6 +15,7 @@ import numpy.typing as npt
 from msgspec import Struct
 from msgspec.structs import replace
 
+from planmethod.arguments import number_of, of_type
 from planmethod.construct.arithmetic import Arithmetic, Float64, Number
 from planmethod.construct.evaluate import evaluate
 from planmethod.construct.hand import Hand
@@ -279,12 +280,12 @@ class Statics(Remembering):
         return np.asarray(self.failing < 0)
 
     def _vector(self, force: Force) -> Complexes:
-        return fixed(self.si.vector(*force.ends))
+        return fixed(self.si.vector(*force.ends) + 0.0)
 
     def _number(self, name: NumberName | None) -> Reals:
         if name is None:
             return fixed(np.zeros(self.solution.positions.shape))
-        return self.si.number(name)
+        return fixed(self.si.number(name) + 0.0)  # no force is nothing, and not minus nothing
 
     @cached_property
     def reactions(self) -> list[JointForce]:
@@ -334,6 +335,7 @@ class Statics(Remembering):
 
     def lever_at(self, index: int) -> Lever | None:
         """Return the lever of a position; None where the driver stands, be it there alone."""
+        number_of("position", index, len(self.solution.positions))
         rates = np.broadcast_to(self.solution.driven[1], self.solution.positions.shape)
         return self.lever_plan if rates[index] else None
 
@@ -347,7 +349,8 @@ class Statics(Remembering):
 
     def largest(self, index: int) -> float:
         """Return the size of the largest force of a position, load or reaction, N."""
-        return float(self.largest_forces[index])
+        count = len(self.solution.positions)
+        return float(self.largest_forces[number_of("position", index, count)])
 
     # Drawn -----------------------------------------------------------------------------------
 
@@ -418,6 +421,8 @@ class Statics(Remembering):
 
     def own_scale(self, number: int, index: int) -> Scale:
         """Return the scale at which one of the plans is drawn in a position."""
+        number_of("plan", number, len(self.own_scales))
+        number_of("position", index, len(self.solution.positions))
         return Scale(SCALE, float(self.own_scales[number][index]), UNIT)
 
     @cached_property
@@ -465,7 +470,7 @@ def _enlarge(own: Reals, sizes: tuple[Reals, Reals], room: Box, *, inverse: bool
 
 def statics_of(solution: Solution) -> Statics:
     """Return the force analysis of a solution, made when it is first asked for."""
-    return solution.once(Statics)
+    return of_type("solution", solution, Solution, "planmethod.solve()").once(Statics)
 
 
 def bearings_of(statics: Statics, joint: JointForce) -> BearingTable | None:

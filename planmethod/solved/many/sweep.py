@@ -9,10 +9,11 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 import numpy.typing as npt
 
+from planmethod.arguments import Named, known, number_of, numbers, of_type, reals, texts
 from planmethod.compiled import FEW, Array, Runner
 from planmethod.construct.arithmetic import Float64
 from planmethod.construct.evaluate import evaluate
-from planmethod.construct.steps import Name
+from planmethod.construct.steps import Name, PointName
 from planmethod.plans.model import PlanKind
 from planmethod.problem.model import Problem
 from planmethod.solved.failures import Cause, Failure, Place
@@ -23,6 +24,24 @@ from planmethod.solved.reading import Reading
 
 if TYPE_CHECKING:
     from planmethod.solved.many.loads import Motion
+
+
+class SweepTable(Named[Array]):
+    """Results of a sweep by the names of their rows; those of a label are put together."""
+
+    def __init__(self, found: dict[str, Array], rows: Sequence[SweepRow]) -> None:
+        super().__init__(found, "result")
+        self.rows = tuple(rows)
+
+    def __missing__(self, name: object) -> Array:
+        label = known("result", name, [*self, *(row.label for row in self.rows)])
+        parts = [self[row.name] for row in self.rows if row.label == label]
+        found: Array = parts[0] if len(parts) == 1 else parts[0] + 1j * parts[1]
+        return found
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Return what makes the same in another process."""
+        return SweepTable, (dict(self), self.rows)
 
 
 class Sweep:
@@ -100,12 +119,13 @@ class Sweep:
         drawn: Sequence[Name] = (),
         native: bool | None = None,
     ) -> None:
-        asked = (asked,) if isinstance(asked, str) else None if asked is None else tuple(asked)
-        varied = (varied,) if isinstance(varied, str) else tuple(varied)
-        self._made_of = (problem, asked, varied, dtype, forces, tuple(drawn), native)
-        self.problem = problem
-        if np.dtype(dtype) not in (np.dtype(np.float64), np.dtype(np.float32)):
-            raise SweepError(f"a sweep is float64 or float32, not {np.dtype(dtype).name}")
+        self.problem = of_type("problem", problem, Problem, "planmethod.load()")
+        asked = None if asked is None else texts("asked", asked)
+        varied, drawn = texts("varied", varied), [PointName(one) for one in texts("drawn", drawn)]
+        self._made_of = (problem, asked, varied, dtype, forces, drawn, native)
+        number = _of(dtype)
+        if number is None or number not in (np.dtype(np.float64), np.dtype(np.float32)):
+            raise SweepError(f"a sweep is float64 or float32, not {dtype}")
         self._settings: tuple[Any, bool | None] = np.dtype(dtype), native
         self._drawn = tuple(drawn)
         task = SweepTask(asked, forces, self._drawn, _motion_of)
@@ -182,17 +202,17 @@ class Sweep:
         SweepError
             When the shapes do not go together.
         """
-        angle = np.asarray(positions, dtype=self._runner.dtype)
+        angle = reals("positions", positions, self._runner.dtype)
+        parameters = {} if parameters is None else of_type("parameters", parameters, Mapping)
         # Alone they are of one shape: there is nothing to be looked at.
         if not (self.varied or parameters) and angle.ndim == 1 and out is None and failed is None:
             found = self._runner.few(lambda: [angle, *self._told(angle)], len(angle))
             if found is not None:
                 return found
-        parameters = parameters or {}
         if set(parameters) != set(self.varied):
             raise SweepError(f"run() takes the parameters {', '.join(self.varied) or '(none)'}")
         # A size goes into a file, which is double whatever the sweep is.
-        given = {name: np.asarray(parameters[name], dtype=float) for name in self.varied}
+        given = {name: reals(name, parameters[name]) for name in self.varied}
         shape = self._shape(angle, list(given.values()), out, failed)
         rates = {own: given[name] for name, own in self._varied.rates.items()}
         cases, which = self._cases([given[name] for name in self._varied.sizes])
@@ -333,8 +353,9 @@ class Sweep:
         callable
             Of nothing; it fills ``out`` (and ``failed``) and returns it, the same array every time.
         """
-        angle = np.asarray(positions, dtype=self._runner.dtype)
-        given = {k: np.asarray(v, dtype=float) for k, v in (parameters or {}).items()}
+        angle = reals("positions", positions, self._runner.dtype)
+        sizes = {} if parameters is None else of_type("parameters", parameters, Mapping)
+        given = {name: reals(name, value) for name, value in sizes.items()}
         filled = self.run(angle, given, out=out, failed=failed)
         out = np.array(filled, order="C") if out is None else out
         self._runner.compile()
@@ -407,9 +428,14 @@ class Sweep:
     def table(
         self, positions: npt.ArrayLike, parameters: Mapping[str, npt.ArrayLike] | None = None
     ) -> dict[str, Array]:
-        """Return the results by the names of their rows."""
+        """Return the results by the names of their rows, and by what they are asked for as.
+
+        ``3.omega`` and ``omega_3`` are one; of a vector, as ``v_E``, the parts ``E.vx`` and
+        ``E.vy`` are its rows, and it itself is complex.
+        """
         found = self.run(positions, parameters)
-        return {row.name: values for row, values in zip(self.rows, found, strict=True)}
+        rows = {row.name: values for row, values in zip(self.rows, found, strict=True)}
+        return SweepTable(rows, self.rows)
 
     @property
     def guards(self) -> list[tuple[Name, PlanKind]]:
@@ -430,7 +456,9 @@ class Sweep:
 
     def reason(self, guard: int) -> str:
         """Return the step behind a guard's number; empty for -1, which no guard has."""
-        return "" if guard < 0 else str(self._guards[guard])
+        if isinstance(guard, int | np.integer) and guard == -1:
+            return ""
+        return str(self._guards[number_of("guard", guard, len(self._guards))])
 
     def explain(self, position: float, *, number: int | None = None) -> str:
         """Return why a position is impossible, in the words and numbers of the drawing.
@@ -452,7 +480,7 @@ class Sweep:
 
     def failure(self, position: float) -> Failure | None:
         """Return why a position is impossible; None if every step that is needed exists there."""
-        at = np.array([position], dtype=float)
+        at = numbers("position", [position])
         if not np.isfinite(position):
             return Failure(Cause.NO_NUMBER, Place.of(self.problem, at, 0))
         told = zip(self._case.given, self._case.at(at), strict=True)
@@ -475,6 +503,13 @@ def _made_again(
     return Sweep(
         problem, asked, varied=varied, dtype=dtype, forces=forces, drawn=drawn, native=native
     )
+
+
+def _of(dtype: npt.DTypeLike) -> np.dtype[Any] | None:
+    try:
+        return np.dtype(dtype) if dtype is not None else None
+    except (TypeError, ValueError, AttributeError):
+        return None
 
 
 def sweep_variants(

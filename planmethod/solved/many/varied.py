@@ -13,6 +13,7 @@ import numpy as np
 from msgspec import Struct
 from msgspec.structs import replace
 
+from planmethod.arguments import known
 from planmethod.compiled import Array, Runner, write
 from planmethod.construct.program import Program
 from planmethod.construct.steps import Name
@@ -120,6 +121,9 @@ class SweepTask(Struct, frozen=True):
         # Loads against a motion are known only where all steps of that motion exist.
         moved = _motion(results) if loads is not None and loads.need_motion else ()
         names = [result.name for result in (*chosen, *moved)]
+        made = {step.out for step in results.program.steps} if self.drawn else set()
+        for name in self.drawn:
+            known("plan", name, made)
         program = results.program.needed_for([*names, *self.drawn])
         constants = _constants(problem, results)
         return Case(

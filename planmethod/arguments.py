@@ -1,0 +1,216 @@
+"""What a program in Python hands in, looked at before anything is made of it (аргументы)."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+from numbers import Real
+from operator import index
+from reprlib import Repr
+from types import UnionType
+from typing import Any, TypeVar
+
+import numpy as np
+import numpy.typing as npt
+
+from planmethod.errors import ArgumentError
+
+T = TypeVar("T")
+
+_SHORT = Repr()
+_SHORT.maxstring = _SHORT.maxother = 60
+
+
+def told(value: object) -> str:
+    """Return what a value is, short: a number, a text or a short list itself, else its type."""
+    if value is None or isinstance(value, (str, Real, list, tuple)):
+        return _SHORT.repr(value)
+    return type(value).__name__
+
+
+def of_type(what: str, value: object, kind: type[T] | UnionType, home: str = "") -> T:
+    """Return a value of a type; ``home`` is what makes one.
+
+    Raises
+    ------
+    ArgumentError
+    """
+    if isinstance(value, kind):
+        return value
+    name = getattr(kind, "__name__", kind)
+    if not home:
+        raise ArgumentError("{}: {} is wanted, got {}.", what, name, told(value))
+    raise ArgumentError("{}: {} is wanted, got {}. {} makes one.", what, name, told(value), home)
+
+
+def text(what: str, value: object) -> str:
+    """Return a text.
+
+    Raises
+    ------
+    ArgumentError
+    """
+    if isinstance(value, str):
+        return value
+    raise ArgumentError("{}: a text in quotes is wanted, got {}.", what, told(value))
+
+
+def texts(what: str, value: object) -> tuple[str, ...]:
+    """Return texts; one alone is a list of one.
+
+    Raises
+    ------
+    ArgumentError
+    """
+    if isinstance(value, str):
+        return (value,)
+    try:
+        found: tuple[Any, ...] = tuple(value)  # type: ignore[arg-type]
+    except TypeError:
+        found = (value,)
+    if all(isinstance(one, str) for one in found):
+        return found
+    raise ArgumentError("{}: a list of texts is wanted, got {}.", what, told(value))
+
+
+def chosen(what: str, value: object, among: Iterable[str]) -> str:
+    """Return one of some names.
+
+    Raises
+    ------
+    ArgumentError
+    """
+    names = tuple(among)
+    if isinstance(value, str) and value in names:
+        return value
+    known = ", ".join(names)
+    raise ArgumentError("{}: there is no {}. Choose one of: {}.", what, told(value), known)
+
+
+def numbers(what: str, value: npt.ArrayLike) -> npt.NDArray[np.float64]:
+    """Return numbers as an array of its own, shape (n,).
+
+    Raises
+    ------
+    ArgumentError
+    """
+    found = reals(what, value)
+    if found.ndim == 1:
+        return np.array(found)
+    raise ArgumentError(
+        "{}: a list of numbers is wanted, got {}. One number is a list, too: [30].",
+        what,
+        told(value),
+    )
+
+
+def reals(what: str, value: npt.ArrayLike, dtype: npt.DTypeLike = np.float64) -> npt.NDArray[Any]:
+    """Return numbers as an array of a type, of whatever shape; an array of it is itself.
+
+    Raises
+    ------
+    ArgumentError
+    """
+    try:
+        found = np.asarray(value)
+        # Of objects those that are fractions, or integers beyond 64 bits.
+        if found.dtype.kind in "iuf" or all(isinstance(one, Real) for one in found.flat):
+            return found.astype(dtype, copy=False)
+    except (TypeError, ValueError, OverflowError):
+        pass
+    raise ArgumentError(
+        "{}: a list of numbers is wanted, got {}. One number is a list, too: [30].",
+        what,
+        told(value),
+    )
+
+
+def above_zero(what: str, value: object) -> float:
+    """Return a finite number above zero.
+
+    Raises
+    ------
+    ArgumentError
+    """
+    if isinstance(value, Real) and not isinstance(value, (bool, np.bool_)):
+        try:
+            number = float(value)
+        except OverflowError:
+            number = math.inf
+        if 0.0 < number < math.inf:
+            return number
+    raise ArgumentError("{}: a number above 0 is wanted, got {}.", what, told(value))
+
+
+def number_of(what: str, value: object, count: int) -> int:
+    """Return the number of one of so many, from 0.
+
+    Raises
+    ------
+    ArgumentError
+    """
+    if not isinstance(value, (bool, np.bool_)):
+        try:
+            found = index(value)  # type: ignore[arg-type]
+        except TypeError:
+            found = -1
+        if 0 <= found < count:
+            return found
+    if not count:
+        raise ArgumentError("{}: there is none, got {}.", what, told(value))
+    raise ArgumentError(
+        "{}: a whole number from 0 to {} is wanted, got {}.", what, count - 1, told(value)
+    )
+
+
+class UnknownNameError(ArgumentError, KeyError):
+    """A result is asked for by a name that there is not."""
+
+    __str__ = Exception.__str__  # KeyError quotes it
+
+
+def known(what: str, name: object, among: Iterable[str]) -> str:
+    """Return the name of one of those that there are; ``what``: ``point``, ``link``.
+
+    Raises
+    ------
+    UnknownNameError
+    """
+    if isinstance(name, str) and name in among:
+        return name
+    raise UnknownNameError("there is no {} {}. Known: {}.", what, told(name), ", ".join(among))
+
+
+class Named(dict[str, T]):
+    """Results by name; a name that there is not is told with those that there are.
+
+    Parameters
+    ----------
+    found : dict
+    what : str
+        What they are of, as a message has it: ``point``.
+    """
+
+    def __init__(self, found: dict[str, T], what: str) -> None:
+        super().__init__(found)
+        self.what = what
+
+    def __getitem__(self, name: str) -> T:
+        """Return the result of a name.
+
+        Raises
+        ------
+        UnknownNameError
+        """
+        try:
+            return super().__getitem__(name)
+        except TypeError:  # it is no text
+            return self.__missing__(name)
+
+    def __missing__(self, name: object) -> T:
+        known(self.what, name, self)
+        raise AssertionError(name)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        """Return what makes the same in another process."""
+        return Named, (dict(self), self.what)
