@@ -11,7 +11,7 @@ import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import Any, Protocol, TypeAlias
 
-from msgspec import Struct
+from msgspec import Struct, field
 from msgspec.structs import replace
 
 from planmethod.errors import LayoutError
@@ -104,10 +104,26 @@ class Caption(Struct, frozen=True):
     text: Rich
 
 
-class Paragraph(Struct, frozen=True):
-    """Sentences (абзац)."""
+class GivenFact(Struct, frozen=True):
+    """What is given (данное): its text, and what of a problem file it stands for.
+
+    Attributes
+    ----------
+    text : Rich
+    data : mapping of str to object
+        Dotted keys of the problem file with what they have in the text: m, degrees, SI units, words
+        of the file. Of all that is given the problem can be built again (`tests/rebuilt.py`).
+    """
 
     text: Rich
+    data: Mapping[str, Any] = field(default_factory=dict)
+
+
+class Paragraph(Struct, frozen=True):
+    """Sentences (абзац); ``facts``: what they say is given, as data, which no writer prints."""
+
+    text: Rich
+    facts: tuple[GivenFact, ...] = ()
 
 
 class Item(Struct, frozen=True):

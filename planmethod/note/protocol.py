@@ -13,6 +13,7 @@ from planmethod.note.document import (
     Chapter,
     Document,
     Equations,
+    GivenFact,
     Node,
     Paragraph,
     Part,
@@ -24,8 +25,8 @@ from planmethod.note.document import (
 from planmethod.note.formula import Rich, escape
 from planmethod.note.narrate.equations import direction_note, equation_of
 from planmethod.note.narrate.forces.common import closed
+from planmethod.note.narrate.given import drawn, given_paragraph
 from planmethod.note.narrate.given import given as given_facts
-from planmethod.note.narrate.given import unbroken
 from planmethod.note.narrate.naming import Names
 from planmethod.note.narrate.steps import Narrator
 from planmethod.note.narrate.structure import group_title
@@ -144,9 +145,10 @@ class _Protocol:
             yield Paragraph(words.source.format(source=escape(problem.source)))
         yield Paragraph(position_line(self.solution, words, self.index))
         yield Paragraph(words.formula.format(formula=self.solution.structure.formula))
-        yield Paragraph(words.given.format(given=unbroken(self._given())))
+        facts = [drawn(problem, self.language), *self._given()]
+        yield given_paragraph(facts, self.language)
 
-    def _given(self) -> list[Rich]:
+    def _given(self) -> list[GivenFact]:
         """Return what the file gives for this position, masses and loads where forces follow."""
         if self.solution.problem.dynamics is None:
             position = float(self.solution.positions[self.index])

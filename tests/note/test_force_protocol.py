@@ -462,4 +462,4 @@ def test_masses_and_loads_are_given_as_the_file_has_them() -> None:
     said = flat(protocol(Solution(loads(text, name="x")), lang="ru")).replace("\u00a0", " ")
     # Arithmetic stays where no few digits are its value.
     assert "m₂ = 40 кг; m₃ = 200/3 кг; m₅ = 50 кг; J_S1 = 5 кг·м²;" in said
-    assert "g = 9,81 м/с²; F_5C = 6000 Н." in said
+    assert "g = 9,81 м/с²; F_5C = 6000 Н (в точке" in said

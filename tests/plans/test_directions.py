@@ -201,9 +201,8 @@ def test_a_slot_that_joins_no_two_letters_has_a_name_that_the_statement_gives() 
     assert_directions(solution)
     told = {term.direction for term in terms(solution) if term.kind in TAGS}
     assert {direction_text(one) for one in told} == {"∥ n_{2}–n_{2}", "⊥ n_{2}–n_{2}"}
-    assert "n_{2}–n_{2} — направляющая звена 3 для звена 2" in given(
-        solution.problem, language("ru")
-    )
+    given_texts = [fact.text for fact in given(solution.problem, language("ru"))]
+    assert "n_{2}–n_{2} — направляющая звена 3 для звена 2, проходит через C" in given_texts
 
 
 def test_a_direction_stands_under_its_own_term() -> None:

@@ -28,7 +28,8 @@ def test_what_is_given_is_told_as_given_and_understood(path: Path) -> None:
     problem = load(path, variant=next(iter(told(path, "variant")), None))
     solution = Solution(problem)
     said = [
-        plain_text(fact) for fact in given(problem, language("ru"), solution.positions.tolist())
+        plain_text(fact.text)
+        for fact in given(problem, language("ru"), solution.positions.tolist())
     ]
     assert ["; ".join(said)] == told(path, "given")
     for place in told(path, "place"):

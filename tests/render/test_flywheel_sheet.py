@@ -77,7 +77,7 @@ def test_a_moment_that_jumps_is_drawn_upright() -> None:
     assert len(uprights) == 2
     assert all(abs((one.points[1] - one.points[0]).real) < 0.1 for one in uprights)
     given = MachineTeller(drawing, language("ru")).given()
-    assert not any(line.startswith("φ") for line in given)  # of no single position
+    assert not any(fact.text.startswith("φ") for fact in given)  # of no single position
 
 
 @pytest.mark.parametrize("path, sides", [("problems/machines/engine.toml", (39, 73)),

@@ -304,8 +304,9 @@ def test_the_moments_of_the_textbook() -> None:
 
 def test_what_is_given_and_the_computed_loads() -> None:
     reading = reading_of("levers/six-link")
-    facts = statement(reading, RU)
-    for fact in ("m_{2} = 40 кг", "J_{S1} = 5 кг·м^{2}", "g = 9,81 м/с^{2}", "F_{5C} = 6000 Н"):
+    facts = [fact.text for fact in statement(reading, RU)]
+    load = "F_{5C} = 6000 Н (в точке H звена 5, вниз)"
+    for fact in ("m_{2} = 40 кг", "J_{S1} = 5 кг·м^{2}", "g = 9,81 м/с^{2}", load):
         assert fact in facts
     assert "G_{2} = m_{2}·g = 40·9,81 = 392,4 Н" in load_lines(reading)
     assert "M_{Φ1} = J_{S1}·ε_{1} = 5·80 = 400,0 Н·м" in load_lines(reading)

@@ -40,12 +40,12 @@ B = "right of A"
     ("through", "told", "metres"),
     [
         ("[0, -0.03]", "y_{x-x} = −0,03 м", -0.03),
-        ('"O"', "направляющая x-x отстоит от точки O на 0,05 м", 0.05),
+        ('"O"', "горизонтальная направляющая x-x отстоит от точки O на 0,05 м вверх", 0.05),
     ],
 )
 def test_a_guide_is_lettered_where_it_is_told_to_be(through: str, told: str, metres: float) -> None:
     problem = loads(MECHANISM.format(through=through), name="beside")
-    assert told in given(problem, language("ru"))
+    assert told in [fact.text for fact in given(problem, language("ru"))]
     solution = Solution(problem)
     pin = PointName("B")
     scheme = SchemeView.drawn(solution, 0, 5.0).scheme

@@ -241,7 +241,7 @@ def test_formulas_of_the_crosshead() -> None:
     for line, size in zip(lines[2:], sizes, strict=True):
         read = float(line.rpartition(" = ")[2].removesuffix(" Н").replace(",", "."))
         assert read == pytest.approx(size, rel=0.05)
-    assert "a_{30} = 0,08 м" in statement(at, RU)
+    assert "a_{30} = 0,08 м" in [fact.text for fact in statement(at, RU)]
     assert wanted(at, RU.say) == "F_{21}, F_{30}, F_{23}, F_{10}, l_{30}, M_{ур}"
 
 

@@ -18,6 +18,7 @@ from planmethod.check.exchange.quiz import QuizPart, whole_points
 from planmethod.check.model import KeyEntry
 from planmethod.check.pages.keypage import scales_told
 from planmethod.check.pages.speech import Speech
+from planmethod.note.document import GivenFact
 from planmethod.note.formula import escape
 from planmethod.note.wording import Language, Words
 from planmethod.note.writers.html import clean, markup
@@ -33,8 +34,8 @@ class QuizQuestion(Struct, frozen=True):
     title : str
         Of the problem, plain text: also the category.
     variant : str or None
-    given : tuple of str
-        What is given, rich text.
+    given : tuple of GivenFact
+        What is given.
     scales : mapping of str to float
         Of the plans, unit per mm; empty where nothing is drawn.
     parts : tuple of QuizPart
@@ -44,7 +45,7 @@ class QuizQuestion(Struct, frozen=True):
 
     title: str
     variant: str | None
-    given: tuple[str, ...]
+    given: tuple[GivenFact, ...]
     scales: Mapping[str, float]
     parts: tuple[QuizPart, ...]
     picture: bytes = b""
@@ -107,7 +108,8 @@ def _text(question: QuizQuestion, words: Language) -> Iterator[str]:
     say: Words = words.check["exchange"]
     yield _paragraph(f"<strong>{_safe(markup(escape(question.name(words))))}</strong>")
     if question.given:
-        given = words.note.given.format(given="; ".join(question.given))
+        told = "; ".join(fact.text for fact in question.given if fact.text)
+        given = words.note.given.format(given=told)
         yield _paragraph(_safe(markup(given)))
     if question.picture:
         yield _paragraph(_element("img", src=f"@@PLUGINFILE@@/{PICTURE}", alt=say.scheme))

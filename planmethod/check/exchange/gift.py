@@ -32,7 +32,7 @@ def _gift_question(question: QuizQuestion, part: QuizPart, words: Language) -> I
     letters = plain_text(speech.letters(entry))
     unit = plain_text(speech.unit(entry))
     asked = f"{letters}, {unit}" if unit else letters
-    given = plain_text("; ".join(question.given))
+    given = plain_text("; ".join(fact.text for fact in question.given if fact.text))
     position = words.check["key"].position.format(position=entry.position)
     name = ", ".join(
         filter(None, (question.name(words), position if entry.position else "", letters))

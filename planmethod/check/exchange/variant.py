@@ -8,8 +8,9 @@ from planmethod.check.exchange.cloze import QuizQuestion
 from planmethod.check.exchange.quiz import quiz_of
 from planmethod.check.task import Task
 from planmethod.kind import ProblemKind
+from planmethod.note.document import GivenFact
 from planmethod.note.narrate.forces.statement import statement
-from planmethod.note.narrate.given import given
+from planmethod.note.narrate.given import drawn, given
 from planmethod.note.wording import Language
 from planmethod.problem.model import Problem
 from planmethod.render.backends import Options, render
@@ -27,14 +28,15 @@ def question_of(task: Task, kind: ProblemKind[Any] | None, words: Language) -> Q
     drawing: Drawing | None
     if kind is None:
         assert isinstance(problem, Problem)
-        facts = given(problem, words)
+        facts = [drawn(problem, words), *given(problem, words)]
         if problem.dynamics is not None:
-            known = {fact.partition(" = ")[0] for fact in facts}
+            known = {fact.text.partition(" = ")[0] for fact in facts}
             loaded = statement(ForceReading(task.solution, task.first), words)
-            facts += [fact for fact in loaded if fact.partition(" = ")[0] not in known]
+            facts += [fact for fact in loaded if fact.text.partition(" = ")[0] not in known]
         drawing = assigned(task.solution)
     else:
-        facts, drawing = kind.given(problem, words), kind.scheme(problem)
+        facts = [GivenFact(text) for text in kind.given(problem, words)]
+        drawing = kind.scheme(problem)
     parts = tuple(quiz_of(task, words))
     used = {"mu_l", *(part.entry.scale for part in parts)}
     scales = task.scales({}, task.first) if kind is None else {}

@@ -3,25 +3,47 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
+from enum import Enum
+from functools import partial
 
 import numpy as np
+from msgspec.structs import replace
 
 from planmethod.mechanism.model import FRAME
-from planmethod.note.document import Item, Node
-from planmethod.note.formula import escape, fraction
+from planmethod.mechanism.structure import analyse
+from planmethod.note.document import GivenFact, Item, Node, Paragraph
+from planmethod.note.formula import Rich, escape, fraction
 from planmethod.note.numbers import MINUS, Notation, trimmed, with_unit
 from planmethod.note.wording import Language
 from planmethod.plans.legend import MOTION_KINDS, TURNINGS, Quantity, QuantityKind
 from planmethod.plans.model import Relation
-from planmethod.plans.motion.leads import has_slot_name, slot_name, track_direction
+from planmethod.plans.motion.leads import slot_name, track_direction
+from planmethod.problem.bodies import rotation
 from planmethod.problem.head import KindProblem
-from planmethod.problem.model import Body, Drive, Geared, Lifted, Posed, PosedBy, Problem, Slide
-from planmethod.problem.names import UNITS, split_names
+from planmethod.problem.model import (
+    ANYWHERE,
+    Body,
+    Drive,
+    Geared,
+    Lifted,
+    PointForm,
+    Posed,
+    PosedBy,
+    Problem,
+    Rule,
+    Slide,
+    Where,
+)
+from planmethod.problem.names import UNITS, segment, split_names
 from planmethod.solved.driving import driven
+from planmethod.solved.rules import from_joint
 from planmethod.solved.solution import Solution
 
 NBSP = "\u00a0"
+
+SHORT = 40
+"""Letters of a sentence that is not broken."""
 
 
 def reading_notes(problem: KindProblem, words: Language) -> Iterator[Node]:
@@ -38,77 +60,119 @@ def point_name(point: str) -> str:
     return f"{point[:1]}_{{{point[1:]}}}" if point[1:] else point
 
 
-def unbroken(facts: Sequence[str]) -> str:
-    """Return facts in one line that is broken between them only."""
-    return "; ".join(fact.replace(" ", NBSP) for fact in facts)
+def unbroken(facts: Iterable[Rich]) -> Rich:
+    """Return facts in one line that is broken between them; sentences at their words as well."""
+    return "; ".join(map(_unbroken, filter(None, facts)))
 
 
-def given(problem: Problem, words: Language, positions: Sequence[float] | None = None) -> list[str]:
-    """Return what is given, one ``symbol = value unit`` each.
+def _unbroken(fact: Rich) -> Rich:
+    if " = " in fact or len(fact) <= SHORT:
+        return fact.replace(" ", NBSP)
+    return re.sub(r"(?<=[0-9}]) (?=\w)", NBSP, fact)  # a number stays with its unit
 
+
+def given_paragraph(facts: Sequence[GivenFact], words: Language) -> Paragraph:
+    """Return what is given as one paragraph, which keeps what its facts stand for (дано)."""
+    told = unbroken(fact.text for fact in facts)
+    return Paragraph(words.note.given.format(given=told), facts=tuple(facts))
+
+
+def given(
+    problem: Problem, words: Language, positions: Sequence[float] | None = None
+) -> list[GivenFact]:
+    """Return what is given: with the scheme of `drawn` the mechanism can be built of it again.
+
+    Each fact has the keys of the problem file that it stands for, with their values (`GivenFact`).
     ``positions`` are the driver's, degrees (m for a slider); the file's when absent.
     """
     drive, text = problem.drive, As(problem, words)
-    asked = drive.positions if positions is None else positions
-    lines = [_position(text, asked)]
-    named = {name for _, name, _ in problem.lengths}
+    asked = drive.positions if positions is None else tuple(positions)
+    facts = [_position(text, asked), *_own_axes(text)]
     for link, name, metres in problem.lengths:
         centre = problem.bodies[link].arc
         if centre is not None and name == "".join(problem.bodies[link].axis or ()):
-            radius = text.metres(metres, _path(link, "slides.radius"))
-            said = words.note.given_arc.format(
-                link=link, radius=radius, line=_line(*split_names(name))
-            )
-            lines.append(said)
+            facts.append(_arc(link, name, metres, text))
             continue
-        lines.append(f"l_{{{name}}} = {text.metres(metres, _path(link, name))}")
+        path = _path(link, name)
+        data: dict[str, object] = {path: metres}
+        for point, form in problem.bodies[link].forms.items():
+            if form.kind in ("on", "from") and {*split_names(name)} == {point, _start(form)}:
+                data[f"{_path(link, segment(point))}.at"] = form.at
+        facts.append(GivenFact(f"l_{{{name}}} = {text.metres(metres, path)}", data))
     for link, body in problem.bodies.items():
         if link != FRAME:
-            lines += _third_points(link, body, named, text)
+            facts += _third_points(link, body, text)
     for point, place in problem.bodies[FRAME].points.items():
+        path = f"frame.{segment(point)}"
         if place != 0:
-            lines += _coordinates(point, place, text, f"frame.{point}")
-    carried = {slide.label for slide in problem.slides.values() if slide.host == FRAME}
-    told: set[str] = set()
-    for guide, (through, base, angle) in problem.guides.items():
-        if through is None:
-            lines += _guide(guide, base, angle, text)
-        elif guide in carried:
-            beside = told_beside(guide, problem)
-            lines.append(_given_guide(guide, through, beside, text))
-            told |= set() if beside is None else {beside.slider}
-    pins = [slide.pin for slide in problem.slides.values() if slide.offset]
-    for slide in problem.slides.values():
-        lines += _carried(problem, slide, text)
-        if slide.offset and slide.slider not in told:
-            name = slide.pin if pins.count(slide.pin) == 1 else f"{slide.pin}{slide.slider}"
-            offset = text.metres(slide.offset, _path(slide.slider, "slides.offset"))
-            lines.append(f"e_{{{name}}} = {offset}")
-    if drive.posed is not None and drive.posed.by is PosedBy.LENGTH:
-        return lines
-    if drive.followed is not None:
-        return [*lines, *_lifted(drive, drive.followed, text, asked)]
-    if drive.is_crank:
-        lines += [] if drive.geared is None else _through(drive.geared, words)
-        constant = "" if drive.acceleration else " = const"
-        wheel = "" if drive.geared is None else f" = ω_{{{drive.geared.label}}}"
-        omega = f"ω_{{{drive.link}}}"
-        if drive.turns is not None:
-            speed = text.number(drive.turns, "rev/min", "driver.n")
-            rate = text.say.found(drive.rate)
-            turns = fraction(f"πn_{{{drive.link}}}", "30")
-            found = f"{omega} = {turns} = {rate} {text.say.units['1/s']}"
-            lines.append(f"n_{{{drive.link}}} = {speed}{constant} ({found})")
+            facts += _coordinates(point, place, text, path)
         else:
-            rate = text.number(drive.rate, "1/s", "driver.omega")
-            lines.append(f"{omega}{wheel} = {rate}{constant}")
-        if drive.acceleration:
-            epsilon = text.number(drive.acceleration, "1/s²", "driver.epsilon")
-            lines.append(f"ε_{{{drive.link}}} = {epsilon}")
+            origin = words.note.given_origin.format(point=point_name(point))
+            facts.append(GivenFact(origin, {path: [0.0, 0.0]}))
+    facts += _guides(text)
+    for slide in problem.slides.values():
+        if slide.host != FRAME or slide.label not in problem.guides:
+            facts += _carried(slide, text)
+    facts += _angles_sense(text)
+    facts += _assembled(text, asked)
+    if drive.posed is not None and drive.posed.by is PosedBy.LENGTH:
+        return facts
+    if drive.followed is not None:
+        return [*facts, *_lifted(drive, drive.followed, text, asked)]
+    return [*facts, *_rates(text)]
+
+
+def _rates(text: As) -> Iterator[GivenFact]:
+    """Yield how the driving link moves."""
+    drive, units = text.problem.drive, text.say.units
+    if not drive.is_crank:
+        yield GivenFact(
+            f"v = {text.number(drive.rate, 'm/s', 'driver.v')}", {"driver.v": drive.rate}
+        )
+        gain = drive.acceleration
+        yield GivenFact(f"a = {text.number(gain, 'm/s²', 'driver.a')}", {"driver.a": gain})
+        return
+    for line in [] if drive.geared is None else _through(drive.geared, text.words):
+        yield GivenFact(line)
+    constant = "" if drive.acceleration else " = const"
+    wheel = "" if drive.geared is None else f" = ω_{{{drive.geared.label}}}"
+    omega = f"ω_{{{drive.link}}}"
+    still = {} if drive.acceleration else {"driver.epsilon": 0.0}
+    if drive.turns is not None:
+        turned = text.number(drive.turns, "rev/min", "driver.n")
+        turns = fraction(f"πn_{{{drive.link}}}", "30")
+        found = f"{omega} = {turns} = {text.say.found(drive.rate)} {units['1/s']}"
+        said = f"n_{{{drive.link}}} = {turned}{constant} ({found})"
+        yield GivenFact(said, {"driver.n": drive.turns, **still})
     else:
-        lines.append(f"v = {text.number(drive.rate, 'm/s', 'driver.v')}")
-        lines.append(f"a = {text.number(drive.acceleration, 'm/s²', 'driver.a')}")
-    return lines
+        rate = text.number(drive.rate, "1/s", "driver.omega")
+        yield GivenFact(f"{omega}{wheel} = {rate}{constant}", {"driver.omega": drive.rate, **still})
+    if drive.acceleration:
+        epsilon = text.number(drive.acceleration, "1/s²", "driver.epsilon")
+        yield GivenFact(f"ε_{{{drive.link}}} = {epsilon}", {"driver.epsilon": drive.acceleration})
+
+
+def drawn(problem: Problem, words: Language) -> GivenFact:
+    """Return in words what the scheme shows: links with their points, what slides on what.
+
+    Where no scheme stands beside what is given, this tells it.
+    """
+    note, told = words.note, []
+    data: dict[str, object] = {"driver.link": problem.drive.link}
+    for link in problem.mechanism.links:
+        body, slide = problem.bodies[link], problem.slides.get(link)
+        points = [point for point in body.points if point != body.arc]
+        data[_path(link, "points")] = points
+        said = f"{link} ({', '.join(map(point_name, points))}"
+        if slide is not None:
+            on = slide.label if slide.label in problem.guides else slide.host
+            data[_path(link, "slides.on")] = on
+            way = problem.guide_name(on) if slide.host == FRAME else on
+            template = note.drawn_on_guide if slide.host == FRAME else note.drawn_on_link
+            said += "; " + template.format(on=problem.mechanism.called(way))
+        said += "; " + note.drawn_driver if link == problem.drive.link else ""
+        told.append(said + ")")
+    return GivenFact(note.drawn.format(links=", ".join(told)), data)
 
 
 class As:
@@ -133,6 +197,10 @@ class As:
         unit = self.problem.unit
         return self.number(value * UNITS[unit], unit, path)
 
+    def size(self, value: float, path: str = "") -> str:
+        """Return how long something is whose sense words tell."""
+        return self.metres(value, path) if value >= 0 else self.metres(-value)
+
 
 def arithmetic(text: str, say: Notation) -> str:
     """Return arithmetic of a file as rich text: ``0.25/3`` gives ``0,25/3``."""
@@ -142,7 +210,7 @@ def arithmetic(text: str, say: Notation) -> str:
 
 
 def _path(link: str, key: str) -> str:
-    return f"links.{link}.{key}"
+    return f"links.{segment(link)}.{key}"
 
 
 DRAWN = 5
@@ -152,15 +220,24 @@ NEAR_DEG = 0.5
 """Degrees within which an angle is that of a position."""
 
 MOST_LISTED = 6
-"""Most positions that are given one by one."""
+"""Most positions that are given one by one where their steps are even."""
+
+MOST_UNEVEN = 36
+"""Most that are, where they are not."""
 
 
-def _position(text: As, asked: Sequence[float]) -> str:
+def _position(text: As, asked: Sequence[float]) -> GivenFact:
     """Return the position: as the output tells it, where the asked ones are those of the file."""
     drive = text.problem.drive
     of = [k for k, position in enumerate(drive.positions) if position in asked]
     if drive.posed is not None and len(of) == len(asked):
         return _posed(drive.posed, of, text)
+    path = f"driver.{drive.coordinate.name}"
+    return GivenFact(_told_positions(text, asked), {path: [float(one) for one in asked]})
+
+
+def _told_positions(text: As, asked: Sequence[float]) -> str:
+    drive = text.problem.drive
     unit, key = drive.coordinate.unit, ""
     if len(asked) == 1 and tuple(asked) == drive.positions:
         key = f"driver.{drive.coordinate.name}"
@@ -173,15 +250,66 @@ def _position(text: As, asked: Sequence[float]) -> str:
     symbol = drive.coordinate.symbol
     if tuple(asked) == text.problem.numbered:
         return _numbered(text, asked)
-    if len(asked) <= MOST_LISTED:
-        return f"{symbol} = {', '.join(told(float(one)) for one in asked)}"
-    first, last = float(asked[0]), float(asked[-1])
-    step = round((last - first) / (len(asked) - 1), 4)
-    if np.allclose(np.diff(asked), step, rtol=0.0, atol=1e-6 * abs(step)):
-        steps = text.words.note.given_steps
-        return f"{symbol} {steps.format(first=told(first), last=told(last), step=told(step))}"
-    count = text.words.note.given_count.format(count=len(asked))
-    return f"{symbol} = {told(first)}…{told(last)}{count}"
+    if len(asked) > MOST_LISTED:
+        first, last = float(asked[0]), float(asked[-1])
+        step = round((last - first) / (len(asked) - 1), 4)
+        if np.allclose(np.diff(asked), step, rtol=0.0, atol=1e-6 * abs(step)):
+            steps = text.words.note.given_steps
+            return f"{symbol} {steps.format(first=told(first), last=told(last), step=told(step))}"
+        if len(asked) > MOST_UNEVEN:
+            count = text.words.note.given_count.format(count=len(asked))
+            return f"{symbol} = {told(first)}…{told(last)}{count}"
+    return f"{symbol} = {', '.join(told(float(one)) for one in asked)}"
+
+
+def _own_axes(text: As) -> Iterator[GivenFact]:
+    """Yield from which line the angle of a crank counts, or which way its slider's place does."""
+    problem, note = text.problem, text.words.note
+    drive = problem.drive
+    posed, body = drive.posed, problem.bodies[drive.link]
+    if posed is not None and posed.by is PosedBy.PHI:
+        axis = problem.bodies[posed.of].axis
+        if axis is not None:
+            yield GivenFact(note.given_axis.format(symbol=f"φ_{{{posed.of}}}", line=_line(*axis)))
+    if drive.is_crank and body.axis is not None:
+        start, direction = (body.points[p] for p in body.axis)
+        for place in body.points.values():
+            aside = (place - start) * (direction - start).conjugate()
+            if aside.real < 0 or abs(aside.imag) > 1e-9 * abs(aside):
+                line = _line(*body.axis)
+                yield GivenFact(note.given_axis.format(symbol=f"φ_{{{drive.link}}}", line=line))
+                return
+    elif not drive.is_crank and (slide := problem.slides.get(drive.link)) is not None:
+        base = "; ".join(text.metres(one) for one in (slide.base.real, slide.base.imag))
+        origin = f"({base})" if slide.through is None else point_name(slide.through)
+        way = note["given_ways"][_way(slide.angle)]
+        name = problem.guide_name(slide.label)
+        data: dict[str, object] = {}
+        if slide.through is None:
+            path = f"frame.guides.{segment(slide.label)}.through"
+            data = {f"{path}[{k}]": x for k, x in enumerate((slide.base.real, slide.base.imag))}
+        yield GivenFact(note.given_place.format(guide=name, start=origin, way=way), data)
+
+
+def _way(angle: float) -> str:
+    """Return which way a directed line runs, a key of words: right, up, left or down."""
+    x, y = rotation(angle).real, rotation(angle).imag
+    if y == 0:
+        return "right" if x > 0 else "left"
+    return "up" if y > 0 else "down"
+
+
+def _arc(link: str, name: str, metres: float, text: As) -> GivenFact:
+    """Return a stone in a circular slot."""
+    problem = text.problem
+    body, path = problem.bodies[link], _path(link, "slides.radius")
+    said = text.words.note.given_arc.format(
+        link=link, radius=text.metres(metres, path), line=_line(*split_names(name))
+    )
+    host = next((x for x, other in problem.bodies.items()
+                 if x != link and body.arc in other.points), FRAME)  # fmt: skip
+    keys = {"on": host, "centre": body.arc, "radius": metres}
+    return GivenFact(said, {_path(link, f"slides.{key}"): value for key, value in keys.items()})
 
 
 def _numbered(text: As, asked: Sequence[float]) -> str:
@@ -220,20 +348,40 @@ def of_turn(problem: Problem, position: float, angle: str, words: Language) -> s
     return note.between_positions.format(at=angle, one=before, other=(before + 1) % count)
 
 
-def _posed(posed: Posed, of: Sequence[int], text: As) -> str:
-    """Return how the output tells some of the positions."""
+def _posed(posed: Posed, of: Sequence[int], text: As) -> GivenFact:
+    """Return how the output tells some of the positions, and which of several is meant."""
     note, values = text.words.note, [posed.values[k] for k in of]
+    root: int | str = posed.number or ""
+    way = ""
+    if posed.going:
+        root, way = f"going {posed.going}", note["given_going"][posed.going]
+    elif posed.near is not None:
+        root = f"near {posed.near!r}"
+        coordinate = text.problem.drive.coordinate
+        near = (text.metres if coordinate.unit == "m" else partial(text.number, unit="deg"))(
+            posed.near
+        )
+        way = note.given_near.format(place=f"{coordinate.symbol} = {near}")
+    elif posed.number:
+        symbol = text.problem.drive.coordinate.symbol
+        way = note.given_which.format(number=posed.number, symbol=symbol)
+    data: dict[str, object] = {"driver.root": root} if root else {}
     if posed.by is PosedBy.LINE:
-        pairs = [posed.extremes[k].split(" on ") for k in of]
-        return "; ".join(note.given_on_line.format(point=one, line=line) for one, line in pairs)
+        said = [posed.extremes[k] for k in of]
+        pairs = [one.split(" on ") for one in said]
+        told = [note.given_on_line.format(point=one, line=line) for one, line in pairs]
+        return GivenFact("; ".join(told) + way, {"driver.at": said, **data})
     if posed.by is PosedBy.EXTREME:
-        told = []
+        told, keys = [], []
         for where, after in ((posed.extremes[k], posed.values[k]) for k in of):
             sign = f" {MINUS if after < 0 else '+'} {text.say.given(abs(after))}°"
             told.append(note["given_extremes"][where] + (sign if after else ""))
-        return note.given_position.format(position=", ".join(told))
+            keys.append(f"{where} extreme".strip() + (f" {after:+}" if after else ""))
+        output, cycle = _output(text)
+        said_so = note.given_position.format(position=", ".join(told))
+        return GivenFact(said_so + output, {"driver.at": keys, **cycle})
 
-    def said(value: float) -> str:
+    def said_value(value: float) -> str:
         path = f"driver.{posed.key}"
         if path not in text.problem.stated:
             path += f"[{posed.values.index(value)}]"
@@ -246,17 +394,54 @@ def _posed(posed: Posed, of: Sequence[int], text: As) -> str:
     if posed.by is PosedBy.LENGTH:
         pair, drive, say = posed.of, text.problem.drive, text.say
         v, a = posed.rates
-        acted = f"l_{{{pair}}} = {said(values[0])}; "
+        acted = f"l_{{{pair}}} = {said_value(values[0])}{way}; "
         acted += f"v_{{{pair}}} = {text.number(v, 'm/s', f'driver.v_{pair}')}; "
         acted += f"a_{{{pair}}} = {text.number(a, 'm/s²', f'driver.a_{pair}')}"
         letter, unit = (f"ω_{{{drive.link}}}", "1/s") if drive.is_crank else ("v", "m/s")
-        return f"{acted} ({letter} = {say.found(drive.rate)} {say.units[unit]})"
+        found = f" ({letter} = {say.found(drive.rate)} {say.units[unit]})"
+        rates = {f"driver.v_{pair}": v, f"driver.a_{pair}": a}
+        return GivenFact(acted + found, {f"driver.{pair}": values[0], **rates, **data})
     letter = {PosedBy.PHI: "φ", PosedBy.BETWEEN: "φ", PosedBy.STROKE: "s/H"}.get(
         posed.by, posed.by.value
     )
     symbol = f"{letter}_{{{posed.of.replace('_', ',')}}}" if posed.of else letter
-    way = note["given_going"][posed.going] if posed.going else ""
-    return f"{symbol} = {', '.join(map(said, values))}{way}"
+    symbol += _between(posed, text.problem)
+    if posed.by is PosedBy.STROKE:
+        output, cycle = _output(text)
+        way, data = way + output, {**data, **cycle}
+    key = f"driver.{posed.key}"
+    return GivenFact(f"{symbol} = {', '.join(map(said_value, values))}{way}", {key: values, **data})
+
+
+def _between(posed: Posed, problem: Problem) -> str:
+    """Return the letters of the angle between two links that have a pin in common."""
+    if posed.by is not PosedBy.BETWEEN:
+        return ""
+    one, two = (problem.bodies[link].axis or () for link in posed.of.split("_"))
+    common = {*one} & {*two}
+    if len(common) != 1:
+        return ""
+    (pin,) = common
+    ends = [point_name(*({*axis} - common)) for axis in (one, two)]
+    return f" = ∠{ends[0]}{point_name(pin)}{ends[1]}"
+
+
+def _output(text: As) -> tuple[str, dict[str, object]]:
+    """Return whose extremes and stroke are meant, and which extreme is the first one."""
+    cycle = text.problem.cycle
+    if cycle is None:
+        return "", {}
+    data: dict[str, object] = {}
+    said = ""
+    if cycle.output is not None:
+        data["cycle.output"] = cycle.output
+        said = text.words.note.given_output.format(output=point_name(cycle.output))
+    for key, value in (("zero", cycle.zero), ("direction", cycle.direction),
+                       ("working", cycle.working)):  # fmt: skip
+        told = value.value if isinstance(value, Enum) else value
+        if told not in ("", None):
+            data[f"cycle.{key}"] = told
+    return said, data
 
 
 def _through(geared: Geared, words: Language) -> list[str]:
@@ -272,7 +457,7 @@ def _through(geared: Geared, words: Language) -> list[str]:
     return lines
 
 
-def _lifted(drive: Drive, led: Lifted, text: As, asked: Sequence[float]) -> list[str]:
+def _lifted(drive: Drive, led: Lifted, text: As, asked: Sequence[float]) -> list[GivenFact]:
     """Return the cam that drives, its lowest place, and the motion that its follower gives.
 
     Of several positions that is in their tables: here stands where the follower rests.
@@ -281,18 +466,21 @@ def _lifted(drive: Drive, led: Lifted, text: As, asked: Sequence[float]) -> list
     lowest = text.number(led.lowest, "deg", path) if led.turns else text.metres(led.lowest, path)
     symbol = f"φ_{{{drive.link}}}" if led.turns else "s"
     speed = text.number(led.n, "rev/min", "cam.n")
-    lines = [note.given_cam.format(n=speed, lowest=f"{symbol} = {lowest}")]
+    said = note.given_cam.format(n=speed, lowest=f"{symbol} = {lowest}")
+    facts = [GivenFact(said, {path: led.lowest})]
     _, rates, gains = map(np.asarray, driven(drive, np.asarray(asked, dtype=float)))
     resting = np.flatnonzero((rates == 0.0) & (gains == 0.0))
     if len(asked) == 1:
         names = (f"ω_{{{drive.link}}}", f"ε_{{{drive.link}}}") if led.turns else ("v", "a")
         units = ("1/s", "1/s²") if led.turns else ("m/s", "m/s²")
         told = zip(names, (rates, gains), units, strict=True)
-        lines += [f"{name} = {say.found(of[0])} {say.units[unit]}" for name, of, unit in told]
-        return [*lines, note.given_rest] if resting.size else lines
+        facts += [
+            GivenFact(f"{name} = {say.found(of[0])} {say.units[unit]}") for name, of, unit in told
+        ]
+        return [*facts, GivenFact(note.given_rest)] if resting.size else facts
     if resting.size:
-        lines.append(note.given_rests.format(numbers=", ".join(map(str, resting))))
-    return lines
+        facts.append(GivenFact(note.given_rests.format(numbers=", ".join(map(str, resting)))))
+    return facts
 
 
 def told_beside(guide: str, problem: Problem) -> Slide | None:
@@ -306,63 +494,166 @@ def told_beside(guide: str, problem: Problem) -> Slide | None:
     return on[0] if len(on) == 1 and on[0].offset else None
 
 
-def _given_guide(guide: str, through: str, beside: Slide | None, text: As) -> str:
-    """Return that a guide passes through a point, or how far from it it is drawn."""
-    name, point, note = text.problem.guide_name(guide), point_name(through), text.words.note
+def _guides(text: As) -> Iterator[GivenFact]:
+    """Yield where the guides of the frame run that something slides on."""
+    problem = text.problem
+    carried = {slide.label for slide in problem.slides.values() if slide.host == FRAME}
+    pins = [slide.pin for slide in problem.slides.values() if slide.offset]
+    for guide, (through, base, angle) in problem.guides.items():
+        on = [s for s in problem.slides.values() if s.host == FRAME and s.label == guide]
+        if through is not None and guide in carried:
+            yield from _through_point(guide, through, text)
+        elif through is None:
+            yield from _guide(guide, base, angle, text)
+        if told_beside(guide, problem) is not None:
+            continue  # the guide is told where the slider runs
+        for slide in on:
+            if slide.offset:
+                name = slide.pin if pins.count(slide.pin) == 1 else f"{slide.pin}{slide.slider}"
+                way = text.words.note["given_ways"][_aside(slide)]
+                yield _offset(slide, name, way, text)
+
+
+def _offset(slide: Slide, name: str, way: str, text: As) -> GivenFact:
+    """Return how far a pin is from the line that its slider runs along, and on which side."""
+    path = _path(slide.slider, "slides.offset")
+    size = text.size(slide.offset, path)
+    return GivenFact(f"e_{{{name}}} = {size} ({way})", {path: slide.offset})
+
+
+def _aside(slide: Slide) -> str:
+    """Return which way of a guide of the frame the pin is, a key of words."""
+    return _way(slide.angle + (90.0 if slide.offset > 0 else -90.0))
+
+
+def _through_point(guide: str, through: str, text: As) -> Iterator[GivenFact]:
+    """Yield how a guide runs that passes through a fixed point, or beside it."""
+    problem, note = text.problem, text.words.note
+    path = f"frame.guides.{segment(guide)}"
+    angle = problem.guides[guide][2]
+    key, said = _course(angle, path, text)
+    data: dict[str, object] = {f"{path}.through": through, f"{path}.angle": angle}
+    places = {"guide": problem.guide_name(guide), "point": point_name(through), "angle": said}
+    beside = told_beside(guide, problem)
     if beside is None:
-        return note.given_through.format(guide=name, point=point)
-    offset = text.metres(abs(beside.offset), _path(beside.slider, "slides.offset"))
-    return note.given_beside.format(guide=name, point=point, offset=offset)
+        yield GivenFact(note["given_through"][key].format(**places), data)
+        return
+    own = _path(beside.slider, "slides.offset")
+    way = note["given_ways"][_aside(beside)]
+    yield GivenFact(
+        note["given_beside"][key].format(offset=text.size(beside.offset, own), way=way, **places),
+        {**data, own: beside.offset},
+    )
 
 
-def _third_points(link: str, body: Body, named: set[str], text: As) -> list[str]:
-    """Return how a link's further points are given, where lengths of its do not tell it."""
-    note, points = text.words.note, list(body.points)
-    lines = []
+def _course(angle: float, path: str, text: As) -> tuple[str, str]:
+    """Return how a line runs: level, upright, or at an angle that is written, a key of words."""
+    key = {0.0: "level", 90.0: "upright"}.get(angle, "angled")
+    return key, text.number(angle, "deg", f"{path}.angle")
+
+
+def _third_points(link: str, body: Body, text: As) -> Iterator[GivenFact]:
+    """Yield how a link's further points are given, where lengths of its do not tell it."""
+    note = text.words.note
+    named = {name for of, name, _ in text.problem.lengths if of == link}
+    lying: dict[str, tuple[list[str], dict[str, object]]] = {}
     for point, form in body.forms.items():
-        start = form.point or form.line[0]
-        at = f"{_path(link, point)}.at"
+        path = _path(link, segment(point))
+        start = _start(form)
         if form.kind == "side":
             side = note.given_left if form.left else note.given_right
-            lines.append(side.format(point=point_name(point), line=_line(*form.line)))
+            said = side.format(point=point_name(point), line=_line(*form.line))
+            sense = "left" if form.left else "right"
+            yield GivenFact(said, {f"{path}.side": f"{sense} of {''.join(form.line)}"})
         elif form.kind == "vertex":
-            angle = text.number(form.angle, "deg", f"{_path(link, point)}.angle")
-            lines.append(f"∠{_line(form.line[1], start)}{point_name(point)} = {angle}")
+            angle = text.number(form.angle, "deg", f"{path}.angle")
+            data: dict[str, object] = {
+                f"{path}.vertex": start,
+                f"{path}.ray": "".join(form.line),
+                f"{path}.angle": form.angle,
+            }
+            yield GivenFact(f"∠{_line(form.line[1], start)}{point_name(point)} = {angle}", data)
             if form.distance is not None:
-                distance = text.metres(form.distance, f"{_path(link, point)}.distance")
-                lines.append(f"l_{{{start}{point}}} = {distance}")
-        elif not form.across:
-            if f"{start}{point}" not in named and f"{point}{start}" not in named:
-                lines.append(f"l_{{{start}{point}}} = {text.metres(abs(form.at), at)}")
+                distance = text.metres(form.distance, f"{path}.distance")
+                own: dict[str, object] = {f"{path}.distance": form.distance}
+                yield GivenFact(f"l_{{{start}{point}}} = {distance}", own)
+        elif form.across or (form.kind == "from" and body.axis is None):
+            yield _beside_line(link, point, text)
         else:
-            axis = form.line if form.kind == "on" else body.axis
-            along = _line(*axis) if axis else _own_way(link, (start, points[0]), text)
-            across = text.metres(form.across, f"{_path(link, point)}.across")
-            lines.append(
-                note.given_along.format(
-                    point=point_name(point),
-                    at=text.metres(form.at, at),
-                    line=along,
-                    start=point_name(start),
-                    across=across,
-                )
-            )
+            axis = form.line if form.kind == "on" else body.axis or ()
+            place: dict[str, object] = {f"{path}.{form.kind}": "".join(form.line) or start}
+            if not {f"{start}{point}", f"{point}{start}"} & named:
+                at = text.size(form.at, f"{path}.at")
+                yield GivenFact(f"l_{{{start}{point}}} = {at}", {f"{path}.at": form.at})
+            template = note.given_beyond if form.at < 0 else note.given_on
+            said = template.format(points="{points}", line=_line(*axis), start=point_name(start))
+            if point in axis:  # the line is named by the point itself
+                said = ""
+            points, keys = lying.setdefault(said, ([], {}))
+            points.append(point_name(point))
+            keys |= place
+    for said, (points, keys) in lying.items():
+        yield GivenFact(said.replace("{points}", ", ".join(points)), keys)
     for key, degrees in body.angles.items():
         angle = text.number(degrees, "deg", f"{_path(link, 'angle')}.{key}")
         letters = [point_name(name) for name in split_names(key)]
         said = "".join(letters)
         if len(letters) == 4:
             said = f"({''.join(letters[:2])}, {''.join(letters[2:])})"
-        lines.append(f"∠{said} = {angle}")
-    return lines
+        yield GivenFact(f"∠{said} = {angle}", {f"{_path(link, 'angle')}.{segment(key)}": degrees})
 
 
-def _own_way(link: str, letters: tuple[str, str], text: As) -> str:
+def _start(form: PointForm) -> str:
+    """Return the point that a third point is measured from."""
+    return form.point or form.line[0]
+
+
+def _beside_line(link: str, point: str, text: As) -> GivenFact:
+    """Return where a point is along a line of its link and beside it, or along its own guide."""
+    problem, note = text.problem, text.words.note
+    body, path = problem.bodies[link], _path(link, segment(point))
+    form, ways = body.forms[point], note["given_ways"]
+    start = _start(form)
+    axis = form.line if form.kind == "on" else body.axis
+    data: dict[str, object] = {
+        f"{path}.{form.kind}": "".join(form.line) or start,
+        f"{path}.at": form.at,
+        f"{path}.across": form.across,
+    }
+    turn = _turn(link, problem)
+    across = text.size(form.across, f"{path}.across")
+    if turn is None or axis is not None:
+        line = _line(*axis) if axis else _own_way(link, text)
+        at, way = text.metres(form.at, f"{path}.at"), ""
+        side = str(note["given_sides"]["left" if form.across > 0 else "right"]).format(line=line)
+    else:
+        line, at = _own_way(link, text), text.size(form.at, f"{path}.at")
+        way = f" {ways[_way(turn if form.at >= 0 else turn + 180.0)]}" if form.at else ""
+        side = ways[_way(turn + (90.0 if form.across > 0 else -90.0))]
+    if not form.across:
+        along = note.given_along_line if form.at >= 0 else note.given_along_back
+        told = way.strip() or along.format(line=line)
+        at = text.size(form.at, f"{path}.at")
+        return GivenFact(f"l_{{{start}{point}}} = {at} ({told})", data)
+    places = {"point": point_name(point), "start": point_name(start), "line": line, "at": at + way}
+    return GivenFact(note.given_along.format(across=f"{across} {side}", **places), data)
+
+
+def _turn(link: str, problem: Problem) -> float | None:
+    """Return the direction of a slider's own axis, degrees from +x; None where it turns."""
+    turn = 0.0
+    while link != FRAME:
+        slide = problem.slides.get(link)
+        if slide is None:
+            return None
+        turn, link = turn + slide.angle, slide.host
+    return turn
+
+
+def _own_way(link: str, text: As) -> str:
     """Return what the own axis of a link without letters for it is called: its slide's line."""
     problem = text.problem
     slides = [s for s in problem.slides.values() if link in (s.slider, s.host)]
-    if not slides:
-        return _line(*letters)
     slide = min(slides, key=lambda s: s.slider != link)
     told = track_direction(slide, problem)
     if told.guide:
@@ -376,45 +667,163 @@ def _line(start: str, end: str) -> str:
     return f"{point_name(start)}{point_name(end)}"
 
 
-def _carried(problem: Problem, slide: Slide, text: As) -> list[str]:
-    """Return how the line of a moving link lies on it, where two letters do not tell it."""
-    axis, note = problem.bodies[slide.host].axis, text.words.note
-    if has_slot_name(slide, problem):
-        guide = slot_name(slide)
-        return [note.given_slot.format(guide=guide, link=slide.host, slider=slide.slider)]
-    if slide.host == FRAME or slide.through is None or slide.towards is not None or axis is None:
-        return []
-    angle = text.number(slide.angle, "deg", _path(slide.slider, "slides.angle"))
+def _carried(slide: Slide, text: As) -> Iterator[GivenFact]:
+    """Yield how the line lies on the link, or on the frame, that something slides along."""
+    problem, note = text.problem, text.words.note
+    host, path = problem.bodies[slide.host], _path(slide.slider, "slides")
+    pin, beside = (
+        point_name(slide.pin),
+        note["given_sides"]["left" if slide.offset > 0 else "right"],
+    )
+    own: dict[str, object] = {f"{path}.offset": slide.offset} if slide.offset else {}
+    size = text.size(slide.offset, f"{path}.offset")
+    if slide.towards is not None and slide.through is not None:
+        line = _line(slide.through, slide.towards)
+        data: dict[str, object] = {f"{path}.along": f"{slide.through}{slide.towards}"}
+        yield GivenFact(note.given_slides.format(point=pin, line=line), data)
+        if slide.offset:
+            yield GivenFact(f"e_{{{slide.pin}}} = {size} ({beside.format(line=line)})", own)
+        return
+    assert slide.through is not None, "a line of a link goes through a point of it"
+    turn = _turn(slide.host, problem)
+    angle = slide.angle if turn is None else (slide.angle + turn + 180.0) % 360.0 - 180.0
+    data = {f"{path}.through": slide.through, f"{path}.angle": angle}
+    line = slot_name(slide) if slide.offset else _line(slide.through, slide.pin)
     if slide.offset:
-        guide = note.given_guide.format(link=slide.host, line=_line(*axis))
-        return [f"{guide} = {angle}"]
-    line = _line(slide.through, slide.pin)
-    if slide.angle % 180 == 90:
-        return [f"{line} ⊥ {_line(*axis)}"]
-    return [f"∠({line}, {_line(*axis)}) = {angle}"] if slide.angle % 180 else []
+        said = note.given_slot.format(
+            guide=line, link=problem.mechanism.called(slide.host), slider=slide.slider,
+            point=point_name(slide.through),
+        )  # fmt: skip
+        yield GivenFact(said, {f"{path}.through": slide.through})
+    told = text.number(angle, "deg", f"{path}.angle")
+    if turn is not None:
+        key, _ = _course(angle, path, text)
+        yield GivenFact(note["given_runs"][key].format(line=line, angle=told), data)
+    elif host.axis is None:
+        first = next(s for s in problem.slides.values() if slide.host in (s.host, s.slider))
+        if slide is first and not slide.angle:
+            slides = note.given_slides_on.format(slider=slide.slider, host=slide.host, line=line)
+            yield GivenFact(slides, data)
+        else:
+            yield GivenFact(f"∠({_own_way(slide.host, text)}, {line}) = {told}", data)
+    elif angle % 180 == 90:
+        yield GivenFact(f"{line} ⊥ {_line(*host.axis)}", data)
+    elif angle % 180:
+        yield GivenFact(f"∠({_line(*host.axis)}, {line}) = {told}", data)
+    elif slide.offset or slide.through not in host.axis:
+        yield GivenFact(f"{line} ∥ {_line(*host.axis)}", data)
+    else:
+        yield GivenFact(note.given_slides.format(point=pin, line=_line(*host.axis)), data)
+    if slide.offset:
+        if turn is not None:
+            way = note["given_ways"][_way(angle + (90.0 if slide.offset > 0 else -90.0))]
+        elif host.axis is None:
+            way = beside.format(line=line)
+        else:
+            turned = note.given_turned.format(line=_line(*host.axis), angle=told)
+            way = beside.format(line=turned if angle else _line(*host.axis))
+        yield GivenFact(f"e_{{{slide.pin}}} = {size} ({way})", own)
 
 
-def _coordinates(name: str, place: complex, text: As, path: str) -> list[str]:
-    lines = []
+def _angles_sense(text: As) -> Iterator[GivenFact]:
+    """Yield which way angles of links count, where such are given."""
+    problem = text.problem
+    told = any(
+        body.angles or any(form.kind == "vertex" for form in body.forms.values())
+        for body in problem.bodies.values()
+    )
+    slots = (s for s in problem.slides.values() if s.host != FRAME and s.towards is None)
+    if told or any(s.angle % 90 and _turn(s.host, problem) is None for s in slots):
+        yield GivenFact(text.words.note.given_sense)
+
+
+_RULES = {
+    Where.LEFT_OF: "left of {}",
+    Where.RIGHT_OF: "right of {}",
+    Where.RIGHT: "right of {}",
+    Where.LEFT: "left of {}",
+    Where.ABOVE: "above {}",
+    Where.BELOW: "below {}",
+    Where.TOWARDS: "towards {}",
+    Where.AWAY: "away from {}",
+}
+"""How the file has each rule that is a phrase."""
+
+
+def _with_joint(problem: Problem, rule: Rule) -> Rule:
+    """Return a rule with the joint from which it tells the way, where it tells one."""
+    groups = analyse(problem.mechanism).groups if rule.where in (Where.TOWARDS, Where.AWAY) else ()
+    for group in groups:
+        if any(rule.point in problem.bodies[link].points for link in group.links):
+            return from_joint(problem, group, rule)
+    return rule
+
+
+def _assembled(text: As, asked: Sequence[float]) -> Iterator[GivenFact]:
+    """Yield which of two ways each group closes, and in which position that is meant."""
+    problem, rules = text.problem, text.words.note["given_rules"]
+    for rule in map(partial(_with_joint, problem), problem.assembly):
+        path = f"assembly.{segment(rule.point)}"
+        ray = rule.where in (Where.TOWARDS, Where.AWAY)
+        letters = [point_name(ref) for ref in rule.refs]
+        said = rules[rule.where.value].format(
+            point=point_name(rule.point),
+            of=letters[0] if ray else "".join(letters),
+            joint=letters[-1] if letters else "",
+            at="; ".join(text.metres(one) for one in (rule.at.real, rule.at.imag)),
+        )
+        data: dict[str, object]
+        if rule.where is Where.PARALLEL:
+            data = {f"{path}.keep": "parallel"}
+        elif rule.where is Where.NEAR:
+            data = {f"{path}.near": [rule.at.real, rule.at.imag]}
+        else:
+            phrase = _RULES[rule.where].format("".join(rule.refs[: 1 if ray else None]))
+            data = {f"{path}.rule": phrase} if rule.continuous else {path: phrase}
+        if rule.continuous:
+            data[f"{path}.keep"] = "continuous"
+            said += text.words.note.given_continuous
+        yield GivenFact(said, data)
+    drive = problem.drive
+    judged = drive.judged or drive.positions
+    if not problem.assembly or drive.posed is not None or {*asked} <= {*judged}:
+        return
+    note, data = text.words.note, {"judged": [*judged]}
+    if judged == ANYWHERE:
+        yield GivenFact(note.given_anywhere.format(symbol=drive.coordinate.symbol), data)
+    else:
+        shown = _told_positions(As(problem, text.words), judged)
+        yield GivenFact(note.given_judged.format(positions=shown), data)
+
+
+def _coordinates(name: str, place: complex, text: As, path: str) -> list[GivenFact]:
+    facts = []
     for index, (letter, metres) in enumerate((("x", place.real), ("y", place.imag))):
         value, stated = metres * UNITS[text.problem.unit], f"{path}[{index}]"
         said = text.plain(value, stated)
         # A coordinate that was computed has more digits than anybody draws.
         if stated not in text.problem.stated and trimmed(value) != trimmed(value, 6):
             said = text.say.number(trimmed(value, DRAWN))
-        lines.append(f"{letter}_{{{name}}} = {said} {text.say.units[text.problem.unit]}")
-    return lines
+        told = f"{letter}_{{{name}}} = {said} {text.say.units[text.problem.unit]}"
+        facts.append(GivenFact(told, {stated: metres}))
+    return facts
 
 
-def _guide(name: str, base: complex, angle: float, text: As) -> list[str]:
-    """Return where a guide is: by one coordinate when it runs along an axis."""
-    shown, path = text.problem.guide_name(name), f"frame.guides.{name}"
+def _guide(name: str, base: complex, angle: float, text: As) -> Iterator[GivenFact]:
+    """Yield where a guide is: by one coordinate when it runs along an axis."""
+    shown, path = text.problem.guide_name(name), f"frame.guides.{segment(name)}"
     x, y = _coordinates(shown, base, text, f"{path}.through")
-    if angle % 180 == 90:
-        return [x]
-    if angle % 180 == 0:
-        return [y]
-    return [x, y, f"∠({shown}) = {text.number(angle, 'deg', f'{path}.angle')}"]
+    if angle % 180 == 0 or angle % 180 == 90:
+        told = x if angle % 180 == 90 else y
+        level: dict[str, object] = {f"{path}.angle": angle}
+        yield replace(told, data={**told.data, **(level if angle in (0, 90) else {})})
+        if angle not in (0, 90):
+            yield GivenFact(f"∠({shown}) = {text.number(angle, 'deg', f'{path}.angle')}", level)
+        return
+    yield x
+    yield y
+    said = f"∠({shown}) = {text.number(angle, 'deg', f'{path}.angle')}"
+    yield GivenFact(said, {f"{path}.angle": angle})
 
 
 def asked_points(solution: Solution) -> list[str]:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from itertools import compress
 from math import degrees, isinf, pi
 from typing import TypeAlias
 
@@ -11,12 +10,12 @@ from msgspec.structs import replace
 
 from planmethod.construct.scale import Scale
 from planmethod.note import formula
-from planmethod.note.narrate.forces.statement import like_line, mass_lines
+from planmethod.note.document import GivenFact
+from planmethod.note.narrate.forces.statement import load_facts, mass_lines
 from planmethod.note.narrate.given import given, of_turn
 from planmethod.note.narrate.scales import scale_inscription
 from planmethod.note.numbers import alike, half_up
 from planmethod.note.wording import Language, Words
-from planmethod.problem.load_records import SizeTable
 from planmethod.problem.machine_records import ConstantMoment, Quadrature, WeightSigns
 from planmethod.problem.model import Convention
 from planmethod.solved.machine.drawing import FlywheelDrawing, split
@@ -84,26 +83,25 @@ class MachineTeller:
 
     # Given and wanted ------------------------------------------------------------------------
 
-    def given(self) -> list[str]:
+    def given(self) -> list[GivenFact]:
         """Return what is given; the machine goes through all positions, none is."""
         machine, problem = self.flywheel.machine, self.flywheel.problem
         assert problem.dynamics is not None
         _, *lines = given(problem, self.words, [self.flywheel.turn.start_deg])
-        lines += mass_lines(problem, self.words)
-        loads = problem.dynamics.loads
-        sizes = [load.size for load in loads]
-        likened = [isinstance(size, SizeTable) and size.like is not None for size in sizes]
-        lines += [like_line(load, self.words) for load in compress(loads, likened)]
+        lines += mass_lines(problem, self.words) + load_facts(problem, self.words)
         if machine.crank_inertia:
             inertia = self.say.given(machine.crank_inertia)
-            lines.append(f"{self.letter('crank inertia')} = {inertia} {self.unit('kg·m²')}")
-        lines.append(f"δ = {self.delta}")
+            told = f"{self.letter('crank inertia')} = {inertia} {self.unit('kg·m²')}"
+            lines.append(GivenFact(told, {"machine.J_crank": machine.crank_inertia}))
+        lines.append(GivenFact(f"δ = {self.delta}", {"machine.delta": machine.delta}))
         speed = self.say.found(abs(problem.drive.rate))
         mean = self.said["means"][machine.mean.value]
-        lines.append(f"{self.letter('mean speed')} = {mean.format()} = {speed} {self.unit('1/s')}")
-        lines.append(f"{self.letter(f'{self.keeps} moment')} = const")
+        told = f"{self.letter('mean speed')} = {mean.format()} = {speed} {self.unit('1/s')}"
+        lines.append(GivenFact(told, {"machine.mean": machine.mean.value}))
+        constant = f"{self.letter(f'{self.keeps} moment')} = const"
+        lines.append(GivenFact(constant, {"machine.constant": machine.constant.value}))
         if machine.signs is WeightSigns.SOURCE:
-            lines.append(self.said.source_signs)
+            lines.append(GivenFact(self.said.source_signs, {"machine.signs": "source"}))
         return lines
 
     @property

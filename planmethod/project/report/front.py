@@ -129,7 +129,7 @@ def _data(report: Report) -> tuple[list[tuple[Rich, Rich, Rich]], list[Rich]]:
     rows: list[tuple[Rich, Rich, Rich]] = []
     further: list[Rich] = []
     series, driving = report.is_series, _driving(report)
-    for fact in dict.fromkeys(facts):
+    for fact in dict.fromkeys(fact.text for fact in facts if fact.text):
         told = _FACT.match(fact)
         name = None if told is None else driving.get(told[1]) or _name(told[1], report)
         if told is None or name is None:
@@ -145,7 +145,7 @@ def _data(report: Report) -> tuple[list[tuple[Rich, Rich, Rich]], list[Rich]]:
     if report.has(PartName.FLYWHEEL):
         tell = MachineTeller(drawing_of(flywheel_of(report.every), report.every.profile), words)
         quantities = report.said["quantities"]
-        own = [fact for fact in tell.given() if fact not in facts]
+        own = [fact.text for fact in tell.given() if fact not in facts]
         for fact in own:
             told = _FACT.match(fact)
             if told is not None and told[1] in ("δ", tell.letter("crank inertia")):

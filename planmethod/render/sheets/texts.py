@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from functools import partial
 
-from planmethod.note.document import Caption, Equations, Formula
+from planmethod.note.document import Caption, Equations, Formula, GivenFact
 from planmethod.note.narrate.equations import equation_of
 from planmethod.note.narrate.given import given, unbroken, wanted
 from planmethod.note.narrate.letters import direction_text
@@ -26,10 +26,11 @@ def statement_block(solution: Solution, indices: Sequence[int], manner: Manner) 
     return stated(facts, manner.words.sheets.wanted.format(wanted=wanted(solution)), manner)
 
 
-def stated(facts: Sequence[str], asked: str, manner: Manner, *more: str) -> Block:
+def stated(facts: Sequence[GivenFact], asked: str, manner: Manner, *more: str) -> Block:
     """Return "Дано" with its facts, what is asked, and further paragraphs: narrower, too."""
     height, column = manner.text(manner.sizes.text), manner.width(manner.sizes.column)
-    texts = [manner.words.note.given.format(given=unbroken(facts)), asked, *more]
+    told = unbroken(fact.text for fact in facts)
+    texts = [manner.words.note.given.format(given=told), asked, *more]
     ways = []
     for width in (column, NARROW * column):
         lines: list[Block] = [paragraph(text, height, width=width) for text in texts]

@@ -1,0 +1,139 @@
+"""From the statement alone the mechanism can be built again, and its text says what its data do."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+import numpy as np
+import pytest
+from cases import each, some
+from rebuilt import printed, rebuilt
+
+from benchmarks.generator import random_problem
+from planmethod import loads
+from planmethod.errors import PlanMethodError
+from planmethod.kinds import kind_of, load_each
+from planmethod.note.document import GivenFact
+from planmethod.note.narrate.forces.statement import statement
+from planmethod.note.narrate.given import arithmetic, drawn, given
+from planmethod.note.numbers import Notation
+from planmethod.note.wording import Language, language
+from planmethod.problem.model import Problem
+from planmethod.solved.forces.reading import ForceReading
+from planmethod.solved.solution import Solution
+
+ROOT = Path(__file__).parents[2]
+FILES = [path for path in sorted((ROOT / "problems").rglob("*.toml")) if kind_of(path) is None]
+STATED = [
+    path
+    for path in sorted((ROOT / "tests" / "problem" / "statement").glob("*.toml"))
+    if not path.stem.endswith("-fault")
+]
+RU, EN = language("ru"), language("en")
+SAME = 1e-9
+
+
+def assert_same(problem: Problem, again: Problem, positions: Sequence[float]) -> None:
+    one = Solution(problem).moved([*positions])
+    two = Solution(again).moved([*positions])
+    size = max(float(np.nanmax(np.abs(point.place))) for point in one.points.values())
+    assert {*one.points} == {*two.points}
+    for name, point in one.points.items():
+        assert np.allclose(point.place, two.points[name].place, rtol=0, atol=SAME * size), name
+    assert again.drive.rate == pytest.approx(problem.drive.rate, rel=SAME)
+    assert again.drive.acceleration == pytest.approx(problem.drive.acceleration, rel=SAME)
+
+
+def assert_printed(problem: Problem, facts: Sequence[GivenFact], say: Notation) -> None:
+    """Every number of the data stands in its text, within its last digit, with its sense in words.
+
+    A sign may be words: that of a distance on one side or the other.
+    """
+    stated = problem.stated
+    for fact in facts:
+        told = [*printed(fact.text)]
+        for key, value in fact.data.items():
+            if key == "judged":
+                continue
+            if any(
+                arithmetic(stated[k], say) in fact.text for k in (key, f"{key}[0]") if k in stated
+            ):
+                continue
+            values = value if isinstance(value, list) else [value]
+            numbers = [v for v in values if isinstance(v, float)]
+            if len(numbers) > 6 and len({*np.diff(numbers).round(9)}) == 1:
+                numbers = [numbers[0], numbers[1] - numbers[0]]
+            for number in numbers:
+                if is_said_in_words(key, number):
+                    continue
+                assert any(
+                    abs(abs(number) % 360.0 - abs(shown) % 360.0) <= 0.51 * last + 1e-12
+                    or abs(abs(number) - abs(shown)) <= 0.51 * last
+                    for shown, last in told
+                ), f"{key} = {number}: {fact.text}"
+
+
+def is_said_in_words(key: str, number: float) -> bool:
+    """Tell whether words say a number: level, upright, square to, const, the origin."""
+    if key.endswith(".angle"):
+        return number % 90.0 == 0
+    return key in ("driver.epsilon", "machine.delta") or number == 0.0
+
+
+def facts_of(problem: Problem, words: Language, positions: Sequence[float]) -> list[GivenFact]:
+    return [drawn(problem, words), *given(problem, words, positions)]
+
+
+@each("path", FILES + STATED)
+def test_every_problem_is_rebuilt_of_what_is_given(path: Path) -> None:
+    for problem in load_each(path, [None]):
+        for words in (RU, EN):
+            facts = facts_of(problem, words, problem.drive.positions)
+            assert_same(problem, rebuilt(facts), problem.drive.positions)
+            assert_printed(problem, facts, words.say)
+
+
+@each("path", [path for path in FILES if "[variants" in path.read_text("utf-8")])
+def test_every_variant_is_rebuilt(path: Path) -> None:
+    (problem,) = load_each(path, [None])
+    for one in load_each(path, problem.variants[:: some(1, 7)] if problem.variants else []):
+        facts = facts_of(one, RU, one.drive.positions)
+        assert_same(one, rebuilt(facts), one.drive.positions)
+        assert_printed(one, facts, RU.say)
+
+
+@each("seed", range(some(300, 25)))
+def test_random_mechanisms_are_rebuilt(seed: int) -> None:
+    for triad in (False, True):
+        try:
+            problem = loads(random_problem(seed, triad=triad)[0], name=f"random {seed}")
+        except PlanMethodError:
+            continue
+        facts = facts_of(problem, EN, problem.drive.positions)
+        assert_same(problem, rebuilt(facts), problem.drive.positions)
+        assert_printed(problem, facts, EN.say)
+
+
+@each("path", FILES[::5])
+def test_other_positions_keep_the_way_it_is_assembled(path: Path) -> None:
+    (problem,) = load_each(path, [None])
+    if not problem.drive.is_crank:
+        return
+    solution = Solution(problem).moved([problem.drive.positions[0] + 3.0 * k for k in range(1, 9)])
+    again = rebuilt(facts_of(problem, RU, solution.positions.tolist()))
+    assert_same(problem, again, solution.positions.tolist())
+
+
+@each("path", [path for path in FILES if "[dynamics" in path.read_text("utf-8")])
+def test_forces_follow_from_the_statement_of_a_position(path: Path) -> None:
+    (problem,) = load_each(path, [None])
+    solution = Solution(problem)
+    reading = ForceReading(solution, 0)
+    facts = [drawn(problem, RU), *statement(reading, RU)]
+    other = ForceReading(Solution(rebuilt(facts)), 0)
+    one, two = reading.statics, other.statics
+    size = float(np.abs(one.largest_forces[0]))
+    assert two.balance[0] == pytest.approx(one.balance[0], rel=SAME, abs=SAME * size)
+    for mine, again in zip(one.reactions, two.reactions, strict=True):
+        assert again.force[0] == pytest.approx(mine.force[0], abs=SAME * size)

@@ -1,0 +1,77 @@
+"""A mechanism built of what is given alone: the keys that the nodes of a statement carry."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Iterator
+from typing import Any
+
+from msgspec.structs import replace
+
+from planmethod import loads
+from planmethod.note.document import GivenFact
+from planmethod.note.plaintext import plain_text
+from planmethod.problem.model import Problem
+
+UNITS = {
+    "mm": 1e-3, "мм": 1e-3, "cm": 1e-2, "см": 1e-2, "m": 1.0, "м": 1.0, "in": 0.0254, "ft": 0.3048,
+}  # fmt: skip
+_NUMBER = r"[−-]?\d[\d.,]*(?:e[+-]?\d+|·10[⁻⁰¹²³⁴⁵⁶⁷⁸⁹]+)?"
+
+
+def rebuilt(facts: Iterable[GivenFact], name: str = "rebuilt") -> Problem:
+    """Return the problem that the data of some facts describe, and nothing else."""
+    data: dict[str, Any] = {}
+    for fact in facts:
+        for key, value in fact.data.items():
+            assert data.setdefault(key, value) == value, f"{key} is given twice"
+    judged = data.pop("judged", None)
+    problem = loads("\n".join(_toml(data)), name=name)
+    if judged is not None:
+        problem = replace(problem, drive=replace(problem.drive, judged=tuple(judged)))
+    return problem
+
+
+def _toml(data: dict[str, Any]) -> Iterator[str]:
+    """Yield a problem file; what is given by one coordinate has 0 as the other."""
+    lists: dict[str, dict[int, Any]] = {}
+    tables: dict[int, list[str]] = {}
+    for key, value in data.items():
+        entry = re.fullmatch(r"loads\[(\d+)\]\.(.+)", key)
+        item = re.fullmatch(r"(.+)\[(\d+)\]", key)
+        if entry:
+            tables.setdefault(int(entry[1]), []).append(f"{entry[2]} = {_value(value)}")
+        elif item:
+            lists.setdefault(item[1], {})[int(item[2])] = value
+        else:
+            yield f"{key} = {_value(value)}"
+    for key, items in lists.items():
+        yield f"{key} = {_value([items.get(k, 0.0) for k in range(2)])}"
+    for _, lines in sorted(tables.items()):
+        yield "[[loads]]"
+        yield from lines
+
+
+def _value(value: Any) -> str:
+    if isinstance(value, list | tuple):
+        return f"[{', '.join(map(_value, value))}]"
+    if isinstance(value, str):
+        return '"' + value.replace("\\", "\\\\").replace('"', '\\"') + '"'
+    return repr(value)
+
+
+def printed(text: str) -> Iterator[tuple[float, float]]:
+    """Yield the numbers of a text, lengths in metres, each with what its last digit stands for."""
+    for match in re.finditer(rf"({_NUMBER})[ \u00a0]?([a-zа-я]*)", plain_text(text)):
+        shown = match[1].rstrip(",.").replace("−", "-").replace(",", ".")
+        base, _, power = shown.partition("·10")
+        if power:
+            base += "e" + power.translate(str.maketrans("⁻⁰¹²³⁴⁵⁶⁷⁸⁹", "-0123456789"))
+        mantissa, _, exponent = base.partition("e")
+        try:
+            value = float(base)
+        except ValueError:
+            continue
+        last = 10.0 ** (int(exponent or 0) - len(mantissa.partition(".")[2]))
+        scale = UNITS.get(match[2], 1.0)
+        yield value * scale, last * scale
