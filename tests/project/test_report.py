@@ -14,8 +14,9 @@ import pytest
 from msgspec.structs import replace
 from worked import ROOT, path_of
 
+from planmethod.errors import ProblemError
 from planmethod.gears.involute.sizes import MeshingProblem
-from planmethod.gears.model import GearProblem
+from planmethod.gears.model import GearProblem, Train
 from planmethod.kinds import load
 from planmethod.note import document
 from planmethod.note.document import Document, numbers_of
@@ -36,7 +37,7 @@ from planmethod.project.report.figures import LETTER, WIDTH, FittedView
 from planmethod.project.report.gears import train_chapter
 from planmethod.project.settle import settle
 from planmethod.project.sheets import part_drawings, sheet_list
-from planmethod.project.train import meshed, train_apart
+from planmethod.project.train import in_mesh, meshed, train_apart
 from planmethod.render.ink.drawing import Text
 from planmethod.solved.cycle import cycle
 from planmethod.solved.forces.friction import friction_of
@@ -489,6 +490,27 @@ def test_a_train_takes_module_and_shifts_of_its_wheels_in_mesh() -> None:
     assert alone is not None and isinstance(alone.problem, GearProblem)
     assert alone.problem.train.module is None
     assert "условном модуле 2 мм" in text_of("shaper")
+
+
+def test_rows_beside_the_meshing_keep_the_module_of_the_train() -> None:
+    """Wheels 4 and 5 have that of their sheet, and another one of the file is told."""
+    parts = project_of("template").parts
+    (part,) = (one for one in parts if isinstance(one.problem, GearProblem))
+    assert isinstance(part.problem, GearProblem)
+    pair = next(one for one in parts if isinstance(one.problem, MeshingProblem))
+    train = replace(part.problem.train, module=Fraction(4, 1000))
+
+    def joined(train: Train) -> Train:
+        problem = replace(part.problem, train=train)
+        found = next(iter(in_mesh((replace(part, problem=problem), pair)))).problem
+        assert isinstance(found, GearProblem)
+        return found.train
+
+    four, eight = Fraction(4, 1000), Fraction(8, 1000)
+    assert joined(train).modules == {four: ("1", "2", "2'", "3"), eight: ("4", "5")}
+    rim = replace(train.wheels["5"], module=Fraction(6, 1000))
+    with pytest.raises(ProblemError, match=r"4 and 5 have the module 6 mm, and 8 mm in"):
+        joined(replace(train, wheels={**train.wheels, "5": rim}))
 
 
 def test_the_data_of_the_note_name_the_teeth_the_input_and_the_flywheel() -> None:
