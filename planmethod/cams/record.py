@@ -9,6 +9,8 @@ from typing import Any
 import numpy as np
 
 from planmethod.cams.design import CamDesign
+from planmethod.cams.divisions import moved_in, nodes_of
+from planmethod.cams.laws import Reals
 from planmethod.cams.model import TURN, CamPhase, CamProblem
 from planmethod.note.numbers import finite_or_none
 from planmethod.note.records.legend import legend_record
@@ -27,16 +29,27 @@ LEGEND = (
 
 def rows(design: CamDesign, count: int = 0) -> list[dict[str, float]]:
     """Return the positions, or so many; m, degrees; ``rho`` is of the theoretical profile."""
-    one = design.problem
-    count = count or one.count
+    count = count or design.problem.count
     phi = TURN * np.arange(count) / count
-    moved = one.at(phi)
+    return _rows(design, 360.0 * np.arange(count) / count, phi, design.problem.at(phi))
+
+
+def division_rows(design: CamDesign) -> list[tuple[int, dict[str, float]]]:
+    """Return the same in the divisions of the diagrams, with their numbers."""
+    nodes = nodes_of(design.problem)
+    phi = np.array([node.phi for node in nodes])
+    moved = np.array([moved_in(design.problem, node) for node in nodes]).T
+    found = _rows(design, np.degrees(phi), phi, moved)
+    return [(node.number, row) for node, row in zip(nodes, found, strict=True)]
+
+
+def _rows(design: CamDesign, degrees: Reals, phi: Reals, moved: Reals) -> list[dict[str, float]]:
     at = design.geometry.points(phi, moved)
-    mirror = one.mirror
+    mirror = design.problem.mirror
     with np.errstate(divide="ignore"):
         rho = 1 / at.curvature
     columns = (
-        360.0 * np.arange(count) / count, *moved, np.degrees(at.pressure),
+        degrees, *moved, np.degrees(at.pressure),
         mirror * at.actual.real, at.actual.imag,
         mirror * at.theoretical.real, at.theoretical.imag, rho,
     )  # fmt: skip

@@ -11,7 +11,7 @@ from msgspec import Struct
 from planmethod.cams.design import OF_R_MIN, OF_RHO, CamDesign, CamExtreme
 from planmethod.cams.laws import CamLawName, Reals, UnitLaw
 from planmethod.cams.model import CamPhase, CamProblem, Closure, Contact, Stretch
-from planmethod.cams.record import rows
+from planmethod.cams.record import division_rows
 from planmethod.note.document import Caption, Item, Node, Paragraph, Table, Title, table_of
 from planmethod.note.formula import Rich, escape
 from planmethod.note.wording import Language
@@ -169,11 +169,11 @@ def hundredths(value: float, words: Language) -> Rich:
 
 
 def positions(design: CamDesign, words: Language) -> Table:
-    """Return the table of the positions, mm and degrees."""
+    """Return the table of the positions, mm and degrees: the divisions of the diagrams."""
     say = words.say
     told = []
-    for k, row in enumerate(rows(design)):
-        cells = [str(k), say.given(round(row["phi_deg"], 4))]
+    for k, row in division_rows(design):
+        cells = [str(k), say.given(round(row["phi_deg"], 2))]
         for key in ("s", "v_q", "a_q", "pressure_deg", "x", "y", "rho"):
             value = row[key] if key == "pressure_deg" else MM * row[key]
             cells.append(hundredths(value, words) if abs(value) < 1e5 else "∞")

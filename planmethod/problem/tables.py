@@ -293,7 +293,7 @@ class CamTable(Struct, frozen=True, kw_only=True):
             "a length", "m", 0.0, 10.0,
         ),
     ] = 0.0  # fmt: skip
-    count: Annotated[int, WholeKey("positions from the rise to the next rise", 3, 720)] = 24
+    count: Annotated[int, WholeKey("positions of JSON from the rise to the next rise", 3, 720)] = 24
     parts: Annotated[
         int, WholeKey("parts of rise and of return in the diagrams that are constructed", 4, 30)
     ] = 12

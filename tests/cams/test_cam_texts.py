@@ -15,12 +15,14 @@ from cases import sampled
 from click.testing import CliRunner
 
 from planmethod.cams.design import CamDesign
+from planmethod.cams.divisions import nodes_of
 from planmethod.cams.figures import CamFigures
 from planmethod.cams.live import live_page
 from planmethod.cams.model import CamProblem
 from planmethod.cams.pictures import PROFILE
 from planmethod.cams.reader import load
 from planmethod.cams.sheet import drawings
+from planmethod.cams.text import positions
 from planmethod.check.checking import check
 from planmethod.check.group import Variants
 from planmethod.check.marks import DEFAULT
@@ -50,6 +52,19 @@ def ran(*arguments: str | Path) -> str:
 def drawn(path: Path) -> Drawing:
     (found,) = drawings(load(path), fields={}, profile=PROFILES["board"])
     return found
+
+
+@pytest.mark.parametrize("path", SHIPPED, ids=lambda path: path.stem)
+def test_a_number_of_the_table_is_that_of_the_diagrams(path: Path) -> None:
+    design = CamDesign(load(path))
+    table = positions(design, language("ru"))
+    nodes = {node.number: node for node in nodes_of(design.problem)}
+    assert [int(row[0]) for row in table.rows] == list(nodes)
+    for number, phi, s, *_ in table.rows:
+        node = nodes[int(number)]
+        assert float(phi.replace(",", ".")) == pytest.approx(np.degrees(node.phi), abs=0.006)
+        exact = 1000.0 * float(design.problem.at(np.array([node.phi]))[0, 0])
+        assert float(s.replace(",", ".")) == pytest.approx(exact, abs=0.006)
 
 
 def test_solve_tells_sizes_checks_and_forces_in_both_languages() -> None:

@@ -9,7 +9,7 @@ import pytest
 from cases import some
 from msgspec.structs import replace
 from texts import cycle_protocol
-from worked import SIX, problem_of
+from worked import SIX, problem_of, solved_while
 
 from planmethod.construct.drafting import PROFILES, Sampled
 from planmethod.construct.evaluate import evaluate
@@ -26,8 +26,10 @@ from planmethod.render.pictures.kinematic import FOUND, kinematic_picture
 from planmethod.render.sheets.composition.reader import composition
 from planmethod.render.sheets.kinematics import kinematics_sheets
 from planmethod.solved.solution import Solution
+from planmethod.solved.turn import numbering
 from planmethod.solved.turn.construction import extreme_construction
 from planmethod.solved.turn.diagrams import Diagrams, diagrams_of, sigmas
+from planmethod.solved.turn.turn import turn_of
 
 RU = language("ru")
 
@@ -116,6 +118,38 @@ def test_of_one_position_its_own_plans_are_shown() -> None:
     assert set(kinds) <= set(VIEW_KINDS)
     (plan,) = (view for view in sheet.views if view.kind == "acceleration")
     assert {span.position for span in plan.spans} <= {0, None} and plan.spans
+
+
+EVEN = [float(phi) for phi in range(0, 360, 30)]
+
+
+@pytest.mark.parametrize("name", ["press/press", *SIX[: some(len(SIX), 1)]])
+@pytest.mark.parametrize("sense", [1, -1])
+def test_a_number_names_one_position_of_the_sheet(
+    name: str, sense: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    asked = [50.0 + sense * phi for phi in EVEN]
+    _, solution = solved_while(
+        lambda: kinematics_sheets(problem_of(name), positions=asked, layout="coursework"),
+        monkeypatch,
+    )
+    assert solution.positions.tolist() == asked
+    assert turn_of(solution).positions == pytest.approx(np.array(asked), abs=1e-9)
+    assert solution.problem.numbered == pytest.approx(tuple(asked), abs=1e-9)
+
+
+def test_positions_that_the_cycle_does_not_number_are_refused() -> None:
+    problem = problem_of("press/press")
+    for asked in ([20.0, 140.0, 260.0], [0.0, 10.0, 90.0], EVEN[:6]):
+        with pytest.raises(LayoutError, match="a number would name two positions") as told:
+            kinematics_sheets(problem, positions=asked, layout="coursework")
+        assert "an even turn" in str(told.value)
+    numbered = numbering.number(replace(problem, cycle=CycleTask("B", zero=10.0)))
+    with pytest.raises(LayoutError, match=r"tell zero and count of \[cycle\]"):
+        kinematics_sheets(numbered, positions=EVEN, layout="coursework")
+    own = [phi + 10.0 for phi in EVEN]
+    assert numbering.counting(numbered, own) is numbered
+    assert numbering.counting(numbered, [phi - 360.0 for phi in own]) is numbered
 
 
 def test_chosen_plans_are_those_that_are_asked() -> None:

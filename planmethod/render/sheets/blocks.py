@@ -38,6 +38,25 @@ class BlockKind(Struct, frozen=True):
     each: bool = False
 
 
+OF_CYCLE = frozenset(
+    {
+        "turn-statement", "kinematic-diagrams", "hodograph", "graphs", "turn-table",
+        "flywheel-diagrams", "machine-statement", "machine-table", "moment-table", "energy-table",
+        "load-diagram",
+    }
+)  # fmt: skip
+"""Kinds that number the positions of the cycle, whatever positions a sheet is of."""
+
+OF_POSITIONS = frozenset(
+    {
+        "scheme", "plan", "chosen-plans", "calculation", "results", "measured-results",
+        "transfers", "transfer-table", "cycle-statement", "balance-diagram", "reaction-diagram",
+        "hodographs", "cycle-reactions",
+    }
+)  # fmt: skip
+"""Kinds that number the positions that a sheet is of."""
+
+
 def maker_of(kind: str) -> Maker:
     """Return what makes the blocks of a kind."""
     return BLOCKS[kind].makers()[kind]

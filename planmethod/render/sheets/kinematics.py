@@ -7,6 +7,7 @@ from itertools import chain, product
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import numpy.typing as npt
 from msgspec import Struct
 from msgspec.structs import replace
@@ -23,6 +24,7 @@ from planmethod.problem.model import Problem, Scales
 from planmethod.render.frame.furniture import Furniture
 from planmethod.render.ink.drawing import Drawing
 from planmethod.render.pictures.paths import Paths
+from planmethod.render.sheets.blocks import OF_CYCLE, OF_POSITIONS
 from planmethod.render.sheets.composer import (
     Blank,
     Laid,
@@ -41,6 +43,7 @@ from planmethod.solved.room import FEW
 from planmethod.solved.scaling import MOST_DRAWN, PLAN, Views, least_plan
 from planmethod.solved.selfcheck import verify
 from planmethod.solved.solution import Solution
+from planmethod.solved.turn.numbering import counting
 
 STEPS = 3
 """Most members of the series that a scale goes on by."""
@@ -140,6 +143,7 @@ def kinematics_sheets(
     asked = texts("asked", asked)
     if paper:
         problem = replace(problem, sheet=replace(problem.sheet, paper=paper_format(paper).name))
+    problem = _counted(problem, layout, positions)
     solution = Solution(problem, positions=positions, ruler=ruler, profile=profile)
     moved = positions is not None
     strategy = _strategy(solution, layout, errors=errors, sigma=sigma, moved=moved, most=most,
@@ -171,12 +175,38 @@ def sheet_scales(
     In the problem they are kept to by every output. Parameters and errors are those of
     `kinematics_sheets`.
     """
+    problem = _counted(problem, layout, positions)
     solution = Solution(problem, positions=positions)
     strategy = _strategy(solution, layout, moved=positions is not None)
     furniture = Furniture.of(problem.sheet)
     _, laid = composed(problem, strategy, _misfit(problem), furniture)
     taken: dict[str, Any] = dict(laid.scales)
     return replace(problem.scales, **taken, decided=True)
+
+
+def _counted(
+    problem: Problem, layout: str | Path | Composition | None, positions: npt.ArrayLike | None
+) -> Problem:
+    """Return a problem with one numbering of positions for all blocks of a layout.
+
+    Raises
+    ------
+    LayoutError
+        Some blocks number positions of the cycle, others those that were asked for.
+    """
+    if layout is None or not problem.drive.goes_round:
+        return problem
+    lang = problem.sheet.lang or LANGUAGES[0]
+    made = composition(layout, lang) if isinstance(layout, str | Path) else layout
+    kinds = {entry.kind for entry in made.blocks}
+    if kinds.isdisjoint(OF_CYCLE) or kinds.isdisjoint(OF_POSITIONS):
+        return problem
+    if positions is None and made.cycle:
+        return problem
+    shown: Sequence[float] = problem.drive.positions
+    if positions is not None:
+        shown = np.ravel(np.asarray(positions, dtype=float)).tolist()
+    return counting(problem, shown) if len(shown) > 1 else problem
 
 
 def _strategy(

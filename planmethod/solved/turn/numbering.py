@@ -6,19 +6,28 @@ leaves out, and outrank several that it lists; a single one stays what it is.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 from msgspec.structs import replace
 
-from planmethod.errors import PlanMethodError, ProblemError
+from planmethod.errors import LayoutError, PlanMethodError, ProblemError
+from planmethod.languages import say
 from planmethod.problem.cycle import report_start
-from planmethod.problem.cycle_records import Zero
+from planmethod.problem.cycle_records import CycleTask, Zero
 from planmethod.problem.fields import Faults
-from planmethod.problem.model import Problem
+from planmethod.problem.load_records import TurningSense
+from planmethod.problem.model import SAME_DEG, Drive, Problem
 from planmethod.solved.forces.loads import only_in_positions
 from planmethod.solved.reading import Reals
 from planmethod.solved.solution import Solution
 from planmethod.solved.turn.strokes import Strokes
 from planmethod.solved.turn.turn import Turn, turn_of
+
+TURN = 360.0
+
+LEAST_EVEN = 6
+"""Fewest positions of a turn that its diagrams can be drawn through."""
 
 
 def number(problem: Problem) -> Problem:
@@ -56,6 +65,65 @@ def number(problem: Problem) -> Problem:
         judged = drive.judged or drive.positions
         drive = replace(drive, positions=positions, judged=judged)
     return replace(problem, drive=drive, machine=machine, numbered=positions)
+
+
+def counting(problem: Problem, positions: Sequence[float]) -> Problem:
+    """Return a problem whose cycle numbers these positions, so that a number names one of them.
+
+    Numbers that the file tells, by ``[cycle]`` or ``[machine]``, stay; where it tells none, the
+    positions of an even turn are those of the cycle, in their order and from the first on.
+
+    Parameters
+    ----------
+    positions : sequence of float
+        Degrees of the crank, two or more.
+
+    Raises
+    ------
+    LayoutError
+        The cycle has other positions.
+    """
+    drive, count = problem.drive, len(positions)
+    free = problem.cycle is None and problem.machine is None
+    step = TURN / count if positions[1] > positions[0] else -TURN / count
+    even = [positions[0] + step * k for k in range(count)]
+    if free and count >= LEAST_EVEN and _is_same(drive, positions, even):
+        sense = TurningSense.CCW if step > 0 else TurningSense.CW
+        own = CycleTask(zero=float(positions[0]), direction=sense, count=count)
+        counted = number(replace(problem, cycle=own))
+    else:
+        counted = problem
+    told = numbered_positions(Solution(counted)).tolist()
+    if _is_same(drive, positions, told):
+        return counted
+    hint = (
+        say(
+            "Name one position, or an even turn of {} and more: --phi {:g}:{:g}:30.",
+            LEAST_EVEN,
+            positions[0],
+            positions[0] + TURN,
+        )
+        if free
+        else say("Name one position, leave --phi out, or tell zero and count of [cycle].")
+    )
+    raise LayoutError(
+        "{}: tables and diagrams of the cycle number {} positions from {:.5g}° on, and {} others "
+        "from {:.5g}° on are asked for: a number would name two positions. {}",
+        problem.name,
+        len(told),
+        told[0] % TURN,
+        count,
+        positions[0],
+        hint,
+    )
+
+
+def _is_same(drive: Drive, some: Sequence[float], others: Sequence[float]) -> bool:
+    """Tell whether positions are the same ones in the same order."""
+    return len(some) == len(others) and all(
+        drive.coordinate.apart(one, other) <= SAME_DEG
+        for one, other in zip(some, others, strict=True)
+    )
 
 
 def numbered_positions(solution: Solution) -> Reals:
