@@ -350,14 +350,18 @@ def causes_of(program: Program, data: Callable[[], Mapping[str, Any]], free: fro
 
 
 def sigmas(
-    program: Program, data: Mapping[str, Any], profile: Profile, free: frozenset[str]
+    program: Program,
+    data: Mapping[str, Any],
+    profile: Profile,
+    free: frozenset[str],
+    enlarged: Mapping[str, Number] = AS_SCALED,
 ) -> dict[str, npt.NDArray[np.float64]]:
     """Return how far the numbers of a drawing may be off, by first order, shapes (n,).
 
-    ``free``: points that may stand anywhere.
+    ``free``: points that may stand anywhere; ``enlarged``: how many times larger a step is drawn.
     """
     causes = causes_of(program, lambda: data, free)
-    trace = evaluate(program, data, Propagated(profile, free, causes))
+    trace = evaluate(program, data, Propagated(profile, free, causes, enlarged))
     found: dict[str, npt.NDArray[np.float64]] = {}
     for name, value in trace.value.items():
         if isinstance(value, tuple) or np.iscomplexobj(as_dual(value).value):

@@ -8,11 +8,12 @@ at the pole distance, cut off segments as long as the bodies are quick.
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from fractions import Fraction
 from itertools import combinations
 
 from msgspec import Struct
+from msgspec.structs import replace
 
 from planmethod.construct.arithmetic import Float64, Number
 from planmethod.construct.drafting import Profile, sigmas
@@ -25,6 +26,7 @@ from planmethod.gears.asked import parse
 from planmethod.gears.motion import TrainMotion
 from planmethod.gears.picture import ContactKind, ContactPoint, VelocityPictures, carrier_of
 from planmethod.languages import say
+from planmethod.solved.enlarging import SHORT, WIDEST, Knot, least_shown, ratio_for
 
 LETTERS = "abcdefghklmnqrstuvwxz"
 """Letters of contact points, in the order of the meshes; ``p`` is the pole."""
@@ -34,6 +36,9 @@ NEAR = 1e-6
 
 FEET, POLE = PointName("o'"), PointName("p")
 """Foot of the main axis on ``yy``, and the pole of the rays: they may stand anywhere."""
+
+FOOT = PointName("o")
+"""Under the pole, on the level line: from there the segments of the rays are read."""
 
 
 class PictureError(PlanMethodError):
@@ -124,6 +129,11 @@ class GearDrawing(Struct, frozen=True):
         train = self.motion.train
         return ", ".join(label for label in train.numbers if train.body_of[label] == body)
 
+    def read_on(self, knots: Iterable[Knot]) -> dict[str, Knot]:
+        """Return the bodies whose segments are read on enlarged views, and on which."""
+        ends = {end: knot for knot in knots for _, end in knot.ends}
+        return {body: ends[end] for body, end in self.rays.items() if end in ends}
+
     def numbers(self) -> dict[str, Number]:
         """Return the data as floats."""
         return {name: float(value) for name, value in self.data.items()} | {FEET: 0j, POLE: 0j}
@@ -140,11 +150,14 @@ class GearReading(Struct, frozen=True):
         With the ruler.
     sigma : mapping
         Drafting errors of the numbers, one standard deviation.
+    knots : tuple of Knot
+        Short segments of the rays, which are drawn once more, larger, and read there.
     """
 
     exact: Trace
     read: Trace
     sigma: Mapping[str, float]
+    knots: tuple[Knot, ...] = ()
 
     def point(self, name: PointName) -> complex:
         """Return a point, mm."""
@@ -160,9 +173,13 @@ def read(drawn: GearDrawing, profile: Profile) -> GearReading:
         The construction does not give the fractions of the mesh equations.
     """
     program, data = drawn.program, drawn.numbers()
-    found = sigmas(program, data, profile, frozenset((str(FEET), str(POLE))))
-    sigma = {name: float(one[0]) for name, one in found.items()}
     exact = evaluate(program, data, Float64())
+    knots = _knots(drawn, exact, least_shown(profile.ruler))
+    enlarged: dict[str, Number] = {
+        str(drawn.segments[body]): knot.times for body, knot in drawn.read_on(knots).items()
+    }
+    found = sigmas(program, data, profile, frozenset((str(FEET), str(POLE))), enlarged)
+    sigma = {name: float(one[0]) for name, one in found.items()}
     for one in drawn.found:
         got, due = float(exact.value[one.read]), float(one.exact)
         if not abs(got - due) <= NEAR * max(1.0, abs(due)):
@@ -170,7 +187,31 @@ def read(drawn: GearDrawing, profile: Profile) -> GearReading:
                 "the pictures give {} = {:.12g}, the mesh equations {:.12g}", one.name, got, due
             )
             raise PictureError("{}. Please report the problem file.", told)
-    return GearReading(exact, evaluate(program, data, Hand(ruler=profile.ruler)), sigma)
+    hand = Hand(profile.ruler, enlarged)
+    return GearReading(exact, evaluate(program, data, hand), sigma, knots)
+
+
+def _knots(drawn: GearDrawing, exact: Trace, least: float) -> tuple[Knot, ...]:
+    """Return the segments of rays from ``least`` to `SHORT`, mm, by the views that show them."""
+    foot = complex(exact.value[FOOT])
+    ends = {end: complex(exact.value[end]) - foot for end in drawn.rays.values()}
+    short = [end for end, way in ends.items() if least <= abs(way) < SHORT]
+    found: list[Knot] = []
+    for end in sorted(short, key=lambda one: abs(ends[one])):
+        times = ratio_for(abs(ends[end]))
+        for k, knot in enumerate(found):
+            own = (*(pair[1] for pair in knot.ends), end)
+            across = [0.0, *(ends[one].real for one in own)]
+            if (max(across) - min(across)) * knot.times <= WIDEST:
+                middle = foot + (max(across) + min(across)) / 2
+                found[k] = replace(knot, centre=middle, ends=(*knot.ends, (FOOT, end)))
+                break
+        else:
+            letters = (spot.letter[0].upper() for spot in drawn.spots)
+            initials = frozenset({"O", "P", *letters, *(label[0] for label in drawn.lines)})
+            middle = foot + ends[end] / 2
+            found.append(Knot(len(found), middle, times, ((FOOT, end),), initials))
+    return tuple(found)
 
 
 def construct(motion: TrainMotion, picture: VelocityPictures) -> GearDrawing:
@@ -372,7 +413,7 @@ class _Drawing:
         pole = builder.given(POLE)
         down = builder.parallel(pole, self.axis)
         far = self._known("pole distance", -self.picture.pole_mm)
-        foot = builder.lay_off("o", pole, down, far)
+        foot = builder.lay_off(str(FOOT), pole, down, far)
         level = builder.parallel(foot, self.base)
         rays: dict[str, PointName] = {}
         segments: dict[str, NumberName] = {}

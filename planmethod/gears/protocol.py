@@ -25,6 +25,7 @@ from planmethod.gears.text import compared_sentences, compared_table
 from planmethod.gears.told import calculation, given, unit_of
 from planmethod.note.document import Chapter, Item, Node, Paragraph, Step, Title
 from planmethod.note.formula import Rich, escape, fraction
+from planmethod.note.narrate.formulas import view_name
 from planmethod.note.narrate.narrator import Line, StepNarrator
 from planmethod.note.numbers import Notation, half_up, raised
 from planmethod.note.rounding import rounded_to, sigma_text
@@ -151,8 +152,12 @@ def _readings(
     yield Chapter(say["steps"]["readings"])
     name = words.note["profiles"].get(profile.name, profile.name)
     yield Step((say.ruler.format(ruler=notation.given(profile.ruler), profile=name),))
-    named = [(s.read, f"{s.foot}{s.letter}") for s in drawn.spots if s.read is not None]
-    named += [(n, f"o{drawn.label(body)}") for body, n in drawn.segments.items()]
+    named = [(s.read, f"{s.foot}{s.letter}", "") for s in drawn.spots if s.read is not None]
+    views = {
+        body: f" {words.sheets.read_on.format(view=view_name(knot, words))}"
+        for body, knot in drawn.read_on(seen.knots).items()
+    }
+    named += [(n, f"o{drawn.label(b)}", views.get(b, "")) for b, n in drawn.segments.items()]
     yield Step(
         tuple(
             say["steps"]["read"].format(
@@ -160,8 +165,9 @@ def _readings(
                 read=notation.ruled(float(seen.read.value[number])),
                 exact=_mm(float(seen.exact.value[number]), notation),
                 sigma=notation.number(sigma_text(seen.sigma[number])),
+                view=view,
             )
-            for number, name in named
+            for number, name, view in named
         )
     )
     unit = raised(words.gears["units"][train.units[0]])

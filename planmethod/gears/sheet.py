@@ -15,7 +15,15 @@ from planmethod.errors import LayoutError
 from planmethod.gears.arrangement import ColumnOrder, arrange, best_order
 from planmethod.gears.comparison import PlanetaryComparison, compare
 from planmethod.gears.construction import GearDrawing, GearReading, construct, read
-from planmethod.gears.drawn.pictures import angular, angular_spans, front, linear, linear_spans
+from planmethod.gears.drawn.pictures import (
+    RAYS_POLE,
+    angular,
+    angular_spans,
+    enlarged_rays,
+    front,
+    linear,
+    linear_spans,
+)
 from planmethod.gears.drawn.side import SideView
 from planmethod.gears.model import GearProblem, PictureSettings
 from planmethod.gears.motion import TrainMotion, solve_motion
@@ -24,19 +32,21 @@ from planmethod.gears.scheme import SchemeData
 from planmethod.gears.text import compared_sentences, compared_table
 from planmethod.gears.told import calculation, given, results
 from planmethod.languages import LANGUAGES, say
+from planmethod.note.narrate.formulas import knot_letter, view_name
 from planmethod.note.numbers import half_up
 from planmethod.note.wording import Language, Words, language
 from planmethod.paper import STAMP_WIDTH, TRIED
 from planmethod.render.frame.furniture import Furniture
-from planmethod.render.ink.drawing import Drawing, Item, Span, View, shifted
+from planmethod.render.ink.drawing import Arc, Disc, Drawing, Item, Span, View, shifted
 from planmethod.render.ink.extent import ink_bounds
 from planmethod.render.ink.typeset import typeset
 from planmethod.render.labels import Label
-from planmethod.render.layout.block import Block, Column, Line, Picture, heading, paragraph
+from planmethod.render.layout.block import Block, Column, Line, Picture, Row, heading, paragraph
 from planmethod.render.layout.cuttings import Group, Packed
 from planmethod.render.layout.equations import formula_block
 from planmethod.render.layout.pack import EDGE
 from planmethod.render.layout.tables import TableColumn, table_block
+from planmethod.render.pictures.enlarged import ENLARGED
 from planmethod.render.pictures.lettered import lettered
 from planmethod.render.sheets.composer import (
     Blank,
@@ -212,6 +222,23 @@ class _Picture(Viewed, frozen=True):
             yield replace(one, start=one.start + corner, end=one.end + corner)
 
 
+class _Rays(Viewed, frozen=True):
+    """The picture of angular velocities with what is enlarged of it."""
+
+    drawn: GearDrawing
+    seen: GearReading
+
+    def spans(self, items: Sequence[Item], corner: complex) -> Iterator[Span]:
+        """Yield the segments where they lie on the sheet."""
+        (pole,) = (one.centre for one in items if isinstance(one, Disc) and one.tag == RAYS_POLE)
+        views = [
+            next(item.centre for item in items
+                 if isinstance(item, Arc) and item.tag == f"{ENLARGED} {knot.number}")
+            for knot in self.seen.knots
+        ]  # fmt: skip
+        yield from angular_spans(self.drawn, self.seen, pole, views)
+
+
 class _Strip(_Picture, frozen=True):
     """The side view, and beside it the picture of linear velocities, which is measured."""
 
@@ -368,27 +395,34 @@ class _Sheet(Struct, frozen=True):
         kind: str,
         scale: Scale,
         scales: Sequence[str],
-        spans: Sequence[Span] = (),
     ) -> Viewed:
-        """Return a view under its title; its spans are in the view's own coordinates."""
+        """Return a view under its title."""
         head = self._head(title, max(view.width, 60.0), *scales)
-        block = Column([head, view], gap=5.0, align="centre")
-        shift = complex(
-            (block.width - view.width) / 2 - view.bounds[0], -head.height - 5.0 - view.bounds[3]
-        )
-        moved = tuple(replace(s, start=s.start + shift, end=s.end + shift) for s in spans)
-        return _Picture(block, kind, scale, moved)
+        return Viewed(Column([head, view], gap=5.0, align="centre"), kind, scale)
 
     def _angular(self, drawn: GearDrawing, seen: GearReading) -> Viewed:
         picture = drawn.picture
         pole = self.words.say.given(half_up(float(picture.pole_mm), 2))
         name, per_mm = picture.ray_scale(self.motion.train.unit)
         scales = [self._scale(name, per_mm, pole=pole)]
-        spans = list(angular_spans(drawn, seen, 0j))
-        title = self.words.gears["sheet"].angular
-        view = angular(drawn, seen, self.sizes.letter)
+        title, letter = self.words.gears["sheet"].angular, self.sizes.letter
+        letters = [knot_letter(knot, self.words) for knot in seen.knots]
+        view = angular(drawn, seen, letter, letters)
+        head = self._head(title, max(view.width, 60.0), *scales)
+        views = [
+            Column(
+                [Line(typeset(view_name(knot, self.words), letter)),
+                 enlarged_rays(drawn, seen, knot, letter)],
+                2.5, "centre",
+            )
+            for knot in seen.knots
+        ]  # fmt: skip
+        whole: Block = view
+        if views:
+            whole = Column([view, Row(views, 8.0, "centre")], gap=5.0, align="centre")
+        block = Column([head, whole], gap=5.0, align="centre")
         scale = Scale({"mu_omega": "mu_ω"}.get(name, name), per_mm, "1/s")
-        return self._titled(view, title, "velocity", scale, scales, spans)
+        return _Rays(block, "velocity", scale, drawn, seen)
 
     # Texts ---------------------------------------------------------------------------------------
 
@@ -414,7 +448,7 @@ class _Sheet(Struct, frozen=True):
         return Column([title, *lines, table], gap=2.5)
 
     def _segments(self, drawn: GearDrawing, seen: GearReading) -> Block:
-        say, rows = self.words.say, []
+        say, rows, read_on = self.words.say, [], drawn.read_on(seen.knots)
         for spot in drawn.spots:
             length = float(spot.speed)
             shown = (float(spot.height), length)
@@ -422,7 +456,8 @@ class _Sheet(Struct, frozen=True):
             rows.append((f"{spot.foot}{spot.letter}", *map(self._mm, shown), told))
         for body, name in drawn.segments.items():
             exact, ruled = (float(trace.value[name]) for trace in (seen.exact, seen.read))
-            rows.append((f"o({drawn.label(body)})", "—", self._mm(exact), say.ruled(ruled)))
+            view = f", {knot_letter(read_on[body], self.words)}" if body in read_on else ""
+            rows.append((f"o({drawn.label(body)}){view}", "—", self._mm(exact), say.ruled(ruled)))
         columns = self.words.gears["sheet"]["columns_segments"]
         table = _table(columns, rows, 27.0 * self.sizes.text, self.sizes)
         return Column(

@@ -28,7 +28,9 @@ NOTHING = 0.25
 line is off, and half a division of the ruler."""
 
 _WANTED = 10.0  # mm that the shortest segment of a knot has on its view
-_WIDEST = 60.0  # mm that such a view may be across
+
+WIDEST = 60.0
+"""Millimetres that such a view may be across."""
 
 
 SMALL, SHOWN = 15.0, 28.0
@@ -139,7 +141,7 @@ def find_knots(
         middle = (at[tail] + at[head]) / 2
         for k, knot in enumerate(found):
             reach = max(abs(at[end] - knot.centre) for end in (tail, head))
-            if reach * knot.times <= _WIDEST / 2:
+            if reach * knot.times <= WIDEST / 2:
                 found[k] = replace(knot, ends=(*knot.ends, (tail, head)))
                 break
         else:

@@ -26,6 +26,7 @@ from planmethod.gears.sheet import drawings
 from planmethod.render.backends import render
 from planmethod.render.control.remarks import Severity
 from planmethod.render.ink.drawing import Arc, Drawing, Stroke, Text
+from planmethod.render.pictures.enlarged import ENLARGED
 from planmethod.render.sheets.controlled import looked_over, paper_of
 
 FILES = sorted((PROBLEMS / "gears").glob("*.toml"))
@@ -114,7 +115,7 @@ def test_trains_without_pictures_have_a_scheme_and_say_why(name: str, tmp_path: 
         assert any(isinstance(i, Arc) and i.tag == "link 1" for i in drawing.items)
 
 
-@pytest.mark.parametrize("name", ["gears-ex6", "planetary-k10"])
+@pytest.mark.parametrize("name", ["gears-ex3", "gears-ex6", "planetary-k10"])
 def test_segments_are_as_long_as_the_table_says_in_the_file(name: str) -> None:
     """Each segment is one line of the layer of vectors; its length is a number of the table."""
     drawing = sheet(PROBLEMS / f"gears/{name}.toml")
@@ -125,7 +126,22 @@ def test_segments_are_as_long_as_the_table_says_in_the_file(name: str) -> None:
     ends = [(complex(*e.dxf.start.xyz[:2]), complex(*e.dxf.end.xyz[:2])) for e in lines]
     assert sorted(abs(b - a) for a, b in ends) == pytest.approx(spans, abs=1e-6)
     shown = {item.text.lstrip("−") for item in drawing.items if isinstance(item, Text)}
-    assert {f"{length:.2f}".replace(".", ",") for length in spans} <= shown
+    lengths = [span.length / span.share for view in drawing.views for span in view.spans]
+    assert {f"{length:.2f}".replace(".", ",") for length in lengths} <= shown
+
+
+def test_short_rays_stand_on_a_view_where_the_ruler_sees_them() -> None:
+    """Example 3 of the source: a ray of 1.25 mm read as 1.0 mm gave U₁₇ = 48 for 38.54."""
+    drawing = sheet(PROBLEMS / "gears/gears-ex3.toml")
+    (rays,) = (view for view in drawing.views if any(s.name == "o7" for s in view.spans))
+    enlarged = {span.name: span for span in rays.spans if span.share > 1.0}
+    assert {name: span.share for name, span in enlarged.items()} == {"o6": 10.0, "o7": 10.0}
+    (circle,) = (i for i in drawing.items if isinstance(i, Arc) and i.tag == f"{ENLARGED} 0")
+    for span in enlarged.values():
+        assert span.length > 10.0
+        assert max(abs(end - circle.centre) for end in (span.start, span.end)) < circle.radius
+    said = texts(drawing)
+    assert "Б (10:1)" in said and "38,40" in said and "31,25" in said
 
 
 def test_the_picture_stands_beside_the_scheme_at_its_heights() -> None:

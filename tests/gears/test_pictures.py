@@ -67,6 +67,16 @@ def test_the_construction_gives_the_fractions_and_the_ruler_is_within_its_errors
             assert float(seen.exact.value[one.read]) == pytest.approx(exact, rel=1e-11, abs=1e-9)
             off = abs(float(seen.read.value[one.read]) - exact)
             assert off <= 3 * seen.sigma[one.read] + 1e-9, one.name
+        read_on = drawn.read_on(seen.knots)
+        for body, name in drawn.segments.items():
+            length, got = (abs(float(trace.value[name])) for trace in (seen.exact, seen.read))
+            assert (body in read_on) == (0.25 <= length < 5.0), length
+            times = read_on[body].times if body in read_on else 1.0
+            assert abs(got - length) * times <= BOARD.ruler / 2 + 1e-9
+            assert body not in read_on or length * times >= 10.0
+        for knot in seen.knots:
+            across = [seen.point(end).real * knot.times for pair in knot.ends for end in pair]
+            assert max(across) - min(across) <= 60.0 + 1e-9
 
 
 @pytest.mark.parametrize("path", FILES, ids=lambda path: path.stem)

@@ -7,10 +7,11 @@ angular velocities as they are drawn and read (картины линейных �
 from __future__ import annotations
 
 import cmath
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from math import asin, cos, radians, sin
 
-from planmethod.gears.construction import FEET, POLE, GearDrawing, GearReading
+from planmethod.construct.steps import PointName
+from planmethod.gears.construction import FEET, FOOT, POLE, GearDrawing, GearReading
 from planmethod.gears.model import MeshKind
 from planmethod.gears.picture import ContactKind, ContactPoint
 from planmethod.gears.scheme import Rim, SchemeData
@@ -21,10 +22,18 @@ from planmethod.render.ink.typeset import typeset
 from planmethod.render.labels import BUSY, Label
 from planmethod.render.labels.spots import shared_spots, spot_labels
 from planmethod.render.layout.block import Picture
+from planmethod.render.pictures.enlarged import (
+    ENLARGED,
+    knot_mark,
+    part_within,
+    placed_in,
+    radius_of,
+)
 from planmethod.render.pictures.lettered import lettered
 from planmethod.render.symbols import SIZES, link, revolute, turn_arrow, vector_arrow
 from planmethod.render.symbols.axes import axis_line, centre_lines, pitch_circle
 from planmethod.render.symbols.gears import rack_front
+from planmethod.solved.enlarging import Knot
 
 ARROW_INSIDE = 3.0
 """From a pitch circle to the arrow of its sense, mm."""
@@ -176,6 +185,9 @@ BEYOND = 8.0
 SEGMENT = VectorKind.ABSOLUTE.value
 """Tag of the measured segments on the sheet: the vectors of a plan."""
 
+RAYS_POLE = "pole of rays"
+"""Tag of the pole of the picture of angular velocities."""
+
 NOTHING = 0.05
 """Segments below this are nothing, mm."""
 
@@ -232,18 +244,29 @@ def linear_spans(drawn: GearDrawing, seen: GearReading, origin: complex) -> Iter
             yield Span(plain_text(f"{spot.foot}{spot.letter}"), None, origin + foot, origin + end)
 
 
-def angular(drawn: GearDrawing, seen: GearReading, height: float) -> Picture:
-    """Return the picture of angular velocities, its pole at the origin."""
+def angular(
+    drawn: GearDrawing, seen: GearReading, height: float, knots: Sequence[str] = ()
+) -> Picture:
+    """Return the picture of angular velocities, its pole at the origin.
+
+    ``knots`` are the letters of what is enlarged of it.
+    """
     foot = -1j * float(drawn.picture.pole_mm)
     ends = {body: seen.point(end) for body, end in drawn.rays.items()}
+    read_on = drawn.read_on(seen.knots)  # their segments are measured there
     left = min([0.0, *(end.real for end in ends.values())]) - BEYOND
     right = max([0.0, *(end.real for end in ends.values())]) + BEYOND
     items: list[Item] = [
         Stroke((foot + left, foot + right), Pen.THIN),
         *axis_line(0j, foot),
-        *(Stroke((foot, end), Pen.THIN, tag=SEGMENT) for end in ends.values() if abs(end - foot)),
+        *(
+            Stroke((foot, end), Pen.THIN, tag=SEGMENT)
+            for body, end in ends.items()
+            if abs(end - foot) and body not in read_on
+        ),
         *(Stroke((0j, end), tag=f"ray {body}") for body, end in ends.items()),
-        *(Disc(at, 0.7, Ink.BLACK) for at in (0j, foot, *ends.values())),
+        Disc(0j, 0.7, Ink.BLACK, tag=RAYS_POLE),
+        *(Disc(at, 0.7, Ink.BLACK) for at in (foot, *ends.values())),
     ]
     letters = [(foot, ["o"]), (0j, [str(POLE)])]
     letters += [(end, [drawn.label(body)]) for body, end in ends.items()]
@@ -253,12 +276,56 @@ def angular(drawn: GearDrawing, seen: GearReading, height: float) -> Picture:
               name=one.name, manner=BUSY)
         for one in labels
     ]  # fmt: skip
+    at = _ray_places(drawn, seen)
+    for knot, letter in zip(seen.knots, knots, strict=True):
+        circle, label = knot_mark(knot, at, letter, height)
+        items.append(circle)
+        below.append(label)
     return lettered(items, below)
 
 
-def angular_spans(drawn: GearDrawing, seen: GearReading, pole: complex) -> Iterator[Span]:
-    """Yield the measured segments of a picture whose pole lies at ``pole`` on the sheet."""
-    foot = pole - 1j * float(drawn.picture.pole_mm)
+def _ray_places(drawn: GearDrawing, seen: GearReading) -> dict[PointName, complex]:
+    """Return where the points of the picture of angular velocities lie, mm from its pole."""
+    return {name: seen.point(name) for name in (FOOT, *drawn.rays.values())}
+
+
+def enlarged_rays(drawn: GearDrawing, seen: GearReading, knot: Knot, height: float) -> Picture:
+    """Return the short segments of rays as they are enlarged, the view's middle at the origin."""
+    at, tag = _ray_places(drawn, seen), f"{ENLARGED} {knot.number}"
+    radius, places = radius_of(knot, at), placed_in(knot, at)
+    pole, foot = -knot.centre * knot.times, places[FOOT]
+    own = [end for _, end in knot.ends]
+    items: list[Item] = [Arc(0j, radius, pen=Pen.THIN, tag=tag)]
+    for ends, pen, of in (
+        ((foot - 2 * radius, foot + 2 * radius), Pen.THIN, tag),
+        ((pole, foot), Pen.AXIS, tag),
+        *(((pole, places[end]), Pen.MAIN, f"ray {body}") for body, end in drawn.rays.items()),
+    ):
+        if (inside := part_within(*ends, radius)) is not None:
+            items.append(Stroke(inside, pen, tag=of))
+    items += [Stroke((foot, places[end]), Pen.THIN, tag=SEGMENT) for end in own]
+    items += [Disc(places[name], 0.7, Ink.BLACK) for name in (FOOT, *own)]
+    letters = [(foot, [str(FOOT)])]
+    letters += [(places[e], [drawn.label(b)]) for b, e in drawn.rays.items() if e in own]
+    labels = spot_labels(shared_spots(letters), height, f"{tag}:", manner=BUSY)
+    return lettered(items, labels)
+
+
+def angular_spans(
+    drawn: GearDrawing, seen: GearReading, pole: complex, views: Sequence[complex]
+) -> Iterator[Span]:
+    """Yield the measured segments of a picture whose pole lies at ``pole`` on the sheet.
+
+    ``views`` are the middles of its enlarged views: what they show is measured there.
+    """
+    read_on = drawn.read_on(seen.knots)
     for body, end in drawn.rays.items():
-        if abs(pole + seen.point(end) - foot) > NOTHING:
-            yield Span(f"o{drawn.label(body)}", None, foot, pole + seen.point(end))
+        ends, name = (seen.point(FOOT), seen.point(end)), f"o{drawn.label(body)}"
+        if abs(ends[1] - ends[0]) <= NOTHING:
+            continue
+        if (knot := read_on.get(body)) is None:
+            yield Span(name, None, pole + ends[0], pole + ends[1])
+            continue
+        middle = views[knot.number]
+        start, stop = (middle + (one - knot.centre) * knot.times for one in ends)
+        yield Span(name, None, start, stop, knot.times)

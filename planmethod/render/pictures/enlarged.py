@@ -68,7 +68,7 @@ def enlarged_picture(
     places = placed_in(knot, at)
     items: list[Item] = [Arc(0j, radius, pen=Pen.THIN, tag=f"{ENLARGED} {knot.number}")]
     for vector in plan.vectors:
-        inside = _within(places[vector.tail], places[vector.head], radius)
+        inside = part_within(places[vector.tail], places[vector.head], radius)
         if inside is None:
             continue
         pen = Pen.THIN if (vector.tail, vector.head) in thin else Pen.MAIN
@@ -83,7 +83,7 @@ def enlarged_picture(
     return lettered(items, [*points, *names])
 
 
-def _within(tail: complex, head: complex, radius: float) -> tuple[complex, complex] | None:
+def part_within(tail: complex, head: complex, radius: float) -> tuple[complex, complex] | None:
     """Return the part of a segment within a circle about the origin; None where there is none."""
     way = head - tail
     if abs(way) < 1e-9:
