@@ -1,6 +1,6 @@
 """Hard cases of the plan method: at and near what is impossible, and at extreme data.
 
-Every row is solved in float64 and judged by the referee (`planmethod.solved.trust.accuracy`), and
+Every row is solved in float64 and judged by the referee (`planmethod.solved.accuracy`), and
 asked of the package as a user asks it. A row may be good, warned of, or refused with a reason; a
 wrong number without a warning is a fault, wherever it comes from.
 """
@@ -20,10 +20,10 @@ from planmethod.errors import PlanMethodError
 from planmethod.plans.legend import QuantityKind
 from planmethod.problem import loads
 from planmethod.problem.model import Problem
+from planmethod.solved.accuracy import AccuracyVerdict, Refereed, examine
 from planmethod.solved.quantities import natural_size
 from planmethod.solved.selfcheck import SelfCheckError, verify, warnings
 from planmethod.solved.solution import Solution
-from planmethod.solved.trust.accuracy import AccuracyVerdict, Refereed, examine
 
 WRONG = 1e-6
 """Relative error above which a result without a warning is a wrong one."""

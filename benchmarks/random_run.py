@@ -14,8 +14,8 @@ import numpy as np
 from benchmarks.generator import random_problem
 from planmethod.problem import loads
 from planmethod.problem.model import Problem
+from planmethod.solved.accuracy import Refereed, examine
 from planmethod.solved.many.sweep import Sweep
-from planmethod.solved.trust.accuracy import Refereed, examine
 
 POSITIONS = 12
 DIGITS = 40

@@ -27,6 +27,7 @@ from planmethod.problem import Problem, variant_names
 from planmethod.problem.head import KindProblem
 from planmethod.project.settle import settled
 from planmethod.solved.many.variants import in_batches
+from planmethod.solved.selfcheck import verify
 from planmethod.solved.solution import Solution
 
 FEW = 2
@@ -46,8 +47,14 @@ def task_of_problem(
 ) -> Task:
     """Return a problem with all that is asked of it; its kind is None for a linkage."""
     if kind is None:
-        return Task(Solution(cast("Problem", problem)), settings)
+        return Task(_verified(Solution(cast("Problem", problem))), settings)
     return Calculation(kind, problem, settings)
+
+
+def _verified(solution: Solution) -> Solution:
+    """Return a solution whose motion exists and means something: a key is made of it."""
+    verify(solution)
+    return solution
 
 
 class Variants:
@@ -84,8 +91,7 @@ class Variants:
                 problem = kind.load(self.path, name)
                 self._tasks[name] = Calculation(kind, problem, self.settings, self._all)
             else:
-                solution = Solution(settled(load(self.path, variant=name)))
-                _ = solution.si
+                solution = _verified(Solution(settled(load(self.path, variant=name))))
                 self._tasks[name] = Task(solution, self.settings, self._all)
         return self._tasks[name]
 

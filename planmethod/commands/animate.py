@@ -7,7 +7,7 @@ from pathlib import Path
 import click
 
 from planmethod.commands.helptext import Spoken
-from planmethod.commands.problems import Todo, each, finish, guarded, stem, warn
+from planmethod.commands.problems import Todo, each, finish, guarded, stem, tell_doubts, warn
 from planmethod.options import BadParameter, lang_option, out_option, problem_options
 
 FORMATS = ("gif", "svg")
@@ -60,6 +60,7 @@ def animate(
     def draw(todo: Todo) -> None:
         problem = todo.linkage
         film = film_of(problem, lang, frames=frames, plans=plans)
+        tell_doubts(problem)
         if film.skipped:
             warn(problem, film.skipped)
         made = {}

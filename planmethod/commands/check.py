@@ -13,7 +13,15 @@ from msgspec.structs import replace
 
 from planmethod.commands.helptext import Spoken
 from planmethod.commands.output import bar, json_text
-from planmethod.commands.problems import Todo, each, finish, guarded, of_linkages, stem
+from planmethod.commands.problems import (
+    Todo,
+    each,
+    finish,
+    guarded,
+    of_linkages,
+    stem,
+    tell_doubts,
+)
 from planmethod.errors import ExitCode, PlanMethodError
 from planmethod.languages import say, spoken
 from planmethod.options import PathType, UsageError, jobs_option, lang_option, out_option
@@ -447,6 +455,8 @@ def asked_of(todo: Todo, settings: Settings, lang: str | None, *, mistakes: bool
     from planmethod.check.key import key_of_task
 
     task = task_of_problem(todo.kind, todo.problem, settings)
+    if todo.kind is None:
+        tell_doubts(todo.linkage)
     key = key_of_task(task, named=None if mistakes else lambda _: ())
     if lang is None:
         return Asked(key, None)

@@ -8,7 +8,7 @@ import click
 
 from planmethod.commands.helptext import Spoken
 from planmethod.commands.output import put, show
-from planmethod.commands.problems import Todo, each, finish, guarded, stem
+from planmethod.commands.problems import Todo, each, finish, guarded, stem, tell_doubts
 from planmethod.options import lang_option, open_option, out_option, problem_options
 
 
@@ -35,6 +35,7 @@ def live(
         page = out / f"{stem(todo.problem)}-live.html"
         if todo.kind is None:
             put(live_page(todo.linkage, lang), str(page))
+            tell_doubts(todo.linkage)
         else:
             put(todo.kind.live_page(todo.problem, lang), str(page))
         written.append(page)

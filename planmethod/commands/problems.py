@@ -458,6 +458,19 @@ def tell_changes(problem: Problem, phi: Positions | None) -> None:
         warn(problem, said)
 
 
+def tell_doubts(problem: Problem, positions: Sequence[float] | None = None) -> None:
+    """Tell of positions of a problem that is solved elsewhere, where results have few digits.
+
+    What is impossible, or refused, is told where it is solved.
+    """
+    from planmethod.solved.selfcheck import warnings
+    from planmethod.solved.solution import Solution
+
+    with contextlib.suppress(PlanMethodError):
+        for doubt in warnings(Solution(problem, positions=positions), forces=True):
+            warn(problem, doubt)
+
+
 def solution_of(
     problem: Problem,
     phi: Positions | None,
@@ -487,16 +500,12 @@ def solution_of(
     for said in changed_branches(solution):
         warn(problem, said)
     try:
-        verify(solution)
-        if forces and problem.dynamics is not None:
-            from planmethod.solved.forces.statics import statics_of
-
-            _ = statics_of(solution).si
+        verify(solution, forces=forces)
     except AssemblyError as error:
         if len(solution.positions) < 2:
             raise
         raise AssemblyError(f"{error}{say(hint)}") from error
-    for doubt in warnings(solution):
+    for doubt in warnings(solution, forces=forces):
         warn(problem, doubt)
     if machine and problem.machine is not None:
         from planmethod.solved.machine.flywheel import flywheel_of

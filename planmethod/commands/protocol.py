@@ -82,7 +82,7 @@ def protocol(
             refuse_plans(kind, phi=phi is not None, position=position is not None)
             told = kind.protocol_document(problem, words, hand)
         else:
-            solution = solution_of(todo.linkage, phi, hand, machine=True)
+            solution = solution_of(todo.linkage, phi, hand, forces=True, machine=True)
             count = len(solution.positions)
             chosen = position
             if chosen is None:

@@ -22,6 +22,7 @@ from planmethod.commands.problems import (
     refuse_plans,
     stem,
     tell_changes,
+    tell_doubts,
     tell_left_out,
     tell_wheel,
     warn,
@@ -246,6 +247,7 @@ def settled_for(todo: Todo, options: SheetOptions) -> Todo:
         # What a project decided is of its own positions.
         todo = replace(todo, problem=replace(todo.linkage, calculated=options.position))
     tell_changes(todo.linkage, options.phi)
+    tell_doubts(todo.linkage, _drawn_positions(todo.linkage, options))
     if options.layout is not None and options.phi is None:
         _tell_positions(todo.linkage, options.layout)
     if todo.linkage.machine is not None and _has_flywheel(options.layout):
@@ -253,6 +255,22 @@ def settled_for(todo: Todo, options: SheetOptions) -> Todo:
 
         tell_wheel(Flywheel(todo.linkage))
     return todo
+
+
+def _drawn_positions(problem: Problem, options: SheetOptions) -> list[float] | None:
+    """Return the positions of the sheets; None for those of the file."""
+    if options.phi is not None:
+        return [float(place) for place in options.phi]
+    if options.layout is None or not problem.drive.goes_round:
+        return None
+    from planmethod.render.sheets.composition.reader import composition
+
+    if not composition(options.layout).cycle:
+        return None
+    from planmethod.solved.solution import Solution
+    from planmethod.solved.turn.numbering import numbered_positions
+
+    return [float(place) for place in numbered_positions(Solution(problem))]
 
 
 def _tell_positions(problem: Problem, layout: str) -> None:

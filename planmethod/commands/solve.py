@@ -26,6 +26,7 @@ from planmethod.commands.problems import (
 from planmethod.commands.swept import (
     HINT,
     MOST_SHOWN,
+    looked_at,
     positions_asked,
     refuse_huge,
     refuse_long,
@@ -144,7 +145,7 @@ class SolveOptions(Struct, frozen=True, kw_only=True):
 @click.option(
     "--partial",
     is_flag=True,
-    help="Leave impossible positions empty and say why (--csv, --npz, --ask).",
+    help="Leave impossible positions empty and say why (--json, --csv, --npz, --ask).",
 )
 @click.option("--sigma", is_flag=True, help="Show the drafting errors in the tables.")
 @click.option(
@@ -216,8 +217,10 @@ def solve(
         _need_mpmath()
     if position is not None and (told or covariance_file is not None):
         raise UsageError("--position goes with the tables of a terminal or --json")
-    if partial and not sweeping and csv_file is None:
-        raise UsageError("--partial goes with --csv, --npz or --ask")
+    if partial and referee is not None:
+        raise UsageError("--referee judges positions that exist: leave out --partial")
+    if partial and not (sweeping or as_json or csv_file is not None):
+        raise UsageError("--partial goes with --json, --csv, --npz or --ask")
     if phi is not None and len(phi) > MOST_POSITIONS and not sweeping:
         raise UsageError(
             "--phi: more than {} positions; so many only with --npz or --ask", MOST_POSITIONS
@@ -362,6 +365,8 @@ def _computed(
     elif options.csv:
         table = table_of(problem, phi, hand.ruler, options.partial)
         return table.held() if options.apart else table
+    elif options.as_json and options.partial:
+        return _partial(problem, options, hand)
     elif options.as_json:
         from planmethod.note.records.solution import record_in_columns
 
@@ -387,6 +392,20 @@ def _computed(
             judged = referee_document(solution, referee, words)
             click.echo("\n" + plain_document(judged, words))
     return None
+
+
+def _partial(problem: Problem, options: SolveOptions, hand: Profile) -> dict[str, Any]:
+    """Return the record of a problem some of whose positions may be impossible."""
+    from planmethod.note.records.solution import partial_record
+
+    positions, number = positions_asked(problem, options.phi), options.position
+    gaps = looked_at(problem, options.phi, partial=True)
+    record = partial_record(problem, positions, gaps, hand)
+    if number is None:
+        return record
+    if number >= len(positions):
+        raise no_position(number, problem, len(positions))
+    return {**record, "positions": record["positions"][number : number + 1]}
 
 
 def _is_short(problem: Problem) -> bool:

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from planmethod.solved.many.gaps import GappedSweep
     from planmethod.solved.many.positions import Gaps
 
-HINT = " To leave such positions empty, give --partial with --csv, --npz or --ask."
+HINT = " To leave such positions empty, give --partial with --json, --csv, --npz or --ask."
 
 MOST_SHOWN = 10_000
 """Rows of a table on the terminal."""
@@ -48,17 +48,26 @@ def table_of(
 ) -> SpreadsheetRows:
     """Return the rows of all results; a large table is checked here and solved when written."""
     from planmethod.note.records.spreadsheet import large_table, solved_table
-    from planmethod.solved.many.positions import BLOCK, examine
+    from planmethod.solved.many.positions import BLOCK
 
     positions = positions_asked(problem, phi)
     if len(positions) <= BLOCK and not partial:
         return solved_table(
             solution_of(problem, phi, drawn_by("board", ruler), hint=HINT, forces=True)
         )
+    gaps = looked_at(problem, phi, partial=partial)
+    return large_table(problem, positions, gaps, ruler=ruler, partial=partial)
+
+
+def looked_at(problem: Problem, phi: Positions | None, *, partial: bool) -> Gaps:
+    """Look at all positions that are asked, tell what is to be known of them, return the gaps."""
+    from planmethod.solved.many.positions import examine
+
     tell_changes(problem, phi)
-    looked = examine(problem, positions, forces=problem.dynamics is not None)
+    asked = positions_asked(problem, phi)
+    looked = examine(problem, asked, forces=problem.dynamics is not None)
     _tell(problem, looked.gaps, looked.doubts, partial)
-    return large_table(problem, positions, looked.gaps, ruler=ruler, partial=partial)
+    return looked.gaps
 
 
 def _tell(problem: Problem, gaps: Gaps, doubts: tuple[object, ...], partial: bool) -> None:

@@ -19,6 +19,18 @@ def listed(values: Reals | Sequence[float]) -> list[float | None]:
     return found
 
 
+def bounds(values: Reals) -> list[float | None]:
+    """Return bounds for a record, rounded up to two digits: more of them mean nothing."""
+    return listed([_rounded_up(float(value)) for value in values])
+
+
+def _rounded_up(value: float) -> float:
+    if not 0.0 < value < np.inf:
+        return value
+    step = 10.0 ** float(np.floor(np.log10(value)) - 1)
+    return float(f"{np.ceil(value / step - 1e-9) * step:.1e}")
+
+
 def pairs(places: Complexes) -> Records:
     """Return places as pairs of coordinates."""
     return together([listed(places.real), listed(places.imag)], len(places))

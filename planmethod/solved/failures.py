@@ -171,6 +171,16 @@ class Cause(Enum):
         "its results.{more} Ask a position further away.",
         "",
     )
+    SPOILT_FORCES = (
+        "{problem}: {this} stands so near one in which no forces balance the loads{own} that "
+        "rounding spoils its reactions and what balances its driver.{more} Ask a position further "
+        "away.",
+        " (margin {margin:.1e})",
+    )
+
+
+_SPOILT = (Cause.SPOILT_NEAR, Cause.SPOILT, Cause.SPOILT_FORCES)
+"""Causes whose sentences count the other positions themselves."""
 
 
 class Failure(Struct, frozen=True):
@@ -221,7 +231,7 @@ class Failure(Struct, frozen=True):
         return self._sentence("", say("this position"), whole=False)
 
     def __str__(self) -> str:
-        more = "" if self.cause in (Cause.SPOILT, Cause.SPOILT_NEAR) else self._more()
+        more = "" if self.cause in _SPOILT else self._more()
         return self._sentence(self.place.at, str(self.place), whole=True) + more
 
     def _more(self) -> str:
@@ -284,20 +294,28 @@ class Doubt(Struct, frozen=True):
     bound : float
         Of the error of the worst result, in parts of the largest of its kind in the position: one
         that is nearly nothing has no digits of its own.
+    forces : bool
+        It is its forces that are good to few digits; else its motion.
     """
 
     place: Place
     near: bool
     margin: float
     bound: float
+    forces: bool = False
 
     def __str__(self) -> str:
         nature = (
             say("next to a dead position (margin {:.1e})", self.margin)
             if self.near
-            else "badly conditioned (its results hang on small differences of large values)"
+            else say("badly conditioned (its results hang on small differences of large values)")
         )
         told = "{} is {}: its results are good to about {:.0e} of the largest of their kind."
+        if self.forces:
+            told = (
+                "{} is {}: its reactions and what balances its driver are good to about {:.0e} of "
+                "the largest of their kind."
+            )
         return say(told, self.place, nature, self.bound)
 
 

@@ -27,13 +27,7 @@ from planmethod.solved.failures import (
 )
 from planmethod.solved.reading import Complexes, Flags, Reals
 from planmethod.solved.solution import Solution
-from planmethod.solved.trust.conditioning import error_bound
-
-DOUBTFUL = 1e-6
-"""Bound of the relative error of the results from which a warning is given."""
-
-SPOILT = 1e-2
-"""Bound of the relative error from which a position is refused."""
+from planmethod.solved.trust.conditioning import DOUBTFUL, SPOILT, error_bound
 
 MOST_NAMED = 5
 """Doubtful positions that are named, the worst of them."""
@@ -56,28 +50,46 @@ class SelfCheckError(PlanMethodError):
         super().__init__(str(found))
 
 
-def warnings(solution: Solution) -> list[Doubt | MoreDoubts]:
+def warnings(solution: Solution, *, forces: bool = False) -> list[Doubt | MoreDoubts]:
     """Return what a user should know of the accuracy: a doubt for each doubtful position.
 
-    Of many positions the worst few are named and the rest counted.
+    Of many positions the worst few are named and the rest counted. With ``forces`` those of a
+    problem with loads have doubts of their own.
     """
-    found = doubts(solution)
-    worst = sorted(range(len(found)), key=lambda k: found[k].bound)[-MOST_NAMED:]
-    said: list[Doubt | MoreDoubts] = [found[k] for k in sorted(worst)]
-    if len(worst) < len(found):
-        said.append(MoreDoubts(len(found) - len(worst), len(solution.positions)))
+    said: list[Doubt | MoreDoubts] = []
+    for found in (doubts(solution), force_doubts(solution) if forces else []):
+        worst = sorted(range(len(found)), key=lambda k: found[k].bound)[-MOST_NAMED:]
+        said += [found[k] for k in sorted(worst)]
+        if len(worst) < len(found):
+            said.append(MoreDoubts(len(found) - len(worst), len(solution.positions)))
     return said
 
 
 def doubts(solution: Solution) -> list[Doubt]:
-    """Return all doubtful positions."""
-    estimate = error_bound(solution)
+    """Return all positions whose motion is doubtful."""
+    return _doubts(solution, error_bound(solution), solution.margin)
+
+
+def force_doubts(solution: Solution) -> list[Doubt]:
+    """Return all positions whose forces are doubtful; none of a problem without loads."""
+    if solution.problem.dynamics is None:
+        return []
+    from planmethod.solved.forces.statics import statics_of  # few files have any
+
+    statics = statics_of(solution)
+    return _doubts(solution, statics.bound, statics.margin, forces=True)
+
+
+def _doubts(
+    solution: Solution, estimate: Reals, margin: Reals, *, forces: bool = False
+) -> list[Doubt]:
     return [
         Doubt(
             Place.of(solution.problem, solution.positions, i),
-            bool(solution.margin[i] < NEAR),
-            float(solution.margin[i]),
+            bool(margin[i] < NEAR),
+            float(margin[i]),
             float(estimate[i]),
+            forces,
         )
         for i in map(int, np.flatnonzero(estimate > DOUBTFUL))
     ]
@@ -141,11 +153,16 @@ def _refuse_spoilt(solution: Solution) -> None:
     )
 
 
-def verify(solution: Solution) -> None:
+def verify(solution: Solution, *, forces: bool = False) -> None:
     """Check that links are rigid and that their points move as rigid bodies do.
 
     Every pair of points of a link keeps its distance, and the velocities and accelerations read
     from the plans obey ``v_Q - v_P = i·omega·PQ`` and ``a_Q - a_P = (i·epsilon - omega²)·PQ``.
+
+    Parameters
+    ----------
+    forces : bool
+        Those of a problem with loads must exist, too, and mean something.
 
     Raises
     ------
@@ -164,6 +181,10 @@ def verify(solution: Solution) -> None:
                 solution.problem.name, place, *what, float(error[i]), float(size[i])
             )
             raise SelfCheckError(told)
+    if forces and solution.problem.dynamics is not None:
+        from planmethod.solved.forces.statics import statics_of  # few files have any
+
+        statics_of(solution).si  # noqa: B018 - it refuses what does not exist or is spoilt
 
 
 def tell_doubts(solution: Solution) -> None:

@@ -273,7 +273,7 @@ def test_a_dead_position_is_empty_in_every_form() -> None:
     for form in (("--csv",), ("--npz", "a.npz"), ("--ask", "forces")):
         said = refused(4, "solve", "dead.toml", "--phi", "45,180,90", *form)
         assert "at position 1 (phi = 180 deg)" in said
-        assert said.endswith("give --partial with --csv, --npz or --ask.")
+        assert said.endswith("give --partial with --json, --csv, --npz or --ask.")
     table = rows(run("solve", "dead.toml", "--phi", "45,180,90", "--csv", "--partial").stdout)
     assert [bool(row["driving.moment"]) for row in table] == [True, False, True]
     assert [bool(row["C.x"]) for row in table] == [True, False, True]
@@ -320,7 +320,7 @@ def test_motion_is_told_where_only_forces_do_not_exist(monkeypatch: pytest.Monke
     for form in ((), ("--json",), ("--csv",), ("--npz", "a.npz"), ("--ask", "M_dr")):
         said = refused(4, "solve", "dead.toml", "--phi", "45,160,90", *form)
         assert "Error: Cannot close the force plan at position 1 (phi = 160 deg)" in said
-        assert said.endswith("give --partial with --csv, --npz or --ask.")
+        assert said.endswith("give --partial with --json, --csv, --npz or --ask.")
     assert run("solve", "dead.toml", "--phi", "45,160,90", "--ask", "a_C").exit_code == 0
     for block in (2048, 5):
         monkeypatch.setattr(many, "BLOCK", block)

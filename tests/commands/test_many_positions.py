@@ -218,8 +218,8 @@ def test_an_unknown_result_comes_with_the_nearest() -> None:
         (("--json", "--npz", "a.npz"), "give --json or --npz, not both"),
         (("--csv", "--npz", "a.npz"), "give --csv or --npz, not both"),
         (("--json", "--ask", "v_B"), "--json is always whole"),
-        (("--json", "--partial"), "--partial goes with --csv, --npz or --ask"),
-        (("--partial",), "--partial goes with --csv, --npz or --ask"),
+        (("--json", "--partial", "--referee"), "--referee judges positions that exist"),
+        (("--partial",), "--partial goes with --json, --csv, --npz or --ask"),
         (("--npz", "b.toml"), "--npz would write over the problem file b.toml"),
         (("--npz", "-"), "--npz needs the name of a file"),
         (("--npz", ""), "--npz needs the name of a file"),
@@ -249,7 +249,7 @@ def test_a_refusal_tells_of_partial_where_several_positions_are_asked() -> None:
         several = refused(4, "solve", SIX_LINK, "--phi", "0:360:30", *form)
         assert "Cannot place C at position 0 (phi = 0 deg)" in several
         assert "The same holds at 5 more of 12 positions." in several
-        assert several.endswith("give --partial with --csv, --npz or --ask.")
+        assert several.endswith("give --partial with --json, --csv, --npz or --ask.")
         assert "--partial" not in refused(4, "solve", SIX_LINK, "--phi", "0", *form)
 
 

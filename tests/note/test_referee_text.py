@@ -7,8 +7,8 @@ from texts import referee_tables
 from worked import problem_of
 
 from planmethod.note.tables.referee import judged, referee_record
+from planmethod.solved.accuracy import examine
 from planmethod.solved.solution import Solution
-from planmethod.solved.trust.accuracy import examine
 
 
 @pytest.mark.parametrize(

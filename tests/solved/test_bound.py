@@ -8,10 +8,10 @@ import math
 import pytest
 
 from planmethod.problem import loads
+from planmethod.solved.accuracy import examine
 from planmethod.solved.quantities import natural_size
 from planmethod.solved.selfcheck import doubts
 from planmethod.solved.solution import Solution
-from planmethod.solved.trust.accuracy import examine
 from planmethod.solved.trust.conditioning import JUDGED, error_bound
 
 TEXT = """

@@ -6,10 +6,13 @@ from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
+from msgspec.structs import replace
 
+from planmethod.construct.drafting import Profile
+from planmethod.languages import WRITTEN, speaking
 from planmethod.mechanism.model import Mechanism
 from planmethod.mechanism.structure import Structure
-from planmethod.note.columns import listed, named, pairs, sizes
+from planmethod.note.columns import bounds, listed, named, pairs, sizes
 from planmethod.note.numbers import plain
 from planmethod.note.written import Column, Records, plain_of, rows, together
 from planmethod.plans.legend import TURNING, TURNINGS, Quantity, QuantityKind
@@ -17,12 +20,15 @@ from planmethod.plans.model import FACTS, MOTION, PlanKind, pole_letter
 from planmethod.plans.motion.leads import Relative
 from planmethod.problem.cycle_records import Differentiation
 from planmethod.problem.head import reading_record
+from planmethod.problem.model import Problem
 from planmethod.solved.analogues import analogues
 from planmethod.solved.errors.motion import drafting_of
+from planmethod.solved.many.positions import Gaps, common_scales, force_scale
 from planmethod.solved.many.variants import Batch
-from planmethod.solved.reading import Complexes
+from planmethod.solved.reading import Complexes, Flags, Reals
 from planmethod.solved.solution import RelativeMotion, Solution
 from planmethod.solved.transfers import transfers_of
+from planmethod.solved.trust.conditioning import error_bound
 from planmethod.solved.turn.construction import extreme_construction
 from planmethod.solved.turn.diagrams import Diagrams, diagrams_of
 from planmethod.solved.turn.series import quantities_over, values_over
@@ -290,6 +296,8 @@ def _names(relative: Relative | RelativeMotion, count: int) -> dict[str, Column]
 def record(solution: Solution) -> dict[str, Any]:
     """Return everything that a solution says as plain data, SI, full precision.
 
+    ``bound`` is that of the relative error of the motion: of the largest of its kind in the
+    position (`planmethod.solved.trust.conditioning.error_bound`).
     ``hand.transfers`` are the transfer functions through segments, by label: ``exact``, ``read``,
     ``sigma``. ``segments`` are in millimetres of the plan: ``exact``, ``read`` with the ruler along
     the hand's own chain, and ``sigma``, one standard deviation of the drafting error. ``hand``
@@ -304,6 +312,11 @@ def record(solution: Solution) -> dict[str, Any]:
 
 def record_in_columns(solution: Solution, **more: Column) -> dict[str, Any]:
     """Return `record` with its positions kept column by column, and more of each position."""
+    return _whole(solution, rows({**_columns(solution), **more}))
+
+
+def _columns(solution: Solution) -> dict[str, Column | Records]:
+    """Return what the record says of each position."""
     count = len(solution.positions)
     poles = {kind: pole_letter(solution.problem, kind) for kind in MOTION}
     points = {
@@ -351,6 +364,7 @@ def record_in_columns(solution: Solution, **more: Column) -> dict[str, Any]:
     columns: dict[str, Column | Records] = {
         solution.problem.drive.coordinate.column: listed(solution.positions),
         "margin": listed(solution.margin),
+        "bound": bounds(error_bound(solution)),
         "points": rows(points, count),
         "links": rows(links, count),
         "analogues": analogue_records(solution),
@@ -362,6 +376,11 @@ def record_in_columns(solution: Solution, **more: Column) -> dict[str, Any]:
         from planmethod.note.tables.forces import forces_records
 
         columns["forces"] = forces_records(solution)
+    return columns
+
+
+def _whole(solution: Solution, positions: Records | list[Any]) -> dict[str, Any]:
+    """Return the record of a solution with what it says of each position."""
     machine = {}
     if solution.problem.machine is not None:
         from planmethod.note.records.machine import machine_record
@@ -386,9 +405,47 @@ def record_in_columns(solution: Solution, **more: Column) -> dict[str, Any]:
         **reading_record(solution.problem),
         "structure": structure_record(solution.structure, solution.problem.mechanism),
         **({"cycle": cycle_record(solution)} if solution.problem.cycle is not None else {}),
-        "positions": rows({**columns, **more}),
+        "positions": positions,
         **machine,
     }
+
+
+def partial_record(
+    problem: Problem, positions: Reals, gaps: Gaps, profile: Profile
+) -> dict[str, Any]:
+    """Return `record` of positions of which some are impossible.
+
+    Every position has a ``reason``: None where all is solved. Where the motion is impossible all
+    else but the driver's place is None; where only the forces are, ``forces`` is.
+    """
+    scales = common_scales(problem, positions, gaps) | force_scale(problem, positions, gaps)
+    able, moving = gaps.reason < 0, gaps.moving
+
+    def solved(problem: Problem, chosen: Flags) -> Solution:
+        asked = positions[chosen].tolist()
+        return Solution(problem, positions=asked, profile=profile, scales=scales)
+
+    entries: dict[int, dict[str, Any]] = {}
+    for asked, chosen in ((replace(problem, dynamics=None), moving & ~able), (problem, able)):
+        if chosen.any():
+            told = rows(_columns(solved(asked, chosen))).plain()
+            entries |= dict(zip(np.flatnonzero(chosen).tolist(), told, strict=True))
+    names = list(dict.fromkeys(name for entry in entries.values() for name in entry))
+    driver = problem.drive.coordinate.column
+    with speaking(WRITTEN):  # the bytes of a file do not depend on the system's language
+        kinds = [*map(str, gaps.kinds), None]
+    return _whole(
+        solved(problem, able),
+        [
+            {
+                driver: plain(float(place)),
+                **dict.fromkeys(name for name in names if name != driver),
+                **entries.get(index, {}),
+                "reason": kinds[gaps.reason[index]],
+            }
+            for index, place in enumerate(positions)
+        ],
+    )
 
 
 def batch_records(batch: Batch) -> Iterator[dict[str, Any]]:

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from planmethod.note.columns import listed, named, pairs, sizes
+from planmethod.note.columns import bounds, listed, named, pairs, sizes
 from planmethod.note.compared import NONE
 from planmethod.note.document import Caption, Node, Note
 from planmethod.note.formula import Rich
@@ -143,10 +143,12 @@ def _still(statics: Statics, joint: JointForce) -> Flags:
 def forces_records(solution: Solution) -> Records:
     """Return reactions, driving and lever of every position as plain data, N and N·m.
 
-    A reaction is what the link ``from`` does to the link ``on``; ``moment`` is about ``at``. A
-    guide's acts in ``point``, ``b`` from ``at`` along the guide, or at the ``edges``. The lever's
-    ``difference`` from the force plans is that of the exact values; ``sigma`` is what a drawing of
-    the profile lets expect, ``hand`` what the ruler gives.
+    ``bound`` is that of the relative error of forces and moments
+    (`planmethod.solved.forces.statics.Statics.bound`). A reaction is what the link ``from`` does to
+    the link ``on``; ``moment`` is about ``at``. A guide's acts in ``point``, ``b`` from ``at``
+    along the guide, or at the ``edges``. The lever's ``difference`` from the force plans is that of
+    the exact values; ``sigma`` is what a drawing of the profile lets expect, ``hand`` what the
+    ruler gives.
     """
     statics = statics_of(solution)
     drawn, balance = drawn_forces(statics), statics.balance
@@ -160,6 +162,7 @@ def forces_records(solution: Solution) -> Records:
         if not (nothing := still.get(label, np.zeros(count, dtype=bool))).all()
     }
     columns: dict[str, Column | Records] = {
+        "bound": bounds(statics.bound),
         "reactions": together(reactions, count),
         "driving": rows(
             {

@@ -12,8 +12,8 @@ from planmethod.note.document import Chapter, Document, Node, Paragraph, table_o
 from planmethod.note.tables.results import position_line
 from planmethod.note.wording import Language, Words
 from planmethod.plans.legend import QuantityKind
+from planmethod.solved.accuracy import AccuracyVerdict, Refereed, examine
 from planmethod.solved.solution import Solution
-from planmethod.solved.trust.accuracy import AccuracyVerdict, Refereed, examine
 
 
 def judged(solution: Solution, digits: int) -> list[Refereed]:
@@ -69,14 +69,16 @@ def _parts(verdict: AccuracyVerdict) -> tuple[Any, Any]:
 def referee_record(solution: Solution, digits: int) -> list[dict[str, Any]]:
     """Return for each position what the referee finds, as plain data.
 
-    Values are text, to all the referee's digits; ``x`` and ``y`` of a direction are its cosine and
-    sine. ``error`` is that of float64, SI; ``kappa`` null where the value is zero; ``multiple`` is
-    the error in units of κ·u.
+    ``bound`` is that of the relative error of the motion that the user is told, ``forces_bound``
+    that of the forces, where there are loads. Values are text, to all the referee's digits; ``x``
+    and ``y`` of a direction are its cosine and sine. ``error`` is that of float64, SI; ``kappa``
+    null where the value is zero; ``multiple`` is the error in units of κ·u.
     """
     return [
         {
             "digits": digits,
             "bound": position.warned,
+            **({} if (b := position.warned_forces) is None else {"forces_bound": b}),
             "results": {
                 verdict.label: {
                     **_told(verdict, digits),

@@ -372,7 +372,7 @@ class LiveScene:
             failure = self.sweep.failure(float(own[0]))
             raise AssemblyError(str(failure) if failure is not None else "no position exists")
         nominal = Solution(self.problem, positions=(mine if mine.size else able).tolist())
-        verify(nominal)
+        verify(nominal, forces=self.planned is not None)
         self.scales = dict(nominal.scales)
         if self.planned is not None:
             self.scales[PlanKind.FORCE] = statics_of(nominal).scale

@@ -34,7 +34,8 @@ from planmethod.plans.model import FACTS, PlanKind
 from planmethod.problem.load_records import BearingTable, Dynamics
 from planmethod.problem.model import Convention
 from planmethod.solved.driving import driven
-from planmethod.solved.failures import PositionError
+from planmethod.solved.failures import Cause, Failure, Place, PositionError
+from planmethod.solved.forces.bound import JudgedForces
 from planmethod.solved.forces.contact import JointForce, SlideReaction, contacts
 from planmethod.solved.forces.leverscale import lever_times
 from planmethod.solved.forces.loads import applied
@@ -50,6 +51,7 @@ from planmethod.solved.solution import (
     at_positions,
     filled,
 )
+from planmethod.solved.trust.conditioning import SPOILT
 
 UNIT = FACTS[PlanKind.FORCE].unit
 COMMON_BOX: Box = (100.0, 100.0)
@@ -257,27 +259,58 @@ class Statics(Remembering):
         Raises
         ------
         PositionError
-            Where a force plan does not close.
+            Where a force plan does not close, or rounding spoils its forces.
         """
+        problem, at = self.solution.problem, self.solution.positions
         if not self.closes.all():
-            draft, at = self.board.draft, self.solution.positions
-            raise PositionError(explain(draft, self.program, self._si, at))
-        return self._si
+            raise PositionError(explain(self.board.draft, self.program, self.exact, at))
+        spoilt = np.flatnonzero(~(self.bound <= SPOILT))
+        if spoilt.size:
+            i, others = int(spoilt[0]), spoilt.size - 1
+            here, margin = Place.of(problem, at, i), float(self.margin[i])
+            cause, name = Cause.SPOILT_FORCES, problem.name
+            raise PositionError(Failure(cause, here, margin=margin, problem=name, alike=others))
+        return self.exact
 
     @cached_property
-    def _si(self) -> Reading:
+    def exact(self) -> Reading:
+        """The same, NaN in positions where a force plan does not close."""
         self.solution.si  # noqa: B018 - an impossible position must be told first
         return self.read(Float64(), {**UNIT_SCALES, SCALE: 1.0})
 
     @cached_property
     def failing(self) -> npt.NDArray[np.int64]:
         """Number of the first step that fails in each position, or -1; shape (n,)."""
-        return failing(self.program, self._si.trace, len(self.solution.positions))
+        return failing(self.program, self.exact.trace, len(self.solution.positions))
 
     @property
     def closes(self) -> npt.NDArray[np.bool_]:
         """Whether the force plans close, shape (n,)."""
         return np.asarray(self.failing < 0)
+
+    @cached_property
+    def bound(self) -> Reals:
+        """Bound of the relative error of the worst force, shape (n,): see `JudgedForces.bound`."""
+        return self._judged.bound()
+
+    @cached_property
+    def margin(self) -> Reals:
+        """Least margin of all steps, shape (n,)."""
+        return self._judged.margin
+
+    @property
+    def _judged(self) -> JudgedForces:
+        scales = {**UNIT_SCALES, SCALE: 1.0}
+        return JudgedForces(
+            self.solution,
+            self.board,
+            self.driving,
+            self.lever_plan,
+            self.program,
+            self.exact,
+            self.closes,
+            lambda chosen: self.data(scales, chosen),
+        )
 
     def _vector(self, force: Force) -> Complexes:
         return fixed(self.si.vector(*force.ends) + 0.0)

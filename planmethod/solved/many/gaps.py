@@ -22,7 +22,8 @@ class GappedSweep:
 
     Every position that a step fails in is found. The self-check of `selfcheck.verify` and the
     doubts, which need all steps, see a thousand possible positions at most, evenly spread. Where
-    only some results are asked, positions that rounding spoils are doubts, not gaps.
+    only some results are asked, positions whose motion rounding spoils are doubts, not gaps; those
+    whose forces it spoils are gaps where forces are asked.
 
     Parameters
     ----------
@@ -51,10 +52,10 @@ class GappedSweep:
         self.sweep = Sweep(problem, labels, forces=problem.dynamics is not None, native=False)
         gaps = Gaps.of(self._failed(), self._why)
         some = evenly(np.flatnonzero(gaps.reason < 0))
-        looked = examine(problem, positions[some], numbers=some)
+        looked = examine(problem, positions[some], numbers=some, forces=self.sweep.forces)
         self._found = len(gaps.told)
         self.doubts: tuple[str | Doubt | MoreDoubts, ...] = looked.doubts
-        self.gaps = gaps.joined(some, looked.gaps) if labels is None else gaps
+        self.gaps = gaps.joined(some, looked.gaps if labels is None else looked.gaps.of_forces)
         if labels is not None:
             self.doubts = (*looked.spoilt, *looked.doubts)
 
@@ -87,6 +88,9 @@ class GappedSweep:
         """
         self.sweep.run(self.positions[part], out=out)
         if len(self.gaps.told) > self._found:
-            out[:, self.gaps.reason[part] >= self._found] = np.nan
+            reason, still = self.gaps.reason[part], ~self.gaps.moving[part]
+            out[:, still & (reason >= self._found)] = np.nan
+            pushed = np.array([row.is_force for row in self.sweep.rows])
+            out[np.ix_(pushed, reason >= self._found)] = np.nan
         out += 0.0
         return out

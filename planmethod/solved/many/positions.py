@@ -28,15 +28,14 @@ from planmethod.solved.failures import (
 from planmethod.solved.impossible import failing
 from planmethod.solved.reading import Reals
 from planmethod.solved.selfcheck import (
-    DOUBTFUL,
     MOST_NAMED,
-    SPOILT,
     SelfCheckError,
     doubts,
+    force_doubts,
     verify,
 )
 from planmethod.solved.solution import Solution
-from planmethod.solved.trust.conditioning import error_bound
+from planmethod.solved.trust.conditioning import DOUBTFUL, SPOILT, error_bound
 
 Codes = npt.NDArray[np.int16]
 Places = npt.NDArray[np.intp]
@@ -97,6 +96,13 @@ class Gaps(Struct, frozen=True):
         return (self.reason < 0) | (self.reason >= len(self.told) - self.unforced)
 
     @property
+    def of_forces(self) -> Gaps:
+        """Those that leave the motion as it is."""
+        first = len(self.told) - self.unforced
+        reason = np.where(self.reason >= first, self.reason - first, -1).astype(np.int16)
+        return Gaps(reason, self.told[first:], self.unforced)
+
+    @property
     def sentences(self) -> tuple[str, ...]:
         """Reasons, each with the number of positions that it holds for."""
         counts = np.bincount(self.reason[self.reason >= 0], minlength=len(self.told))
@@ -140,7 +146,8 @@ class CheckedPositions(Struct, frozen=True):
     doubts : tuple of Doubt or MoreDoubts
         Warnings about the others.
     spoilt : tuple of str
-        Which gap is there only because rounding spoils the worst results; at most one sentence.
+        Which gap is there only because rounding spoils the worst results of the motion; at most
+        one sentence.
     """
 
     gaps: Gaps
@@ -183,7 +190,7 @@ def examine(
     count = len(positions)
     numbers = np.arange(count) if numbers is None else numbers
     codes, estimate = np.full(count, -1, np.int16), np.zeros(count)
-    unforced = np.full(count, -1, np.int16)
+    unforced, pushed = np.full(count, -1, np.int16), np.zeros(count)
     for part in blocks(count):
         left = np.arange(part.start, part.stop)
         solution = Solution(problem, positions=_listed(positions[left]))
@@ -211,6 +218,8 @@ def examine(
             from planmethod.solved.forces.statics import statics_of
 
             unforced[left] = statics_of(solution).failing
+            pushed[left] = statics_of(solution).bound
+            unforced[left[(unforced[left] < 0) & ~(pushed[left] <= SPOILT)]] = _SPOILT
 
     def tell(index: int) -> Failure:
         found = why(problem, float(positions[index]), forces=forces)
@@ -219,9 +228,11 @@ def examine(
     estimate[codes >= 0] = 0.0
     gaps = Gaps.of(codes, tell)
     kinds = sorted(set(gaps.reason[codes == _SPOILT].tolist()))
-    doubtful = _doubts(problem, positions, numbers, estimate)
+    doubtful = [*_doubts(problem, positions, numbers, estimate, doubts)]
     if forces:
         other = Gaps.of(unforced, tell)
+        pushed[unforced >= 0] = 0.0
+        doubtful += _doubts(problem, positions, numbers, pushed, force_doubts)
         gaps = gaps.joined(np.arange(count), replace(other, unforced=len(other.told)))
     return CheckedPositions(gaps, tuple(doubtful), tuple(gaps.sentences[k] for k in kinds))
 
@@ -252,11 +263,7 @@ def why(problem: Problem, position: float, *, forces: bool = False) -> Failure:
     """
     alone = Solution(problem, positions=[position])
     try:
-        verify(alone)
-        if forces:
-            from planmethod.solved.forces.statics import statics_of
-
-            _ = statics_of(alone).si
+        verify(alone, forces=forces)
     except PositionError as error:
         return error.failure
     # Alone it can just be assembled: arrays round otherwise than single numbers do.
@@ -264,14 +271,18 @@ def why(problem: Problem, position: float, *, forces: bool = False) -> Failure:
 
 
 def _doubts(
-    problem: Problem, positions: Reals, numbers: Places, estimate: Reals
+    problem: Problem,
+    positions: Reals,
+    numbers: Places,
+    estimate: Reals,
+    tell: Callable[[Solution], list[Doubt]],
 ) -> Iterator[Doubt | MoreDoubts]:
     """Yield the warnings of `selfcheck.warnings` for all blocks together."""
     doubtful = np.flatnonzero(estimate > DOUBTFUL)
     if not doubtful.size:
         return
     named = np.sort(doubtful[np.argsort(estimate[doubtful])[-MOST_NAMED:]])
-    for doubt in doubts(Solution(problem, positions=_listed(positions[named]))):
+    for doubt in tell(Solution(problem, positions=_listed(positions[named]))):
         number = int(numbers[named][doubt.place.number])
         yield replace(doubt, place=doubt.place.numbered(number, len(positions)))
     if len(named) < len(doubtful):

@@ -24,10 +24,13 @@ class SweepRow(Struct, frozen=True):
         ``solve --csv``.
     label : str
         The result it belongs to, as it is asked for: ``B``, ``v_B``, ``phi_2``.
+    is_force : bool
+        It is a force or a moment.
     """
 
     name: str
     label: str
+    is_force: bool = False
 
 
 def rows_of(
@@ -57,7 +60,7 @@ def rows_of(
         if result.kind is QuantityKind.PLACE:
             here = zip(parts, (origin.real, origin.imag), strict=True)
             parts = [written.tape.add(part, at) for part, at in here]
-        rows += [SweepRow(name, result.label) for name in result.columns]
+        rows += [SweepRow(name, result.label, result.kind.is_force) for name in result.columns]
         refs += parts
         mine = written.depends[result.name]
         depends += [mine | loaded if result.kind.is_force else mine] * len(parts)

@@ -32,6 +32,7 @@ from planmethod.solved.impossible import failing
 from planmethod.solved.reading import Flags, Reading, Reals
 from planmethod.solved.selfcheck import changed_branches, refused
 from planmethod.solved.solution import FEW_ROWS, Solution, at_positions, even
+from planmethod.solved.trust.conditioning import DOUBTFUL
 
 
 class Batch(Solution):
@@ -133,8 +134,8 @@ class Batch(Solution):
         if len(set(kinds)) == 1 and kinds[0] is not None:
             from planmethod.solved.forces.statics import statics_of
 
-            closes = statics_of(self).closes
-            return [kinds[0] if closes[own].all() else None for own in self.rows]
+            certain = statics_of(self).closes & (statics_of(self).bound <= DOUBTFUL)
+            return [kinds[0] if certain[own].all() else None for own in self.rows]
         return kinds
 
     @cached_property

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 
 import numpy as np
 import numpy.typing as npt
 
+from planmethod.construct.arithmetic import Number
 from planmethod.construct.condition import UNIT_ROUNDOFF, reach
-from planmethod.construct.steps import Join
+from planmethod.construct.program import Program
+from planmethod.construct.steps import Join, Name
 from planmethod.plans.dimensions import DimensionKind
 from planmethod.plans.legend import ZERO, Quantity, QuantityKind
 from planmethod.solved.driving import driven
@@ -19,11 +21,20 @@ from planmethod.solved.solution import FEW_ROWS, UNIT_SCALES, Solution
 MULTIPLE = 16
 """Forward error of a result in units of u times its reach that is allowed for."""
 
+DOUBTFUL = 1e-6
+"""Bound of the relative error of the results from which a warning is given."""
+
+SPOILT = 1e-2
+"""Bound of the relative error from which a position is refused."""
+
 SCALES = frozenset(UNIT_SCALES)
 """Data that carry no rounding."""
 
 SAFE = 2e-3
 """Margin, and share of a difference in its terms, above which a position needs no closer look."""
+
+CLEARED = MULTIPLE * UNIT_ROUNDOFF / SAFE**3
+"""Bound where no closer look is needed."""
 
 BLOCK = 256
 """Positions looked at in one go."""
@@ -52,34 +63,38 @@ def error_bound(solution: Solution) -> Reals:
 
 def _bound(solution: Solution) -> Reals:
     solution.si  # noqa: B018 - what does not exist is reported first
-    bound = np.full(solution.positions.shape, MULTIPLE * UNIT_ROUNDOFF / SAFE**3)
+    bound = np.full(solution.positions.shape, CLEARED)
     results = [r for r in quantities_of(solution.construction).all if r.name != ZERO]
-    for chosen in _blocks(_suspects(solution)):
+    for chosen in blocks(_suspects(solution)):
         bound[chosen] = MULTIPLE * UNIT_ROUNDOFF * _relative_reach(solution, results, chosen)
     return bound
 
 
-def _blocks(suspects: npt.NDArray[np.intp]) -> Iterator[npt.NDArray[np.intp]]:
+def blocks(suspects: npt.NDArray[np.intp]) -> Iterator[npt.NDArray[np.intp]]:
+    """Yield positions by the number that is looked at in one go."""
     for start in range(0, len(suspects), BLOCK):
         yield suspects[start : start + BLOCK]
 
 
 def _suspects(solution: Solution) -> npt.NDArray[np.intp]:
     """Return the positions that a cheap look does not clear."""
-    count = len(solution.positions)
     if solution.together <= FEW_ROWS:
-        return np.arange(count)
-    least = solution.margin
-    ends = _extent(solution)
-    value = solution.si.value
-    for step in solution.construction.program.steps:
-        if isinstance(step, Join):
-            gap = np.abs(value[step.head] - value[step.tail])
-            least = np.minimum(least, gap / (ends or 1.0))
+        return np.arange(len(solution.positions))
+    program = solution.construction.program
+    least = np.minimum(solution.margin, least_gap(solution, program, solution.si.value))
     return np.flatnonzero(~(least > SAFE))
 
 
-def _extent(solution: Solution) -> float:
+def least_gap(solution: Solution, program: Program, value: Mapping[Name, Number]) -> Reals:
+    """Return the shortest line of each position, as a share of what places are differences of."""
+    ends, least = extent(solution) or 1.0, np.full(solution.positions.shape, np.inf)
+    for step in program.steps:
+        if isinstance(step, Join):
+            least = np.minimum(least, np.abs(value[step.head] - value[step.tail]) / ends)
+    return least
+
+
+def extent(solution: Solution) -> float:
     """Return the size of what places are differences of: the longest length or distance given."""
     draft = solution.construction.draft
     lengths = [

@@ -5,6 +5,7 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Mapping, Sequence
+from typing import Any
 
 import numpy as np
 from msgspec import Struct
@@ -16,10 +17,12 @@ from planmethod.construct.referee import DIGITS, Precise
 from planmethod.construct.steps import Name
 from planmethod.errors import PlanMethodError
 from planmethod.languages import say
+from planmethod.plans.forces.board import SCALE
+from planmethod.plans.forces.loads import DOWN, numbers_of
 from planmethod.plans.legend import Quantity, QuantityKind
 from planmethod.problem.model import Problem
 from planmethod.solved.impossible import failing
-from planmethod.solved.quantities import natural_size, quantities_of
+from planmethod.solved.quantities import Quantities, natural_size, quantities_of
 from planmethod.solved.solution import Solution
 from planmethod.solved.trust.conditioning import SCALES, error_bound
 
@@ -80,7 +83,10 @@ class Refereed(Struct, frozen=True):
         do exist are judged all the same.
     warned : float
         Bound of the relative error as reported to the user:
-        `planmethod.solved.trust.conditioning.doubt`.
+        `planmethod.solved.trust.conditioning.error_bound`.
+    warned_forces : float or None
+        The same of the forces: `planmethod.solved.forces.statics.Statics.bound`. None of a problem
+        without loads.
     agreed : bool
         The referee, too, finds the same results to exist.
     unexplained : int
@@ -94,6 +100,7 @@ class Refereed(Struct, frozen=True):
     agreed: bool
     verdicts: tuple[AccuracyVerdict, ...]
     unexplained: int = 0
+    warned_forces: float | None = None
 
     @property
     def worst(self) -> AccuracyVerdict | None:
@@ -113,12 +120,12 @@ def examine(
         else take the reach to first order in float64, which costs a tenth, and warn of nothing.
     """
     solution = Solution(problem, positions=positions)
-    results = quantities_of(solution.construction)
+    results, data = _with_data(solution)
     program = results.program.needed_for([result.name for result in results.all])
-    data = {**solution.data(), **results.numbers}
     trace = evaluate(program, data, Float64())
     fails = failing(program, trace, len(positions))
-    exact = SCALES | solution.construction.draft.branches.keys()
+    straight = {name for name in results.numbers if np.all(np.asarray(data[name]) == DOWN)}
+    exact = SCALES | {SCALE} | straight | solution.construction.draft.branches.keys()
     spans = {} if closely else reach(program, data, exact)
     referee = Precise(digits)
     found = []
@@ -132,23 +139,57 @@ def examine(
                 name: (plain(value), _entry(spans[name], i)) for name, value in read.value.items()
             }
         verdicts, agreed = _judge(results.all, trace, right, i)
-        reason, warned = "", 0.0
+        reason, warned, forces = "", 0.0, None
         if closely:
-            reason, warned = _told(problem, position)
+            reason, warned, forces = _told(problem, position)
         elif fails[i] >= 0:
             reason = say("step {} is impossible", program.steps[int(fails[i])].out)
         margin = min(float(_entry(value, i)) for value in trace.margin.values())
         lost = 0 if fails[i] >= 0 else len(results.all) - len(verdicts)
-        found.append(Refereed(position, margin, reason, warned, agreed, verdicts, lost))
+        found.append(Refereed(position, margin, reason, warned, agreed, verdicts, lost, forces))
     return found
 
 
-def _told(problem: Problem, position: float) -> tuple[str, float]:
-    """Return why a position is impossible, or what bound of its error is reported."""
+def _with_data(solution: Solution) -> tuple[Quantities, dict[str, Any]]:
+    """Return the results of a solution and the data of their program; forces where they exist."""
+    results = quantities_of(solution.construction)
+    loaded = solution.problem.dynamics is not None
+    if not loaded or not _moves(solution):
+        return results, {**solution.data(), **results.numbers}
+    from planmethod.solved.forces.quantities import with_forces
+
+    results = with_forces(solution, results)
+    data: dict[str, Any] = {**solution.data(), **results.numbers}
+    if results.changing:
+        from planmethod.solved.forces.loads import changing
+
+        loads = changing(solution)
+        for name, known in results.changing:
+            data.update(zip(known, numbers_of(loads[name]), strict=True))
+    return results, data
+
+
+def _moves(solution: Solution) -> bool:
+    """Tell whether the motion exists in every position."""
     try:
-        return "", float(error_bound(Solution(problem, positions=[position]))[0])
+        solution.si  # noqa: B018
+    except PlanMethodError:
+        return False
+    return True
+
+
+def _told(problem: Problem, position: float) -> tuple[str, float, float | None]:
+    """Return why a position is impossible, or what bounds of its errors are reported."""
+    solution = Solution(problem, positions=[position])
+    try:
+        bound = float(error_bound(solution)[0])
+        if problem.dynamics is None:
+            return "", bound, None
+        from planmethod.solved.forces.statics import statics_of
+
+        return "", bound, float(statics_of(solution).bound[0])
     except PlanMethodError as error:
-        return str(error), math.inf
+        return str(error), math.inf, None
 
 
 def _entry(value: Number, i: int) -> Number:
