@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 import pytest
 from cases import each
@@ -10,6 +12,8 @@ from worked import path_of
 from planmethod.errors import ProblemError
 from planmethod.note.records.solution import record
 from planmethod.note.records.spreadsheet import csv_columns
+from planmethod.note.tables.forces import forces_columns
+from planmethod.note.tables.friction import teller
 from planmethod.note.wording import language
 from planmethod.problem import load, loads
 from planmethod.render.forces.friction import CIRCLE, CONE, LEAST, friction_picture, is_enlarged
@@ -80,6 +84,118 @@ def test_the_record_has_both_corrections(solution: Solution) -> None:
     turn = made["friction"]["turn"]
     assert turn["efficiency"] == pytest.approx(turn["work_without"] / turn["work"])
     assert turn["work_without"] == pytest.approx(4 * 0.1 * 1000, rel=1e-3)  # P over both strokes
+
+
+GUIDE = """
+[frame]
+O = [0, 0]
+guides.x-x = {{ through = "O", angle = 0 }}
+[links.1]
+points = ["O", "A"]
+OA = 0.1
+[links.2]
+points = ["A", "B", "S"]
+AB = 0.4
+S = {{ on = "AB", at = 0.15 }}
+[links.3]
+points = ["B"]
+slides = {{ on = "x-x" }}
+[driver]
+link = "1"
+phi = {phi}
+omega = 12
+epsilon = 5
+[assembly]
+B = "right of A"
+[dynamics]
+gravity = 9.81
+[dynamics.links.1]
+mass = 1
+centre = "A"
+inertia = 0.01
+[dynamics.links.2]
+mass = 2
+centre = "S"
+inertia = 0.03
+[dynamics.links.3]
+mass = 3
+centre = "B"
+[[loads]]
+link = "3"
+at = "B"
+force = 60
+angle = 160
+[friction]
+f = {f}
+"""
+
+
+def by_hand(solution: Solution, f: float) -> dict[str, complex]:
+    """Solve nine equations of three links, friction of the guide being that of its own force."""
+    places = {name: complex(solution.points[name].place[0]) for name in "OABS"}
+    a, b, s = (places[name] - places["O"] for name in "ABS")
+    moved = {name: complex(solution.points[name].acceleration[0]) for name in "ABS"}
+    turned = {link: float(solution.links[link].epsilon[0]) for link in "12"}
+    way = np.sign(solution.points["B"].velocity[0].real)
+    push = 60.0 * np.exp(1j * np.radians(160.0))
+
+    def arm(at: complex) -> tuple[float, float]:
+        return -at.imag, at.real  # of the moment of (1, 0) and (0, 1)
+
+    rub = 0.0
+    for _ in range(200):
+        # O on 1 (x, y), A on 2, B on 2, the guide on 3 (y, moment), moment on 1.
+        matrix, right = np.zeros((9, 9)), np.zeros(9)
+        given = {
+            0: (1.0, moved["A"], a, 0.01 * turned["1"]),
+            3: (2.0, moved["S"], s, 0.03 * turned["2"]),
+            6: (3.0, moved["B"], b, 0.0),
+        }
+        for row, (mass, acceleration, at, couple) in given.items():
+            inertia = mass * acceleration + 9.81j * mass
+            right[row : row + 2] = inertia.real, inertia.imag
+            right[row + 2] = couple + (at.conjugate() * inertia).imag
+        right[6] -= push.real - rub * way
+        right[7] -= push.imag
+        right[8] -= (b.conjugate() * (push - rub * way)).imag
+        for row, column, at, sign in ((0, 0, 0j, 1), (0, 2, a, -1), (3, 2, a, 1), (3, 4, b, 1),
+                                      (6, 4, b, -1)):  # fmt: skip
+            matrix[row, column] = matrix[row + 1, column + 1] = sign
+            matrix[row + 2, column : column + 2] = sign * np.array(arm(at))
+        matrix[2, 8] = 1.0
+        matrix[7, 6], matrix[8, 6], matrix[8, 7] = 1.0, b.real, 1.0
+        x = np.linalg.solve(matrix, right)
+        rub = f * abs(x[6])
+    whole = {name: complex(x[k], x[k + 1]) for name, k in (("O", 0), ("A", 2), ("B", 4))}
+    return {**whole, "guide": complex(-rub * way, x[6]), "moment": complex(x[8])}
+
+
+def test_friction_in_a_guide_is_told_of_every_reaction() -> None:
+    phi, sheet = 70.0, dict[str, dict[str, Any]]()
+    solution = Solution(loads(GUIDE.format(phi=phi, f=0.34), name="guide"))
+    (entry,) = record(solution)["positions"]
+    still, right = by_hand(solution, 0.0), by_hand(solution, 0.34)
+    for pair in entry["forces"]["friction"]["pairs"]:
+        name = "guide" if "phi_deg" in pair else pair["joint"]
+        sheet[name], end = pair, pair["converged"]
+        assert pair["f_without"] == pytest.approx(abs(still[name]), rel=1e-9)
+        on = {"O": "1", "A": "2", "B": "2", "guide": "3"}[name]  # of the equations
+        told = complex(end["fx"], end["fy"]) * (1 if pair["on"] == on else -1)
+        assert told == pytest.approx(right[name], rel=1e-9)
+    assert len(sheet) == 4
+    driving = entry["forces"]["friction"]["driving"]["converged"]["moment"]
+    assert driving == pytest.approx(right["moment"].real, rel=1e-9)
+    columns = csv_columns(solution)
+    for pair in sheet.values():
+        column = f"F.{pair['joint']}.{pair['on']}-{pair['from']}.rubbed"
+        assert columns[column][0] == pytest.approx(pair["converged"]["f"], rel=1e-12)
+        assert abs(pair["f_without"] / pair["converged"]["f"] - 1) > 0.01
+    assert [name for name in columns if name.startswith("friction.")] == ["friction.B.3-0"]
+    table = teller(solution, language("en"), 0).table()
+    assert len(table.rows) == 4
+    several = Solution(loads(GUIDE.format(phi="[10, 70, 130, 190]", f=0.34), name="guide"))
+    heads = [head for head, *_ in forces_columns(several, language("en").note)]
+    assert sum(head.endswith("with friction") for head in heads) == 5
 
 
 def test_the_spreadsheet_has_what_converged(solution: Solution) -> None:

@@ -33,7 +33,7 @@ from planmethod.solved.errors.forces import (
 )
 from planmethod.solved.forces.contact import VANISHING, JointForce, SlideReaction
 from planmethod.solved.forces.statics import Statics, bearings_of, statics_of
-from planmethod.solved.reading import Flags
+from planmethod.solved.reading import Flags, Reals
 from planmethod.solved.solution import Solution
 
 
@@ -237,10 +237,17 @@ def forces_columns(solution: Solution, words: Words) -> list[list[str]]:
         from planmethod.solved.forces.friction import friction_of  # few files have any
 
         friction = friction_of(solution)
-        more = (
+        more: list[tuple[str, Reals]] = [
+            (
+                words.rubbed.format(head=f"{pair.joint} {pair.on}←{called(pair.by)}"),
+                np.abs(friction.total(pair, friction.converged)),
+            )
+            for pair in friction.every
+        ]
+        more += [
             (words.rubbed.format(head=head), friction.converged.balance),
             ("η", friction.efficiency),
-        )
+        ]
         for name, values in more:
             told = (found(float(v), words) if np.isfinite(v) else "—" for v in values)
             columns.append([name, *told])

@@ -29,14 +29,15 @@ from planmethod.solved.solution import Solution
 def friction_records(solution: Solution) -> Records:
     """Return the friction of every position as plain data, N, N·m and W.
 
-    ``pairs`` are those that have friction, with what it is in the forces corrected ``once`` and in
-    the ``converged`` ones; of all reactions these have the whole force, that along a guide with it.
+    ``pairs`` are all of them, with the whole reaction, that along a guide with it, and its
+    friction, ``once`` corrected and ``converged``: friction in one pair changes the reactions of
+    the others, whose own is nothing (``f`` 0).
     ``change`` is how far the first are from the second, as a part of them.
     """
     friction, count = friction_of(solution), len(solution.positions)
     quantity = solution.problem.drive.balancing.quantity
     columns: dict[str, Column | Records] = {
-        "pairs": together([_pair(friction, pair, count) for pair in friction.pairs], count),
+        "pairs": together([_pair(friction, pair, count) for pair in friction.every], count),
         "driving": rows(
             {
                 key: rows({quantity: listed(forces.balance), "power": listed(forces.power)})
@@ -62,7 +63,6 @@ def _kinds(friction: Friction) -> dict[str, RubbedForces]:
 
 
 def _pair(friction: Friction, pair: Rubbing, count: int) -> Records:
-    number = friction.pairs.index(pair)
     steady: dict[str, object] = {"pair": pair.name, "joint": pair.joint, "on": pair.on}
     steady |= {"from": pair.by, "f": pair.f}
     steady |= {"rho": pair.rho} if pair.slide is None else {"phi_deg": pair.phi}
@@ -75,7 +75,8 @@ def _pair(friction: Friction, pair: Rubbing, count: int) -> Records:
                 "fx": listed(whole.real),
                 "fy": listed(whole.imag),
                 "f": sizes(whole),
-                "friction": listed(forces.friction[number]),
+                "moment": listed(forces.moments[pair.number]),
+                "friction": listed(friction.rub(pair, forces)),
             }
         )
     return rows(told)
@@ -94,10 +95,11 @@ def turn_record(found: TurnEfficiency) -> dict[str, object]:
 def friction_columns(solution: Solution) -> Iterator[tuple[str, Reals]]:
     """Yield the columns of a spreadsheet: whole reactions and what drives, both converged."""
     friction = friction_of(solution)
-    for pair in friction.pairs:
+    for pair in friction.every:
         name = f"{pair.joint}.{pair.on}-{pair.by}"
         yield f"F.{name}.rubbed", np.abs(friction.total(pair, friction.converged))
-        yield f"friction.{name}", friction.converged.friction[friction.pairs.index(pair)]
+        if pair.share:
+            yield f"friction.{name}", friction.rub(pair, friction.converged)
     quantity = solution.problem.drive.balancing.quantity
     yield f"driving.{quantity}.once", friction.corrected.balance
     yield f"driving.{quantity}.rubbed", friction.converged.balance

@@ -125,8 +125,8 @@ def _touching(
 
 def _done(reading: RubbedReading, pair: Rubbing, force: float) -> float:
     """Return what of the friction of a force one correction has: nearly all, where it was there."""
-    number = reading.friction.pairs.index(pair)
-    friction = float(reading.friction.corrected.friction[number, reading.index])
+    rub = reading.friction.rub(pair, reading.friction.corrected)
+    friction = float(rub[reading.index])
     return min(1.0, friction / (pair.share * force))
 
 

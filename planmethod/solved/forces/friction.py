@@ -166,6 +166,13 @@ class Friction(Remembering):
     ----------
     solution : Solution
         Of a problem with ``[friction]``, whose driver moves.
+
+    Attributes
+    ----------
+    every : list of Rubbing
+        All pairs in the order of the force analysis: friction in one changes what the others bear.
+    pairs : list of Rubbing
+        Those of them that have friction.
     """
 
     def __init__(self, solution: Solution) -> None:
@@ -174,11 +181,11 @@ class Friction(Remembering):
         dynamics = solution.problem.dynamics
         assert dynamics is not None and dynamics.friction is not None
         _refuse_unknown(solution.problem, dynamics.friction, self.statics.reactions)
-        self.pairs: list[Rubbing] = []
-        for number, joint in enumerate(self.statics.reactions):
-            pair = _rubbing(solution, dynamics.friction, number, joint)
-            if pair.share:
-                self.pairs.append(pair)
+        self.every = [
+            _rubbing(solution, dynamics.friction, number, joint)
+            for number, joint in enumerate(self.statics.reactions)
+        ]
+        self.pairs = [pair for pair in self.every if pair.share]
         self._planned = self._with(np.ones((len(self.pairs), len(solution.positions))))
 
     def _with(self, sizes: Reals) -> Statics:
@@ -338,10 +345,15 @@ class Friction(Remembering):
         """The force plans with one correction, as they are drawn."""
         return self._with(self._first)
 
+    def rub(self, pair: Rubbing, forces: RubbedForces) -> Reals:
+        """Return the size of the friction of a pair, N or N·m: nothing where it has none."""
+        if not pair.share:
+            return np.zeros(len(self.solution.positions))
+        return np.asarray(forces.friction[self.pairs.index(pair)])
+
     def total(self, pair: Rubbing, forces: RubbedForces) -> Complexes:
         """Return the whole reaction of a pair, N: that across a guide and the friction along it."""
-        number = self.pairs.index(pair)
-        along = pair.sense * pair.along * forces.friction[number]
+        along = pair.sense * pair.along * self.rub(pair, forces)
         return np.asarray(forces.reactions[pair.number] - along, dtype=complex)
 
     # What of it remains ----------------------------------------------------------------------

@@ -66,8 +66,7 @@ class FrictionTeller:
 
     def size(self, pair: Rubbing) -> Rich:
         """Return the friction of a pair, found of the forces without it."""
-        number = self.friction.pairs.index(pair)
-        size = float(self.friction.corrected.friction[number, self.index])
+        size = float(self.friction.rub(pair, self.friction.corrected)[self.index])
         symbol, force = self.symbol(pair.symbol), self._force(pair)
         letters, share = (
             ("f", pair.f) if pair.slide is not None else (f"ρ_{{{self._between(pair)}}}", pair.rho)
@@ -106,25 +105,25 @@ class FrictionTeller:
     # Results ---------------------------------------------------------------------------------
 
     def columns(self) -> list[list[Rich]]:
-        """Return the table of the pairs by columns: reactions thrice, and their friction."""
+        """Return the table of all pairs by columns: reactions thrice, and their friction."""
         friction, i = self.friction, self.index
         heads = self.context.language.friction["columns"]
         columns: list[list[Rich]] = [[head] for head in heads]
-        for number, pair in enumerate(friction.pairs):
+        for pair in friction.every:
             sizes = [
                 abs(complex(friction.total(pair, forces)[i]))
                 for forces in (friction.without, friction.corrected, friction.converged)
             ]
-            once = float(friction.corrected.friction[number, i])
-            rub = float(friction.converged.friction[number, i])
+            rubs = [
+                float(friction.rub(pair, forces)[i]) if pair.share else np.nan
+                for forces in (friction.corrected, friction.converged)
+            ]
             cells = [
                 point_name(pair.joint),
                 self._dashed(pair),
-                "—" if pair.slide is not None else self.find(1e3 * pair.rho),
-                "—" if pair.slide is None else self.find(pair.phi),
-                *(self.find(size) if np.isfinite(size) else "—" for size in sizes),
-                f"{self.find(once)}",
-                self.find(rub) if np.isfinite(rub) else "—",
+                self.find(1e3 * pair.rho) if pair.rho else "—",
+                self.find(pair.phi) if pair.phi else "—",
+                *(self.find(value) if np.isfinite(value) else "—" for value in (*sizes, *rubs)),
             ]
             for column, cell in zip(columns, cells, strict=True):
                 column.append(cell)
