@@ -48,6 +48,8 @@ class Todo(Struct, frozen=True):
         return cast("Problem", self.problem)
 
 
+_PLACES = " The places exist there: --ask positions."
+
 AT_ONCE = 256
 """Problems that are acted on at once, where they can be."""
 
@@ -493,6 +495,7 @@ def solution_of(
     machine : bool
         The flywheel is looked at as well.
     """
+    from planmethod.solved.failures import Cause, PositionError
     from planmethod.solved.selfcheck import changed_branches, verify, warnings
     from planmethod.solved.solution import Solution
 
@@ -502,9 +505,13 @@ def solution_of(
     try:
         verify(solution, forces=forces)
     except AssemblyError as error:
-        if len(solution.positions) < 2:
+        if hint and isinstance(error, PositionError) and error.failure.cause is Cause.RAYS:
+            hint = f"{say(_PLACES)}{say(hint) if len(solution.positions) > 1 else ''}"
+        elif len(solution.positions) < 2:
             raise
-        raise AssemblyError(f"{error}{say(hint)}") from error
+        else:
+            hint = say(hint)
+        raise AssemblyError(f"{error}{hint}") from error
     for doubt in warnings(solution, forces=forces):
         warn(problem, doubt)
     if machine and problem.machine is not None:

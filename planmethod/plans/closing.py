@@ -85,6 +85,9 @@ class Closing(Struct, frozen=True):
         m, at ``start``.
     third : int
         Of a triad, the leg whose line does not go through the special point that is used.
+    only_at : tuple of float
+        Driver positions in which alone the closing is known, both ways being one there; empty where
+        it is known in all.
     """
 
     side: int = 1
@@ -96,6 +99,7 @@ class Closing(Struct, frozen=True):
     third: int = 2
     others: tuple[complex, ...] = ()
     point: str = ""
+    only_at: tuple[float, ...] = ()
 
     def branch(self, positions: Reals) -> Reals:
         """Return +1 where the side is the first one, else -1; it depends on the position alone."""

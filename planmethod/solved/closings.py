@@ -66,6 +66,24 @@ def drive_data(
     return data
 
 
+def refuse_untold(problem: Problem, draft: Draft, positions: Reals | None = None) -> None:
+    """Refuse positions, or all motion, where no rule of the file tells how a group closes.
+
+    Raises
+    ------
+    PositionError
+    """
+    for closing in draft.choice.values():
+        known = positions is not None and np.isin(positions, closing.only_at).all()
+        if closing.only_at and not known:
+            raise PositionError(_together(problem, closing.point, closing.start))
+
+
+def _together(problem: Problem, point: str, at: float) -> Failure:
+    place = Place.of(problem, np.array([at]), 0)
+    return Failure(Cause.TOGETHER, place, point, problem=problem.name)
+
+
 def construct(problem: Problem) -> Construction:
     """Return the construction of a problem: its groups, their closings, its plans as one program.
 
@@ -348,8 +366,10 @@ def _judge(
     # A dead position tells the closings of nothing: the next one that is asked does.
     distinct = able[apart[able] > TIE * size]
     if not distinct.size:
-        place = Place.of(problem, positions, int(able[0]))
-        raise PositionError(Failure(Cause.TOGETHER, place, rule.point, problem=problem.name))
+        # The arcs touch: there is one place, which exists. No side is known of the motion, nor of
+        # other positions.
+        at = tuple(float(place) for place in positions[able])
+        return Closing(start=at[0], point=rule.point, only_at=at)
     first = int(distinct[0])
     plus, minus = float(scores[0][first]), float(scores[1][first])
     place = Place.of(problem, positions, first)

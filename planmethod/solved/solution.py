@@ -35,7 +35,7 @@ from planmethod.plans.legend import Quantity, QuantityKind
 from planmethod.plans.model import RATES, PlanKind
 from planmethod.plans.motion.leads import Relative
 from planmethod.problem.model import Problem, Scales
-from planmethod.solved.closings import construct, drive_data
+from planmethod.solved.closings import construct, drive_data, refuse_untold
 from planmethod.solved.driving import driven
 from planmethod.solved.enlarging import Knot, find_knots, least_shown, measured, small_plans
 from planmethod.solved.failures import PositionError
@@ -187,6 +187,7 @@ class Solution(Remembering):
         if construction is None:
             construction = construct(problem)
         self.construction: Construction = of_type("construction", construction, Construction)
+        refuse_untold(problem, self.construction.draft, self.positions)
         self._views = None if views is None else of_type("views", views, Views)
         if scales is not None:
             of_type("scales", scales, Mapping)
@@ -328,6 +329,7 @@ class Solution(Remembering):
         if (failing(program, reading.trace, len(self.positions)) >= 0).any():
             draft = self.construction.draft
             raise PositionError(explain(draft, program, reading, self.positions, self.read_at))
+        refuse_untold(self.problem, self.construction.draft)
         return reading
 
     @cached_property

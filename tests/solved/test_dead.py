@@ -2,10 +2,17 @@
 
 from __future__ import annotations
 
+import cmath
+import math
+
+import numpy as np
 import pytest
+from cases import each
 
 from planmethod.errors import AssemblyError, ProblemError
 from planmethod.problem import loads
+from planmethod.solved.many.gaps import GappedSweep
+from planmethod.solved.many.sweep import Sweep
 from planmethod.solved.selfcheck import verify, warnings
 from planmethod.solved.solution import Solution
 from planmethod.solved.trust.conditioning import error_bound
@@ -68,8 +75,54 @@ def test_a_spoilt_position_is_refused(phi: str) -> None:
 
 
 def test_the_change_point_itself_cannot_choose_a_closing() -> None:
+    solution = parallelogram("0")
+    for act in (lambda: solution.si, lambda: solution.moved([50.0])):
+        with pytest.raises(AssemblyError, match=r"dead position"):
+            act()
     with pytest.raises(AssemblyError, match="both closings put C at one place"):
-        parallelogram("0")
+        Sweep(solution.problem, ["C"]).run([0.0, 50.0])
+
+
+TANGENT = """
+[frame]
+O = [{0}, {1}]
+D = [{2}, {3}]
+[links.1]
+points = ["O", "A"]
+OA = 1.0
+[links.2]
+points = ["A", "C"]
+AC = {4}
+[links.3]
+points = ["D", "C"]
+DC = {5}
+[driver]
+link = "1"
+phi = {6}
+omega = 1.0
+[assembly]
+C = {{ near = [{7}, {8}] }}
+"""
+
+
+@each("turn", [0.0, 90.0, 37.0, 211.3])
+@each("rod, arm", [(3.0, 2.0), (3.0, 9.0), (0.7, 5.7)])  # touching from outside, from inside
+def test_where_arcs_touch_the_place_is_told_and_no_motion(
+    turn: float, rod: float, arm: float
+) -> None:
+    way = cmath.rect(1.0, math.radians(turn))
+    pivot = (rod + arm if arm == 2.0 else rod - arm) * way
+    origin, right = -way, rod * way
+    text = TANGENT.format(
+        origin.real, origin.imag, pivot.real, pivot.imag, rod, arm, turn, right.real, right.imag
+    )
+    problem = loads(text, name="touching")
+    found = Sweep(problem, ["C"]).table([turn])
+    assert complex(found["C.x"][0], found["C.y"][0]) == pytest.approx(right, abs=2e-6)
+    assert not GappedSweep(problem, np.array([turn]), ["C"]).gaps.count
+    for act in (lambda: Sweep(problem, ["v_C"]), lambda: verify(Solution(problem))):
+        with pytest.raises(AssemblyError, match="dead position"):
+            act()
 
 
 def test_the_closing_is_told_by_the_first_position_that_can() -> None:

@@ -50,6 +50,10 @@ _SPOILT = np.iinfo(np.int16).max
 """Code of a position whose steps exist and whose results rounding spoils."""
 
 
+_UNTOLD = np.int16(_SPOILT - 1)
+"""Code of a position whose places exist, and of whose motion no side is known."""
+
+
 class Gaps(Struct, frozen=True):
     """Positions without results, and why.
 
@@ -246,7 +250,9 @@ def impossible_steps(solution: Solution) -> Codes:
     """Return for each position the number of the first step that fails, or -1."""
     try:
         _ = solution.si
-    except AssemblyError:
+    except AssemblyError as error:
+        if isinstance(error, PositionError) and error.failure.cause is Cause.TOGETHER:
+            return np.full(solution.positions.shape, _UNTOLD)
         trace = solution.read(Float64()).trace
         program = solution.construction.program
         return failing(program, trace, len(solution.positions)).astype(np.int16)

@@ -16,6 +16,7 @@ from planmethod.construct.evaluate import evaluate
 from planmethod.construct.steps import Name, PointName
 from planmethod.plans.model import PlanKind
 from planmethod.problem.model import Problem
+from planmethod.solved.closings import refuse_untold
 from planmethod.solved.failures import Cause, Failure, Place
 from planmethod.solved.impossible import explain, failing
 from planmethod.solved.many.rows import SweepRow
@@ -134,6 +135,10 @@ class Sweep:
         self.loads, self._draft = self._case.loads, self._case.results.draft
         self.program, self.constants = self._case.program, self._case.constants
         self.branches = self._draft.branches
+        self._untold = any(closing.only_at for closing in self._draft.choice.values())
+        plans = {result.kind.plan for result in self._case.chosen}
+        if self._untold and plans != {PlanKind.POSITION}:
+            refuse_untold(problem, self._draft)
         self.steps = len(self.program.steps)
         self.driver = problem.drive.coordinate.name
         self.varied = varied
@@ -204,6 +209,8 @@ class Sweep:
         """
         angle = reals("positions", positions, self._runner.dtype)
         parameters = {} if parameters is None else of_type("parameters", parameters, Mapping)
+        if self._untold:
+            refuse_untold(self.problem, self._draft, angle)
         # Alone they are of one shape: there is nothing to be looked at.
         if not (self.varied or parameters) and angle.ndim == 1 and out is None and failed is None:
             found = self._runner.few(lambda: [angle, *self._told(angle)], len(angle))
