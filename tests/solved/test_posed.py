@@ -4,13 +4,15 @@ from __future__ import annotations
 
 import re
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
 
 from planmethod.errors import AssemblyError, ProblemError
-from planmethod.kinds import load
+from planmethod.kinds import load, loads
 from planmethod.solved.reading import Complexes, Reals
+from planmethod.solved.solution import Solution
 
 FILE = """
 [frame]
@@ -110,3 +112,55 @@ def test_variants_have_angles_between_links(tmp_path: Path) -> None:
         side = 0.8 * np.sin(np.radians(angle / 2))
         phi = np.degrees(np.arccos((0.01 + 0.55**2 - side**2) / (2 * 0.1 * 0.55)))
         assert problem.drive.positions[0] == pytest.approx((phi, 360 - phi)[number], abs=1e-9)
+
+
+SCISSOR = """
+[frame]
+O = [0, 0]
+guides.floor = { through = "O", angle = 0 }
+[links.1]
+points = ["O", "M", "B", "P"]
+OM = 0.5
+OB = 1.0
+M = { on = "OB", at = 0.5 }
+P = { on = "OB", at = 0.2 }
+[links.2]
+points = ["A", "M", "E", "Q"]
+AE = 1.0
+M = { on = "AE", at = 0.5 }
+Q = { on = "AE", at = 0.7 }
+[links.3]
+points = ["A"]
+slides = { on = "floor" }
+[links.4]
+points = ["P"]
+slides = { on = "5", through = "Q" }
+[links.5]
+points = ["Q"]
+[driver]
+link = "1"
+PQ = 0.4
+v_PQ = 0.02
+root = "near 52"
+[assembly]
+A = "right of O"
+"""
+"""With A at O, the other way, PQ is the same in all positions: each of them is a least one."""
+
+
+def test_where_the_output_stays_as_it_is_positions_are_looked_at_together(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    read, count = Solution.read, []
+
+    def counted(self: Solution, *given: Any) -> Any:
+        count.append(len(self.positions))
+        return read(self, *given)
+
+    monkeypatch.setattr(Solution, "read", counted)
+    problem = loads(SCISSOR, name="scissor")
+    assert len(count) < 150  # one by one they were 3047
+    (phi,) = problem.drive.positions
+    turned = np.radians(phi)  # A = 2·OM·cos, P and Q from O and A along the links
+    p, q = 0.2 * np.exp(1j * turned), np.cos(turned) - 0.7 * np.exp(-1j * turned)
+    assert abs(p - q) == pytest.approx(0.4, rel=1e-12)

@@ -22,7 +22,7 @@ from planmethod.problem.names import UNITS, split_pair, told_length
 from planmethod.solved.failures import PositionError
 from planmethod.solved.reading import Reading, Reals
 from planmethod.solved.solution import Solution
-from planmethod.solved.turn.roots import crossings, root, top
+from planmethod.solved.turn.roots import crossings, root, tops
 from planmethod.solved.turn.turn import LOOKS, TURN, Extreme, Turn
 
 _TRIES = 36  # positions of a turn in which it is tried how the groups close
@@ -273,22 +273,30 @@ def _zeros(off: Callable[[Reals], Reals], grid: Reals) -> Found:
 
     for k in crossings(looks):
         add(float(grid[k]), float(grid[k + 1]), float(np.sign(looks[k + 1] - looks[k])))
-    step = grid[1] - grid[0]
+    # Between neighbours it may touch zero, or pass it and return. All such places are looked at
+    # together: where the output stays as it is, each position is one of them.
     near, signs = np.abs(looks), np.sign(looks)
-    for k in range(len(grid) - 1):  # between neighbours it may touch zero, or pass it and return
-        before = (k - 1) if k else len(grid) - 2  # of a turn the last but one
-        same = signs[before] == signs[k] == signs[k + 1] != 0.0
-        if not same or near[k] > min(near[before], near[k + 1]):
-            continue
-        low, high, sign = float(grid[k] - step), float(grid[k + 1]), float(signs[k])
-        if not np.isfinite(off(np.array([low]))[0]):
-            continue
-        at, beyond = top(lambda p, sign=sign: -sign * off(p), low, high)  # type: ignore[misc]
-        if beyond > 1e-12 * size:
-            add(low, at, -sign)
-            add(at, high, sign)
-        elif -beyond <= _OFF * size:
-            found.append((at, 0.0))
+    one = np.arange(len(grid) - 1)
+    before = np.where(one == 0, len(grid) - 2, one - 1)  # of a turn the last but one
+    same = (signs[before] == signs[one]) & (signs[one] == signs[one + 1]) & (signs[one] != 0.0)
+    least = near[one] <= np.minimum(near[before], near[one + 1])
+    low = grid[one[same & least]] - (grid[1] - grid[0])
+    high, sign = grid[one[same & least] + 1], signs[one[same & least]]
+    there = np.isfinite(off(low)) if low.size else np.zeros(0, dtype=bool)
+    low, high, sign = low[there], high[there], sign[there]
+
+    def short(places: Reals) -> Reals:
+        return -sign[:, np.newaxis] * off(places.ravel()).reshape(places.shape)
+
+    if low.size:
+        for start, at, beyond, end, way in zip(
+            low, *tops(short, low, high), high, sign, strict=True
+        ):
+            if beyond > 1e-12 * size:
+                add(float(start), float(at), -float(way))
+                add(float(at), float(end), float(way))
+            elif -beyond <= _OFF * size:
+                found.append((float(at), 0.0))
     return found
 
 

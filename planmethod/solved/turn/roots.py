@@ -58,20 +58,43 @@ def top(function: Function, low: float, high: float, *, looks: int = _PARTS) -> 
 
     ``looks`` parts of the way are looked at first: so many that one of them holds the greatest.
     """
-    vertex = _VERTEX * 2 * (high - low) / looks
+
+    def one(places: Reals) -> Reals:
+        return function(places.ravel()).reshape(places.shape)
+
+    at, size = tops(one, np.array([low]), np.array([high]), looks=looks)
+    return float(at[0]), float(size[0])
+
+
+def tops(
+    function: Function, low: Reals, high: Reals, *, looks: int = _PARTS
+) -> tuple[Reals, Reals]:
+    """Return the same for several pairs of places, which are looked at together.
+
+    Parameters
+    ----------
+    function : callable
+        From places, ndarray of shape (m, k), a row for each pair, to values of that shape.
+    low, high : ndarray of shape (m,)
+
+    Returns
+    -------
+    places, sizes : ndarray of shape (m,)
+    """
+    row, vertex = np.arange(len(low)), _VERTEX * 2 * (high - low) / looks
     for parts in (looks, *[_PARTS] * (_TOP_ROUNDS - 1)):
-        places = np.linspace(low, high, parts + 1)
+        places = np.linspace(low, high, parts + 1, axis=-1)
         values = np.nan_to_num(function(places), nan=-np.inf)
-        k = int(np.argmax(values))
-        best = float(places[k]), float(values[k])
-        low, high = float(places[max(k - 1, 0)]), float(places[min(k + 1, parts)])
+        k = np.argmax(values, axis=-1)
+        at, size = places[row, k], values[row, k]
+        low, high = places[row, np.maximum(k - 1, 0)], places[row, np.minimum(k + 1, parts)]
     # Within rounding of its value the place of a smooth top is told by what is around it.
-    at, size = best
-    before, here, after = function(np.array([at - vertex, at, at + vertex]))
-    bend = before - 2 * here + after
-    off = vertex * (before - after) / (2 * bend) if bend < 0 else 0.0
-    if np.isfinite(off) and abs(off) < vertex:
-        moved = float(function(np.array([at + off]))[0])
-        if moved >= size - 1e-12:
-            return float(at + off), max(moved, size)
-    return best
+    before, here, after = function(np.stack([at - vertex, at, at + vertex], axis=-1)).T
+    with np.errstate(divide="ignore", invalid="ignore"):
+        bend = before - 2 * here + after
+        off = np.where(bend < 0, vertex * (before - after) / (2 * bend), 0.0)
+    inside = np.isfinite(off) & (np.abs(off) < vertex)
+    moved = at + np.where(inside, off, 0.0)
+    there = function(moved[:, np.newaxis])[:, 0]
+    taken = inside & (there >= size - 1e-12)
+    return np.where(taken, moved, at), np.where(taken, np.maximum(there, size), size)
