@@ -46,10 +46,10 @@ def structure(
 ) -> None:
     """Analyse the structure: mobility, redundant constraints, Assur groups; text and drawing."""
     from planmethod.languages import LANGUAGES
-    from planmethod.mechanism.structure import analyse
     from planmethod.note.wording import language
     from planmethod.note.writers.plain import plain_document
     from planmethod.solved.aligned.schemes import self_aligning
+    from planmethod.solved.closings import structure_of
 
     drawn = not as_json and not no_drawing
     settled = asked.settle() if drawn else None
@@ -59,7 +59,7 @@ def structure(
             show_other(todo.kind, todo.problem)
             return
         problem = todo.linkage
-        found = analyse(problem.mechanism)
+        found = structure_of(problem)
         aligned = self_aligning(problem, found)
         if as_json:
             from planmethod.note.records.aligned import structure_in_full

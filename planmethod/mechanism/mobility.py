@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections import deque
 from collections.abc import Collection, Iterable
 
+from msgspec.structs import replace
+
 from planmethod.errors import StructureError
 from planmethod.languages import say
 from planmethod.mechanism.decompose import Node, Rigidity
@@ -42,6 +44,14 @@ def refuse_immovable(mechanism: Mechanism) -> None:
             "there are too many pairs, or links are missing. Look for points given the same name "
             "by mistake and for slides given twice."
         )
+        passive = _passive(mechanism) if not mobility else []
+        if passive:
+            more = say(
+                " A link that only repeats the motion of the others is passive, as the third crank "
+                "of a parallelogram is: leave one such out. Without link {} W is 1.",
+                say(" or ").join(passive),
+            )
+            cause = f"{cause}{more}"
     told = "Mobility W = 3n - 2p1 = 3·{} - 2·{} = {}, but 1 driver is given: {}"
     raise StructureError(told, n, p1, mobility, cause)
 
@@ -219,6 +229,37 @@ def _path(
     while path[-1] != start:
         path.append(came[path[-1]])
     return sorted(path, key=_order)
+
+
+def _passive(mechanism: Mechanism) -> list[str]:
+    """Return the links with two hinges without which the others move definitely.
+
+    Whether such a link is passive (пассивное звено) the lengths tell.
+    """
+    found = []
+    for link in mechanism.links:
+        hinges = [one for one in mechanism.revolutes if link in one.links]
+        slides = [one for one in mechanism.prismatics if link in (one.slider, one.host)]
+        if link == mechanism.driver or slides or len(hinges) != 2:
+            continue
+        left = [
+            replace(one, links=tuple(name for name in one.links if name != link))
+            for one in mechanism.revolutes
+        ]
+        rest = replace(
+            mechanism,
+            links=tuple(name for name in mechanism.links if name != link),
+            revolutes=tuple(one for one in left if len(one.links) > 1),
+        )
+        if len(rest.links) < 2:
+            continue
+        try:
+            refuse_immovable(rest)
+            refuse_unbalanced(rest)
+        except StructureError:
+            continue
+        found.append(link)
+    return found
 
 
 def _order(link: str) -> tuple[int, str]:

@@ -44,11 +44,14 @@ class Faults:
         Unit of the lengths of the file, a key of `UNITS`.
     stated : dict of str to str
         Arithmetic that stands for a number, as written, by path.
+    vanished : dict of str to float
+        Numbers that are read as zero, by path: speeds, forces and the like, of which that matters.
     """
 
     def __init__(self) -> None:
         self.unit = "m"
         self.stated: dict[str, str] = {}
+        self.vanished: dict[str, float] = {}
         self._found: list[Fault] = []
         self.count = 0
 
@@ -56,6 +59,7 @@ class Faults:
         """Return an independent copy."""
         other = Faults()
         other.unit, other.stated = self.unit, dict(self.stated)
+        other.vanished = dict(self.vanished)
         other._found, other.count = list(self._found), self.count
         return other
 
@@ -116,7 +120,8 @@ def is_number(value: object) -> TypeGuard[int | float]:
 
 
 TINY = 1e-30
-"""Numbers nearer to zero are mistakes: their squares and quotients leave the range of numbers."""
+"""Numbers nearer to zero are read as zero: squares and quotients of them leave the range of
+numbers, and programs write so the rounding of a zero."""
 
 
 def read_number(
@@ -128,6 +133,7 @@ def read_number(
     low: float = -1e9,
     high: float = 1e9,
     positive: bool = False,
+    offset: bool = False,
     hint: str = "Check the unit: the file is in SI units and degrees.",
 ) -> float | None:
     """Read a finite number within bounds; None after noting a fault.
@@ -138,6 +144,8 @@ def read_number(
         What stands here, with its unit: ``a length in metres``.
     positive : bool
         Zero and negative numbers are then reported as such, before the bounds are looked at.
+    offset : bool
+        It is a coordinate or an angle: what is nearly zero is zero, and nothing is told of it.
     hint : str
         What to do about a number that is out of bounds.
     """
@@ -160,13 +168,14 @@ def read_number(
     if not math.isfinite(number):
         faults.add(path, say("expected {}, got {:g}", what, number), "The number must be finite.")
         return None
+    if positive and number < TINY:
+        small = "So small a number is zero here: check its power of ten." if number > 0 else ""
+        faults.add(path, say("expected {} greater than 0, got {:g}", what, number), small)
+        return None
     if 0 < abs(number) < TINY:
-        said = say("expected {}, got {:g}", what, number)
-        faults.add(path, said, "So small a number is zero here: check its power of ten.")
-        return None
-    if positive and number <= 0:
-        faults.add(path, say("expected {} greater than 0, got {:g}", what, number))
-        return None
+        if not offset:
+            faults.vanished[path] = number
+        number = 0.0
     if not low <= number <= high:
         faults.add(
             path, say("expected {} from {:g} to {:g}, got {:g}", what, low, high, number), hint
@@ -232,8 +241,9 @@ def _read_metres(
 ) -> float | None:
     per, what = UNITS[faults.unit], _SAID[faults.unit][kind]
     number = read_number(
-        faults, path, value, what, low=low * per, high=1e6 * per, positive=positive
-    )
+        faults, path, value, what, low=low * per, high=1e6 * per, positive=positive,
+        offset=not positive,
+    )  # fmt: skip
     return None if number is None else number / per
 
 
@@ -243,7 +253,9 @@ def read_angle(faults: Faults, path: str, value: object) -> float | None:
         hint = say('pi is 180 degrees: write "{}".', radians)
         faults.expected(path, "an angle in degrees", value, hint)
         return None
-    return read_number(faults, path, value, "an angle in degrees", low=-36000, high=36000)
+    return read_number(
+        faults, path, value, "an angle in degrees", low=-36000, high=36000, offset=True
+    )
 
 
 def read_text(faults: Faults, path: str, value: object, *, limit: int) -> str | None:

@@ -533,6 +533,8 @@ class Problem(KindProblem, frozen=True, kw_only=True):
     given : FileTable
         What TOML made of the file, the variant being laid over it; empty of a problem that was
         not read from one.
+    vanished : mapping of str to float
+        Numbers of the file that are read as zero where that matters, by path.
     """
 
     mechanism: Mechanism
@@ -554,6 +556,8 @@ class Problem(KindProblem, frozen=True, kw_only=True):
     unit: str = "m"
     stated: Mapping[str, str] = field(default_factory=dict)
     given: FileTable = field(default_factory=FileTable)
+    given: Mapping[str, Any] = field(default_factory=dict)
+    vanished: Mapping[str, float] = field(default_factory=dict)
 
     @property
     def turns(self) -> int:

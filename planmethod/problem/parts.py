@@ -169,6 +169,7 @@ def read_parts(
         **head,
         unit=faults.unit,
         stated=dict(faults.stated),
+        vanished=dict(faults.vanished),
         mechanism=mechanism,
         bodies=bodies,
         slides={link: slides[link] for link in links if link in slides},

@@ -34,6 +34,8 @@ def unlikely(problem: Problem) -> Iterator[str]:
     if drive.revolves and speed > FASTEST:
         told = "the crank makes {:.0f} rev/min (omega = {:g} 1/s). Give rev/min as n, 1/s as omega."
         yield say(told, speed, drive.rate)
+    for path, number in problem.vanished.items():
+        yield say("{} = {:g} is read as zero: check its power of ten.", path, number)
     yield from _short_rods(problem)
     yield from _weightless(problem)
     yield from _outranked(problem)

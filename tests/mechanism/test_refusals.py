@@ -37,6 +37,13 @@ REFUSED = {
         "or links are missing. Look for points given the same name by mistake and for slides "
         "given twice.",
     ),
+    "third crank of a parallelogram": (
+        mechanism("O:01 K:03 L:04 A:12 B:23 C:24"),
+        "Mobility W = 3n - 2p1 = 3·4 - 2·6 = 0, but 1 driver is given: there are too many pairs, "
+        "or links are missing. Look for points given the same name by mistake and for slides "
+        "given twice. A link that only repeats the motion of the others is passive, as the third "
+        "crank of a parallelogram is: leave one such out. Without link 3 or 4 W is 1.",
+    ),
     "driver between others": (
         mechanism("A:01 B:12 C:23 D:03", driver="2"),
         "Driver 2 is not joined with the frame: its pairs are with links 1, 3. Drive a link that "

@@ -9,6 +9,7 @@ import pytest
 from planmethod.errors import ProblemError
 from planmethod.problem import loads
 from planmethod.problem.model import Convention, Drive, Rule, Scales, Where
+from planmethod.problem.unlikely import unlikely
 
 CRANK = """
 [frame]
@@ -139,3 +140,15 @@ def test_the_rest_of_a_problem() -> None:
     assert problem.tables == {"gears": {"z1": 20}, "point": {"x": "t"}}
     assert problem.dynamics is None
     assert (problem.variants, problem.variant, problem.published) == ((), None, ())
+
+
+def test_the_rounding_of_a_zero_is_zero() -> None:
+    text = f"{CRANK}phi = -6e-32\nomega = 1\n"
+    problem = loads(text.replace("0.3, 0]", "0.3, -6.1e-32]", 1), name="rounded")
+    assert problem.drive.positions == (0.0,)
+    assert all(place.imag == 0.0 for place in problem.bodies["0"].points.values())
+    assert not problem.vanished and not list(unlikely(problem))
+    problem = loads(f"{CRANK}phi = 1\nomega = 1e-308\n", name="slow")
+    assert problem.drive.rate == 0.0
+    (told,) = unlikely(problem)
+    assert "driver.omega = 1e-308 is read as zero" in str(told)

@@ -514,3 +514,38 @@ def test_a_structure_that_does_not_move() -> None:
     ) as error:
         Solution(loads(text, name="truss"))
     assert error.value.exit_code == 3
+
+
+def test_wheels_on_links_are_told_to_be_no_pairs() -> None:
+    """A five-bar whose two cranks mesh: W = 2, and nothing counts the mesh."""
+    text = """
+[frame]
+O = [0, 0]
+D = [1.2, 0]
+[links.1]
+points = ["O", "A"]
+OA = 0.4
+[links.2]
+points = ["A", "C"]
+AC = 1.0
+[links.3]
+points = ["C", "B"]
+CB = 1.0
+[links.4]
+points = ["D", "B"]
+DB = 0.4
+[gears]
+wheels = { 1 = 60, 4 = 20 }
+meshes = [{ of = [1, 4], kind = "external" }]
+[driver]
+link = "1"
+phi = 20
+omega = 3
+[assembly]
+C = "left of AB"
+"""
+    with pytest.raises(StructureError, match=r"Wheels 1, 4 of \[gears\] .* is no pair here yet"):
+        Solution(loads(text, name="geared"))
+    with pytest.raises(StructureError) as told:
+        Solution(loads(text.replace("1 = 60, 4 = 20", "5 = 60, 6 = 20"), name="apart"))
+    assert "Wheels" not in str(told.value)

@@ -13,7 +13,6 @@ from msgspec.structs import replace
 from planmethod.construct.drafting import PROFILES, Profile
 from planmethod.construct.scale import series_near
 from planmethod.errors import PlanMethodError
-from planmethod.mechanism.structure import analyse
 from planmethod.note.numbers import trimmed
 from planmethod.problem.model import Convention, Problem
 from planmethod.render.control.remarks import Finding
@@ -23,6 +22,7 @@ from planmethod.render.ink.drawing import Bounds, Drawing, Span, View
 from planmethod.render.sheets.kinematics import kinematics_sheets
 from planmethod.render.sheets.model import Composition
 from planmethod.render.sheets.structure import structure_sheet
+from planmethod.solved.closings import structure_of
 
 LARGEST = 20.0
 """A segment that so large a plan shows no better is nothing in that position."""
@@ -49,7 +49,7 @@ def controlled_structure(
     problem: Problem, *, paper: str | None = None, fields: Mapping[str, str] | None = None
 ) -> list[Controlled]:
     """Draw the structural sheet and look it over."""
-    drawing = structure_sheet(problem, analyse(problem.mechanism), paper=paper, fields=fields)
+    drawing = structure_sheet(problem, structure_of(problem), paper=paper, fields=fields)
     return looked_over([drawing])
 
 
