@@ -556,7 +556,6 @@ class Problem(KindProblem, frozen=True, kw_only=True):
     unit: str = "m"
     stated: Mapping[str, str] = field(default_factory=dict)
     given: FileTable = field(default_factory=FileTable)
-    given: Mapping[str, Any] = field(default_factory=dict)
     vanished: Mapping[str, float] = field(default_factory=dict)
 
     @property

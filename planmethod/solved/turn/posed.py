@@ -286,7 +286,7 @@ def _zeros(off: Callable[[Reals], Reals], grid: Reals) -> Found:
     low, high, sign = low[there], high[there], sign[there]
 
     def short(places: Reals) -> Reals:
-        return -sign[:, np.newaxis] * off(places.ravel()).reshape(places.shape)
+        return np.asarray(-sign[:, np.newaxis] * off(places.ravel()).reshape(places.shape))
 
     if low.size:
         for start, at, beyond, end, way in zip(
