@@ -17,8 +17,8 @@ if TYPE_CHECKING:
     from planmethod.problem import Problem as Problem
     from planmethod.render.sheets.kinematics import kinematics_sheets as draw
     from planmethod.solved.errors.motion import drafting_of as drafting
-    from planmethod.solved.forces.statics import statics_of as statics
     from planmethod.solved.many.sweep import Sweep as Sweep
+    from planmethod.solved.selfcheck import judged_statics as statics
     from planmethod.solved.solution import Solution as Solution
 
 if TYPE_CHECKING:
@@ -50,7 +50,7 @@ _HOMES = {
     "draw": "planmethod.render.sheets.kinematics:kinematics_sheets",
     "load": "planmethod.kinds:load",
     "loads": "planmethod.kinds:loads",
-    "statics": "planmethod.solved.forces.statics:statics_of",
+    "statics": "planmethod.solved.selfcheck:judged_statics",
 }
 """Where the public names are; those of `TYPE_CHECKING`, which a test compares."""
 

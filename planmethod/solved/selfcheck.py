@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from contextlib import suppress
+from typing import TYPE_CHECKING
 from warnings import warn
 
 import numpy as np
@@ -28,6 +30,9 @@ from planmethod.solved.failures import (
 from planmethod.solved.reading import Complexes, Flags, Reals
 from planmethod.solved.solution import Solution
 from planmethod.solved.trust.conditioning import DOUBTFUL, SPOILT, error_bound
+
+if TYPE_CHECKING:
+    from planmethod.solved.forces.statics import Statics
 
 MOST_NAMED = 5
 """Doubtful positions that are named, the worst of them."""
@@ -91,7 +96,7 @@ def _doubts(
             float(estimate[i]),
             forces,
         )
-        for i in map(int, np.flatnonzero(estimate > DOUBTFUL))
+        for i in map(int, np.flatnonzero((estimate > DOUBTFUL) & np.isfinite(estimate)))
     ]
 
 
@@ -202,6 +207,29 @@ def tell_doubts(solution: Solution) -> None:
         said += warnings(solution)
     for doubt in said:
         warn(f"{solution.problem.name}: {doubt}", DoubtWarning, stacklevel=3)
+
+
+def judged_statics(solution: Solution) -> Statics:
+    """Return the force analysis of a solution (силовой расчёт).
+
+    Raises
+    ------
+    PositionError
+        Where the motion does not exist; forces that do not exist, or that rounding spoils, are
+        refused when they are read.
+
+    Warns
+    -----
+    DoubtWarning
+        Of positions whose forces are good to few digits.
+    """
+    from planmethod.solved.forces.statics import statics_of  # few files have any
+
+    statics = statics_of(solution)
+    with suppress(PlanMethodError):  # it is told when the forces are read
+        for doubt in force_doubts(solution):
+            warn(f"{solution.problem.name}: {doubt}", DoubtWarning, stacklevel=2)
+    return statics
 
 
 def refused(solution: Solution) -> Flags:

@@ -14,12 +14,13 @@ from cases import each, some
 from click.testing import CliRunner, Result
 from loaded import loaded_problem
 
+import planmethod
 from planmethod.cli import cli
 from planmethod.construct.condition import UNIT_ROUNDOFF
 from planmethod.construct.evaluate import evaluate
 from planmethod.construct.referee import Precise
 from planmethod.construct.steps import Name
-from planmethod.errors import PlanMethodError
+from planmethod.errors import DoubtWarning, PlanMethodError
 from planmethod.plans.forces.board import SCALE
 from planmethod.plans.forces.loads import DOWN
 from planmethod.problem import loads
@@ -166,6 +167,12 @@ def test_forces_are_told_where_the_motion_is_plain() -> None:
     (upper,) = (r for r in statics_of(solution).reactions if (r.joint, r.on) == ("F", "5"))
     lifted = float(upper.force[0].imag) + pushed.imag
     assert lifted == pytest.approx(pushed.real * (0.2 - 1e-12) / side, rel=doubt.bound)
+
+
+def test_a_program_in_python_is_warned_too() -> None:
+    solution = Solution(loads(rod(1e-12), name="rod"))
+    with pytest.warns(DoubtWarning, match="reactions and what balances"):
+        assert planmethod.statics(solution) is statics_of(solution)
 
 
 def test_forces_that_rounding_spoils_are_refused_wherever_they_are_read() -> None:
