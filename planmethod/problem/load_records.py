@@ -69,6 +69,25 @@ class Interpolation(Enum):
     STEP = "step"  # a row holds until the next one
 
 
+class IndicatorDiagram(Struct, frozen=True):
+    """Pressures on a piston as the file gives them (индикаторная диаграмма).
+
+    Attributes
+    ----------
+    strokes : tuple of tuple of (float, float)
+        Shares of the stroke from the top dead centre and pressures, Pa, stroke by stroke.
+    area, area_2 : float, m²
+        Of the piston, and of its other side.
+    sides : int
+        2: the pressure is on its other side as well, one stroke ahead.
+    """
+
+    strokes: tuple[tuple[tuple[float, float], ...], ...]
+    area: float
+    area_2: float
+    sides: int = 1
+
+
 class SizeTable(Struct, frozen=True):
     """Size of a load as a table (табличная сила или пара сил).
 
@@ -87,6 +106,8 @@ class SizeTable(Struct, frozen=True):
         Of an indicator: the load whose diagram it is too, of another piston.
     shift : float, degrees
         So much of the cycle later than that load begins its first stroke this one does.
+    indicator : IndicatorDiagram or None
+        Of an indicator: what the file has of it.
     """
 
     over: Over
@@ -96,6 +117,7 @@ class SizeTable(Struct, frozen=True):
     turn: float = 360.0
     like: str | None = None
     shift: float = 0.0
+    indicator: IndicatorDiagram | None = None
 
 
 class Fixed(Struct, frozen=True):

@@ -12,7 +12,14 @@ from planmethod.languages import say
 from planmethod.problem import fields, keys
 from planmethod.problem.fields import Faults, Table
 from planmethod.problem.flat import read_flat
-from planmethod.problem.load_records import Interpolation, LoadLaw, Over, Phase, SizeTable
+from planmethod.problem.load_records import (
+    IndicatorDiagram,
+    Interpolation,
+    LoadLaw,
+    Over,
+    Phase,
+    SizeTable,
+)
 from planmethod.problem.model import Drive
 from planmethod.problem.names import indexed, listed
 
@@ -213,12 +220,14 @@ def _read_indicator(
         return None
     at: list[float] = []
     pressures: list[float] = []
+    told: list[tuple[tuple[float, float], ...]] = []
     for number, rows in enumerate(strokes):
         where = f"{path}.strokes[{number}]"
         found = _read_rows(faults, where, rows, Over.PATH, "a pressure in Pa", drive, TURN)
         if found is None:
             continue
         shares, values = found
+        told.append(tuple(zip(shares, values, strict=True)))
         if number % 2:  # the way back
             shares, values = tuple(1.0 - share for share in reversed(shares)), values[::-1]
         at += [float(number), *(number + share for share in shares), number + 1.0]
@@ -226,7 +235,9 @@ def _read_indicator(
     if len(faults) != before or area is None or area_2 is None:
         return None
     own = SizeTable(Over.STROKES, tuple(at), tuple(area * p for p in pressures))
-    return own if sides == 1 else _both_sides(own, area_2 / area, len(strokes))
+    whole_force = own if sides == 1 else _both_sides(own, area_2 / area, len(strokes))
+    diagram = IndicatorDiagram(tuple(told), area, area_2, sides or 1)
+    return replace(whole_force, indicator=diagram)
 
 
 def _both_sides(own: SizeTable, share: float, count: int) -> SizeTable:

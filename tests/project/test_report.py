@@ -11,6 +11,7 @@ from pathlib import Path
 import numpy as np
 import openpyxl
 import pytest
+from cases import each
 from msgspec.structs import replace
 from worked import ROOT, path_of
 
@@ -28,6 +29,7 @@ from planmethod.note.wording import LANGUAGES, language
 from planmethod.note.writers.plain import plain_document
 from planmethod.plans.legend import QuantityKind
 from planmethod.plans.model import RATES
+from planmethod.problem.load_records import SizeTable
 from planmethod.project.model import PartName, Project
 from planmethod.project.numbers import numbers_workbook
 from planmethod.project.report import note_document
@@ -697,3 +699,49 @@ def test_the_title_page_has_the_city_and_the_year_of_the_stamp(
     problem = replace(project.problem, stamp=stamp)
     page = note_document(replace(project, problem=problem), language("ru")).nodes[0]
     assert isinstance(page, document.TitlePage) and (page.place, page.year) == foot
+
+
+@each("name", ["engine", "shaper", "template"])
+def test_what_is_given_has_the_tables_of_the_loads(name: str) -> None:
+    project = project_of(name)
+    front = list(note_of(name).nodes)
+    dynamics = project.problem.dynamics
+    assert dynamics is not None
+    changing = [
+        (k, one)
+        for k, one in enumerate(dynamics.loads)
+        if isinstance(one.size, SizeTable) and one.size.like is None
+    ]
+    assert changing
+    for number, one in changing:
+        tables = (n for n in front if isinstance(n, document.Table))
+        (table,) = (table for table in tables if table.key == f"load_{number}")
+        cells = [[number_of(cell) for cell in row] for row in table.rows]
+        assert isinstance(one.size, SizeTable)
+        told = one.size.indicator
+        if told is None:
+            assert np.allclose(cells, [*zip(one.size.at, one.size.values, strict=True)])
+            continue
+        listed = [
+            (k, share, pressure * 1e-6)
+            for k, stroke in enumerate(told.strokes, 1)
+            for share, pressure in stroke
+        ]
+        assert np.allclose(cells, listed)
+        area = language("ru").say.given(told.area)
+        assert any(isinstance(n, document.Paragraph) and area in n.text for n in front)
+
+
+def number_of(cell: str) -> float:
+    return float(plain_text(cell).replace(",", ".").replace("\u2212", "-"))
+
+
+@each("name", ["engine", "shaper"])
+def test_the_reduced_moment_has_the_sign_of_its_terms(name: str) -> None:
+    formulas = [n.text for n in note_of(name).nodes if isinstance(n, document.Formula)]
+    whole = next(text for text in formulas if "Σ(F_{i}·v_{i}" in text)
+    letter = whole.partition(" = ")[0]
+    terms = next(t for t in formulas if t.startswith(f"{letter} = ") and "cos α_{P" in t)
+    first = terms.partition("{")[2] if "\\frac" in terms else terms
+    resists = "−" in whole.partition(" = ")[2][:2]
+    assert (f"{letter} = \\frac{{−" in terms or "−P" in first) is resists

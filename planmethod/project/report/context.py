@@ -142,6 +142,10 @@ class Report:
         """Return a computed number with its unit."""
         return with_unit(self.say.found(value), self.unit(unit))
 
+    def area(self, value: float) -> Rich:
+        """Return an area, m², as the file gives it."""
+        return with_unit(self.say.given(value), f"{self.unit('m')}^{{2}}")
+
     def degrees(self, value: float) -> Rich:
         """Return an angle, two decimals at the most."""
         return with_unit(given(round(value, 2) + 0.0, self.words.note), "°")

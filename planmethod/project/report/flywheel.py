@@ -9,7 +9,7 @@ from planmethod.note.document import Chapter, Node, Part, Table, table_of_quanti
 from planmethod.note.formula import Rich, escape, fraction
 from planmethod.note.narrate.machine import MachineTeller
 from planmethod.note.narrate.reduction import ReductionTeller
-from planmethod.note.numbers import half_up, with_unit
+from planmethod.note.numbers import MINUS, half_up, with_unit
 from planmethod.note.wording import Words
 from planmethod.problem.load_records import Load, SizeTable
 from planmethod.problem.machine_records import Quadrature, WheelShape
@@ -51,7 +51,9 @@ def _reduced(report: Report, tell: MachineTeller, said: Words) -> Iterator[Node]
     J = tell.letter("reduced inertia")  # noqa: N806 - the letter of the textbook
     yield sentences(said.about.format())
     omega = f"ω_{{{report.one.problem.drive.link}}}"
-    yield displayed(said.moment_formula.format(M=tell.moment, omega=omega))
+    # What resists has a negative power, and counts as positive.
+    minus = MINUS if tell.flywheel.sign > 0 else ""
+    yield displayed(said.moment_formula.format(M=tell.moment, omega=omega, minus=minus))
     yield displayed(said.inertia_formula.format(J=J, omega=omega))
     yield sentences(said.where.format())
     flywheel = tell.flywheel

@@ -27,7 +27,7 @@ from planmethod.note.narrate.machine import MachineTeller
 from planmethod.note.numbers import with_unit
 from planmethod.note.tables.forces import push_way, rubbed
 from planmethod.note.wording import Words
-from planmethod.problem.load_records import Against, Couple, Fixed, Load, SizeTable
+from planmethod.problem.load_records import Against, Couple, Fixed, Interpolation, Load, SizeTable
 from planmethod.project.model import PartName
 from planmethod.project.report.context import NBSP, Report, items, lettered, sentences
 from planmethod.project.report.figures import figure
@@ -99,6 +99,7 @@ def _assignment(report: Report) -> Iterator[Node]:
         yield sentences(said.further.format(facts="; ".join(further)))
     if report.has(PartName.FORCES):
         yield from (sentences(*told) for told in (_loads(report), [*_beside(report)]) if told)
+        yield from _load_tables(report)
     caption = said.scheme.format(position=report.in_position)
     yield figure(
         lambda letter: scheme_picture(report.one, 0, letter_height=letter), caption, "scheme"
@@ -151,6 +152,9 @@ def _data(report: Report) -> tuple[list[tuple[Rich, Rich, Rich]], list[Rich]]:
             if told is not None and told[1] in ("δ", tell.letter("crank inertia")):
                 key = "δ" if told[1] == "δ" else "crank inertia"
                 rows.append((str(quantities[key]).format(), told[1], told[2]))
+        if tell.flywheel.machine.cycle_deg != 360.0:
+            cycle = with_unit(report.say.given(tell.flywheel.machine.cycle_deg), report.unit("deg"))
+            rows.append((str(quantities["cycle"]).format(), "Φ", cycle))
         ratio = tell.flywheel.machine.wheel.ratio
         if ratio != 1.0:
             rows.append((str(quantities["flywheel ratio"]).format(), "i", report.say.given(ratio)))
@@ -199,6 +203,10 @@ def _teeth(report: Report) -> Iterator[tuple[Rich, Rich, Rich]]:
         for body, speed in train.inputs.items():
             symbol = f"{train.letter}_{{{body}}}"
             yield row(f"{train.letter}_train", symbol, _given(float(speed), unit, report), of=body)
+        for mesh in train.meshes:
+            if mesh.eta is not None:
+                eta = say.given(float(mesh.eta))
+                yield row("eta_mesh", f"η_{{{mesh.name}}}", eta, of=mesh.name)
         for carrier, count in train.satellites.items():
             yield row("satellites", "k", str(count), of=carrier)
         is_told = ends is None or train.wheels[ends[0]].module is not None
@@ -248,6 +256,39 @@ def _loads(report: Report) -> list[Rich]:
     """Return the external loads as the file gives them, a sentence each."""
     dynamics = report.every.problem.dynamics
     return [] if dynamics is None else [_load(load, report) for load in dynamics.loads]
+
+
+def _load_tables(report: Report) -> Iterator[Node]:
+    """Yield the tables of the loads as the file has them: one who reads can do the task again."""
+    said, say = report.said["front"], report.say
+    dynamics = report.every.problem.dynamics
+    for number, load in enumerate(dynamics.loads if dynamics is not None else ()):
+        size = load.size
+        if not isinstance(size, SizeTable) or size.like is not None:
+            continue
+        unit, key = report.unit("N" if isinstance(load, Load) else "N·m"), f"load_{number}"
+        head: tuple[Rich, ...]
+        rows: list[tuple[Rich, ...]]
+        if size.indicator is not None:
+            told = size.indicator
+            both = said.second_side.format(area=report.area(told.area_2)) if told.sides == 2 else ""
+            places = {"area": report.area(told.area), "both": both, "key": key}
+            yield sentences(said.indicator.format(name=load.name, **places))
+            head = tuple(said["columns_indicator"])
+            rows = [
+                (str(k), say.given(share), say.given(pressure * 1e-6))
+                for k, stroke in enumerate(told.strokes, 1)
+                for share, pressure in stroke
+            ]
+        else:
+            over = str(said["load_over"][size.over.value])
+            steps = size.interpolation is Interpolation.STEP
+            template = said.load_steps if steps else said.load_rows
+            yield sentences(template.format(name=load.name, key=key))
+            head = (over, f"{load.name}, {unit}")
+            at = [*size.at] or [float(k) for k in range(len(size.values))]
+            rows = [(say.given(x), say.given(y)) for x, y in zip(at, size.values, strict=True)]
+        yield Table(head, tuple(rows), 0, name=said.load_data.format(name=load.name), key=key)
 
 
 def _beside(report: Report) -> Iterator[Rich]:
