@@ -111,4 +111,30 @@ class Closing(Struct, frozen=True):
 
 
 Choice = Mapping[tuple[str, ...], Closing]
+
+
+def comes_again(choice: Choice, turn: float) -> float:
+    """Return after how many degrees of the driver all groups close as before.
+
+    A group that passes an odd number of change points in its own period is in its other closing
+    then, and in the first one after two of them. Infinite where a group does not come again.
+
+    Parameters
+    ----------
+    turn : float, degrees
+        After which the driver stands as before.
+    """
+    found = 1
+    for one in choice.values():
+        period = turn
+        if one.changes:
+            period = one.turn * (1 + len(one.changes) % 2)
+        if one.followed != Closing().followed:
+            period = one.followed.period
+        if not period:
+            return math.inf
+        found = math.lcm(found, max(round(period / turn), 1))
+    return turn * found
+
+
 """Closing of each group that has two, by its links."""

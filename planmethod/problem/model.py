@@ -518,8 +518,8 @@ class Problem(KindProblem, frozen=True, kw_only=True):
         Number of the calculated position of a settled project (`planmethod.project`), whose
         positions and scales are those of all sheets; None of a problem as it is read.
     numbered : tuple of float
-        Positions of the cycle in the order of their numbers, degrees, over both turns of a cycle
-        of 720; empty without ``[cycle]`` (`planmethod.solved.turn.numbering`).
+        Positions of the cycle in the order of their numbers, degrees, over all turns of a cycle
+        of several; empty without ``[cycle]`` (`planmethod.solved.turn.numbering`).
     machine : Machine or None
         What the choice of a flywheel needs; None when the file has no ``[machine]``.
     balancing : CounterweightTask or None
@@ -574,9 +574,10 @@ class Problem(KindProblem, frozen=True, kw_only=True):
 
     @property
     def goes_round(self) -> bool:
-        """Whether the numbered positions go all round the cycle."""
+        """Whether the numbered positions go all round the cycle, which may be of some turns."""
         step = abs(self.numbered[1] - self.numbered[0]) if self.numbered else 0.0
-        return abs(step * len(self.numbered) - 360.0 * self.turns) <= SAME_DEG
+        turns = max(round(step * len(self.numbered) / 360.0), 1)
+        return abs(step * len(self.numbered) - 360.0 * turns) <= SAME_DEG
 
     def counted(self, position: float) -> float | None:
         """Return how many positions after position 0 a place of two turns is; None of one turn."""

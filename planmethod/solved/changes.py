@@ -33,7 +33,14 @@ _ROUNDS, _PARTS = 8, 32  # what is between two looks is divided into parts, agai
 
 
 def changes(
-    draft: Draft, program: Program, data: Data, group: AssurGroup, low: float, high: float
+    draft: Draft,
+    program: Program,
+    data: Data,
+    group: AssurGroup,
+    low: float,
+    high: float,
+    *,
+    around: bool = True,
 ) -> tuple[float, ...]:
     """Return the driver positions from ``low`` to ``high`` in which a group's closings are one.
 
@@ -45,18 +52,21 @@ def changes(
         A position plan that has the group.
     data : callable
         Returns the plan's data at unit scales for some positions, ndarray of shape (n,).
+    around : bool
+        The driver goes round: every turn is looked at alike.
     """
 
     def apart(positions: Reals) -> Reals:
         with np.errstate(all="ignore"):
             return _apart(draft, program, data(positions), group, positions)
 
-    looks = np.linspace(low, high, LOOKS)
+    count = (LOOKS - 1) * max(round((high - low) / 360.0), 1) + 1 if around else LOOKS
+    looks = np.linspace(low, high, count)
     there = np.array([np.inf, *apart(looks), np.inf])
     least = (there[1:-1] <= there[:-2]) & (there[1:-1] < there[2:])
     found = []
     for i in map(int, np.flatnonzero(least & (np.abs(there[1:-1]) < 0.1))):
-        one, two = looks[max(i - 1, 0)], looks[min(i + 1, LOOKS - 1)]
+        one, two = looks[max(i - 1, 0)], looks[min(i + 1, count - 1)]
         for _ in range(_ROUNDS):
             fine = np.linspace(one, two, _PARTS + 1)
             here = apart(fine)

@@ -11,6 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Generator, Mapping, Sequence
 from itertools import islice
+from math import isfinite
 
 import numpy as np
 from msgspec import Struct
@@ -25,7 +26,7 @@ from planmethod.languages import say
 from planmethod.mechanism.groups import AssurGroup, triad_of
 from planmethod.mechanism.structure import Structure, analyse
 from planmethod.plans.build import Construction, add_group, begin_positions, build
-from planmethod.plans.closing import Closing
+from planmethod.plans.closing import Closing, comes_again
 from planmethod.plans.draft import Draft
 from planmethod.plans.motion.position import (
     has_two_closings,
@@ -296,11 +297,18 @@ def _going_on(problem: Problem, tried: Tried, group: AssurGroup, closing: Closin
     """Return a closing that changes sides where the motion goes through a change point."""
     draft, program = tried[0], tried[0].b.program()
     turn, low = problem.drive.coordinate.turn, closing.start
+    if problem.drive.goes_round:
+        # what the group hangs on may come again after two turns only, and the changes with it
+        settled = {links: one for links, one in draft.choice.items() if links != group.links}
+        again = comes_again(settled, turn)
+        turn = again if isfinite(again) else turn
     high = low + turn
     if not problem.drive.goes_round:
         way = sum(abs(length) for _, _, length in problem.lengths)
         low, high, turn = low - way, low + way, closing.turn
-    found = changes(draft, program, lambda s: drive_data(problem, draft, s), group, low, high)
+    around = problem.drive.goes_round
+    found = changes(draft, program, lambda s: drive_data(problem, draft, s), group, low, high,
+                    around=around)  # fmt: skip
     return replace(closing, changes=found, turn=turn)
 
 

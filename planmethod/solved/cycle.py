@@ -82,7 +82,7 @@ class Cycle(Remembering):
     def __init__(self, solution: Solution) -> None:
         super().__init__()
         self.solution = solution
-        turns = solution.problem.turns
+        turns = solution.turns
         self.course = Travel(solution, step=STEP, least=LEAST, turns=turns)
         self.joints: list[JointForce] = statics_of(solution).reactions
         assert solution.problem.dynamics is not None

@@ -53,8 +53,8 @@ def turn_efficiency(solution: Solution, count: int = COUNT) -> TurnEfficiency | 
         or only_in_positions(problem.dynamics)
     ):
         return None
-    turned = 360.0 * problem.turns
-    whole = count * problem.turns
+    turned = 360.0 * solution.turns
+    whole = count * solution.turns
     grid = float(solution.positions[0]) + turned * (np.arange(whole) + 0.5) / whole
     moved = solution.moved(grid.tolist())
     if (impossible_steps(moved) >= 0).any() or not statics_of(moved).closes.all():

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from functools import cached_property
+from math import inf, isfinite, lcm
 from types import MappingProxyType
 from typing import Any
 
@@ -31,6 +32,7 @@ from planmethod.construct.steps import NumberName, PointName
 from planmethod.errors import ArgumentError
 from planmethod.mechanism.structure import Structure
 from planmethod.plans.build import Construction
+from planmethod.plans.closing import comes_again
 from planmethod.plans.legend import Quantity, QuantityKind
 from planmethod.plans.model import RATES, PlanKind
 from planmethod.plans.motion.leads import Relative
@@ -397,6 +399,28 @@ class Solution(Remembering):
     def views(self) -> Views:
         """Boxes that the plans shall fill: those of the format that a sheet is tried on first."""
         return self._decided[0]
+
+    @cached_property
+    def closes_after(self) -> float:
+        """Turns of the driver after which the links are where they were; infinite if they are not.
+
+        A group that passes a change point goes on in its other closing: two turns then.
+        """
+        turn = self.problem.drive.coordinate.turn
+        again = comes_again(self.construction.draft.choice, turn) if isfinite(turn) else turn
+        return again / turn if isfinite(again) else inf
+
+    @property
+    def turns(self) -> int:
+        """Turns of the driver in a cycle: of the machine, and as many as the links need."""
+        again = self.closes_after
+        return lcm(self.problem.turns, round(again) if isfinite(again) else 1)
+
+    @property
+    def repeated(self) -> int:
+        """How many times the motion is gone through in a cycle: twice of a four-stroke engine."""
+        again = self.closes_after
+        return self.turns // round(again) if isfinite(again) else self.turns
 
     @property
     def given_scales(self) -> Scales:

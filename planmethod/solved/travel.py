@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from functools import cached_property
-from math import ceil
+from math import ceil, isfinite, lcm
 
 import numpy as np
 import numpy.typing as npt
@@ -37,7 +37,8 @@ class Travel(Struct, frozen=True, dict=True):
     least : int
         Steps of the line at the least.
     turns : int
-        Of a crank after which all is as before: two of loads over 720 degrees.
+        Of a crank after which all is as before: two of loads over 720 degrees; more where the
+        links are not where they were then.
     """
 
     solution: Solution
@@ -47,7 +48,9 @@ class Travel(Struct, frozen=True, dict=True):
 
     @property
     def _turn(self) -> float:
-        return self.solution.problem.drive.coordinate.turn * self.turns
+        again = self.solution.closes_after
+        turns = lcm(self.turns, round(again)) if isfinite(again) else self.turns
+        return self.solution.problem.drive.coordinate.turn * turns
 
     @property
     def falling(self) -> bool:

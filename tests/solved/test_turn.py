@@ -2,22 +2,28 @@
 
 from __future__ import annotations
 
+import re
 from math import acos, asin, cos, degrees, hypot, pi, radians, tan
 from typing import Any
 
 import numpy as np
 import pytest
+from cases import each
 from worked import ROOT
 
 from planmethod.construct.drafting import PROFILES, Sampled
 from planmethod.construct.evaluate import evaluate
 from planmethod.construct.steps import PointName
+from planmethod.errors import AssemblyError, ProblemError
 from planmethod.note.records.solution import analogue_records, cycle_record
 from planmethod.problem import load, loads
+from planmethod.solved.machine.flywheel import Flywheel
+from planmethod.solved.selfcheck import verify
 from planmethod.solved.solution import Solution
 from planmethod.solved.turn.construction import PRIMES, extreme_construction
 from planmethod.solved.turn.diagrams import smooth
-from planmethod.solved.turn.turn import turn_of
+from planmethod.solved.turn.numbering import number, numbered_positions, refuse_dead
+from planmethod.solved.turn.turn import Turn, turn_of
 
 PRESS = (ROOT / "problems/press/press-stone.toml").read_text("utf-8")
 FOUR_BAR = """title = "Шарнирный четырёхзвенник"
@@ -266,3 +272,86 @@ def test_where_no_arcs_find_the_extremes_there_is_no_construction() -> None:
     solution = Solution(load(ROOT / "problems/levers/six-link.toml"))
     assert extreme_construction(solution) is None
     assert all(one.keys() == {"phi_deg", "value"} for one in cycle_record(solution)["extremes"])
+
+
+# A cycle of two turns ----------------------------------------------------------------------------
+
+SQUARE = """
+frame = { O = [0, 0], guides.x-x = { through = "O", angle = 0 } }
+driver = { link = "1", phi = PHI, omega = OMEGA }
+assembly = { B = { rule = "right of A", keep = "continuous" } }
+[links.1]
+points = ["O", "A"]
+OA = 0.06
+[links.2]
+points = ["A", "B"]
+AB = 0.1
+[links.3]
+points = ["B"]
+slides = { on = "x-x", offset = 0.04 }
+"""
+"""A slider-crank whose rod comes square to the guide at 270 degrees, and goes on."""
+
+
+def square(phi: float = 0.0, omega: float = 10.0) -> Turn:
+    text = SQUARE.replace("PHI", str(phi)).replace("OMEGA", str(omega))
+    return turn_of(Solution(loads(text, name="square")))
+
+
+@each("omega", [10.0, -10.0])
+def test_a_cycle_closes_where_the_motion_does(omega: float) -> None:
+    turn = square(omega=omega)
+    assert (turn.period, turn.turns, turn.count, turn.solution.repeated) == (720.0, 2, 24, 1)
+    # smooth over both turns: x = r·cos(phi) + l·cos(psi), sin(psi) rising and falling through 1
+    phi = np.linspace(0.0, 720.0, 1441)[1:-1] + 0.01
+    square_of = 0.1**2 - (0.04 - 0.06 * np.sin(np.radians(phi))) ** 2
+    sign = np.where((phi > 270.0) & (phi < 630.0), -1.0, 1.0)
+    exact = 0.06 * np.cos(np.radians(phi)) + sign * np.sqrt(square_of)
+    assert np.abs(turn.values(phi) - exact).max() < 1e-9
+    assert turn.stroke == pytest.approx(np.sqrt(0.16**2 - 0.04**2) * 2, abs=1e-12)
+    ends = sorted(one.phi % 720.0 for one in turn.extremes)
+    assert ends == pytest.approx([14.4775121859, 525.5224878141], abs=1e-9)
+    assert turn.strokes is not None and turn.strokes.working_deg == pytest.approx(511.044975628)
+    assert np.ptp(turn.values(turn.at(np.array([0.0, 1.0])))) < 1e-9
+
+
+def test_what_goes_round_once_is_not_gone_through_twice() -> None:
+    turn = Turn(Solution(loads(SQUARE.replace("PHI", "0").replace("OMEGA", "1")
+                               .replace("0.04", "0.03"), name="one")))  # fmt: skip
+    assert (turn.period, turn.turns, turn.count) == (360.0, 1, 12)
+
+
+def test_a_machine_is_told_that_its_cycle_is_of_two_turns() -> None:
+    text = (
+        SQUARE.replace("PHI", "30").replace("OMEGA", "10")
+        + """
+[dynamics.links.3]
+mass = 1
+[[loads]]
+link = "3"
+at = "B"
+against = "velocity"
+force = 10
+[machine]
+delta = 0.1
+J_crank = 0.5
+"""
+    )
+    told = r"closes after 720 degrees: give \[machine\] cycle_deg = 720"
+    with pytest.raises(ProblemError, match=told):
+        Flywheel(loads(text, name="short"))
+    made = Flywheel(loads(text.replace("0.1\nJ", "0.1\ncycle_deg = 720\nJ"), name="two"))
+    assert made.work_per_cycle == pytest.approx(2 * 10.0 * (square().stroke or 0.0), rel=1e-9)
+
+
+def test_a_dead_position_among_those_of_the_cycle_is_told_with_a_cycle_without_one() -> None:
+    text = SQUARE.replace("0.06", "0.1").replace("0.04", "0").replace("OMEGA", "-4")
+    with pytest.raises(AssemblyError) as told:
+        refuse_dead(Solution(loads(text.replace("PHI", "15"), name="alike")))
+    found = re.search(r"zero = ([\d.]+), count = (\d+) no position", str(told.value))
+    assert found is not None
+    cycle = f"[cycle]\nzero = {found[1]}\ncount = {found[2]}\n"
+    problem = number(loads(text.replace("PHI", "15") + cycle, name="alike"))
+    positions = numbered_positions(Solution(problem))
+    verify(Solution(problem, positions=positions.tolist()))
+    assert len(positions) == 12

@@ -24,6 +24,9 @@ from planmethod.plans.model import RATES, PlanKind, Relation, Vector, VectorKind
 from planmethod.plans.motion.leads import Relative
 from planmethod.solved.solution import Solution
 
+UNDRAWN = 0.1
+"""Part of a division of the ruler below which a segment is too small to be laid off."""
+
 COLLINEAR = 1e-9
 """Ratio of the across to the along part below which three points of a link lie on one line."""
 

@@ -10,7 +10,7 @@ from planmethod.solved.turn.construction import PRIMES, ExtremesConstruction, Lo
 from planmethod.solved.turn.diagrams import Diagrams
 from planmethod.solved.turn.output import Output
 from planmethod.solved.turn.strokes import LONGER, TOLD
-from planmethod.solved.turn.turn import TURN, NoNumber, Turn
+from planmethod.solved.turn.turn import NoNumber, Turn
 
 NO_ANGLE = 1e-6
 """Pressure angle that is none, degrees: a stone on the output link pushes along its motion."""
@@ -84,7 +84,7 @@ def turn_facts(turn: Turn, words: Language) -> list[str]:
 
     def place(phi: float) -> str:
         # Of a full turn as the table beside has it; within a range as its limits are.
-        return degrees(phi if turn.range else round(phi % TURN, 2) % TURN, words)
+        return degrees(phi if turn.range else round(phi % turn.period, 2) % turn.period, words)
 
     facts = [said["output"][output.unit].format(name=output_name(output), link=output.link)]
     facts.append(range_fact(turn, words))
@@ -197,8 +197,8 @@ def extreme_steps(turn: Turn, made: ExtremesConstruction | None, words: Language
     angles = [
         said["constructed"]["phi"].format(
             name=f"φ{p}",
-            read=degrees((phi + made.off(k)) % TURN, words),
-            exact=degrees(round(phi % TURN, 2) % TURN, words),
+            read=degrees((phi + made.off(k)) % turn.period, words),
+            exact=degrees(round(phi % turn.period, 2) % turn.period, words),
             sigma=degrees(made.sigma[k], words),
         )
         for k, (p, phi) in enumerate(zip(PRIMES, made.phi, strict=True))

@@ -32,7 +32,7 @@ from planmethod.solved.trust.conditioning import error_bound
 from planmethod.solved.turn.construction import extreme_construction
 from planmethod.solved.turn.diagrams import Diagrams, diagrams_of
 from planmethod.solved.turn.series import quantities_over, values_over
-from planmethod.solved.turn.turn import TURN, Extreme, NoNumber, Turn, turn_of
+from planmethod.solved.turn.turn import Extreme, NoNumber, Turn, turn_of
 
 
 def analogue_records(solution: Solution) -> Records:
@@ -119,10 +119,10 @@ def cycle_record(solution: Solution) -> dict[str, Any]:
 
 def _constructed(solution: Solution, extreme: Extreme) -> dict[str, float]:
     """Return an extreme position as the ruler reads it, and its sigma, where it is constructed."""
-    made = extreme_construction(solution)
+    made, whole = extreme_construction(solution), turn_of(solution).period
     for k, phi in enumerate(made.phi if made is not None else ()):
         assert made is not None
-        if abs((extreme.phi - phi + TURN / 2) % TURN - TURN / 2) < 1e-9:
+        if abs((extreme.phi - phi + whole / 2) % whole - whole / 2) < 1e-9:
             return {"read_deg": plain(extreme.phi + made.off(k)), "sigma_deg": plain(made.sigma[k])}
     return {}
 

@@ -18,7 +18,7 @@ from planmethod.project.report.figures import figure
 from planmethod.render.pictures.seriesview import series_picture
 from planmethod.solved.turn.construction import PRIMES, extreme_construction
 from planmethod.solved.turn.strokes import LONGER, TOLD, Strokes, looked_at, powers
-from planmethod.solved.turn.turn import TURN, Turn, turn_of
+from planmethod.solved.turn.turn import Turn, turn_of
 
 EQUAL = 1e-6
 """Difference of K_v from 1 up to which both strokes take the same time."""
@@ -78,7 +78,7 @@ def _series(report: Report, said: Words) -> Iterator[Node]:
         zero = str(said["zeros"]["extreme" if named else "given"])
         crank = problem.bodies[problem.drive.link]
         pin = next((p for p in crank.points if p not in problem.bodies[FRAME].points), "")
-        note, turns = report.words.note, problem.turns
+        note, turns = report.words.note, every.turns
         against = turn.is_against
         yield sentences(
             said.divided.format(
@@ -171,7 +171,8 @@ def _extremes(report: Report, said: Words) -> Iterator[Node]:
     else:
         low, high = (report.degrees(limit) for limit in turn.range)
         lead = said.range.format(symbol=report.coordinate, low=low, high=high)
-    angles = [report.degrees(round(one.phi % TURN, 2) % TURN) for one in turn.extremes]
+    whole = turn.period
+    angles = [report.degrees(round(one.phi % whole, 2) % whole) for one in turn.extremes]
     found = ""
     if angles:
         told = [f"{report.coordinate} = {angle}" for angle in angles]
@@ -190,13 +191,13 @@ def _constructed(report: Report, said: Words) -> Iterator[Rich]:
     if made is None:
         yield said.no_construction.format()
         return
-    facts = construction_facts(made, report.words)
+    facts, whole = construction_facts(made, report.words), turn_of(report.every).period
     yield str(said["construction"][made.locus.value]).format(**facts)
     read = [
-        f"φ{prime} = {report.degrees((phi + made.off(k)) % TURN)}"
+        f"φ{prime} = {report.degrees((phi + made.off(k)) % whole)}"
         for k, (prime, phi) in enumerate(zip(PRIMES, made.phi, strict=True))
     ]
-    exact = [report.degrees(round(phi % TURN, 2) % TURN) for phi in made.phi]
+    exact = [report.degrees(round(phi % whole, 2) % whole) for phi in made.phi]
     yield said.measured.format(angles=report.listed(read), exact=report.listed(exact))
 
 

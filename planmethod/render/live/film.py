@@ -231,11 +231,11 @@ class _Cutting:
         self.values = scene.sweep.run(self.positions)
 
     def _tried(self) -> Reals:
-        """Return the positions of a turn, or of the driver's way."""
+        """Return the positions of a turn, or of some till all comes again, or of the way."""
         if not self.drive.goes_round:
             return np.linspace(*self.scene.way, self.frames)
         sense = -1.0 if self.drive.rate < 0 else 1.0
-        return self.scene.start + sense * 360.0 * np.arange(self.frames) / self.frames
+        return self.scene.start + sense * self.scene.period * np.arange(self.frames) / self.frames
 
     def _exist(self) -> tuple[Reals, bool]:
         tried = self._tried()

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from itertools import pairwise
+from math import isfinite, lcm
 from typing import Any
 
 import numpy as np
@@ -22,6 +23,7 @@ from planmethod.note.narrate.forces.statement import link_names
 from planmethod.note.narrate.given import point_name
 from planmethod.note.narrate.letters import mark, shown_letters
 from planmethod.note.wording import Language
+from planmethod.plans.closing import comes_again
 from planmethod.plans.draft import cis
 from planmethod.plans.forces.polygons import Edge, Share
 from planmethod.plans.legend import Quantity, QuantityKind
@@ -326,6 +328,12 @@ class LiveScene:
         ends = [own[0], next((at for at in own if at != own[0]), own[0])]
         return [[*self._ref(end), 1] for end in ends]
 
+    @property
+    def period(self) -> float:
+        """Degrees of the driver after which the links are where they were."""
+        again = comes_again(self.construction.draft.choice, 360.0)
+        return again if isfinite(again) else 360.0
+
     def motion(self) -> dict[str, Any] | None:
         """Return the speed of the crank in the steady motion of a machine, by even angles."""
         wheel = self.flywheel
@@ -358,7 +366,8 @@ class LiveScene:
         """Look where the mechanism can go; choose the scales."""
         drive = self.problem.drive
         if drive.goes_round:
-            self.way = (0.0, cycle_deg(self.problem))
+            turns = (round(way / 360.0) for way in (cycle_deg(self.problem), self.period))
+            self.way = (0.0, 360.0 * lcm(*turns))
         else:
             self.way = self._reach()
         count = _STEPS[drive.goes_round] * _LOOKS

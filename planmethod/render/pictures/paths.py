@@ -17,7 +17,7 @@ from planmethod.plans.draft import cis
 from planmethod.render.ink.drawing import Arc, Item, Pen, Stroke
 from planmethod.solved.reading import Complexes, Reals
 from planmethod.solved.solution import Solution
-from planmethod.solved.travel import TURN, Travel
+from planmethod.solved.travel import Travel
 from planmethod.solved.turn.turn import turn_of
 
 TRAJECTORY = "trajectory"
@@ -155,8 +155,9 @@ class Paths(Struct, frozen=True, dict=True):
         if self.output is None:
             return ()
         if self.course.closed and self.solution.problem.drive.goes_round:
-            ends = turn_of(self.solution).ends or ()
-            return tuple(sorted(round(end.phi % TURN, 9) % TURN for end in ends))
+            turn = turn_of(self.solution)
+            whole = turn.period
+            return tuple(sorted(round(end.phi % whole, 9) % whole for end in turn.ends or ()))
         link, point = self.output
         places = self.of(point)
         if np.isnan(places).any() or len(places) < 5:

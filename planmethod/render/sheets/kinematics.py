@@ -268,10 +268,11 @@ def _over_the_cycle(solution: Solution) -> Solution:
     ProblemError
         Nothing can be the output.
     """
-    from planmethod.solved.turn.numbering import numbered_positions
+    from planmethod.solved.turn.numbering import numbered_positions, refuse_dead
 
     if not solution.problem.drive.goes_round:
         return solution
+    refuse_dead(solution)
     return solution.moved(numbered_positions(solution).tolist())
 
 
@@ -445,7 +446,7 @@ class OnPaper(Struct, frozen=True):
             if entry.kind == "chosen-plans" and entry.of and not entry.positions
         ]
         solution = self.of.solution
-        count = len(solution.positions) // solution.problem.turns
+        count = len(solution.positions) // solution.repeated
         if not kinds or count < LEAST_CHOSEN:
             return laid
         key, wishes = FACTS[kinds[0]].scale, [dict(laid.scales)]

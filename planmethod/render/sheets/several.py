@@ -87,7 +87,7 @@ def plan_view(solution: Solution, indices: Sequence[int], manner: Manner) -> Blo
 def _alike(solution: Solution, indices: Sequence[int]) -> dict[int, list[int]]:
     """Return positions with those of the second turn of a cycle in which the crank stands alike."""
     found: dict[float, list[int]] = {}
-    two = solution.problem.turns > 1 and solution.problem.drive.goes_round
+    two = solution.repeated > 1 and solution.problem.drive.goes_round
     for i in indices:
         place = round(float(solution.positions[i]) % 360.0, 6) % 360.0 if two else float(i)
         found.setdefault(place, []).append(i)

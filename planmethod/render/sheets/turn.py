@@ -86,7 +86,7 @@ def chosen_plans(solution: Solution, indices: Sequence[int], manner: Manner) -> 
     """
     kind, words = manner.entry.of, manner.words
     assert kind is not None
-    every = len(solution.positions) // solution.problem.turns  # the second turn is as the first
+    every = len(solution.positions) // solution.repeated  # the second turn is as the first
     two = dict.fromkeys((round(every / 6), round(2 * every / 3) % every))
     count = manner.extras.plans
     even = range(0, every, -(-every // count)) if count else two
@@ -167,8 +167,9 @@ def _hodograph_of(solution: Solution, kind: PlanKind) -> tuple[str, Complexes, C
         return np.asarray(a * drive.rate**2 + v * drive.acceleration, dtype=complex)
 
     first, last = float(turn.positions[0]), float(turn.positions[-1])
-    last = last if turn.range is not None else first + turn.sense * TURN
-    even, ends = np.linspace(first, last, 361), vectors(turn.positions)
+    last = last if turn.range is not None else first + turn.sense * turn.period
+    count = 360 * round(turn.period / TURN) + 1
+    even, ends = np.linspace(first, last, count), vectors(turn.positions)
     (curve,) = without_corners(even, vectors(even)[np.newaxis], vectors)[1]
     return point, curve, ends
 

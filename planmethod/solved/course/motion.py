@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from functools import cached_property
-from math import pi
+from math import isfinite, pi
 
 import numpy as np
 from msgspec import Struct
@@ -35,6 +35,7 @@ ASTRAY = np.radians(45.0)
 """How far from its dead position a piston may be that works like another one after a shift, rad."""
 
 _SAME = 1e-9  # share of the largest size by which the ends of a cycle may differ
+_ASIDE = 1.6e-3  # rad off round angles, where singular places like to be
 _NEAR = 1e-6  # rad within which a dead position at the very start is found at either end, or not
 
 _COLUMNS = 6  # of a point: x and y of its place, velocity and acceleration
@@ -159,9 +160,17 @@ class TurnMotion:
         start = machine.start_deg if machine is not None else None
         first = (*problem.numbered, *drive.positions)[0]
         self.start_deg = first if start is None else start
-        self.cycle = float(np.radians(360.0 if machine is None else machine.cycle_deg))
         self._solution = Solution(self.problem, positions=[self.start_deg])
+        self.cycle = float(np.radians(360.0 * self._turns))
         self.construction = self._solution.construction
+
+    @property
+    def _turns(self) -> int:
+        """Turns of a cycle: of the machine, else as many as the links need to come again."""
+        machine, again = self.problem.machine, self._solution.closes_after
+        if machine is not None:
+            return round(machine.cycle_deg / 360.0)
+        return round(again) if isfinite(again) else 1
 
     def numbers(self, count: int) -> list[int]:
         """Return the numbers of so many positions as the crank comes through them, and 0 again.
@@ -211,7 +220,7 @@ class TurnMotion:
         turns = round(self.cycle / (2.0 * pi))
         edges = np.linspace(0.0, self.cycle, turns * PANELS + 1)
         points, links = self._names
-        rough = self._columns(np.linspace(0.0, self.cycle, 2 * turns * PANELS + 1))
+        rough = self._columns(np.linspace(0.0, self.cycle, 2 * turns * PANELS + 1) + _ASIDE)
         largest = np.max(np.abs(rough), axis=0)
         of_points = largest[: _COLUMNS * len(points)].reshape(-1, 3, 2).max(axis=(0, 2))
         of_links = largest[_COLUMNS * len(points) :].reshape(-1, 2).max(axis=0)
@@ -224,9 +233,16 @@ class TurnMotion:
                 self.problem,
                 "machine.cycle_deg",
                 say("after {:g} degrees the links are not where they were", np.degrees(self.cycle)),
-                "Check [assembly]: the way of closing must come back with the cycle.",
+                self._remedy,
             )
         return resolved(self._columns, edges, sizes)
+
+    @property
+    def _remedy(self) -> str:
+        """What helps where the links are not where they were after a cycle."""
+        if self._solution.closes_after == 2.0:
+            return "The motion closes after 720 degrees: give [machine] cycle_deg = 720."
+        return "Check [assembly]: the way of closing must come back with the cycle."
 
     def at(self, turned: Reals) -> Moved:
         """Return the motion at angles turned, rad, ndarray of shape (n,)."""

@@ -173,7 +173,8 @@ def extreme_construction(solution: Solution) -> ExtremesConstruction | None:
     turn = turn_of(solution)
     if turn.ends is None:
         return None
-    phi = sorted((end.phi for end in turn.ends), key=lambda phi: round(phi % TURN, 9) % TURN)
+    whole = turn.period
+    phi = sorted((end.phi for end in turn.ends), key=lambda phi: round(phi % whole, 9) % whole)
     for dyad in _dyads(solution):
         made = _built(turn, solution, dyad, (phi[0], phi[1]))
         if made is None:

@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from enum import Enum
 from functools import cached_property, partial
+from math import isfinite
 
 import numpy as np
 from msgspec import Struct
@@ -41,6 +42,9 @@ from planmethod.solved.turn.strokes import (
 )
 
 TURN = 360.0
+
+MOST = 6
+"""Turns of the crank after which links that are not where they were do not come again."""
 
 LOOKS = 1440
 """How often a turn is looked at: every quarter of a degree."""
@@ -108,6 +112,10 @@ class Turn(Remembering):
                     )
                 ],
             )
+        if not isfinite(solution.closes_after):
+            message = say("the links are not where they were after {} turns of the crank", MOST)
+            hint = "Ask for positions in place of a cycle: phi = [...] in [driver]"
+            raise ProblemError(problem.name, [Fault("cycle", message, hint)])
         self.solution = solution
         self.task = task_of(problem)
         self.sense = -1 if problem.drive.rate < 0 else 1
@@ -119,6 +127,11 @@ class Turn(Remembering):
         """Positions that are looked at first: in them the closings are judged."""
         drive = self.solution.problem.drive
         return drive.judged or drive.positions
+
+    @property
+    def period(self) -> float:
+        """Degrees of the crank after which the links are where they were: a turn, or some."""
+        return TURN * round(self.solution.closes_after)
 
     # Readings ------------------------------------------------------------------------------------
 
@@ -169,7 +182,7 @@ class Turn(Remembering):
         asked = np.asarray(self._asked)
         there = np.flatnonzero(self._closed(self.read(asked)))
         start = float(asked[there[0]]) if there.size else float(asked[0])
-        looks = start + _ASIDE + TURN * np.arange(LOOKS) / LOOKS
+        looks = start + _ASIDE + np.arange(0.0, self.period, _STEP)
         # A closing that fails between two looks only: where its margin is least.
         reading, narrow = self.read(looks), []
         for _, name in self._closing:
@@ -183,7 +196,7 @@ class Turn(Remembering):
                 if size > -TANGENT:
                     narrow.append(at)
         if narrow:
-            looks = np.sort([*looks, *((np.array(narrow) - looks[0]) % TURN + looks[0])])
+            looks = np.sort([*looks, *((np.array(narrow) - looks[0]) % self.period + looks[0])])
             reading = self.read(looks)
         return looks, reading, self._closed(reading)
 
@@ -199,8 +212,9 @@ class Turn(Remembering):
         back = int(np.flatnonzero(~able[::-1])[0])  # going back from the start, over the end
         ahead = int(np.flatnonzero(~able)[0])
         high = self._limit(looks[ahead - 1] if ahead else looks[0] - _ASIDE, looks[ahead])
-        inside = looks[len(looks) - back] - TURN if back else looks[0] - _ASIDE
-        low = self._limit(inside, looks[len(looks) - 1 - back] - TURN)
+        whole = self.period
+        inside = looks[len(looks) - back] - whole if back else looks[0] - _ASIDE
+        low = self._limit(inside, looks[len(looks) - 1 - back] - whole)
         return low, high
 
     def _limit(self, inside: float, outside: float) -> float:
@@ -240,10 +254,10 @@ class Turn(Remembering):
         if self.range is not None:
             low, high = self.range
             looks = looks[able]
-            looks = np.where(looks > high, looks - TURN, looks)
+            looks = np.where(looks > high, looks - self.period, looks)
             looks = np.sort([low, *looks[(looks > low) & (looks < high)], high])
         else:
-            looks = np.append(looks, looks[0] + TURN)
+            looks = np.append(looks, looks[0] + self.period)
         reading = self.read(looks)
         value = self.output.value(self.unit, reading)
         if self.output.slide is None:
@@ -253,7 +267,7 @@ class Turn(Remembering):
 
     @cached_property
     def gain(self) -> float:
-        """How much the value grows in a turn: degrees of an output that turns all round, else 0."""
+        """How much the value grows in a period, degrees of an output that goes round; else 0."""
         if self.output.slide is not None or self.range is not None:
             return 0.0
         _, value, _ = self._course
@@ -265,9 +279,10 @@ class Turn(Remembering):
         if self.output.slide is not None:
             return value
         looks, course, _ = self._course
-        turns = np.floor((positions - looks[0]) / TURN) if self.range is None else 0.0 * positions
+        turns = np.floor((positions - looks[0]) / self.period)
+        turns = turns if self.range is None else 0.0 * positions
         good = np.isfinite(course)
-        near = np.interp(positions - TURN * turns, looks[good], course[good])
+        near = np.interp(positions - self.period * turns, looks[good], course[good])
         return value + TURN * np.round((near - value) / TURN) + turns * self.gain
 
     def transfers(self, positions: Reals) -> tuple[Reals, Reals]:
@@ -309,8 +324,8 @@ class Turn(Remembering):
         way = self.sense * (phi - start)
         if self.range is not None:
             return way
-        way %= TURN
-        return 0.0 if TURN - way < _SAME else way
+        way %= self.period
+        return 0.0 if self.period - way < _SAME else way
 
     @cached_property
     def ends(self) -> tuple[Extreme, Extreme] | None:
@@ -380,8 +395,8 @@ class Turn(Remembering):
         told = self._told_stroke()
         found = (told, TOLD) if told is not None else self._loaded_stroke(quick)
         # Of equal strokes that from the greater value.
-        is_first, by = found or (quick >= TURN / 2 - _SAME, LONGER)
-        working, idle = (quick, TURN - quick)[:: 1 if is_first else -1]
+        is_first, by = found or (quick >= self.period / 2 - _SAME, LONGER)
+        working, idle = (quick, self.period - quick)[:: 1 if is_first else -1]
         ratio = max(working, idle) / min(working, idle)
         start = self.ends[0 if is_first else 1].phi
         return Strokes(working, idle, None if self.why_no_ratio else ratio, by, start)
@@ -402,7 +417,7 @@ class Turn(Remembering):
         positions = looked_at(self.solution.problem, start, self.turns)
         if not positions.size:
             return None
-        ahead = (self.sense * (positions - start)) % TURN
+        ahead = (self.sense * (positions - start)) % self.period
         return by_loads(powers(self.solution, start, positions), ahead < quick)
 
     def _told_stroke(self) -> bool | None:
@@ -440,7 +455,7 @@ class Turn(Remembering):
 
     @cached_property
     def zero(self) -> float:
-        """Position zero, degrees: an extreme from 0 to 360, or the given angle."""
+        """Position zero, degrees: an extreme from 0 on within a period, or the given angle."""
         asked, first = self.task.zero, float(self._asked[0])
         if self.range is not None:
             first = float(self.positions[0])
@@ -457,7 +472,7 @@ class Turn(Remembering):
             found = self.ends_from_zero[0].phi
         if self.range is not None:
             return found
-        return 0.0 if TURN - found % TURN < _SAME else found % TURN
+        return 0.0 if self.period - found % self.period < _SAME else found % self.period
 
     @cached_property
     def zero_is_asked(self) -> bool:
@@ -468,8 +483,8 @@ class Turn(Remembering):
 
     @property
     def turns(self) -> int:
-        """Turns of the crank in a cycle: two of a machine of 720 degrees."""
-        return 1 if self.range else self.solution.problem.turns
+        """Turns of the crank in a cycle: two of a machine of 720 degrees, or of the motion."""
+        return 1 if self.range else self.solution.turns
 
     @property
     def count(self) -> int:
