@@ -23,15 +23,21 @@ from full_system import (
 from msgspec.structs import replace
 from newton import Motion
 from newton import solve as newton
+from texts import protocol
 
 from planmethod.errors import ProblemError
 from planmethod.mechanism.model import FRAME
+from planmethod.note.tables.forces import driven_by
+from planmethod.note.wording import language
 from planmethod.problem import loads
 from planmethod.problem.load_records import FrictionTask
-from planmethod.problem.model import Problem
+from planmethod.problem.model import Lifted, Problem
 from planmethod.project.settle import settle
+from planmethod.render.forces.cut import cut_picture
+from planmethod.render.forces.leverpicture import lever_picture
 from planmethod.solved.cycle import cycle
 from planmethod.solved.forces.friction import Friction
+from planmethod.solved.forces.reading import force_reading
 from planmethod.solved.forces.statics import Statics
 from planmethod.solved.solution import Solution
 from planmethod.solved.turn.posed import pose
@@ -241,3 +247,40 @@ def test_friction_wants_the_speed_of_the_actuator_itself() -> None:
     assert loads(rubs, name="scissor").dynamics is not None
     with pytest.raises(ProblemError, match="stands"):
         loads(rubs.replace("v_PQ = 20", "v_PQ = 0"), name="scissor")
+
+
+def test_what_drives_is_said_where_something_else_tells_the_position() -> None:
+    actuated = loads(SCISSOR.replace("CYLINDER", ""), name="scissor")
+    told = SCISSOR.replace("CYLINDER", "").replace("PQ = 400\nv_PQ = 20", "phi_2_3 = 60\nomega = 1")
+    posed = loads(told, name="scissor")
+    lifted = Lifted(turns=True, n=60.0, pieces=())
+    followed = replace(posed, drive=replace(posed.drive, posed=None, followed=lifted))
+    said = {
+        lang: [[*driven_by(one, language(lang).note)] for one in (actuated, posed, followed)]
+        for lang in ("en", "ru")
+    }
+    for none, by_position, by_cam in said.values():
+        assert none == []
+        assert len(by_position) == len(by_cam) == 1
+    assert "phi_2_3, but link 1 drives" in said["en"][1][0]
+    assert "follower drives link 1" in said["en"][2][0]
+    assert "[balancing_force]" in said["en"][2][0]
+
+
+@each("seed", SEEDS[:: some(1, few=4)])
+def test_it_is_told_and_drawn_wherever_it_acts(seed: int) -> None:
+    """The protocol, and the sheet's lever, cut groups and plans, of any mechanism with one."""
+    statics, (_, _, ((one, _), (two, _))) = solved(seed), drawn(seed)
+    text = " ".join(protocol(statics.solution, lang="en").split())
+    assert f"The actuator {one}{two} drives the mechanism" in text
+    assert statics.thrust is not None
+    for link, force in statics.thrust.pushes:
+        assert f"The actuator {one}{two} acts on link {link} at point {force.at} with" in text
+        assert sum(force.at == edge.at for p in statics.board.plans for edge in p.polygon) >= 1
+    assert ("are a pair of forces" in text) is not stands(seed)
+    assert ("a tried force of" in text) is stands(seed)
+    reading, say = force_reading(statics.solution, 0), language("en").say
+    for number in range(len(reading.plans)):
+        cut_picture(reading, number, 3.5, say)
+    if not stands(seed):
+        lever_picture(reading, 3.5, say)
