@@ -53,6 +53,7 @@ def _ends(problem: Problem, motion: Motion, rng: random.Random) -> Ends | None:
         for point in problem.bodies[body].points:
             first.setdefault(point, body)
     points = [*first]
+    fastest = max(map(abs, motion.velocity.values()))
     rng.shuffle(points)
     for one in points:
         for two in points:
@@ -62,7 +63,7 @@ def _ends(problem: Problem, motion: Motion, rng: random.Random) -> Ends | None:
             apart = _of(motion, problem, two)[0] - _of(motion, problem, one)[0]
             speeds = [_of(motion, problem, end)[1] for end in (one, two)]
             rate = ((speeds[1] - speeds[0]) * apart.conjugate()).real / abs(apart)
-            if abs(apart) > 0.05 and abs(rate) > _LEAST * max(map(abs, speeds)):
+            if abs(apart) > 0.05 and abs(rate) > _LEAST * max(*map(abs, speeds), 0.1 * fastest):
                 return (one, bodies[0]), (two, bodies[1])
     return None
 
