@@ -44,7 +44,9 @@ class TrainDraft(Struct):
         """All names that stand for a body: wheels, numbers of them, racks, carriers, others."""
         numbers = [wheel.number for wheel in self.wheels.values()]
         return tuple(
-            dict.fromkeys([*self.wheels, *numbers, *self.racks, *self.carriers, *self.names])
+            dict.fromkeys(
+                [*self.wheels, *numbers, *self.racks, *self.carriers, *self.names, *self.arms]
+            )
         )
 
     def bodies(self, groups: Sequence[Sequence[str]]) -> dict[str, str]:
@@ -89,14 +91,18 @@ def read_labels(faults: Faults, path: str, value: object, limit: int) -> tuple[s
     return tuple(dict.fromkeys(label for label in found if label is not None))
 
 
-def carried_by(value: object) -> frozenset[str]:
-    """Return the labels that meshes name as carriers and none as a wheel, without faults."""
+def carried_by(value: object, bodies: object = None) -> frozenset[str]:
+    """Return the labels of carriers that mesh with none, by ``meshes``, and by ``bodies``."""
     silent = Faults()
     tables = [one for one in value if isinstance(one, dict)] if isinstance(value, list) else []
     wheels = [x for one in tables if isinstance(one.get("of"), list) for x in one["of"]]
     both = ([one.get("carrier") for one in tables], wheels)
     told = [{read_label(silent, "", x) for x in labels} for labels in both]
-    return frozenset(label for label in told[0] - told[1] if label is not None)
+    carriers, meshing = told
+    for group in bodies if isinstance(bodies, list) else ():
+        own = {read_label(silent, "", x) for x in group} if isinstance(group, list) else set()
+        carriers |= own if own & carriers else set()
+    return frozenset(label for label in carriers - meshing if label is not None)
 
 
 def read_wheels(

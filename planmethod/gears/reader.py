@@ -92,7 +92,7 @@ def read_train(faults: Faults, table: Mapping[str, Any]) -> Train | None:
         if key not in given:
             faults.add(f"gears.{key}", "missing", say("For example: {} = {}", key, example))
     unknown = read_labels(faults, "gears.unknown", given.get("unknown", []), GROUP_LIMIT)
-    carriers = carried_by(given.get("meshes"))
+    carriers = carried_by(given.get("meshes"), given.get("bodies"))
     read_wheels(faults, given.get("wheels", {}), unknown, draft, carriers)
     meshes = read_meshes(faults, given.get("meshes", []), draft)
     told_bodies = given.get("bodies", [])

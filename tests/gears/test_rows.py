@@ -129,6 +129,9 @@ def test_the_radius_of_a_carrier_is_given_and_checks_coaxiality(tmp_path: Path) 
     assert "Coaxiality (axis 2): r_1 − r_2 = r_4 = 0.05" in sums
     with pytest.raises(ProblemError, match=r"r_4 = 0\.06 m, and the axis of 2 is 0\.05 m from it"):
         solved(tmp_path, k10("{ r = 0.06 }"))
+    other = k10("{ r = 0.05 }").replace('"4" }', '"H" }').replace('["4", "5"]', '["H", "4", "5"]')
+    assert 'carrier = "H"' in other
+    assert answer(solved(tmp_path, other), "r_4").exact == 50
     for wrong in ("5", "{ z = 5 }", "{ r = 0.05, z = 5 }"):
         with pytest.raises(ProblemError, match="4 is a carrier and has no teeth"):
             solved(tmp_path, k10(wrong))
