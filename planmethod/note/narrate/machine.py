@@ -170,12 +170,12 @@ class MachineTeller:
             above, below = say.given(float(f"{scales.work:.4g}")), parts.format("")
             lines += [
                 f"μ_{{A}} = μ_{{T}} = {self._value('A', scales.work, 'J')}",
-                f"H = {formula.fraction('μ_{A}', 'μ_{M}·μ_{φ}')} = "
+                f"H_{{A}} = {formula.fraction('μ_{A}', 'μ_{M}·μ_{φ}')} = "
                 f"{formula.fraction(above, below)} = {pole} {mm}",
             ]
         else:
             lines.append(
-                f"μ_{{A}} = μ_{{T}} = μ_{{M}}·H·μ_{{φ}} = {parts.format(pole + '·')} = "
+                f"μ_{{A}} = μ_{{T}} = μ_{{M}}·H_{{A}}·μ_{{φ}} = {parts.format(pole + '·')} = "
                 + self._value("A", scales.work, "J")
             )
         slopes = self.flywheel.usual_slopes

@@ -152,7 +152,8 @@ class _Sketch:
             self._thin(complex(foot.real, place.imag), place)
         self._dots([pole])
         self._label("P", pole, -1.0, "pole", large=True)
-        self._dimension(complex(pole.real, foot.imag), foot, min(z.imag for z in cuts) - 6.0, "H")
+        below = min(z.imag for z in cuts) - 6.0
+        self._dimension(complex(pole.real, foot.imag), foot, below, "H_{A}")
         constant = float(drawing.points.work[-1]) / flywheel.cycle / scales.moment
         level = foot + 1j * constant
         self._thin(level, level + length, pen=Pen.HIDDEN)
