@@ -27,6 +27,9 @@ from planmethod.solved.solution import Solution
 UNDRAWN = 0.1
 """Part of a division of the ruler below which a segment is too small to be laid off."""
 
+UNDRAWN = 0.1
+"""Part of a division of the ruler below which a segment is too small to be laid off."""
+
 COLLINEAR = 1e-9
 """Ratio of the across to the along part below which three points of a link lie on one line."""
 
@@ -65,6 +68,15 @@ class MotionNarrator:
         if length < SHORTEST_MM:
             symbol, of = vector.symbol if vector else segment, names.of(step.origin)
             return [words.zero_length.format(symbol=symbol, point=point, of=of)]
+        if length < self.solution.profile.ruler * UNDRAWN:
+            small = words.small_length.format(
+                segment=segment,
+                length=given(length, words, 2),
+                point=point,
+                of=names.of(step.origin),
+                coincide=self.coincide(step.out),
+            )
+            return [*self.laid(step), small]
         direction, sense = self._sense(step, vector)
         text = words.lay_off_vector.format(
             of=names.of(step.origin),
