@@ -19,8 +19,9 @@ from planmethod.problem.names import short
 from planmethod.problem.reader import varied
 from planmethod.problem.sheet import read_head
 from planmethod.problem.tables import CAM_EXAMPLE, CHOOSE, CamTable
+from planmethod.problem.units import measured
 
-TOP = ("title", "source", "stamp", "sheet", "answers", "compare", "variants", "cam")
+TOP = ("title", "source", "units", "stamp", "sheet", "answers", "compare", "variants", "cam")
 """Tables of the file that a cam may have."""
 
 WHOLE = ("r_min", "e", "centre_distance", "roller", "theta_max", "theta_max_return", "rho_min")
@@ -92,10 +93,11 @@ def _speed(crank: object) -> float | None:
     """Return the speed of the crank that a file has beside the cam, rev/min."""
     if not isinstance(crank, Mapping):
         return None
-    n, omega = crank.get("n"), crank.get("omega")
-    if fields.is_number(n):
-        return float(n)
-    return float(omega) * 30 / pi if fields.is_number(omega) else None
+    said = fields.Faults()  # that of the crank is read, and its faults are told, with the driver
+    if "n" in crank:
+        return fields.read_number(said, "", crank["n"], "a rotational speed in rev/min")
+    omega = fields.read_number(said, "", crank.get("omega"), "an angular velocity in 1/s")
+    return None if omega is None else omega * 30 / pi
 
 
 def _read(faults: Faults, body: Mapping[str, Any], speed: float | None) -> dict[str, Any] | None:
@@ -152,12 +154,12 @@ def _kept(faults: Faults, path: str, value: object) -> object:
 def _read_size(faults: Faults, path: str, value: object) -> float | str | None:
     if value == CHOOSE:
         return CHOOSE
-    if isinstance(value, str):
+    if isinstance(value, str) and measured(value) is None:
         hint = f'{path.rpartition(".")[2]} = "{CHOOSE}"'
         faults.expected(path, say("a length in metres, or '{}'", CHOOSE), value, hint)
         return None
     low = -10.0 if path.endswith("offset") else 1e-5
-    return fields.read_number(faults, path, value, "a length in metres", low=low, high=10.0)
+    return fields.read_metres(faults, path, value, "length", low=low, high=10.0)
 
 
 def _check_keys(faults: Faults, body: Mapping[str, Any], *, oscillates: bool, contact: str) -> None:

@@ -13,11 +13,11 @@ from msgspec.structs import asdict
 
 from planmethod.check.model import KeyEntry
 from planmethod.check.works.gather import is_of
-from planmethod.check.works.units import ratio_of, read_unit
 from planmethod.check.works.xlsx_file import META
 from planmethod.note.wording import Words, language
 from planmethod.note.writers.workbook import saved
 from planmethod.problem.head import KindProblem
+from planmethod.problem.units import ratio_of, read_unit
 
 SCHEMA = 1
 

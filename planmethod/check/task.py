@@ -16,7 +16,7 @@ from planmethod.check.model import Unread, WrittenAnswer
 from planmethod.check.questions import Question, Questions, Sign
 from planmethod.check.sheet import Sheet
 from planmethod.check.works.cells import refused
-from planmethod.check.works.units import ratio, ratio_of, read_unit
+from planmethod.check.works.units import ratio
 from planmethod.construct.drafting import PROFILES, Profile
 from planmethod.errors import Fault, ProblemError
 from planmethod.languages import say
@@ -25,6 +25,7 @@ from planmethod.plans.forces.loads import LoadKind
 from planmethod.plans.model import PlanKind
 from planmethod.problem.head import AskedAnswer, AskedSense, KindProblem
 from planmethod.problem.selector import Selector, SelectorError, is_force, parse_selector
+from planmethod.problem.units import ratio_of, read_unit
 from planmethod.solved.selectors.steps import NoValue, NoValueError
 from planmethod.solved.solution import Solution
 

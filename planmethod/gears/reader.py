@@ -25,7 +25,7 @@ from planmethod.problem.answers import Plain, read_answers
 from planmethod.problem.fields import Faults
 from planmethod.problem.flat import read_flat
 from planmethod.problem.head import Published
-from planmethod.problem.names import UNITS, fold, is_label, joined, segment
+from planmethod.problem.names import fold, is_label, joined, segment
 from planmethod.problem.reader import varied
 from planmethod.problem.selector import read_published
 from planmethod.problem.sheet import read_head
@@ -67,8 +67,6 @@ def load(path: str | Path, *, variant: str | None = None) -> GearProblem:
     if "links" in table:
         table = {key: value for key, value in table.items() if key in SHARED}
     given = fields.read_keys(faults, "", table, TOP)
-    if "units" in given:
-        faults.unit = fields.read_word(faults, "units", given["units"], UNITS) or faults.unit
     head = read_head(faults, given)
     body = fields.read_table(faults, "gears", given.get("gears", {}), "wheels = { 1 = 20, 2 = 36 }")
     train = None if body is None else read_train(faults, body)
@@ -199,6 +197,9 @@ def _read_groups(
     return [_known(faults, f"{path}[{i}]", group, known) for i, group in enumerate(value)]
 
 
+_SPEEDS = {"n": "a rotational speed in rev/min", "omega": "an angular velocity in 1/s"}
+
+
 def _read_inputs(
     faults: Faults, given: Mapping[str, Any], known: tuple[str, ...]
 ) -> tuple[str, dict[str, Fraction]]:
@@ -212,7 +213,8 @@ def _read_inputs(
     for key, value in table.items():
         path = joined("gears", unit, segment(key))
         label = read_label(faults, path, key, known)
-        speed = fields.read_number(faults, path, value, "a speed", low=-1e6, high=1e6)
+        what = _SPEEDS[unit]
+        speed = fields.read_number(faults, path, value, what, low=-1e6, high=1e6)
         if label is not None and speed is not None:
             found[label] = fraction(speed)
     return unit, found

@@ -176,9 +176,7 @@ def _read_radii(
             hint = near_hint(link, links, say("There are {}.", listed(list(links))))
             faults.add(where, say("there is no link '{}'", link), hint)
             continue
-        found = fields.read_number(
-            faults, where, distance, "a distance in metres", low=1e-6, high=1e4
-        )
+        found = fields.read_metres(faults, where, distance, low=1e-6, high=1e4)
         if found is not None:
             radii[link] = found
     return radii
@@ -331,7 +329,7 @@ def _read_places(faults: Faults, path: str, value: object) -> tuple[float, float
         faults.expected(path, "two distances in metres", value, say("For example: {}", _BEARINGS))
         return None
     one, two = (
-        fields.read_number(faults, f"{path}[{k}]", each, "a distance in m", low=-1e3, high=1e3)
+        fields.read_metres(faults, f"{path}[{k}]", each, low=-1e3, high=1e3)
         for k, each in enumerate(value)
     )
     if one is None or two is None:

@@ -27,6 +27,7 @@ from planmethod.problem.names import (
     short,
     split_pair,
 )
+from planmethod.problem.units import expected_unit, measured, read_unit
 
 FAULT_LIMIT = 100
 """More faults than this are counted, not listed."""
@@ -149,7 +150,11 @@ def read_number(
     hint : str
         What to do about a number that is out of bounds.
     """
-    mistyped = value_hint(value, faults.unit)
+    number = read_measured(faults, path, value, what)
+    if number is not None and not math.isfinite(number):
+        return None
+    mistyped = "" if number is not None else value_hint(value)
+    value = value if number is None else number
     if isinstance(value, str) and not mistyped and any(map(str.isdecimal, value)):
         try:
             number = work_out(value)
@@ -184,6 +189,40 @@ def read_number(
     return number
 
 
+def read_measured(faults: Faults, path: str, value: object, what: str) -> float | None:
+    """Return a number that has a unit, ``"4 in"``, in the unit that is expected.
+
+    Returns
+    -------
+    float or None
+        None of what is no text of a number and a unit; NaN after noting a fault.
+    """
+    told = measured(value) if isinstance(value, str) else None
+    if told is None:
+        return None
+    unit = expected_unit(what)
+    number = told.in_unit(unit) if unit else None
+    if number is None:
+        wanted = read_unit(unit) if unit else None
+        if wanted is None:
+            hint = say("Write {} alone: it has no unit.", told.number)
+        elif wanted.dimension == told.of.dimension:
+            hint = say("Write {} for turns, or {} for an angle a second.", "rpm", "rad/s")
+        else:
+            hint = say("{} is a unit of {}: check it.", told.unit, told.quantity)
+        faults.expected(path, what, value, hint)
+        return math.nan
+    wanted = read_unit(unit)
+    if not is_plain(told.number) and wanted is not None and told.of.factor == wanted.factor:
+        faults.stated[path] = told.number
+    return number
+
+
+def is_plain(text: str) -> bool:
+    """Tell whether a text is a number as it is, and no arithmetic."""
+    return re.fullmatch(r"[-+−]?\d+(?:[.,]\d+)?", text) is not None
+
+
 def read_whole(faults: Faults, path: str, value: object, low: int, high: int) -> int | None:
     """Read a whole number within bounds; None after noting a fault."""
     if isinstance(value, bool) or not isinstance(value, int) or not low <= value <= high:
@@ -214,6 +253,12 @@ _SAID: Mapping[str, Mapping[str, str]] = {
         "coordinate": "a coordinate in centimetres",
         "place": "[x, y] in centimetres",
     },
+    "in": {
+        "length": "a length in inches",
+        "distance": "a distance in inches",
+        "coordinate": "a coordinate in inches",
+        "place": "[x, y] in inches",
+    },
     "mm": {
         "length": "a length in millimetres",
         "distance": "a distance in millimetres",
@@ -226,30 +271,51 @@ _SAID: Mapping[str, Mapping[str, str]] = {
 
 def read_length(faults: Faults, path: str, value: object) -> float | None:
     """Read a length of a link in the unit of the file; it is returned in m."""
-    return _read_metres(faults, path, value, "length", low=1e-9, positive=True)
+    return read_metres(faults, path, value, "length", low=1e-9, positive=True)
 
 
 def read_coordinate(
     faults: Faults, path: str, value: object, kind: str = "distance"
 ) -> float | None:
     """Read a coordinate or a signed distance in the unit of the file; it is returned in m."""
-    return _read_metres(faults, path, value, kind, low=-1e6)
+    return read_metres(faults, path, value, kind, low=-1e6)
 
 
-def _read_metres(
-    faults: Faults, path: str, value: object, kind: str, *, low: float, positive: bool = False
+def read_metres(
+    faults: Faults,
+    path: str,
+    value: object,
+    kind: str = "distance",
+    *,
+    low: float,
+    high: float = 1e6,
+    positive: bool = False,
 ) -> float | None:
+    """Read a length in the unit of the file; it and its bounds are in m.
+
+    Parameters
+    ----------
+    kind : str
+        ``length``, ``distance`` or ``coordinate``: how it is called.
+    """
     per, what = UNITS[faults.unit], _SAID[faults.unit][kind]
     number = read_number(
-        faults, path, value, what, low=low * per, high=1e6 * per, positive=positive,
+        faults, path, value, what, low=low * per, high=high * per, positive=positive,
         offset=not positive,
     )  # fmt: skip
     return None if number is None else number / per
 
 
+def read_units(faults: Faults, table: Table) -> None:
+    """Read ``units``, the unit of all lengths of a file."""
+    if "units" in table:
+        faults.unit = read_word(faults, "units", table["units"], UNITS) or faults.unit
+
+
 def read_angle(faults: Faults, path: str, value: object) -> float | None:
     """Read an angle, degrees."""
-    if isinstance(value, str) and (radians := re.sub("π|pi", "180", value)) != value:
+    radians = re.sub("π|pi", "180", value) if isinstance(value, str) else value
+    if radians != value and measured(str(value)) is None:
         hint = say('pi is 180 degrees: write "{}".', radians)
         faults.expected(path, "an angle in degrees", value, hint)
         return None
@@ -298,7 +364,7 @@ def read_place(faults: Faults, path: str, value: object) -> complex | None:
     if not isinstance(value, list) or len(value) != 2:
         commas = isinstance(value, list) and len(value) in (3, 4)
         hint = "The decimal sign is a point: [0.5, 0.3]." if commas else ""
-        faults.expected(path, _SAID[faults.unit]["place"], value, hint or value_hint(value, ""))
+        faults.expected(path, _SAID[faults.unit]["place"], value, hint or value_hint(value))
         return None
     x = read_coordinate(faults, f"{path}[0]", value[0], "coordinate")
     y = read_coordinate(faults, f"{path}[1]", value[1], "coordinate")
@@ -392,7 +458,7 @@ def read_point_name(faults: Faults, path: str, value: object) -> str | None:
             path,
             "the name of a point",
             value,
-            value_hint(value, "")
+            value_hint(value)
             or "A point is a Latin letter, perhaps with digits or primes: B, O3, S2, C'.",
         )
         return None

@@ -100,7 +100,15 @@ def _read_key(faults: Faults, path: str, value: object, one: FlatField) -> objec
             assert_never(one.key)
 
 
+_KINDS = {"a radius": "distance", "a distance": "distance"}
+
+
 def _read_number(faults: Faults, path: str, value: object, key: NumberKey) -> float | None:
+    if key.unit == "m" and faults.unit != "m":
+        kind = _KINDS.get(key.what, "length")
+        return fields.read_metres(
+            faults, path, value, kind, low=key.low, high=key.high, positive=key.positive
+        )
     if key.low == 0.0 and key.unbounded and fields.is_number(value) and value < 0:
         faults.add(path, say("expected {}, 0 or greater, got {:g}", key.expected, value))
         return None

@@ -8,7 +8,7 @@ from collections.abc import Sequence
 
 from planmethod.languages import say, typed
 from planmethod.problem.formula import FormulaError, work_out
-from planmethod.problem.names import UNITS, describe_lookalikes, fold, listed, looks_latin
+from planmethod.problem.names import describe_lookalikes, fold, listed, looks_latin
 
 _COMMA = r"[^#\"\[{=]*=\s*([-+]?\d+),(\d+)"
 """A number with a decimal comma (десятичная запятая) after its key."""
@@ -126,14 +126,8 @@ def _repaired(code: str) -> str:
         return ""
 
 
-def value_hint(value: object, unit: str) -> str:
-    """Return what to write in place of a text where numbers are expected; empty if it is unknown.
-
-    Parameters
-    ----------
-    unit : str
-        Of the lengths of the file.
-    """
+def value_hint(value: object) -> str:
+    """Return what to write in place of a text where numbers are expected, or nothing."""
     if not isinstance(value, str):
         return ""
     text = value.strip(" °[]()").replace("−", "-")
@@ -145,14 +139,11 @@ def value_hint(value: object, unit: str) -> str:
     if re.fullmatch(rf"{_NUMBER}(\s*[,;]\s+{_NUMBER})+|{_NUMBER}(\s*;\s*{_NUMBER})+", text):
         numbers = ", ".join(re.findall(_NUMBER, text))
         return say("Write {} without quotes.", f"[{numbers}]")
-    said = re.fullmatch(r"([-+]?\d+(?:[.,]\d+)?)\s*([^\W\d_][^\d]*)", text)
-    if said is None or said[2].startswith(("π", "pi", "sqrt")):
+    said = re.fullmatch(r"[-+]?\d+(?:[.,]\d+)?\s*([^\W\d_][^\d]*)", text)
+    if said is None or said[1].startswith(("π", "pi", "sqrt")):
         return ""
-    number, named = said[1].replace(",", "."), said[2].strip()
-    meant = next((u for u in (named, *typed().get(named.casefold(), ())) if u in UNITS), unit)
-    if meant == unit:
-        return say("Write {} without quotes and unit.", number)
-    told = (
-        'Write {} without quotes and unit; units = "{}" at the top of the file is for all lengths.'
-    )
-    return say(told, number, meant)
+    return say("Units are {}; {} is none of them.", _UNITS, said[1].strip())
+
+
+_UNITS = "mm, cm, m, in, ft, °, rad, 1/s, rad/s, rpm, N, kN, kg, g, Pa, MPa, bar"
+"""Some of those that a number may have."""

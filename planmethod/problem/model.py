@@ -488,11 +488,11 @@ def _is_pair(name: str) -> bool:
     return half > 0 and name[half] in "-–" and name[:half] == name[half + 1 :]
 
 
-class FileTable(dict[str, Any]):
+class GivenTable(dict[str, Any]):
     """What TOML made of a file: problems that say the same are equal, however it is written."""
 
     def __eq__(self, other: object) -> bool:
-        return isinstance(other, FileTable)
+        return isinstance(other, GivenTable)
 
     def __ne__(self, other: object) -> bool:
         return not self == other
@@ -527,10 +527,10 @@ class Problem(KindProblem, frozen=True, kw_only=True):
     tables : mapping
         Tables that later parts read ([gears], [point]), as parsed.
     unit : str
-        Unit in which the file gives lengths: ``m``, ``cm`` or ``mm``.
+        Unit in which the file gives lengths: ``m``, ``cm``, ``mm`` or ``in``.
     stated : mapping of str to str
         Arithmetic that the file has for a number (``0.25/3``), by path.
-    given : FileTable
+    given : GivenTable
         What TOML made of the file, the variant being laid over it; empty of a problem that was
         not read from one.
     vanished : mapping of str to float
@@ -555,7 +555,7 @@ class Problem(KindProblem, frozen=True, kw_only=True):
     tables: Mapping[str, Any] = field(default_factory=dict)
     unit: str = "m"
     stated: Mapping[str, str] = field(default_factory=dict)
-    given: FileTable = field(default_factory=FileTable)
+    given: GivenTable = field(default_factory=GivenTable)
     vanished: Mapping[str, float] = field(default_factory=dict)
 
     @property

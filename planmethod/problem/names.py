@@ -13,7 +13,9 @@ from types import MappingProxyType
 from planmethod.languages import say, typed
 from planmethod.mechanism.model import FRAME
 
-UNITS: Mapping[str, float] = MappingProxyType({"m": 1.0, "cm": 100.0, "mm": 1000.0})
+UNITS: Mapping[str, float] = MappingProxyType(
+    {"m": 1.0, "cm": 100.0, "mm": 1000.0, "in": 1.0 / 0.0254}
+)
 """Units in which a file may give its lengths: how many of them a metre has."""
 
 POINT_NAME_LIMIT = 8
@@ -39,7 +41,7 @@ _PAIR_RE = rf"({_POINT})({_POINT})\Z"
 _LABEL_RE = r"[^\W_]+(?:[- ][^\W_]+)*'{0,3}\Z"
 
 
-_LENGTHS = {"m": "{} m", "cm": "{} cm", "mm": "{} mm"}
+_LENGTHS = {"m": "{} m", "cm": "{} cm", "mm": "{} mm", "in": "{} in"}
 
 
 def told_length(metres: float, unit: str, digits: int = 4) -> str:

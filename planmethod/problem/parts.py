@@ -14,11 +14,11 @@ from planmethod.problem.answers import AnswerScope, read_answers
 from planmethod.problem.bodies import place_points
 from planmethod.problem.cycle import cycle_count, followed, read_cycle
 from planmethod.problem.drive import read_assembly, read_drive, read_scales
-from planmethod.problem.fields import Faults, read_keys, read_word
+from planmethod.problem.fields import Faults, read_keys, read_units
 from planmethod.problem.joints import coincident_points, join
 from planmethod.problem.links import LinkText, check_arcs, read_links
 from planmethod.problem.model import Body, Geared, Lifted, Problem, Slide
-from planmethod.problem.names import UNITS, listed
+from planmethod.problem.names import listed
 from planmethod.problem.project import read_project
 from planmethod.problem.selector import check_what, read_published, read_tables
 from planmethod.problem.sheet import read_head
@@ -43,8 +43,7 @@ def read_parts(
         Reads the train, or the cam, that drives.
     """
     given = read_keys(faults, "", table, keys.TOP)
-    if "units" in given:
-        faults.unit = read_word(faults, "units", given["units"], UNITS) or faults.unit
+    read_units(faults, given)
     head = read_head(faults, given)
     scales = read_scales(faults, given.get("scales", {}))
     tables = read_tables(faults, given)

@@ -11,8 +11,8 @@ from msgspec.structs import replace
 
 from planmethod.errors import Fault, ProblemError
 from planmethod.languages import say, spoken
-from planmethod.problem.fields import Faults
-from planmethod.problem.model import FileTable, Problem
+from planmethod.problem.fields import Faults, read_units
+from planmethod.problem.model import GivenTable, Problem
 from planmethod.problem.names import fold, listed, near
 from planmethod.problem.parts import TrainReader, read_parts
 from planmethod.problem.source import parse, read_source
@@ -96,7 +96,9 @@ def varied(path: Path, variant: str | None) -> tuple[Mapping[str, Any], tuple[st
         The file cannot be read, or has no such variant.
     """
     table, known, faults = _from_file(path)
-    return _laid_over(faults, table, known, str(path), variant), tuple(known), faults
+    table = _laid_over(faults, table, known, str(path), variant)
+    read_units(faults, table)
+    return table, tuple(known), faults
 
 
 def laid_over(
@@ -192,7 +194,7 @@ def _read_varied(
     if faults or problem is None:
         raise ProblemError(source, faults.found)
     return replace(
-        problem, source_file=source, variants=variants, variant=variant, given=FileTable(table)
+        problem, source_file=source, variants=variants, variant=variant, given=GivenTable(table)
     )
 
 

@@ -26,7 +26,7 @@ def unlikely(problem: Problem) -> Iterator[str]:
         link, key, value = longest
         told = (
             "{} = {} is the longest link, which is hardly meant. The unit of the file's lengths "
-            'stands at its top: units = "m", "cm" or "mm".'
+            'stands at its top: units = "m", "cm", "mm" or "in".'
         )
         yield say(told, f"links.{link}.{key}", told_length(value, problem.unit))
     drive = problem.drive

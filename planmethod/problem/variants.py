@@ -255,7 +255,7 @@ def _opened(level: Any, part: str, after: str) -> Any:
     return level[key]
 
 
-_UNITS = {"м": "m", "см": "cm", "мм": "mm", "m": "m", "cm": "cm", "mm": "mm"}
+_UNITS = {"м": "m", "см": "cm", "мм": "mm", "дюйм": "in", **{one: one for one in UNITS}}
 _SI = (
     r"(?:°|град|deg|об/мин|rpm|(?:мин|с)[-⁻][12¹²]|(?:1|рад|rad|м|m)/[сs][²2]?"
     r"|кг|kg|Н|N|(?:Н|N|кг|kg)[·*][мm][²2]?)\Z"

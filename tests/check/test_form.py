@@ -23,12 +23,12 @@ from planmethod.check.key import key_of_task
 from planmethod.check.model import KeyEntry, Sense, Unread, Work, WrittenAnswer
 from planmethod.check.works import read_works
 from planmethod.check.works.cells import HEADS, key, read_sense
-from planmethod.check.works.units import read_unit
 from planmethod.cli import cli
 from planmethod.errors import ExitCode
 from planmethod.note.plaintext import plain_text
 from planmethod.note.wording import LANGUAGES, language
 from planmethod.problem import load
+from planmethod.problem.units import read_unit
 
 EX3 = path_of("linkages/ex3")
 EXACT, SIGMA, LENGTH = 2.2434567, 0.0123456, 44.869134

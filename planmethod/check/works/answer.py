@@ -9,7 +9,8 @@ from msgspec.structs import replace
 
 from planmethod.check.model import Sense, Unread, WrittenAnswer
 from planmethod.check.works.cells import Cell, found, read_name, read_sense, refused
-from planmethod.check.works.units import read_number, read_unit
+from planmethod.check.works.units import read_number
+from planmethod.problem.units import read_unit
 
 POSITION_LIMIT = 100_000
 

@@ -12,8 +12,9 @@ from planmethod.check.model import Unread, Work, WrittenAnswer
 from planmethod.check.works.answer import NotReadError, read_scaled
 from planmethod.check.works.cells import Cell, key, refused
 from planmethod.check.works.faults import WorksError
-from planmethod.check.works.units import Dimension, read_number, read_unit
+from planmethod.check.works.units import read_number
 from planmethod.problem.names import fold
+from planmethod.problem.units import Dimension, read_unit
 
 STUDENT_LIMIT = 2000
 ANSWER_LIMIT = 2000

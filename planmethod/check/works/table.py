@@ -13,7 +13,7 @@ from planmethod.check.model import Unread
 from planmethod.check.works.answer import read_answer
 from planmethod.check.works.cells import BLANK, HEADS, MM, POINT, Cell, cut, found, key, read_name
 from planmethod.check.works.gather import Gathering, WorkDraft, scale_name
-from planmethod.check.works.units import read_unit
+from planmethod.problem.units import read_unit
 
 ROW_LIMIT, COLUMN_LIMIT = 20_000, 400
 CELL_LIMIT = 200_000

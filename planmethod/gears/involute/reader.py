@@ -17,12 +17,12 @@ from planmethod.gears.involute.sizes import MeshingProblem, Pair, Rack, ShiftAim
 from planmethod.languages import say
 from planmethod.problem import fields
 from planmethod.problem.fields import Faults
-from planmethod.problem.flat import read_flat
+from planmethod.problem.flat import OwnReader, read_flat
 from planmethod.problem.reader import varied
 from planmethod.problem.sheet import read_head
-from planmethod.problem.tables import MESHING_EXAMPLE, MeshingTable
+from planmethod.problem.tables import MESHING_EXAMPLE, MESHING_HINT, MeshingTable
 
-TOP = ("title", "source", "stamp", "sheet", "variants", "meshing")
+TOP = ("title", "source", "units", "stamp", "sheet", "variants", "meshing")
 """Tables of the file that a meshing may have."""
 
 AIMS = tuple(aim.value for aim in ShiftAim)
@@ -63,7 +63,7 @@ def load(path: str | Path, *, variant: str | None = None) -> MeshingProblem:
 
 def _read(faults: Faults, body: Mapping[str, Any]) -> dict[str, Any] | None:
     """Return the fields of a problem that stand in its table."""
-    own = {"z": _read_teeth}
+    own: dict[str, OwnReader] = {"z": _read_teeth, "a_w": _read_size, "b": _read_size}
     found = read_flat(faults, "meshing", body, MeshingTable, own, example=MESHING_EXAMPLE)
     x = _read_shifts(faults, body)
     if faults:
@@ -110,6 +110,22 @@ def _read(faults: Faults, body: Mapping[str, Any]) -> dict[str, Any] | None:
         "tip": given.s_a_min,
         "overlap": given.epsilon_min,
     }
+
+
+_SIZES = {"a_w": (0.1, 1e5), "b": (0.05, 1e4)}
+"""Bounds of the sizes that are lengths of the machine, mm."""
+
+
+def _read_size(faults: Faults, path: str, value: object) -> float | None:
+    """Read a length, mm: as the standard has it, or in the unit that the file says."""
+    low, high = _SIZES[path.rpartition(".")[2]]
+    if faults.unit not in ("m", "mm"):
+        metres = fields.read_metres(
+            faults, path, value, "distance", low=low / 1000.0, high=high / 1000.0
+        )
+        return None if metres is None else metres * 1000.0
+    what = "a distance in mm" if path.endswith("a_w") else "a width in mm"
+    return fields.read_number(faults, path, value, what, low=low, high=high, hint=MESHING_HINT)
 
 
 def _read_teeth(faults: Faults, path: str, value: object) -> tuple[int, int] | None:

@@ -12,7 +12,7 @@ from planmethod.check.works import read_works
 from planmethod.check.works.answer import NotReadError, read_scaled
 from planmethod.check.works.cells import Cell, read_sense
 from planmethod.check.works.table import read_head
-from planmethod.check.works.units import read_unit
+from planmethod.problem.units import read_unit
 
 TEXT = (ROOT / "docs" / "works.md").read_text("utf-8")
 EXAMPLES = re.findall(r"(?ms)^```(json|toml|csv)\n(.*?)^```$", TEXT)

@@ -4,7 +4,8 @@ import pytest
 
 from planmethod.check.model import Sense, WrittenAnswer
 from planmethod.check.works.cells import read_sense
-from planmethod.check.works.units import Number, ratio, read_number, read_unit
+from planmethod.check.works.units import Number, ratio, read_number
+from planmethod.problem.units import read_unit
 
 NUMBERS = [
     ("2.275", 2.275, 0.001, ""),
