@@ -19,8 +19,8 @@ from planmethod.gears.construction import (
     read,
 )
 from planmethod.gears.model import GearProblem
-from planmethod.gears.motion import solve_motion
 from planmethod.gears.picture import ContactKind, draw
+from planmethod.gears.sheet import as_drawn
 from planmethod.gears.text import compared_sentences, compared_table
 from planmethod.gears.told import calculation, given, unit_of
 from planmethod.note.document import Chapter, Item, Node, Paragraph, Step, Title
@@ -40,7 +40,7 @@ def protocol_document(problem: GearProblem, words: Language, profile: Profile) -
     ProblemError
         The train cannot be, or its inputs do not fit.
     """
-    motion, notation = solve_motion(problem), problem.sheet.notation
+    motion, notation = as_drawn(problem, profile), problem.sheet.notation
     say: Words = words.gears["sheet"]
     yield Title(say.protocol.format(title=escape(problem.title)))
     if problem.source:

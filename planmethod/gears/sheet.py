@@ -55,6 +55,7 @@ from planmethod.render.sheets.composer import (
     Sizes,
     Viewed,
     compose,
+    composed,
     view_of,
 )
 
@@ -113,17 +114,46 @@ def drawings(
     LayoutError
         It does not fit the paper.
     """
+    strategy = _Train(problem, solve_motion(problem), profile)
+    furniture = Furniture.of(problem.sheet, before=before, total=total)
+    return compose(problem, strategy, _misfit(strategy), fields=fields, furniture=furniture)
+
+
+def as_drawn(problem: GearProblem, profile: Profile) -> TrainMotion:
+    """Return the motion of a train with the scales that its sheet has: so a picture is read once.
+
+    Where the train fits no paper, the scales are those of the file.
+
+    Raises
+    ------
+    ProblemError
+        The train cannot be, or its inputs do not fit.
+    """
     motion = solve_motion(problem)
-    wheels = len(motion.train.wheels)
-    misfit = Misfit(
+    if draw(motion) is None:
+        return motion
+    strategy = _Train(problem, motion, profile)
+    try:
+        _, laid = composed(problem, strategy, _misfit(strategy), Furniture.of(problem.sheet))
+    except LayoutError:
+        return motion
+    scales = {name: Fraction(repr(value)) for name, value in laid.scales.items()}
+    settings = replace(motion.train.picture, **scales)
+    return replace(motion, train=replace(motion.train, picture=settings))
+
+
+def _misfit(strategy: _Train) -> Misfit:
+    wheels = len(strategy.motion.train.wheels)
+    return Misfit(
         lambda paper, advice: LayoutError(
-            "{}: the sheet of {} wheels does not fit {}. {}", problem.name, wheels, paper, advice
+            "{}: the sheet of {} wheels does not fit {}. {}",
+            strategy.problem.name,
+            wheels,
+            paper,
+            advice,
         ),
         say("Ask for less in gears.ask."),
     )
-    strategy = _Train(problem, motion, profile)
-    furniture = Furniture.of(problem.sheet, before=before, total=total)
-    return compose(problem, strategy, misfit, fields=fields, furniture=furniture)
 
 
 def pictures(
@@ -160,8 +190,9 @@ class _Train(Struct, frozen=True):
             )
             if (settings, sizes) not in made:
                 made[settings, sizes] = list(sheet.orders())
+            scales = {"mu_l": float(settings.mu_l), "near_mm": float(settings.near_mm)}
             for parts in made[settings, sizes]:
-                yield Packing(paper, (Group(parts),))
+                yield Packing(paper, (Group(parts),), scales=scales)
 
     def _scales(self, papers: Sequence[Blank]) -> Iterator[tuple[Blank, PictureSettings, Sizes]]:
         """Yield papers and scales: first the scale of the file, where the scheme suits it."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import io
 import random
+from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
@@ -18,11 +19,16 @@ from planmethod.cli import cli
 from planmethod.construct.drafting import PROFILES
 from planmethod.errors import ExitCode, LayoutError
 from planmethod.gears.arrangement import Arrangement, AxisPart, arrange
+from planmethod.gears.construction import construct, read
 from planmethod.gears.drawn.pictures import front
 from planmethod.gears.motion import solve_motion
+from planmethod.gears.picture import draw
 from planmethod.gears.reader import load
 from planmethod.gears.scheme import SchemeData
-from planmethod.gears.sheet import drawings
+from planmethod.gears.sheet import as_drawn, drawings
+from planmethod.gears.told import results
+from planmethod.note.compared import NONE
+from planmethod.note.wording import language
 from planmethod.render.backends import render
 from planmethod.render.control.remarks import Severity
 from planmethod.render.ink.drawing import Arc, Drawing, Stroke, Text
@@ -128,6 +134,31 @@ def test_segments_are_as_long_as_the_table_says_in_the_file(name: str) -> None:
     shown = {item.text.lstrip("−") for item in drawing.items if isinstance(item, Text)}
     lengths = [span.length / span.share for view in drawing.views for span in view.spans]
     assert {f"{length:.2f}".replace(".", ",") for length in lengths} <= shown
+
+
+SMALL = told(
+    {"1": 20, "2": 40, "2'": 25, "3": 85, "4": 13, "5": 20},
+    [mesh("1", "2", carrier="H"), mesh("2'", "3", "internal", "H"), mesh("4", "5")],
+    'bodies = [["H", "4"]]\nfixed = ["3"]\nmodule = 4\nn = { 1 = -960 }\nask = ["U_1_5"]',
+)
+"""Its scheme is too low at the scale of the file: the sheet has another one."""
+
+
+def test_a_picture_is_read_once_for_sheet_protocol_and_note(tmp_path: Path) -> None:
+    """U₁₅ read -12.00 on the sheet was -12.83 in the note, at the scale of the file."""
+    paths = [written(tmp_path, SMALL), *FILES[: some(len(FILES), 1)]]
+    for path in paths:
+        motion = as_drawn(load(path), PROFILES["board"])
+        picture = draw(motion)
+        if picture is None:
+            continue
+        drawn = construct(motion, picture)
+        seen = read(drawn, PROFILES["board"])
+        rows = results(motion, drawn, seen, language("ru"))
+        said = texts(sheet(path))
+        assert {row[3] for row in rows} - {NONE} <= {*said.split()}
+    assert as_drawn(load(paths[0]), PROFILES["board"]).train.picture.mu_l > Fraction(1, 1000)
+    assert "12,00" in texts(sheet(paths[0]))
 
 
 def test_short_rays_stand_on_a_view_where_the_ruler_sees_them() -> None:

@@ -23,7 +23,7 @@ from planmethod.gears.involute.text import cutting, quality, table
 from planmethod.gears.model import GearProblem, Mesh, MeshKind
 from planmethod.gears.motion import TrainMotion, mesh_row, solve_motion
 from planmethod.gears.picture import draw
-from planmethod.gears.sheet import pictures
+from planmethod.gears.sheet import as_drawn, pictures
 from planmethod.gears.text import (
     compared_sentences,
     compared_table,
@@ -57,7 +57,7 @@ SEEN = 0.005
 def train_chapter(report: Report, problem: GearProblem) -> Iterator[Node]:
     """Yield the chapter on a gear train."""
     said: Words = report.said["gears"]
-    motion, words = solve_motion(problem), report.words
+    motion, words = as_drawn(problem, report.one.profile), report.words
     yield Chapter(said.title.format())
     labels = sorted(motion.train.fixed)
     form = said["fixed"]["one" if len(labels) == 1 else "many"]
