@@ -27,13 +27,16 @@ LANGUAGES = tuple(
         key=lambda lang: (lang != "ru", lang),
     )
 )
-"""Their names; the first is the one where none is asked for."""
+"""Their names; the first is that of a sheet drawn from Python where its file names none."""
 
 WRITTEN = "en"
 """Language of the sentences in the code."""
 
-VARIABLES = ("PLANMETHOD_LANG", "LC_ALL", "LC_MESSAGES", "LANG")
-"""Variables of the environment that name a language, the first that outranks the others."""
+OWN_VARIABLE = "PLANMETHOD_LANG"
+"""Variable of the environment that names the language of this program."""
+
+SYSTEM_VARIABLES = ("LC_ALL", "LC_MESSAGES", "LANG")
+"""Variables that name the language of the system, the first that outranks the others."""
 
 _SPOKEN: ContextVar[str] = ContextVar("language", default=WRITTEN)
 """Of the thread, or of what is computed beside others in it: two may speak at once."""
@@ -146,19 +149,36 @@ def spoken() -> str:
 def spoken_to(args: Sequence[str], environ: Mapping[str, str] = os.environ) -> str:
     """Return the language in which to answer a command line (язык сообщений).
 
-    That of ``--lang``, else of the first of `VARIABLES` that names a known one, else of the
-    system, else Russian.
+    That of ``--lang``, else of `OWN_VARIABLE`, else the system's; English where that is none of
+    `LANGUAGES`. What is written of a problem has the same rule, with ``[sheet] lang`` of its file
+    before the system's: `named_language`.
     """
-    asked = [word.partition("=")[2] for word in args if word.startswith("--lang=")]
-    asked += [after for word, after in pairwise(args) if word == "--lang"]
-    asked += [environ.get(name, "") for name in VARIABLES]
-    if sys.platform == "win32":
+    names = [word.partition("=")[2] for word in args if word.startswith("--lang=")]
+    names += [after for word, after in pairwise(args) if word == "--lang"]
+    named = next(filter(None, map(known_language, names)), None)
+    return named_language(named, environ) or _system_language(environ) or WRITTEN
+
+
+def named_language(option: str | None, environ: Mapping[str, str] = os.environ) -> str | None:
+    """Return the language that the user names: by ``--lang``, else by `OWN_VARIABLE`."""
+    return option or known_language(environ.get(OWN_VARIABLE, ""))
+
+
+def _system_language(environ: Mapping[str, str]) -> str | None:
+    """Return the language of the system; None where it is none of `LANGUAGES`."""
+    name = next(filter(None, (environ.get(name) for name in SYSTEM_VARIABLES)), "")
+    if not name and sys.platform == "win32":
         import locale
 
-        asked.append(locale.getlocale()[0] or "")  # Russian_Russia, English_United States
-    codes = (name.replace("-", "_").split("_")[0].split(".")[0].lower() for name in asked)
+        name = locale.getlocale()[0] or ""  # Russian_Russia, English_United States
+    return known_language(name)
+
+
+def known_language(name: str) -> str | None:
+    """Return the one of `LANGUAGES` that a name of a locale means, such as ``ru_RU.UTF-8``."""
+    code = re.split(r"[-_.@]", name)[0].lower()
     known = {lang: lang for lang in LANGUAGES} | {"russian": "ru", "english": "en"}
-    return next((known[code] for code in codes if code in known), LANGUAGES[0])
+    return known.get(code)
 
 
 @contextmanager

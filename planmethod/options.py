@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias, TypeVar
 import click
 from msgspec.structs import replace
 
-from planmethod.languages import LANGUAGES, say, translated
+from planmethod.languages import LANGUAGES, named_language, say, spoken, translated
 
 if TYPE_CHECKING:
     import numpy as np
@@ -324,12 +324,23 @@ def dxf_text_option(command: F) -> F:
     )(command)
 
 
-def lang_option(command: F) -> F:
-    """Add the language of texts."""
+def _lang_option(read: Callable[[str | None], str | None]) -> Callable[[F], F]:
     return click.option(
         "--lang",
         type=click.Choice(LANGUAGES),
-        default=LANGUAGES[0],
-        show_default=True,
-        help="Language of what is written and of messages.",
-    )(command)
+        callback=lambda ctx, param, value: read(value),
+        help="Language of what is written and of messages; else that of the system.",
+    )
+
+
+def lang_option(command: F) -> F:
+    """Add the language of texts that are of no problem; the command gets the one to write in."""
+    return _lang_option(lambda named: named or spoken())(command)
+
+
+def problem_lang_option(command: F) -> F:
+    """Add the language of texts of a problem; the command gets the one that the user names.
+
+    None where he names none: then that of the file counts, `language_of` in the commands.
+    """
+    return _lang_option(named_language)(command)

@@ -11,6 +11,7 @@ import re
 import shutil
 import subprocess
 import sys
+import tomllib
 from pathlib import Path
 
 import pytest
@@ -20,6 +21,7 @@ from worked import ROOT, path_of
 
 from planmethod.cli import cli
 from planmethod.commands.problems import load_unsettled
+from planmethod.languages import LANGUAGES
 from planmethod.problem import FAMILIES, OTHER_FAMILIES, load
 from planmethod.problem.cycle_records import PROJECT_PARTS
 from planmethod.problem.families import MACHINES
@@ -389,7 +391,7 @@ def test_csv_does_not_write_over_a_problem() -> None:
 
 
 def test_tables_in_two_languages() -> None:
-    russian, english = run("solve", EX1).output, run("solve", EX1, "--lang", "en").output
+    russian, english = (run("solve", EX1, "--lang", lang).output for lang in ("ru", "en"))
     assert russian != english == run("--lang", "en", "solve", EX1).output
     assert "Формула строения" in russian
     assert "Формула строения" not in english
@@ -441,7 +443,7 @@ def test_a_protocol_in_a_file() -> None:
 
 
 def test_a_protocol_as_markdown() -> None:
-    assert run("protocol", EX1, "--format", "md", "-o", "notes").exit_code == 0
+    assert run("protocol", EX1, "--format", "md", "-o", "notes", "--lang", "ru").exit_code == 0
     assert Path("notes/ex1-protocol.md").read_text("utf-8").startswith("# Протокол")
 
 
@@ -462,7 +464,7 @@ def test_a_new_train_or_point_is_ready_to_solve(family: str) -> None:
     assert text.count("#") >= 5  # it is commented
     assert run("solve", "mine.toml", "--json").exit_code == 0
     Path("mine.toml").write_text(text.replace("# [v", "[v").replace('# "', '"'), "utf-8")
-    assert run("solve", "mine.toml", "--variant", "Б").exit_code == 0
+    assert run("solve", "mine.toml", "--variant", "B").exit_code == 0
 
 
 @pytest.mark.parametrize("family", thinned(FAMILIES, 3))
@@ -498,7 +500,7 @@ def test_a_new_machine_is_one_from_the_loads_to_the_flywheel(family: str) -> Non
         assert drawn.exit_code == 0, drawn.output
     varied = re.sub(r"# (\[variants|driver\.|loads\.)", r"\1", text)
     Path("mine.toml").write_text(varied, "utf-8")
-    assert run("solve", "mine.toml", "--variant", "Б").exit_code == 0
+    assert run("solve", "mine.toml", "--variant", "B").exit_code == 0
 
 
 def test_a_new_project_has_all_parts_and_its_train_drives_the_crank() -> None:
@@ -514,6 +516,23 @@ def test_a_new_project_has_all_parts_and_its_train_drives_the_crank() -> None:
     (pair,) = (part for part in made.parts if part.name is PartName.MESHING)
     assert part_drawings(made, pair, {})
     assert made.strokes is not None and (made.strokes.K_v or 0.0) > 1
+
+
+def test_a_new_problem_is_told_in_the_language_that_is_spoken() -> None:
+    for family in (*FAMILIES, *OTHER_FAMILIES):
+        texts = {}
+        for lang in LANGUAGES:
+            assert run("new", family, f"{lang}.toml", "--lang", lang, "--force").exit_code == 0
+            texts[lang] = Path(f"{lang}.toml").read_text("utf-8")
+        assert not re.search("[а-яё]", texts["en"], re.IGNORECASE), family
+        assert texts["en"].count("#") == texts["ru"].count("#")
+        russian, english = map(tomllib.loads, (texts["ru"], texts["en"]))
+        for texts_of in (russian, english):
+            del texts_of["title"]
+            texts_of.pop("stamp", None)
+            for acting in texts_of.get("loads", ()):
+                del acting["name"]
+        assert russian == english, family
 
 
 def test_a_new_problem_has_the_familys_name_and_spares_what_is_there() -> None:

@@ -7,8 +7,17 @@ from pathlib import Path
 import click
 
 from planmethod.commands.helptext import Spoken
-from planmethod.commands.problems import Todo, each, finish, guarded, stem, tell_doubts, warn
-from planmethod.options import BadParameter, lang_option, out_option, problem_options
+from planmethod.commands.problems import (
+    Todo,
+    each,
+    finish,
+    guarded,
+    language_of,
+    stem,
+    tell_doubts,
+    warn,
+)
+from planmethod.options import BadParameter, out_option, problem_lang_option, problem_options
 
 FORMATS = ("gif", "svg")
 
@@ -39,7 +48,7 @@ def _formats(ctx: click.Context, param: click.Parameter, value: str) -> tuple[st
     "--format", "formats", callback=_formats, default="gif,svg", show_default=True, help="gif,svg."
 )
 @out_option
-@lang_option
+@problem_lang_option
 @guarded
 def animate(
     problems: tuple[Path, ...],
@@ -51,7 +60,7 @@ def animate(
     dpi: int,
     formats: tuple[str, ...],
     out: Path,
-    lang: str,
+    lang: str | None,
 ) -> None:
     """Write the mechanism as it moves, for slides: a GIF, and an SVG that plays by itself."""
     from planmethod.render.backends.output import write
@@ -59,7 +68,7 @@ def animate(
 
     def draw(todo: Todo) -> None:
         problem = todo.linkage
-        film = film_of(problem, lang, frames=frames, plans=plans)
+        film = film_of(problem, language_of(problem, lang), frames=frames, plans=plans)
         tell_doubts(problem)
         if film.skipped:
             warn(problem, film.skipped)

@@ -11,6 +11,7 @@ import click
 from msgspec import Struct
 from msgspec.structs import replace
 
+from planmethod.languages import named_language, spoken
 from planmethod.options import BadParameter, PathType, UsageError
 
 if TYPE_CHECKING:
@@ -40,6 +41,11 @@ class PaperRequest(Struct, frozen=True):
     sheet: Mapping[str, str | bool | None]
     config: Path | None = None
     no_config: bool = False
+
+    @property
+    def lang(self) -> str | None:
+        """The language that the user names."""
+        return cast("str | None", self.sheet["lang"])
 
     def settle(self) -> Settled:
         """Read the config file, and return what is asked of the sheets of every problem.
@@ -88,7 +94,8 @@ class Settled(Struct, frozen=True):
     def over(self, problem: P) -> P:
         """Return a problem with the options over its settings, and the config file under them.
 
-        The title of the problem outranks one of the config file: it is what the sheets show.
+        The title of the problem outranks one of the config file: it is what the sheets show. The
+        language is the one that the user names, else that of the files, else that of messages.
         """
         from planmethod.render.frame.titleblock import merged
 
@@ -96,6 +103,7 @@ class Settled(Struct, frozen=True):
         own = {"title": problem.title} if problem.title else {}
         stamp = merged(config.stamp, own, problem.stamp) if config.stamp else problem.stamp
         sheet = self.options.over(problem.sheet.over(config.sheet))
+        sheet = replace(sheet, lang=sheet.lang or spoken())
         whole: Any = problem
         return cast("P", replace(whole, stamp=stamp, sheet=sheet))
 
@@ -123,6 +131,11 @@ def _reader(key: str) -> Callable[[click.Context, click.Parameter, str | None], 
         return name
 
     return read
+
+
+def _read_language(ctx: click.Context, param: click.Parameter, value: str | None) -> str | None:
+    """Return the language that the user names: by the option, else in the environment."""
+    return named_language(_reader("lang")(ctx, param, value))
 
 
 def read_fields(
@@ -185,7 +198,7 @@ _SHEET_OPTIONS = (
     lettering_option,
     click.option(
         "--lang",
-        callback=_reader("lang"),
+        callback=_read_language,
         metavar="LANG",
         help="Language of the sheets and of messages, ru or en; else that of [sheet].",
     ),

@@ -22,13 +22,14 @@ from planmethod.commands.problems import (
     Todo,
     finish,
     guarded,
+    language_of,
     refuse_killed,
     stem,
     through,
 )
 from planmethod.commands.sheet import SheetOptions, draw
 from planmethod.errors import PlanMethodError
-from planmethod.languages import LANGUAGES, say, spoken
+from planmethod.languages import say, spoken
 from planmethod.options import (
     PathType,
     Positions,
@@ -134,7 +135,7 @@ def _files(order: VariantOrder, folder: Path) -> dict[str, bytes]:
         from planmethod.commands.check import key_files, key_of
         from planmethod.note.wording import language
 
-        words = language(todo.problem.sheet.lang or LANGUAGES[0])
+        words = language(language_of(todo.problem, None))
         for ending, data in key_files([key_of(todo, order.settings)], words):
             files[f"{stem(todo.problem)}-key.{ending}"] = data
     return files

@@ -18,13 +18,14 @@ from planmethod.commands.problems import (
     each,
     finish,
     guarded,
+    language_of_file,
     of_linkages,
     stem,
     tell_doubts,
 )
 from planmethod.errors import ExitCode, PlanMethodError
 from planmethod.languages import say, spoken
-from planmethod.options import PathType, UsageError, jobs_option, lang_option, out_option
+from planmethod.options import PathType, UsageError, jobs_option, out_option, problem_lang_option
 
 if TYPE_CHECKING:
     from planmethod.check.exchange.cloze import QuizQuestion
@@ -102,7 +103,7 @@ FORMATS = ("html", "pdf")
     "--salt", default="", metavar="WORD", help="Word of the course that these numbers depend on."
 )
 @jobs_option
-@lang_option
+@problem_lang_option
 @guarded
 def check(
     files: tuple[Path, ...],
@@ -123,7 +124,7 @@ def check(
     anonymize: bool,
     salt: str,
     jobs: int,
-    lang: str,
+    lang: str | None,
 ) -> None:
     """Check answers: key first, then one student's work or a whole group's.
 
@@ -133,7 +134,8 @@ def check(
     """
     settings = _settings(settings_file, policy, profile)
     if key_only:
-        asked = KeyFiles(out, lang, as_json, moodle, gift)
+        written = language_of_file(files[0], lang)
+        asked = KeyFiles(out, written, as_json, moodle, gift)
         _write_keys(files, variant, all_variants, settings, asked, jobs)
         return
     if moodle or gift:
@@ -164,7 +166,7 @@ def check(
         hidden = salt if anonymize else None
         book = {} if anonymize else addresses or {}
         also = book if gradebook or addresses is not None else None
-        _write_results(variants, paths, checked, out, hidden, lang, also)
+        _write_results(variants, paths, checked, out, hidden, language_of_file(problem, lang), also)
     lost = False
     for line, is_lost in unread_lines(checked, language(spoken())):
         click.echo(line, err=True)

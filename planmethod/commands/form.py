@@ -9,8 +9,14 @@ from typing import TYPE_CHECKING
 import click
 
 from planmethod.commands.helptext import Spoken
-from planmethod.commands.problems import each, finish, guarded, stem
-from planmethod.options import PathType, UsageError, lang_option, out_option, problem_options
+from planmethod.commands.problems import each, finish, guarded, language_of, stem
+from planmethod.options import (
+    PathType,
+    UsageError,
+    out_option,
+    problem_lang_option,
+    problem_options,
+)
 
 if TYPE_CHECKING:
     from planmethod.commands.check import Asked
@@ -32,7 +38,7 @@ MOST_STUDENTS = 500
     metavar="FILE",
     help="A form for each student: a text with a name in each line.",
 )
-@lang_option
+@problem_lang_option
 @guarded
 def form(
     problems: tuple[Path, ...],
@@ -41,7 +47,7 @@ def form(
     out: Path,
     students: int | None,
     names: Path | None,
-    lang: str,
+    lang: str | None,
 ) -> None:
     """Make the XLSX that students fill in: what is asked, and none of the answers.
 
@@ -72,7 +78,7 @@ def form(
                 fingerprint=fingerprint,
                 student=student,
                 title=problem.title,
-                lang=lang,
+                lang=language_of(problem, lang),
             )
             write(path, data)
             click.echo(str(path))

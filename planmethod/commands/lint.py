@@ -13,7 +13,15 @@ from msgspec.structs import replace
 from planmethod.commands.asked import PaperRequest, Settled, sheet_options
 from planmethod.commands.helptext import Spoken
 from planmethod.commands.output import json_text
-from planmethod.commands.problems import Todo, each, finish, guarded, refuse_plans, stem
+from planmethod.commands.problems import (
+    Todo,
+    each,
+    finish,
+    guarded,
+    language_of,
+    refuse_plans,
+    stem,
+)
 from planmethod.errors import ExitCode
 from planmethod.options import (
     Positions,
@@ -117,13 +125,12 @@ def lint(
 
 def look(todo: Todo, options: LintOptions) -> tuple[dict[str, Any] | None, int]:
     """Look the sheets of a problem over; return the record, if it is asked, and what is marked."""
-    from planmethod.languages import LANGUAGES
     from planmethod.render.control.remarks import Severity
     from planmethod.render.sheets.control_report import control_record, control_text, counted
 
     problem = options.settled.over(todo.problem)
     what, sheets = _looked_over(replace(todo, problem=problem), options)
-    lang = problem.sheet.lang or LANGUAGES[0]
+    lang = language_of(problem, None)
     marked = counted(sheets, Severity.ERROR)
     if options.strict:
         marked += counted(sheets, Severity.WARNING)

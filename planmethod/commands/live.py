@@ -8,14 +8,22 @@ import click
 
 from planmethod.commands.helptext import Spoken
 from planmethod.commands.output import put, show
-from planmethod.commands.problems import Todo, each, finish, guarded, stem, tell_doubts
-from planmethod.options import lang_option, open_option, out_option, problem_options
+from planmethod.commands.problems import (
+    Todo,
+    each,
+    finish,
+    guarded,
+    language_of,
+    stem,
+    tell_doubts,
+)
+from planmethod.options import open_option, out_option, problem_lang_option, problem_options
 
 
 @click.command(cls=Spoken)
 @problem_options
 @out_option
-@lang_option
+@problem_lang_option
 @open_option
 @guarded
 def live(
@@ -23,7 +31,7 @@ def live(
     variant: str | None,
     all_variants: bool,
     out: Path,
-    lang: str,
+    lang: str | None,
     shown: bool,
 ) -> None:
     """Write a page where a mechanism and its plans, or a gear train, move, for any browser."""
@@ -33,11 +41,12 @@ def live(
 
     def write(todo: Todo) -> None:
         page = out / f"{stem(todo.problem)}-live.html"
+        words = language_of(todo.problem, lang)
         if todo.kind is None:
-            put(live_page(todo.linkage, lang), str(page))
+            put(live_page(todo.linkage, words), str(page))
             tell_doubts(todo.linkage)
         else:
-            put(todo.kind.live_page(todo.problem, lang), str(page))
+            put(todo.kind.live_page(todo.problem, words), str(page))
         written.append(page)
 
     code = each(problems, variant, all_variants, write)

@@ -52,7 +52,7 @@ def new(
             raise UsageError(
                 "{} is a template and has no variants: leave out --variant", template_name
             )
-        write_new(file or Path(f"{template_name}.toml"), template(template_name), force=force)
+        write_new(file or Path(f"{template_name}.toml"), template(template_name, lang), force=force)
         return
     from planmethod.problem.tasks import tasks, text_for
 

@@ -18,7 +18,7 @@ from msgspec import Struct
 
 from planmethod.commands.output import is_terminal
 from planmethod.errors import AssemblyError, ExitCode, PlanMethodError, ProblemError
-from planmethod.languages import say
+from planmethod.languages import say, spoken
 from planmethod.options import UsageError
 
 if TYPE_CHECKING:
@@ -434,6 +434,28 @@ def stem(problem: KindProblem) -> str:
 def called(problem: KindProblem) -> str:
     """Return what a message calls a problem: its file, or the file's name with the variant."""
     return problem.source_file if problem.variant is None else stem(problem)
+
+
+def language_of(problem: KindProblem, named: str | None) -> str:
+    """Return the language in which to write of a problem.
+
+    That which the user names, else that of ``[sheet]``, else that of messages.
+    """
+    return named or problem.sheet.lang or spoken()
+
+
+def language_of_file(path: Path, named: str | None) -> str:
+    """Return the language in which to write of a problem file that may have faults."""
+    from planmethod.languages import known_language
+    from planmethod.problem.source import parse, read_source
+
+    if named is not None:
+        return named
+    with contextlib.suppress(PlanMethodError):  # said where the file is read as a problem
+        sheet = parse(read_source(path), name=str(path)).get("sheet")
+        if isinstance(sheet, dict):
+            return known_language(str(sheet.get("lang", ""))) or spoken()
+    return spoken()
 
 
 def warn(problem: Problem, said: object) -> None:

@@ -13,6 +13,7 @@ from planmethod.commands.problems import (
     each,
     finish,
     guarded,
+    language_of,
     no_position,
     refuse_plans,
     solution_of,
@@ -22,7 +23,7 @@ from planmethod.options import (
     PathType,
     Positions,
     drawn_by,
-    lang_option,
+    problem_lang_option,
     problem_options,
     reading_options,
 )
@@ -51,7 +52,7 @@ from planmethod.options import (
     show_default=True,
     help="Plain text, or Markdown with formulas in LaTeX.",
 )
-@lang_option
+@problem_lang_option
 @guarded
 def protocol(
     problems: tuple[Path, ...],
@@ -63,7 +64,7 @@ def protocol(
     out: Path | None,
     position: int | None,
     form: str,
-    lang: str,
+    lang: str | None,
 ) -> None:
     """Tell the construction step by step, as the explanatory note does."""
     from planmethod.note.protocol import protocol_document
@@ -74,10 +75,11 @@ def protocol(
     else:
         from planmethod.note.writers.plain import plain_document as write
 
-    hand, words = drawn_by(profile, ruler), language(lang)
+    hand = drawn_by(profile, ruler)
 
     def tell(todo: Todo) -> None:
         kind, problem = todo.kind, todo.problem
+        words = language(language_of(problem, lang))
         if kind is not None:
             refuse_plans(kind, phi=phi is not None, position=position is not None)
             told = kind.protocol_document(problem, words, hand)

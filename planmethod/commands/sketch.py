@@ -8,11 +8,24 @@ import click
 
 from planmethod.commands.helptext import Spoken
 from planmethod.commands.output import show, write_drawings
-from planmethod.commands.problems import fail, finish, guarded, names_of, variants_of
+from planmethod.commands.problems import (
+    fail,
+    finish,
+    guarded,
+    language_of_file,
+    names_of,
+    variants_of,
+)
 from planmethod.commands.watch import watch_option
 from planmethod.errors import ExitCode, Fault, PlanMethodError, ProblemError
 from planmethod.languages import say
-from planmethod.options import format_option, lang_option, open_option, out_option, problem_options
+from planmethod.options import (
+    format_option,
+    open_option,
+    out_option,
+    problem_lang_option,
+    problem_options,
+)
 
 PAGE = (
     '<!DOCTYPE html><meta charset="utf-8"><meta http-equiv="refresh" content="1">'
@@ -25,7 +38,7 @@ PAGE = (
 @problem_options
 @out_option
 @format_option("svg")
-@lang_option
+@problem_lang_option
 @open_option
 @watch_option()
 @guarded
@@ -35,7 +48,7 @@ def sketch(
     all_variants: bool,
     out: Path,
     formats: tuple[str, ...],
-    lang: str,
+    lang: str | None,
     shown: bool,
 ) -> None:
     """Draw the scheme alone, to scale, with loads and what is missing: unfinished files too."""
@@ -62,7 +75,7 @@ def _stem(path: Path, variant: str | None) -> str:
 
 
 def _draw(
-    path: Path, variant: str | None, out: Path, formats: tuple[str, ...], lang: str
+    path: Path, variant: str | None, out: Path, formats: tuple[str, ...], lang: str | None
 ) -> PlanMethodError | None:
     """Draw the sketch of a file; return what is wrong with the file."""
     from planmethod.kinds import kind_of, part_of
@@ -76,7 +89,7 @@ def _draw(
     from planmethod.render.sketch import sketch as drawn
 
     title, part = part_of(path, variant=variant, views=VIEWS)
-    words = language(lang)
+    words = language(language_of_file(path, lang))
     trouble = part.trouble
     if trouble is None and part.failure is not None:
         from planmethod.solved.failures import PositionError

@@ -18,6 +18,7 @@ from planmethod.commands.problems import (
     each,
     finish,
     guarded,
+    language_of,
     no_position,
     of_linkages,
     solution_of,
@@ -47,8 +48,8 @@ from planmethod.options import (
     drawn_by,
     hand_options,
     jobs_option,
-    lang_option,
     positions_option,
+    problem_lang_option,
     problem_options,
     read_labels,
 )
@@ -86,7 +87,7 @@ class SolveOptions(Struct, frozen=True, kw_only=True):
     sigma: bool
     covariance: bool
     referee: int | None
-    lang: str
+    lang: str | None
     apart: bool
 
     @property
@@ -170,7 +171,7 @@ class SolveOptions(Struct, frozen=True, kw_only=True):
     type=PathType(),
     help="Own numbers beside the exact ones: JSON, TOML, CSV, XLSX or a form, as check reads them.",
 )
-@lang_option
+@problem_lang_option
 @jobs_option
 @watch_option()
 @guarded
@@ -191,7 +192,7 @@ def solve(
     covariance_file: str | None,
     referee: int | None,
     work: Path | None,
-    lang: str,
+    lang: str | None,
     jobs: int,
 ) -> None:
     """Compute positions, velocities, accelerations and the plans' segments."""
@@ -288,11 +289,11 @@ def compute(
     if table is not None:
         return table
     if options.as_json:
-        return kind.record(problem, options.lang)
+        return kind.record(problem, language_of(problem, options.lang))
     from planmethod.note.wording import language
     from planmethod.note.writers.plain import plain_document
 
-    words = language(options.lang)
+    words = language(language_of(problem, options.lang))
     click.echo(plain_document(kind.solved_document(problem, words), words))
     return None
 
@@ -360,7 +361,7 @@ def _computed(
         if options.csv:
             table = swept_table(made, partial=options.partial)
             return table.held() if options.apart else table
-        words = language(options.lang)
+        words = language(language_of(problem, options.lang))
         click.echo(plain_document(asked_document(made, words), words))
     elif options.csv:
         table = table_of(problem, phi, hand.ruler, options.partial)
@@ -383,7 +384,7 @@ def _computed(
         from planmethod.note.wording import language
         from planmethod.note.writers.plain import plain_document
 
-        words = language(options.lang)
+        words = language(language_of(problem, options.lang))
         solution = _whole(problem, options, hand)
         click.echo(plain_document(results_document(solution, words, sigma=options.sigma), words))
         if referee is not None:

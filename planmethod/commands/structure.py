@@ -10,7 +10,7 @@ import click
 from planmethod.commands.asked import PaperRequest, sheet_options
 from planmethod.commands.helptext import Spoken
 from planmethod.commands.output import json_text, write_drawings
-from planmethod.commands.problems import Todo, called, each, finish, guarded, stem
+from planmethod.commands.problems import Todo, called, each, finish, guarded, language_of, stem
 from planmethod.options import (
     UsageError,
     dxf_text_option,
@@ -45,7 +45,6 @@ def structure(
     asked: PaperRequest,
 ) -> None:
     """Analyse the structure: mobility, redundant constraints, Assur groups; text and drawing."""
-    from planmethod.languages import LANGUAGES
     from planmethod.note.wording import language
     from planmethod.note.writers.plain import plain_document
     from planmethod.solved.aligned.schemes import self_aligning
@@ -72,7 +71,7 @@ def structure(
 
         if settled is not None:
             problem = settled.over(problem)
-        words = language(str(asked.sheet["lang"] or problem.sheet.lang or LANGUAGES[0]))
+        words = language(language_of(problem, asked.lang))
         notation = problem.sheet.notation
         written = structure_document(problem.mechanism, found, words, notation, aligned)
         click.echo(plain_document(written, words))
@@ -90,7 +89,7 @@ def structure(
             )
 
     def show_other(kind: ProblemKind[Any], problem: KindProblem) -> None:
-        words = language(str(asked.sheet["lang"] or LANGUAGES[0]))
+        words = language(language_of(problem, asked.lang))
         record = kind.structure_record(problem) if as_json else None
         written = None if as_json else kind.structure_document(problem, words)
         if record is not None:

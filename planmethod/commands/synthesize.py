@@ -17,7 +17,7 @@ from planmethod.commands.helptext import Spoken
 from planmethod.commands.output import json_text, refuse_unknown, write_drawings, write_new
 from planmethod.commands.problems import finish, guarded
 from planmethod.errors import ExitCode
-from planmethod.languages import say
+from planmethod.languages import say, spoken
 from planmethod.options import (
     BadParameter,
     PathType,
@@ -152,7 +152,6 @@ def synthesize(
     from: docs/synthesis.md. Lengths are metres, angles degrees.
     """
     from planmethod.errors import AssemblyError, ProblemError
-    from planmethod.languages import LANGUAGES
     from planmethod.note.wording import language
     from planmethod.problem import loads
     from planmethod.synthesis import KINDS, takes
@@ -171,7 +170,7 @@ def synthesize(
         raise UsageError("{} takes {}, not {}.", kind, taken, ", ".join(strange))
     wanted = {name: given[name] for name in known}
     made = find(kind, wanted)
-    words = language(str(asked.sheet["lang"] or LANGUAGES[0]))
+    words = language(asked.lang or spoken())
     text = problem_text(made, _command(kind, wanted), words)
     try:
         settled = asked.settle()

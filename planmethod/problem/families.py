@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from planmethod.languages import catalogue
+
 MACHINES = ("shaper", "press", "crusher", "conveyor", "engine")
 """Names of those that have loads, a cycle and a flywheel, too."""
 
@@ -25,8 +27,12 @@ OTHER_FAMILIES = (
 """Names of those of the other kinds of problem."""
 
 
-def template(family: str) -> str:
-    """Return a commented problem file of a family, ready to edit.
+SOURCE_LANGUAGE = "ru"
+"""Language that the templates are written in."""
+
+
+def template(family: str, lang: str = SOURCE_LANGUAGE) -> str:
+    """Return a commented problem file of a family in a language, ready to edit.
 
     Raises
     ------
@@ -38,7 +44,24 @@ def template(family: str) -> str:
     from importlib.resources import files  # not for those who only read
 
     source = files("planmethod.problem") / "templates" / f"{family}.toml"
-    return source.read_text(encoding="utf-8")
+    text = source.read_text(encoding="utf-8")
+    return text if lang == SOURCE_LANGUAGE else _translated(text, lang)
+
+
+def _translated(text: str, lang: str) -> str:
+    """Return a template with its comments and texts in another language."""
+    import re
+
+    phrases = catalogue(lang, "templates")
+
+    def line_of(line: re.Match[str]) -> str:
+        keys, comment = line["keys"], line["comment"]
+        keys = re.sub(r'"([^"]*)"', lambda text: f'"{phrases.get(text[1], text[1])}"', keys)
+        return keys + line["sign"] + phrases.get(comment, comment)
+
+    return re.sub(
+        r'^(?P<keys>(?:[^#"\n]|"[^"\n]*")*)(?P<sign>#? ?)(?P<comment>.*)$', line_of, text, flags=re.M
+    )
 
 
 def schema_text(lang: str) -> str:

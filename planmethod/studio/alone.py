@@ -73,7 +73,7 @@ class Alone(Struct, weakref=True):
             case ["api", "schema"]:
                 return 200, schema_text(lang).encode()
             case ["api", "start", name]:
-                found = start_of(name, more.get("variant") or None)
+                found = start_of(name, more.get("variant") or None, lang)
                 return (404, b"") if found is None else _json(found)
             case ["api", "works", name]:
                 return self._work(method, name, bytes(body), lang)

@@ -40,10 +40,13 @@ def found_tasks(words: str) -> list[dict[str, Any]]:
     return [asdict(task) for task in tasks() if not words or task.says(words[:200])]
 
 
-def start_of(name: str, variant: str | None) -> dict[str, str] | None:
-    """Return the text of a task, of a variant of it, or of a template; None of any other name."""
+def start_of(name: str, variant: str | None, lang: str) -> dict[str, str] | None:
+    """Return the text of a task, of a variant of it, or of a template; None of any other name.
+
+    A template is in the language of the page.
+    """
     if name in (*FAMILIES, *OTHER_FAMILIES):
-        return {"name": name, "text": template(name)}
+        return {"name": name, "text": template(name, lang)}
     task = next((task for task in tasks() if task.name == name), None)
     if task is None or (variant is not None and variant not in task.variants):
         return None

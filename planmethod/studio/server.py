@@ -213,7 +213,7 @@ class _Studio:
     async def start(self, request: Request) -> Response:
         """Give the text of a task, of a variant of it, or of a template."""
         name, variant = request.path_params["name"], request.query_params.get("variant") or None
-        found = start_of(name, variant)
+        found = start_of(name, variant, _lang(request))
         if found is None:
             raise HTTPException(404)
         return JSONResponse(found)

@@ -323,16 +323,17 @@ def test_what_a_file_says_is_left_as_it_is() -> None:
 
 def test_the_language_is_asked_for() -> None:
     cases: list[tuple[str, dict[str, str], str]] = [
-        ("", {}, "ru"),
+        ("", {}, "en"),
         ("solve --lang en", {"PLANMETHOD_LANG": "ru"}, "en"),
         ("solve --lang=en", {}, "en"),
         ("", {"PLANMETHOD_LANG": "EN", "LANG": "ru_RU.UTF-8"}, "en"),
         ("", {"LANG": "en_US.UTF-8"}, "en"),
         ("", {"LC_ALL": "C", "LANG": "en_GB"}, "en"),
-        ("", {"LC_ALL": "POSIX", "LC_MESSAGES": "C.UTF-8"}, "ru"),
+        ("", {"LC_ALL": "POSIX", "LC_MESSAGES": "ru_RU"}, "en"),
         ("", {"LC_MESSAGES": "ru_RU", "LANG": "en_US"}, "ru"),
-        ("", {"LANG": "kk_KZ.UTF-8"}, "ru"),
-        ("--lang", {"PLANMETHOD_LANG": "nonsense"}, "ru"),
+        ("", {"LANG": "kk_KZ.UTF-8"}, "en"),
+        ("--lang", {"PLANMETHOD_LANG": "nonsense"}, "en"),
+        ("--lang", {"PLANMETHOD_LANG": "nonsense", "LANG": "ru_RU"}, "ru"),
     ]
     for words, environ, lang in cases:
         assert spoken_to(words.split(), environ) == lang, (words, environ)

@@ -49,7 +49,7 @@ function more(take) {
 }
 
 export async function start(name, variant, take) {
-  const answer = await ask(`api/start/${encodeURIComponent(name)}?variant=${encodeURIComponent(variant)}`);
+  const answer = await ask(`api/start/${encodeURIComponent(name)}?lang=${D.lang}&variant=${encodeURIComponent(variant)}`);
   if (!answer.ok) { note(say("no_task", { name })); return; }
   const found = await answer.json();
   take(variant ? `${found.name}-${variant}` : found.name, found.text);
