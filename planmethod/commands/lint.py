@@ -37,6 +37,10 @@ if TYPE_CHECKING:
     from planmethod.render.sheets.controlled import Controlled
 
 
+PARTS = {"gears", "meshing", "cam"}
+"""Tables of a linkage's file that make it a project, whose sheets `planmethod project` draws."""
+
+
 class LintOptions(Struct, frozen=True, kw_only=True):
     """Which sheets are looked over, and how it is told; the options of the command."""
 
@@ -159,7 +163,8 @@ def _looked_over(todo: Todo, options: LintOptions) -> tuple[str, list[Controlled
         drawings = kind.drawings(todo.problem, fields=fields, profile=hand)
         return kind.table, looked_over(drawings, kind.scales)
     usual = phi is None and layout is None and not errors and sigma is None
-    if usual and todo.linkage.project is not None and not options.structural:
+    has_parts = todo.linkage.project is not None or bool(todo.linkage.tables.keys() & PARTS)
+    if usual and has_parts and not options.structural:
         return "project", _of_project(todo, options)
     if options.structural:
         return "structure", controlled_structure(todo.linkage, fields=fields)

@@ -26,7 +26,7 @@ def _in_a_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def run(*args: str) -> Result:
-    return CliRunner().invoke(cli, ["lint", *args])
+    return CliRunner(env={"PLANMETHOD_LANG": "ru"}).invoke(cli, ["lint", *args])
 
 
 def record(*args: str) -> Any:

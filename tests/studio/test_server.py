@@ -51,7 +51,7 @@ def do(client: TestClient, do: str, text: str, lang: str = "ru", **more: Any) ->
 
 
 def run(folder: Path, *args: str) -> str:
-    done = CliRunner().invoke(cli, args, catch_exceptions=False)
+    done = CliRunner(env={"PLANMETHOD_LANG": "ru"}).invoke(cli, args, catch_exceptions=False)
     assert done.exit_code in (0, 1), done.output
     return done.stdout
 
