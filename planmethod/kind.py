@@ -32,10 +32,13 @@ class ProblemKind(ABC, Generic[P]):
         The table of the problem file by which it is recognised.
     scales : str
         Where its file has the scales.
+    is_of_project : bool
+        Whether it may stand beside a linkage, as a part of its project.
     """
 
     table: ClassVar[str]
     scales: ClassVar[str] = "[scales]"
+    is_of_project: ClassVar[bool] = True
 
     @abstractmethod
     def load(self, path: Path, variant: str | None) -> P:

@@ -7,10 +7,12 @@ from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from msgspec.structs import replace
+
 from planmethod.arguments import of_type
 from planmethod.arguments import text as words
 from planmethod.cams.kind import Cams
-from planmethod.errors import ProblemError
+from planmethod.errors import Fault, ProblemError
 from planmethod.gears.involute.kind import Meshings
 from planmethod.gears.kind import GearTrains
 from planmethod.kind import ProblemKind
@@ -69,10 +71,43 @@ def load(path: str | Path, *, variant: str | None = None) -> Problem:
 
 
 def load_each(path: str | Path, variants: Iterable[str | None]) -> Iterator[Problem]:
-    """Read some variants of the file of a linkage, None for its main part: the file itself once."""
+    """Read some variants of the file of a linkage, None for its main part: the file itself once.
+
+    Raises
+    ------
+    ProblemError
+        With every fault of the file: of the linkage, and of the wheels, the meshing and the cam
+        that stand beside it.
+    """
     from planmethod.problem.reader import load_each as read
 
-    return map(_posed, read(path, variants, train=_driven))
+    path, names = Path(path), tuple(variants)
+    found = read(path, names, train=_driven)
+    for name in names:
+        try:
+            problem = next(found)
+        except ProblemError as error:
+            raise type(error)(error.source, _with_beside(error.faults, path, name)) from error
+        faults = _with_beside((), path, name) if problem.tables else []
+        if faults:
+            raise ProblemError(str(path), faults)
+        yield _posed(problem)
+
+
+def _with_beside(faults: Iterable[Fault], path: Path, variant: str | None) -> list[Fault]:
+    """Return the faults of a linkage, and those of the other problems of its file."""
+    found = [*faults]
+    try:
+        table = parse(read_source(path), name=str(path))
+    except ProblemError:  # a file that is no TOML has this one fault
+        return found
+    for kind in KINDS:
+        if kind.is_of_project and kind.table in table:
+            try:
+                kind.load(path, variant)
+            except ProblemError as error:
+                found += [fault for fault in error.faults if fault not in found]
+    return found
 
 
 def loads(text: str, *, name: str, variant: str | None = None) -> Problem:
@@ -112,6 +147,9 @@ def part_of(path: Path, *, variant: str | None, views: Views) -> tuple[str, Mech
         views=views,
         posed=_posed,
     )
+    faults = _with_beside(part.faults, path, variant)
+    if len(faults) > len(part.faults):
+        part = replace(part, faults=tuple(faults), trouble=ProblemError(str(path), faults))
     title = table.get("title")
     return title if isinstance(title, str) else "", part
 

@@ -56,8 +56,10 @@ from planmethod.options import (
 
 if TYPE_CHECKING:
     from planmethod.construct.drafting import Profile
+    from planmethod.kind import ProblemKind
     from planmethod.note.records.npz import SolvedArrays
     from planmethod.note.records.spreadsheet import SpreadsheetRows
+    from planmethod.problem.head import KindProblem
     from planmethod.problem.model import Problem
     from planmethod.solved.many.gaps import GappedSweep
     from planmethod.solved.many.variants import Batch
@@ -330,6 +332,9 @@ def _together(todo: Sequence[Todo], options: SolveOptions) -> dict[int, Any]:
         found: dict[int, Any] = {}
         for batch, members in in_batches(problems, drawn_by(*hand)):
             found.update(zip(members, _made(options, batch), strict=True))
+        if options.as_json:
+            for number, one in found.items():
+                found[number] = one | _beside(problems[number], options)
         return found
 
     hand = ("board", options.ruler) if options.csv else options.hand
@@ -376,7 +381,7 @@ def _computed(
             from planmethod.note.tables.referee import referee_record
 
             more["referee"] = referee_record(solution, referee)
-        return record_in_columns(solution, **more)
+        return record_in_columns(solution, **more) | _beside(problem, options)
     elif options.covariance:
         return solution_of(problem, phi, hand, hint=HINT)
     else:
@@ -392,6 +397,8 @@ def _computed(
 
             judged = referee_document(solution, referee, words)
             click.echo("\n" + plain_document(judged, words))
+        for part, kind in _parts_beside(problem):
+            click.echo("\n" + plain_document(kind.solved_document(part, words), words))
     return None
 
 
@@ -407,6 +414,23 @@ def _partial(problem: Problem, options: SolveOptions, hand: Profile) -> dict[str
     if number >= len(positions):
         raise no_position(number, problem, len(positions))
     return {**record, "positions": record["positions"][number : number + 1]}
+
+
+def _parts_beside(problem: Problem) -> list[tuple[KindProblem, ProblemKind[Any]]]:
+    """Return the wheels, the meshing and the cam of a project, whose numbers are told, too."""
+    if problem.project is None:
+        return []
+    from planmethod.project.settle import settle
+
+    parts = settle(problem, Path(problem.source_file)).parts
+    return [(part.problem, part.kind) for part in parts if part.kind is not None]
+
+
+def _beside(problem: Problem, options: SolveOptions) -> dict[str, Any]:
+    """Return the records of the parts of a project that are no linkage, by their tables."""
+    lang = language_of(problem, options.lang)
+    found = {kind.table: kind.record(part, lang) for part, kind in _parts_beside(problem)}
+    return {"parts": found} if found else {}
 
 
 def _is_short(problem: Problem) -> bool:

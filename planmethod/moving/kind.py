@@ -22,6 +22,7 @@ class MovingPoints(ProblemKind["PointProblem"]):
     """Points that move by formulas (движение точки), as a kind of problem."""
 
     table = "point"
+    is_of_project = False
 
     def load(self, path: Path, variant: str | None) -> PointProblem:
         """Read a problem file."""

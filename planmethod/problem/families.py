@@ -60,7 +60,10 @@ def _translated(text: str, lang: str) -> str:
         return keys + line["sign"] + phrases.get(comment, comment)
 
     return re.sub(
-        r'^(?P<keys>(?:[^#"\n]|"[^"\n]*")*)(?P<sign>#? ?)(?P<comment>.*)$', line_of, text, flags=re.M
+        r'^(?P<keys>(?:[^#"\n]|"[^"\n]*")*)(?P<sign>#? ?)(?P<comment>.*)$',
+        line_of,
+        text,
+        flags=re.M,
     )
 
 

@@ -108,7 +108,9 @@ def place(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     monkeypatch.chdir(tmp_path)
     for name in (OWN_VARIABLE, *SYSTEM_VARIABLES):
         monkeypatch.delenv(name, raising=False)
-    (tmp_path / "work.json").write_text(json.dumps({"student": "A", "answers": [{"what": "v_C", "value": 1.0}]}))
+    (tmp_path / "work.json").write_text(
+        json.dumps({"student": "A", "answers": [{"what": "v_C", "value": 1.0}]})
+    )
     return tmp_path
 
 

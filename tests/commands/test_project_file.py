@@ -12,7 +12,10 @@ from click.testing import CliRunner, Result
 from worked import ROOT
 
 from planmethod.cli import cli
-from planmethod.kinds import load
+from planmethod.kinds import KINDS, load
+from planmethod.note.wording import language
+from planmethod.note.writers.plain import plain_document
+from planmethod.note.written import plain_of
 from planmethod.problem.model import Problem, Scales
 from planmethod.project.first import first_scales
 from planmethod.project.model import PartName, Project, ProjectPart
@@ -22,6 +25,7 @@ from planmethod.render.ink.drawing import Drawing
 from planmethod.render.sheets.controlled import paper_of
 from planmethod.solved.solution import Solution
 
+KINDS_BY_TABLE = {kind.table: kind for kind in KINDS}
 SHAPER = ROOT / "tests/data/projects/shaper.toml"
 
 
@@ -185,3 +189,76 @@ def test_what_needs_no_scales_lays_no_sheet_out(
     assert done.exit_code == 0 and len(calls) == laid
     if "--ask" in words:  # the positions are those of the project
         assert sum(line.strip()[:1].isdigit() for line in done.stdout.splitlines()) == 6
+
+
+FAULTY = """\
+title = "Four tables, four faults"
+[project]
+[frame]
+A = [0.0, 0.0]
+D = [0.3, 0.0]
+[links.1]
+points = ["A", "B"]
+AB = -0.1
+[links.2]
+points = ["B", "C"]
+BC = 0.25
+[links.3]
+points = ["D", "C"]
+DC = 0.2
+[driver]
+link = "1"
+phi = 60
+omega = 10
+[assembly]
+C = "left of AD"
+[gears]
+wheels = { 1 = 20, 2 = "many" }
+meshes = [{ of = [1, 2] }]
+n = { 1 = 100 }
+[meshing]
+z = [14, 28]
+m = 0
+[cam]
+follower = "translating"
+contact = "roller"
+stroke = -0.03
+rise = 90
+return = 100
+law = "sine"
+pressure = 30
+"""
+
+
+@pytest.mark.parametrize("has_links_fault", [True, False])
+def test_every_command_tells_the_faults_of_all_tables_at_once(
+    tmp_path: Path, has_links_fault: bool
+) -> None:
+    path = tmp_path / "faulty.toml"
+    path.write_text(FAULTY if has_links_fault else FAULTY.replace("AB = -0.1", "AB = 0.1"), "utf-8")
+    places = ["gears.wheels", "meshing.m", "cam.stroke"]
+    places += ["links.1.AB"] if has_links_fault else []
+    for command in (
+        "solve", "solve --json", "sheet", "structure", "protocol", "sketch", "live", "form", "lint",
+        "note", "project", "check --key", "animate", "batch", "audit",
+    ):  # fmt: skip
+        done = run(*command.split(), path)
+        assert done.exit_code == 3, (command, done.output)
+        for place in places:
+            assert f"\n  {place}" in done.output, (command, place, done.output)
+        lines = done.stderr.splitlines()
+        assert len({*lines}) == len(lines), done.output
+
+
+def test_solve_tells_the_numbers_of_all_parts(scaled: Path) -> None:
+    parts = json.loads(run("solve", scaled, "--json").stdout)["parts"]
+    for table, record in parts.items():
+        alone = KINDS_BY_TABLE[table]
+        part = next(one for one in shaper().parts if one.name.value == table)
+        assert record == json.loads(json.dumps(plain_of(alone.record(part.problem, "en"))))
+    assert set(parts) == {part.name.value for part in shaper().parts if part.kind is not None}
+    told = run("solve", scaled).stdout
+    for part in shaper().parts:
+        if part.kind is not None:
+            document = part.kind.solved_document(part.problem, language("en"))
+            assert plain_document(document, language("en")) in told
