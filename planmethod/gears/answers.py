@@ -149,15 +149,20 @@ def _between(motion: TrainMotion, one: str, other: str) -> Mesh | None:
     return next(iter([*own, *found]), None)
 
 
-def efficiency(motion: TrainMotion) -> Fraction | None:
+def efficiency(motion: TrainMotion, output: str | None = None) -> Fraction | None:
     """Return the efficiency from the input to the output by the powers of the stages.
+
+    The output is a body of the train; that of its file where none is named.
 
     The tooth forces are in equilibrium on every body; in each mesh the power seen from the carrier
     comes out less than it goes in. None where an efficiency or the output is not given, W is not
     1, or the train locks itself.
     """
     train = motion.train
-    if train.output is None or motion.structure.mobility != 1 or len(train.inputs) != 1:
+    output = output or train.output
+    if output is None or motion.structure.mobility != 1 or len(train.inputs) != 1:
+        return None
+    if output in train.inputs or output in train.fixed or not motion.speeds.get(output):
         return None
     if not all(train.inputs.values()) or any(mesh.eta is None for mesh in train.meshes):
         return None
@@ -181,7 +186,7 @@ def efficiency(motion: TrainMotion) -> Fraction | None:
             for body, value in torque.items():
                 if body in rows:
                     rows[body][name] = rows[body].get(name, Fraction(0)) + value
-        rows[train.output]["out"] = Fraction(1)
+        rows[output]["out"] = Fraction(1)
         right = {body: Fraction(-turn if body == source else 0) for body in loose}
         found = solve([*forces, "out"], [(rows[body], right[body]) for body in loose])
         if found.free or not found.consistent:
@@ -192,7 +197,7 @@ def efficiency(motion: TrainMotion) -> Fraction | None:
         ]
         if seen == forward:
             power_in = turn * motion.speeds[source]
-            share = -found.values["out"] * motion.speeds[train.output] / power_in
+            share = -found.values["out"] * motion.speeds[output] / power_in
             return share if share > 0 else None
         forward = seen
     return None

@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from planmethod.errors import ProblemError
+from planmethod.gears.answers import efficiency
 from planmethod.gears.meshes import read_label
 from planmethod.gears.model import GearProblem
 from planmethod.gears.motion import solve_motion
@@ -51,4 +52,6 @@ def driven(faults: Faults, table: Mapping[str, Any], label: object) -> Geared | 
     if len(inputs) == 1 and speed and inputs[0][0] not in train.racks:
         ratio = motion.speeds[inputs[0][0]] / speed
         ratio = ratio if motion.has_sign(inputs[0][0], body) else abs(ratio)
-    return Geared(body, inputs, train.unit, ratio, float(speed) * train.rate)
+    share = efficiency(motion, train.body_of[body])
+    efficient = None if share is None else float(share)
+    return Geared(body, inputs, train.unit, ratio, float(speed) * train.rate, efficient)

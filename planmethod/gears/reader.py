@@ -114,6 +114,8 @@ def read_train(faults: Faults, table: Mapping[str, Any]) -> Train | None:
     picture = _read_picture(faults, given.get("picture", {}))
     design = _read_design(faults, given["design"]) if "design" in given else None
     ask = _read_ask(faults, given.get("ask", []), known)
+    if any(mesh.eta is not None for mesh in meshes) and "eta" not in ask:
+        ask = (*ask, "eta")  # what is given is used, or it is told why it is not
     if len(faults) != before:
         return None
     speeds: dict[str, Fraction] = {}

@@ -57,7 +57,7 @@ def _translated(text: str, lang: str) -> str:
     def line_of(line: re.Match[str]) -> str:
         keys, comment = line["keys"], line["comment"]
         keys = re.sub(r'"([^"]*)"', lambda text: f'"{phrases.get(text[1], text[1])}"', keys)
-        return keys + line["sign"] + phrases.get(comment, comment)
+        return f"{keys}{line['sign']}{phrases.get(comment, comment)}"
 
     return re.sub(
         r'^(?P<keys>(?:[^#"\n]|"[^"\n]*")*)(?P<sign>#? ?)(?P<comment>.*)$',

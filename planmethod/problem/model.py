@@ -206,6 +206,8 @@ class Geared(Struct, frozen=True):
     ratio : Fraction or None
         U from a single input to the crank; None where it has no value.
     rate : float, 1/s
+    efficiency : float or None
+        From the input to the crank; None where the file gives none.
     """
 
     label: str
@@ -213,6 +215,7 @@ class Geared(Struct, frozen=True):
     unit: str
     ratio: Fraction | None
     rate: float
+    efficiency: float | None = None
 
 
 class LawPiece(NamedTuple):

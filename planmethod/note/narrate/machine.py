@@ -20,6 +20,7 @@ from planmethod.problem.machine_records import ConstantMoment, Quadrature, Weigh
 from planmethod.problem.model import Convention
 from planmethod.solved.machine.drawing import FlywheelDrawing, split
 from planmethod.solved.machine.flywheel import Flywheel, SpeedExtreme
+from planmethod.solved.machine.motor import machine_power
 from planmethod.solved.machine.runup import MOST_CYCLES, NEAR, RunUp, TimeCourse, run_up_of
 from planmethod.solved.machine.sizes import (
     DISC_WIDTH,
@@ -234,6 +235,36 @@ class MachineTeller:
             )
         )
         return lines
+
+    def power_formulas(self) -> list[str]:
+        """Return the mean power over the cycle, and that of the motor, with numbers."""
+        flywheel, say, watt = self.flywheel, self.say, self.unit("W")
+        power = machine_power(flywheel)
+        link, minutes = flywheel.problem.drive.link, 60 * flywheel.turns
+        n = say.found(flywheel.middle_speed * 30.0 / pi)
+        work = say.found(flywheel.work_per_cycle)
+        at_crank, at_motor = self.letter("power"), self.letter("motor power")
+        lines = [
+            f"{at_crank} = {formula.fraction(f'{self.work}·n_{{{link}}}', str(minutes))} = "
+            f"{formula.fraction(f'{work}·{n}', str(minutes))} = {say.found(power.at_crank)} {watt}"
+        ]
+        if power.at_motor is None or power.efficiency is None:
+            return lines
+        share = say.found(power.efficiency)
+        lines.append(
+            f"{at_motor} = {formula.fraction(at_crank, 'η')} = "
+            f"{formula.fraction(say.found(power.at_crank), share)} = "
+            f"{say.found(power.at_motor)} {watt}"
+        )
+        return lines
+
+    def motor_choice(self) -> list[str]:
+        """Return which motor of the series has the power; nothing where none is sought."""
+        rated = machine_power(self.flywheel).rated
+        if rated is None:
+            return []
+        power = f"{self.say.given(rated / 1000.0)} {self.unit('kW')}"
+        return [self.said.motor_chosen.format(power=power)]
 
     def speed_extreme(self, extreme: SpeedExtreme) -> str:
         """Return the angle of the crank of an extreme speed."""

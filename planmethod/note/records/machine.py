@@ -12,6 +12,7 @@ from planmethod.note.numbers import plain
 from planmethod.problem.machine_records import Quadrature
 from planmethod.solved.machine.drawing import FlywheelDrawing, drawing_of, split
 from planmethod.solved.machine.flywheel import Flywheel, SpeedExtreme
+from planmethod.solved.machine.motor import machine_power
 from planmethod.solved.machine.runup import MOST_CYCLES, RunUp, TimeCourse, run_up_of
 from planmethod.solved.machine.sizes import adopted, size_of
 
@@ -47,7 +48,7 @@ def machine_record(flywheel: Flywheel, profile: Profile) -> dict[str, Any]:
         "T_links": {link: half * share for link, share in rows.parts.links.items()},
     }
     columns |= {"M_weights": rows.parts.weights, "T": half * rows.inertia}
-    made = drawing.made
+    made, power = drawing.made, machine_power(flywheel)
     corner = drawing.exact.point(made.axes["E"].origin)[0]
     return {
         "delta": machine.delta,
@@ -60,6 +61,17 @@ def machine_record(flywheel: Flywheel, profile: Profile) -> dict[str, Any]:
         "M_constant": plain(flywheel.constant),
         "work_per_turn": plain(flywheel.work_per_cycle / flywheel.turns),
         "work_per_cycle": plain(flywheel.work_per_cycle),
+        "power": {
+            "crank": plain(power.at_crank),
+            **{
+                name: None if value is None else plain(value)
+                for name, value in (
+                    ("efficiency", power.efficiency),
+                    ("motor", power.at_motor),
+                    ("rated", power.rated),
+                )
+            },
+        },
         "positions": [
             {
                 "number": number,

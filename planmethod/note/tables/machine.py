@@ -45,11 +45,12 @@ def machine_tables(solution: Solution, words: Language) -> Iterator[Node]:
         yield from map(Item, formulas)
         yield table_of_quantities(columns, repeated=1)
     yield Caption(tell.said.calculation)
-    yield from map(Item, (*tell.formulas(), *tell.conclusions()))
+    lines = (*tell.formulas(), *tell.conclusions(), *tell.power_formulas(), *tell.motor_choice())
+    yield from map(Item, lines)
     sizes = tell.sizes
     if sizes is not None:
-        lines = "; ".join(tell.size_lines(sizes))
-        yield Item(f"{tell.said['sizes'][sizes.shape.value]}: {lines}")
+        listed = "; ".join(tell.size_lines(sizes))
+        yield Item(f"{tell.said['sizes'][sizes.shape.value]}: {listed}")
     if asks_run_up(tell):
         yield Chapter(tell.said.run_up, numbered=False)
         yield from map(Item, run_up_lines(tell))

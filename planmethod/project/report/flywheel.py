@@ -45,6 +45,12 @@ def flywheel_chapter(report: Report) -> Iterator[Node]:
     yield from _diagrams(report, tell, said)
     yield Part(said.sizes_title.format())
     yield from _inertia(report, tell, said)
+    yield Part(said.power_title.format())
+    formulas = tell.power_formulas()
+    yield sentences(str(said["power"]["motor" if len(formulas) > 1 else "crank"]).format())
+    yield from chain(formulas)
+    for text in tell.motor_choice():
+        yield sentences(f"{text}.")
 
 
 def _reduced(report: Report, tell: MachineTeller, said: Words) -> Iterator[Node]:

@@ -71,6 +71,8 @@ def calculation_block(solution: Solution, indices: Sequence[int], manner: Manner
         Caption(manner.entry.title or tell.said.calculation),
         *map(Formula, tell.formulas()),
         *map(Paragraph, tell.conclusions()),
+        *map(Formula, tell.power_formulas()),
+        *map(Paragraph, tell.motor_choice()),
     ]
     return Column(list(blocks_of(nodes, height, width=width)), gap=2.5)
 
