@@ -285,7 +285,7 @@ def test_links_lead_to_files(document: Path) -> None:
         assert not anchor or anchor in anchors(target), link
 
 
-@each("document", [ROOT / "CONTRIBUTING.md", *ADRS])
+@each("document", [ROOT / "CONTRIBUTING.md", *ADRS, *DOCUMENTS])
 def test_files_that_the_text_speaks_of_exist(document: Path) -> None:
     text = document.read_text(encoding="utf-8")
     folders = ("planmethod", "benchmarks", "tests", "docs", "problems")

@@ -19,6 +19,11 @@ from planmethod.problem.names import listed, near
 SIZE_LIMIT = 256 * 1024
 TABLE_LIMIT = 1024 * 1024
 LINE_LIMIT = 8192
+"""Longest line, in characters; numbers of a list may stand in a longer one."""
+
+_NUMBERS_RE = r"(?:[^=\[\]#\"']{1,200}=)?[-+\d.eE_, \t\[\]]*(?:#.{0,200})?"
+"""A line of numbers alone, or the list of numbers of a key."""
+
 DOT_LIMIT = 64
 DEPTH_LIMIT = 12
 
@@ -116,7 +121,7 @@ def parse(text: str, *, name: str) -> Mapping[str, Any]:
 def _bounded(text: str, name: str) -> None:
     """Refuse what no parser, and no pattern, shall see."""
     for number, line in enumerate(text.split("\n"), 1):
-        if len(line) > LINE_LIMIT:
+        if len(line) > LINE_LIMIT and not re.fullmatch(_NUMBERS_RE, line):
             raise _fail(
                 name,
                 say("line {} has {} characters, the limit is {}", number, len(line), LINE_LIMIT),

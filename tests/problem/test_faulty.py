@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 import pytest
+from worked import path_of
 
 from planmethod.errors import ExitCode, ProblemError
 from planmethod.problem import load, loads, variant_names
@@ -123,9 +125,19 @@ def test_too_large_a_file(tmp_path: Path) -> None:
         loads("# ы" * (SIZE_LIMIT // 3), name="large")
 
 
+def test_a_list_of_numbers_may_be_longer_than_a_line() -> None:
+    numbers = ", ".join(f"{number / 100:.2f}" for number in range(9000))
+    assert len(numbers) > LINE_LIMIT
+    text = path_of("linkages/ex3").read_text("utf-8")
+    for value in (f"[{numbers}]", f"[\n  {numbers},\n]"):
+        many = re.sub(r"(?m)^phi = [^#\n]*", f"phi = {value} ", text)
+        assert len(loads(many, name="many").drive.positions) == 9000
+
+
 @pytest.mark.parametrize(
     ("text", "wanted"),
     [
+        ("phi = [" + "1, x, " * LINE_LIMIT + "]", "line 1 has"),
         ("#" * (LINE_LIMIT + 1), "line 1 has 8193 characters, the limit is 8192"),
         ("a = " + "[\n" * 50_000, "lists or tables are nested too deeply"),
         ("gears" + ".a" * 20 + " = 1", "tables are nested deeper than 12 levels"),
