@@ -12,15 +12,19 @@ from msgspec import Struct
 MINUS = "−"
 
 
-def significant(value: float, digits: int = 4) -> str:
+NOTHING = 1e-12
+"""What is smaller is the rounding of a zero, where nothing says how small numbers are."""
+
+
+def significant(value: float, digits: int = 4, *, nothing: float = NOTHING) -> str:
     """Return a number with a decimal point and so many significant digits, without an exponent.
 
-    Very large and very small numbers, which would need a row of zeros, keep an ``e``. A value that
-    rounds to nothing beside 1e-12 is 0.
+    Very large and very small numbers, which would need a row of zeros, keep an ``e``. A value
+    smaller than ``nothing`` is 0.
     """
     if not math.isfinite(value):
         return "—"
-    if abs(value) < 1e-12:
+    if abs(value) < nothing or value == 0.0:
         return "0"
     power = math.floor(math.log10(abs(value)))
     rounded = half_up(value, digits - 1 - power)
@@ -43,22 +47,25 @@ _HALF = 4e-15
 """Share of a value by which it may be short of a half."""
 
 
-def trimmed(value: float, digits: int | None = None) -> str:
+def trimmed(value: float, digits: int | None = None, *, nothing: float = NOTHING) -> str:
     """Return a given number as the problem writes it: no more digits than it has.
 
     Without ``digits``: all that it has, to eight; four of a number that has more, zeros among
     them, and two decimals at least, as angles have. One in a hundred numbers of sixteen digits
     is one of ten within its rounding, one in ten thousand one of eight.
     """
-    text = significant(value, digits or 6)
+    text = significant(value, digits or 6, nothing=nothing)
     if digits is None and math.isfinite(value):
-        longer = (significant(value, n) for n in range(6, 9))
+        longer = (significant(value, n, nothing=nothing) for n in range(6, 9))
         text = next((t for t in longer if abs(float(t) - value) <= 1e-12 * abs(value)), "")
         if not text:
-            return significant(value) if abs(value) < 100.0 else f"{half_up(value, 2):.2f}"
-    if "e" in text or "." not in text:
-        return text
-    return text.rstrip("0").rstrip(".")
+            return (
+                significant(value, nothing=nothing)
+                if abs(value) < 100.0
+                else f"{half_up(value, 2):.2f}"
+            )
+    mantissa, e, power = text.partition("e")
+    return f"{mantissa.rstrip('0').rstrip('.') if '.' in mantissa else mantissa}{e}{power}"
 
 
 def rich_number(text: str, decimal: str) -> str:
@@ -121,9 +128,9 @@ class Notation(Struct, frozen=True, eq=False):
             return f"{self.symbols[role].removesuffix('}')}{index}}}"
         return self.symbols.get(name, name)
 
-    def given(self, value: float) -> str:
-        """Return a given number, as the problem writes it."""
-        return self.number(trimmed(value))
+    def given(self, value: float, *, nothing: float = NOTHING) -> str:
+        """Return a given number, as the problem writes it; one below ``nothing`` is 0."""
+        return self.number(trimmed(value, nothing=nothing))
 
     def turned(self, degrees: float) -> str:
         """Return an angle of a crank within a turn, two decimals at most: everywhere alike."""

@@ -29,6 +29,8 @@ def written(*nodes: Node, lang: str = "ru") -> str:
         (r"U^{H}_{1-2} = (\frac{a}{b})", r"U_{1\text{-}2}^{H} = \left(\frac{a}{b}\right)"),
         (r"|ω| = inv α", r"\vert \omega \vert = \operatorname{inv} \alpha"),
         ("^{2}", "{}^{2}"),
+        ("μ_{v} = 100 mm/(m/s)", r"\mu_{v} = 100\ \text{mm/(m/s)}"),
+        ("μ_{a} = 2 (m/s^{2})/mm", r"\mu_{a} = 2\ \text{(m/s}^{2}\text{)/mm}"),
     ],
 )  # fmt: skip
 def test_a_formula_is_latex(rich: str, tex: str) -> None:

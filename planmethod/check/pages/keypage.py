@@ -190,7 +190,9 @@ def scales_told(scales: Mapping[str, float], words: Language) -> str:
     for name, per_mm in scales.items():
         unit = say.units.get(units.get(name, ""), "")
         of = f"({unit})" if "/" in unit or "·" in unit else unit
-        shown.append(f"{scale_letters(name)} = {say.given(per_mm)} {of}/{say.units['mm']}")
+        shown.append(
+            f"{scale_letters(name)} = {say.given(per_mm, nothing=0.0)} {of}/{say.units['mm']}"
+        )
     return "; ".join(shown)
 
 

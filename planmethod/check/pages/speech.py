@@ -6,7 +6,7 @@ from msgspec import Struct
 
 from planmethod.check.model import Judged, KeyEntry, Sense, WrittenAnswer
 from planmethod.note.formula import escape
-from planmethod.note.numbers import trimmed
+from planmethod.note.numbers import NOTHING, trimmed
 from planmethod.note.plaintext import NO_BREAK
 from planmethod.note.rounding import rounded_to, sigma_text
 from planmethod.note.wording import Language, Words
@@ -106,11 +106,12 @@ class Speech(Struct, frozen=True):
 
     def rounded(self, value: float, tolerance: float) -> str:
         """Return a value up to the last digit of its tolerance."""
-        return self.words.say.number(rounded_to(value, tolerance))
+        nothing = min(NOTHING, 1e-3 * tolerance)
+        return self.words.say.number(rounded_to(value, tolerance, nothing=nothing))
 
     def error(self, tolerance: float) -> str:
         """Return a tolerance, one digit or two."""
-        return self.words.say.number(sigma_text(tolerance))
+        return self.words.say.number(sigma_text(tolerance, nothing=0.0))
 
     def own(self, judged: Judged) -> str:
         """Return what a student found: value with unit and sense, else millimetres."""

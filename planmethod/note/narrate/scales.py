@@ -16,7 +16,7 @@ def scale_inscription(scale: Scale, convention: Convention, say: Notation) -> st
     unit, mm = say.in_head(scale.unit) if scale.unit else "1", say.units["mm"]
     grouped = f"({unit})" if "/" in unit or "·" in unit else unit
     if convention is Convention.MM_PER_UNIT:
-        return f"μ_{{{letter}}} = {say.given(1.0 / scale.per_mm)} {mm}" + (
+        return f"μ_{{{letter}}} = {say.given(1.0 / scale.per_mm, nothing=0.0)} {mm}" + (
             f"/{grouped}" if scale.unit else ""
         )
-    return f"μ_{{{letter}}} = {say.given(scale.per_mm)} {grouped}/{mm}"
+    return f"μ_{{{letter}}} = {say.given(scale.per_mm, nothing=0.0)} {grouped}/{mm}"

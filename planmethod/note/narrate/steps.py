@@ -153,7 +153,7 @@ class PositionNarrator:
         self._told.add(name)
         metres = None
         if ends is not None and self._is_distance(name, ends):
-            metres = f"l_{names.axis(symbol)}"
+            metres = f"l_{{{names.axis(symbol)}}}"
         sides = self.say.product(step.powers, step.factor, called=metres)
         return equals.join([*([symbol] if symbol else []), *sides, value])
 

@@ -16,9 +16,10 @@ from planmethod.note.formula import Letters, Node
 _GREEK = "\u0370-\u03ff"
 _NAMES = "sin|cos|tg|ctg|arcsin|arccos|arctg|tan|arctan|inv|const|max|min|log|ln|exp"
 _TOKENS = re.compile(
-    r"(?P<brackets>[()\[\]|])"
+    r"(?P<unit>(?<=[\d)][ \u00a0])(?:[A-Za-z]+|\([A-Za-z]+[/·][A-Za-z]+\)?)"
+    r"(?:[/·](?:[A-Za-z]+|\([A-Za-z]+(?:[/·][A-Za-z]+)*\)?))*|\)/mm\b)"  # mm/(m/s²), (N·m)/mm
+    r"|(?P<brackets>[()\[\]|])"
     r"|(?P<number>\d+(?:[.,]\d+)*)"
-    r"|(?P<unit>(?<=[\d)][ \u00a0])[A-Za-z]+(?:[/·][A-Za-z]+)*)"
     rf"|(?P<name>(?:{_NAMES})(?![A-Za-z]))"
     rf"|(?P<letters>[A-Za-z{_GREEK}]+)"
     r"|(?P<sign>[ \u00a0]*[=+−±·×/<>≤≥≈≠≡→-][ \u00a0]*)"

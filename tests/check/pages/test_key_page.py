@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import re
 import shutil
 import subprocess
 from functools import cache
@@ -13,10 +14,13 @@ import openpyxl
 import pytest
 from msgspec.structs import replace
 from texts import key_text
-from worked import problem_of
+from worked import ROOT, problem_of
 
+from planmethod.check.group import key_of_problem
 from planmethod.check.key import Key
+from planmethod.check.marks import DEFAULT
 from planmethod.check.pages.keypage import key_pdf, key_xlsx
+from planmethod.kinds import loads
 from planmethod.note.wording import LANGUAGES, Words, language
 from planmethod.note.writers.plain import WIDTH
 
@@ -65,6 +69,16 @@ def test_variants_with_other_scales_are_told_apart() -> None:
     other = replace(key("2"), scales={**ex3_work.SCALES, "mu_v": 0.1})
     line = key_text([key("1"), other, key("3")], RU)
     assert "1, 3: μ_l" in line and "2: μ_l = 0,002 м/мм; μ_v = 0,1" in " ".join(line.split())
+
+
+def test_small_numbers_are_no_zeros() -> None:
+    """A crank that creeps has speeds, scales and tolerances below the rounding of others."""
+    text = (ROOT / "problems/linkages/ex1.toml").read_text("utf-8")
+    creeping = loads(re.sub(r"(?m)^omega = \S+", "omega = 1e-12", text), name="creeping")
+    told = key_text([key_of_problem(None, creeping, DEFAULT)], language("en"))
+    assert not re.search(r"μ_\w = 0 |± 0 +\S*/s", told)
+    (row,) = (line for line in told.splitlines() if line.startswith("v_B "))
+    assert re.search(r"\d·10⁻\S+ ± \d\S*·10⁻", row), row
 
 
 def test_a_mistake_that_only_some_variants_hide_names_them() -> None:
