@@ -66,14 +66,21 @@ def looked_at(problem: Problem, phi: Positions | None, *, partial: bool) -> Gaps
     tell_changes(problem, phi)
     asked = positions_asked(problem, phi)
     looked = examine(problem, asked, forces=problem.dynamics is not None)
-    _tell(problem, looked.gaps, looked.doubts, partial)
+    _tell(problem, asked, looked.gaps, looked.doubts, partial)
     return looked.gaps
 
 
-def _tell(problem: Problem, gaps: Gaps, doubts: tuple[object, ...], partial: bool) -> None:
+def _tell(
+    problem: Problem, positions: Positions, gaps: Gaps, doubts: tuple[object, ...], partial: bool
+) -> None:
     """Refuse or report positions without results; report the doubts about the others."""
     if gaps.count and not partial:
-        raise AssemblyError(gaps.refusal() + (say(HINT) if len(gaps.reason) > 1 else ""))
+        from planmethod.solved.selfcheck import without_dead
+        from planmethod.solved.solution import Solution
+
+        asked = Solution(problem, positions=positions.tolist())
+        instead = without_dead(asked, gaps.told[0], forces=problem.dynamics is not None) or ""
+        raise AssemblyError(f"{gaps.refusal()}{instead}{say(HINT) if len(gaps.reason) > 1 else ''}")
     if gaps.count:
         warn(problem, gaps.warning())
     for said in doubts:
@@ -102,7 +109,7 @@ def swept(
         made = GappedSweep(problem, positions_asked(problem, phi), ask)
     except UnknownQuantityError as error:
         raise UsageError("--ask: {}: {}", called(problem), error) from None
-    _tell(problem, made.gaps, made.doubts, partial)
+    _tell(problem, made.positions, made.gaps, made.doubts, partial)
     return made
 
 

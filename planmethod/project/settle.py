@@ -33,6 +33,7 @@ from planmethod.project.train import in_mesh
 from planmethod.render.frame.titleblock import merged
 from planmethod.solved.forces.loads import only_in_positions
 from planmethod.solved.scaling import MOST_DRAWN
+from planmethod.solved.selfcheck import verify
 from planmethod.solved.solution import Solution
 from planmethod.solved.turn.numbering import number, strokes_of
 from planmethod.solved.turn.turn import TURN
@@ -81,6 +82,7 @@ def settle(problem: Problem, path: Path | None = None) -> Project:
         raise ProblemError(problem.name, [Fault(f"driver.{key}", told, hint)])
     asked = problem.drive.positions
     problem = in_positions(problem)
+    verify(Solution(problem))
     scales = replace(problem.scales, decided=True)
     if None in (scales.mu_l, scales.mu_v, scales.mu_a):
         scales = first_scales(problem)

@@ -179,8 +179,46 @@ class Cause(Enum):
     )
 
 
+TURN = 360.0
+
+NOT_REACHED = (
+    Cause.ARCS,
+    Cause.ARC,
+    Cause.TANGENT,
+    Cause.NO_ASSEMBLY,
+    Cause.NOT_HELD,
+    Cause.NEITHER,
+    Cause.NO_NUMBER,
+)
+"""Causes of positions that the mechanism does not reach: the others are of dead ones."""
+
 _SPOILT = (Cause.SPOILT_NEAR, Cause.SPOILT, Cause.SPOILT_FORCES)
 """Causes whose sentences count the other positions themselves."""
+
+
+class Evenly(Struct, frozen=True):
+    """Positions of the crank that divide its turns evenly (положения цикла).
+
+    Attributes
+    ----------
+    zero : float
+        The first one, degrees.
+    count : int
+        Positions of a turn.
+    turns : int
+        That they go over.
+    """
+
+    zero: float
+    count: int
+    turns: int
+
+    def __str__(self) -> str:
+        told = (
+            " With [cycle] zero = {0:g}, count = {1}, or with --phi {0:g}:{2:g}:{3:g}, no position "
+            "is a dead one."
+        )
+        return say(told, self.zero, self.count, self.zero + TURN * self.turns, TURN / self.count)
 
 
 class Failure(Struct, frozen=True):
@@ -205,6 +243,8 @@ class Failure(Struct, frozen=True):
         Its name.
     alike, others, count : int
         How many other positions fail for the same cause, and for others, of how many.
+    instead : Evenly or None
+        Positions over the same turns that all have results, where the asked ones go round evenly.
     """
 
     cause: Cause
@@ -220,6 +260,7 @@ class Failure(Struct, frozen=True):
     alike: int = 0
     others: int = 0
     count: int = 1
+    instead: Evenly | None = None
 
     def numbered(self, number: int, count: int) -> Failure:
         """Return the failure with its position numbered, from 0, among so many."""
@@ -232,6 +273,7 @@ class Failure(Struct, frozen=True):
 
     def __str__(self) -> str:
         more = "" if self.cause in _SPOILT else self._more()
+        more += "" if self.instead is None else str(self.instead)
         return self._sentence(self.place.at, str(self.place), whole=True) + more
 
     def _more(self) -> str:

@@ -8,25 +8,31 @@ from typing import TYPE_CHECKING
 from warnings import warn
 
 import numpy as np
+from msgspec.structs import replace
 
 from planmethod.construct.steps import PointName
 from planmethod.errors import DoubtWarning, PlanMethodError
 from planmethod.mechanism.groups import AssurGroup, triad_of
 from planmethod.mechanism.model import FRAME
 from planmethod.plans.motion.position import inner_point, parallelogram
+from planmethod.problem.model import SAME_DEG
 from planmethod.problem.unlikely import unlikely
 from planmethod.solved.changes import changes
 from planmethod.solved.closings import drive_data
 from planmethod.solved.failures import (
+    NOT_REACHED,
+    TURN,
     Cause,
     Contradiction,
     Doubt,
+    Evenly,
     Failure,
     MoreDoubts,
     Passed,
     Place,
     PositionError,
 )
+from planmethod.solved.forces.loads import only_in_positions
 from planmethod.solved.reading import Complexes, Flags, Reals
 from planmethod.solved.solution import Solution
 from planmethod.solved.trust.conditioning import DOUBTFUL, SPOILT, error_bound
@@ -42,6 +48,15 @@ NEAR = 1e-3
 
 AT = 1e-7
 """How well a change point is found, in parts of the driver's way."""
+
+LEAST, FEW = 3, 72
+"""Positions of a turn, at least and at most, that others without a dead one are told for."""
+
+SHARES = (1 / 2, 1 / 3, 1 / 6, 1 / 12, 1 / 30)
+"""Parts of a step by which position 0 is moved to come past dead positions."""
+
+COUNTS = (8, 10, 16, 9, 15, 18)
+"""Positions of a turn that are tried then."""
 
 LIMIT = 1e-7
 """Largest closing error, as a share of the largest value of its kind in the position."""
@@ -174,8 +189,58 @@ def verify(solution: Solution, *, forces: bool = False) -> None:
     SelfCheckError
         With the link, the position and the size of the contradiction.
     PositionError
-        When a position is so badly conditioned that its results mean nothing.
+        When a position does not exist, or is so badly conditioned that its results mean nothing.
+        Of positions that go round evenly it names others that do, without a dead one.
     """
+    try:
+        _verify(solution, forces=forces)
+    except PositionError as error:
+        instead = without_dead(solution, error.failure, forces=forces)
+        if instead is None:
+            raise
+        raise PositionError(replace(error.failure, instead=instead)) from error
+
+
+def without_dead(solution: Solution, failure: Failure, *, forces: bool) -> Evenly | None:
+    """Return even positions without a dead one, in place of even ones that have one.
+
+    None where the asked ones do not go round evenly, or where no others are found.
+
+    Parameters
+    ----------
+    solution : Solution
+        In the positions that are asked.
+    failure : Failure
+        That of one of them.
+    forces : bool
+        The forces must exist in the others, too.
+    """
+    problem, positions = solution.problem, solution.positions
+    given = problem.dynamics is not None and only_in_positions(problem.dynamics)
+    most = FEW * max(problem.turns, 1)
+    if failure.cause in NOT_REACHED or given or not LEAST <= len(positions) <= most:
+        return None
+    if not problem.drive.goes_round:
+        return None
+    steps = np.diff(positions)
+    turns = round(float(np.abs(steps).sum() + abs(steps[0])) / TURN)
+    even = turns > 0 and len(positions) % turns == 0
+    if not even or np.ptp(np.append(np.abs(steps), TURN * turns / len(positions))) > SAME_DEG:
+        return None
+    count, first = len(positions) // turns, float(positions[0])
+    turns = max(turns, solution.turns)
+    ways = [(first + share * float(steps[0]), count) for share in SHARES]
+    ways += [(first, other) for other in COUNTS if other != count]
+    for zero, other in ways:
+        found = Evenly(round(zero % TURN, 9), other, turns)
+        tried = found.zero + TURN / other * np.arange(other * turns)
+        with suppress(PlanMethodError):
+            _verify(solution.moved(tried), forces=forces)
+            return found
+    return None
+
+
+def _verify(solution: Solution, *, forces: bool) -> None:
     _refuse_spoilt(solution)
     for what, error, size in _contradictions(solution):
         bad = np.flatnonzero(_is_too_large(solution, error, size))

@@ -403,6 +403,30 @@ def test_scales_that_are_given_are_kept() -> None:
             assert two.exact == pytest.approx(one.exact / 2)
 
 
+SAID_BY = ("solve", "solve --json", "solve --ask v_B", "sheet", "sheet --layout coursework",
+           "protocol", "note", "lint")  # fmt: skip
+"""Commands that need plans of all positions of a file."""
+
+
+@pytest.mark.parametrize("command", SAID_BY)
+def test_all_commands_tell_a_cycle_without_a_dead_position(command: str) -> None:
+    verb, *options = command.split()
+    text = """
+frame = { O = [0, 0], guides.x-x = { through = "O", angle = 0 } }
+driver = { link = "1", phi = { from = 0, count = 12 }, omega = 4 }
+assembly = { B = { rule = "right of A", keep = "continuous" } }
+cycle = { zero = 0, count = 12 }
+links.1 = { points = ["O", "A"], OA = 0.1 }
+links.2 = { points = ["A", "B"], AB = 0.1 }
+links.3 = { points = ["B"], slides = { on = "x-x" } }
+"""
+    Path("alike.toml").write_text(text, "utf-8")
+    told = refused(4, verb, "alike.toml", *options)
+    assert "With [cycle] zero = 15, count = 12, or with --phi 15:375:30," in told
+    Path("alike.toml").write_text(text.replace("zero = 0", "zero = 15"), "utf-8")
+    assert run("solve", "alike.toml").exit_code == 0
+
+
 def test_a_large_table_is_checked_before_it_is_written() -> None:
     """The impossible positions lie in the last block."""
     phi = f"200:316:{116 / (BLOCK + 500):.6f}"

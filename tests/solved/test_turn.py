@@ -14,15 +14,16 @@ from worked import ROOT
 from planmethod.construct.drafting import PROFILES, Sampled
 from planmethod.construct.evaluate import evaluate
 from planmethod.construct.steps import PointName
-from planmethod.errors import AssemblyError, ProblemError
+from planmethod.errors import ProblemError
 from planmethod.note.records.solution import analogue_records, cycle_record
 from planmethod.problem import load, loads
+from planmethod.solved.failures import PositionError
 from planmethod.solved.machine.flywheel import Flywheel
 from planmethod.solved.selfcheck import verify
 from planmethod.solved.solution import Solution
 from planmethod.solved.turn.construction import PRIMES, extreme_construction
 from planmethod.solved.turn.diagrams import smooth
-from planmethod.solved.turn.numbering import number, numbered_positions, refuse_dead
+from planmethod.solved.turn.numbering import number, numbered_positions
 from planmethod.solved.turn.turn import Turn, turn_of
 
 PRESS = (ROOT / "problems/press/press-stone.toml").read_text("utf-8")
@@ -344,14 +345,45 @@ J_crank = 0.5
     assert made.work_per_cycle == pytest.approx(2 * 10.0 * (square().stroke or 0.0), rel=1e-9)
 
 
-def test_a_dead_position_among_those_of_the_cycle_is_told_with_a_cycle_without_one() -> None:
-    text = SQUARE.replace("0.06", "0.1").replace("0.04", "0").replace("OMEGA", "-4")
-    with pytest.raises(AssemblyError) as told:
-        refuse_dead(Solution(loads(text.replace("PHI", "15"), name="alike")))
-    found = re.search(r"zero = ([\d.]+), count = (\d+) no position", str(told.value))
-    assert found is not None
-    cycle = f"[cycle]\nzero = {found[1]}\ncount = {found[2]}\n"
-    problem = number(loads(text.replace("PHI", "15") + cycle, name="alike"))
-    positions = numbered_positions(Solution(problem))
-    verify(Solution(problem, positions=positions.tolist()))
-    assert len(positions) == 12
+ALIKE = SQUARE.replace("0.06", "0.1").replace("0.04", "0").replace("OMEGA", "-4")
+"""Crank and rod are alike: B passes over O, where the rod may turn with any speed."""
+
+
+@each("positions", [
+    np.arange(12) * 30.0, np.arange(12) * -30.0, np.arange(6) * 60.0 + 30.0,
+    np.arange(24) * 15.0, np.arange(24) * 30.0, np.arange(8) * 45.0 + 360.0,
+])  # fmt: skip
+def test_a_dead_position_of_an_even_turn_is_told_with_one_without(positions: Any) -> None:
+    problem = loads(ALIKE.replace("PHI", "15"), name="alike")
+    with pytest.raises(PositionError) as told:
+        verify(Solution(problem, positions=positions))
+    instead = told.value.failure.instead
+    assert instead is not None and instead.turns == round(np.ptp(positions) / 360.0)
+    zero, count, end, step = instead.zero, instead.count, *(
+        float(one) for one in re.findall(r"--phi [\d.]+:([\d.]+):([\d.]+),", str(told.value))[0]
+    )  # fmt: skip
+    # both ways that it names, as a user takes them
+    asked = np.arange(zero, end, step)
+    assert len(asked) == len(positions)
+    cycle = f"[cycle]\nzero = {zero}\ncount = {count}\n"
+    numbered = number(loads(ALIKE.replace("PHI", "15") + cycle, name="alike"))
+    of_cycle = Solution(numbered, positions=numbered_positions(Solution(numbered)))
+    for solution in (Solution(problem, positions=asked), of_cycle):
+        verify(solution)
+        phi = np.radians(solution.positions)
+        assert np.abs(solution.points["B"].place - 0.2 * np.cos(phi)).max() < 1e-12
+
+
+@each("positions", [[0.0, 90.0], [90.0], np.arange(12) * 25.0 + 15.0])
+def test_no_other_turn_is_told_for_positions_that_are_none(positions: Any) -> None:
+    problem = loads(ALIKE.replace("PHI", "15"), name="alike")
+    with pytest.raises(PositionError) as told:
+        verify(Solution(problem, positions=positions))
+    assert told.value.failure.instead is None
+
+
+def test_what_does_not_go_round_is_not_told_another_turn() -> None:
+    text = SQUARE.replace("PHI", "0").replace("OMEGA", "4").replace("0.04", "0.07")
+    with pytest.raises(PositionError) as told:
+        verify(Solution(loads(text, name="short"), positions=np.arange(12) * 30.0))
+    assert told.value.failure.instead is None

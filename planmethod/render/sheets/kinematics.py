@@ -267,13 +267,16 @@ def _over_the_cycle(solution: Solution) -> Solution:
     ------
     ProblemError
         Nothing can be the output.
+    PositionError
+        One of these positions does not exist.
     """
-    from planmethod.solved.turn.numbering import numbered_positions, refuse_dead
+    from planmethod.solved.turn.numbering import numbered_positions
 
     if not solution.problem.drive.goes_round:
         return solution
-    refuse_dead(solution)
-    return solution.moved(numbered_positions(solution).tolist())
+    solution = solution.moved(numbered_positions(solution).tolist())
+    verify(solution)  # of one calculated position the diagrams have all others
+    return solution
 
 
 def _usual(count: int, words: Language) -> Composition:

@@ -11,17 +11,15 @@ from collections.abc import Sequence
 import numpy as np
 from msgspec.structs import replace
 
-from planmethod.errors import AssemblyError, LayoutError, PlanMethodError, ProblemError
+from planmethod.errors import LayoutError, PlanMethodError, ProblemError
 from planmethod.languages import say
 from planmethod.problem.cycle import report_start
 from planmethod.problem.cycle_records import CycleTask, Zero
 from planmethod.problem.fields import Faults
 from planmethod.problem.load_records import TurningSense
 from planmethod.problem.model import SAME_DEG, Drive, Problem
-from planmethod.solved.failures import PositionError
 from planmethod.solved.forces.loads import only_in_positions
 from planmethod.solved.reading import Reals
-from planmethod.solved.selfcheck import NEAR, verify
 from planmethod.solved.solution import Solution
 from planmethod.solved.turn.strokes import Strokes
 from planmethod.solved.turn.turn import Turn, turn_of
@@ -146,49 +144,6 @@ def numbered_positions(solution: Solution) -> Reals:
     if problem.dynamics is not None and only_in_positions(problem.dynamics):
         return np.array(problem.drive.positions)
     return turn_of(solution).positions
-
-
-def refuse_dead(solution: Solution) -> None:
-    """Refuse a cycle with a dead position among its own, and name the cycle that has none.
-
-    Raises
-    ------
-    AssemblyError
-    """
-    turn = turn_of(solution)
-    if turn.range is not None:
-        return
-    failure = _failure(turn, turn.positions)
-    if failure is None:
-        return
-    count, step = turn.task.count, turn.sense * TURN / turn.task.count
-    ways = [(count, turn.zero + step * share) for share in SHARES]
-    ways += [(other, turn.zero) for other in COUNTS if other != count]
-    for other, zero in ways:
-        whole = turn.count // count * other
-        even = zero + turn.sense * TURN * turn.turns * np.arange(whole) / whole
-        if _failure(turn, even) is None:
-            told = "{} With [cycle] zero = {:g}, count = {} no position of the cycle is a dead one."
-            raise AssemblyError(say(told, failure, round(zero % TURN, 9), other))
-    raise failure
-
-
-def _failure(turn: Turn, positions: Reals) -> PositionError | None:
-    """Return why one of some positions has no plans; None where all have."""
-    moved = turn.solution.moved(positions.tolist())
-    try:
-        if moved.margin.min() < NEAR:
-            verify(moved)
-    except PositionError as error:
-        return error
-    return None
-
-
-SHARES = (1 / 2, 1 / 3, 1 / 6, 1 / 12, 1 / 30)
-"""Parts of a step by which position 0 is moved to come past dead positions."""
-
-COUNTS = (8, 10, 16, 7, 11, 13)
-"""Positions of a turn that are tried then."""
 
 
 def strokes_of(solution: Solution) -> Strokes | None:
