@@ -11,9 +11,14 @@ from msgspec.structs import replace
 from planmethod.note.wording import language
 from planmethod.note.writers.pdfnote import pdf_note
 from planmethod.note.writers.word import word_document
+from planmethod.note.writers.wordframe import fields_of_note
+from planmethod.paper import FRAME_OTHER, paper_format
 from planmethod.project.model import Project, SheetEntry
 from planmethod.project.report import note_document
-from planmethod.render.frame.titleblock import merged
+from planmethod.render.backends.view import DrawingView
+from planmethod.render.frame.forms import FORM_2, FORM_2A
+from planmethod.render.frame.titleblock import merged, rectangle, title_block
+from planmethod.render.ink.drawing import Drawing, Pen, shifted
 
 FORMATS = ("docx", "pdf")
 """Formats of a note."""
@@ -29,7 +34,7 @@ class NoteOptions(Struct, frozen=True):
     template : Path or None
         File of Word whose page and styles are taken.
     frame : bool
-        Frames and title blocks of forms 2 and 2a on the pages of Word.
+        Frames and title blocks of forms 2 and 2a on the pages after the title page.
     """
 
     fields: Mapping[str, str] = {}
@@ -74,5 +79,28 @@ def note_files(
                 stamp=stamp,
             )
         else:
-            files[f"{stem}.{fmt}"] = pdf_note(written, words, author=author)
+            fields = fields_of_note(stamp, written)
+            forms = _FormsOfText(fields, project.language) if options.frame else None
+            files[f"{stem}.{fmt}"] = pdf_note(written, words, author=author, forms=forms)
     return files
+
+
+class _FormsOfText(Struct, frozen=True):
+    """Frames of a text document: form 2 on its first page, form 2a on the others (GOST 2.104)."""
+
+    fields: Mapping[str, str]
+    lang: str
+
+    @property
+    def heights(self) -> tuple[float, float]:
+        """From the edge of the paper to above the title block, mm: of the first page, of others."""
+        return FRAME_OTHER + FORM_2.height, FRAME_OTHER + FORM_2A.height
+
+    def view(self, page: int, pages: int, *, first: bool) -> DrawingView:
+        """Return the frame of a page with its number; the first has how many there are."""
+        paper, form = paper_format("A4"), FORM_2 if first else FORM_2A
+        left, low, *_ = paper.inner
+        fields = {**self.fields, "sheet": str(page), "sheets": str(pages)}
+        block = shifted(title_block(fields, form, lang=self.lang), complex(left, low))
+        items = [rectangle(paper.inner, Pen.FRAME, "frame"), *block]
+        return DrawingView(Drawing(paper.width, paper.height, items=items))

@@ -1,6 +1,8 @@
 from __future__ import annotations
 
 import re
+import shutil
+import subprocess
 from collections.abc import Iterator
 from fractions import Fraction
 from functools import cache
@@ -31,6 +33,7 @@ from planmethod.plans.legend import QuantityKind
 from planmethod.plans.model import RATES
 from planmethod.problem.load_records import SizeTable
 from planmethod.project.model import PartName, Project
+from planmethod.project.notes import NoteOptions, note_files
 from planmethod.project.numbers import numbers_workbook
 from planmethod.project.report import note_document
 from planmethod.project.report.conclusion import conclusion
@@ -745,3 +748,31 @@ def test_the_reduced_moment_has_the_sign_of_its_terms(name: str) -> None:
     first = terms.partition("{")[2] if "\\frac" in terms else terms
     resists = "−" in whole.partition(" = ")[2][:2]
     assert (f"{letter} = \\frac{{−" in terms or "−P" in first) is resists
+
+
+@pytest.mark.skipif(not shutil.which("pdftotext"), reason="poppler is absent")
+@pytest.mark.parametrize("name", ["homework", "slider"])
+def test_pages_of_pdf_have_the_frames_of_word_and_no_text_runs_into_them(
+    name: str, tmp_path: Path
+) -> None:
+    """Form 2 after the title page, then form 2a, with the number of the page and how many it has."""
+    fields = {"designation": "ТММ.КП.01", "title": "Строгальный станок", "author": "Иванов И."}
+    (made,) = note_files(project_of(name), "n", NoteOptions(fields, frame=True), ["pdf"]).values()
+    (plain,) = note_files(project_of(name), "n", NoteOptions(fields), ["pdf"]).values()
+    (tmp_path / "n.pdf").write_bytes(made)
+    assert made != plain
+    told = ["pdftotext", "-bbox", str(tmp_path / "n.pdf"), "-"]
+    shown = subprocess.run(told, capture_output=True, timeout=60).stdout.decode()
+    word = r'<word xMin="([\d.]+)" yMin="([\d.]+)" xMax="([\d.]+)" yMax="([\d.]+)">(.*?)</word>'
+    pages = [re.findall(word, page) for page in shown.split("<page ")[1:]]
+    assert not any("Разраб" in text for *_, text in pages[0])  # the title page has no frame
+    for number, page in enumerate(pages[1:], 2):
+        high = 40.0 if number == 2 else 15.0
+        top = (297.0 - 5.0 - high) / 25.4 * 72.0
+        block = [text for _, low, _, _, text in page if float(low) > top]
+        body = [(*map(float, box),) for *box, _ in page if float(box[1]) <= top]
+        assert max(box[3] for box in body) < top and max(box[2] for box in body) < 205 / 25.4 * 72
+        assert min(box[0] for box in body) > 20 / 25.4 * 72
+        assert str(number) in block and "ТММ.КП.01" in " ".join(block)
+        assert ("Листов" in block, "Иванов" in block) == (number == 2, number == 2)
+        assert str(len(pages)) in block or number != 2

@@ -8,7 +8,7 @@ from functools import cache, partial
 from io import BytesIO
 from itertools import zip_longest
 from pathlib import Path
-from typing import Any, assert_never
+from typing import Any, Protocol, assert_never
 
 import matplotlib
 from msgspec import Struct
@@ -56,6 +56,8 @@ from planmethod.note.writers.sentences import (
 
 LEFT, RIGHT, TOP, BOTTOM = 30 * mm, 15 * mm, 20 * mm, 20 * mm
 SIZE, TABLE_SIZE = 14.0, 11.0
+ABOVE = 10 * mm
+"""White between the text and a title block."""
 LEADING = 1.5 * 1.15
 INDENT = 12.5 * mm
 PAD = 3.0
@@ -78,8 +80,24 @@ NEARLY_EMPTY = 0.2
 TIGHT = 0.85
 """Share of their size that the pictures of a chapter get where that saves its nearly empty page."""
 
+AFTER = {"title": "first", "first": "later"}
+"""Which pages follow, by their templates; others go on as they are."""
+
 CLOSE = [(f"{side}PADDING", (0, 0), (-1, -1), 0) for side in ("LEFT", "RIGHT", "TOP", "BOTTOM")]
 """Cells without white around what is in them."""
+
+
+class PageForms(Protocol):
+    """Frames and title blocks of the pages; who knows the forms draws them (рамки страниц)."""
+
+    @property
+    def heights(self) -> tuple[float, float]:
+        """From the edge of the paper to above the title block, mm: of the first page, of others."""
+        ...
+
+    def view(self, page: int, pages: int, *, first: bool) -> document.DrawableView:
+        """Return the frame of a page of so many; ``first`` is that after the title page."""
+        ...
 
 
 @cache
@@ -91,7 +109,9 @@ def note_fonts() -> Fonts:
     return Fonts("STIXGeneral", "STIXGeneralBol", "STIXGeneralItalic")
 
 
-def pdf_note(written: Document, words: Language, *, author: str = "") -> bytes:
+def pdf_note(
+    written: Document, words: Language, *, author: str = "", forms: PageForms | None = None
+) -> bytes:
     """Return a document as the pages of a note; the same document gives the same bytes.
 
     Parameters
@@ -100,6 +120,8 @@ def pdf_note(written: Document, words: Language, *, author: str = "") -> bytes:
     words : Language
     author : str
         For the properties of the file.
+    forms : PageForms, optional
+        Frames for all pages but the title page; they hold the number of the page.
 
     Raises
     ------
@@ -107,19 +129,24 @@ def pdf_note(written: Document, words: Language, *, author: str = "") -> bytes:
         A formula is not written properly, or a text refers to what is not there.
     """
     written = document.referred(written)
-    made, ends = _built(written, words, author, {})
+    built = partial(_built, written, words, author, forms)
+    made, ends = built({})
     low = [k for k, end in enumerate(ends) if end.is_nearly_empty]
     if not low:
         return made
-    closer, found = _built(written, words, author, dict.fromkeys(low, TIGHT))
+    closer, found = built(dict.fromkeys(low, TIGHT))
     saved = {k: TIGHT for k in low if found[k].count < ends[k].count}
     if len(saved) == len(low):
         return closer
-    return _built(written, words, author, saved)[0] if saved else made
+    return built(saved)[0] if saved else made
 
 
 def _built(
-    written: Document, words: Language, author: str, tight: Mapping[int, float]
+    written: Document,
+    words: Language,
+    author: str,
+    forms: PageForms | None,
+    tight: Mapping[int, float],
 ) -> tuple[bytes, list[End]]:
     """Return a file, and how each section between page breaks ends.
 
@@ -127,8 +154,9 @@ def _built(
     lines of the contents are closer there.
     """
     file = BytesIO()
-    pages = _Pages(file, _title(written), author or "planmethod", written)
-    pages.multiBuild(list(_Setter(words, tight).story(written)))
+    pages = _Pages(file, _title(written), author or "planmethod", written, forms)
+    foot = BOTTOM if forms is None else forms.heights[1] * mm + ABOVE
+    pages.multiBuild(list(_Setter(words, tight, foot).story(written)))
     return file.getvalue(), pages.ends
 
 
@@ -143,9 +171,16 @@ def _title(written: Document) -> str:
 
 
 class _Pages(FloatingPages):
-    """Pages with their numbers; headings tell the contents where they stand."""
+    """Pages with their numbers, in frames where there are any; headings tell where they stand."""
 
-    def __init__(self, file: BytesIO, title: str, author: str, written: Document) -> None:
+    def __init__(
+        self,
+        file: BytesIO,
+        title: str,
+        author: str,
+        written: Document,
+        forms: PageForms | None,
+    ) -> None:
         fonts = note_fonts()
         super().__init__(
             file,
@@ -157,24 +192,47 @@ class _Pages(FloatingPages):
             invariant=1,
             initialFontName=fonts.upright,
         )
-        width, height = A4
-        frame = Frame(
-            LEFT, BOTTOM, width - LEFT - RIGHT, height - TOP - BOTTOM, 0, 0, 0, 0, id="text"
-        )
         first = next((n for n in written.nodes if isinstance(n, document.TitlePage)), None)
         foot = "" if first is None else plain_text(f"{first.place} {first.year}").strip()
+        middle = LEFT + (A4[0] - LEFT - RIGHT) / 2
+        self._forms, self._pages = forms, 0
 
         def close_page(canvas: Any, _: Any) -> None:
             number = canvas.getPageNumber()
             canvas.setFont(fonts.upright, 12.0)
             text = foot if first is not None and number == 1 else str(number)
-            canvas.drawCentredString(LEFT + (width - LEFT - RIGHT) / 2, BOTTOM / 2, text)
+            canvas.drawCentredString(middle, BOTTOM / 2, text)
 
-        self.addPageTemplates([PageTemplate("text", [frame], onPage=close_page)])
+        def put_frame(canvas: Any, at: Any) -> None:
+            canvas.saveState()
+            canvas.scale(mm, mm)
+            is_first = at.pageTemplate.id == "first"
+            forms.view(self.page, self._pages, first=is_first).draw(canvas)  # type: ignore[union-attr]
+            canvas.restoreState()
+
+        if forms is None:
+            self.addPageTemplates([_template("text", BOTTOM, close_page)])
+            return
+        templates = [_template("title", BOTTOM, close_page)] if first is not None else []
+        of_first, of_others = (height * mm + ABOVE for height in forms.heights)
+        templates.append(_template("first", of_first, put_frame))
+        templates.append(_template("later", of_others, put_frame))
+        self.addPageTemplates(templates)
+
+    def _allSatisfied(self) -> bool:  # noqa: N802
+        """Whether the contents, and what a frame says of the number of pages, are right."""
+        told, self._pages = self._pages, self.page
+        return bool(super()._allSatisfied()) and (self._forms is None or told == self.page)
 
     def beforeDocument(self) -> None:  # noqa: N802
         """Forget how the sections of the last run ended."""
         self.ends: list[End] = []
+
+    def beforePage(self) -> None:  # noqa: N802
+        """Let pages with another title block follow; reportlab's own way lets one come twice."""
+        after = AFTER.get(self.pageTemplate.id)
+        if after is not None:
+            self.handle_nextPageTemplate(after)
 
     def handle_pageBreak(self, slow: Any = None) -> None:  # noqa: N802
         """Note how a section ends."""
@@ -191,6 +249,13 @@ class _Pages(FloatingPages):
             self.canv.bookmarkPage(key)
             self.canv.addOutlineEntry(flowable.plain, key, level, closed=False)
             self.notify("TOCEntry", (level, flowable.shown, self.page, key))
+
+
+def _template(name: str, foot: float, on_page: Callable[[Any, Any], None]) -> PageTemplate:
+    """Return pages whose text ends at ``foot`` points from the lower edge."""
+    width, height = A4
+    text = Frame(LEFT, foot, width - LEFT - RIGHT, height - TOP - foot, 0, 0, 0, 0, id="text")
+    return PageTemplate(name, [text], onPage=on_page)
 
 
 class End(Struct, frozen=True):
@@ -256,13 +321,13 @@ class _CutTable(LongTable):  # type: ignore[misc]
 class _Setter:
     """Makes flowables of nodes."""
 
-    def __init__(self, words: Language, tight: Mapping[int, float]) -> None:
+    def __init__(self, words: Language, tight: Mapping[int, float], foot: float) -> None:
         self._say, self._fonts, self._tight = words.document, note_fonts(), tight
         self._section = 0
         self._units = units_of(words.note["units"])
         self._formulas = FormulaSetter(self._fonts, SIZE)
         self._width = A4[0] - LEFT - RIGHT
-        self._tallest = A4[1] - TOP - BOTTOM - 20 * mm
+        self._tallest = A4[1] - TOP - foot - 20 * mm
         self._step = self._count = 0
         self._is_note = self._leads = False
 
