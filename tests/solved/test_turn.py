@@ -14,7 +14,7 @@ from worked import ROOT
 from planmethod.construct.drafting import PROFILES, Sampled
 from planmethod.construct.evaluate import evaluate
 from planmethod.construct.steps import PointName
-from planmethod.errors import ProblemError
+from planmethod.errors import LayoutError, ProblemError
 from planmethod.note.records.solution import analogue_records, cycle_record
 from planmethod.problem import load, loads
 from planmethod.solved.failures import PositionError
@@ -23,7 +23,7 @@ from planmethod.solved.selfcheck import verify
 from planmethod.solved.solution import Solution
 from planmethod.solved.turn.construction import PRIMES, extreme_construction
 from planmethod.solved.turn.diagrams import smooth
-from planmethod.solved.turn.numbering import number, numbered_positions
+from planmethod.solved.turn.numbering import counting, number, numbered_positions
 from planmethod.solved.turn.turn import Turn, turn_of
 
 PRESS = (ROOT / "problems/press/press-stone.toml").read_text("utf-8")
@@ -314,6 +314,20 @@ def test_a_cycle_closes_where_the_motion_does(omega: float) -> None:
     assert ends == pytest.approx([14.4775121859, 525.5224878141], abs=1e-9)
     assert turn.strokes is not None and turn.strokes.working_deg == pytest.approx(511.044975628)
     assert np.ptp(turn.values(turn.at(np.array([0.0, 1.0])))) < 1e-9
+
+
+@each("positions", [
+    np.arange(18) * 40.0, 365.0 + np.arange(18) * 40.0, 720.0 - np.arange(18) * 40.0,
+])  # fmt: skip
+def test_positions_of_two_turns_are_those_of_a_cycle_of_two(positions: Any) -> None:
+    problem = loads(SQUARE.replace("PHI", "[0, 90]").replace("OMEGA", "10"), name="square")
+    counted = counting(problem, positions.tolist())
+    solution = Solution(counted, positions=counted.numbered)
+    assert solution.positions == pytest.approx(positions) and turn_of(solution).turns == 2
+    exact = square().values(positions)
+    assert np.abs(solution.points["B"].place.real - exact).max() < 1e-12
+    with pytest.raises(LayoutError, match="even turns of 6 and more: --phi 0:720:30"):
+        counting(problem, (np.arange(9) * 40.0).tolist())
 
 
 def test_what_goes_round_once_is_not_gone_through_twice() -> None:

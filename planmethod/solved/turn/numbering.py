@@ -17,7 +17,7 @@ from planmethod.problem.cycle import report_start
 from planmethod.problem.cycle_records import CycleTask, Zero
 from planmethod.problem.fields import Faults
 from planmethod.problem.load_records import TurningSense
-from planmethod.problem.model import SAME_DEG, Drive, Problem
+from planmethod.problem.model import SAME_DEG, Problem
 from planmethod.solved.forces.loads import only_in_positions
 from planmethod.solved.reading import Reals
 from planmethod.solved.solution import Solution
@@ -71,7 +71,8 @@ def counting(problem: Problem, positions: Sequence[float]) -> Problem:
     """Return a problem whose cycle numbers these positions, so that a number names one of them.
 
     Numbers that the file tells, by ``[cycle]`` or ``[machine]``, stay; where it tells none, the
-    positions of an even turn are those of the cycle, in their order and from the first on.
+    positions of an even turn, or of as many as the motion needs to come again, are those of the
+    cycle, in their order and from the first on.
 
     Parameters
     ----------
@@ -83,25 +84,29 @@ def counting(problem: Problem, positions: Sequence[float]) -> Problem:
     LayoutError
         The cycle has other positions.
     """
-    drive, count = problem.drive, len(positions)
+    count = len(positions)
     free = problem.cycle is None and problem.machine is None
-    step = TURN / count if positions[1] > positions[0] else -TURN / count
+    turns = Solution(problem).turns
+    step = TURN * turns / count if positions[1] > positions[0] else -TURN * turns / count
     even = [positions[0] + step * k for k in range(count)]
-    if free and count >= LEAST_EVEN and _is_same(drive, positions, even):
+    least = LEAST_EVEN * turns
+    if free and count >= least and not count % turns and _is_same(positions, even, turns):
         sense = TurningSense.CCW if step > 0 else TurningSense.CW
-        own = CycleTask(zero=float(positions[0]), direction=sense, count=count)
+        own = CycleTask(zero=float(positions[0]), direction=sense, count=count // turns)
         counted = number(replace(problem, cycle=own))
     else:
         counted = problem
     told = numbered_positions(Solution(counted)).tolist()
-    if _is_same(drive, positions, told):
+    if _is_same(positions, told, turns):
         return counted
     hint = (
         say(
-            "Name one position, or an even turn of {} and more: --phi {:g}:{:g}:30.",
+            "Name one position, or {0:|an even turn|even turns} of {1} and more: "
+            "--phi {2:g}:{3:g}:30.",
+            turns,
             LEAST_EVEN,
             positions[0],
-            positions[0] + TURN,
+            positions[0] + TURN * turns,
         )
         if free
         else say("Name one position, leave --phi out, or tell zero and count of [cycle].")
@@ -111,19 +116,19 @@ def counting(problem: Problem, positions: Sequence[float]) -> Problem:
         "from {:.5g}° on are asked for: a number would name two positions. {}",
         problem.name,
         len(told),
-        told[0] % TURN,
+        told[0] % (TURN * turns),
         count,
         positions[0],
         hint,
     )
 
 
-def _is_same(drive: Drive, some: Sequence[float], others: Sequence[float]) -> bool:
-    """Tell whether positions are the same ones in the same order."""
-    return len(some) == len(others) and all(
-        drive.coordinate.apart(one, other) <= SAME_DEG
-        for one, other in zip(some, others, strict=True)
-    )
+def _is_same(some: Sequence[float], others: Sequence[float], turns: int) -> bool:
+    """Tell whether positions are the same ones of so many turns, in the same order."""
+    if len(some) != len(others):
+        return False
+    whole, apart = TURN * turns, np.subtract(some, others)
+    return bool((np.abs((apart + whole / 2) % whole - whole / 2) <= SAME_DEG).all())
 
 
 def numbered_positions(solution: Solution) -> Reals:
