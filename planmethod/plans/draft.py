@@ -13,10 +13,14 @@ from planmethod.mechanism.model import FRAME
 from planmethod.plans.closing import Choice, Closing, Start
 from planmethod.plans.dimensions import Dimension, DimensionKind
 from planmethod.plans.model import PlanKind
-from planmethod.problem.model import Problem, Slide
+from planmethod.problem.model import Body, Problem, Slide
+from planmethod.problem.names import angle_lines
 
 TINY = 1e-12
 """Share of a link's size below which an offset is rounding, not a dimension."""
+
+RIGHT = 1e-9
+"""Degrees between an angle and a multiple of the right one that are rounding."""
 
 FAR = 10.0
 """Distance from the origin, in sizes of a mechanism, from which places are counted from its own."""
@@ -55,6 +59,19 @@ class Special(NamedTuple):
     point: PointName
     lines: tuple[LineName, LineName, LineName]
     third: int
+
+
+class GivenArm(NamedTuple):
+    """Side of a given angle that a protractor lays off on a link (плечо под углом).
+
+    From ``vertex`` to ``end``, ``angle`` degrees from the line of the points ``of``, counted
+    counter-clockwise, in (-180, 180).
+    """
+
+    vertex: str
+    end: str
+    of: tuple[str, str]
+    angle: float
 
 
 class Draft:
@@ -273,6 +290,8 @@ class Draft:
         """Place a point of a link whose direction is known, from its coordinates."""
         if point in self.placed.get(link, ()):
             return PointName(point)
+        if (arm := self._arm(link, point)) is not None:
+            return self._lay_arm(link, arm)
         body = self.problem.bodies[link]
         here = self.placed[link]
         if len(here) > 1 and any(body.points[p] != body.points[here[0]] for p in here):
@@ -304,9 +323,33 @@ class Draft:
         return self.mark_placed(point)
 
     def place_rest(self, link: str) -> None:
-        """Place every point of a link that the plan does not have yet."""
-        for point in self.problem.bodies[link].points:
-            self.locate(link, point)
+        """Place every point of a link that the plan does not have yet.
+
+        What an arm is laid off from comes before its end, in whichever order the file has them.
+        """
+        arms = _arms(self.problem.bodies[link])
+        ends = {arm.end for arm in arms}
+        while rest := [p for p in self.problem.bodies[link].points if not self._has(link, p)]:
+            ready = (p for p in rest if self._arm(link, p) is not None)
+            plain = (p for p in rest if p not in ends)
+            self.locate(link, next(ready, None) or next(plain, rest[0]))
+
+    def _has(self, link: str, *points: str) -> bool:
+        """Tell whether the plan has points of a link."""
+        return set(points) <= set(self.placed.get(link, ()))
+
+    def _arm(self, link: str, point: str) -> GivenArm | None:
+        """Return the arm that a point is the end of, where it can be laid off by now."""
+        arms = (arm for arm in _arms(self.problem.bodies[link]) if arm.end == point)
+        return next((arm for arm in arms if self._has(link, arm.vertex, *arm.of)), None)
+
+    def _lay_arm(self, link: str, arm: GivenArm) -> PointName:
+        """Lay a length off at its given angle; note its end as placed."""
+        vertex, (p, q) = PointName(arm.vertex), arm.of
+        line = self.turned(self.b.join(PointName(p), PointName(q)), vertex, arm.angle, arm.end)
+        length = self.drawn(self.length(link, arm.vertex, arm.end))
+        self.b.lay_off(arm.end, vertex, line, length)
+        return self.mark_placed(arm.end)
 
     def _foot(self, of: str) -> PointName:
         """Return the name of the next foot of an offset of a point."""
@@ -422,6 +465,27 @@ class Draft:
         value = slide.offset + z_slider.imag - ((z_host - slide.base) * cis(-slide.angle)).imag
         size = max(self.size(slide.host), self.size(slide.slider))
         return value if abs(value) > TINY * size else 0.0
+
+
+def _arms(body: Body) -> list[GivenArm]:
+    """Return the arms that the angles of a link tell, but for those that set squares draw."""
+    told = [
+        (form.line, (form.point, name))
+        for name, form in body.forms.items()
+        if form.kind == "vertex"
+    ]
+    told += [lines for letters in body.angles if (lines := angle_lines(letters)) is not None]
+    found = []
+    for one, two in told:
+        for of, arm in ((one, two), (two, one)):
+            for vertex, end in (arm, arm[::-1]):
+                side, across = (body.points[b] - body.points[a] for a, b in (of, (vertex, end)))
+                if end in of or not side or not across:
+                    continue
+                angle = round(degrees(across / side), 12)  # as it is given
+                if abs((angle + 45.0) % 90.0 - 45.0) > RIGHT:
+                    found.append(GivenArm(vertex, end, of, angle))
+    return found
 
 
 def _links_of_points(problem: Problem) -> dict[str, list[str]]:

@@ -14,6 +14,7 @@ from planmethod.problem.fields import Faults, Table
 from planmethod.problem.model import PointForm
 from planmethod.problem.names import (
     NAME_LIMIT,
+    angle_lines,
     fold,
     is_label,
     is_point_name,
@@ -299,13 +300,15 @@ def _read_angles(faults: Faults, path: str, value: object, link: LinkText) -> No
     entries = fields.read_table(faults, path, value, "angle.AOD = 120, from OA to OD") or {}
     for key, item in entries.items():
         where = f"{path}.{segment(key)}"
-        names = split_names(fields.unmask(faults, where, key))
-        lines = {3: (names[1::-1], names[1:]), 4: (names[:2], names[2:])}.get(len(names))
-        if lines is None or any(len(set(line)) < 2 for line in lines):
+        letters = fields.unmask(faults, where, key)
+        lines = angle_lines(letters)
+        if lines is None:
             hint = "AOD is the angle from OA to OD, ABCD that from AB to CD."
             faults.add(where, "expected the letters of an angle", hint)
             continue
-        strangers = [point for point in dict.fromkeys(names) if point not in link.points]
+        strangers = [
+            point for point in dict.fromkeys(split_names(letters)) if point not in link.points
+        ]
         if strangers and link.whole:
             hint = _hint_for_slot(link, lines, item) or say(
                 "Its points are {}.", listed(link.points)
@@ -313,8 +316,7 @@ def _read_angles(faults: Faults, path: str, value: object, link: LinkText) -> No
             faults.add(where, say("link {} has no point '{}'", link.name, strangers[0]), hint)
         angle = fields.read_angle(faults, where, item)
         if angle is not None and not strangers:
-            one, two = ((line[0], line[1]) for line in lines)
-            link.angles.append(Angle(key, one, two, angle))
+            link.angles.append(Angle(key, *lines, angle))
 
 
 def _hint_for_slot(link: LinkText, lines: Sequence[tuple[str, ...]], value: object) -> str | None:

@@ -111,6 +111,24 @@ def split_names(text: str) -> tuple[str, ...]:
     return tuple(re.findall(_POINT, text)) if re.match(_POINTS_RE, text) else ()
 
 
+def angle_lines(letters: str) -> tuple[tuple[str, str], tuple[str, str]] | None:
+    """Return the two lines that the letters of an angle name, from the first to the second.
+
+    None where they are neither three points nor four, or a line has one point twice.
+
+    Examples
+    --------
+    >>> angle_lines("AOD"), angle_lines("ABCD")
+    ((('O', 'A'), ('O', 'D')), (('A', 'B'), ('C', 'D')))
+    """
+    match split_names(letters):
+        case (a, vertex, b) if vertex not in (a, b):
+            return (vertex, a), (vertex, b)
+        case (a, b, c, d) if a != b and c != d:
+            return (a, b), (c, d)
+    return None
+
+
 def is_label(text: str) -> bool:
     """Whether a text may name a link, a guide or a variant: letters and digits of any alphabet."""
     return 0 < len(text) <= NAME_LIMIT and re.match(_LABEL_RE, text) is not None

@@ -55,7 +55,7 @@ def scheme_traces(solution: Solution, index: int, factor: float, shown: Shown) -
     items: list[Item] = []
     for step in _steps(solution, PlanKind.POSITION) if shown else ():
         if _is_shown(shown, [step.out]):
-            for needle in _needles(step):
+            for needle in _needles(step, solution):
                 way = complex(solution.paper.vector(needle, PointName(step.out))[index])
                 at = complex(solution.paper.point(step.out)[index])
                 items.append(_notch(at - way, at, NOTCH * factor))
@@ -95,9 +95,13 @@ def _steps(solution: Solution, kind: PlanKind) -> Iterator[Step]:
             yield from section.steps
 
 
-def _needles(step: Step) -> tuple[PointName, ...]:
+def _needles(step: Step, solution: Solution) -> tuple[PointName, ...]:
     """Return where the needle of the compass stood for a point of the scheme."""
+    construction = solution.construction
     match step:
+        case steps.LayOff(out=out, origin=origin, along=line) if out in construction.draft.marked:
+            drawn = construction.step(line)
+            return (origin,) if isinstance(drawn, steps.AtAngle) and drawn.to is not None else ()
         case steps.MeetCircles(centre1=one, centre2=two):
             return one, two
         case steps.MeetLineCircle(centre=centre):

@@ -1,0 +1,93 @@
+"""Arms at an angle are laid off by the protractor: the given angle and the given length."""
+
+from __future__ import annotations
+
+import cmath
+import math
+from pathlib import Path
+
+import pytest
+from click.testing import CliRunner
+
+from planmethod import Solution, load
+from planmethod.cli import cli
+from planmethod.construct.steps import AtAngle, LayOff, PointName
+from planmethod.plans import draft
+
+LEVER = """
+frame = {{ O = [0, 0], C = [0.3, 0.12] }}
+driver = {{ link = "1", phi = 106.5, n = 90 }}
+assembly = {{ {inner} = "right of AC" }}
+[links.1]
+points = ["O", "A"]
+OA = 0.08
+[links.2]
+points = ["A", "{inner}"]
+A{inner} = 0.3
+[links.3]
+points = {points}
+{sizes}
+"""
+TOLD = {  # which points of the link, its sizes, what is laid off from where, and its angle
+    "three letters": (["C", "B", "D"], "CB = 0.22\nCD = 0.18\nangle.BCD = 100", {"D": ("C", 100)}),
+    "the other side of the angle": (
+        ["C", "D", "B"], "CB = 0.22\nCD = 0.18\nangle.DCB = -100", {"D": ("C", 100)},
+    ),
+    "clockwise": (["C", "B", "D"], "CB = 0.22\nCD = 0.18\nangle.BCD = 260", {"D": ("C", -100)}),
+    "vertex": (
+        ["C", "B", "D"],
+        "CB = 0.22\nD = { vertex = \"C\", ray = \"CB\", angle = 100, distance = 0.18 }",
+        {"D": ("C", 100)},
+    ),
+    "four letters": (
+        ["C", "B", "D"], "CB = 0.22\nBD = 0.1\nangle.CBBD = -40", {"D": ("B", -40)},
+    ),
+    "one arm after another": (
+        ["C", "E", "D", "B"],
+        "CB = 0.22\nCD = 0.18\nDE = 0.05\nangle.CDE = 70\nangle.BCD = 100",
+        {"D": ("C", 100), "E": ("D", 70)},
+    ),
+    "set squares": (["C", "B", "D"], "CB = 0.22\nCD = 0.18\nangle.BCD = 90", {}),
+    "straight": (["C", "B", "D"], "CB = 0.22\nCD = 0.18\nangle.BCD = 180", {}),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("told", TOLD)
+def test_an_arm_is_laid_off_by_its_angle_and_length(
+    told: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Exact places are those of its coordinates in the axes of the link."""
+    points, sizes, arms = TOLD[told]
+    path = tmp_path / "lever.toml"
+    shown = str(points).replace("'", '"')
+    path.write_text(LEVER.format(inner="B", points=shown, sizes=sizes), encoding="utf-8")
+    solution = Solution(load(path))
+    made = {step.out: step for step in solution.construction.program.steps}
+    found = {}
+    for step in made.values():
+        if isinstance(step, LayOff) and isinstance(line := made[step.along], AtAngle) and line.to:
+            found[step.out] = step.origin, round(solution.construction.draft.numbers[line.angle], 9)
+    assert found == arms
+    body = solution.problem.bodies["3"].points
+    c, b = (complex(solution.si.point(PointName(p))[0]) for p in "CB")
+    turn = cmath.exp(1j * (cmath.phase(b - c) - cmath.phase(body["B"] - body["C"])))
+    for point in points:
+        place = complex(solution.si.point(PointName(point))[0])
+        assert abs(place - c - (body[point] - body["C"]) * turn) < 1e-14, point
+    monkeypatch.setattr(draft, "_arms", lambda _: [])
+    before = Solution(load(path))
+    for point in points:
+        one, other = (complex(s.si.point(PointName(point))[0]) for s in (solution, before))
+        assert abs(one - other) <= 1e-12 * math.hypot(0.3, 0.12)
+
+
+def test_the_protocol_tells_an_arm_by_what_is_given(tmp_path: Path) -> None:
+    """100 degrees and 45 mm, not 7.8142 mm along and 44.316 mm across."""
+    points, sizes, _ = TOLD["three letters"]
+    path = tmp_path / "lever.toml"
+    shown = str(points).replace("'", '"')
+    path.write_text(LEVER.format(inner="B", points=shown, sizes=sizes), encoding="utf-8")
+    run = CliRunner().invoke(cli, ["protocol", str(path), "--lang", "en"])
+    said = " ".join(run.output.split())
+    assert "From point C at 100° to CB we lay off CD = l_CD/μ_l = 0.18/0.004 = 45 mm" in said
+    assert "(to the left as one looks along CB) and get point D" in said
