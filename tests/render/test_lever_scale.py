@@ -8,14 +8,16 @@ from lettered import lever_lines
 from worked import path_of, problem_of
 
 from planmethod import loads
+from planmethod.construct.scale import next_scale
 from planmethod.note.narrate.forces.common import lettered
 from planmethod.note.narrate.forces.lever import LeverNarrator
 from planmethod.note.wording import language
 from planmethod.plans.model import PlanKind
+from planmethod.project.settle import settle
 from planmethod.render.ink.drawing import Text
 from planmethod.render.sheets.kinematics import kinematics_sheets
 from planmethod.solved.forces.lever import LeverReading
-from planmethod.solved.forces.leverscale import TIMES
+from planmethod.solved.forces.leverscale import PLACE, TIMES
 from planmethod.solved.forces.reading import ForceReading
 from planmethod.solved.forces.statics import statics_of
 from planmethod.solved.solution import Solution
@@ -80,3 +82,20 @@ def test_the_sheet_tells_the_scale_and_the_lengths_of_the_lever(crowded: ForceRe
     arm = max(abs(one.arm) for one in LeverReading(crowded).forces)
     assert RU.say.ruled(arm) in written
     assert any(RU.say.ruled(arm) in line for line in lever_lines(crowded))
+
+
+def test_the_lever_of_a_project_fills_its_place() -> None:
+    """At a scale of the series: the next finer one has no room; a large plan is the lever."""
+    settled = settle(problem_of("machines/compressor")).problem
+    solution = Solution(settled)
+    statics, motion = statics_of(solution), solution.construction.kinematics.velocity
+    at = np.array([solution.paper.point(one) for one in {motion.pole, *motion.point.values()}])
+    width, height = np.ptp(at.imag, axis=0), np.ptp(at.real, axis=0)  # it is turned
+    own = solution.scales[PlanKind.VELOCITY].per_mm
+    assert {round(float(times), 9) for times in statics.lever_times} == {1.0, 1.6}
+    for k, times in enumerate(statics.lever_times):
+        finer = own / next_scale(own / times, finer=True)
+        assert max(finer * width[k] / PLACE[0], finer * height[k] / PLACE[1]) > 1.0
+        if times > 1.0:
+            assert max(times * width[k] / PLACE[0], times * height[k] / PLACE[1]) <= 1.0
+            assert len(LeverNarrator(lettered(ForceReading(solution, k), RU)).larger()) == 1

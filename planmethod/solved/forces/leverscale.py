@@ -1,15 +1,22 @@
 """How much larger than the velocity plan a lever is drawn (масштаб рычага).
 
 Of few loads the lever is the turned plan itself. Where so many hang on it that none of their
-letters has a place, it is drawn at a scale of its own, as one would on paper.
+letters has a place, it is drawn at a scale of its own, as one would on paper. So it is in a
+project: its velocity plans are as small as those of all positions must be, its lever has a place
+for itself.
 """
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 
+from planmethod.construct.scale import choose_scale
+from planmethod.construct.steps import PointName
 from planmethod.plans.forces.lever import Lever
 from planmethod.solved.reading import Reading, Reals
+from planmethod.solved.room import Box
 
 TIMES = (2.0, 2.5, 4.0, 5.0, 10.0)
 """How many times larger a lever may be drawn: those of GOST 2.302 as far as they are needed."""
@@ -20,29 +27,53 @@ FULL = 10.0
 FEW = 15
 """Loads on a lever that is never full: the arrows of so many find other lines."""
 
+PLACE: Box = (150.0, 120.0)
+"""Width and height that the lever of a project may fill, mm, beside arrows and letters."""
+
 _ROOM = 30.0  # mm around the lever for the letters
 _LARGEST = 400.0  # mm that a lever drawn larger may be across
 
 
-def lever_times(lever: Lever, paper: Reading) -> Reals:
+def lever_times(lever: Lever, paper: Reading, found: Reals) -> Reals:
     """Return how many times larger than the plan the lever is drawn in each position, shape (n,).
 
-    ``paper`` is the exact reading of the force plans, mm.
+    ``paper`` is the exact reading of the force plans, mm; ``found`` are the times that it is larger
+    anyway (`filling`), or one.
     """
-    found = np.ones(paper.count)
     if len(lever.loads) <= FEW:
         return found
     acting = np.zeros(paper.count)
-    places = [np.broadcast_to(paper.point(lever.pole), acting.shape)]
+    hung = [lever.pole]
     for load in lever.loads:
         one = load.given.applied
         acting += np.asarray(one.couple if load.at is None else one.force) != 0
         if load.at is not None:
-            places.append(np.broadcast_to(paper.point(load.at), acting.shape))
-    at = np.asarray(places)
-    width, height = np.ptp(at.real, axis=0), np.ptp(at.imag, axis=0)
+            hung.append(load.at)
+    width, height = _size(paper, hung)
     for times in TIMES:
         room = (found * width + 2 * _ROOM) * (found * height + 2 * _ROOM) / 1e4
-        full = (acting > FEW) & (acting > FULL * room)
+        full = (acting > FEW) & (acting > FULL * room) & (times > found)
         found = np.where(full & (times * np.maximum(width, height) <= _LARGEST), times, found)
     return found
+
+
+def filling(
+    paper: Reading, plan: Sequence[PointName], per_mm: Sequence[float], *, mm_per_unit: bool
+) -> Reals:
+    """Return how many times larger than the plan a lever fills its place, shape (n,).
+
+    ``plan`` are the points of the velocity plan, ``per_mm`` is its scale in every position. The
+    lever has a scale of the series; one where the plan fills the place, or nothing moves.
+    """
+    found = []
+    for width, height, own in zip(*_size(paper, plan), per_mm, strict=True):
+        size = own * float(height), own * float(width)  # it is turned
+        finer = choose_scale(size, PLACE, mm_per_unit=mm_per_unit) if any(size) else own
+        found.append(max(own / finer, 1.0))
+    return np.array(found)
+
+
+def _size(paper: Reading, points: Sequence[PointName]) -> tuple[Reals, Reals]:
+    """Return width and height of what lies between points, mm."""
+    at = np.asarray([np.broadcast_to(paper.point(one), paper.count) for one in points])
+    return np.ptp(at.real, axis=0), np.ptp(at.imag, axis=0)

@@ -37,7 +37,7 @@ from planmethod.solved.driving import driven
 from planmethod.solved.failures import Cause, Failure, Place, PositionError
 from planmethod.solved.forces.bound import JudgedForces
 from planmethod.solved.forces.contact import JointForce, SlideReaction, contacts
-from planmethod.solved.forces.leverscale import lever_times
+from planmethod.solved.forces.leverscale import filling, lever_times
 from planmethod.solved.forces.loads import applied
 from planmethod.solved.forces.resultants import UnshiftedInertia, shifted_inertia
 from planmethod.solved.impossible import explain, failing
@@ -475,7 +475,16 @@ class Statics(Remembering):
     def lever_times(self) -> Reals:
         """How many times larger than the velocity plan the lever is drawn, shape (n,)."""
         assert self.lever_plan is not None
-        return lever_times(self.lever_plan, self.paper)
+        solution, fills = self.solution, np.ones(self.paper.count)
+        if solution.problem.calculated is not None:  # a project's, at scales of all positions
+            motion, kind = solution.construction.kinematics.velocity, PlanKind.VELOCITY
+            fills = filling(
+                self.paper,
+                (motion.pole, *motion.point.values()),
+                [solution.own_scale(kind, k).per_mm for k in range(self.paper.count)],
+                mm_per_unit=solution.problem.scales.in_mm_per_unit,
+            )
+        return lever_times(self.lever_plan, self.paper, fills)
 
     @property
     def per_mm(self) -> dict[str, Number]:
