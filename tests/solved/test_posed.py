@@ -164,3 +164,55 @@ def test_where_the_output_stays_as_it_is_positions_are_looked_at_together(
     turned = np.radians(phi)  # A = 2·OM·cos, P and Q from O and A along the links
     p, q = 0.2 * np.exp(1j * turned), np.cos(turned) - 0.7 * np.exp(-1j * turned)
     assert abs(p - q) == pytest.approx(0.4, rel=1e-12)
+
+
+SQUARE = """
+frame = { O = [0, 0], guides.x-x = { through = "O", angle = 0 } }
+assembly = { B = { rule = "right of A", keep = "continuous" } }
+[links.1]
+points = ["O", "A"]
+OA = 0.06
+[links.2]
+points = ["A", "B"]
+AB = 0.1
+[links.3]
+points = ["B"]
+slides = { on = "x-x", offset = 0.04 }
+[driver]
+link = "1"
+omega = 10
+"""
+"""A slider-crank that comes again after two turns, B being left of A in one of them."""
+
+
+def place(phi: Reals, side: Reals | float) -> Reals:
+    off = 0.04 - 0.06 * np.sin(np.radians(phi))
+    return np.asarray(0.06 * np.cos(np.radians(phi)) + side * np.sqrt(0.1**2 - off**2))
+
+
+def met(values: Reals, target: float) -> int:
+    return int(np.count_nonzero(np.diff(np.sign(values - target))))
+
+
+@pytest.mark.parametrize("target", [0.1, 0.031, 0.004, 0.15])
+def test_a_position_is_where_its_rule_holds_though_the_motion_needs_two_turns(
+    tmp_path: Path, target: float
+) -> None:
+    places = found(tmp_path / "square.toml", f"{SQUARE}x_B = {target}\n")
+    assert len(places) == met(place(np.linspace(0.0, 360.0, 3601) + 0.013, 1.0), target)
+    assert place(np.array(places), 1.0) == pytest.approx(target, abs=1e-9)
+
+
+def test_what_the_motion_reaches_where_the_rule_does_not_hold_is_no_first_position() -> None:
+    with pytest.raises(AssemblyError, match=r"x_B goes from 4\.78\d+e-05 m"):
+        loads(f"{SQUARE}x_B = -0.1\n", name="square")
+    with pytest.raises(AssemblyError, match="at = extreme left is not reached"):
+        loads(f'{SQUARE}at = "left extreme"\n', name="square")
+
+
+@pytest.mark.parametrize(("root", "first"), [("near 80", 88.0769), ("near 320", 315.5259)])
+def test_a_further_position_is_looked_for_in_both_turns(root: str, first: float) -> None:
+    problem = loads(f'{SQUARE}x_B = [0.1, -0.1]\nroot = "{root}"\n', name="square")
+    solution = Solution(problem)
+    assert solution.positions[0] == pytest.approx(first, abs=1e-4)
+    assert solution.points["B"].place.real == pytest.approx([0.1, -0.1], abs=1e-9)

@@ -20,7 +20,7 @@ from planmethod.problem.keys import EXTREMES, GOING
 from planmethod.problem.model import Posed, PosedBy, Problem
 from planmethod.problem.names import UNITS, split_pair, told_length
 from planmethod.solved.failures import PositionError
-from planmethod.solved.reading import Reading, Reals
+from planmethod.solved.reading import Flags, Reading, Reals
 from planmethod.solved.solution import Solution
 from planmethod.solved.turn.roots import crossings, root, tops
 from planmethod.solved.turn.turn import LOOKS, TURN, Extreme, Turn
@@ -59,6 +59,9 @@ def pose(problem: Problem) -> Problem:
     first: list[tuple[Solution, float, float]] = []
     for solution in ways:
         for position, going in _roots(solution, posed, 0):
+            if not _as_judged(solution, np.array([position])).all():
+                continue  # the motion goes on so, and the rules do not hold there
+            position = position % TURN if problem.drive.is_crank else position
             at = _closed(problem, position)
             if at is not None and _sides(at) == _sides(solution):
                 first.append((at, position, going))
@@ -144,14 +147,28 @@ def _sides(solution: Solution) -> list[tuple[tuple[str, ...], int, bool]]:
     return sorted((links, one.side, one.parallel) for links, one in choice.items())
 
 
-def _grid(problem: Problem, count: int) -> Reals:
-    """Return positions over a turn, or over all that a slider can reach."""
+def _grid(problem: Problem, count: int, turns: int = 1) -> Reals:
+    """Return positions over turns, so many of each, or over all that a slider can reach."""
     if problem.drive.is_crank:
-        return _ASIDE + TURN * np.arange(count + 1) / count
+        return _ASIDE + TURN * np.arange(count * turns + 1) / count
     sizes = [abs(length) for _, _, length in problem.lengths]
     sizes += [abs(place) for body in problem.bodies.values() for place in body.points.values()]
     reach = sum(sizes)
     return np.linspace(-reach, reach, count + 1) * (1.0 + 1e-3 * _ASIDE)
+
+
+def _turns(solution: Solution) -> int:
+    """Return after how many turns the links are where they were; one if they never are."""
+    again = solution.closes_after
+    return round(again) if np.isfinite(again) else 1
+
+
+def _as_judged(solution: Solution, positions: Reals) -> Flags:
+    """Tell where a motion has its first closings: there the rules that it is judged by hold."""
+    kept = np.ones(positions.shape, dtype=bool)
+    for closing in solution.construction.draft.choice.values():
+        kept &= closing.branch(positions) > 0
+    return kept
 
 
 def _value(solution: Solution, posed: Posed, index: int) -> Callable[[Reals], Reals]:
@@ -231,7 +248,8 @@ def _roots(solution: Solution, posed: Posed, index: int) -> Found:
         return _extreme(Turn(solution), posed, index)
     target = posed.values[index]
     crank, period = solution.problem.drive.is_crank, _period(solution.problem, posed)
-    grid = _grid(solution.problem, LOOKS if crank else 3 * LOOKS)
+    grid = _grid(solution.problem, LOOKS if crank else 3 * LOOKS, _turns(solution))
+    whole = TURN * _turns(solution)
     sense = -1.0 if solution.problem.drive.rate < 0 else 1.0
     value = _value(solution, posed, index)
     if posed.by is PosedBy.STROKE:
@@ -239,7 +257,7 @@ def _roots(solution: Solution, posed: Posed, index: int) -> Found:
         start, end = _ends(turn)
         value, target = turn.values, start.value + target * (end.value - start.value)
         if posed.values[index] in (0.0, 1.0):
-            return [((start, end)[int(posed.values[index])].phi % TURN, 0.0)]
+            return [((start, end)[int(posed.values[index])].phi % whole, 0.0)]
         sense = -sense if end.value < start.value else sense
     found: Found = []
     # An angle of two links has no sign: both ways of it are looked for.
@@ -250,7 +268,7 @@ def _roots(solution: Solution, posed: Posed, index: int) -> Found:
             half = period / 2
             return missed if np.isinf(period) else (missed + half) % period - half
 
-        found += [(at % TURN if crank else at, sense * going) for at, going in _zeros(off, grid)]
+        found += [(at % whole if crank else at, sense * going) for at, going in _zeros(off, grid)]
     return found
 
 
@@ -320,7 +338,7 @@ def _extreme(turn: Turn, posed: Posed, index: int) -> Found:
         chosen = phi[int(np.argmin(along) if where in ("left", "lower") else np.argmax(along))]
     else:
         chosen = _ends(turn)[1 if where == "other" else 0].phi
-    return [(float(chosen + after) % TURN, 0.0)]
+    return [(float(chosen + after) % turn.period, 0.0)]
 
 
 def _unknown(solution: Solution, why: str) -> ProblemError:
@@ -337,7 +355,8 @@ def _chosen(
     drive = problem.drive
     said = f"{posed.key} = {_told(posed, posed.values[index], problem)}"
     if posed.by is PosedBy.EXTREME:
-        said = f"at = extreme {posed.extremes[index]} {posed.values[index]:+g}".replace(" +0", "")
+        said = f"at = extreme {posed.extremes[index]} {posed.values[index]:+g}"
+        said = said.replace(" +0", "").strip()
     elif posed.by is PosedBy.LINE:
         said = f"at = {posed.extremes[index]}"
     found = sorted(found)
@@ -345,9 +364,7 @@ def _chosen(
     if not kept:
         reached = ""
         if posed.of:
-            every = np.concatenate(
-                [_value(way, posed, index)(_grid(problem, LOOKS)) for way in ways]
-            )
+            every = np.concatenate([_reached(way, posed, index) for way in ways])
             every = np.abs(every) if posed.by is PosedBy.BETWEEN else every
             ends = [_told(posed, float(end(every)), problem) for end in (np.nanmin, np.nanmax)]
             reached = say(
@@ -362,8 +379,11 @@ def _chosen(
             posed.key,
         )
     if posed.near is not None:
-        asked, apart = posed.near, drive.coordinate.apart
-        return min((p for p, _ in kept), key=lambda p: apart(p, asked))
+        asked, whole = posed.near, TURN * _turns(ways[0]) if index else TURN
+        if not drive.is_crank:
+            return min((p for p, _ in kept), key=lambda p: abs(p - asked))
+        half = whole / 2
+        return min((p for p, _ in kept), key=lambda p: abs((p - asked + half) % whole - half))
     ways_of = GOING.get(posed.by.value, ("", ""))
     if posed.going:
         kept = [one for one in kept if one[1] == (1.0 if posed.going == ways_of[0] else -1.0)]
@@ -391,6 +411,13 @@ def _chosen(
         )
     message = say("{} fits {}, and one is meant", said, told)
     raise ProblemError(problem.name, [Fault("driver.root", message, hint)])
+
+
+def _reached(way: Solution, posed: Posed, index: int) -> Reals:
+    """Return the values of the output in all positions that are looked at."""
+    grid = _grid(way.problem, LOOKS, _turns(way))
+    grid = grid if index else grid[_as_judged(way, grid)]
+    return _value(way, posed, index)(grid)
 
 
 def _told(posed: Posed, value: float, problem: Problem) -> str:
