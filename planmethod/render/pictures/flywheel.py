@@ -7,6 +7,7 @@ from itertools import pairwise
 
 import numpy as np
 
+from planmethod.construct.scale import series_near
 from planmethod.construct.steps import PointName
 from planmethod.note.narrate.machine import MachineTeller
 from planmethod.render.ink.drawing import Disc, Ink, Item, Pen, Stroke
@@ -15,11 +16,14 @@ from planmethod.render.labels import BUSY, Label
 from planmethod.render.layout.block import Picture
 from planmethod.render.pictures.lettered import lettered
 from planmethod.render.symbols import arrowhead
+from planmethod.solved.enlarging import RATIOS
 from planmethod.solved.machine.drawing import FlywheelDrawing
 
 _BEYOND, _HEAD, _TICK = 10.0, 4.0, 1.2  # mm: an axis beyond its diagram, its arrowhead, a tick
 _POINT = 0.7  # mm: radius of a point of a diagram
 _FINE = 8  # pieces of a smooth line between two points
+_READABLE = 25.0  # mm: of a narrower energy-mass curve the points are shown enlarged
+_WIDEST, _ABOVE = 130.0, 26.0  # mm: of the enlarged curve; from the diagram to it
 _STEP = 0.01  # rad: between points of an exact curve
 
 
@@ -169,7 +173,8 @@ class _Sketch:
         self._thin(one, two)
         self.items += [*arrowhead(one, -1 + 0j, length=3.0), *arrowhead(two, 1 + 0j, length=3.0)]
         text = typeset(letter, self.size)
-        self.items += text.at((one + two) / 2 + complex(-text.width / 2, 1.0))
+        above = 1.0 + 0.5 * self.size * ("_" in letter)  # an index hangs below its letter
+        self.items += text.at((one + two) / 2 + complex(-text.width / 2, above))
 
     def _work(self, foot: complex) -> None:
         places = self.places(self.made.work)
@@ -228,6 +233,8 @@ class _Sketch:
         every = max(1, self.drawing.count // 12)
         middle = sum(curve) / len(curve)
         numbers = self.drawing.flywheel.turn.numbers(self.drawing.count)
+        if self._enlarge(foot + 1j * max(heights), curve, numbers):
+            numbers = numbers[:1]
         told: list[complex] = []
         for k, (place, number) in enumerate(zip(curve, numbers, strict=False)):
             clear = all(abs(place - other) > self.size for other in told)
@@ -249,6 +256,52 @@ class _Sketch:
             self._label(letter, cut, -1.0, letter, large=True)
             psi = f"ψ_{{{name}}} = {tell._angle(self.drawing.psi[number])}°"
             self._label(psi, beyond, 1j if number == 0 else 1.0, f"psi {name}")
+
+    def _enlarge(self, below: complex, curve: Sequence[complex], numbers: Sequence[int]) -> bool:
+        """Draw a small loop once more, enlarged above itself, and tell whether it has room.
+
+        The axis of the inertia under it does not begin at zero, as its heading says.
+        """
+        width, height = (float(np.ptp([part(z) for z in curve])) for part in (np.real, np.imag))
+        if min(width, height) >= _READABLE or max(width, height) < _POINT:
+            return False
+        top = max(self.at(name).imag for name in (*self.made.moments, *self.made.work))
+        room = top + _BEYOND - below.imag - _ABOVE - 3.5 * self.height
+        fitting = [n for n in RATIOS if n * width <= _WIDEST and n * height <= room]
+        if not fitting:
+            return False
+        times, say, tell = fitting[-1], self.tell.say, self.tell
+        low = complex(min(z.real for z in curve), min(z.imag for z in curve))
+        corner = below + complex(_BEYOND, _ABOVE)
+        larger = [corner + times * (z - low) for z in curve]
+        self.items.append(
+            Stroke(tuple(_smooth([*larger, larger[0]])), Pen.MAIN, tag="diagram enlarged")
+        )
+        self.items += [Disc(place, _POINT, Ink.BLACK, "diagram enlarged") for place in larger]
+        middle, named = sum(larger) / len(larger), list[complex]()
+        for place, number in zip(larger, numbers, strict=False):
+            if all(abs(place - other) > self.size for other in named):
+                named.append(place)
+                self._label(str(number), place, place - middle, f"enlarged {number}")
+        level = corner.imag - 8.0
+        end = corner.real + times * width + _BEYOND
+        self._thin(complex(corner.real - _BEYOND, level), complex(end, level))
+        self.items += arrowhead(complex(end, level), 1 + 0j, length=_HEAD, tag="diagram axis")
+        self._label(tell.letter("reduced inertia"), complex(end - 2.0, level), -1j, "enlarged J")
+        inertia = self.drawing.points.inertia
+        first, last = float(np.min(inertia)), float(np.max(inertia))
+        step = series_near((last - first) / 3.0, up=True)
+        for n in range(int(np.ceil(first / step)), int(np.floor(last / step)) + 1):
+            x = corner.real + times * (n * step - first) / self.drawing.scales.inertia
+            self._thin(complex(x, level - _TICK), complex(x, level + _TICK))
+            told = say.given(float(f"{n * step:.6g}"))
+            self._label(told, complex(x, level), -1j, f"enlarged J {n}")
+        text = tell.said.loop.format(
+            times=say.given(times), letter=tell.letter("reduced inertia"), unit=tell.unit("kg·m²")
+        )
+        heading = complex(corner.real - _BEYOND, corner.imag + times * height + 2.5 * self.height)
+        self.items += typeset(text, self.size).at(heading)
+        return True
 
 
 def _smooth(places: Sequence[complex]) -> list[complex]:

@@ -1,0 +1,40 @@
+"""A narrow energy-mass curve is drawn once more, large enough for the numbers of its points."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from msgspec.structs import replace
+from worked import problem_of
+
+from planmethod.construct.drafting import PROFILES
+from planmethod.note.narrate.machine import MachineTeller
+from planmethod.note.wording import language
+from planmethod.render.ink.drawing import Disc, Text
+from planmethod.render.pictures.flywheel import construction_picture
+from planmethod.solved.enlarging import RATIOS
+from planmethod.solved.machine.drawing import FlywheelDrawing
+from planmethod.solved.machine.flywheel import Flywheel
+
+
+@pytest.mark.parametrize("lang", ["ru", "en"])
+@pytest.mark.parametrize(("inertia", "narrow"), [(0.0, False), (0.04, True)])
+def test_a_narrow_curve_is_enlarged(lang: str, inertia: float, narrow: bool) -> None:
+    """The heavier the crank, the less of the inertia changes."""
+    problem = problem_of("machines/engine")
+    assert problem.machine is not None
+    problem = replace(problem, machine=replace(problem.machine, crank_inertia=inertia))
+    drawing = FlywheelDrawing(Flywheel(problem), PROFILES["board"])
+    picture = construction_picture(drawing, MachineTeller(drawing, language(lang)), 5.0)
+    larger = [one.centre for one in picture.items
+              if isinstance(one, Disc) and one.tag == "diagram enlarged"]  # fmt: skip
+    heading = {"ru": "начинается не с нуля", "en": "does not begin at zero"}[lang]
+    written = " ".join(one.text for one in picture.items if isinstance(one, Text))
+    assert (heading in written) is narrow
+    assert len(larger) == (drawing.count if narrow else 0)
+    if narrow:
+        curve = [complex(drawing.exact.point(name)[0]) for name in drawing.made.curve]
+        times = np.ptp(np.real(larger)) / np.ptp(np.real(curve))
+        assert min(abs(times - ratio) for ratio in RATIOS) < 1e-9
+        off = (np.array(larger) - larger[0]) - times * (np.array(curve) - curve[0])
+        assert np.max(np.abs(off)) < 1e-9
