@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+
 from planmethod.languages import catalogue
 
 MACHINES = ("shaper", "press", "crusher", "conveyor", "engine")
@@ -50,8 +52,6 @@ def template(family: str, lang: str = SOURCE_LANGUAGE) -> str:
 
 def _translated(text: str, lang: str) -> str:
     """Return a template with its comments and texts in another language."""
-    import re
-
     phrases = catalogue(lang, "templates")
 
     def line_of(line: re.Match[str]) -> str:

@@ -54,6 +54,8 @@ MACHINE = {
     "mean speed",
     "moment by lever",
     "motor moment",
+    "power",
+    "motor power",
     "braking moment",
 }
 """Quantities of machines whose letters a language's `Notation` has."""
