@@ -91,7 +91,7 @@ def lines_of(table: TablePart | Table) -> list[Line]:
             )
             for one in sources
         ]
-    if columns and not columns[0].name:
+    if columns and not columns[0].name and any("Δ" in text for text, _ in columns[0].cells):
         lead, *rest = columns
         return [
             Line(name, [column.cells[k] for column in rest])
