@@ -14,7 +14,7 @@ from planmethod.problem.head import KindProblem
 if TYPE_CHECKING:
     from planmethod.construct.drafting import Profile
     from planmethod.note.audit.audit import Audited
-    from planmethod.note.document import Document
+    from planmethod.note.document import Document, GivenFact
     from planmethod.note.records.spreadsheet import SpreadsheetRows
     from planmethod.note.wording import Language
     from planmethod.problem.figures import Figures
@@ -100,8 +100,8 @@ class ProblemKind(ABC, Generic[P]):
         """
         raise self._without(problem, "audit")
 
-    def given(self, problem: P, words: Language) -> list[str]:
-        """Return what is given, as rich text, one fact each."""
+    def given(self, problem: P, words: Language) -> list[GivenFact]:
+        """Return what is given, one fact each; the file can be written again of their data."""
         return []
 
     def scheme(self, problem: P) -> Drawing | None:

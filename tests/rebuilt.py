@@ -16,6 +16,7 @@ from planmethod.problem.model import Problem
 UNITS = {
     "mm": 1e-3, "мм": 1e-3, "cm": 1e-2, "см": 1e-2, "m": 1.0, "м": 1.0, "in": 0.0254, "ft": 0.3048,
 }  # fmt: skip
+LISTS = ("meshes", "loads")
 _NUMBER = r"[−-]?\d[\d.,]*(?:e[+-]?\d+|·10[⁻⁰¹²³⁴⁵⁶⁷⁸⁹]+)?"
 
 
@@ -75,3 +76,46 @@ def printed(text: str) -> Iterator[tuple[float, float]]:
         last = 10.0 ** (int(exponent or 0) - len(mantissa.partition(".")[2]))
         scale = UNITS.get(match[2], 1.0)
         yield value * scale, last * scale
+
+
+def table_of(facts: Iterable[GivenFact]) -> dict[str, Any]:
+    """Return the tables of a problem file that the data of some facts are, and nothing else."""
+    table: dict[str, Any] = {}
+    told: dict[str, Any] = {}
+    for fact in facts:
+        for key, value in fact.data.items():
+            assert told.setdefault(key, value) == value, f"{key} is given twice"
+    for key, value in told.items():
+        *way, last = [part.strip('"') for part in re.findall(r'"[^"]*"|[^.\[\]"]+', key)]
+        inner = table
+        for part in way:
+            inner = inner.setdefault(part, {})
+        inner[last] = value
+    return {key: _listed(value) for key, value in table.items()}
+
+
+def _listed(value: Any) -> Any:
+    """Return tables whose keys are ``meshes[0]``, ``meshes[1]`` as lists."""
+    if not isinstance(value, dict):
+        return value
+    return {
+        key: [_listed(one[str(k)]) for k in range(len(one))]
+        if isinstance(one, dict) and key in LISTS
+        else _listed(one)
+        for key, one in value.items()
+    }
+
+
+def file_of(table: dict[str, Any]) -> str:
+    """Return a problem file of tables."""
+    return "\n".join(f"{key} = {_inline(value)}" for key, value in table.items()) + "\n"
+
+
+def _inline(value: Any) -> str:
+    if isinstance(value, dict):
+        return "{" + ", ".join(f'"{key}" = {_inline(one)}' for key, one in value.items()) + "}"
+    if isinstance(value, list | tuple):
+        return f"[{', '.join(map(_inline, value))}]"
+    if isinstance(value, bool):
+        return str(value).lower()
+    return _value(value)

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from planmethod.kind import ProblemKind
-from planmethod.note.document import Document
+from planmethod.note.document import Document, GivenFact
 
 if TYPE_CHECKING:
     from planmethod.cams.model import CamProblem
@@ -72,6 +72,12 @@ class Cams(ProblemKind["CamProblem"]):
         from planmethod.cams.live import live_page
 
         return live_page(problem, lang)
+
+    def given(self, problem: CamProblem, words: Language) -> list[GivenFact]:
+        """Return what is given, one fact each; the file can be written again of their data."""
+        from planmethod.cams.text import given
+
+        return given(problem, words, numbered=True)
 
     def figures(self, problem: CamProblem) -> Figures:
         """Return what students can be asked for."""

@@ -73,12 +73,15 @@ class UnitLaw(Struct, frozen=True, dict=True):
         First derivative at the start, in the size of the bits.
     balance : float
         By how much decelerations of a table were multiplied, for the law to end at rest.
+    told : tuple of (str, object)
+        Numbers of the file that make it this law: ``("ratio", 2.0)``, ``("values", (0.0, 1.0))``.
     """
 
     name: CamLawName
     bits: tuple[Bit, ...]
     start: float = 0.0
     balance: float = 1.0
+    told: tuple[tuple[str, object], ...] = ()
 
     @cached_property
     def _constants(self) -> list[tuple[float, float]]:
@@ -196,26 +199,30 @@ def law_of(
     match name:
         case CamLawName.CONSTANT:
             turn = 1 / (1 + ratio)
-            return UnitLaw(name, (Bit(0, turn, (ratio,)), Bit(turn, 1, (-1.0,))))
+            rates = (Bit(0, turn, (ratio,)), Bit(turn, 1, (-1.0,)))
+            return UnitLaw(name, rates, told=(("ratio", ratio),))
         case CamLawName.COSINE:
             return UnitLaw(name, (Bit(0, 1, size=1.0, rate=pi, phase=pi / 2),))
         case CamLawName.SINE:
             return UnitLaw(name, (Bit(0, 1, size=1.0, rate=2 * pi),))
         case CamLawName.TRAPEZOIDAL | CamLawName.MODIFIED:
-            return UnitLaw(name, _ramped(ramp, sine=name is CamLawName.MODIFIED))
+            trapezoids = _ramped(ramp, sine=name is CamLawName.MODIFIED)
+            return UnitLaw(name, trapezoids, told=(("ramp", ramp),))
         case CamLawName.LINEAR:
             if not blend:
                 return UnitLaw(name, (Bit(0, 1, (0.0,)),), start=1.0)
-            told = (
+            bits = (
                 Bit(0, blend, (1.0,)),
                 Bit(blend, 1 - blend, (0.0,)),
                 Bit(1 - blend, 1, (-1.0,)),
             )
-            return UnitLaw(name, told)
+            return UnitLaw(name, bits, told=(("blend", blend),))
         case CamLawName.CUBIC:
             return UnitLaw(name, (Bit(0, 1, (0.0, 60.0, -180.0, 120.0)),))
         case CamLawName.QUARTIC:
             return UnitLaw(name, (Bit(0, 1, (0.0, 0.0, 420.0, -1680.0, 2100.0, -840.0)),))
         case CamLawName.TABLE | CamLawName.PIECEWISE:
-            line, factor = balanced(_even(values) if name is CamLawName.TABLE else points)
-            return UnitLaw(name, _straight(line), balance=factor)
+            is_even = name is CamLawName.TABLE
+            line, factor = balanced(_even(values) if is_even else points)
+            told = ("values", tuple(values)) if is_even else ("points", tuple(points))
+            return UnitLaw(name, _straight(line), balance=factor, told=(told,))

@@ -182,7 +182,7 @@ class _Cam(Struct, frozen=True, dict=True):
             name = ("swung" if arm else "plate") if plate else "region"
             yield Packed(self._viewed(region, name, built, letters, ("region",)))
         yield Packed(self._viewed(profile_picture(view), "profile", built, letters, ("profile",)))
-        facts = "; ".join(given(self.design.problem, self.words))
+        facts = "; ".join(fact.text for fact in given(self.design.problem, self.words))
         texts = [self.words.note.given.format(given=facts), *checks(self.design, self.words)]
         if self.design.problem.has_forces:
             texts += forces(self.design, self.words)

@@ -9,10 +9,19 @@ import numpy as np
 from msgspec import Struct
 
 from planmethod.cams.design import OF_R_MIN, OF_RHO, CamDesign, CamExtreme
-from planmethod.cams.laws import CamLawName, Reals, UnitLaw
+from planmethod.cams.laws import Reals, UnitLaw
 from planmethod.cams.model import CamPhase, CamProblem, Closure, Contact, Stretch
 from planmethod.cams.record import division_rows
-from planmethod.note.document import Caption, Item, Node, Paragraph, Table, Title, table_of
+from planmethod.note.document import (
+    Caption,
+    GivenFact,
+    Item,
+    Node,
+    Paragraph,
+    Table,
+    Title,
+    table_of,
+)
 from planmethod.note.formula import Rich, escape
 from planmethod.note.wording import Language
 
@@ -43,51 +52,112 @@ def head(problem: CamProblem, words: Language) -> Iterator[Node]:
     """Yield the title and what is given."""
     variant = f" ({problem.variant})" if problem.variant else ""
     yield Title(words.cam.title.format(title=escape((problem.title or problem.name) + variant)))
-    yield Paragraph(words.note.given.format(given="; ".join(given(problem, words))))
+    facts = given(problem, words)
+    told = words.note.given.format(given="; ".join(fact.text for fact in facts))
+    yield Paragraph(told, facts=tuple(facts))
 
 
-def given(problem: CamProblem, words: Language) -> Iterator[Rich]:
-    """Yield what is given, part by part."""
+def given(problem: CamProblem, words: Language, *, numbered: bool = False) -> list[GivenFact]:
+    """Return what is given, part by part: of it alone the cam can be designed again.
+
+    ``numbered``: with what the numbers of positions mean that answers are asked at.
+    """
+    facts = [*_follower(problem, words), *_turn(problem, words), *_limits(problem, words)]
+    if numbered:
+        text = words.cam.numbered.format(count=problem.count)
+        facts.append(GivenFact(text, {"cam.count": problem.count}))
+    return facts
+
+
+def _follower(problem: CamProblem, words: Language) -> Iterator[GivenFact]:
+    """Yield what follower there is, how far it goes, what keeps it at the cam."""
     said, say = words.cam, words.say
-    yield said["followers"][problem.follower.value][problem.contact.value]
+    kind = {"cam.follower": problem.follower.value, "cam.contact": problem.contact.value}
+    yield GivenFact(said["followers"][problem.follower.value][problem.contact.value], kind)
     if problem.oscillates:
         swing = degrees(problem.stroke / problem.arm)
-        yield said.swing.format(swing=say.given(swing), arm=say.given(MM * problem.arm))
-        yield said["senses"][problem.sense.value]
+        text = said.swing.format(swing=say.given(swing), arm=say.given(MM * problem.arm))
+        yield GivenFact(text, {"cam.swing": swing, "cam.arm": problem.arm})
+        yield GivenFact(said["senses"][problem.sense.value], {"cam.sense": problem.sense.value})
     else:
-        yield said.stroke.format(h=say.given(MM * problem.stroke))
-    yield said["closures"][problem.closure.value]
-    names = ("rise", "upper", "back", "lower")
-    shown = (say.given(degrees(x)) for x in problem.phases)
-    yield said.phases.format(**dict(zip(names, shown, strict=True)))
+        text = said.stroke.format(h=say.given(MM * problem.stroke))
+        yield GivenFact(text, {"cam.stroke": problem.stroke})
+    closure = problem.closure.value
+    yield GivenFact(said["closures"][closure], {"cam.closure": closure})
+
+
+def _turn(problem: CamProblem, words: Language) -> Iterator[GivenFact]:
+    """Yield the phases of a turn, the laws, and into how many parts a turn is divided."""
+    said, say = words.cam, words.say
+    names, keys = (
+        ("rise", "upper", "back", "lower"),
+        ("rise", "upper_dwell", "return", "lower_dwell"),
+    )
+    angles = [degrees(x) for x in problem.phases]
+    shown = dict(zip(names, map(say.given, angles), strict=True))
+    data = {f"cam.{key}": angle for key, angle in zip(keys, angles, strict=True)}
+    yield GivenFact(said.phases.format(**shown), data)
     rise, back = (_law(law, words) for law in problem.laws)
-    yield (said.law if rise == back else said.two_laws).format(rise=rise, back=back)
-    if problem.contact is not Contact.FLAT:
+    own = dict[str, object]()
+    for key, law in zip(("rise", "return"), problem.laws, strict=True):
+        own[f"cam.law.{key}.law"] = law.name.value
+        own |= {f"cam.law.{key}.{number}": value for number, value in law.told}
+    yield GivenFact((said.law if rise == back else said.two_laws).format(rise=rise, back=back), own)
+    yield GivenFact(said.divided_in.format(parts=problem.parts), {"cam.parts": problem.parts})
+    if problem.n:
+        speed = said["speed"]["ccw" if problem.n > 0 else "cw"]
+        yield GivenFact(speed.format(n=say.given(abs(problem.n))), {"cam.n": problem.n})
+
+
+def _limits(problem: CamProblem, words: Language) -> Iterator[GivenFact]:
+    """Yield allowed pressure angles, sizes, and what forces come from."""
+    said, say = words.cam, words.say
+    flat = problem.contact is Contact.FLAT
+    if not flat:
         up, down = problem.allowed
         text = said.allowed.format(rise=say.given(degrees(up)))
-        yield text + (said.allowed_back.format(back=say.given(degrees(down))) if down else "")
-    flat = problem.contact is Contact.FLAT
-    for name, symbol in (
-        ("r_min", "r_{0}" if flat else "r_{min}"),
-        ("offset", "e"),
-        ("centre", "a"),
-        ("roller", "r_{p}"),
-        ("least", "[ρ]"),
+        data = {"cam.pressure.rise": degrees(up)}
+        if down is not None:
+            text += said.allowed_back.format(back=say.given(degrees(down)))
+            data["cam.pressure.return"] = degrees(down)
+        yield GivenFact(text, data)
+    for name, symbol, key in (
+        ("r_min", "r_{0}" if flat else "r_{min}", "r_min"),
+        ("offset", "e", "offset"),
+        ("centre", "a", "centre"),
+        ("roller", "r_{p}", "roller"),
+        ("least", "[ρ]", "curvature"),
     ):
         value = getattr(problem, name)
         if value if name == "least" else value is not None:
-            yield f"{symbol} = {say.given(MM * value)} {say.units['mm']}"
-    if problem.n:
-        told = said["speed"]["ccw" if problem.n > 0 else "cw"]
-        yield told.format(n=say.given(abs(problem.n)))
+            text = f"{symbol} = {say.given(MM * value)} {say.units['mm']}"
+            yield GivenFact(text, {f"cam.{key}": value})
+    if problem.mass:
+        mass = f"{say.given(problem.mass)} {say.units['kg']}"
+        yield GivenFact(said.mass.format(mass=mass), {"cam.mass": problem.mass})
+    if problem.load:
+        load = f"{say.given(problem.load)} {say.units['N']}"
+        yield GivenFact(said.load.format(load=load), {"cam.load": problem.load})
+    if problem.has_forces:
+        margin = said.margin.format(margin=say.given(problem.margin))
+        yield GivenFact(margin, {"cam.margin": problem.margin})
 
 
 def _law(law: UnitLaw, words: Language) -> Rich:
-    name: str = words.cam["laws"][law.name.value]
-    if law.name is CamLawName.CONSTANT:
-        up, down = law.bits
-        ratio = up.powers[0] / -down.powers[0]
-        name += words.cam.ratio.format(ratio=words.say.given(ratio)) if ratio != 1 else ""
+    """Return a law with the numbers that make it this one."""
+    said, say = words.cam, words.say
+    name: str = said["laws"][law.name.value]
+    for key, value in law.told:
+        match value:
+            case float():
+                is_usual = key in ("ratio", "blend") and value == float(key == "ratio")
+                name += "" if is_usual else said[key].format(**{key: say.given(value)})
+            case tuple() if key == "values":
+                listed = "; ".join(map(say.given, value))
+                name += said.by_values.format(parts=len(value) - 1, values=listed)
+            case tuple():
+                pairs = ", ".join(f"({say.given(x)}; {say.given(y)})" for x, y in value)
+                name += said.by_points.format(points=pairs)
     return name
 
 

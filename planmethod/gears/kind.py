@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from planmethod.kind import ProblemKind
-from planmethod.note.document import Document
+from planmethod.note.document import Document, GivenFact
 
 if TYPE_CHECKING:
     from planmethod.construct.drafting import Profile
@@ -88,14 +88,12 @@ class GearTrains(ProblemKind["GearProblem"]):
 
         return audited(problem, ruler)
 
-    def given(self, problem: GearProblem, words: Language) -> list[str]:
-        """Return what is given, as rich text, one fact each."""
+    def given(self, problem: GearProblem, words: Language) -> list[GivenFact]:
+        """Return what is given, one fact each; the file can be written again of their data."""
         from planmethod.gears.motion import solve_motion
         from planmethod.gears.told import given
 
-        motion = solve_motion(problem)
-        found = tuple(f"z_{{{label}}} " for label in motion.train.unknown)
-        return [fact for fact in given(motion, words) if not fact.startswith(found)]
+        return given(solve_motion(problem), words, found=False)
 
     def scheme(self, problem: GearProblem) -> Drawing | None:
         """Return the side view; None where it cannot be drawn."""

@@ -46,7 +46,8 @@ def protocol_document(problem: GearProblem, words: Language, profile: Profile) -
     if problem.source:
         yield Paragraph(say.source.format(source=escape(problem.source)))
     yield Chapter(say.given)
-    yield Paragraph("; ".join(given(motion, words)) + ".")
+    facts = given(motion, words)
+    yield Paragraph("; ".join(fact.text for fact in facts) + ".", facts=tuple(facts))
     yield Chapter(say.calculation)
     yield from (Item(line) for line in calculation(motion, words, notation))
     compared = compare(problem, motion)

@@ -33,6 +33,7 @@ from planmethod.gears.text import compared_sentences, compared_table
 from planmethod.gears.told import calculation, given, results
 from planmethod.languages import LANGUAGES, say
 from planmethod.note.narrate.formulas import knot_letter, view_name
+from planmethod.note.narrate.given import unbroken
 from planmethod.note.numbers import half_up
 from planmethod.note.wording import Language, Words, language
 from planmethod.paper import STAMP_WIDTH, TRIED
@@ -459,8 +460,8 @@ class _Sheet(Struct, frozen=True):
 
     def _told(self, width: float) -> Block:
         """Return what is given and the calculation."""
-        facts = (fact.replace(" ", "\u00a0") for fact in given(self.motion, self.words))
-        text = self.words.note.given.format(given="; ".join(facts))
+        facts = unbroken(fact.text for fact in given(self.motion, self.words))
+        text = self.words.note.given.format(given=facts)
         blocks: list[Block] = [paragraph(text, self.sizes.text, width)]
         blocks.append(heading(self.words.gears["sheet"].calculation, self.sizes.text))
         lines = calculation(self.motion, self.words, self.notation)

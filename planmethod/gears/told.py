@@ -10,12 +10,15 @@ from planmethod.gears.asked import parse
 from planmethod.gears.conditions import conditions, judgement
 from planmethod.gears.construction import GearDrawing, GearReading
 from planmethod.gears.derivation import DerivedLine, derivation
+from planmethod.gears.model import Mesh, MeshKind, Train
 from planmethod.gears.motion import TrainMotion
 from planmethod.gears.text import equation_of, fraction_text, kind_of, mobility
 from planmethod.gears.velocities import by_velocities
 from planmethod.note.compared import ComparedNumber
+from planmethod.note.document import GivenFact
 from planmethod.note.numbers import raised
 from planmethod.note.wording import Language
+from planmethod.problem.names import segment
 
 
 def unit_of(one: Answer, words: Language) -> str:
@@ -28,39 +31,136 @@ def indexed(text: str) -> str:
     return re.sub(r"_([^\W²]+'*(?:-[^\W²]+'*)?)", r"_{\1}", text)
 
 
-def given(motion: TrainMotion, words: Language) -> list[str]:
-    """Return what is given of a train, as rich text (дано)."""
+def given(motion: TrainMotion, words: Language, *, found: bool = True) -> list[GivenFact]:
+    """Return what is given of a train: of it alone the train can be built again (дано).
+
+    ``found``: with the teeth that coaxiality gives. What is fixed comes last.
+    """
+    facts = [
+        *_sizes(motion, words, found=found),
+        *_meshes(motion.train, words),
+        *_bodies(motion.train, words),
+        *_speeds(motion.train, words),
+        *_modules(motion.train, words),
+    ]
+    if motion.train.fixed:
+        labels = sorted(motion.train.fixed)
+        form = "one" if len(labels) == 1 else "many"
+        told = str(words.gears["sheet"]["fixed"][form]).format(labels=", ".join(labels))
+        facts.append(GivenFact(told, {"gears.fixed": labels}))
+    return facts
+
+
+def _sizes(motion: TrainMotion, words: Language, *, found: bool) -> Iterator[GivenFact]:
+    """Yield teeth or radii of wheels, radii of carriers, shifts, axes of bevel wheels."""
     train, say, told = motion.train, words.say, words.gears["sheet"]
-    facts = []
     for label in train.listed:
+        path = f"gears.wheels.{segment(label)}"
         if label in train.arms:
-            arm = f"{say.given(float(train.arms[label]))} {words.gears['units']['m']}"
-            facts.append(f"r_{{{label}}} = {arm}")
+            radius = float(train.arms[label])
+            arm = f"{say.given(radius)} {words.gears['units']['m']}"
+            yield GivenFact(f"r_{{{label}}} = {arm}", {f"{path}.r": radius})
             continue
         size = motion.axes.sizes[label]
-        letter, value = f"z_{{{label}}}", say.given(float(size))
-        if not train.counted(label):
-            letter = f"r_{{{label}}}"
-            value = f"{say.given(float(size * train.unit_m))} {words.gears['units']['m']}"
-        by = told.by_coaxiality if label in train.unknown else "{symbol} = {value}"
-        facts.append(by.format(symbol=letter, value=value))
+        counted = train.counted(label)
+        letter = f"z_{{{label}}}" if counted else f"r_{{{label}}}"
+        number = int(size) if counted and size.denominator == 1 else float(size)
+        value = say.given(float(size))
+        if not counted:
+            number = float(size * train.unit_m)
+            value = f"{say.given(number)} {words.gears['units']['m']}"
+        if label in train.unknown:
+            by = told.by_coaxiality if found else told.sought
+            data: dict[str, object] = {"gears.unknown": list(train.unknown)}
+            yield GivenFact(by.format(symbol=letter, value=value), data)
+        else:
+            yield GivenFact(f"{letter} = {value}", {f"{path}.{letter[0]}": number})
     for label, wheel in train.wheels.items():
         if wheel.shift:
-            facts.append(f"x_{{{label}}} = {say.given(float(wheel.shift))}")
+            shift = float(wheel.shift)
+            path = f"gears.wheels.{segment(label)}.x"
+            yield GivenFact(f"x_{{{label}}} = {say.given(shift)}", {path: shift})
+    for label, wheel in train.wheels.items():
+        if wheel.axis is not None:
+            places = "; ".join(map(say.given, wheel.axis))
+            yield GivenFact(
+                told.axis.format(label=label, places=places),
+                {f"gears.wheels.{segment(label)}.axis": list(wheel.axis)},
+            )
+
+
+def _meshes(train: Train, words: Language) -> Iterator[GivenFact]:
+    """Yield which wheels mesh, how, on which carrier; hands of worms and efficiencies."""
+    told, rows = words.gears["sheet"], dict[tuple[str, str], dict[int, Mesh]]()
+    for k, mesh in enumerate(train.meshes):
+        kind = mesh.kind.value
+        if mesh.kind is MeshKind.WORM:
+            kind = "left worm" if mesh.left else "right worm"
+        rows.setdefault((kind, mesh.carrier or ""), {})[k] = mesh
+    for (kind, carrier), meshes in rows.items():
+        data: dict[str, object] = {}
+        for k, mesh in meshes.items():
+            path = f"gears.meshes[{k}]"
+            data |= {f"{path}.of": [mesh.first, mesh.second], f"{path}.kind": mesh.kind.value}
+            data |= {f"{path}.carrier": carrier} if carrier else {}
+            data |= {f"{path}.hand": "left"} if mesh.left else {}
+        names = ", ".join(mesh.name for mesh in meshes.values())
+        on = told.on_carrier.format(carrier=carrier) if carrier else ""
+        yield GivenFact(told["meshes"][kind].format(names=names, on=on), data)
+    for k, mesh in enumerate(train.meshes):
+        if mesh.eta is not None:
+            text = f"η_{{{mesh.name}}} = {words.say.given(float(mesh.eta))}"
+            yield GivenFact(text, {f"gears.meshes[{k}].eta": float(mesh.eta)})
+
+
+def _bodies(train: Train, words: Language) -> Iterator[GivenFact]:
+    """Yield what turns together and about one axis, numbers of satellites, the output."""
+    told = words.gears["sheet"]
+    carriers = {mesh.carrier for mesh in train.meshes}
+    wheels = {wheel.number for wheel in train.wheels.values()}
+    groups, texts = [], []
+    for body in train.bodies:
+        labels = [label for label in train.body_of if train.body_of[label] == body]
+        numbers = dict.fromkeys(label.rstrip("'") for label in labels)
+        group = [body, *(number for number in numbers if number != body.rstrip("'"))]
+        if len(group) > 1 or body.endswith("'"):
+            groups.append(group)
+        shown = [x for x in labels if x in train.wheels or x in carriers or x not in wheels]
+        if len(shown) > 1:
+            texts.append(told.one_body.format(labels=", ".join(shown)))
+    if texts:
+        yield GivenFact("; ".join(texts), {"gears.bodies": groups} if groups else {})
+    if train.coaxial:
+        rows = [list(group) for group in train.coaxial]
+        text = "; ".join(told.coaxial.format(labels=", ".join(group)) for group in rows)
+        yield GivenFact(text, {"gears.coaxial": rows})
+    for carrier, count in train.satellites.items():
+        text = told.satellites.format(carrier=carrier, count=count)
+        yield GivenFact(text, {f"gears.satellites.{segment(carrier)}": count})
+    if train.output is not None:
+        yield GivenFact(told.output.format(label=train.output), {"gears.output": train.output})
+
+
+def _speeds(train: Train, words: Language) -> Iterator[GivenFact]:
     unit = raised(words.gears["units"][train.units[0]])
     for body, speed in train.inputs.items():
-        value = say.given(float(speed))
-        facts.append(f"{train.letter}_{{{body}}} = {value} {unit}")
+        text = f"{train.letter}_{{{body}}} = {words.say.given(float(speed))} {unit}"
+        name = "n" if train.unit == "n" else "omega"
+        yield GivenFact(text, {f"gears.{name}.{segment(body)}": float(speed)})
+
+
+def _modules(train: Train, words: Language) -> Iterator[GivenFact]:
+    """Yield the module of the wheels, or those of the rows."""
+    say, told = words.say, words.gears["sheet"]
     modules = train.modules if train.module is not None else {}
     for module, wheels in modules.items():
-        value = say.given(float(module * 1000))
-        of = {"value": value, "labels": ", ".join(wheels)}
-        facts.append((told.module if len(modules) == 1 else told.module_of).format(**of))
-    if train.fixed:
-        labels = sorted(train.fixed)
-        form = "one" if len(labels) == 1 else "many"
-        facts.append(str(told["fixed"][form]).format(labels=", ".join(labels)))
-    return facts
+        mm = float(module * 1000)
+        own = [label for label in wheels if train.wheels[label].module is not None]
+        data = {f"gears.wheels.{segment(label)}.m": mm for label in own}
+        if len(own) < len(wheels):
+            data["gears.module"] = mm
+        form = told.module if len(modules) == 1 else told.module_of
+        yield GivenFact(form.format(value=say.given(mm), labels=", ".join(wheels)), data)
 
 
 def calculation(motion: TrainMotion, words: Language, notation: str | None = None) -> list[str]:

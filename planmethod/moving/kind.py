@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from planmethod.kind import ProblemKind
-from planmethod.note.document import Document
+from planmethod.note.document import Document, GivenFact
 
 if TYPE_CHECKING:
     from planmethod.construct.drafting import Profile
@@ -70,13 +70,11 @@ class MovingPoints(ProblemKind["PointProblem"]):
 
         return audited(problem, ruler)
 
-    def given(self, problem: PointProblem, words: Language) -> list[str]:
-        """Return what is given, as rich text, one fact each."""
-        from planmethod.moving.text import law
+    def given(self, problem: PointProblem, words: Language) -> list[GivenFact]:
+        """Return what is given, one fact each; the file can be written again of their data."""
+        from planmethod.moving.text import given
 
-        moments = "; ".join(map(words.say.given, sorted(set(problem.times))))
-        facts = [node.text for node in law(problem, words)]
-        return [*facts, words.point.moments.format(times=moments)]
+        return given(problem, words)
 
     def figures(self, problem: PointProblem) -> Figures:
         """Return what students can be asked for."""

@@ -23,7 +23,7 @@ from planmethod.moving.course import Course, course_of
 from planmethod.moving.model import PointProblem
 from planmethod.moving.motion import LEGEND
 from planmethod.moving.sheet import read_rows, sheet_scales
-from planmethod.moving.text import law, moment, title
+from planmethod.moving.text import given, moment, title
 from planmethod.note.compared import ComparedNumber
 from planmethod.note.document import Caption, Chapter, Node, Paragraph, steps_of, table_of
 from planmethod.note.formula import Rich, escape, fraction
@@ -48,10 +48,9 @@ def protocol_document(problem: PointProblem, words: Language, profile: Profile) 
     yield title(problem)
     if problem.source:
         yield Paragraph(words.note.source.format(source=escape(problem.source)))
-    moments = "; ".join(map(say.given, sorted(set(problem.times))[:3]))
-    facts = [node.text for node in law(problem, words)]
-    facts.append(said.moments.format(times=moments))
-    yield Paragraph(words.note.given.format(given="; ".join(facts)))
+    facts = given(problem, words)
+    told = words.note.given.format(given="; ".join(fact.text for fact in facts))
+    yield Paragraph(told, facts=tuple(facts))
     yield Paragraph(said.wanted)
     convention = problem.scales.convention
     told = ", ".join(scale_inscription(scales[name], convention, say) for name in "lva")

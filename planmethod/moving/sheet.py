@@ -24,7 +24,7 @@ from planmethod.moving.pictures import (
     trajectory_picture,
     vector_scales,
 )
-from planmethod.moving.text import head_of, law, moment, textbook
+from planmethod.moving.text import given, head_of, moment, textbook
 from planmethod.note.compared import ComparedNumber
 from planmethod.note.document import Formula, Note
 from planmethod.note.narrate.given import unbroken
@@ -190,20 +190,12 @@ class _Point(Struct, frozen=True):
 
     def _statement(self, width: float) -> Block:
         """Return "Дано" and what is asked."""
-        said, say = self.words.point, self.words.say
-        decimal, times = say.decimal, self.problem.times
-        facts = law(self.problem, self.words, lambda text: textbook(text, decimal))
-        moments = said.moments.format(times="; ".join(map(say.given, times)))
-        if len(times) > 3:
-            ends = {"start": say.given(min(times)), "end": say.given(max(times))}
-            moments = said.row.format(**ends, count=len(times))
-        else:
-            moments = unbroken([moments])
+        said, decimal = self.words.point, self.words.say.decimal
+        facts = given(self.problem, self.words, lambda text: textbook(text, decimal))
         # A formula is not broken within.
-        whole = [
-            unbroken([fact.text]) if isinstance(fact, Formula) else fact.text for fact in facts
-        ]
-        texts = [self.words.note.given.format(given="; ".join([*whole, moments])), said.wanted]
+        whole = {f"point.{key}" for key in self.problem.formulas} | {"point.t"}
+        told = [unbroken([x.text]) if x.data.keys() & whole else x.text for x in facts]
+        texts = [self.words.note.given.format(given="; ".join(told)), said.wanted]
         return Column([paragraph(text, SIZES.text, width=width) for text in texts], gap=3.0)
 
     def _calculation(self, k: int, width: float) -> Block:

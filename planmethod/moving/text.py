@@ -5,12 +5,15 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Iterator, Sequence
 
+import numpy as np
+
 from planmethod.moving.model import Law, PointProblem
 from planmethod.moving.motion import COLUMNS, LEGEND, POLAR, ROLLED, Motion, Undefined, move
 from planmethod.note.document import (
     Caption,
     Chapter,
     Formula,
+    GivenFact,
     Item,
     Node,
     Note,
@@ -126,33 +129,69 @@ def _end_of_power(tail: str) -> int:
 _POWER = r" *[-+− ]*(?:[0-9.,]+(?:[eE][-+−]?[0-9]+)?|[A-Za-z_π√]+[0-9]*)?"
 
 
-def law(
+def law(problem: PointProblem, words: Language) -> Iterator[Formula | Item]:
+    """Yield the law of motion: its formulas, and along what the point moves."""
+    for fact in law_facts(problem, words):
+        is_formula = any(key.removeprefix("point.") in problem.formulas for key in fact.data)
+        yield Formula(fact.text) if is_formula else Item(fact.text)
+
+
+def given(
     problem: PointProblem, words: Language, written: Callable[[str], Rich] = escape
-) -> Iterator[Formula | Item]:
-    """Yield the law of motion: its formulas, and along what the point moves.
+) -> list[GivenFact]:
+    """Return what is given: of the law and the moments the motion follows (дано).
 
     ``written`` tells how the text of a formula is written.
     """
+    return [*law_facts(problem, words, written), moments(problem, words)]
+
+
+def law_facts(
+    problem: PointProblem, words: Language, written: Callable[[str], Rich] = escape
+) -> Iterator[GivenFact]:
+    """Yield the law of motion, a fact each."""
     said, say = words.point, words.say
     for key, formula in problem.formulas.items():
         shown = written(formula.text.replace("**", "^").replace("*", "·"))
-        yield Formula(f"{LEGEND[key].symbol} = {shown} ({say.units[LEGEND[key].unit]})")
+        text = f"{LEGEND[key].symbol} = {shown} ({say.units[LEGEND[key].unit]})"
+        yield GivenFact(text, {f"point.{key}": formula.text})
     if problem.law is Law.NATURAL:
-        path = said.line
+        path, data = said.line, {}
         if problem.radius is not None:
             path = said.circle.format(radius=say.given(problem.radius))
-        yield Item(path)
+            data = {"point.radius": problem.radius}
+        yield GivenFact(path, data)
     if problem.wheel is not None:
         wheel = problem.wheel
         kind = "line" if not wheel.track else "on" if wheel.track > 0 else "within"
-        size = wheel.arm or abs(wheel.track)
-        track = said["tracks"]["arm" if wheel.arm else kind].format(radius=say.given(size))
+        kind, size = ("arm", wheel.arm) if wheel.arm else (kind, abs(wheel.track))
         numbers = {
             "radius": say.given(wheel.radius),
             "r": say.given(wheel.r),
             "angle": say.given(wheel.angle),
         }
-        yield Item(said.wheel.format(track=track, **numbers))
+        own = {"radius": wheel.radius, "r": wheel.r, "angle": wheel.angle}
+        own |= {kind: size} if kind != "line" else {}
+        track = said["tracks"][kind].format(radius=say.given(size))
+        text = said.wheel.format(track=track, **numbers)
+        yield GivenFact(text, {f"point.wheel.{key}": value for key, value in own.items()})
+
+
+def moments(problem: PointProblem, words: Language) -> GivenFact:
+    """Return the moments: each, or the ends of a row of more than a few at equal intervals."""
+    times, say = problem.times, words.say
+    if len(times) > FEW:
+        start, end = times[0], times[-1]
+        steps = np.linspace(start, end, len(times))
+        if end > start and np.allclose(
+            times, steps, rtol=0, atol=1e-12 * max(abs(start), abs(end))
+        ):
+            ends = {"start": say.given(start), "end": say.given(end)}
+            row = {"from": start, "to": end, "count": len(times)}
+            text = words.point.row.format(**ends, count=len(times))
+            return GivenFact(text, {f"point.t.{key}": value for key, value in row.items()})
+    told = "; ".join(map(say.given, sorted(set(times))))
+    return GivenFact(words.point.moments.format(times=told), {"point.t": list(times)})
 
 
 def moment(

@@ -91,7 +91,7 @@ def test_where_the_distance_of_a_plate_is_given_none_is_drawn(
     design = designed(tmp_path, keys | {"r_min": 0.05, "curvature": 0.008})
     assert not construct(design).results
     # It is given, with the letter that it has in the table, and so is the allowed radius.
-    told = "; ".join(given(design.problem, language("ru")))
+    told = "; ".join(fact.text for fact in given(design.problem, language("ru")))
     assert "r_{0} = 50 мм" in told and "[ρ] = 8 мм" in told and "r_{min}" not in told
 
 

@@ -48,7 +48,7 @@ def test_rows_have_modules_of_their_own(tmp_path: Path) -> None:
     due = {"a_w_1_2": 120, "a_w_2'_3": 120, "a_w_4_5": 99, "r_4": 39, "r_5": 60, "r_3": 170}
     for name, value in due.items():
         assert answer(motion, name).exact == value, name
-    facts = given(motion, language("ru"))
+    facts = [fact.text for fact in given(motion, language("ru"))]
     assert "m = 4 мм (колёса 1, 2, 2', 3)" in facts
     assert "m = 6 мм (колёса 4, 5)" in facts
     as_wheels = TRAIN.replace('"1" = 20', '"1" = { z = 20, m = 4 }')
@@ -120,7 +120,7 @@ def k10(arm: str) -> str:
 
 def test_the_radius_of_a_carrier_is_given_and_checks_coaxiality(tmp_path: Path) -> None:
     motion = solved(tmp_path, k10("{ r = 0.05 }"))
-    facts = given(motion, language("en"))
+    facts = [fact.text for fact in given(motion, language("en"))]
     assert facts[:6] == [f"r_{{{k}}} = {r} m" for k, r in enumerate(
         ("0.07", "0.02", "0.03", "0.05", "0.06", "0.04"), 1)]  # fmt: skip
     assert [motion.speed(x) for x in "246"] == [25, 4, 6]

@@ -8,7 +8,6 @@ from planmethod.check.exchange.cloze import QuizQuestion
 from planmethod.check.exchange.quiz import quiz_of
 from planmethod.check.task import Task
 from planmethod.kind import ProblemKind
-from planmethod.note.document import GivenFact
 from planmethod.note.narrate.forces.statement import statement
 from planmethod.note.narrate.given import drawn, given
 from planmethod.note.wording import Language
@@ -35,7 +34,7 @@ def question_of(task: Task, kind: ProblemKind[Any] | None, words: Language) -> Q
             facts += [fact for fact in loaded if fact.text.partition(" = ")[0] not in known]
         drawing = assigned(task.solution)
     else:
-        facts = [GivenFact(text) for text in kind.given(problem, words)]
+        facts = kind.given(problem, words)
         drawing = kind.scheme(problem)
     parts = tuple(quiz_of(task, words))
     used = {"mu_l", *(part.entry.scale for part in parts)}

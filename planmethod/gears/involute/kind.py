@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from planmethod.kind import ProblemKind
-from planmethod.note.document import Document
+from planmethod.note.document import Document, GivenFact
 
 if TYPE_CHECKING:
     from planmethod.construct.drafting import Profile
@@ -60,3 +60,10 @@ class Meshings(ProblemKind["MeshingProblem"]):
         from planmethod.gears.involute.sheet import drawings
 
         return drawings(problem, fields=fields, profile=profile, before=before, total=total)
+
+    def given(self, problem: MeshingProblem, words: Language) -> list[GivenFact]:
+        """Return what is given, one fact each; the file can be written again of their data."""
+        from planmethod.gears.involute.quantities import SolvedMeshing
+        from planmethod.gears.involute.text import given
+
+        return given(SolvedMeshing(problem), words)

@@ -109,6 +109,7 @@ def _read(faults: Faults, body: Mapping[str, Any]) -> dict[str, Any] | None:
         "width": given.b,
         "tip": given.s_a_min,
         "overlap": given.epsilon_min,
+        "alone": 0 if given.x1 is not None else None if given.x2 is None else 1,
     }
 
 

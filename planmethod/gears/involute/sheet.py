@@ -22,6 +22,8 @@ from planmethod.gears.involute.meshpicture import meshing_picture, view_for
 from planmethod.gears.involute.quantities import SolvedMeshing
 from planmethod.gears.involute.sizes import MeshingProblem
 from planmethod.gears.involute.text import (
+    given,
+    given_text,
     quality,
     shifts,
     table,
@@ -163,6 +165,7 @@ def _scale(value: float, say: Notation) -> str:
 def _checks(solved: SolvedMeshing, words: Language, title: float, text: float) -> Iterator[Block]:
     """Yield what is given and what the limits say, in letters of a height, mm."""
     say = words.meshing
+    yield paragraph(given_text(given(solved, words), words), text, TEXT_WIDTH)
     yield heading(say.checked, title, width=TEXT_WIDTH)
     section = (say.helical,) if solved.problem.beta else ()
     for line in (*section, *quality(solved, words), shifts(solved, words)):

@@ -102,6 +102,8 @@ class MeshingProblem(KindProblem, frozen=True, kw_only=True):
         Least tooth thickness at the tip, in modules.
     overlap : float
         Least contact ratio.
+    alone : int or None
+        Wheel whose shift the file gives beside the distance of the axes: 0 or 1.
     """
 
     z: tuple[int, int]
@@ -115,6 +117,7 @@ class MeshingProblem(KindProblem, frozen=True, kw_only=True):
     cutter: int = 0
     beta: float = 0.0
     width: float | None = None
+    alone: int | None = None
 
     @property
     def chosen(self) -> bool:

@@ -8,7 +8,16 @@ from math import degrees
 from planmethod.gears.involute.formulas import Unit
 from planmethod.gears.involute.quantities import SolvedMeshing, Told
 from planmethod.gears.involute.sizes import MeshingProblem
-from planmethod.note.document import Caption, Item, Node, Paragraph, Table, Title, table_of
+from planmethod.note.document import (
+    Caption,
+    GivenFact,
+    Item,
+    Node,
+    Paragraph,
+    Table,
+    Title,
+    table_of,
+)
 from planmethod.note.formula import Rich, escape
 from planmethod.note.wording import Language
 
@@ -52,25 +61,51 @@ def head(solved: SolvedMeshing, words: Language) -> Iterator[Node]:
     """Yield the title and what is given."""
     title = escape(solved.problem.title or solved.problem.name)
     yield Title(words.meshing.title.format(title=title))
-    yield Paragraph(_given(solved, words))
+    facts = given(solved, words)
+    yield Paragraph(given_text(facts, words), facts=tuple(facts))
     if solved.problem.beta:
         yield Paragraph(words.meshing.helical)
     yield Paragraph(shifts(solved, words))
 
 
-def _given(solved: SolvedMeshing, words: Language) -> Rich:
-    problem, say = solved.problem, words.meshing
-    further = ""
+def given_text(facts: Sequence[GivenFact], words: Language) -> Rich:
+    """Return what is given in one line; how the shifts are given has a sentence of its own."""
+    return words.note.given.format(given="; ".join(fact.text for fact in facts[:-1]))
+
+
+def given(solved: SolvedMeshing, words: Language) -> list[GivenFact]:
+    """Return what is given: of it alone the wheels can be cut again; the shifts come last."""
+    problem, say, units = solved.problem, words.say, words.meshing["units"]
+    rack = problem.rack
+    z1, z2 = problem.z
+    alpha, beta = round(degrees(rack.alpha), 9), round(degrees(problem.beta), 9)
+    facts = [
+        GivenFact(f"z_{{1}} = {z1}; z_{{2}} = {z2}", {"meshing.z": [z1, z2]}),
+        GivenFact(f"m = {say.given(problem.m)} {units['mm']}", {"meshing.m": problem.m}),
+        GivenFact(f"α = {say.given(alpha)}{say.units['deg']}", {"meshing.alpha": alpha}),
+        GivenFact(f"h_{{a}}^{{*}} = {say.given(rack.ha)}", {"meshing.ha": rack.ha}),
+        GivenFact(f"c^{{*}} = {say.given(rack.c)}", {"meshing.c": rack.c}),
+    ]
     if problem.a_w is not None:
-        further = f", a_{{w}} = {words.say.given(problem.a_w)} {say['units']['mm']}"
+        text = f"a_{{w}} = {say.given(problem.a_w)} {units['mm']}"
+        facts.append(GivenFact(text, {"meshing.a_w": problem.a_w}))
     if problem.beta:
-        beta = words.say.given(round(degrees(problem.beta), 9))
-        further += f", β = {beta}{words.say.units['deg']}"
+        facts.append(GivenFact(f"β = {say.given(beta)}{say.units['deg']}", {"meshing.beta": beta}))
     if problem.width is not None:
-        further += f", b_{{w}} = {words.say.given(problem.width)} {say['units']['mm']}"
+        text = f"b_{{w}} = {say.given(problem.width)} {units['mm']}"
+        facts.append(GivenFact(text, {"meshing.b": problem.width}))
     if problem.cutter:
-        further += say.ring.format(cutter=problem.cutter)
-    return say.given.format(further=further, **_bare(solved, words))
+        ring = words.meshing.ring.format(cutter=problem.cutter)
+        facts.append(GivenFact(ring, {"meshing.internal": True, "meshing.cutter": problem.cutter}))
+    least = {"tip": say.given(problem.tip), "overlap": say.given(problem.overlap)}
+    data = {"meshing.s_a_min": problem.tip, "meshing.epsilon_min": problem.overlap}
+    facts.append(GivenFact(words.meshing.least.format(**least), data))
+    told: dict[str, object] = {"meshing.x": [*problem.x]}
+    if problem.aim is not None:
+        told = {"meshing.x": problem.aim.value}
+    elif problem.alone is not None:
+        told = {f"meshing.x{problem.alone + 1}": problem.x[problem.alone]}
+    return [*facts, GivenFact(shifts(solved, words), told)]
 
 
 def shifts(solved: SolvedMeshing, words: Language) -> Rich:

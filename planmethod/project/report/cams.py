@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 
+from msgspec.structs import replace
+
 from planmethod.cams.construction import construct
 from planmethod.cams.design import CamDesign
 from planmethod.cams.model import CamProblem
@@ -23,7 +25,9 @@ def cam_chapter(report: Report, problem: CamProblem) -> Iterator[Node]:
     design = CamDesign(problem)
     built = construct(design, sheet_scales(problem))
     yield Chapter(said.title.format())
-    yield sentences(said.about.format(facts="; ".join(given(problem, words))))
+    facts = given(problem, words)
+    about = sentences(said.about.format(facts="; ".join(fact.text for fact in facts)))
+    yield replace(about, facts=tuple(facts))
     captions: dict[str, str] = said["figures"]
     names: dict[str, str] = said["tables"]
     keys = iter(_keys(bool(built.results)))

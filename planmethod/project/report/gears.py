@@ -20,6 +20,7 @@ from planmethod.gears.involute.meshpicture import meshing_picture, view_for
 from planmethod.gears.involute.quantities import SolvedMeshing
 from planmethod.gears.involute.sizes import MeshingProblem
 from planmethod.gears.involute.text import cutting, quality, table
+from planmethod.gears.involute.text import given as given_of_meshing
 from planmethod.gears.model import GearProblem, Mesh, MeshKind
 from planmethod.gears.motion import TrainMotion, mesh_row, solve_motion
 from planmethod.gears.picture import draw
@@ -50,6 +51,9 @@ FRACTION = 1
 COLUMN = 185.0
 """Width of the texts of the sheet, mm."""
 
+_FURTHER = {"meshing.b", "meshing.cutter", "meshing.s_a_min"}
+"""What is given of a meshing beside the wheels and the rack, which the first sentence has."""
+
 SEEN = 0.005
 """Least difference of construction and calculation that a table shows, per cent."""
 
@@ -61,12 +65,14 @@ def train_chapter(report: Report, problem: GearProblem) -> Iterator[Node]:
     yield Chapter(said.title.format())
     labels = sorted(motion.train.fixed)
     form = said["fixed"]["one" if len(labels) == 1 else "many"]
-    facts = given(motion, words)[: -1 if labels else None]
-    yield sentences(
-        said.about.format(facts="; ".join(facts)),
+    facts = given(motion, words)
+    about = facts[: -1 if labels else None]
+    paragraph = sentences(
+        said.about.format(facts="; ".join(fact.text for fact in about)),
         str(form).format(labels=", ".join(labels)) if labels else "",
         _module(report, motion, said),
     )
+    yield replace(paragraph, facts=tuple(facts))
     yield from _figures(report, problem, motion, "train")
     yield from _structure(report, problem, motion, said)
     yield Part(said.analysis.format())
@@ -285,11 +291,15 @@ def meshing_chapter(report: Report, problem: MeshingProblem) -> Iterator[Node]:
     told = {name: text.strip("()") for name, text in fields.items()}  # in no product
     way = "given" if problem.aim is None else problem.aim.value
     way = "distance" if problem.a_w is not None else way
-    yield sentences(
+    facts = given_of_meshing(solved, words)
+    about = sentences(
         str(said["about"][form]).format(rack=report.cited()["rack"], **told),
         said.wheels.format(one=ends[0], other=ends[1]) if ends is not None else "",
         str(said["shifts"][way]).format(**told),
+        facts[-1].text if way == "distance" and problem.aim is not None else "",
+        words.note.given.format(given="; ".join(x.text for x in facts if x.data.keys() & _FURTHER)),
     )
+    yield replace(about, facts=tuple(facts))
     lead, lines = "", list[Rich]()
     for key, formulas in groupby(solved.formulas(words), lambda one: one[0]):
         if key in say["steps"] or key in say["beside"]:
