@@ -20,14 +20,16 @@ from worked import ROOT, path_of
 from planmethod.errors import ProblemError
 from planmethod.gears.involute.sizes import MeshingProblem
 from planmethod.gears.model import GearProblem, Train
+from planmethod.gears.motion import solve_motion
+from planmethod.gears.told import given as train_given
 from planmethod.kinds import load
 from planmethod.note import document
 from planmethod.note.document import Document, numbers_of
 from planmethod.note.formula import inlined
-from planmethod.note.narrate.given import told
+from planmethod.note.narrate.given import given, told
 from planmethod.note.narrate.steps import calculation
 from planmethod.note.plaintext import plain_text
-from planmethod.note.wording import LANGUAGES, language
+from planmethod.note.wording import LANGUAGES, Language, language
 from planmethod.note.writers.plain import plain_document
 from planmethod.plans.legend import QuantityKind
 from planmethod.plans.model import RATES
@@ -755,7 +757,7 @@ def test_the_reduced_moment_has_the_sign_of_its_terms(name: str) -> None:
 def test_pages_of_pdf_have_the_frames_of_word_and_no_text_runs_into_them(
     name: str, tmp_path: Path
 ) -> None:
-    """Form 2 after the title page, then form 2a, with the number of the page and how many it has."""
+    """Form 2 after the title page, then form 2a, with its number and how many there are."""
     fields = {"designation": "ТММ.КП.01", "title": "Строгальный станок", "author": "Иванов И."}
     (made,) = note_files(project_of(name), "n", NoteOptions(fields, frame=True), ["pdf"]).values()
     (plain,) = note_files(project_of(name), "n", NoteOptions(fields), ["pdf"]).values()
@@ -776,3 +778,75 @@ def test_pages_of_pdf_have_the_frames_of_word_and_no_text_runs_into_them(
         assert str(number) in block and "ТММ.КП.01" in " ".join(block)
         assert ("Листов" in block, "Иванов" in block) == (number == 2, number == 2)
         assert str(len(pages)) in block or number != 2
+
+
+def speeds_told(project: Project, words: Language) -> Iterator[tuple[str, float]]:
+    """Yield the rotational speeds that note and sheets of a project tell, with their symbols."""
+    symbol, value = r"(n(?:_\{[^}]*\})?)", r"([−-]?\d[\d.,]*)"
+    given_facts = [fact.text for fact in given(project.problem, words)]
+    for part in project.parts:
+        if isinstance(part.problem, GearProblem):
+            given_facts += train_given(solve_motion(part.problem), words)
+    written = note_document(project, words)
+    for text in (*given_facts, *texts(written)):
+        for name, found in re.findall(
+            rf"{symbol} = (?:[^;]* = )?{value} (?:об/мин|мин\^|rev/min|rpm|min\^)",
+            text.replace("\u00a0", " "),
+        ):
+            yield name, number_of(found)
+        # The mean power: A·n/60 beside the same with numbers.
+        for name, found in re.findall(
+            rf"·{symbol}\}}\{{\d+\}} = \\frac\{{[^}}]*·{value}\}}", text.replace("\u00a0", " ")
+        ):
+            yield name, number_of(found)
+    for _, name, found in next(t.rows for t in written.nodes
+                               if isinstance(t, document.Table) and t.key == "data"):  # fmt: skip
+        if name.startswith("n"):
+            yield name, number_of(found.replace("\u00a0", " ").split(" ")[0])
+
+
+@pytest.mark.parametrize("lang", LANGUAGES)
+@pytest.mark.parametrize("name", ["template", "shaper", "engine", "apart"])
+def test_a_letter_of_a_speed_is_one_thing_in_all_parts(
+    name: str, lang: str, tmp_path: Path
+) -> None:
+    """The crank is no wheel 1: beside a train its speed is n of the crank, or of its wheel."""
+    if name == "apart":  # a train of the same file that does not drive the crank by [driver]
+        path = tmp_path / "apart.toml"
+        text, count = re.subn(r"(?m)^train = .*$", "n = 80", TEMPLATE.read_text("utf-8"))
+        assert count == 1
+        path.write_text(text, "utf-8")
+        project = settle(load(path), path)
+    else:
+        project = project_of(name)
+    found: dict[str, set[float]] = {}
+    for symbol, value in speeds_told(project, language(lang)):
+        found.setdefault(symbol, set()).add(value)
+    assert found and all(max(of) - min(of) <= 1e-3 * max(map(abs, of)) for of in found.values())
+    beside = language(lang).say.symbol("crank turns")
+    assert {"template": "n_{5}", "engine": "n_{1}"}.get(name, beside) in found
+
+
+@pytest.mark.parametrize("name", FILES)
+def test_the_differences_of_the_conclusion_are_those_of_the_chapters(name: str) -> None:
+    """Each percent of the conclusion is read where the table and the formulas read it."""
+    told = told_of(name).rpartition("Построением планов найдены")[2]
+    table = tables_of(name)["compared"]
+    rows = {plain_text(row[0]).split(",")[0]: abs(number_of(row[4])) for row in table.rows}
+    worst_of = re.search(
+        r"– ([\d,]+) % для скоростей \((\S+?)\) и ([\d,]+) % для ускорений \((\S+?)\)", told
+    )
+    assert worst_of is not None
+    pairs = {worst_of[2]: number_of(worst_of[1]), worst_of[4]: number_of(worst_of[3])}
+    for letters, (symbol, percent) in zip(("vω", "aε"), pairs.items(), strict=True):
+        most = max(of for one, of in rows.items() if one[0] in letters)
+        assert rows[symbol] == most and abs(percent - most) <= 0.0551
+    largest = max(pairs, key=lambda one: rows[one])
+    assert f"разность – у {largest}: {worst_of[1 if largest == worst_of[2] else 3]} %." in told_of(
+        name
+    )
+    for chapter, end in (
+        (r"отличается от него на [+\u2212]([\d,]+) %", r"отличается от построения на ([\d,]+) %"),
+        (r"100 % = ([\d,]+) %", r"рычага Жуковского составляет ([\d,]+) %"),
+    ):
+        assert re.findall(chapter, told_of(name))[:1] == re.findall(end, told)

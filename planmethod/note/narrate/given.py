@@ -140,9 +140,10 @@ def _rates(text: As) -> Iterator[GivenFact]:
     still = {} if drive.acceleration else {"driver.epsilon": 0.0}
     if drive.turns is not None:
         turned = text.number(drive.turns, "rev/min", "driver.n")
-        turns = fraction(f"πn_{{{drive.link}}}", "30")
+        symbol = turns_symbol(text.problem, text.words)
+        turns = fraction(f"π{symbol}", "30")
         found = f"{omega} = {turns} = {text.say.found(drive.rate)} {units['1/s']}"
-        said = f"n_{{{drive.link}}} = {turned}{constant} ({found})"
+        said = f"{symbol} = {turned}{constant} ({found})"
         yield GivenFact(said, {"driver.n": drive.turns, **still})
     else:
         rate = text.number(drive.rate, "1/s", "driver.omega")
@@ -150,6 +151,15 @@ def _rates(text: As) -> Iterator[GivenFact]:
     if drive.acceleration:
         epsilon = text.number(drive.acceleration, "1/s²", "driver.epsilon")
         yield GivenFact(f"ε_{{{drive.link}}} = {epsilon}", {"driver.epsilon": drive.acceleration})
+
+
+def turns_symbol(problem: Problem, words: Language) -> Rich:
+    """Return the letters of the crank's rotational speed: beside a train not those of wheel 1."""
+    drive, task = problem.drive, problem.project
+    if drive.geared is not None:
+        return f"n_{{{drive.geared.label}}}"
+    has_train = "gears" in problem.tables or bool(task is not None and task.gears)
+    return words.say.symbol("crank turns") if has_train else f"n_{{{drive.link}}}"
 
 
 def drawn(problem: Problem, words: Language) -> GivenFact:

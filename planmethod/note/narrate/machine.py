@@ -12,7 +12,7 @@ from planmethod.construct.scale import Scale
 from planmethod.note import formula
 from planmethod.note.document import GivenFact
 from planmethod.note.narrate.forces.statement import load_facts, mass_lines
-from planmethod.note.narrate.given import given, of_turn
+from planmethod.note.narrate.given import given, of_turn, turns_symbol
 from planmethod.note.narrate.scales import scale_inscription
 from planmethod.note.numbers import alike, half_up
 from planmethod.note.wording import Language, Words
@@ -240,12 +240,12 @@ class MachineTeller:
         """Return the mean power over the cycle, and that of the motor, with numbers."""
         flywheel, say, watt = self.flywheel, self.say, self.unit("W")
         power = machine_power(flywheel)
-        link, minutes = flywheel.problem.drive.link, 60 * flywheel.turns
+        minutes, turning = 60 * flywheel.turns, turns_symbol(flywheel.problem, self.words)
         n = say.found(flywheel.middle_speed * 30.0 / pi)
         work = say.found(flywheel.work_per_cycle)
         at_crank, at_motor = self.letter("power"), self.letter("motor power")
         lines = [
-            f"{at_crank} = {formula.fraction(f'{self.work}·n_{{{link}}}', str(minutes))} = "
+            f"{at_crank} = {formula.fraction(f'{self.work}·{turning}', str(minutes))} = "
             f"{formula.fraction(f'{work}·{n}', str(minutes))} = {say.found(power.at_crank)} {watt}"
         ]
         if power.at_motor is None or power.efficiency is None:

@@ -21,7 +21,7 @@ from planmethod.note.narrate.forces.common import QUARTERS
 from planmethod.note.narrate.forces.common import lettered as lettered_forces
 from planmethod.note.narrate.forces.friction import FrictionTeller
 from planmethod.note.narrate.forces.statement import mass_lines
-from planmethod.note.narrate.given import given
+from planmethod.note.narrate.given import given, turns_symbol
 from planmethod.note.narrate.letters import mark
 from planmethod.note.narrate.machine import MachineTeller
 from planmethod.note.numbers import with_unit
@@ -167,10 +167,12 @@ def _given(value: float, unit: str, report: Report) -> Rich:
 
 
 def _driving(report: Report) -> dict[Rich, Rich]:
-    """Return what the letters of the train that drives the crank stand for."""
+    """Return what the letters of the crank's rotational speed stand for, or of its train's."""
     geared, quantities = report.one.problem.drive.geared, report.said["quantities"]
     if geared is None:
-        return {}
+        drive = report.one.problem.drive
+        name = str(quantities["n"]).format(of=report.link(drive.link, "of"))
+        return {turns_symbol(report.one.problem, report.words): name}
     letter = "n" if geared.unit == "n" else "ω"
     named = {f"{letter}_{{{x}}}": str(quantities[f"{letter}_train"]).format(of=x)
              for x, _ in geared.inputs}  # fmt: skip
