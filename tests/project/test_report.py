@@ -786,7 +786,8 @@ def speeds_told(project: Project, words: Language) -> Iterator[tuple[str, float]
     given_facts = [fact.text for fact in given(project.problem, words)]
     for part in project.parts:
         if isinstance(part.problem, GearProblem):
-            given_facts += train_given(solve_motion(part.problem), words)
+            facts = train_given(solve_motion(part.problem), words)
+            given_facts += [fact.text for fact in facts]
     written = note_document(project, words)
     for text in (*given_facts, *texts(written)):
         for name, found in re.findall(
