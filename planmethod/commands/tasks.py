@@ -25,12 +25,17 @@ def tasks(group: str | None, search: str | None, as_json: bool, lang: str) -> No
     Assur groups go in the order of kinematic analysis, a letter for each pair: R turns, P slides.
     Their pictures: docs/tasks.md.
     """
+    from planmethod.languages import LANGUAGES
     from planmethod.note.wording import language
     from planmethod.problem.tasks import groups_of, tasks
 
     found, words = tasks(), language(lang)
     if group is not None:
-        letters = {said: letter for letter, said in words.note["letters"].items()}
+        letters = {  # in whichever language they are typed
+            said: letter
+            for one in LANGUAGES
+            for letter, said in language(one).note["letters"].items()
+        }
         asked = groups_of("".join(letters.get(one, one) for one in group.upper()))
         known = sorted({signature for task in found for signature in task.groups})
         for signature in asked:
