@@ -186,7 +186,7 @@ def test_asked_columns_come_in_the_order_asked() -> None:
 
 
 def test_asked_results_as_a_table() -> None:
-    text = done("solve", EX3, "--phi", "0:360:90", "--ask", "v_E,omega_3")
+    text = done("solve", EX3, "--phi", "0:360:90", "--ask", "v_E,omega_3", "--lang", "ru")
     assert "E.vx" in text and "3.omega" in text and "E.ax" not in text
     cells = [line.split() for line in text.splitlines()]
     assert ["1", "90", "−4,046", "0", "18,39"] in cells
@@ -303,7 +303,7 @@ def test_asked_cells_that_exist_are_filled() -> None:
     assert table[0]["3.omega"] == "" and table[0]["B.x"] == "0.1"
     assert table[0]["reason"] and not table[6]["reason"]
     shown, _ = warned(*args)
-    assert ["0", "0", "—", "0,1000", "0"] in [line.split() for line in shown.splitlines()]
+    assert ["0", "0", "—", "0.1000", "0"] in [line.split() for line in shown.splitlines()]
     assert "Cannot place C at position 0" in shown
 
 

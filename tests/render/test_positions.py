@@ -346,7 +346,7 @@ def test_the_scale_stands_once_under_the_heading_of_the_plans(name: str) -> None
 def test_plans_of_one_position_on_a_sheet_are_named_as_one() -> None:
     """Of three positions that two sheets share, the last is alone."""
     sheets = kinematics_sheets(
-        problem_of("linkages/ex3"), positions=[30.0, 90.0, 150.0], paper="A3"
+        problem_of("linkages/ex3"), positions=[30.0, 150.0, 270.0], paper="A3"
     )
     texts = [{item.text for item in sheet.items if isinstance(item, Text)} for sheet in sheets]
     assert {"Планы положений механизма", "Планы скоростей", "Планы ускорений"} <= texts[0]
