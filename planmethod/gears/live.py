@@ -16,6 +16,8 @@ from importlib.resources import files
 from math import ceil, pi, radians
 from typing import Any
 
+from msgspec.structs import replace
+
 from planmethod.construct.drafting import PROFILES
 from planmethod.errors import Fault, ProblemError
 from planmethod.gears.construction import construct, read
@@ -303,7 +305,8 @@ class _TrainPage:
         if picture is None:
             return
         drawn, said = construct(self.motion, picture), self.words.gears["sheet"]
-        seen = read(drawn, PROFILES["cad"])
+        # What is too short for a ruler the page does not enlarge: the reader can.
+        seen = replace(read(drawn, PROFILES["cad"]), knots=())
         yield said["linear"], lettered(*linear(drawn, seen, LETTER))
         yield said["angular"], angular(drawn, seen, LETTER)
 

@@ -298,11 +298,12 @@ def enlarged_rays(drawn: GearDrawing, seen: GearReading, knot: Knot, height: flo
     items: list[Item] = [Arc(0j, radius, pen=Pen.THIN, tag=tag)]
     for ends, pen, of in (
         ((foot - 2 * radius, foot + 2 * radius), Pen.THIN, tag),
-        ((pole, foot), Pen.AXIS, tag),
         *(((pole, places[end]), Pen.MAIN, f"ray {body}") for body, end in drawn.rays.items()),
     ):
         if (inside := part_within(*ends, radius)) is not None:
             items.append(Stroke(inside, pen, tag=of))
+    if (inside := part_within(pole, foot, radius)) is not None:
+        items += axis_line(*inside, tag=tag)
     items += [Stroke((foot, places[end]), Pen.THIN, tag=SEGMENT) for end in own]
     items += [Disc(places[name], 0.7, Ink.BLACK) for name in (FOOT, *own)]
     letters = [(foot, [str(FOOT)])]
