@@ -177,7 +177,8 @@ def test_sheets_leave_the_norm_inspector_nothing_to_mark(path: Path) -> None:
 
 
 def test_curves_are_splines_in_dxf(tmp_path: Path) -> None:
-    run = CliRunner().invoke(cli, ["sheet", str(K11), "--format", "dxf", "-o", str(tmp_path)])
+    words = ["--lang", "ru", "--format", "dxf", "-o", str(tmp_path)]
+    run = CliRunner().invoke(cli, ["sheet", str(K11), *words])
     assert run.exit_code == ExitCode.DONE, run.output
     (drawing,) = drawings(load(K11), profile=BOARD)
     curves = [item for item in drawing.items if isinstance(item, Stroke) and item.smooth]

@@ -52,6 +52,7 @@ MACHINE = {
     "flywheel",
     "crank inertia",
     "mean speed",
+    "crank turns",
     "moment by lever",
     "motor moment",
     "power",

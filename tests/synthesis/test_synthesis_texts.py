@@ -90,7 +90,7 @@ def test_a_line_is_turned_to_the_side_that_is_told() -> None:
     assert count >= 4
 
 
-ENDS = {"upper": 1j, "lower": -1j, "right": 1.0, "left": -1.0}
+ENDS = {"upper": 1j, "lower": -1j, "right-hand": 1.0, "left-hand": -1.0}
 
 
 def test_of_two_meetings_of_an_arc_and_a_line_the_one_is_taken_that_is_told() -> None:
@@ -102,7 +102,7 @@ def test_of_two_meetings_of_an_arc_and_a_line_the_one_is_taken_that_is_told() ->
         told = {
             found[2]: found[1]
             for said, _ in sentences(name)
-            if (found := re.search(r"we take the (\w+) one: this is point (\S+?)\.", said))
+            if (found := re.search(r"we take the ([\w-]+) one: this is point (\S+?)\.", said))
         }
         for step in drawn.synthesis.board.steps:
             if not isinstance(step, steps.MeetLineCircle):
@@ -117,7 +117,7 @@ def test_of_two_meetings_of_an_arc_and_a_line_the_one_is_taken_that_is_told() ->
             way = ENDS[told[label]]
             assert ((one - other) * complex(way).conjugate()).real > 0, (name, label)
             seen.add(told[label])
-    assert {"upper", "right", "left"} <= seen
+    assert {"upper", "right-hand", "left-hand"} <= seen
 
 
 def test_of_two_meetings_of_arcs_the_one_is_taken_on_the_side_that_is_told() -> None:
