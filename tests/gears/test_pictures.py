@@ -152,7 +152,8 @@ def file(name: str) -> str:
 
 
 def test_the_protocol_tells_every_point_line_and_reading() -> None:
-    told = run("protocol", file("gears-ex2"))
+    words = ("protocol", file("gears-ex2"), "--lang", "ru")
+    told = run(*words)
     for said in (
         "Соединяем точки o₁' и a: прямая 1",
         "прямая 2, H — картина скоростей звена 2, H",
@@ -162,7 +163,7 @@ def test_the_protocol_tells_every_point_line_and_reading() -> None:
     ):
         assert said in told, said
     assert "The picture closes from 3" in run("protocol", file("gears-ex6"), "--lang", "en")
-    coarse = run("protocol", file("gears-ex2"), "--profile", "coarse", "--ruler", "2")
+    coarse = run(*words, "--profile", "coarse", "--ruler", "2")
     assert "(o1) = 10,0 мм" in coarse
     assert coarse != told
 
