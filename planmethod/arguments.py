@@ -8,12 +8,13 @@ from numbers import Real
 from operator import index
 from reprlib import Repr
 from types import UnionType
-from typing import Any, TypeVar
-
-import numpy as np
-import numpy.typing as npt
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from planmethod.errors import ArgumentError
+
+if TYPE_CHECKING:
+    import numpy as np
+    import numpy.typing as npt
 
 T = TypeVar("T")
 
@@ -96,7 +97,7 @@ def numbers(what: str, value: npt.ArrayLike) -> npt.NDArray[np.float64]:
     """
     found = reals(what, value)
     if found.ndim == 1:
-        return np.array(found)
+        return found.copy()
     raise ArgumentError(
         "{}: a list of numbers is wanted, got {}. One number is a list, too: [30].",
         what,
@@ -104,13 +105,15 @@ def numbers(what: str, value: npt.ArrayLike) -> npt.NDArray[np.float64]:
     )
 
 
-def reals(what: str, value: npt.ArrayLike, dtype: npt.DTypeLike = np.float64) -> npt.NDArray[Any]:
+def reals(what: str, value: npt.ArrayLike, dtype: npt.DTypeLike = "float64") -> npt.NDArray[Any]:
     """Return numbers as an array of a type, of whatever shape; an array of it is itself.
 
     Raises
     ------
     ArgumentError
     """
+    import numpy as np  # a train has no arrays
+
     try:
         found = np.asarray(value)
         # Of objects those that are fractions, or integers beyond 64 bits.
@@ -132,7 +135,7 @@ def above_zero(what: str, value: object) -> float:
     ------
     ArgumentError
     """
-    if isinstance(value, Real) and not isinstance(value, (bool, np.bool_)):
+    if isinstance(value, Real) and not isinstance(value, bool):
         try:
             number = float(value)
         except OverflowError:
@@ -149,7 +152,7 @@ def number_of(what: str, value: object, count: int) -> int:
     ------
     ArgumentError
     """
-    if not isinstance(value, (bool, np.bool_)):
+    if not isinstance(value, bool):
         try:
             found = index(value)  # type: ignore[arg-type]
         except TypeError:

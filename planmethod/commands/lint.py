@@ -163,7 +163,9 @@ def _looked_over(todo: Todo, options: LintOptions) -> tuple[str, list[Controlled
         drawings = kind.drawings(todo.problem, fields=fields, profile=hand)
         return kind.table, looked_over(drawings, kind.scales)
     usual = phi is None and layout is None and not errors and sigma is None
-    has_parts = todo.linkage.project is not None or bool(todo.linkage.tables.keys() & PARTS)
+    # A cam that drives the linkage is no part of a project.
+    parts = PARTS if todo.linkage.drive.followed is None else PARTS - {"cam"}
+    has_parts = todo.linkage.project is not None or bool(todo.linkage.tables.keys() & parts)
     if usual and has_parts and not options.structural:
         return "project", _of_project(todo, options)
     if options.structural:

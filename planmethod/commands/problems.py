@@ -482,7 +482,9 @@ def tell_changes(problem: Problem, phi: Positions | None) -> None:
         warn(problem, said)
 
 
-def tell_doubts(problem: Problem, positions: Sequence[float] | None = None) -> None:
+def tell_doubts(
+    problem: Problem, positions: Sequence[float] | None = None, *, forces: bool = True
+) -> None:
     """Tell of positions of a problem that is solved elsewhere, where results have few digits.
 
     What is impossible, or refused, is told where it is solved.
@@ -491,7 +493,7 @@ def tell_doubts(problem: Problem, positions: Sequence[float] | None = None) -> N
     from planmethod.solved.solution import Solution
 
     with contextlib.suppress(PlanMethodError):
-        for doubt in warnings(Solution(problem, positions=positions), forces=True):
+        for doubt in warnings(Solution(problem, positions=positions), forces=forces):
             warn(problem, doubt)
 
 

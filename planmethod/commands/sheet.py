@@ -247,7 +247,8 @@ def settled_for(todo: Todo, options: SheetOptions) -> Todo:
         # What a project decided is of its own positions.
         todo = replace(todo, problem=replace(todo.linkage, calculated=options.position))
     tell_changes(todo.linkage, options.phi)
-    tell_doubts(todo.linkage, _drawn_positions(todo.linkage, options))
+    drawn = _drawn_positions(todo.linkage, options)
+    tell_doubts(todo.linkage, drawn, forces=_has_forces(options.layout))
     if options.layout is not None and options.phi is None:
         _tell_positions(todo.linkage, options.layout)
     if todo.linkage.machine is not None and _has_flywheel(options.layout):
@@ -303,6 +304,16 @@ def _tell_positions(problem: Problem, layout: str) -> None:
             len(drive.positions),
         )
         warn(problem, told)
+
+
+def _has_forces(layout: str | None) -> bool:
+    """Whether the sheets show forces, or what they make."""
+    from planmethod.render.sheets.blocks import has_forces
+    from planmethod.render.sheets.composition.reader import composition
+
+    return layout is not None and any(
+        has_forces(entry.kind) for entry in composition(layout).blocks
+    )
 
 
 def _has_flywheel(layout: str | None) -> bool:

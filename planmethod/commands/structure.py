@@ -48,7 +48,7 @@ def structure(
     from planmethod.note.wording import language
     from planmethod.note.writers.plain import plain_document
     from planmethod.solved.aligned.schemes import self_aligning
-    from planmethod.solved.closings import structure_of
+    from planmethod.solved.analysed import structure_of
 
     drawn = not as_json and not no_drawing
     settled = asked.settle() if drawn else None

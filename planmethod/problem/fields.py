@@ -315,7 +315,7 @@ def read_units(faults: Faults, table: Table) -> None:
 def read_angle(faults: Faults, path: str, value: object) -> float | None:
     """Read an angle, degrees."""
     radians = re.sub("π|pi", "180", value) if isinstance(value, str) else value
-    if radians != value and measured(str(value)) is None:
+    if isinstance(value, str) and radians != value and measured(value) is None:
         hint = say('pi is 180 degrees: write "{}".', radians)
         faults.expected(path, "an angle in degrees", value, hint)
         return None

@@ -21,8 +21,12 @@ TABLE_LIMIT = 1024 * 1024
 LINE_LIMIT = 8192
 """Longest line, in characters; numbers of a list may stand in a longer one."""
 
-_NUMBERS_RE = r"(?:[^=\[\]#\"']{1,200}=)?[-+\d.eE_, \t\[\]]*(?:#.{0,200})?"
-"""A line of numbers alone, or the list of numbers of a key."""
+_BETWEEN_RE = r"[ \t\[\]]{0,99}"
+_ITEM_RE = rf"{_BETWEEN_RE}[-+0-9.eE_]{{1,40}}{_BETWEEN_RE}"
+_NUMBERS_RE = (
+    rf"(?:[^=\[\]#\"']{{1,200}}=)?(?:{_ITEM_RE},)*(?:{_ITEM_RE}|{_BETWEEN_RE})(?:#.{{0,200}})?"
+)
+"""A line of numbers alone, or the list of numbers of a key; without many blanks in a row."""
 
 DOT_LIMIT = 64
 DEPTH_LIMIT = 12

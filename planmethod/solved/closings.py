@@ -21,10 +21,10 @@ from planmethod.construct.arithmetic import Float64, Number
 from planmethod.construct.evaluate import Trace, evaluate
 from planmethod.construct.program import Program
 from planmethod.construct.steps import Given, GivenNumber, PointName, Step
-from planmethod.errors import Fault, ProblemError, StructureError
+from planmethod.errors import Fault, ProblemError
 from planmethod.languages import say
 from planmethod.mechanism.groups import AssurGroup, triad_of
-from planmethod.mechanism.structure import Structure, analyse
+from planmethod.mechanism.structure import Structure
 from planmethod.plans.build import Construction, add_group, begin_positions, build
 from planmethod.plans.closing import Closing, comes_again
 from planmethod.plans.draft import Draft
@@ -34,6 +34,7 @@ from planmethod.plans.motion.position import (
 )
 from planmethod.problem.model import Problem, Rule, Where
 from planmethod.problem.names import told_length, told_place
+from planmethod.solved.analysed import structure_of
 from planmethod.solved.assemblies import Assembled, best_third, choose
 from planmethod.solved.changes import changes
 from planmethod.solved.driving import driven
@@ -104,30 +105,6 @@ def construct(problem: Problem) -> Construction:
     made = build(problem, structure, choose_closings(problem, structure))
     _KEPT = ((problem, made), *_KEPT[:1])
     return made
-
-
-def structure_of(problem: Problem) -> Structure:
-    """Return the groups of the mechanism of a problem.
-
-    Raises
-    ------
-    StructureError
-        As of `analyse`; it tells of wheels on links, whose meshes are no pairs here.
-    """
-    try:
-        return analyse(problem.mechanism)
-    except StructureError as error:
-        wheels = problem.tables.get("gears", {}).get("wheels")
-        named = [name for name in problem.mechanism.links if name in (wheels or {})]
-        if not isinstance(wheels, Mapping) or len(named) < 2:
-            raise
-        told = say(
-            "Wheels {} of [gears] are called as links: a mesh of two wheels on links of a linkage "
-            "is no pair here yet, and is not counted. Give the linkage one crank, and a train that "
-            "turns it other names.",
-            ", ".join(named),
-        )
-        raise StructureError(f"{error} {told}") from error
 
 
 _KEPT: tuple[tuple[Problem, Construction], ...] = ()

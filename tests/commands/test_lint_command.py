@@ -25,8 +25,8 @@ def _in_a_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
 
 
-def run(*args: str) -> Result:
-    return CliRunner(env={"PLANMETHOD_LANG": "ru"}).invoke(cli, ["lint", *args])
+def run(*args: str, lang: str = "ru") -> Result:
+    return CliRunner(env={"PLANMETHOD_LANG": lang}).invoke(cli, ["lint", *args])
 
 
 def record(*args: str) -> Any:
@@ -156,6 +156,6 @@ def test_faults_outrank_findings(tmp_path: Path) -> None:
 
 
 def test_the_help_says_what_the_argument_is() -> None:
-    told = re.sub(r"\s+", " ", run("--help").output)
+    told = re.sub(r"\s+", " ", run("--help", lang="en").output)
     assert "PROBLEM is a problem file" in told
     assert "docs/normcontrol.md" in told

@@ -57,6 +57,11 @@ OF_POSITIONS = frozenset(
 """Kinds that number the positions that a sheet is of."""
 
 
+def has_forces(kind: str) -> bool:
+    """Whether the blocks of a kind show what forces make."""
+    return BLOCKS[kind].makers in (_forces, _friction, _cycle, _flywheel, _run_up)
+
+
 def maker_of(kind: str) -> Maker:
     """Return what makes the blocks of a kind."""
     return BLOCKS[kind].makers()[kind]

@@ -22,7 +22,7 @@ from planmethod.render.ink.drawing import Bounds, Drawing, Span, View
 from planmethod.render.sheets.kinematics import kinematics_sheets
 from planmethod.render.sheets.model import Composition
 from planmethod.render.sheets.structure import structure_sheet
-from planmethod.solved.closings import structure_of
+from planmethod.solved.analysed import structure_of
 
 LARGEST = 20.0
 """A segment that so large a plan shows no better is nothing in that position."""

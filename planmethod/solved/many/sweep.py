@@ -126,7 +126,8 @@ class Sweep:
         self._made_of = (problem, asked, varied, dtype, forces, drawn, native)
         number = _of(dtype)
         if number is None or number not in (np.dtype(np.float64), np.dtype(np.float32)):
-            raise SweepError(f"a sweep is float64 or float32, not {dtype}")
+            asked_for = dtype if number is None else number
+            raise SweepError(f"a sweep is float64 or float32, not {asked_for}")
         self._settings: tuple[Any, bool | None] = np.dtype(dtype), native
         self._drawn = tuple(drawn)
         task = SweepTask(asked, forces, self._drawn, _motion_of)

@@ -1,0 +1,34 @@
+"""The groups of the mechanism of a problem, without its numbers (структурный анализ)."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from planmethod.errors import StructureError
+from planmethod.languages import say
+from planmethod.mechanism.structure import Structure, analyse
+from planmethod.problem.model import Problem
+
+
+def structure_of(problem: Problem) -> Structure:
+    """Return the groups of the mechanism of a problem.
+
+    Raises
+    ------
+    StructureError
+        As of `analyse`; it tells of wheels on links, whose meshes are no pairs here.
+    """
+    try:
+        return analyse(problem.mechanism)
+    except StructureError as error:
+        wheels = problem.tables.get("gears", {}).get("wheels")
+        named = [name for name in problem.mechanism.links if name in (wheels or {})]
+        if not isinstance(wheels, Mapping) or len(named) < 2:
+            raise
+        told = say(
+            "Wheels {} of [gears] are called as links: a mesh of two wheels on links of a linkage "
+            "is no pair here yet, and is not counted. Give the linkage one crank, and a train that "
+            "turns it other names.",
+            ", ".join(named),
+        )
+        raise StructureError(f"{error} {told}") from error
