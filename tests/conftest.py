@@ -96,3 +96,9 @@ def _no_config_of_the_developer(tmp_path_factory: pytest.TempPathFactory) -> Ite
         patch.setenv("PLANMETHOD_LANG", "en")
         patch.setenv("PYTHONWARNINGS", "error")  # in processes that tests start, too
         yield
+
+
+@pytest.fixture
+def russian(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The user names Russian: messages and all that is written are in it."""
+    monkeypatch.setenv("PLANMETHOD_LANG", "ru")

@@ -78,8 +78,9 @@ def rich_number(text: str, decimal: str) -> str:
     mantissa = mantissa.replace(".", decimal).replace("-", MINUS)
     if not e:
         return mantissa
-    exponent = str(int(power)).replace("-", MINUS)
-    return f"{mantissa}·10^{{{exponent}}}"
+    mark = power.lstrip("+-0123456789")
+    exponent = str(int(power.removesuffix(mark))).replace("-", MINUS)
+    return f"{mantissa}·10^{{{exponent}}}{mark}"
 
 
 def raised(unit: str) -> str:

@@ -118,6 +118,7 @@ def test_marks_set_by_hand_survive(tmp_path: Path) -> None:
     assert "overrides.csv:3" in result.stderr.replace(", row ", ":")
 
 
+@pytest.mark.usefixtures("russian")
 def test_the_key_is_printed_and_written_for_every_variant(tmp_path: Path) -> None:
     result = run("--key", VARIANTS, EX3, "-o", str(tmp_path))
     assert result.exit_code == 0, result.output

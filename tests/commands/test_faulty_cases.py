@@ -57,6 +57,7 @@ def numbers(value: Any, path: str = "") -> dict[str, Any]:
 # An arm that reads nothing ------------------------------------------------------------------------
 
 
+@pytest.mark.usefixtures("russian")
 @pytest.mark.dear
 @pytest.mark.parametrize(
     "asked",
@@ -94,6 +95,7 @@ def test_what_is_divided_by_nothing_is_not_readable_and_the_rest_goes_on(
     done("solve", *asked, "--covariance", "-")
 
 
+@pytest.mark.usefixtures("russian")
 def test_one_position_that_cannot_be_read_leaves_the_others_as_they_are() -> None:
     found = record(CYCLE)["positions"]
     assert len(found) == 12

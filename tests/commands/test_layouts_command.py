@@ -27,6 +27,7 @@ def test_the_list_says_what_each_is_for() -> None:
     assert all(len(line.split()) > 3 for line in lines)
 
 
+@pytest.mark.usefixtures("russian")
 @pytest.mark.parametrize("name", SHIPPED)
 def test_a_layout_is_printed_or_written(name: str, tmp_path: Path) -> None:
     assert run("layouts", name).output == shipped_text(name)

@@ -121,6 +121,7 @@ def words_of(path: Path) -> list[str]:
     ]
 
 
+@pytest.mark.usefixtures("russian")
 @pytest.mark.dear
 @pytest.mark.parametrize("name", NAMES)
 def test_sheets_have_one_numbering(name: str, made: Callable[[str], Path]) -> None:
@@ -137,6 +138,7 @@ def test_sheets_have_one_numbering(name: str, made: Callable[[str], Path]) -> No
         assert numbers == one + [(str(k), "") for k in range(2, count + 1)]
 
 
+@pytest.mark.usefixtures("russian")
 @pytest.mark.dear
 @pytest.mark.parametrize("name", NAMES)
 def test_every_plan_has_the_scale_of_the_project(name: str, made: Callable[[str], Path]) -> None:
@@ -165,6 +167,7 @@ def test_every_plan_has_the_scale_of_the_project(name: str, made: Callable[[str]
             assert scale in map(decimal, everywhere)
 
 
+@pytest.mark.usefixtures("russian")
 @pytest.mark.dear
 @pytest.mark.parametrize("name", NAMES)
 def test_every_quantity_has_one_value(name: str, made: Callable[[str], Path]) -> None:
@@ -276,6 +279,7 @@ def test_a_part_that_is_not_wanted_stops_no_other(tmp_path: Path) -> None:
     assert one.exit_code == 0, one.output
 
 
+@pytest.mark.usefixtures("russian")
 def test_numbers_have_heads_in_the_language_and_no_rounding(tmp_path: Path) -> None:
     done = run(str(FILES / "engine.toml"), "-o", str(tmp_path), "--parts", "flywheel")
     assert done.exit_code == 0, done.output

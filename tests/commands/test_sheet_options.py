@@ -148,6 +148,7 @@ def test_a_structural_sheet_with_all_there_is() -> None:
 # Config file -------------------------------------------------------------------------------------
 
 
+@pytest.mark.usefixtures("russian")
 def test_options_outrank_the_problem_and_the_problem_outranks_the_config() -> None:
     text = Path(EX1).read_text("utf-8").replace("[stamp]\n", '[stamp]\nauthor = "Задачин"\n', 1)
     text += '\n[sheet]\npaper = "A1"\n'
@@ -179,7 +180,11 @@ def test_options_outrank_the_problem_and_the_problem_outranks_the_config() -> No
     assert "Инв. № подл." not in with_options
 
 
-def test_the_language_of_the_config_of_the_problem_and_of_the_option() -> None:
+def test_the_language_of_the_config_of_the_problem_and_of_the_option(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.delenv("PLANMETHOD_LANG")
+    monkeypatch.setenv("LC_ALL", "ru_RU.UTF-8")
     name, mine = config('[sheet]\nlang = "en"\n'), Path(EX1).read_text("utf-8")
     assert "План скоростей" in drawn()
     assert "Velocity plan" in drawn("--config", name)
@@ -264,6 +269,7 @@ def numbers(page: str) -> tuple[str, ...]:
     return found.groups()
 
 
+@pytest.mark.usefixtures("russian")
 def test_several_sheets_are_pages_of_one_pdf() -> None:
     done = run("sheet", EX2, "--phi", "0:360:27", "--format", "svg,pdf,dxf")
     assert done.exit_code == 0
@@ -276,6 +282,7 @@ def test_several_sheets_are_pages_of_one_pdf() -> None:
         assert "Планы скоростей" in page
 
 
+@pytest.mark.usefixtures("russian")
 def test_a_set_of_problems_in_one_file() -> None:
     args = ("sheet", EX1, EX2, "--format", "svg,pdf", "--one-file", "set.pdf")
     done = run(*args, "--form", "1+2a")
@@ -294,6 +301,7 @@ def test_a_set_of_problems_in_one_file() -> None:
     assert "Helvetica" not in before.decode("latin-1")
 
 
+@pytest.mark.usefixtures("russian")
 def test_variants_in_one_file_are_numbered_through() -> None:
     done = run("sheet", VARIANTS, "--all-variants", "--format", "pdf", "--one-file", "all.pdf")
     assert done.exit_code == 0, done.output

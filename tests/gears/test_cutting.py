@@ -307,6 +307,7 @@ def test_both_languages_say_where_undercut_begins(lang: str, words: str) -> None
         assert "56.514" in text.replace(",", ".")
 
 
+@pytest.mark.usefixtures("russian")
 def test_the_sheet_names_it(tmp_path: Path) -> None:
     run = CliRunner().invoke(cli, ["sheet", str(FILE), "--format", "svg", "-o", str(tmp_path)])
     assert run.exit_code == 0, run.output

@@ -238,6 +238,7 @@ def test_teeth_in_mesh_do_not_overlap(case: tuple[Any, ...]) -> None:
         assert common.area < EXACT * pair.m, (turn, common.area)
 
 
+@pytest.mark.usefixtures("russian")
 def test_undercut_is_drawn_and_said() -> None:
     problem = load(FILE, variant="without-shift")
     first, second = SolvedMeshing(problem).teeth

@@ -151,6 +151,7 @@ def file(name: str) -> str:
     return str(PROBLEMS / f"gears/{name}.toml")
 
 
+@pytest.mark.usefixtures("russian")
 def test_the_protocol_tells_every_point_line_and_reading() -> None:
     words = ("protocol", file("gears-ex2"), "--lang", "ru")
     told = run(*words)

@@ -304,6 +304,7 @@ def test_the_text_tells_formulas_with_numbers(lang: str) -> None:
     assert "ρ → ∞" in solve(K11[2], "--lang", lang).output
 
 
+@pytest.mark.usefixtures("russian")
 def test_a_row_of_moments_is_a_table_of_the_width_of_a_terminal(tmp_path: Any) -> None:
     path = tmp_path / "row.toml"
     path.write_text(

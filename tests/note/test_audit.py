@@ -320,6 +320,7 @@ def test_the_command_writes_the_document(tmp_path: Path) -> None:
     assert target.read_text(encoding="utf-8") == AuditDocument("en", 0.5).markdown(audits())
 
 
+@pytest.mark.usefixtures("russian")
 def test_the_command_prints_by_default_in_russian() -> None:
     path = next(path for path in PROBLEMS if path.stem == "ex1")
     result = CliRunner().invoke(cli, ["audit", str(path), "--ruler", "1"])

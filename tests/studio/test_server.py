@@ -117,6 +117,7 @@ def test_the_scheme_is_that_of_the_command(client: TestClient, tmp_path: Path) -
     assert found["svg"] == (tmp_path / "ex3-sketch.svg").read_text("utf-8")
 
 
+@pytest.mark.usefixtures("russian")
 def test_sheets_and_tables_are_those_of_the_commands(client: TestClient, tmp_path: Path) -> None:
     path = tmp_path / "ex3.toml"
     path.write_text(EX3, "utf-8")

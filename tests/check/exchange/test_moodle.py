@@ -59,7 +59,9 @@ def ex3_of_thirty(folder: Path) -> Path:
 def thirty(folder: Path) -> tuple[list[dict[str, Any]], list[Question]]:
     path = ex3_of_thirty(folder)
     out = folder / "thirty.xml"
-    run = CliRunner().invoke(cli, ["check", "--key", str(path), "--moodle", str(out), "--json"])
+    run = CliRunner().invoke(
+        cli, ["check", "--key", str(path), "--moodle", str(out), "--json", "--lang", "ru"]
+    )
     assert run.exit_code == 0, run.output
     keys = json.loads(run.stdout)
     [(category, questions)] = read_quiz(out.read_bytes()).items()
@@ -102,6 +104,7 @@ def compare(answer: dict[str, Any], gap: Gap) -> None:
             assert gap.grade(value + side * spread * (1 + FINE))[0] == 0.0, answer["id"]
 
 
+@pytest.mark.usefixtures("russian")
 def test_thirty_variants_are_thirty_questions_of_one_category_and_all_intervals_are_the_keys(
     whole: tuple[list[dict[str, Any]], list[Question]],
 ) -> None:
@@ -139,6 +142,7 @@ def test_a_question_has_its_data_its_scheme_and_no_answer_in_its_text(
     assert len({question.files["scheme.png"] for question in questions}) > 20
 
 
+@pytest.mark.usefixtures("russian")
 def test_a_mistake_that_has_a_name_gets_no_points_and_its_sentence(
     whole: tuple[list[dict[str, Any]], list[Question]],
 ) -> None:
