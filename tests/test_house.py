@@ -21,6 +21,7 @@ FILES = {
 
 LATE_IN = (
     "planmethod.__main__",
+    "planmethod.arguments",  # trains and structures need no NumPy
     "planmethod.cams.kind",
     "planmethod.commands.",
     "planmethod.gears.kind",

@@ -46,7 +46,7 @@ def made(tmp_path_factory: pytest.TempPathFactory) -> Callable[[str], Path]:
     @cache
     def folder(name: str) -> Path:
         out = tmp_path_factory.mktemp("out")
-        done = run(str(FILES / f"{name}.toml"), "-o", str(out))
+        done = run(str(FILES / f"{name}.toml"), "-o", str(out), "--lang", "ru")
         assert done.exit_code == 0, done.output
         return out / name
 
