@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from fractions import Fraction
 from math import pi
 
@@ -98,30 +98,11 @@ def output_of(motion: TrainMotion) -> str | None:
     return train.output or (moving[-1] if moving else None)
 
 
-def quick_shaft(project: Project) -> tuple[str, float] | None:
-    """Return the input of the train that turns the crank, and how much quicker it is; else None.
+def _beside_crank(project: Project) -> tuple[TrainMotion, Mapping[str, float], bool] | None:
+    """Return the train of a project, the speeds of its bodies, 1/s, whether one is the crank's.
 
-    The crank turns with a link of the train; of several inputs the quickest one is meant.
+    None where the project has no train, or no crank that turns.
     """
-    part, drive = project.part(PartName.GEARS), project.problem.drive
-    if part is None or not isinstance(part.problem, GearProblem):
-        return None
-    if not drive.is_crank or not drive.rate:
-        return None
-    motion = solve_motion(part.problem)
-    train, crank = motion.train, abs(drive.rate)
-    speeds = {body: abs(float(motion.speeds.get(body, 0)) * train.rate)
-              for body in train.bodies if body not in train.racks}  # fmt: skip
-    inputs = [body for body in train.inputs if body in speeds]
-    if not inputs or not any(abs(x - crank) <= ALIKE * crank for x in speeds.values()):
-        return None
-    quickest = max(inputs, key=speeds.__getitem__)
-    ratio = speeds[quickest] / crank
-    return (quickest, ratio) if ratio > 1.0 + ALIKE else None
-
-
-def train_apart(project: Project) -> str | None:
-    """Return a warning of a train no link of which turns as fast as the crank; else None."""
     part, drive = project.part(PartName.GEARS), project.problem.drive
     if part is None or not isinstance(part.problem, GearProblem):
         return None
@@ -131,13 +112,39 @@ def train_apart(project: Project) -> str | None:
     train, crank = motion.train, abs(drive.rate)
     turning = [body for body in train.bodies if body not in train.racks]
     speeds = {body: abs(float(motion.speeds.get(body, 0)) * train.rate) for body in turning}
+    return motion, speeds, any(abs(x - crank) <= ALIKE * crank for x in speeds.values())
+
+
+def quick_shaft(project: Project) -> tuple[str, float] | None:
+    """Return the input of the train that turns the crank, and how much quicker it is; else None.
+
+    The crank turns with a link of the train; of several inputs the quickest one is meant.
+    """
+    found = _beside_crank(project)
+    if found is None:
+        return None
+    motion, speeds, turns_crank = found
+    inputs = [body for body in motion.train.inputs if body in speeds]
+    if not inputs or not turns_crank:
+        return None
+    quickest = max(inputs, key=speeds.__getitem__)
+    ratio = speeds[quickest] / abs(project.problem.drive.rate)
+    return (quickest, ratio) if ratio > 1.0 + ALIKE else None
+
+
+def train_apart(project: Project) -> str | None:
+    """Return a warning of a train no link of which turns as fast as the crank; else None."""
+    found = _beside_crank(project)
+    if found is None:
+        return None
+    motion, speeds, turns_crank = found
     output = output_of(motion)
-    if output not in speeds or any(abs(x - crank) <= ALIKE * crank for x in speeds.values()):
+    if output is None or output not in speeds or turns_crank:
         return None
     return say(
         "the crank makes {:.4g} rev/min, link {} of the train {:.4g} rev/min, and no other link of "
         'it turns with the crank. Change n or the train, or write train = "{}" in [driver].',
-        RPM * crank,
+        RPM * abs(project.problem.drive.rate),
         output,
         RPM * speeds[output],
         output,
