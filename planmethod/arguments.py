@@ -22,14 +22,14 @@ _SHORT = Repr()
 _SHORT.maxstring = _SHORT.maxother = 60
 
 
-def told(value: object) -> str:
+def describe(value: object) -> str:
     """Return what a value is, short: a number, a text or a short list itself, else its type."""
     if value is None or isinstance(value, (str, Real, list, tuple)):
         return _SHORT.repr(value)
     return type(value).__name__
 
 
-def of_type(what: str, value: object, kind: type[T] | UnionType, home: str = "") -> T:
+def of_type(argument: str, value: object, kind: type[T] | UnionType, home: str = "") -> T:
     """Return a value of a type; ``home`` is what makes one.
 
     Raises
@@ -40,11 +40,13 @@ def of_type(what: str, value: object, kind: type[T] | UnionType, home: str = "")
         return value
     name = getattr(kind, "__name__", kind)
     if not home:
-        raise ArgumentError("{}: {} is wanted, got {}.", what, name, told(value))
-    raise ArgumentError("{}: {} is wanted, got {}. {} makes one.", what, name, told(value), home)
+        raise ArgumentError("{}: {} is wanted, got {}.", argument, name, describe(value))
+    raise ArgumentError(
+        "{}: {} is wanted, got {}. {} makes one.", argument, name, describe(value), home
+    )
 
 
-def text(what: str, value: object) -> str:
+def text(argument: str, value: object) -> str:
     """Return a text.
 
     Raises
@@ -53,10 +55,10 @@ def text(what: str, value: object) -> str:
     """
     if isinstance(value, str):
         return value
-    raise ArgumentError("{}: a text in quotes is wanted, got {}.", what, told(value))
+    raise ArgumentError("{}: a text in quotes is wanted, got {}.", argument, describe(value))
 
 
-def texts(what: str, value: object) -> tuple[str, ...]:
+def texts(argument: str, value: object) -> tuple[str, ...]:
     """Return texts; one alone is a list of one.
 
     Raises
@@ -71,10 +73,10 @@ def texts(what: str, value: object) -> tuple[str, ...]:
         found = (value,)
     if all(isinstance(one, str) for one in found):
         return found
-    raise ArgumentError("{}: a list of texts is wanted, got {}.", what, told(value))
+    raise ArgumentError("{}: a list of texts is wanted, got {}.", argument, describe(value))
 
 
-def chosen(what: str, value: object, among: Iterable[str]) -> str:
+def chosen(argument: str, value: object, among: Iterable[str]) -> str:
     """Return one of some names.
 
     Raises
@@ -85,27 +87,29 @@ def chosen(what: str, value: object, among: Iterable[str]) -> str:
     if isinstance(value, str) and value in names:
         return value
     known = ", ".join(names)
-    raise ArgumentError("{}: there is no {}. Choose one of: {}.", what, told(value), known)
+    raise ArgumentError("{}: there is no {}. Choose one of: {}.", argument, describe(value), known)
 
 
-def numbers(what: str, value: npt.ArrayLike) -> npt.NDArray[np.float64]:
+def numbers(argument: str, value: npt.ArrayLike) -> npt.NDArray[np.float64]:
     """Return numbers as an array of its own, shape (n,).
 
     Raises
     ------
     ArgumentError
     """
-    found = reals(what, value)
+    found = reals(argument, value)
     if found.ndim == 1:
         return found.copy()
     raise ArgumentError(
         "{}: a list of numbers is wanted, got {}. One number is a list, too: [30].",
-        what,
-        told(value),
+        argument,
+        describe(value),
     )
 
 
-def reals(what: str, value: npt.ArrayLike, dtype: npt.DTypeLike = "float64") -> npt.NDArray[Any]:
+def reals(
+    argument: str, value: npt.ArrayLike, dtype: npt.DTypeLike = "float64"
+) -> npt.NDArray[Any]:
     """Return numbers as an array of a type, of whatever shape; an array of it is itself.
 
     Raises
@@ -123,12 +127,12 @@ def reals(what: str, value: npt.ArrayLike, dtype: npt.DTypeLike = "float64") -> 
         pass
     raise ArgumentError(
         "{}: a list of numbers is wanted, got {}. One number is a list, too: [30].",
-        what,
-        told(value),
+        argument,
+        describe(value),
     )
 
 
-def above_zero(what: str, value: object) -> float:
+def above_zero(argument: str, value: object) -> float:
     """Return a finite number above zero.
 
     Raises
@@ -142,10 +146,10 @@ def above_zero(what: str, value: object) -> float:
             number = math.inf
         if 0.0 < number < math.inf:
             return number
-    raise ArgumentError("{}: a number above 0 is wanted, got {}.", what, told(value))
+    raise ArgumentError("{}: a number above 0 is wanted, got {}.", argument, describe(value))
 
 
-def number_of(what: str, value: object, count: int) -> int:
+def number_of(argument: str, value: object, count: int) -> int:
     """Return the number of one of so many, from 0.
 
     Raises
@@ -160,9 +164,9 @@ def number_of(what: str, value: object, count: int) -> int:
         if 0 <= found < count:
             return found
     if not count:
-        raise ArgumentError("{}: there is none, got {}.", what, told(value))
+        raise ArgumentError("{}: there is none, got {}.", argument, describe(value))
     raise ArgumentError(
-        "{}: a whole number from 0 to {} is wanted, got {}.", what, count - 1, told(value)
+        "{}: a whole number from 0 to {} is wanted, got {}.", argument, count - 1, describe(value)
     )
 
 
@@ -172,8 +176,8 @@ class UnknownNameError(ArgumentError, KeyError):
     __str__ = Exception.__str__  # KeyError quotes it
 
 
-def known(what: str, name: object, among: Iterable[str]) -> str:
-    """Return the name of one of those that there are; ``what``: ``point``, ``link``.
+def known(kind: str, name: object, among: Iterable[str]) -> str:
+    """Return the name of one of those that there are; ``kind``: ``point``, ``link``.
 
     Raises
     ------
@@ -181,7 +185,7 @@ def known(what: str, name: object, among: Iterable[str]) -> str:
     """
     if isinstance(name, str) and name in among:
         return name
-    raise UnknownNameError("there is no {} {}. Known: {}.", what, told(name), ", ".join(among))
+    raise UnknownNameError("there is no {} {}. Known: {}.", kind, describe(name), ", ".join(among))
 
 
 class Named(dict[str, T]):
@@ -189,14 +193,14 @@ class Named(dict[str, T]):
 
     Parameters
     ----------
-    found : dict
-    what : str
+    results : dict
+    kind : str
         What they are of, as a message has it: ``point``.
     """
 
-    def __init__(self, found: dict[str, T], what: str) -> None:
-        super().__init__(found)
-        self.what = what
+    def __init__(self, results: dict[str, T], kind: str) -> None:
+        super().__init__(results)
+        self.kind = kind
 
     def __getitem__(self, name: str) -> T:
         """Return the result of a name.
@@ -211,9 +215,9 @@ class Named(dict[str, T]):
             return self.__missing__(name)
 
     def __missing__(self, name: object) -> T:
-        known(self.what, name, self)
+        known(self.kind, name, self)
         raise AssertionError(name)
 
     def __reduce__(self) -> tuple[Any, ...]:
         """Return what makes the same in another process."""
-        return Named, (dict(self), self.what)
+        return Named, (dict(self), self.kind)

@@ -17,11 +17,11 @@ from planmethod.arguments import (
     Named,
     above_zero,
     chosen,
+    describe,
     known,
     number_of,
     numbers,
     of_type,
-    told,
 )
 from planmethod.construct.arithmetic import Arithmetic, Float64, Number
 from planmethod.construct.drafting import PROFILES, Profile
@@ -274,7 +274,7 @@ class Solution(Remembering):
     def numbers_of(self, plan: Callable[[Construction], Mapping[str, float]]) -> dict[str, Number]:
         """Return the known numbers of what goes on from the construction."""
         if not callable(plan):
-            raise ArgumentError("{}: a function is wanted, got {}.", "plan", told(plan))
+            raise ArgumentError("{}: a function is wanted, got {}.", "plan", describe(plan))
         return dict(plan(self.construction))
 
     def length(self, link: str, p: str, q: str) -> float | Reals:
