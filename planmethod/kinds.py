@@ -28,6 +28,9 @@ if TYPE_CHECKING:
 KINDS: tuple[ProblemKind[Any], ...] = (GearTrains(), MovingPoints(), Meshings(), Cams())
 """Kinds beside linkages; a file that has links is a linkage whatever else it has."""
 
+PROJECT_KINDS = tuple(kind for kind in KINDS if kind.is_of_project)
+"""Those that may stand beside a linkage, as parts of its project."""
+
 _HEAD = r"(?m)^[ \t]*(?:\[[ \t]*)?[\"']?(" + "|".join(k.table for k in KINDS) + r")\b"
 
 
@@ -101,8 +104,8 @@ def _with_beside(faults: Iterable[Fault], path: Path, variant: str | None) -> li
         table = parse(read_source(path), name=str(path))
     except ProblemError:  # a file that is no TOML has this one fault
         return found
-    for kind in KINDS:
-        if kind.is_of_project and kind.table in table:
+    for kind in PROJECT_KINDS:
+        if kind.table in table:
             try:
                 kind.load(path, variant)
             except ProblemError as error:

@@ -34,11 +34,8 @@ from planmethod.options import (
 )
 
 if TYPE_CHECKING:
+    from planmethod.problem.model import Problem
     from planmethod.render.sheets.controlled import Controlled
-
-
-PARTS = {"gears", "meshing", "cam"}
-"""Tables of a linkage's file that make it a project, whose sheets `planmethod project` draws."""
 
 
 class LintOptions(Struct, frozen=True, kw_only=True):
@@ -163,10 +160,7 @@ def _looked_over(todo: Todo, options: LintOptions) -> tuple[str, list[Controlled
         drawings = kind.drawings(todo.problem, fields=fields, profile=hand)
         return kind.table, looked_over(drawings, kind.scales)
     usual = phi is None and layout is None and not errors and sigma is None
-    # A cam that drives the linkage is no part of a project.
-    parts = PARTS if todo.linkage.drive.followed is None else PARTS - {"cam"}
-    has_parts = todo.linkage.project is not None or bool(todo.linkage.tables.keys() & parts)
-    if usual and has_parts and not options.structural:
+    if usual and _is_project(todo.linkage) and not options.structural:
         return "project", _of_project(todo, options)
     if options.structural:
         return "structure", controlled_structure(todo.linkage, fields=fields)
@@ -182,6 +176,18 @@ def _looked_over(todo: Todo, options: LintOptions) -> tuple[str, list[Controlled
         sigma=sigma,
         layout=layout,
     )
+
+
+def _is_project(linkage: Problem) -> bool:
+    """Whether a file asks for a project, or has parts of one beside its linkage.
+
+    A cam that drives the linkage is no part of a project.
+    """
+    from planmethod.kinds import PROJECT_KINDS
+
+    driving = set() if linkage.drive.followed is None else {"cam"}
+    parts = {kind.table for kind in PROJECT_KINDS} - driving
+    return linkage.project is not None or bool(linkage.tables.keys() & parts)
 
 
 def _of_project(todo: Todo, options: LintOptions) -> list[Controlled]:

@@ -114,15 +114,20 @@ _LAWS = {
 """What a law says where the file does not."""
 
 
+def _check_piston(faults: Faults, path: str, drive: Drive | None, *, couple: bool) -> None:
+    """Add the faults of an indicator diagram that is of no piston of a crank."""
+    if couple:
+        faults.add(path, "'indicator' does not go with a couple", "A piston has a force.")
+    if drive is not None and not drive.is_crank:
+        faults.add(path, say("link {} slides: there is no cycle of a crank", drive.link))
+
+
 def _read_like(
     faults: Faults, path: str, given: Table, drive: Drive | None, cycle: float, *, couple: bool
 ) -> SizeTable | None:
     """Read an indicator diagram that is another piston's, later; its rows come with `liken`."""
     before = len(faults)
-    if couple:
-        faults.add(f"{path}.like", "'indicator' does not go with a couple", "A piston has a force.")
-    if drive is not None and not drive.is_crank:
-        faults.add(f"{path}.like", say("link {} slides: there is no cycle of a crank", drive.link))
+    _check_piston(faults, f"{path}.like", drive, couple=couple)
     for key in given:
         if key not in (*keys.LIKE, "law") or (key == "law" and given[key] != "indicator"):
             faults.add(f"{path}.{key}", "does not go with like", LIKE)
@@ -196,10 +201,7 @@ def _read_indicator(
 ) -> SizeTable | None:
     """Read pressures over strokes: the force on the piston, N, over the strokes done."""
     before = len(faults)
-    if couple:
-        faults.add(f"{path}.law", "'indicator' does not go with a couple", "A piston has a force.")
-    if drive is not None and not drive.is_crank:
-        faults.add(f"{path}.law", say("link {} slides: there is no cycle of a crank", drive.link))
+    _check_piston(faults, f"{path}.law", drive, couple=couple)
     for key in ("over", "values", "interpolation"):
         if key in given:
             faults.add(f"{path}.{key}", 'does not go with law = "indicator"', _INDICATOR)
