@@ -203,7 +203,8 @@ def sheets(asked: Asked, _: Tell) -> Found:
     from planmethod.commands.sheet import SheetOptions, drawn_for, settled_for
     from planmethod.problem.keys import known
 
-    request = PaperRequest({}, dict.fromkeys(known("sheet")), no_config=asked["served"])
+    given = {**dict.fromkeys(known("sheet")), "lang": asked["lang"]}
+    request = PaperRequest({}, given, no_config=asked["served"])
     options = SheetOptions(
         settled=request.settle(), phi=None, ruler=None, profile=None, errors=False, sigma=None,
         layout=asked.get("layout"), out=Path(asked["folder"]), formats=("svg",), dpi=100,
@@ -265,7 +266,8 @@ def _paper(asked: Asked) -> list[str]:
 def _args(asked: Asked) -> dict[str, list[str]]:
     """Return the command lines that can be asked for, without the problem and the folder."""
     layout = ["--layout", asked["layout"]] if asked.get("layout") else []
-    paper, lang = _paper(asked), ["--lang", asked["lang"]]
+    lang = ["--lang", asked["lang"]]
+    paper = [*_paper(asked), *lang]
     return {
         "tables": ["solve", *lang],
         "protocol": ["protocol", *lang],

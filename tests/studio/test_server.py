@@ -132,6 +132,18 @@ def test_sheets_and_tables_are_those_of_the_commands(client: TestClient, tmp_pat
     assert tables["output"] == run(tmp_path, "solve", "--lang", "ru", str(path))
 
 
+def test_an_english_page_gets_english_sheets_of_a_russian_file(client: TestClient) -> None:
+    text = f'{EX3}\n[sheet]\nlang = "ru"\n'
+    (page,) = do(client, "sheets", text, lang="en")["pages"]
+    drawn = {lang: do(client, "sheets", EX3, lang=lang)["pages"][0]["svg"] for lang in ("en", "ru")}
+    assert page["svg"] == drawn["en"] != drawn["ru"]
+    made = {
+        lang: do(client, "command", text, lang=lang, what="svg")["files_at"] + "ex3.svg"
+        for lang in ("en", "ru")
+    }
+    assert {lang: client.get(at).text for lang, at in made.items()} == drawn
+
+
 def test_the_ruler_knows_the_segments_of_the_plans(client: TestClient) -> None:
     (page,) = do(client, "sheets", EX3)["pages"]
     view = next(view for view in page["views"] if view["kind"] == "velocity")
