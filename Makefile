@@ -103,7 +103,7 @@ bench: $(VENV)/.ready
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check --config-settings editable_mode=compat -e '.[bench]'
 	$(BIN)/python -m benchmarks $(LINKAGES)
 
-# What strangers may send at every door: about an hour of two cores; ATTACK='--problems 5000' takes fewer.
+# What strangers may send at every door: about an hour of two cores; ATTACK='--files 50' takes fewer.
 attack: $(VENV)/.ready
 	$(BIN)/python -m benchmarks.attack $(ATTACK)
 

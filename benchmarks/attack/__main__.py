@@ -65,19 +65,41 @@ def work(seed: int) -> Made:
     return ["check", EX3, f"w.{ending}", "--json"], {f"w.{ending}": data}, {}
 
 
-def department(seed: int) -> Made:
-    """Return a command with a layout, settings, a config file, or with odd numbers."""
+def group(seed: int) -> Made:
+    """Return the check of several files of works, whose pages are written."""
     luck = random.Random(seed)
-    kind = luck.choice(("layout", "settings", "config", "words"))
+    files = {"a.csv": mutants.answers(luck)}
+    if luck.random() < 0.3:
+        ending, files["w.csv"] = mutants.work(luck)
+        files[f"w.{ending}"] = files.pop("w.csv")
+    more = luck.choice(([], ["--gradebook"], ["--anonymize", "--salt", "x"], ["--jobs", "1"]))
+    return ["check", EX3, *files, "-o", "out", *more], files, {}
+
+
+def drawing(seed: int) -> Made:
+    """Return the check of a drawing."""
+    ending, data = mutants.drawing(random.Random(seed))
+    return ["check", EX3, f"w.{ending}", "--json"], {f"w.{ending}": data}, {}
+
+
+def pattern(seed: int) -> Made:
+    """Return a command with a template of Word, or with a layout."""
+    luck = random.Random(seed)
+    if luck.random() < 0.5:
+        short = str(mutants.ROOT / "problems" / "linkages" / "2.1.4.toml")
+        words = ["note", short, "--format", "docx", "--template", "t.docx", "-o", "out"]
+        return words, {"t.docx": mutants.template(luck)}, {}
+    words = ["sheet", EX3, "--layout", "l.toml", "--format", "svg", "-o", "out"]
+    return words, {"l.toml": mutants.other("layout", luck)}, {}
+
+
+def department(seed: int) -> Made:
+    """Return a command with settings, a config file, or with odd numbers."""
+    luck = random.Random(seed)
+    kind = luck.choice(("settings", "config", "words"))
     if kind == "words":
         return mutants.words(luck), {}, {}
     data = mutants.other(kind, luck)
-    if kind == "layout":
-        return (
-            ["sheet", EX3, "--layout", "l.toml", "--format", "svg", "-o", "out"],
-            {"l.toml": data},
-            {},
-        )
     if kind == "settings":
         return ["check", EX3, "w.csv", "--settings", "s.toml", "--json"], {
             "s.toml": data, "w.csv": b"student;v B\nA;3\n",
@@ -88,8 +110,14 @@ def department(seed: int) -> Made:
 DOORS: dict[str, Callable[[int], Made]] = {
     "problem files": problem,
     "works": work,
-    "layouts, settings, config, numbers": department,
+    "groups of works": group,
+    "drawings": drawing,
+    "templates, layouts": pattern,
+    "settings, config, numbers": department,
 }
+
+FILES = {"problem files": 20_000, "works": 3000, "groups of works": 2000, "drawings": 1000}
+"""How many files each door is given, where it is not told otherwise: else 500."""
 
 
 @dataclass
@@ -254,9 +282,8 @@ def row(found: Found) -> str:
 def main() -> None:
     """Attack every door and print the table; exit code 1 where something fell."""
     parser = argparse.ArgumentParser(prog="python -m benchmarks.attack", description=__doc__)
-    parser.add_argument("--problems", type=int, default=100_000)
-    parser.add_argument("--works", type=int, default=10_000)
-    parser.add_argument("--others", type=int, default=1000)
+    parser.add_argument("--door", choices=DOORS, action="append", help="these alone")
+    parser.add_argument("--files", type=int, help="how many, for each door")
     parser.add_argument("--first", type=int, default=0, help="first seed")
     parser.add_argument("--jobs", type=int, default=os.cpu_count() or 1)
     parser.add_argument("--only", type=int, help="one seed, at every door, with what it says")
@@ -275,7 +302,8 @@ def main() -> None:
         sep="\n",
     )
     fell = False
-    for door, count in zip(DOORS, (told.problems, told.works, told.others), strict=True):
+    for door in told.door or DOORS:
+        count = FILES.get(door, 500) if told.files is None else told.files
         found = attack(door, range(told.first, told.first + count), jobs=told.jobs)
         print(row(found), *found.bad[:20], sep="\n", flush=True)
         fell = fell or bool(found.bad)

@@ -14,7 +14,10 @@ pytest.importorskip("resource", reason="limits of processes are of POSIX")
 from benchmarks.attack.__main__ import DOORS, Found, attack, row
 from planmethod.errors import ProblemError
 
-FILES = {"problem files": 60, "works": 40, "layouts, settings, config, numbers": 12}
+FILES = {
+    "problem files": 60, "works": 40, "groups of works": 6, "drawings": 20,
+    "templates, layouts": 8, "settings, config, numbers": 12,
+}  # fmt: skip
 
 
 @pytest.mark.parametrize("door", DOORS)
