@@ -99,3 +99,10 @@ def test_the_lever_of_a_project_fills_its_place() -> None:
         if times > 1.0:
             assert max(times * width[k] / PLACE[0], times * height[k] / PLACE[1]) <= 1.0
             assert len(LeverNarrator(lettered(ForceReading(solution, k), RU)).larger()) == 1
+
+
+def test_a_lever_is_as_large_as_a_plan_with_points_that_no_force_plan_has() -> None:
+    solution = Solution(settle(problem_of("levers/task-1")).problem)
+    statics, motion = statics_of(solution), solution.construction.kinematics.velocity
+    assert not {*motion.point.values()} <= {*statics.paper.value}
+    assert (statics.lever_times >= 1.0).all()

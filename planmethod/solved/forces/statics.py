@@ -478,8 +478,9 @@ class Statics(Remembering):
         solution, fills = self.solution, np.ones(self.paper.count)
         if solution.problem.calculated is not None:  # a project's, at scales of all positions
             motion, kind = solution.construction.kinematics.velocity, PlanKind.VELOCITY
+            # The force plans need not have every point of the velocity plan.
             fills = filling(
-                self.paper,
+                solution.paper,
                 (motion.pole, *motion.point.values()),
                 [solution.own_scale(kind, k).per_mm for k in range(self.paper.count)],
                 mm_per_unit=solution.problem.scales.in_mm_per_unit,
