@@ -54,6 +54,18 @@ class PathType(click.Path):
         self._english = english
 
 
+class NumberRange(click.FloatRange):
+    """Numbers between bounds (число в границах); NaN, which passes every range, is none."""
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
+        """Return a number of the command line."""
+        from planmethod.problem.formula import read_decimal
+
+        if isinstance(value, str) and read_decimal(value) is None:
+            raise BadParameter("{!r} is not a number", value)
+        return super().convert(value, param, ctx)
+
+
 F = TypeVar("F", bound=Callable[..., Any])
 
 Positions: TypeAlias = "npt.NDArray[np.float64]"
@@ -77,13 +89,15 @@ def read_positions(
         return None
     import numpy as np
 
+    from planmethod.problem.formula import read_decimal
+
     parts: list[Positions] = []
     count = 0
     for part in value.split(","):
-        try:
-            numbers = [float(number) for number in part.split(":")]
-        except ValueError:
-            raise BadParameter("{!r} is neither a number nor from:to:step", part) from None
+        read = [read_decimal(number) for number in part.split(":")]
+        numbers = [float(number) for number in read if number is not None]
+        if len(numbers) != len(read):
+            raise BadParameter("{!r} is neither a number nor from:to:step", part)
         parts.append(_expanded(numbers, part, most))
         count += len(parts[-1])
         if count > most:
@@ -126,13 +140,6 @@ def read_labels(
     return labels
 
 
-def read_ruler(ctx: click.Context, param: click.Parameter, value: float | None) -> float | None:
-    """Return the ruler step, which is a number."""
-    if value is not None and value != value:  # NaN passes every range
-        raise BadParameter("nan is not a step of a ruler")
-    return value
-
-
 def read_formats(
     ctx: click.Context, param: click.Parameter, value: Sequence[str]
 ) -> tuple[str, ...]:
@@ -170,8 +177,7 @@ def problem_options(command: F) -> F:
 def _ruler_option(**more: Any) -> Callable[[F], F]:
     return click.option(
         "--ruler",
-        type=click.FloatRange(min=0.0, min_open=True, max=50.0),
-        callback=read_ruler,
+        type=NumberRange(min=0.0, min_open=True, max=50.0),
         **more,
     )
 

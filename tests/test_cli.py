@@ -717,7 +717,7 @@ def test_a_sheet_of_too_many_positions_is_refused_at_once() -> None:
 def test_a_ruler_that_is_not_a_number() -> None:
     result = run("solve", EX1, "--ruler", "nan")
     assert result.exit_code == 2
-    assert "nan is not a step of a ruler" in result.stderr
+    assert "'nan' is not a number" in result.stderr
 
 
 def in_encoding(encoding: str, *commands: list[str]) -> subprocess.CompletedProcess[bytes]:

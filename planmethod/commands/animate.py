@@ -17,7 +17,13 @@ from planmethod.commands.problems import (
     tell_doubts,
     warn,
 )
-from planmethod.options import BadParameter, out_option, problem_lang_option, problem_options
+from planmethod.options import (
+    BadParameter,
+    NumberRange,
+    out_option,
+    problem_lang_option,
+    problem_options,
+)
 
 FORMATS = ("gif", "svg")
 
@@ -38,9 +44,7 @@ def _formats(ctx: click.Context, param: click.Parameter, value: str) -> tuple[st
 @click.option(
     "--frames", type=click.IntRange(8, 360), default=60, show_default=True, help="Of a turn."
 )
-@click.option(
-    "--seconds", type=click.FloatRange(1, 60), default=6, show_default=True, help="Of a turn."
-)
+@click.option("--seconds", type=NumberRange(1, 60), default=6, show_default=True, help="Of a turn.")
 @click.option(
     "--dpi", type=click.IntRange(30, 300), default=110, show_default=True, help="Of a GIF."
 )

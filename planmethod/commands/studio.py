@@ -11,7 +11,7 @@ from msgspec.structs import replace
 from planmethod.commands.helptext import Spoken
 from planmethod.commands.problems import guarded
 from planmethod.languages import say
-from planmethod.options import PathType, UsageError, lang_option
+from planmethod.options import NumberRange, PathType, UsageError, lang_option
 
 if TYPE_CHECKING:
     from planmethod.studio.server import StudioSettings
@@ -41,7 +41,7 @@ KEPT = 75
 @click.option(
     "--time",
     "seconds",
-    type=click.FloatRange(1.0, 600.0),
+    type=NumberRange(1.0, 600.0),
     help="Longest computation, s; with --serve 10 when absent.",
 )
 @click.option(

@@ -34,13 +34,14 @@ LEAST, MOST = 1e-6, 1e4
 
 def _number(text: str) -> float:
     """Return a number of an option; a decimal comma cannot be told from the next number."""
-    try:
-        value = float(text)
-    except ValueError:
-        raise BadParameter("{!r} is not a number", text.strip()) from None
-    if not abs(value) < 1e9:
+    from planmethod.problem.formula import read_decimal
+
+    number = read_decimal(text)
+    if number is None:
+        raise BadParameter("{!r} is not a number", text.strip())
+    if not abs(number) < 1e9:
         raise BadParameter("{!r} is out of range: below 1e9 is expected", text.strip())
-    return value
+    return float(number)
 
 
 def read_number(ctx: click.Context, param: click.Parameter, value: str | None) -> float | None:

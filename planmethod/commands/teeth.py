@@ -25,12 +25,15 @@ def read_fraction(ctx: click.Context, param: click.Parameter, value: str | None)
     """Return a number as a fraction: ``6.5``, ``13/2``."""
     from fractions import Fraction
 
+    from planmethod.problem.formula import read_decimal
+
     if value is None:
         return None
-    try:
-        number = Fraction(value.replace(",", ".").replace("−", "-"))
-    except (ValueError, ZeroDivisionError):
-        raise BadParameter("{!r} is not a number: 6.5 or 13/2 is expected", value) from None
+    top, _, bottom = value.replace(",", ".").replace("−", "-").partition("/")
+    one, other = read_decimal(top), read_decimal(bottom or "1")
+    if one is None or not other:
+        raise BadParameter("{!r} is not a number: 6.5 or 13/2 is expected", value)
+    number = Fraction(one) / Fraction(other)
     if number.denominator > 10**6 or abs(number) > 10**6:
         raise BadParameter("{!r} has too many digits: at most six are expected", value)
     return number

@@ -11,7 +11,7 @@ from planmethod.commands.output import bar
 from planmethod.commands.problems import finish, guarded
 from planmethod.errors import ExitCode
 from planmethod.languages import say
-from planmethod.options import PathType, UsageError, lang_option
+from planmethod.options import NumberRange, PathType, UsageError, lang_option
 
 MOST = 200
 LONG = 3
@@ -42,7 +42,7 @@ LONG = 3
 )
 @click.option(
     "--spread",
-    type=click.FloatRange(0.02, 0.9),
+    type=NumberRange(0.02, 0.9),
     default=0.3,
     show_default=True,
     help="How far numbers without a range go from those of the file, a share of them.",

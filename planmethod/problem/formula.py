@@ -19,11 +19,15 @@ import re
 from collections.abc import Mapping
 from enum import Enum
 from types import MappingProxyType
+from typing import TYPE_CHECKING
 
 from msgspec import Struct
 
 from planmethod.languages import say
 from planmethod.problem.names import listed, near_hint, short
+
+if TYPE_CHECKING:
+    from decimal import Decimal
 
 LENGTH_LIMIT = 500
 DEPTH_LIMIT = 40
@@ -102,11 +106,35 @@ class FormulaError(Exception):
         self.hint = hint
 
 
+EXPONENT_LIMIT = 400
+"""Greatest power of ten of a number that is read; float64 goes from -324 to 308."""
+
+_DECIMAL = r"[-+]?(?:[0-9]++\.?[0-9]*+|\.[0-9]++)(?:[eE][-+]?(?=[0-9])0*+([0-9]*+))?"
+
+
+def read_decimal(text: str) -> Decimal | None:
+    """Return a number exactly as it is written (число из текста).
+
+    Returns
+    -------
+    Decimal or None
+        None of what is no number, or has a power of ten beyond `EXPONENT_LIMIT`: the numbers of
+        Python that are exact have as many digits as it says, or do not take it.
+    """
+    from decimal import Decimal
+
+    match = re.fullmatch(_DECIMAL, text.strip())
+    if match is None or len(match[1] or "") > 3 or int(match[1] or 0) > EXPONENT_LIMIT:
+        return None
+    return Decimal(match[0])
+
+
 def is_exact(text: str) -> bool:
     """Tell whether float64 has a number as it is written in decimal."""
     from decimal import Decimal
 
-    return Decimal(text) == Decimal(float(text))
+    number = read_decimal(text)
+    return number is not None and number == Decimal(float(number))
 
 
 _PRINTED = _TOKEN.removesuffix(")") + "|[√²³π])"
@@ -232,7 +260,12 @@ class Parser:
     def _atom(self) -> None:
         kind, text, where = self.tokens[self.at]
         if kind == "number":
-            number = float(text)
+            written = read_decimal(text)
+            if written is None:
+                said = "character {}: the power of ten of {} is beyond {}"
+                said = say(said, where, short(text), EXPONENT_LIMIT)
+                raise FormulaError(said, "Correct the exponent.")
+            number = float(written)
             if not math.isfinite(number):
                 raise FormulaError(
                     say("character {}: the number {} is too large", where, short(text, 12))

@@ -10,6 +10,7 @@ from planmethod.languages import say
 from planmethod.problem import fields, keys
 from planmethod.problem.fields import Faults
 from planmethod.problem.flat import read_flat
+from planmethod.problem.formula import read_decimal
 from planmethod.problem.machine_records import (
     ConstantMoment,
     FlywheelTask,
@@ -81,10 +82,8 @@ def _read_delta(faults: Faults, path: str, given: object) -> float | None:
     value = given
     if isinstance(value, str):
         top, slash, bottom = value.partition("/")
-        try:
-            value = float(top) / float(bottom) if slash else float(top)
-        except (ValueError, ZeroDivisionError):
-            value = math.nan
+        one, other = read_decimal(top), read_decimal(bottom if slash else "1")
+        value = float(one) / float(other) if one is not None and other else math.nan
     if not fields.is_number(value) or not math.isfinite(value):
         message = say('expected a number or a fraction such as "1/18", got {}', fields.show(given))
         faults.add(path, message, "A decimal fraction has a point: 0.05.")

@@ -9,7 +9,7 @@ from functools import partial
 from planmethod.languages import say
 from planmethod.problem import fields, keys
 from planmethod.problem.fields import Faults, Table
-from planmethod.problem.formula import FormulaError, work_out
+from planmethod.problem.formula import FormulaError, read_decimal, work_out
 from planmethod.problem.links import LinkText
 from planmethod.problem.model import Posed, PosedBy
 from planmethod.problem.names import split_pair
@@ -238,10 +238,9 @@ def _read_root(
         return words[1], None, 0
     if len(words) == 2 and words[0] == "near":
         read = fields.read_angle if crank else fields.read_coordinate
-        try:
-            return "", read(faults, "driver.root", float(words[1])), 0
-        except ValueError:
-            pass
+        number = read_decimal(words[1])
+        if number is not None:
+            return "", read(faults, "driver.root", float(number)), 0
     example = say('"near {}" or a number from 1', 40 if crank else 0.1)
     if ways:
         example = say('"going {}", "going {}", {}', *ways, example)

@@ -28,12 +28,20 @@ _NUMBERS_RE = (
 )
 """A line of numbers alone, or the list of numbers of a key; without many blanks in a row."""
 
-DOT_LIMIT = 64
 DEPTH_LIMIT = 12
 
 _WHERE_RE = r"(?s)^(?P<what>.*?) \(at (?P<where>line \d+, column \d+|end of document)\)$"
+_STRINGS_RE = (
+    r"(?s)#[^\n]*+"
+    r'|"""(?:[^"\\]|\\.|"(?!""))*+(?:"{3,5}+|\Z)'
+    r"|'''(?:[^']|'(?!''))*+(?:'{3,5}+|\Z)"
+    r'|"(?:[^"\\\n]|\\[^\n])*+"?'
+    r"|'[^'\n]*+'?"
+)
+"""Comments and strings; one that is not closed ends where the parser will stop."""
+
 # the parser's time grows with the square of the parts of a key
-_DOTS_RE = rf"(?:\.[ \t]*[\"']?[\w-]+[\"']?[ \t]*){{{DOT_LIMIT}}}"
+_KEY_RE = rf"(?<![\w-])[\w-]++(?:[ \t]*+\.[ \t]*+[\w-]++){{{DEPTH_LIMIT},}}"
 _BOMS = (
     (b"\xff\xfe", "UTF-16"),
     (b"\xfe\xff", "UTF-16"),
@@ -131,10 +139,10 @@ def _bounded(text: str, name: str) -> None:
                 say("line {} has {} characters, the limit is {}", number, len(line), LINE_LIMIT),
                 "Break it up; lists may span several lines.",
             )
-        if line.count(".") >= DOT_LIMIT and re.search(_DOTS_RE, line):
-            raise _fail(
-                name, say("line {}: a key has over {} parts", number, DOT_LIMIT), _DEPTH_HINT
-            )
+    bare = re.sub(_STRINGS_RE, lambda one: "x" + "\n" * one[0].count("\n"), text)
+    if deep := re.search(_KEY_RE, bare):
+        number = bare.count("\n", 0, deep.start()) + 1
+        raise _fail(name, say("line {}: a key has over {} parts", number, DEPTH_LIMIT), _DEPTH_HINT)
 
 
 _VARIANT_HEADER = r"(?m)^([ \t]*\[[ \t]*variants[ \t]*\.[ \t]*)([^\W\d_][\w-]*)"

@@ -15,6 +15,7 @@ from typing import Any
 from planmethod.languages import say
 from planmethod.problem import keys
 from planmethod.problem.fields import FAULT_LIMIT, Faults, is_number, read_table
+from planmethod.problem.formula import read_decimal
 from planmethod.problem.head import TITLE_BLOCK, TITLE_BLOCK_IN
 from planmethod.problem.links import read_label
 from planmethod.problem.names import (
@@ -349,7 +350,9 @@ def _put(
     value: Any = cell
     if re.match(_NUMBER, cell):
         plain = cell.replace(",", ".").replace("−", "-")
-        value = float(plain) if not plain.lstrip("+-").isdigit() else int(plain)
+        number = read_decimal(plain)
+        if number is not None:
+            value = int(number) if plain.lstrip("+-").isdigit() else float(number)
     if per != 1.0:
         value = value * per if is_number(value) else f"({value})*{per!r}"
     key, _, part = key.partition("[")

@@ -13,6 +13,7 @@ from msgspec.structs import replace
 
 from planmethod.errors import ExitCode, PlanMethodError
 from planmethod.problem.fields import is_number
+from planmethod.problem.formula import read_decimal
 from planmethod.problem.names import split_names
 from planmethod.problem.variants import key_of
 
@@ -32,6 +33,9 @@ FINE = tuple(sorted((*COARSE, *BETWEEN)))
 STEP_DEG = 5
 FEWEST_TEETH = 17
 MOST_VALUES = 10_000
+LARGEST = 1e9
+"""Largest end of a range; no number of a file is larger."""
+
 SPEEDS = ("n", "omega")
 FORMULAS = ("x", "y", "r", "phi", "s", "theta")
 """Keys of ``[point]`` whose numbers are varied."""
@@ -182,13 +186,10 @@ def _read(table: Mapping[str, Any], written: str, span: str, spread: float) -> l
     if not span:
         return [replace(one, values=_around(one, spread)) for one in chosen]
     ends = re.fullmatch(r"([-\d.e]*\d)\.\.([-\d.e]+)", span)
-    try:
-        low, high = (float(end) for end in ends.groups()) if ends else (1.0, 0.0)
-    except ValueError:
-        low, high = 1.0, 0.0
-    if not low <= high:
+    low, high = map(read_decimal, ends.groups()) if ends else (None, None)
+    if low is None or high is None or not -LARGEST <= low <= high <= LARGEST:
         raise VaryingError("--vary {}={}: FROM..TO is expected, 40..80", written, span)
-    made = [replace(one, values=_between(one, low, high)) for one in chosen]
+    made = [replace(one, values=_between(one, float(low), float(high))) for one in chosen]
     if not all(one.values for one in made):
         raise VaryingError("--vary {}={}: no round number lies there; widen it", written, span)
     return made

@@ -131,7 +131,7 @@ def test_the_covariance_has_the_forces_of_a_loaded_problem() -> None:
         (("--referee", "5"), "16<=x<=1000"),
         (("--profile", "pen"), "'pen' is not one of 'cad', 'board', 'coarse'"),
         (("--ruler", "0"), "0.0<x<=50.0"),
-        (("--ruler", "nan"), "nan is not a step of a ruler"),
+        (("--ruler", "nan"), "'nan' is not a number"),
     ],
 )
 def test_what_does_not_go_together(args: tuple[str, ...], said: str) -> None:

@@ -16,6 +16,7 @@ from msgspec.structs import replace
 
 from planmethod.check.model import CheckedWork, Judged
 from planmethod.errors import ExitCode, PlanMethodError
+from planmethod.problem.formula import read_decimal
 from planmethod.problem.source import table_text
 
 COLUMNS = ("student", "id", "points", "remark")
@@ -108,13 +109,10 @@ def _overrides(rows: Sequence[Sequence[str]], path: Path) -> Iterator[Override]:
 def _points(text: str, where: str) -> float | None:
     if not text:
         return None
-    try:
-        points = float(text.replace(",", "."))
-    except ValueError:
-        points = -1.0
-    if not 0.0 <= points <= 1e6:
+    points = read_decimal(text.replace(",", "."))
+    if points is None or not 0 <= points <= 10**6:
         raise OverridesError("{}: points are a number from 0, got {!r}.", where, text[:40])
-    return points
+    return float(points)
 
 
 def _bare(text: str) -> str:
