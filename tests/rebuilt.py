@@ -27,7 +27,9 @@ def rebuilt(facts: Iterable[GivenFact], name: str = "rebuilt") -> Problem:
         for key, value in fact.data.items():
             assert data.setdefault(key, value) == value, f"{key} is given twice"
     judged = data.pop("judged", None)
-    problem = loads("\n".join(_toml(data)), name=name)
+    driving = {key: data.pop(key) for key in [*data] if key.startswith(("cam.", "gears."))}
+    of_driving = file_of(table_of([GivenFact("", driving)]))
+    problem = loads("\n".join([of_driving, *_toml(data)]), name=name)
     if judged is not None:
         problem = replace(problem, drive=replace(problem.drive, judged=tuple(judged)))
     return problem

@@ -4,10 +4,30 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from msgspec import field
+
 from planmethod.cams.model import ArmSense, CamPhase, CamProblem
 from planmethod.cams.reader import read_cam
+from planmethod.cams.text import motion_given
+from planmethod.note.document import GivenFact
+from planmethod.note.wording import Language
 from planmethod.problem.fields import Faults
 from planmethod.problem.model import LawPiece, Lifted
+
+
+class CamFollower(Lifted, frozen=True):
+    """Follower that drives a linkage, with its cam.
+
+    Attributes
+    ----------
+    cam : CamProblem
+    """
+
+    cam: CamProblem = field(default_factory=lambda: CamProblem(name=""))
+
+    def given(self, words: Language) -> list[GivenFact]:
+        """Return the facts of a statement that the motion of the follower is given by: its law."""
+        return motion_given(self.cam, words)
 
 
 def followed(faults: Faults, table: object) -> Lifted | None:
@@ -43,7 +63,8 @@ def lifted(problem: CamProblem) -> Lifted:
     size = problem.stroke
     if problem.oscillates:
         size *= problem.mirror * (1 if problem.sense is ArmSense.SAME else -1) / problem.arm
-    return Lifted(problem.oscillates, problem.n or 0.0, tuple(_pieces(problem, size)))
+    pieces = tuple(_pieces(problem, size))
+    return CamFollower(problem.oscillates, problem.n or 0.0, pieces, cam=problem)
 
 
 def _pieces(problem: CamProblem, size: float) -> Iterator[LawPiece]:

@@ -69,6 +69,13 @@ def given(problem: CamProblem, words: Language, *, numbered: bool = False) -> li
     return facts
 
 
+def motion_given(problem: CamProblem, words: Language) -> list[GivenFact]:
+    """Return what is given of the motion that the cam gives to its follower, but for its speed."""
+    facts = [*_follower(problem, words), *_turn(problem, words)]
+    others = {"cam.closure", "cam.parts", "cam.n"}
+    return [fact for fact in facts if not others & {*fact.data}]
+
+
 def _follower(problem: CamProblem, words: Language) -> Iterator[GivenFact]:
     """Yield what follower there is, how far it goes, what keeps it at the cam."""
     said, say = words.cam, words.say

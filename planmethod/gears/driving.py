@@ -5,15 +5,50 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
+from msgspec.structs import replace
+
 from planmethod.errors import ProblemError
 from planmethod.gears.answers import efficiency
 from planmethod.gears.meshes import read_label
-from planmethod.gears.model import GearProblem
+from planmethod.gears.model import GearProblem, Train
 from planmethod.gears.motion import solve_motion
 from planmethod.gears.reader import read_train
+from planmethod.gears.told import given
 from planmethod.languages import say
+from planmethod.note.document import GivenFact
+from planmethod.note.wording import Language
 from planmethod.problem.fields import Faults
 from planmethod.problem.model import Geared
+from planmethod.problem.names import segment
+
+
+class TrainOutput(Geared, frozen=True):
+    """Body of a train that turns the crank of a linkage, with its train.
+
+    Attributes
+    ----------
+    train : Train or None
+    """
+
+    train: Train | None = None
+
+    def given(self, words: Language) -> list[GivenFact]:
+        """Return the facts of a statement that the train is given by, and which body of it drives.
+
+        Wheels have numbers as links have: a speed ω is told to be that of a wheel.
+        """
+        assert self.train is not None
+        facts = given(solve_motion(GearProblem(name="", train=self.train)), words)
+        if self.train.unit == "omega":
+            of_wheel = words.gears["sheet"]["of_wheel"]
+            own = {f"gears.omega.{segment(label)}": label for label, _ in self.inputs}
+            facts = [
+                replace(fact, text=of_wheel.format(label=own[key], speed=fact.text.split(" = ")[1]))
+                if (key := next(iter(fact.data), "")) in own
+                else fact
+                for fact in facts
+            ]
+        return facts
 
 
 def driven(faults: Faults, table: Mapping[str, Any], label: object) -> Geared | None:
@@ -54,4 +89,5 @@ def driven(faults: Faults, table: Mapping[str, Any], label: object) -> Geared | 
         ratio = ratio if motion.has_sign(inputs[0][0], body) else abs(ratio)
     share = efficiency(motion, train.body_of[body])
     efficient = None if share is None else float(share)
-    return Geared(body, inputs, train.unit, ratio, float(speed) * train.rate, efficient)
+    rate = float(speed) * train.rate
+    return TrainOutput(body, inputs, train.unit, ratio, rate, efficient, train=train)

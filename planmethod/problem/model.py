@@ -6,7 +6,7 @@ then quadrants stay exact; the arithmetic of a reading turns them into direction
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from enum import Enum
 from math import inf, isinf
 from typing import TYPE_CHECKING, Annotated, Any, NamedTuple
@@ -217,6 +217,13 @@ class Geared(Struct, frozen=True):
     rate: float
     efficiency: float | None = None
 
+    def given(self, words: Any) -> Sequence[Any]:
+        """Return the facts of a statement that the train is given by, in a language (`Language`).
+
+        What has a train (`gears/driving.py`) knows them.
+        """
+        return ()
+
 
 class LawPiece(NamedTuple):
     """A smooth part of a follower's law (участок закона движения).
@@ -251,6 +258,13 @@ class Lifted(Struct, frozen=True):
     n: float
     pieces: tuple[LawPiece, ...]
     lowest: float = 0.0
+
+    def given(self, words: Any) -> Sequence[Any]:
+        """Return the facts of a statement that the cam is given by, in a language (`Language`).
+
+        What has a cam (`cams/driving.py`) knows them.
+        """
+        return ()
 
 
 class PosedBy(Enum):

@@ -13,6 +13,7 @@ import pytest
 from browser import PROGRAM, browsing
 from cases import each
 from click.testing import CliRunner
+from rebuilt import rebuilt
 
 import planmethod
 from planmethod.cams.driving import lifted
@@ -20,6 +21,8 @@ from planmethod.cams.model import CamProblem
 from planmethod.cams.reader import read_cam
 from planmethod.cli import cli
 from planmethod.languages import LANGUAGES
+from planmethod.note.narrate.given import drawn, given
+from planmethod.note.wording import language
 from planmethod.plans.model import PlanKind
 from planmethod.problem.fields import Faults
 from planmethod.problem.model import Problem
@@ -398,3 +401,16 @@ def test_the_page_moves_by_the_law(name: str, tmp_path: Path) -> None:
             told = np.array([one[number] for one in shown], dtype=float)
             assert np.max(np.abs(told - exact)) < 1e-9 * max(1.0, float(np.max(np.abs(exact)))), row
     assert sum(row in table for row in rows) > 20
+
+
+@each("body", (filled(SLIDER, cam="{ from = 0, count = 12 }", n=120),
+               filled(ROCKER, cam=30, sense="same", n=-60)))  # fmt: skip
+def test_of_the_statement_with_the_law_the_mechanism_is_built_again(body: str) -> None:
+    problem = planmethod.loads(body, name="driven")
+    for words in map(language, LANGUAGES):
+        again = rebuilt([drawn(problem, words), *given(problem, words)])
+        assert again.drive.followed == problem.drive.followed
+        one, two = Solution(problem), Solution(again)
+        for name, point in one.points.items():
+            assert two.points[name].place == pytest.approx(point.place, abs=1e-12)
+            assert two.points[name].velocity == pytest.approx(point.velocity, abs=1e-12)

@@ -13,6 +13,7 @@ from rebuilt import printed, rebuilt
 from benchmarks.generator import random_problem
 from planmethod import loads
 from planmethod.errors import PlanMethodError
+from planmethod.gears.driving import TrainOutput
 from planmethod.kinds import kind_of, load_each
 from planmethod.note.document import GivenFact
 from planmethod.note.narrate.forces.statement import statement
@@ -24,6 +25,7 @@ from planmethod.solved.forces.reading import ForceReading
 from planmethod.solved.solution import Solution
 
 ROOT = Path(__file__).parents[2]
+TEMPLATE = ROOT / "planmethod/problem/templates/project.toml"
 FILES = [path for path in sorted((ROOT / "problems").rglob("*.toml")) if kind_of(path) is None]
 STATED = [
     path
@@ -101,6 +103,24 @@ def test_every_variant_is_rebuilt(path: Path) -> None:
         facts = facts_of(one, RU, one.drive.positions)
         assert_same(one, rebuilt(facts), one.drive.positions)
         assert_printed(one, facts, RU.say)
+
+
+@each("train", ("n = { 1 = -960 }", "omega = { 1 = -100 }"))
+def test_what_a_train_drives_is_rebuilt_with_its_teeth(train: str) -> None:
+    text = TEMPLATE.read_text("utf-8").replace("n = { 1 = -960 }", train)
+    problem = loads(text, name="driven")
+    for words in (RU, EN):
+        facts = facts_of(problem, words, problem.drive.positions)
+        again = rebuilt(facts)
+        assert_same(problem, again, problem.drive.positions)
+        (one, two) = (x.drive.geared for x in (problem, again))
+        assert isinstance(one, TrainOutput) and isinstance(two, TrainOutput)
+        assert (two.ratio, two.inputs) == (one.ratio, one.inputs)
+        assert one.train is not None and two.train is not None
+        assert (two.train.wheels, two.train.meshes) == (one.train.wheels, one.train.meshes)
+        # ω of wheel 1 is not that of the crank.
+        letters = [fact.text.partition(" = ")[0] for fact in facts if " = " in fact.text]
+        assert len({*letters}) == len(letters)
 
 
 @each("seed", range(some(300, 25)))

@@ -132,10 +132,10 @@ def _rates(text: As) -> Iterator[GivenFact]:
         gain = drive.acceleration
         yield GivenFact(f"a = {text.number(gain, 'm/s²', 'driver.a')}", {"driver.a": gain})
         return
-    for line in [] if drive.geared is None else _through(drive.geared, text.words):
-        yield GivenFact(line)
     constant = "" if drive.acceleration else " = const"
-    wheel = "" if drive.geared is None else f" = ω_{{{drive.geared.label}}}"
+    if drive.geared is not None:
+        yield from _through(drive.geared, text, constant)
+        return
     omega = f"ω_{{{drive.link}}}"
     still = {} if drive.acceleration else {"driver.epsilon": 0.0}
     if drive.turns is not None:
@@ -147,7 +147,12 @@ def _rates(text: As) -> Iterator[GivenFact]:
         yield GivenFact(said, {"driver.n": drive.turns, **still})
     else:
         rate = text.number(drive.rate, "1/s", "driver.omega")
-        yield GivenFact(f"{omega}{wheel} = {rate}{constant}", {"driver.omega": drive.rate, **still})
+        yield GivenFact(f"{omega} = {rate}{constant}", {"driver.omega": drive.rate, **still})
+    yield from _gain(text)
+
+
+def _gain(text: As) -> Iterator[GivenFact]:
+    drive = text.problem.drive
     if drive.acceleration:
         epsilon = text.number(drive.acceleration, "1/s²", "driver.epsilon")
         yield GivenFact(f"ε_{{{drive.link}}} = {epsilon}", {"driver.epsilon": drive.acceleration})
@@ -454,17 +459,18 @@ def _output(text: As) -> tuple[str, dict[str, object]]:
     return said, data
 
 
-def _through(geared: Geared, words: Language) -> list[str]:
-    """Return what drives the crank: the speeds of the inputs, and the ratio to it."""
-    letter, unit = ("n", "1/min") if geared.unit == "n" else ("ω", "1/s")
-    lines = [
-        f"{letter}_{{{label}}} = {words.say.given(speed)} {words.say.units[unit]}"
-        for label, speed in geared.inputs
-    ]
+def _through(geared: Geared, text: As, constant: str) -> Iterator[GivenFact]:
+    """Yield what drives the crank: the train, the ratio to the crank, and the speed of it."""
+    say, drive = text.say, text.problem.drive
+    yield from geared.given(text.words)
     if geared.ratio is not None:
-        source, ratio = geared.inputs[0][0], words.say.given(float(geared.ratio))
-        lines.append(f"U_{{{source}-{geared.label}}} = {ratio}")
-    return lines
+        source, ratio = geared.inputs[0][0], say.given(float(geared.ratio))
+        yield GivenFact(f"U_{{{source}-{geared.label}}} = {ratio}")
+    rate = text.number(drive.rate, "1/s", "driver.omega")
+    said = f"ω_{{{drive.link}}} = ω_{{{geared.label}}} = {rate}{constant}"
+    still: dict[str, object] = {} if drive.acceleration else {"driver.epsilon": 0.0}
+    yield GivenFact(said, {"driver.train": geared.label, **still})
+    yield from _gain(text)
 
 
 def _lifted(drive: Drive, led: Lifted, text: As, asked: Sequence[float]) -> list[GivenFact]:
@@ -477,7 +483,7 @@ def _lifted(drive: Drive, led: Lifted, text: As, asked: Sequence[float]) -> list
     symbol = f"φ_{{{drive.link}}}" if led.turns else "s"
     speed = text.number(led.n, "rev/min", "cam.n")
     said = note.given_cam.format(n=speed, lowest=f"{symbol} = {lowest}")
-    facts = [GivenFact(said, {path: led.lowest})]
+    facts = [GivenFact(said, {path: led.lowest, "cam.n": led.n}), *led.given(text.words)]
     _, rates, gains = map(np.asarray, driven(drive, np.asarray(asked, dtype=float)))
     resting = np.flatnonzero((rates == 0.0) & (gains == 0.0))
     if len(asked) == 1:

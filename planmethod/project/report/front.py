@@ -130,7 +130,8 @@ def _data(report: Report) -> tuple[list[tuple[Rich, Rich, Rich]], list[Rich]]:
     rows: list[tuple[Rich, Rich, Rich]] = []
     further: list[Rich] = []
     series, driving = report.is_series, _driving(report)
-    for fact in dict.fromkeys(fact.text for fact in facts if fact.text):
+    stated = (one.text for one in facts if not any(key.startswith("gears.") for key in one.data))
+    for fact in dict.fromkeys(filter(None, stated)):  # the rows of the train are its own
         told = _FACT.match(fact)
         name = None if told is None else driving.get(told[1]) or _name(told[1], report)
         if told is None or name is None:
