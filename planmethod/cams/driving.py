@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from msgspec import field
-
 from planmethod.cams.model import ArmSense, CamPhase, CamProblem
 from planmethod.cams.reader import read_cam
 from planmethod.cams.text import motion_given
@@ -15,7 +13,7 @@ from planmethod.problem.fields import Faults
 from planmethod.problem.model import LawPiece, Lifted
 
 
-class CamFollower(Lifted, frozen=True):
+class CamFollower(Lifted, frozen=True, kw_only=True):
     """Follower that drives a linkage, with its cam.
 
     Attributes
@@ -23,7 +21,7 @@ class CamFollower(Lifted, frozen=True):
     cam : CamProblem
     """
 
-    cam: CamProblem = field(default_factory=lambda: CamProblem(name=""))
+    cam: CamProblem
 
     def given(self, words: Language) -> list[GivenFact]:
         """Return the facts of a statement that the motion of the follower is given by: its law."""

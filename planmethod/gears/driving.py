@@ -22,22 +22,21 @@ from planmethod.problem.model import Geared
 from planmethod.problem.names import segment
 
 
-class TrainOutput(Geared, frozen=True):
+class TrainOutput(Geared, frozen=True, kw_only=True):
     """Body of a train that turns the crank of a linkage, with its train.
 
     Attributes
     ----------
-    train : Train or None
+    train : Train
     """
 
-    train: Train | None = None
+    train: Train
 
     def given(self, words: Language) -> list[GivenFact]:
         """Return the facts of a statement that the train is given by, and which body of it drives.
 
         Wheels have numbers as links have: a speed ω is told to be that of a wheel.
         """
-        assert self.train is not None
         facts = given(solve_motion(GearProblem(name="", train=self.train)), words)
         if self.train.unit == "omega":
             of_wheel = words.gears["sheet"]["of_wheel"]

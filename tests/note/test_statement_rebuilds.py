@@ -116,7 +116,6 @@ def test_what_a_train_drives_is_rebuilt_with_its_teeth(train: str) -> None:
         (one, two) = (x.drive.geared for x in (problem, again))
         assert isinstance(one, TrainOutput) and isinstance(two, TrainOutput)
         assert (two.ratio, two.inputs) == (one.ratio, one.inputs)
-        assert one.train is not None and two.train is not None
         assert (two.train.wheels, two.train.meshes) == (one.train.wheels, one.train.meshes)
         # ω of wheel 1 is not that of the crank.
         letters = [fact.text.partition(" = ")[0] for fact in facts if " = " in fact.text]
