@@ -6,9 +6,10 @@ what is asked, or told, in millimetres of a picture has the errors of drawing.
 
 from __future__ import annotations
 
+import copy
 import math
 from collections.abc import Callable, Iterable, Iterator, Mapping
-from functools import cached_property
+from functools import cache, cached_property
 from typing import Any
 
 from msgspec.structs import replace
@@ -126,10 +127,20 @@ class Calculation(Task):
         self._found: dict[tuple[str, int, bool, bool], Question] = {}
         self._forms: dict[str, TaskItem] = {}
         self._numbers: dict[tuple[object, ...], CalculationSheet] = {}
+        # Computed once for all works and positions: each may be another cam.
+        self._mistaken: Callable[[], tuple[Mistaken, ...]] = cache(
+            lambda: tuple(self.figures.mistaken())
+        )
         if not (problem.answers or self.figures.names):
             fault = Fault(kind.table, "no quantity has a value that could be asked for")
             raise ProblemError(problem.name, [fault])
         self.declared = tuple(self._stated(at, one) for at, one in enumerate(problem.answers))
+
+    def beside(self) -> Calculation:
+        """Return the same task for one work: what it answers unasked is asked of nobody else."""
+        other = copy.copy(self)
+        other._found = dict(self._found)
+        return other
 
     def _stated(self, at: int, asked: AskedAnswer) -> TaskItem:
         position = asked.position or 0
@@ -236,16 +247,11 @@ class Calculation(Task):
             self._numbers[key] = CalculationSheet(self.figures, position, asked.values(), profile)
         return self._numbers[key]
 
-    @cached_property
-    def _mistaken(self) -> tuple[Mistaken, ...]:
-        """The usual mistakes, computed once for all positions: each may be another cam."""
-        return tuple(self.figures.mistaken())
-
     def named(self, sheet: Sheet) -> list[Explanation]:
         """Return the usual mistakes, and the numbers of the other variants."""
         assert isinstance(sheet, CalculationSheet)
         found = []
-        for code, where, take in self._mistaken:
+        for code, where, take in self._mistaken():
             values = {}
             for question in sheet.asked:
                 value = take(question.selector.names[0], sheet.position)
@@ -256,10 +262,11 @@ class Calculation(Task):
     def asked_of(self, other: Task, mine: Sheet) -> Sheet | None:
         """Return the numbers of another variant with what is asked here; None if none is there."""
         assert isinstance(other, Calculation) and isinstance(mine, CalculationSheet)
-        for (name, at, drawn, turns), _ in list(self._found.items()):
-            if at == mine.position and other._question(name, at, drawn=drawn, turns=turns) is None:
+        their = other.beside()
+        for name, at, drawn, turns in self._found:
+            if at == mine.position and their._question(name, at, drawn=drawn, turns=turns) is None:
                 return None
-        return other.sheet(mine.position)
+        return their.sheet(mine.position)
 
     def _copied(self, sheet: CalculationSheet) -> Iterator[Explanation]:
         for variant, theirs in self.theirs(sheet):

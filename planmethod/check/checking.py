@@ -33,6 +33,7 @@ def check(task: Task, work: Work) -> CheckedWork:
 
     What nobody asked is judged, and counts neither for nor against.
     """
+    task = task.beside()
     asked = asked_of_drawing(task) if work.drawn else task.usual()
     measured = {item.name: item for item in asked} if work.drawn else {}
     names = {(item.name, item.position) for item in asked}

@@ -136,6 +136,17 @@ class Questions:
             self._found[selector] = self._ask(selector)
         return self._found[selector]
 
+    def again(self, question: Question) -> Question:
+        """Return a question of another variant as one of this.
+
+        Raises
+        ------
+        NoValueError
+            When the problem has no such quantity.
+        """
+        found = self.question(question.selector)
+        return found if found.id == question.id else self.direction(found)
+
     def usual(self) -> Iterator[Selector]:
         """Yield what is asked where nothing is said: velocities, accelerations, ω, ε, forces."""
         construction, kin = self.construction, self.construction.kinematics

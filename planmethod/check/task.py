@@ -216,6 +216,12 @@ class Task:
             other._sheets[key] = of_first.alike(other._questions[position], scales)
         return other
 
+    def beside(self) -> Task:
+        """Return the same task for one work: what it answers unasked is asked of nobody else."""
+        other = copy.copy(self)
+        other._asked = {position: dict(asked) for position, asked in self._asked.items()}
+        return other
+
     def _declare(self, asked: AskedAnswer) -> Iterator[TaskItem]:
         """Yield an answer, and the direction of its vector where that is an answer of its own."""
         position = self.first if asked.position is None else asked.position
@@ -447,15 +453,14 @@ class Task:
 
     def asked_of(self, other: Task, mine: Sheet) -> Sheet | None:
         """Return the sheet of another variant with what is asked here; None if it has not all."""
-        position = mine.questions.position
+        position, their = mine.questions.position, other.beside()
         try:
             questions = other.questions(position)
-            for question in self._asked.get(position, {}).values():
-                other.ask(questions.question(question.selector), position)
+            theirs = [questions.again(question) for question in mine.asked]
         except NoValueError:
             return None
-        sheet = other.sheet(position, mine.scales)
-        return sheet if set(self._asked.get(position, {})) <= set(sheet.exact) else None
+        their._asked[position] = {question.id: question for question in theirs}
+        return their.sheet(position, mine.scales)
 
     def named(self, sheet: Sheet) -> list[Explanation]:
         """Return the mistakes of a sheet that have a name, each with what it gives."""

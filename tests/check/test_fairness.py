@@ -33,7 +33,9 @@ from planmethod.check.questions import Sign
 from planmethod.check.routes import _try
 from planmethod.check.task import Task
 from planmethod.check.tolerance import Tolerance
+from planmethod.check.works.csv_file import read_csv
 from planmethod.check.works.student import read_json
+from planmethod.construct.evaluate import Trace
 from planmethod.note.wording import language
 from planmethod.problem.head import AskedAnswer
 from planmethod.problem.model import Problem
@@ -167,11 +169,88 @@ def test_a_mark_does_not_depend_on_a_neighbour() -> None:
     assert alone.answers == beside.answers
 
 
+UNASKED = [
+    ("s24", "1", {"y D": -0.1163, "a D": 22.43, "a E": 36.9}),
+    ("s27", "2", {"x D": 0.3987, "angle v D": 12.0}),
+    ("s29", "1", {"x D": 0.3, "v D": 9.0, "omega 3": 7.0, "y D": -0.2}),
+]
+"""Coordinates that nobody asks for, in another order in each work."""
+
+
+def unasked(told: list[tuple[str, str, dict[str, float]]]) -> list[Work]:
+    return [
+        Work(
+            student,
+            tuple(WrittenAnswer(what=what, value=v, step=0.01) for what, v in values.items()),
+            variant=variant,
+            where="g",
+        )
+        for student, variant, values in told
+    ]
+
+
+def told_of(checked: CheckedWork) -> tuple[object, ...]:
+    """Return what is told of a work: of what is left of its strokes the last bit may differ."""
+    return checked.answers, checked.diagnosis, checked.points, checked.of
+
+
+def test_answers_that_nobody_asked_for_stop_nobody() -> None:
+    """Before: KeyError 'asked124', as another variant calls the same coordinate otherwise."""
+    rows = (
+        "student;variant;what;mm;value",
+        "s24;В;y_D;-46,5;-0,1163",
+        "s24;В;a_S3;112,2;22,43",
+        "s27;Б;x_D;159,5;0,3987",
+        "s28;Е;a_E;33,5;13",
+    )
+    works = read_csv("\n".join(rows).encode(), Path("g.csv"))
+    path = ROOT / "problems/levers/task12-variants.toml"
+    found = list(check_works(Variants(path), works))
+    (alone,) = check_works(Variants(path), works[1:2])
+    assert found[1].diagnosis == alone.diagnosis and alone.diagnosis[0].codes == ("P2",)
+
+
+def test_answers_that_nobody_asked_for_change_nothing_of_others() -> None:
+    path = ROOT / "problems/linkages/ex3-variants.toml"
+    works = unasked(UNASKED)
+    first = [told_of(one) for one in check_works(Variants(path), works)]
+    last = [told_of(one) for one in check_works(Variants(path), works[::-1])]
+    assert first == last[::-1]
+
+
+def test_another_variant_is_named_whatever_else_is_answered() -> None:
+    """What nobody asked has other names in the program of each variant: 6 coordinates of them."""
+    path = ROOT / "problems/levers/task12-variants.toml"
+    theirs = Variants(path).task("Е")
+    first = ("y D", "ax E", "vx D", "x D", "ay D", "angle v D")
+    group = Variants(path)
+    (one,) = unasked([("one", "А", dict.fromkeys(first, 1.0))])
+    copied = replace(work_of(theirs, exact(theirs)), variant="А")
+    copied = replace(copied, answers=(*copied.answers, *one.answers))
+    told = list(check_works(group, [one, copied]))
+    assert [d.codes for d in told[1].diagnosis] == [("P2",)]
+
+
+@pytest.mark.parametrize("name", ["gears/gears-ex2", "point/k11-01"])
+def test_a_computed_answer_that_nobody_asked_for_changes_nothing_of_others(name: str) -> None:
+    task = Variants(ROOT / f"problems/{name}.toml").task(None)
+    wrong = [
+        WrittenAnswer(id=item.id, value=1.17 * item.question.take(Trace({}, {})), step=0.001)
+        for item in task.usual()
+    ]
+    alone = check(task, Work("s", tuple(wrong)))
+    more = [WrittenAnswer(what=what, mm=9.0) for what in ("v", "n 4", "omega 5", "n 2", "a")]
+    check(task, Work("other", tuple(more)))
+    assert check(task, Work("s", tuple(wrong))) == alone
+
+
 def test_what_nobody_asked_costs_nobody() -> None:
     task = task_of("linkages/ex3")
     right = work_of(task, exact(task))
     more = (WrittenAnswer(what="vx B3", value=9.9, step=0.1), *right.answers)
+    asked = task.sheet(0).asked
     found, usual = check(task, Work("s", more)), check(task, right)
+    assert task.sheet(0).asked == asked
     assert found.answers[0].verdict is Verdict.WRONG
     assert (found.points, found.of) == (usual.points, usual.of)
 
