@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+import os
+import traceback
+from collections.abc import Iterable, Iterator, Sequence
+from pathlib import Path
 
 from msgspec.structs import replace
 
@@ -13,12 +16,21 @@ from planmethod.check.judge import Examined, UnusableError, decide, examine, rep
 from planmethod.check.key import entry_of
 from planmethod.check.marks import Settings
 from planmethod.check.measured.asked import asked_of_drawing
-from planmethod.check.model import CheckedWork, Diagnosis, Judged, Verdict, Work, WrittenAnswer
+from planmethod.check.model import (
+    CheckedWork,
+    CheckFailure,
+    Diagnosis,
+    Judged,
+    Verdict,
+    Work,
+    WrittenAnswer,
+)
 from planmethod.check.questions import Sign
 from planmethod.check.routes import follow_routes
 from planmethod.check.sheet import Sheet
 from planmethod.check.task import Task, TaskItem
 from planmethod.check.tolerance import limit_of
+from planmethod.languages import say, visible
 from planmethod.plans.model import FACTS
 from planmethod.solved.selectors.steps import NoValueError
 
@@ -82,7 +94,7 @@ def check(task: Task, work: Work) -> CheckedWork:
             again = told.miscomputed and not work.drawn
             judged[number] = replace(told, written=work.answers[number], miscomputed=again)
         examined += ready
-    answers = [judged[number] for number in sorted(judged)]
+    answers = [*_each_once(judged[number] for number in sorted(judged))]
     given = {(answer.key.id, answer.key.position) for answer in answers if answer.key}
     for item in asked:
         if (item.name, item.position) not in given:
@@ -106,6 +118,22 @@ def check(task: Task, work: Work) -> CheckedWork:
     )
 
 
+def _each_once(answers: Iterable[Judged]) -> Iterator[Judged]:
+    """Yield the answers; one that cannot be read counts for nothing beside one that can."""
+    told = list(answers)
+    read = {
+        (one.key.id, one.key.position)
+        for one in told
+        if one.key is not None and one.verdict is not Verdict.UNREADABLE
+    }
+    for one in told:
+        if one.key is not None and one.verdict is Verdict.UNREADABLE:
+            name = (one.key.id, one.key.position)
+            one = replace(one, of=0.0) if name in read else one
+            read.add(name)
+        yield one
+
+
 def unknown_variant(work: Work) -> CheckedWork:
     """Return a work of a variant that the problem has not: nothing of it can be judged."""
     answers = tuple(
@@ -113,6 +141,18 @@ def unknown_variant(work: Work) -> CheckedWork:
         for written in work.answers
     )
     return CheckedWork(work, work.variant, answers)
+
+
+def unmarked(work: Work, variant: str | None, failure: CheckFailure) -> CheckedWork:
+    """Return a work that is not marked, and why."""
+    return CheckedWork(work, variant, (), failure=failure)
+
+
+def failure_of(error: Exception) -> CheckFailure:
+    """Return a fault of the program as the reason why a work is not marked."""
+    said = say("a fault of the program ({}: {})", type(error).__name__, visible(str(error))[:200])
+    trace = "".join(traceback.format_exception(error))
+    return CheckFailure(str(said), trace.replace(f"{Path(__file__).parents[2]}{os.sep}", ""))
 
 
 def _scales(
@@ -140,8 +180,7 @@ def _unjudged(
 ) -> Judged:
     sheet = task.sheet(item.position)
     limit = limit_of(sheet, item.question, task.settings, item.fixed)
-    of = 0.0 if verdict is Verdict.UNREADABLE else item.points
-    return Judged(item.id, verdict, entry_of(task, item, limit), written, of=of)
+    return Judged(item.id, verdict, entry_of(task, item, limit), written, of=item.points)
 
 
 def _judged(task: Task, sheet: Sheet, one: Examined) -> Judged:

@@ -12,11 +12,11 @@ from msgspec.structs import replace
 
 from planmethod.arguments import of_type
 from planmethod.check.calculation import Calculation
-from planmethod.check.checking import check, unknown_variant
+from planmethod.check.checking import check, failure_of, unknown_variant, unmarked
 from planmethod.check.key import Key, key_of_task
 from planmethod.check.letters import plain
 from planmethod.check.marks import DEFAULT, Settings
-from planmethod.check.model import CheckedWork, Work
+from planmethod.check.model import CheckedWork, CheckFailure, Work
 from planmethod.check.task import Task
 from planmethod.check.together import batch_tasks
 from planmethod.construct.drafting import PROFILES
@@ -104,9 +104,10 @@ class Variants:
             if name not in self._tasks:
                 with suppress(PlanMethodError):  # it says why when it is needed
                     problems.append(load(self.path, variant=name))
-        for batch, _ in in_batches(problems, PROFILES["board"]):
-            for task in batch_tasks(batch, self.settings, self._all):
-                self._tasks[task.variant] = task
+        with suppress(Exception):  # each is solved alone then, and what fails is told of its works
+            for batch, _ in in_batches(problems, PROFILES["board"]):
+                for task in batch_tasks(batch, self.settings, self._all):
+                    self._tasks[task.variant] = task
 
     def _all(self) -> Iterator[Task]:
         for name in self.names or (None,):
@@ -139,6 +140,8 @@ class CheckedGroup(Struct, frozen=True):
 def check_works(variants: Variants, works: Sequence[Work]) -> Iterator[CheckedWork]:
     """Yield the works, each checked by its own variant, whoever else is in the group.
 
+    A work that fails, or whose variant cannot be solved, is not marked, and says why in `failure`.
+
     Examples
     --------
     >>> from pathlib import Path
@@ -158,7 +161,21 @@ def check_works(variants: Variants, works: Sequence[Work]) -> Iterator[CheckedWo
     if len(set(named)) > FEW:
         variants.ahead(name for name in named if name is not _UNKNOWN)
     for work, name in zip(works, named, strict=True):
-        yield unknown_variant(work) if name is _UNKNOWN else check(variants.task(name), work)
+        yield unknown_variant(work) if name is _UNKNOWN else _checked(variants, work, name)
+
+
+def _checked(variants: Variants, work: Work, name: str | None) -> CheckedWork:
+    """Check a work; what fails in it, or in its variant, stops no other."""
+    if work.failure:
+        return unmarked(work, name, CheckFailure(work.failure.rstrip(".")))
+    try:
+        return check(variants.task(name), work)
+    except PlanMethodError as error:
+        return unmarked(work, name, CheckFailure(str(error).rstrip(".")))
+    except MemoryError:
+        raise
+    except Exception as error:  # a fault of ours: the others are marked
+        return unmarked(work, name, failure_of(error))
 
 
 def _named(variants: Variants, work: Work) -> str | None:
@@ -173,7 +190,10 @@ def keys_of(variants: Variants, checked: Sequence[CheckedWork]) -> dict[str | No
     found: dict[str | None, Key] = {}
     names = dict.fromkeys(work.variant for work in checked)
     for name in (name for name in names if name is None or name in variants.names):
-        task = variants.task(name)
+        try:
+            task = variants.task(name).beside()
+        except PlanMethodError:
+            continue  # said of its works
         items = {(item.id, item.position): item for item in task.usual()}
         for one in checked:
             if one.variant != name:
@@ -184,5 +204,8 @@ def keys_of(variants: Variants, checked: Sequence[CheckedWork]) -> dict[str | No
                     items.setdefault(
                         (item.name, item.position), replace(item, id=item.name, points=0.0)
                     )
-        found[name] = key_of_task(task, items.values())
+        for asked in (tuple(items.values()), task.usual()):
+            with suppress(Exception):  # what somebody answers unasked stops nobody's page
+                found[name] = key_of_task(task, asked)
+                break
     return found

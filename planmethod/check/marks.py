@@ -22,6 +22,9 @@ PROFILES = ("board", "cad", "coarse")
 POLICIES = ("construction", "department", "wider", "stricter")
 """Whose tolerance counts: the drawing's, the flat one, the wider of them, the stricter."""
 
+VALUES = ("always", "decided", "never")
+"""When a student's page shows the right values: always; once nothing on it is open; never."""
+
 MARK_LIMIT = 20
 _TINY = 1e-9
 """Sums of points are not exact: a share that close below a bound has reached it."""
@@ -62,6 +65,8 @@ class Settings(Struct, frozen=True):
         One of `PROFILES`.
     ruler_mm : float or None, mm
         Step to which lengths are read; None for that of the profile.
+    values : str
+        When a student's page shows the right values, one of `VALUES`.
     marks : tuple of (float, str)
         From which share of the points a mark is given, the best first, the last from 0.
     """
@@ -80,6 +85,7 @@ class Settings(Struct, frozen=True):
     policy: str = "construction"
     profile: str = "board"
     ruler_mm: float | None = None
+    values: str = "decided"
     marks: tuple[tuple[float, str], ...] = ((0.85, "5"), (0.7, "4"), (0.5, "3"), (0.0, "2"))
 
     def mark(self, share: float) -> str:
@@ -110,7 +116,7 @@ _NUMBERS: Mapping[str, tuple[str, float, float, str]] = MappingProxyType(
 )
 """Keys that take a number: what it is, its bounds, and what to do about one beyond them."""
 
-KEYS = (*_NUMBERS, "policy", "profile", "marks")
+KEYS = (*_NUMBERS, "policy", "profile", "values", "marks")
 
 
 def load_settings(path: Path) -> Settings:
@@ -136,6 +142,8 @@ def load_settings(path: Path) -> Settings:
             told[key] = fields.read_word(faults, key, value, POLICIES)
         elif key == "profile":
             told[key] = fields.read_word(faults, key, value, PROFILES)
+        elif key == "values":
+            told[key] = fields.read_word(faults, key, value, VALUES)
         else:
             told[key] = _read_marks(faults, value)
     if not faults and told.get("floor_share", DEFAULT.floor_share) > told.get("cap", DEFAULT.cap):

@@ -152,6 +152,8 @@ class Work(Struct, frozen=True):
         of other works.
     drawn : str
         Of a drawing that was measured: the profile of the hand that drew it; empty of other works.
+    failure : str
+        Why it cannot be read as a whole, one of several in a file; empty of what was read.
     """
 
     student: str
@@ -164,6 +166,7 @@ class Work(Struct, frozen=True):
     remarks: tuple[WrittenAnswer, ...] = ()
     fingerprint: str = ""
     drawn: str = ""
+    failure: str = ""
 
 
 class KeyEntry(Struct, frozen=True):
@@ -292,6 +295,11 @@ class Judged(Struct, frozen=True):
         """Cell or row of the answer."""
         return "" if self.written is None else self.written.where
 
+    @property
+    def is_open(self) -> bool:
+        """Whether it cannot be read and the instructor has not looked: no answer until then."""
+        return self.verdict is Verdict.UNREADABLE and not self.by_hand
+
 
 class Diagnosis(Struct, frozen=True):
     """Why answers are wrong (распознанная ошибка).
@@ -335,11 +343,29 @@ class PencilTrace(Struct, frozen=True):
     step: float
 
 
+class CheckFailure(Struct, frozen=True):
+    """Why a work is not marked (почему работа не оценена).
+
+    Attributes
+    ----------
+    said : str
+        A sentence for the instructor.
+    trace : str
+        Of a fault of the program: where it happened; empty where the problem, or the work, is at
+        fault.
+    """
+
+    said: str
+    trace: str = ""
+
+
 class CheckedWork(Struct, frozen=True):
     """One work, judged (проверенная работа).
 
     Attributes
     ----------
+    failure : CheckFailure or None
+        Why it is not marked; None of a work that was judged.
     strokes : mapping of (str, int) to PencilTrace
         By answer and position: the fingerprint of a hand.
     alike : tuple of str
@@ -363,3 +389,14 @@ class CheckedWork(Struct, frozen=True):
     by_hand: bool = False
     strokes: Mapping[tuple[str, int], PencilTrace] = field(default_factory=dict)
     alike: tuple[str, ...] = ()
+    failure: CheckFailure | None = None
+
+    @property
+    def open(self) -> tuple[Judged, ...]:
+        """Answers that the instructor has to look at; none where he set the points of the whole."""
+        return () if self.by_hand else tuple(one for one in self.answers if one.is_open)
+
+    @property
+    def is_provisional(self) -> bool:
+        """Whether the mark may still change: it is given, and an answer is open."""
+        return bool(self.of and self.open)

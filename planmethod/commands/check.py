@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -16,6 +16,7 @@ from planmethod.commands.output import bar, json_text
 from planmethod.commands.problems import (
     Todo,
     each,
+    fail,
     finish,
     guarded,
     language_of_file,
@@ -32,7 +33,8 @@ if TYPE_CHECKING:
     from planmethod.check.group import Variants
     from planmethod.check.key import Key
     from planmethod.check.marks import Settings
-    from planmethod.check.model import CheckedWork, Work
+    from planmethod.check.model import CheckedWork, CheckFailure, Work
+    from planmethod.check.pages.files import Table
     from planmethod.note.wording import Language
 
 POLICIES = ("construction", "department", "wider", "stricter")
@@ -148,33 +150,85 @@ def check(
     from planmethod.check.group import Variants
 
     variants = Variants(problem, settings, variant)
-    works, addresses = _read(variants, paths, columns, layers)
+    found = _read(variants, paths, columns, layers)
+    works = found.works
     checked = _checked(variants, works, jobs)
     from planmethod.check.pages.compared import unread_lines
+    from planmethod.check.pages.files import hidden_name
     from planmethod.check.pages.overrides import overridden, read_overrides
     from planmethod.note.wording import language
 
+    hidden = {hidden_name(work.student, salt): work.student for work in works} if anonymize else {}
     by_hand = overrides or (None if as_json else out / "overrides.csv")
     if by_hand is not None:
-        checked, unused = overridden(checked, read_overrides(by_hand))
+        told = read_overrides(by_hand)
+        if anonymize:
+            told = tuple(replace(one, student=hidden.get(one.student, one.student)) for one in told)
+            if overrides is None:
+                _refuse_names(by_hand, hidden)
+        checked, unused = overridden(checked, told)
         for where in unused:
             click.echo(say("Warning: {}: no such work or answer.", where), err=True)
     _warn_of_others(problem, works)
+    words, lost = language(spoken()), bool(found.unread)
     if as_json:
-        _print_json(checked)
+        _print_json(checked, salt if anonymize else None)
     else:
-        hidden = salt if anonymize else None
-        book = {} if anonymize else addresses or {}
-        also = book if gradebook or addresses is not None else None
-        _write_results(variants, paths, checked, out, hidden, language_of_file(problem, lang), also)
-    lost = False
-    for line, is_lost in unread_lines(checked, language(spoken())):
+        addresses = {} if anonymize else found.addresses or {}
+        lost |= _write_results(
+            variants,
+            paths,
+            checked,
+            out,
+            salt if anonymize else None,
+            language_of_file(problem, lang),
+            addresses if gradebook or found.addresses is not None else None,
+            found.unread,
+        )
+    for line, is_lost in unread_lines(checked, words):
         click.echo(line, err=True)
         lost |= is_lost
     for line in _unread_tables(works):
         click.echo(line, err=True)
         lost = True
+    _tell_provisional(checked, by_hand, settings)
     finish(ExitCode.FINDINGS if lost else ExitCode.DONE)
+
+
+def _refuse_names(path: Path, hidden: Mapping[str, str]) -> None:
+    """Refuse to hide names beside a file of the instructor's that has them."""
+    from planmethod.check.pages.folder import RunFolder
+    from planmethod.check.pages.overrides import students_of
+
+    named = students_of(path) - hidden.keys()
+    if named and not RunFolder(path.parent).owns(path.name):
+        raise UsageError(
+            "{0} names {1} student{1:||s}, and --anonymize would leave them there. Move it out of "
+            "the folder and give it with --overrides, or name another folder with --out.",
+            path,
+            len(named),
+        )
+
+
+def _tell_provisional(checked: list[CheckedWork], by_hand: Path | None, settings: Settings) -> None:
+    """Tell which marks may still change, and what decides."""
+    from planmethod.check.pages.files import marks_of
+
+    for one, mark in zip(checked, marks_of(checked, settings), strict=True):
+        if one.is_provisional:
+            click.echo(
+                say(
+                    "Provisional: {0}: mark {1}, {2:g} of {3:g} points; {4} answer{4:||s} cannot "
+                    "be read and count as none until {5} has their points.",
+                    one.work.student,
+                    mark,
+                    one.points,
+                    one.of,
+                    len(one.open),
+                    by_hand or "overrides.csv",
+                ),
+                err=True,
+            )
 
 
 def _unread_tables(works: list[Work]) -> Iterator[str]:
@@ -204,37 +258,77 @@ def _settings(file: Path | None, policy: str | None, profile: str | None) -> Set
     return replace(settings, policy=policy or settings.policy, profile=profile or settings.profile)
 
 
+class WorksRead(Struct, frozen=True):
+    """Works of files (прочитанные работы).
+
+    Attributes
+    ----------
+    works : list of Work
+    addresses : dict of str to str or None
+        How the system knows the students; None where there was no export.
+    unread : dict of Path to CheckFailure
+        Files that cannot be read, and why.
+    """
+
+    works: list[Work]
+    addresses: dict[str, str] | None
+    unread: dict[Path, CheckFailure]
+
+
 def _read(
     variants: Variants, paths: list[Path], columns: tuple[str, ...], layers: tuple[str, ...]
-) -> tuple[list[Work], dict[str, str] | None]:
-    """Read the works of files; of exports also how the system knows the students, else None."""
-    from planmethod.check.exchange.quiz import gaps_of
-    from planmethod.check.exchange.responses import is_export, read_columns, read_responses
-    from planmethod.check.measured.drawing import is_drawing
+) -> WorksRead:
+    """Read the works of files; one that cannot be read is reported and the others go on."""
+    from planmethod.check.checking import failure_of
+    from planmethod.check.exchange.responses import read_columns
     from planmethod.check.measured.layers import read_layers
-    from planmethod.check.works import read_works
+    from planmethod.check.model import CheckFailure
+    from planmethod.check.works import WorksError
 
     told, drawn = read_columns(columns), read_layers(layers)
     works: list[Work] = []
     addresses: dict[str, str] | None = None
+    unread: dict[Path, CheckFailure] = {}
+    code = ExitCode.DONE
     for path in paths:
-        if is_drawing(path):
-            from planmethod.check.measured.plan import read_drawing  # its readers of files cost
+        try:
+            found, known = _read_file(variants, path, told, drawn)
+        except WorksError as error:
+            unread[path], code = CheckFailure(str(error)), error.exit_code
+            fail(error)
+        except (PlanMethodError, click.ClickException, MemoryError):
+            raise
+        except Exception as error:  # a fault of ours: the other files are read
+            unread[path], code = failure_of(error), ExitCode.USAGE
+            click.echo(say("Error: {}: {}", path, unread[path].said), err=True)
+        else:
+            works += found
+            if known is not None:
+                addresses = {**(addresses or {}), **known}
+    if not works:
+        finish(code)
+    return WorksRead(works, addresses, unread)
 
-            works.append(read_drawing(path, drawn, variants.task(variants.default)))
-            continue
-        if not told and not is_export(path):
-            works += read_works(path)
-            continue
-        found = read_responses(
-            path,
-            told,
-            variants.names,
-            lambda name: gaps_of(variants.task(name or variants.default)),
-        )
-        works += found.works
-        addresses = {**(addresses or {}), **found.addresses}
-    return works, addresses
+
+def _read_file(
+    variants: Variants, path: Path, told: dict[str, str], drawn: dict[str, str]
+) -> tuple[list[Work], dict[str, str] | None]:
+    """Read the works of a file; of an export also how the system knows the students, else None."""
+    from planmethod.check.exchange.quiz import gaps_of
+    from planmethod.check.exchange.responses import is_export, read_responses
+    from planmethod.check.measured.drawing import is_drawing
+    from planmethod.check.works import read_works
+
+    if is_drawing(path):
+        from planmethod.check.measured.plan import read_drawing  # its readers of files cost
+
+        return [read_drawing(path, drawn, variants.task(variants.default))], None
+    if not told and not is_export(path):
+        return read_works(path), None
+    found = read_responses(
+        path, told, variants.names, lambda name: gaps_of(variants.task(name or variants.default))
+    )
+    return found.works, found.addresses
 
 
 def _checked(variants: Variants, works: list[Work], jobs: int) -> list[CheckedWork]:
@@ -250,6 +344,10 @@ def _checked(variants: Variants, works: list[Work], jobs: int) -> list[CheckedWo
         for part in parts:
             checked += part
             done(len(part))
+    if all(one.failure is not None and not one.failure.trace for one in checked):
+        for one in checked:
+            if not one.work.failure:
+                variants.task(one.variant)  # of none is there a mark: it says why, and ends the run
     return compared(checked)
 
 
@@ -266,14 +364,21 @@ def _in_processes(variants: Variants, works: list[Work], jobs: int) -> Iterator[
         settings=variants.settings,
     )
     for part, outcome in zip(parts, in_processes(act, parts, jobs), strict=True):
-        if outcome is None:
-            raise PlanMethodError(
-                "The process at work on {} to {} was killed, twice; perhaps it needs more memory "
-                "than there is. Check fewer works at once.",
-                part[0].student or part[0].where,
-                part[-1].student or part[-1].where,
-            )
-        yield outcome.result() or []
+        if outcome is not None:
+            yield outcome.result() or []
+            continue
+        alone = [[work] for work in part]  # one of them is what kills a process
+        for work, own in zip(part, in_processes(act, alone, jobs), strict=True):
+            yield [_killed(work)] if own is None else own.result() or []
+
+
+def _killed(work: Work) -> CheckedWork:
+    """Return a work of which every process was killed."""
+    from planmethod.check.checking import unmarked
+    from planmethod.check.model import CheckFailure
+
+    said = say("the process at work on it was killed, twice; perhaps it needs more memory")
+    return unmarked(work, work.variant, CheckFailure(str(said)))
 
 
 def check_part(
@@ -305,10 +410,12 @@ def _warn_of_others(problem: Path, works: list[Work]) -> None:
             )
 
 
-def _print_json(checked: list[CheckedWork]) -> None:
+def _print_json(checked: list[CheckedWork], salt: str | None) -> None:
+    from planmethod.check.pages.files import anonymous
     from planmethod.check.pages.listing import record
 
-    click.echo(json_text([record(one) for one in checked]))
+    shown = checked if salt is None else anonymous(checked, salt)
+    click.echo(json_text([record(one) for one in shown]))
 
 
 def _write_results(
@@ -319,14 +426,27 @@ def _write_results(
     salt: str | None,
     lang: str,
     addresses: dict[str, str] | None,
-) -> None:
-    """Write the files of a group; those of a gradebook where there are addresses, even none."""
+    unread: dict[Path, CheckFailure],
+) -> bool:
+    """Write the files of a group; those of a gradebook where there are addresses, even none.
+
+    Returns whether something of it failed.
+    """
+    from planmethod.check.exchange.gradebook import feedback_zip, gradebook_csv
     from planmethod.check.group import keys_of
     from planmethod.check.pages.files import anonymous, write_all
+    from planmethod.note.wording import language
 
     if salt is not None:
         checked = anonymous(checked, salt)
-    keys, inputs = keys_of(variants, checked), [variants.path, *paths]
+    keys, inputs, words = keys_of(variants, checked), [variants.path, *paths], language(lang)
+    tables: dict[str, Table] = {}
+    if addresses is not None:
+        known = addresses
+        tables = {
+            "gradebook.csv": lambda marks, pages: gradebook_csv(checked, marks, known, words),
+            "feedback.zip": lambda marks, pages: feedback_zip(checked, pages),
+        }
     with bar(len(checked), long=len(checked) >= MANY_WORKS) as done:
         written = write_all(
             out,
@@ -336,36 +456,18 @@ def _write_results(
             inputs,
             lang,
             hidden=salt is not None,
+            unread=unread,
+            tables=tables,
             done=done,
         )
-    if addresses is not None:
-        written += _write_gradebook(variants, checked, out, written, addresses, lang)
-    for path in written:
+    for path in written.paths:
         click.echo(str(path))
-
-
-def _write_gradebook(
-    variants: Variants,
-    checked: list[CheckedWork],
-    out: Path,
-    written: list[Path],
-    addresses: dict[str, str],
-    lang: str,
-) -> list[Path]:
-    from planmethod.check.exchange.gradebook import feedback_zip, gradebook_csv
-    from planmethod.note.wording import language
-    from planmethod.render.backends.output import write
-
-    mark = variants.settings.mark
-    marks = [mark(work.points / work.of) if work.of else "" for work in checked]
-    pages = [path for path in written if path.parent.name == "pages"]
-    files = {
-        "gradebook.csv": gradebook_csv(checked, marks, addresses, language(lang)),
-        "feedback.zip": feedback_zip(checked, pages),
-    }
-    for name, data in files.items():
-        write(out / name, data)
-    return [out / name for name in files]
+    for student, failure in written.failures:
+        click.echo(say("No page: {}: {}. See run.json.", student, failure.said), err=True)
+    for path in written.kept:
+        told = "Warning: {} was changed after an earlier run wrote it, and stays."
+        click.echo(say(told, path), err=True)
+    return bool(written.failures)
 
 
 class KeyFiles(Struct, frozen=True):

@@ -353,6 +353,7 @@ def verdicts(asked: Asked, tell: Tell) -> Found:
 
 def checked(asked: Asked, tell: Tell) -> Found:
     """Check the works that were dropped, with the points that were set by hand."""
+    from planmethod.check.pages.listing import safe
     from planmethod.check.pages.overrides import COLUMNS
 
     path, folder = _file(asked), Path(asked["folder"])
@@ -369,7 +370,13 @@ def checked(asked: Asked, tell: Tell) -> Found:
         "files": _listed(out),
         "marks": _table(out / "gradebook.csv"),
         "answers": _table(out / "results.csv"),
+        "pages": {safe(student): page for student, page in _pages(out / "run.json").items()},
     }
+
+
+def _pages(record: Path) -> dict[str, str]:
+    """Return the page of each student by the record of a run: a name does not tell its file."""
+    return json.loads(record.read_bytes()).get("pages", {}) if record.exists() else {}
 
 
 def _csv(rows: Any) -> bytes:

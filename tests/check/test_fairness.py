@@ -191,7 +191,7 @@ def unasked(told: list[tuple[str, str, dict[str, float]]]) -> list[Work]:
 
 def told_of(checked: CheckedWork) -> tuple[object, ...]:
     """Return what is told of a work: of what is left of its strokes the last bit may differ."""
-    return checked.answers, checked.diagnosis, checked.points, checked.of
+    return checked.answers, checked.diagnosis, checked.points, checked.of, checked.failure
 
 
 def test_answers_that_nobody_asked_for_stop_nobody() -> None:
@@ -207,6 +207,7 @@ def test_answers_that_nobody_asked_for_stop_nobody() -> None:
     path = ROOT / "problems/levers/task12-variants.toml"
     found = list(check_works(Variants(path), works))
     (alone,) = check_works(Variants(path), works[1:2])
+    assert not any(one.failure for one in found)
     assert found[1].diagnosis == alone.diagnosis and alone.diagnosis[0].codes == ("P2",)
 
 
@@ -228,6 +229,7 @@ def test_another_variant_is_named_whatever_else_is_answered() -> None:
     copied = replace(work_of(theirs, exact(theirs)), variant="А")
     copied = replace(copied, answers=(*copied.answers, *one.answers))
     told = list(check_works(group, [one, copied]))
+    assert not any(one.failure for one in told)
     assert [d.codes for d in told[1].diagnosis] == [("P2",)]
 
 
@@ -268,10 +270,11 @@ def test_names_that_pages_print_are_understood(name: str, value: float) -> None:
     assert found.key is not None and abs(found.key.exact - value) < 0.01
 
 
-def test_a_unit_of_another_quantity_is_said_and_costs_nothing() -> None:
+def test_a_unit_of_another_quantity_is_said_and_is_open() -> None:
     written = WrittenAnswer(id="v_B", value=3.2, unit="м/с²", step=0.1)
     found = check(task_of("linkages/ex3"), Work("s", (written,))).answers[0]
-    assert found.verdict is Verdict.UNREADABLE and found.of == 0.0
+    assert (found.verdict, found.points, found.of) == (Verdict.UNREADABLE, 0.0, 1.0)
+    assert found.is_open
     assert found.written is not None and found.written.unit == "м/с²"
 
 

@@ -10,7 +10,15 @@ from pathlib import Path
 import pytest
 from worked import ROOT
 
-from planmethod.check.marks import DEFAULT, KEYS, POLICIES, PROFILES, Settings, SettingsError
+from planmethod.check.marks import (
+    DEFAULT,
+    KEYS,
+    POLICIES,
+    PROFILES,
+    VALUES,
+    Settings,
+    SettingsError,
+)
 from planmethod.check.marks import load_settings as load
 from planmethod.construct import drafting
 from planmethod.errors import ExitCode
@@ -54,6 +62,7 @@ def test_every_key_is_a_field_read_and_documented(tmp_path: Path) -> None:
         policy="wider",
         profile="coarse",
         ruler_mm=1.0,
+        values="never",
         marks=((0.6, "зачтено"), (0.0, "не зачтено")),
     )
     assert all(getattr(told, key) != getattr(DEFAULT, key) for key in KEYS)
@@ -67,7 +76,7 @@ def test_every_key_is_a_field_read_and_documented(tmp_path: Path) -> None:
 
 def test_profiles_and_policies_are_those_there_are() -> None:
     assert set(PROFILES) == set(drafting.PROFILES)
-    assert set(re.findall(r"`\"(\w+)\"`", DOCS)) == {*PROFILES, *POLICIES}
+    assert set(re.findall(r"`\"(\w+)\"`", DOCS)) == {*PROFILES, *POLICIES, *VALUES}
 
 
 @pytest.mark.parametrize(

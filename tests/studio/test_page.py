@@ -177,6 +177,23 @@ def test_an_instructor_comes_from_a_table_to_marks(page: Page, address: str) -> 
     assert page.said == []
 
 
+def test_the_page_opens_of_a_student_with_points_in_the_name(
+    page: Page, address: str, tmp_path: Path
+) -> None:
+    begin(page, address)
+    take(page, "linkages-ex3")
+    click(page, "#to-group")
+    group = tmp_path / "group.csv"
+    group.write_text("student;what;value\nПетров П.П.;v B;3,2\nab;v B;3,2\n", "utf-8")
+    works(page, group)
+    click(page, "#check")
+    page.wait("document.querySelector('#page iframe')")
+    assert page.ask("document.querySelector('#who').value") == "Петров П.П."
+    with urllib.request.urlopen(page.ask("document.querySelector('#page .own a').href")) as answer:
+        assert "Петров П.П." in answer.read().decode()
+    assert page.said == []
+
+
 def test_variants_and_questions_are_made_and_downloaded_by_clicks(
     page: Page, address: str, tmp_path: Path
 ) -> None:

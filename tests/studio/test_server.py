@@ -6,6 +6,7 @@ import json
 import re
 import tomllib
 from collections.abc import Iterator
+from html import escape
 from pathlib import Path
 from typing import Any
 
@@ -292,6 +293,30 @@ def test_marks_are_those_of_the_command_and_change_by_hand(
     assert rows["Петров", "v_B"][points] == "0.5" != before["Петров", "v_B"][points]
     assert rows["Иванов", "v_B"] == before["Иванов", "v_B"]
     assert client.delete("/api/works/all").json() == []
+
+
+def test_a_file_that_cannot_be_read_stops_no_other_and_names_have_their_pages(
+    client: TestClient,
+) -> None:
+    """Before: no marks at all; and no page of who has a point in his name."""
+    names = ["Петров П.П.", "=1+1", "a-b", "a b"]
+    rows = "".join(f"{name};v B;3,2;м/с\n" for name in names)
+    works = {
+        "good.csv": f"student;what;value;unit\n{rows}".encode(),
+        "cut.json": b'{"student": "b", "answers": [',
+        "nul.csv": b"student;what;value\nb;v B;3\0\n",
+    }
+    for name, data in works.items():
+        client.put(f"/api/works/{name}", content=data)
+    found = do(client, "checked", EX3, by_hand=[])
+    client.delete("/api/works/all")
+    assert found["code"] == 1
+    assert "cut.json" in found["errors"] and "nul.csv" in found["errors"]
+    students = [row[0] for row in found["answers"][1:]]
+    assert students and {*students} == {*found["pages"]}
+    assert len({*found["pages"].values()}) == len(found["pages"]) == 4
+    for student, page in found["pages"].items():
+        assert escape(student.removeprefix("'")) in client.get(found["files_at"] + page).text
 
 
 def test_variants_are_made_with_questions(client: TestClient) -> None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import csv
 import io
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from zipfile import ZIP_DEFLATED, ZipFile, ZipInfo
 
@@ -26,7 +26,7 @@ def gradebook_csv(
     Parameters
     ----------
     marks : sequence of str
-        Of the works, one each.
+        Of the works, one each, as they are told.
     addresses : mapping of str to str
         E-mail by student: what a gradebook knows him by; empty for none.
     """
@@ -46,10 +46,20 @@ def gradebook_csv(
             "of": f"{work.of:.10g}",
             "grade": f"{100.0 * work.points / work.of:.2f}" if work.of else "",
             "mark": mark,
-            "feedback": "; ".join(filter(None, (told_mistakes(work, words.check), work.remark))),
+            "feedback": "; ".join(filter(None, _feedback(work, words))),
         }
         writer.writerow(safe(cells[name]) for name in heads)
     return text.getvalue().encode()
+
+
+def _feedback(work: CheckedWork, words: Language) -> Iterator[str]:
+    say: Words = words.check["results"]
+    if work.failure is not None:
+        yield say.failure.format(why=work.failure.said)
+    if work.is_provisional:
+        yield say.open.format(count=len(work.open))
+    yield told_mistakes(work, words.check)
+    yield work.remark
 
 
 def feedback_zip(works: Sequence[CheckedWork], pages: Sequence[Path]) -> bytes:

@@ -61,6 +61,9 @@ def unread_lines(checked: Sequence[CheckedWork], words: Language) -> Iterator[tu
     """Yield what could not be read, and whether an answer is lost by it."""
     speech = Speech(words)
     for one in checked:
+        if one.failure is not None:
+            more = say(" Its trace is in run.json.") if one.failure.trace else ""
+            yield say("Not marked: {}: {}.{}", one.work.student, one.failure.said, more), True
         for judged in one.answers:
             if judged.verdict is not Verdict.UNREADABLE:
                 continue

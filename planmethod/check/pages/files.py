@@ -3,27 +3,30 @@
 from __future__ import annotations
 
 import hashlib
-import json
 import re
 import unicodedata
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
-from typing import Any
+from types import MappingProxyType
+from typing import Any, TypeAlias
 
+from msgspec import Struct
 from msgspec.structs import asdict, replace
 
+from planmethod.check.checking import failure_of
 from planmethod.check.key import Key
 from planmethod.check.marks import Settings
-from planmethod.check.model import CheckedWork, Judged, WrittenAnswer
+from planmethod.check.model import CheckedWork, CheckFailure, Judged, WrittenAnswer
+from planmethod.check.pages.folder import OVERRIDES, PAGES, RECORD, RunFolder, digest_of
 from planmethod.check.pages.grouppage import group_html
 from planmethod.check.pages.listing import csv_bytes
-from planmethod.check.pages.overrides import HEAD
+from planmethod.check.pages.overrides import overrides_file
 from planmethod.check.pages.results import results_xlsx
 from planmethod.check.pages.statistics import statistics_of
 from planmethod.check.pages.student import student_html, student_page, student_pdf
 from planmethod.errors import OutputError
-from planmethod.note.wording import language
+from planmethod.note.wording import Language, Words, language
 from planmethod.problem.head import KindProblem
 from planmethod.problem.model import Problem
 from planmethod.render.backends.output import write
@@ -33,36 +36,48 @@ PACKAGES = ("planmethod", "numpy")
 
 
 def run_record(
-    settings: Settings, inputs: Sequence[Path], lang: str, count: int, *, hidden: bool = False
+    settings: Settings,
+    inputs: Sequence[Path],
+    lang: str,
+    count: int,
+    *,
+    hidden: bool = False,
+    unread: Mapping[Path, CheckFailure] = MappingProxyType({}),
 ) -> dict[str, Any]:
     """Return what a run was made of: versions, settings, the digests of its files.
 
     Where names are ``hidden`` the files of works, those after the first, are called by number.
+
+    Parameters
+    ----------
+    unread : mapping of Path to CheckFailure
+        Those of the files that cannot be read, and why.
 
     Raises
     ------
     OutputError
         When an input is gone.
     """
+    told, missed = [], []
+    for number, path in enumerate(inputs):
+        name = f"works-{number}{path.suffix}" if hidden and number else path.name
+        if path not in unread:
+            told.append({"name": name, "sha256": _digest(path)})
+            continue
+        why, trace = (
+            text.replace(str(path), name).replace(path.name, name)
+            for text in (unread[path].said, unread[path].trace)
+        )
+        missed.append({"name": name, "why": why, "trace": trace})
     return {
         "schema": 1,
         "versions": {name: _version(name) for name in PACKAGES},
         "language": lang,
         "settings": asdict(settings),
-        "inputs": [
-            {
-                "name": f"works-{n}{path.suffix}" if hidden and n else path.name,
-                "sha256": _digest(path),
-            }
-            for n, path in enumerate(inputs)
-        ],
+        "inputs": told,
+        "unread": missed,
         "works": count,
     }
-
-
-def run_json(record: Mapping[str, Any]) -> bytes:
-    """Return the record of a run as a file."""
-    return (json.dumps(record, ensure_ascii=False, allow_nan=False, indent=1) + "\n").encode()
 
 
 def settings_rows(record: Mapping[str, Any]) -> dict[str, str | float]:
@@ -134,9 +149,20 @@ def _anonymous(checked: CheckedWork, salt: str) -> CheckedWork:
         where="",
         answers=tuple(map(rewritten, work.answers)),
         remarks=tuple(map(rewritten, work.remarks)),
+        failure=bare(work.failure),
     )
     alike = tuple(hidden_name(name, salt) for name in checked.alike)
-    return replace(checked, work=told, answers=answers, remark=bare(checked.remark), alike=alike)
+    failure = checked.failure
+    if failure is not None:
+        failure = CheckFailure(bare(failure.said), bare(failure.trace))
+    return replace(
+        checked,
+        work=told,
+        answers=answers,
+        remark=bare(checked.remark),
+        alike=alike,
+        failure=failure,
+    )
 
 
 LONGEST = 40
@@ -161,6 +187,49 @@ def file_names(students: Sequence[str]) -> list[str]:
     return names
 
 
+def marks_of(works: Sequence[CheckedWork], settings: Settings) -> list[str]:
+    """Return the marks of works; empty of one that is not marked."""
+    return [settings.mark(work.points / work.of) if work.of else "" for work in works]
+
+
+def told_marks(works: Sequence[CheckedWork], marks: Sequence[str], words: Language) -> list[str]:
+    """Return marks as they are told: one that may still change says so, none says so, too."""
+    say: Words = words.check["results"]
+    return [
+        say.provisional.format(mark=mark)
+        if work.is_provisional
+        else say.unmarked
+        if work.failure is not None
+        else mark
+        for work, mark in zip(works, marks, strict=True)
+    ]
+
+
+class GroupFiles(Struct, frozen=True):
+    """What came of writing a group (файлы группы).
+
+    Attributes
+    ----------
+    paths : tuple of Path
+        In the order in which they were written.
+    pages : dict of str to Path
+        The page of each student who has one, HTML.
+    failures : tuple of (str, CheckFailure)
+        Students whose page could not be made, and why.
+    kept : tuple of Path
+        Files of an earlier run that somebody has changed since: they stay.
+    """
+
+    paths: tuple[Path, ...]
+    pages: dict[str, Path]
+    failures: tuple[tuple[str, CheckFailure], ...]
+    kept: tuple[Path, ...]
+
+
+Table: TypeAlias = Callable[[Sequence[str], Sequence[Path]], bytes]
+"""Makes a further file of the marks as they are told, and of the pages."""
+
+
 def write_all(
     out: Path,
     checked: Sequence[CheckedWork],
@@ -170,9 +239,14 @@ def write_all(
     lang: str,
     *,
     hidden: bool = False,
+    unread: Mapping[Path, CheckFailure] = MappingProxyType({}),
+    tables: Mapping[str, Table] = MappingProxyType({}),
     done: Callable[[int], None] = lambda works: None,
-) -> list[Path]:
+) -> GroupFiles:
     """Write the tables of a group and a page for each student.
+
+    What an earlier run wrote into the folder, and this one does not, is taken away. A page that
+    cannot be made stops no other.
 
     Parameters
     ----------
@@ -186,66 +260,95 @@ def write_all(
         Files that the marks came from: the problem, then the works.
     hidden : bool
         The names of the files of works are names of students.
+    unread : mapping of Path to CheckFailure
+        Those of the inputs that cannot be read, and why.
+    tables : mapping of str to Table
+        Further files by their names.
     done : callable
         Is told of every work whose pages are written.
-
-    Returns
-    -------
-    list of Path
-        In the order in which they were written.
 
     Raises
     ------
     OutputError
     """
-    run = run_record(settings, inputs, lang, len(checked), hidden=hidden)
-    marks = [settings.mark(work.points / work.of) if work.of else "" for work in checked]
-    words = language(lang)
+    run = run_record(settings, inputs, lang, len(checked), hidden=hidden, unread=unread)
+    words, marks = language(lang), marks_of(checked, settings)
+    shown = told_marks(checked, marks, words)
     group = statistics_of(checked, marks, [mark for _, mark in settings.marks])
     told = settings_rows(run)
     files = {
-        "results.xlsx": results_xlsx(checked, words, marks=marks, settings=told, group=group),
+        "results.xlsx": results_xlsx(checked, words, marks=shown, settings=told, group=group),
         "results.csv": csv_bytes(checked),
-        "run.json": run_json(run),
     }
     if group is not None:
         title = next((key.problem.title for key in keys.values()), "")
         files["group.html"] = group_html(group, checked, title, words).encode()
-    if not (out / "overrides.csv").exists():
-        files["overrides.csv"] = HEAD
-    written = []
-    for name, data in files.items():
-        write(out / name, data)
-        written.append(out / name)
+    folder, pages = RunFolder(out), StudentPages(keys, settings, words)
+    by_hand = overrides_file(out / OVERRIDES, checked, own=folder.owns(OVERRIDES))
     names = file_names([work.work.student for work in checked])
-    for number, data_of in enumerate(_pages(checked, keys, marks, lang)):
-        for ending, data in data_of.items():
-            path = out / "pages" / f"{names[number]}.{ending}"
-            write(path, data)
-            written.append(path)
+    endings = [f"{PAGES}/{name}.{ending}" for name in names for ending in ("html", "pdf")]
+    folder.begin([*files, *endings, *tables])
+    paths = [folder.write(name, data) for name, data in files.items()]
+    if by_hand is not None:
+        data, is_own = by_hand
+        write(out / OVERRIDES, data)
+        if is_own:
+            folder.files[OVERRIDES] = digest_of(data)
+        paths.append(out / OVERRIDES)
+    made: dict[str, Path] = {}
+    failures: list[tuple[str, CheckFailure]] = []
+    for name, work, mark in zip(names, checked, shown, strict=True):
+        try:
+            written = pages.of(work, mark)
+        except MemoryError:
+            raise
+        except Exception as error:  # a fault of ours: the others get theirs
+            failures.append((work.work.student, failure_of(error)))
+            written = {}
+        for ending, data in written.items():
+            paths.append(folder.write(f"{PAGES}/{name}.{ending}", data))
+            if ending == "html":
+                made.setdefault(work.work.student, paths[-1])
         done(1)
-    return written
+    told_pages = [path for path in paths if path.parent.name == PAGES]
+    paths += [folder.write(name, table(shown, told_pages)) for name, table in tables.items()]
+    failed = [(one.work.student, one.failure) for one in checked if one.failure is not None]
+    run["failures"] = [
+        {"student": student, "why": failure.said, "trace": failure.trace}
+        for student, failure in (*failed, *failures)
+    ]
+    run["pages"] = {student: path.relative_to(out).as_posix() for student, path in made.items()}
+    kept = folder.finish(run)
+    return GroupFiles((*paths, out / RECORD), made, tuple(failures), tuple(kept))
 
 
-def _pages(
-    checked: Sequence[CheckedWork], keys: Mapping[str | None, Key], marks: Sequence[str], lang: str
-) -> Iterator[dict[str, bytes]]:
-    words = language(lang)
-    solutions: dict[str | None, Solution | KindProblem] = {}
-    for work, mark in zip(checked, marks, strict=True):
-        key = keys.get(work.variant)
-        if key is None:  # of a variant that the problem has not: the tables tell it
-            yield {}
-            continue
-        if work.variant not in solutions:
+class StudentPages:
+    """Pages of students, each by the key of its variant (листы студентов)."""
+
+    def __init__(self, keys: Mapping[str | None, Key], settings: Settings, words: Language) -> None:
+        self.keys, self.values, self.words = keys, settings.values, words
+        self._solved: dict[str | None, Solution | KindProblem] = {}
+
+    def of(self, work: CheckedWork, mark: str) -> dict[str, bytes]:
+        """Return the page of a work by its endings; none of what is not marked."""
+        key = self.keys.get(work.variant)
+        if key is None or work.failure is not None:  # the tables tell it
+            return {}
+        if work.variant not in self._solved:
             problem = key.problem
             found = Solution(problem) if isinstance(problem, Problem) else problem
-            solutions[work.variant] = found
-        solved = solutions[work.variant]
+            self._solved[work.variant] = found
+        solved = self._solved[work.variant]
         page = student_page(
-            work, solved, words, scales=key.scales, mark=mark, hidden=tuple(key.hidden)
+            work,
+            solved,
+            self.words,
+            scales=key.scales,
+            mark=mark,
+            hidden=tuple(key.hidden),
+            values=self.values == "always" or (self.values == "decided" and not work.open),
         )
-        yield {
-            "html": student_html(page, solved, words).encode(),
-            "pdf": student_pdf(page, solved, words),
+        return {
+            "html": student_html(page, solved, self.words).encode(),
+            "pdf": student_pdf(page, solved, self.words),
         }

@@ -57,6 +57,8 @@ def _nodes(
     yield Chapter(say.marks)
     counted = [(escape(mark) or "—", float(count), str(count)) for mark, count in found.marks]
     yield Figure(DrawingView(bars(counted)))
+    if found.provisional:
+        yield Note(say.provisional.format(count=found.provisional))
     yield Chapter(say.questions)
     shares = [
         (words.say.symbol(q.symbol), q.share, percent(q.share, words)) for q in found.questions

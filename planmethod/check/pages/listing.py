@@ -33,6 +33,10 @@ def record(checked: CheckedWork) -> dict[str, Any]:
         "alike": list(checked.alike),
         "remark": checked.remark or None,
         "by_hand": checked.by_hand,
+        "provisional": checked.is_provisional,
+        "failure": None
+        if checked.failure is None
+        else {"why": checked.failure.said, "trace": checked.failure.trace or None},
         "unreadable": [
             {"where": written.where, "what": written.unreadable} for written in checked.work.remarks
         ],

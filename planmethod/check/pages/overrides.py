@@ -15,12 +15,16 @@ from msgspec import Struct
 from msgspec.structs import replace
 
 from planmethod.check.model import CheckedWork, Judged
+from planmethod.check.pages.listing import safe
 from planmethod.errors import ExitCode, PlanMethodError
 from planmethod.problem.formula import read_decimal
 from planmethod.problem.source import table_text
 
 COLUMNS = ("student", "id", "points", "remark")
-HEAD = (";".join(COLUMNS) + "\r\n").encode("utf-8-sig")
+TOLD = ("of", "written", "where")
+"""Further columns of the file that a run writes: they tell of an open answer, and are not read."""
+
+HEAD = (*COLUMNS, *TOLD)
 MOST_BYTES = 1_000_000
 MOST_ROWS = 10_000
 T = TypeVar("T", CheckedWork, Judged)
@@ -62,11 +66,102 @@ def read_overrides(path: Path) -> tuple[Override, ...]:
     OverridesError
         Naming the file and the row, and what to do.
     """
+    return tuple(_overrides(_rows(path)[0], path))
+
+
+def students_of(path: Path) -> frozenset[str]:
+    """Return the students that a file of overrides names.
+
+    Raises
+    ------
+    OverridesError
+    """
+    rows, _ = _rows(path)
+    at = [cell.strip().lower() for cell in rows[0]].index("student") if rows else 0
+    cells = (row[at].strip() for row in rows[1:] if at < len(row))
+    return frozenset(map(_bare, filter(None, cells)))
+
+
+def overrides_file(
+    path: Path, works: Sequence[CheckedWork], *, own: bool
+) -> tuple[bytes, bool] | None:
+    """Return a file of overrides with a row for every open answer, to be filled in.
+
+    Returns
+    -------
+    (bytes, bool) or None
+        The file, and whether it is a run's own: nothing that the instructor wrote is in it. None
+        where it stays as it is.
+
+    Raises
+    ------
+    OverridesError
+    """
+    is_own = own or not path.exists()
+    rows, mark = ([list(HEAD)], ";") if is_own else _rows(path)
+    head = [cell.strip().lower() for cell in rows[0]] if rows else []
+    if not {"student", "id", "points"} <= set(head):
+        return None  # a file without answers of its own
+    number = {name: at for at, name in enumerate(head)}
+
+    def cell(row: Sequence[str], name: str) -> str:
+        return _bare(row[number[name]].strip()) if number[name] < len(row) else ""
+
+    there = {(cell(row, "student"), cell(row, "id")) for row in rows[1:]}
+    found = _lines(rows, mark)
+    size, room = len(found.encode()), MOST_ROWS - len(rows)
+    more: list[str] = []
+    for student, judged in _open(works):
+        if (student, judged.id) in there:
+            continue
+        written = judged.written
+        told = {
+            "student": safe(student),
+            "id": safe(judged.id),
+            "of": f"{judged.of:g}",
+            "written": "" if written is None else safe(written.raw or written.fault),
+            "where": safe(judged.where),
+        }
+        line = _lines([[told.get(name, "") for name in head]], mark)
+        size += len(line.encode())
+        if size > MOST_BYTES or len(more) >= room:
+            break  # what a run reads again: the others come when these are decided
+        more.append(line)
+    if not more and not is_own:
+        return None
+    return "".join([found, *more]).encode("utf-8-sig"), is_own
+
+
+def _lines(rows: Sequence[Sequence[str]], mark: str) -> str:
+    text = io.StringIO(newline="")
+    csv.writer(text, delimiter=mark, lineterminator="\r\n").writerows(rows)
+    return text.getvalue()
+
+
+def _open(works: Sequence[CheckedWork]) -> Iterator[tuple[str, Judged]]:
+    """Yield the open answers of works that are marked, each once."""
+    for work in works:
+        if work.is_provisional:
+            once: dict[str, Judged] = {}
+            for judged in work.open:
+                if judged.of > once.setdefault(judged.id, judged).of:
+                    once[judged.id] = judged
+            for judged in once.values():
+                yield work.work.student, judged
+
+
+def _rows(path: Path) -> tuple[list[list[str]], str]:
+    """Return the rows of a file of overrides and what separates its columns.
+
+    Raises
+    ------
+    OverridesError
+    """
     try:
         with path.open("rb") as file:
             data = file.read(MOST_BYTES + 1)
     except FileNotFoundError:
-        return ()
+        return [], ";"
     except OSError as error:
         raise OverridesError("Cannot read {}: {}.", path, error.strerror) from error
     if len(data) > MOST_BYTES:
@@ -80,7 +175,7 @@ def read_overrides(path: Path) -> tuple[Override, ...]:
         rows = list(csv.reader(io.StringIO(text.replace("\0", ""), newline=""), delimiter=mark))
     except csv.Error as error:
         raise OverridesError("{} is no table: {}. Save it as CSV again.", path, error) from error
-    return tuple(_overrides(rows, path))
+    return rows, mark
 
 
 def _overrides(rows: Sequence[Sequence[str]], path: Path) -> Iterator[Override]:
@@ -128,7 +223,7 @@ def overridden(
     changed = []
     for checked in works:
         own = [o for o in overrides if o.student == checked.work.student]
-        answers = tuple(_answer(judged, own, used) for judged in checked.answers)
+        answers = _answers(checked.answers, own, used)
         gained = sum(j.points for j in answers) - sum(j.points for j in checked.answers)
         now = replace(checked, answers=answers, points=checked.points + gained)
         for override in own:
@@ -139,12 +234,19 @@ def overridden(
     return changed, tuple(o.where for o in overrides if o.where not in used)
 
 
-def _answer(judged: Judged, own: Sequence[Override], used: set[str]) -> Judged:
-    for override in own:
-        if override.id == judged.id and override.id:
+def _answers(
+    answers: Sequence[Judged], own: Sequence[Override], used: set[str]
+) -> tuple[Judged, ...]:
+    """Return answers with what was set by hand; one that stands twice is decided once."""
+    found = list(answers)
+    for override in (override for override in own if override.id):
+        same = [n for n, judged in enumerate(found) if judged.id == override.id]
+        counts = [n for n in same if found[n].of] or same[:1]
+        for n in same:
+            decided = override if n in counts else replace(override, points=found[n].points)
+            found[n] = _by_hand(found[n], decided)
             used.add(override.where)
-            judged = _by_hand(judged, override)
-    return judged
+    return tuple(found)
 
 
 def _by_hand(found: T, override: Override) -> T:

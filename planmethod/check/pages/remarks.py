@@ -29,17 +29,25 @@ class Remarks(Struct, frozen=True):
         Those of the key, where the student names none of his own.
     hidden : tuple of str
         Codes of the mistakes that none of the answers can show.
+    values : bool
+        Whether the right values are told.
     """
 
     speech: Speech
     checked: CheckedWork
     scales: Mapping[str, float]
     hidden: tuple[str, ...] = ()
+    values: bool = True
 
     @property
     def say(self) -> Words:
         """Words of a student's page."""
         said: Words = self.speech.say["student"]
+        return said
+
+    def _told(self, name: str) -> str:
+        """Return a sentence with the right value in it, or that which goes without."""
+        said: str = self.say[name] if self.values else self.say["without"][name]
         return said
 
     def sentences(self) -> list[str]:
@@ -74,7 +82,7 @@ class Remarks(Struct, frozen=True):
                 continue
             lines.setdefault(
                 (key.segment, key.scale),
-                self.say.redraw_line.format(
+                self._told("redraw_line").format(
                     segment=segment_letters(key.segment),
                     plan=self.say["plan_names"][plan.value],
                     right=self.speech.mm(key.mm),
@@ -110,7 +118,7 @@ class Remarks(Struct, frozen=True):
             return f"{self.say.one_of.format(names=names)} {end}"
         gives = diagnosis.values.get(root.id)
         many = "" if gives is None else self.speech.close_to(gives, root)
-        so_many = f" ({many})" if many and many not in self.speech.own(root) else ""
+        so_many = f" ({many})" if self.values and many and many not in self.speech.own(root) else ""
         return self.say.mistake.format(
             value=so_many,
             so=words[0].so,
@@ -130,7 +138,7 @@ class Remarks(Struct, frozen=True):
 
     def _not_known(self, judged: Judged) -> str:
         if judged.miscomputed and judged.local is not None:
-            return self.say.recompute.format(local=self.speech.close_to(judged.local, judged))
+            return self._told("recompute").format(local=self.speech.close_to(judged.local, judged))
         if judged.key is None or judged.key.mm is None or not judged.key.segment:
             return self.say.unknown_computed
         return self.say.unknown.format(segment=segment_letters(judged.key.segment))
@@ -201,11 +209,11 @@ class Remarks(Struct, frozen=True):
             places |= {"own": speech.own(judged), "right": speech.right(key, judged.tolerance)}
             local = None if judged.local is None else speech.close_to(judged.local, judged)
             if judged.verdict is Verdict.NEAR:
-                yield say.near.format(**places, points=self._lost(judged))
+                yield self._told("near").format(**places, points=self._lost(judged))
             elif judged.verdict is Verdict.INCONSISTENT and local:
                 yield say.inconsistent.format(**places, local=local)
             if judged.sense_right is False and self._fits(judged) and not self._is_root(judged):
-                yield say.sense.format(**places | {"right": self._sense(key.sense)})
+                yield self._told("sense").format(**places | {"right": self._sense(key.sense)})
             if judged.slip:
                 yield self._slipped(judged)
             if judged.remark:
@@ -247,10 +255,13 @@ class Remarks(Struct, frozen=True):
         if blank:
             yield self.say.blank.format(answers=self._listed(blank))
         for judged in self._of(Verdict.UNREADABLE):
-            yield self.say.unreadable.format(
+            said = self.say.unreadable if judged in self.checked.open else ""
+            yield (said or self.say.unreadable_decided).format(
                 answer=self.speech.symbol(judged),
                 reason="" if judged.written is None else self.speech.unread(judged.written),
                 where=self._cell(judged.where),
+                points=self.speech.share(judged.points),
+                of=self.speech.share(judged.of),
             )
         for written in self.checked.work.remarks:
             yield self.say.unreadable_other.format(
@@ -274,7 +285,7 @@ class Remarks(Struct, frozen=True):
     def _compared(self, judged: Judged) -> str:
         if judged.key is None:
             return self.speech.symbol(judged)
-        return self.say.compared.format(
+        return self._told("compared").format(
             answer=self.speech.symbol(judged),
             own=self.speech.own(judged) or "—",
             right=self.speech.right(judged.key, judged.tolerance),

@@ -152,6 +152,10 @@ def _name(diagnosis: Diagnosis, say: Words) -> str:
 
 def _notes(checked: CheckedWork, words: Language) -> Iterator[str]:
     say = words.check
+    if checked.failure is not None:
+        yield say["results"].failure.format(why=checked.failure.said)
+    if checked.is_provisional:
+        yield say["results"].open.format(count=len(checked.open))
     if checked.suspicious:
         yield say["results"].suspicious
     if checked.alike:
@@ -231,7 +235,8 @@ def _by_answer(works: Sequence[CheckedWork]) -> Iterator[list[Any]]:
     found: dict[str, list[Judged]] = {}
     for checked in works:
         for judged in checked.answers:
-            if judged.key is not None and judged.verdict is not Verdict.BLANK:
+            is_told = judged.verdict is not Verdict.BLANK and not judged.is_open
+            if judged.key is not None and is_told:
                 found.setdefault(judged.key.label, []).append(judged)
     for label, given in found.items():
         of = sum(judged.of for judged in given)

@@ -8,7 +8,7 @@ from collections.abc import Sequence
 
 from msgspec import Struct
 
-from planmethod.check.model import CheckedWork, Verdict
+from planmethod.check.model import CheckedWork
 
 LEAST = 3
 """Works from which on a correlation is told."""
@@ -51,11 +51,14 @@ class GroupStatistics(Struct, frozen=True):
         Of the points of each work, 0 to 1.
     questions : tuple of QuestionStatistics
         In the order in which they are asked.
+    provisional : int
+        How many marks may still change.
     """
 
     marks: tuple[tuple[str, int], ...]
     shares: tuple[float, ...]
     questions: tuple[QuestionStatistics, ...]
+    provisional: int = 0
 
     @property
     def mean(self) -> float:
@@ -98,7 +101,7 @@ def statistics_of(
                 continue
             symbols.setdefault(one.key.label, one.key.symbol)
             pairs = found.setdefault((one.key.label, one.key.position), [])
-            if one.verdict is not Verdict.UNREADABLE and one.of:
+            if not one.is_open and one.of:
                 rest = work.of - one.of
                 others = (work.points - one.points) / rest if rest > 0 else None
                 pairs.append((one.points / one.of, others))
@@ -118,6 +121,7 @@ def statistics_of(
         tuple((mark, given.count(mark)) for mark in order),
         tuple(work.points / work.of for work, _ in judged),
         questions,
+        sum(work.is_provisional for work, _ in judged),
     )
 
 

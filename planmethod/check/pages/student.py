@@ -38,6 +38,9 @@ PAPER = (178.0, 92.0)
 GAP = 4.0
 """Between plans side by side, mm."""
 
+RIGHT_VALUES = (3, 4)
+"""Columns of the answers where the right values stand."""
+
 SMALLEST = 0.42
 """Plans that would be shrunk further stand one under the other."""
 
@@ -63,8 +66,11 @@ class Page(Struct, frozen=True):
     plans : tuple of Overlay
     captions : tuple of str
         Of the plans, one each.
-    legend : str
+    legend, tolerance : str
+        Tolerance: what is said beneath the answers.
     lang : str
+    values : bool
+        Whether the right values stand there.
     """
 
     title: str
@@ -79,6 +85,7 @@ class Page(Struct, frozen=True):
     legend: str
     tolerance: str
     lang: str
+    values: bool = True
 
     def shares(self) -> list[float]:
         """Return by how much each plan is shrunk.
@@ -131,13 +138,14 @@ def _nodes(page: Page, solved: Solution | KindProblem, words: Language) -> Itera
         yield Chapter(say.redraw, numbered=False)
         yield from map(Item, page.redraw)
     yield Chapter(say.answers, numbered=False)
+    columns = [n for n in range(len(say["columns"])) if page.values or n not in RIGHT_VALUES]
     yield Table(
-        tuple(say["columns"]),
-        tuple(line.cells for line in page.lines),
-        names=len(say["columns"]),
-        right=(0, 4),
+        tuple(say["columns"][n] for n in columns),
+        tuple(tuple(line.cells[n] for n in columns) for line in page.lines),
+        names=len(columns),
+        right=tuple(columns.index(n) for n in (0, 4) if n in columns),
         tones=tuple(line.verdict.value for line in page.lines),
-        toned=5,
+        toned=columns.index(5),
     )
     yield Note(page.tolerance)
     if isinstance(solved, Solution) and page.plans:
@@ -156,6 +164,7 @@ def student_page(
     scales: Mapping[str, float],
     mark: str = "",
     hidden: tuple[str, ...] = (),
+    values: bool = True,
 ) -> Page:
     """Return the page of a work.
 
@@ -169,12 +178,14 @@ def student_page(
         Empty where points are all there is.
     hidden : tuple of str
         Codes of the mistakes that none of the answers can show.
+    values : bool
+        Whether the right values, and the true plans, stand there.
     """
     speech = Speech(words)
     say: Words = words.check["student"]
     solution = solved if isinstance(solved, Solution) else None
     problem = solved.problem if isinstance(solved, Solution) else solved
-    remarks = Remarks(speech, checked, scales, hidden)
+    remarks = Remarks(speech, checked, scales, hidden, values)
     facts = [f"{say.student}: {quoted(checked.work.student)}"]
     if checked.variant:
         facts.append(f"{say.variant}: {quoted(checked.variant)}")
@@ -183,10 +194,13 @@ def student_page(
     )
     if mark:
         facts.append(say.mark.format(mark=mark))
-    plans = [] if solution is None else overlays(solution, checked, words)
+    plans = overlays(solution, checked, words) if solution is not None and values else []
     positions = 1 if solution is None else len(solution.positions)
     right = sum(judged.points > 0.0 for judged in checked.answers)
     tolerance = say.computed if solution is None else say.tolerance
+    tolerance = say.tolerance_drawn if checked.work.drawn == "cad" else tolerance
+    if not values:
+        tolerance = say.undecided if checked.open else say.no_values
     return Page(
         title=say.title,
         subtitle=problem.title or problem.name,
@@ -198,8 +212,9 @@ def student_page(
         plans=tuple(plans),
         captions=tuple(_caption(plan, positions, words) for plan in plans),
         legend=_legend(plans, words),
-        tolerance=say.tolerance_drawn if checked.work.drawn == "cad" else tolerance,
+        tolerance=tolerance,
         lang=words.lang,
+        values=values,
     )
 
 

@@ -45,7 +45,10 @@ def read_works(path: Path) -> list[Work]:
     if reader is None:
         known = ", ".join(_READERS)
         raise WorksError("{}: not one of {}. Save the works as one of these.", path, known)
-    return reader(data, path)
+    works = reader(data, path)
+    if not works:
+        raise WorksError("{}: there is no work in it. Is this the right file?", path)
+    return works
 
 
 __all__ = ["WorksError", "ratio", "read_works"]

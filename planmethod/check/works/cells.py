@@ -77,8 +77,20 @@ SENSES: Mapping[str, Sense] = {
 }
 """Senses by `key`, or by the arrow."""
 
-BLANKS = frozenset(("", "-", "нет", "no", "none", "нд", "na", "null"))
-"""What stands where nothing is answered: by `key`, or of dashes alone."""
+_BLANKS = (
+    "нет, нет ответа, без ответа, ответа нет, нет данных, нет решения, н/д, не знаю, не решал, "
+    "не решала, не решал(а), не решено, не решил, не решила, не делал, не делала, не сделал, "
+    "не сделала, не сделано, не нашёл, не нашел, не нашла, не найдено, не считал, не считала, "
+    "пусто, прочерк, пропуск, "
+    "no, none, n/a, null, no answer, not answered, unanswered, not solved, not done, not found, "
+    "don't know, i don't know, do not know, i do not know, unknown, skipped, blank"
+)
+
+BLANKS = frozenset(map(key, _BLANKS.split(", ")))
+"""What stands where nothing is answered, by `key`."""
+
+NOTHING = f"{DASHES}-_?.…/ \t\u00a0"
+"""Signs that say nothing where they stand alone."""
 
 POINT = frozenset(("точка", "point"))
 """First word of a row that says what a point of the problem is called in this work."""
@@ -112,9 +124,7 @@ class Cell(Struct, frozen=True):
     @property
     def is_blank(self) -> bool:
         """Whether it says nothing; a nought says something."""
-        return self.why is None and (
-            not self.text.strip(f"{DASHES}- \t\u00a0") or key(self.text) in BLANKS - {""}
-        )
+        return self.why is None and (not self.text.strip(NOTHING) or key(self.text) in BLANKS)
 
 
 BLANK = Cell()

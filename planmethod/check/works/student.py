@@ -56,7 +56,17 @@ def read_json(data: bytes, path: Path) -> list[Work]:
         return [_work(whole, path, "")]
     if len(whole) > STUDENT_LIMIT:
         raise WorksError("{}: over {} students. Part the file.", path, STUDENT_LIMIT)
-    return [_work(one, path, f"[{number}].") for number, one in enumerate(whole)]
+    works = []
+    for number, one in enumerate(whole):
+        try:
+            works.append(_work(one, path, f"[{number}]."))
+        except WorksError as error:
+            if len(whole) == 1:
+                raise
+            told = _cell(one.get("student") if isinstance(one, Mapping) else None)
+            own = f"{path.stem} [{number}]" if told.why else told.text or f"{path.stem} [{number}]"
+            works.append(Work(own, (), where=str(path), failure=str(error)))
+    return works
 
 
 def read_toml(data: bytes, path: Path) -> list[Work]:

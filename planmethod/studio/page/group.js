@@ -79,8 +79,7 @@ function student() {
   made(which, "option", W.whole_work, { value: "" });
   for (const row of found.answers.slice(1)) if (row[0] === who) made(which, "option", row[3] || row[2], { value: row[2] });
   which.value = [...which.options].some(one => one.value === chosen) ? chosen : "";
-  const plain = text => text.normalize("NFC").replace(/[^\p{L}\p{N}]+/gu, "-");
-  const page = found.files.find(one => one.name.endsWith(".html") && plain(one.name.replace(/^pages\/|\.html$/g, "")) === plain(who));
+  const page = found.files.find(one => one.name === found.pages[who]);
   if (page) framed(byId("page"), found.files_at + encodeURI(page.name), who, { pdf: pdfOf(found, page) });
   else byId("page").replaceChildren();
 }

@@ -1,0 +1,134 @@
+"""The folder of a run of ``check``: what it writes there is on record, and goes when it is old.
+
+A run owns what it wrote. The next one takes away what it no longer writes: pages of students who
+are in the group no more, names where names are hidden. What somebody else put there, or changed,
+stays.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import hashlib
+import json
+import re
+import stat
+from collections.abc import Iterable, Mapping
+from pathlib import Path
+from typing import Any
+
+from planmethod.render.backends.output import write
+
+RECORD, OVERRIDES, PAGES = "run.json", "overrides.csv", "pages"
+RECORD_LIMIT = 16 * 2**20
+"""Bytes of a record that are looked at."""
+
+_OURS = rf"(?:{PAGES}/)?[^/\\]{{1,255}}"
+"""Names of files that a run may have written."""
+
+
+class RunFolder:
+    """Where a run writes, and what an earlier one wrote there (папка проверки).
+
+    Attributes
+    ----------
+    earlier : dict of str to (str or None)
+        Digests of what earlier runs wrote, by names in the folder; None of what one was about to
+        write when it was stopped.
+    files : dict of str to str
+        The same of what this run has written.
+    """
+
+    def __init__(self, out: Path) -> None:
+        self.out, self.earlier = out, _earlier(out / RECORD)
+        self.files: dict[str, str] = {}
+
+    def begin(self, names: Iterable[str]) -> None:
+        """Put on record what is about to be written: it is owned also if the run is stopped.
+
+        Raises
+        ------
+        OutputError
+        """
+        self._put_down({"schema": 1, "files": {**self.earlier, **dict.fromkeys(names)}})
+
+    def write(self, name: str, data: bytes) -> Path:
+        """Write a file, whole or not at all, and return where it is.
+
+        Raises
+        ------
+        OutputError
+        """
+        path = self.out / name
+        write(path, data)
+        self.files[name] = digest_of(data)
+        return path
+
+    def owns(self, name: str) -> bool:
+        """Tell whether a file is there as an earlier run wrote it."""
+        found = self.earlier.get(name)
+        return found is not None and found == _digest_at(self.out / name)
+
+    def finish(self, record: Mapping[str, Any]) -> list[Path]:
+        """Take away what is no longer written, and put the run on record.
+
+        Returns
+        -------
+        list of Path
+            What an earlier run wrote and somebody has changed since: it stays.
+
+        Raises
+        ------
+        OutputError
+        """
+        kept = []
+        for name in self.earlier.keys() - {*self.files, OVERRIDES}:
+            path = self.out / name
+            there = _digest_at(path)
+            if there is None or (PAGES in name and path.parent.is_symlink()):
+                continue  # it is gone, or no file, or stands in a folder that is elsewhere
+            if self.earlier[name] in (None, there):
+                with contextlib.suppress(OSError):
+                    path.unlink()
+            else:
+                kept.append(path)
+        with contextlib.suppress(OSError):
+            (self.out / PAGES).rmdir()  # only where it is empty
+        self._put_down({**record, "files": self.files})
+        return sorted(kept)
+
+    def _put_down(self, record: Mapping[str, Any]) -> None:
+        text = json.dumps(record, ensure_ascii=False, allow_nan=False, indent=1)
+        write(self.out / RECORD, f"{text}\n".encode("utf-8", "replace"))
+
+
+def digest_of(data: bytes) -> str:
+    """Return the digest of what is in a file."""
+    return hashlib.sha256(data).hexdigest()
+
+
+def _earlier(path: Path) -> dict[str, str | None]:
+    """Return the files of an earlier run by its record; none of what is no such record."""
+    try:
+        if not stat.S_ISREG(path.lstat().st_mode) or path.stat().st_size > RECORD_LIMIT:
+            return {}
+        files = json.loads(path.read_bytes())["files"]
+        return {
+            name: None if found is None else str(found)
+            for name, found in files.items()
+            if re.fullmatch(_OURS, name)
+            and name.removeprefix(f"{PAGES}/") not in ("..", ".", RECORD)
+            and (found is not None or name != OVERRIDES)
+        }
+    except (OSError, ValueError, LookupError, TypeError, AttributeError, RecursionError):
+        return {}
+
+
+def _digest_at(path: Path) -> str | None:
+    """Return the digest of a file; None where there is no plain one."""
+    try:
+        if not stat.S_ISREG(path.lstat().st_mode):
+            return None
+        with path.open("rb") as file:
+            return hashlib.file_digest(file, "sha256").hexdigest()
+    except OSError:
+        return None
