@@ -109,7 +109,10 @@ def depth_of(text: str) -> str:
 
 
 @given(
-    parts=st.lists(st.sampled_from(PARTS), min_size=DEPTH_LIMIT + 1, max_size=40),
+    parts=st.one_of(
+        st.lists(st.sampled_from(PARTS), min_size=DEPTH_LIMIT + 1, max_size=40),
+        st.sampled_from(PARTS).map(lambda one: 20 * [one]),
+    ),
     dot=st.sampled_from((".", " . ", "\t.")),
     shape=st.sampled_from(
         ("{} = 1", "[{}]", "[[ {} ]]", "c = {{ {} = 1 }}", "c = [[{{ {} = 1 }}]]",

@@ -155,39 +155,80 @@ class _Counts:
 
 def _sheets(data: bytes, path: Path) -> tuple[dict[str, list[Row]], dict[str, list[str]]]:
     """Return the rows of the sheets that are shown, and what the form says of itself."""
-    import openpyxl
-
-    book = openpyxl.load_workbook(
-        io.BytesIO(data), read_only=True, data_only=True, keep_links=False, keep_vba=False
-    )
+    book = _opened(data, path)
     sheets: dict[str, list[Row]] = {}
     meta: dict[str, list[str]] = {}
-    made = [0]
+    whole = _Whole()
     try:
-        if len(book.worksheets) > SHEET_LIMIT:
-            raise WorksError("{}: over {} sheets. Part the file.", path, SHEET_LIMIT)
         for sheet in book.worksheets:
             if sheet.title == META:
                 with book._archive.open(sheet._worksheet_path) as stream:
-                    _Reader(path, META).read(stream)
+                    _Reader(path, META, whole).read(stream)
                 for name, value in sheet.iter_rows(max_row=5000, max_col=2, values_only=True):
                     if value is not None:
                         meta.setdefault(str(name), []).append(cut(str(value)))
             elif sheet.sheet_state == "visible":
-                sheets[cut(sheet.title)] = list(_rows(book, sheet, path, made))
+                sheets[cut(sheet.title)] = list(_rows(book, sheet, path, whole))
     finally:
         book.close()
     return sheets, meta
 
 
-def _rows(book: Any, sheet: Any, path: Path, made: list[int]) -> Iterator[Row]:
-    """Yield the rows of a sheet down to the last that says something; ``made`` counts cells."""
+def _opened(data: bytes, path: Path) -> Any:
+    """Return the workbook, its sheets not yet read; a part that many sheets name is refused."""
+    from openpyxl.reader.excel import ExcelReader
+
+    class Reader(ExcelReader):  # type: ignore[misc]
+        def read_worksheets(self) -> None:
+            # Before: where a sheet does not say how large it is, all of it is looked at here.
+            named: dict[str, str] = {}
+            for number, (sheet, part) in enumerate(self.parser.find_sheets(), 1):
+                if number > SHEET_LIMIT:
+                    raise WorksError("{}: over {} sheets. Part the file.", path, SHEET_LIMIT)
+                if part.target in named:
+                    raise WorksError(
+                        "{}: sheets {!r} and {!r} are the same part of the file. Save it anew as "
+                        "XLSX in the spreadsheet program.",
+                        path,
+                        cut(named[part.target]),
+                        cut(sheet.name),
+                    )
+                named[part.target] = sheet.name
+            super().read_worksheets()
+
+    stream = io.BytesIO(data)
+    reader = Reader(stream, read_only=True, keep_vba=False, data_only=True, keep_links=False)
+    reader.read()
+    return reader.wb
+
+
+class _Whole(Struct):
+    """What is counted over all sheets of a workbook (квоты книги).
+
+    Attributes
+    ----------
+    elements : int
+        Rows and cells that the file has.
+    cells : int
+        Cells that are made of them, empty ones between them, too.
+    spans, merged : int
+        Merged ranges, and the cells in them.
+    """
+
+    elements: int = 0
+    cells: int = 0
+    spans: int = 0
+    merged: int = 0
+
+
+def _rows(book: Any, sheet: Any, path: Path, whole: _Whole) -> Iterator[Row]:
+    """Yield the rows of a sheet down to the last that says something."""
     from openpyxl.utils import get_column_letter
 
     # A reader of single rows knows neither merged cells nor which of them are formulas.
     title = cut(sheet.title)
     with book._archive.open(sheet._worksheet_path) as stream:
-        there = _Reader(path, title).read(stream)
+        there = _Reader(path, title, whole).read(stream)
     if there.rows > ROW_LIMIT or there.columns > COLUMN_LIMIT:
         raise WorksError(
             "{}: sheet {!r} has {} rows and {} columns; the limits are {} and {}. Save "
@@ -199,15 +240,15 @@ def _rows(book: Any, sheet: Any, path: Path, made: list[int]) -> Iterator[Row]:
             ROW_LIMIT,
             COLUMN_LIMIT,
         )
-    made[0] += there.rows * there.columns
-    if made[0] > CELL_LIMIT:
+    whole.cells += there.rows * there.columns
+    if whole.cells > CELL_LIMIT:
         raise WorksError(
             "{}: sheet {!r} reaches to {}: with it there are {} cells, the limit is {}. Delete "
             "what stands far from the table.",
             path,
             title,
             there.last,
-            made[0],
+            whole.cells,
             CELL_LIMIT,
         )
     texts: dict[tuple[int, int], str] = {}
@@ -252,9 +293,9 @@ class _Structure(Struct):
 class _Reader:
     """Reads the XML of a sheet without keeping it: where there are values, what is merged."""
 
-    def __init__(self, path: Path, title: str) -> None:
+    def __init__(self, path: Path, title: str, whole: _Whole) -> None:
         self.there = _Structure()
-        self.path, self.title, self.elements, self.spans = path, title, 0, 0
+        self.path, self.title, self.whole = path, title, whole
         self.cell, self.filled, self.formula, self.value = "", False, False, ""
         self.inside = ""
 
@@ -269,10 +310,10 @@ class _Reader:
     def start(self, tag: str, attributes: dict[str, str]) -> None:
         kind = tag.rpartition(" ")[2]
         if kind in ("c", "row"):
-            self.elements += 1
-            if self.elements > CELL_LIMIT:
+            self.whole.elements += 1
+            if self.whole.elements > CELL_LIMIT:
                 raise WorksError(
-                    "{}: sheet {!r} has over {} cells. Save the answers alone.",
+                    "{}: with sheet {!r} there are over {} cells. Save the answers alone.",
                     self.path,
                     self.title,
                     CELL_LIMIT,
@@ -310,10 +351,10 @@ class _Reader:
     def merge(self, told: str) -> None:
         from openpyxl.utils import column_index_from_string
 
-        self.spans += 1
-        if self.spans > SPAN_LIMIT:
+        self.whole.spans += 1
+        if self.whole.spans > SPAN_LIMIT:
             raise WorksError(
-                "{}: sheet {!r} has over {} merged ranges. Save the answers alone.",
+                "{}: with sheet {!r} there are over {} merged ranges. Save the answers alone.",
                 self.path,
                 self.title,
                 SPAN_LIMIT,
@@ -325,7 +366,8 @@ class _Reader:
         left, right = map(column_index_from_string, (span[1], span[3]))
         columns = range(left, min(right, COLUMN_LIMIT) + 1)
         for row, column in product(range(top, bottom + 1), columns):
-            if len(self.there.merged) >= MERGED_LIMIT:
+            self.whole.merged += 1
+            if self.whole.merged > MERGED_LIMIT:
                 break
             self.there.merged[row, column] = (top, left)
 

@@ -186,6 +186,25 @@ def with_many(what: bytes, count: int, where: bytes = b"</worksheet>") -> Callab
     return lambda: patched(saved(ROWS), SHEET, lambda p: p.replace(where, what * count + where))
 
 
+def with_halves(what: bytes, count: int, where: bytes) -> Callable[[], bytes]:
+    """Return what makes a workbook whose two sheets are too much together only."""
+
+    def made() -> bytes:
+        data = saved(ROWS, lambda sheet: sheet.parent.create_sheet("s1"))
+        for sheet in (SHEET, SHEET.replace("1.", "2.")):
+            data = patched(data, sheet, lambda part: part.replace(where, what * count + where))
+        return data
+
+    return made
+
+
+def one_part_of_many_sheets(part: bytes) -> bytes:
+    named = re.search(rb"<sheet [^>]*>", part)
+    assert named is not None
+    other = named[0].replace("Лист".encode(), b"s1").replace(b'sheetId="1"', b'sheetId="2"')
+    return part.replace(named[0], named[0] + other)
+
+
 def deep(part: bytes) -> bytes:
     return part.replace(b"</worksheet>", b"<x>" * 100 + b"</x>" * 100 + b"</worksheet>")
 
@@ -227,6 +246,15 @@ def entity() -> bytes:
         (three_far_sheets, "reaches to D17000: with it there are 204"),
         (with_many(b'<row r="9"><c r="A9"/></row>', 100_001, b"</sheetData>"), "over 200000 cells"),
         (with_many(b'<mergeCell ref="A1:B2"/>', 2001), "over 2000 merged ranges"),
+        (
+            with_halves(b'<row r="9"><c r="A9"/></row>', 50_001, b"</sheetData>"),
+            "over 200000 cells",
+        ),
+        (with_halves(b'<mergeCell ref="A1:B2"/>', 1001, b"</worksheet>"), "'s1'.* 2000 merged"),
+        (
+            lambda: patched(saved(ROWS), "xl/workbook.xml", one_part_of_many_sheets),
+            "'Лист' and 's1' are the same part",
+        ),
         (with_many(b"<x/>", 60_001), "too much in this workbook"),
         (lambda: patched(saved(ROWS), SHEET, deep), "too much in this workbook"),
         (entity, "too much in this workbook|cannot be opened"),
@@ -245,6 +273,9 @@ def entity() -> bytes:
         "three",
         "cells",
         "spans",
+        "cells of two",
+        "spans of two",
+        "part of two",
         "parts",
         "deep",
         "entity",
