@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+import contextlib
 import re
 import shutil
 import subprocess
+from collections.abc import Callable
 from io import BytesIO
 from pathlib import Path
 from typing import Any, get_args
-from zipfile import ZipFile
+from zipfile import ZIP_DEFLATED, ZipFile
 
 import docx
 import pytest
@@ -300,6 +302,102 @@ def test_a_template_that_is_not_there_or_broken_is_a_fault(tmp_path: Path) -> No
         with pytest.raises(OutputError, match=fault) as raised:
             word_document(note(), RU, template=tmp_path / f"{name}.docx")
         assert f"{name}.docx" in str(raised.value) and raised.value.exit_code == 2
+
+
+def changed(folder: Path, change: Callable[[str, bytes], bytes | None]) -> Path:
+    """Return a template whose parts are changed; one that becomes nothing is left out."""
+    plain, path = BytesIO(), folder / "own.docx"
+    docx.Document().save(plain)
+    with ZipFile(plain) as parts, ZipFile(path, "w", ZIP_DEFLATED) as written:
+        for name in parts.namelist():
+            if (data := change(name, parts.read(name))) is not None:
+                written.writestr(name, data)
+    return path
+
+
+BODY, STYLES = "word/document.xml", "word/styles.xml"
+
+BROKEN: dict[str, tuple[str, str, str]] = {
+    "no section": (BODY, r"<w:sectPr.*?</w:sectPr>", ""),
+    "no page": (BODY, r"<w:pgSz[^>]*>", ""),
+    "a width that is none": (BODY, r'w:w="\d+"', 'w:w="x"'),
+    "a margin that is none": (BODY, r'w:left="\d+"', 'w:left=""'),
+    "a narrow page": (BODY, r'w:w="\d+"', 'w:w="99"'),
+    "an endless page": (BODY, r'w:w="\d+"', 'w:w="99999999"'),
+    "no body": (BODY, r"<w:body>.*</w:body>", ""),
+    "another root": (BODY, r"w:document", "w:other"),
+    "styles of another kind": (STYLES, r"w:styles", "w:other"),
+    "a size of letters that is none": (STYLES, r'<w:sz w:val="\d+"', '<w:sz w:val="x"'),
+    "no usual style": (STYLES, r'"Normal"', '"Usual"'),
+    "a flag that is none": (STYLES, r"<w:qFormat/>", '<w:qFormat w:val="?"/>'),
+    "letters nobody knows": (STYLES, "encoding=.UTF-8.", 'encoding="x-none"'),
+    "half of its styles": (STYLES, r"</w:styles>", ""),
+    "no types": ("[Content_Types].xml", r"(Types|Override|Default)", r"x\1"),
+    "no relations": ("_rels/.rels", r"Relationship ", "Nothing "),
+    "a part that is not there": ("word/_rels/document.xml.rels", r'Target="styles', 'Target="no'),
+    "settings of another kind": ("word/settings.xml", r"w:settings", "w:other"),
+    "properties of another kind": ("docProps/core.xml", r"coreProperties", "x"),
+}
+
+
+SERVES = ("a size of letters that is none", "a flag that is none", "settings of another kind")
+"""What of it Word and its library put up with."""
+
+
+@pytest.mark.parametrize("how", BROKEN)
+def test_a_broken_template_is_told_in_one_way_or_serves(how: str, tmp_path: Path) -> None:
+    """Without a section, types or a page width it ended with exit code 5."""
+    part, old, new = BROKEN[how]
+
+    def change(name: str, data: bytes) -> bytes:
+        if name != part:
+            return data
+        text, found = re.subn(old, new, data.decode(), flags=re.S)
+        assert found
+        return text.encode()
+
+    with contextlib.suppress(OutputError):
+        made = word_document(note(), RU, template=changed(tmp_path, change))
+        assert opened(made).paragraphs and how in SERVES
+        return
+    assert how not in SERVES
+
+
+@pytest.mark.parametrize("left_out", ["styles", "settings", "theme", "numbering", "core", "Types"])
+def test_a_template_may_lack_parts(left_out: str, tmp_path: Path) -> None:
+    template = changed(tmp_path, lambda name, data: None if left_out in name else data)
+    with contextlib.suppress(OutputError):
+        assert opened(word_document(note(), RU, template=template)).paragraphs
+
+
+@pytest.mark.parametrize(
+    ("what", "said"),
+    [
+        (b" " * (33 * 2**20), "33 MiB; the limits are 1000 and 32 MiB"),
+        (b"<w:p/>" * 200_001, "over 200000 elements"),
+        (b"<w:p>" * 250 + b"</w:p>" * 250, "nested over 200 deep"),
+        (b"<w:p " + b" ".join(b'a%d=""' % k for k in range(200_001)) + b"/>", "200000 elements"),
+    ],
+    ids=["bytes", "elements", "depth", "attributes"],
+)
+def test_a_template_is_looked_through_before_it_is_read(
+    what: bytes, said: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    template = changed(tmp_path, lambda name, data: data.replace(b"</w:body>", what + b"</w:body>"))
+    monkeypatch.setattr(docx, "Document", None)
+    with pytest.raises(OutputError, match=said):
+        word_document(note(), RU, template=template)
+
+
+def test_what_fails_without_the_template_too_is_no_fault_of_it(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def fail(*_: object, **__: object) -> None:
+        raise ZeroDivisionError
+
+    monkeypatch.setattr("planmethod.note.writers.word.timeless", fail)
+    with pytest.raises(ZeroDivisionError):
+        word_document(note(), RU, template=changed(tmp_path, lambda name, data: data))
 
 
 def test_what_is_referred_to_must_be_there() -> None:

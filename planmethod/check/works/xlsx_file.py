@@ -39,6 +39,10 @@ SPAN_LIMIT = 2000
 DEPTH_LIMIT = 64
 OTHERS_LIMIT = 60_000
 """Elements of XML that are not of cells: styles, notes, rules."""
+TAG_LIMIT = 64 * 1024
+"""Letters of a tag or a remark; who reads by pieces reads a long one anew with each."""
+UNKNOWN = (18, 19)
+"""What expat says of letters that it does not know, and another parser may."""
 
 META = "_meta"
 """Hidden sheet of the form."""
@@ -130,10 +134,21 @@ class _Counts:
         parser, self.depth = ParserCreate(), 0
         parser.StartElementHandler, parser.EndElementHandler = self._start, self._end
         parser.EntityDeclHandler = self._refuse
-        with contextlib.suppress(ExpatError, zlib.error):
-            parser.ParseFile(part)
+        parser.CommentHandler = self._weigh
+        parser.ProcessingInstructionHandler = self._weigh
+        try:
+            with contextlib.suppress(zlib.error):
+                parser.Parse(part.read(), True)  # by pieces a long tag is read anew
+        except ExpatError as error:
+            if error.code in UNKNOWN:
+                self._refuse()
 
-    def _start(self, tag: str, _attributes: object) -> None:
+    def _weigh(self, *texts: str) -> None:
+        if sum(map(len, texts)) > TAG_LIMIT:
+            self._refuse()
+
+    def _start(self, tag: str, attributes: dict[str, str]) -> None:
+        self._weigh(tag, *attributes, *attributes.values())
         self.depth += 1
         if tag.rpartition(":")[2] in _OF_CELLS:
             self.cells += 1
@@ -304,7 +319,7 @@ class _Reader:
         parser.StartElementHandler = self.start
         parser.EndElementHandler = self.end
         parser.CharacterDataHandler = self.text
-        parser.ParseFile(stream)
+        parser.Parse(stream.read(), True)
         return self.there
 
     def start(self, tag: str, attributes: dict[str, str]) -> None:

@@ -19,6 +19,7 @@ from docx.enum.text import WD_ALIGN_PARAGRAPH
 from docx.oxml.ns import qn
 from docx.shared import Mm, Pt
 
+from planmethod.errors import PlanMethodError
 from planmethod.note import document
 from planmethod.note.document import Document, Figure, Node, Table
 from planmethod.note.formula import Node as Sign
@@ -34,7 +35,7 @@ from planmethod.note.writers.sentences import (
     units_of,
     with_levels,
 )
-from planmethod.note.writers.wordfile import opened, timeless, wish_for_fields
+from planmethod.note.writers.wordfile import damaged, opened, timeless, wish_for_fields
 from planmethod.note.writers.wordframe import PageFrame, fields_of_note
 from planmethod.note.writers.wordpages import PageFlow, flowing, plain
 from planmethod.note.writers.wordpicture import put_picture
@@ -117,10 +118,23 @@ def word_document(
         A formula is not written properly, or a text refers to what is not there.
     """
     fields = dict(stamp or {})
-    shown = PageFrame(fields_of_note(fields, written), words.frame) if frame else None
-    writer = _Writer(words, template, shown)
-    writer.write(document.referred(written))
-    return writer.file(author or fields.get("author", ""))
+    told = document.referred(written)
+
+    def made(template: Path | None) -> bytes:
+        shown = PageFrame(fields_of_note(fields, written), words.frame) if frame else None
+        writer = _Writer(words, template, shown)
+        writer.write(told)
+        return writer.file(author or fields.get("author", ""))
+
+    try:
+        return made(template)
+    except (PlanMethodError, MemoryError, OSError):
+        raise
+    except Exception as fault:
+        if template is None:
+            raise
+        made(None)  # what fails with a template and not without it is the fault of the template
+        raise damaged(template) from fault
 
 
 class _Writer:

@@ -2,20 +2,36 @@
 
 from __future__ import annotations
 
+import contextlib
+import zlib
 from datetime import datetime
 from io import BytesIO
 from pathlib import Path
 from typing import Any
-from zipfile import ZIP_DEFLATED, BadZipFile, ZipFile, ZipInfo
+from xml.parsers.expat import ExpatError, ParserCreate
+from zipfile import ZIP_DEFLATED, ZipFile, ZipInfo
 
 import docx
-from docx.opc.exceptions import PackageNotFoundError
 from docx.oxml import OxmlElement
 from docx.oxml.ns import qn
+from docx.shared import Mm
 
 from planmethod.errors import OutputError
 
 _WHEN = datetime(2000, 1, 1)
+PART_LIMIT = 1000
+UNPACKED_LIMIT = 32 * 1024 * 1024
+"""Bytes of all parts of a template: pictures of a form, at most."""
+XML_LIMIT = 200_000
+"""Elements and attributes of all parts; the styles that Word makes are five thousand."""
+DEPTH_LIMIT = 200
+UNKNOWN = (18, 19)
+"""What expat says of letters that it does not know, and another parser may."""
+ROOM = 40.0
+"""Least width and height of the text on a page, mm."""
+LARGEST_PAGE = 2000.0
+"""Longest side of a page, mm."""
+
 _AFTER_FIELDS = ("w:hdrShapeDefaults", "w:footnotePr", "w:endnotePr", "w:compat", "w:docVars",
                  "w:rsids", "m:mathPr", "w:themeFontLang", "w:clrSchemeMapping", "w:shapeDefaults",
                  "w:decimalSymbol", "w:listSeparator")  # fmt: skip
@@ -28,27 +44,101 @@ def opened(template: Path | None) -> Any:
     Raises
     ------
     OutputError
-        The template is not there, or is no file of Word.
+        The template is not there, is no file of Word, or has too much in it.
     """
     if template is None:
         return docx.Document()
     if not template.is_file():
         raise OutputError("There is no template {}. Give the path of a .docx file.", template)
     try:
-        file = docx.Document(str(template))
+        with template.open("rb") as stream:
+            data = stream.read(UNPACKED_LIMIT + 1)
     except OSError as fault:
         raise OutputError("{} cannot be read: {}", template, fault.strerror or fault) from fault
-    except (PackageNotFoundError, BadZipFile, KeyError, ValueError, SyntaxError) as fault:
-        raise OutputError(
-            "The template {} is no file of Word, or is damaged. Open it in Word and save it anew "
-            "as .docx.",
-            template,
-        ) from fault
-    body = file.element.body
-    for child in list(body):
-        if child.tag != qn("w:sectPr"):
-            body.remove(child)
+    try:
+        _look_through(data, template)
+        file = docx.Document(BytesIO(data))
+        body = file.element.body
+        for child in list(body):
+            if child.tag != qn("w:sectPr"):
+                body.remove(child)
+        if not _has_room(file.sections[0]):
+            raise ValueError(file.sections[0])
+    except (OutputError, MemoryError):
+        raise
+    except Exception as fault:  # whatever a broken template makes of its reader
+        raise damaged(template) from fault
     return file
+
+
+def damaged(template: Path) -> OutputError:
+    """Return what is said of a template that cannot be used."""
+    return OutputError(
+        "The template {} is no file of Word, or is damaged. Open it in Word and save it anew "
+        "as .docx.",
+        template,
+    )
+
+
+def _look_through(data: bytes, template: Path) -> None:
+    """Refuse what would unpack to more than a template has, before anything is made of it.
+
+    Raises
+    ------
+    OutputError
+    """
+    with ZipFile(BytesIO(data)) as archive:
+        parts = archive.infolist()
+        unpacked = max(sum(part.file_size for part in parts), len(data))
+        if len(parts) > PART_LIMIT or unpacked > UNPACKED_LIMIT:
+            raise OutputError(
+                "The template {} has {} parts with {} MiB; the limits are {} and {} MiB. Leave "
+                "only its page and its styles.",
+                template,
+                len(parts),
+                unpacked // 2**20,
+                PART_LIMIT,
+                UNPACKED_LIMIT // 2**20,
+            )
+        count = depth = 0
+
+        def start(_tag: str, attributes: dict[str, str]) -> None:
+            nonlocal count, depth
+            count, depth = count + 1 + len(attributes), depth + 1
+            if count > XML_LIMIT or depth > DEPTH_LIMIT:
+                refuse()
+
+        def end(_tag: str) -> None:
+            nonlocal depth
+            depth -= 1
+
+        def refuse(*_: object) -> None:
+            raise OutputError(
+                "There is too much in the template {}: over {} elements, or some nested over {} "
+                "deep. Leave only its page and its styles.",
+                template,
+                XML_LIMIT,
+                DEPTH_LIMIT,
+            )
+
+        for part in parts:
+            parser, depth = ParserCreate(), 0
+            parser.StartElementHandler, parser.EndElementHandler = start, end
+            parser.EntityDeclHandler = refuse
+            try:
+                with contextlib.suppress(zlib.error):
+                    parser.Parse(archive.read(part), True)  # by pieces a long tag is read anew
+            except ExpatError as error:  # what is no XML, nobody parses
+                if error.code in UNKNOWN:
+                    raise damaged(template) from error
+
+
+def _has_room(section: Any) -> bool:
+    """Tell whether a page has room for the text."""
+    across = section.page_width, section.left_margin, section.right_margin
+    along = section.page_height, section.top_margin, section.bottom_margin
+    sides = [[float(one) / Mm(1) for one in side] for side in (across, along)]
+    return all(page <= LARGEST_PAGE and page - one - two >= ROOM for page, one, two in sides)
 
 
 def wish_for_fields(file: Any) -> None:

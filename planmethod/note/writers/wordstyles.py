@@ -26,6 +26,7 @@ class WordStyles:
     def __init__(self, file: Any, *, new: bool, lang: str) -> None:
         self._file, self._new = file, new
         self._known = dict[str, Any]()
+        self._there = {style.name for style in file.styles}
         normal = self["Normal"]
         if new:
             self._format(normal, 1.5, INDENT, WD_ALIGN_PARAGRAPH.JUSTIFY)
@@ -85,16 +86,13 @@ class WordStyles:
         keep: bool = False,
     ) -> Any:
         """Return a style that is set here; None where the template has it."""
-        known = {style.name for style in self._file.styles}
-        if name in known and not self._new:
+        if name in self._there and not self._new:
             return None
-        styles = self._file.styles
-        if name in known:
+        if name in self._there:
             style = self[name]
         else:
             is_own = not name.startswith("toc ")
-            style = styles.add_style(name, WD_STYLE_TYPE.PARAGRAPH, builtin=not is_own)
-        if name not in known:
+            style = self._file.styles.add_style(name, WD_STYLE_TYPE.PARAGRAPH, builtin=not is_own)
             style.base_style = self["Normal"]
         self._format(style, spacing, indent, alignment)
         form = style.paragraph_format
