@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import re
+from collections.abc import Mapping, Sequence
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -16,12 +18,15 @@ from planmethod.errors import PlanMethodError
 from planmethod.gears.driving import TrainOutput
 from planmethod.kinds import kind_of, load_each
 from planmethod.note.document import GivenFact
-from planmethod.note.narrate.forces.statement import statement
+from planmethod.note.narrate.forces.statement import cycle_statement, statement
 from planmethod.note.narrate.given import arithmetic, drawn, given
 from planmethod.note.numbers import Notation
 from planmethod.note.wording import Language, language
+from planmethod.problem.load_records import SizeTable
 from planmethod.problem.model import Problem
+from planmethod.solved.forces.friction import friction_of
 from planmethod.solved.forces.reading import ForceReading
+from planmethod.solved.forces.statics import statics_of
 from planmethod.solved.solution import Solution
 
 ROOT = Path(__file__).parents[2]
@@ -32,6 +37,7 @@ STATED = [
     for path in sorted((ROOT / "tests" / "problem" / "statement").glob("*.toml"))
     if not path.stem.endswith("-fault")
 ]
+PROJECTS = [ROOT / "tests/data/projects/rubbing.toml"]
 RU, EN = language("ru"), language("en")
 SAME = 1e-9
 
@@ -144,7 +150,21 @@ def test_other_positions_keep_the_way_it_is_assembled(path: Path) -> None:
     assert_same(problem, again, solution.positions.tolist())
 
 
-@each("path", [path for path in FILES if "[dynamics" in path.read_text("utf-8")])
+def assert_rubbed(one: Solution, two: Solution) -> None:
+    """Friction and bearings of both are the same."""
+    mine, again = one.problem.dynamics, two.problem.dynamics
+    assert mine is not None and again is not None
+    assert again.bearings == mine.bearings
+    pairs = [
+        [(pair.name, pair.f, pair.radius) for pair in friction_of(solution).pairs]
+        if dynamics.friction is not None
+        else []
+        for solution, dynamics in ((one, mine), (two, again))
+    ]
+    assert pairs[0] == pairs[1]
+
+
+@each("path", [path for path in FILES if "[dynamics" in path.read_text("utf-8")] + PROJECTS)
 def test_forces_follow_from_the_statement_of_a_position(path: Path) -> None:
     (problem,) = load_each(path, [None])
     solution = Solution(problem)
@@ -153,6 +173,51 @@ def test_forces_follow_from_the_statement_of_a_position(path: Path) -> None:
     other = ForceReading(Solution(rebuilt(facts)), 0)
     one, two = reading.statics, other.statics
     size = float(np.abs(one.largest_forces[0]))
+    assert_rubbed(solution, other.solution)
     assert two.balance[0] == pytest.approx(one.balance[0], rel=SAME, abs=SAME * size)
     for mine, again in zip(one.reactions, two.reactions, strict=True):
         assert again.force[0] == pytest.approx(mine.force[0], abs=SAME * size)
+
+
+def has_table(problem: Problem) -> bool:
+    loads = () if problem.dynamics is None else problem.dynamics.loads
+    return any(isinstance(load.size, SizeTable) for load in loads)
+
+
+TABLED = [
+    *(path for path in FILES if "[[loads]]" in path.read_text("utf-8")),
+    *(ROOT / "tests/data/projects" / f"{name}.toml" for name in ("shaper", "engine")),
+]
+
+
+def test_forces_of_a_cycle_follow_from_the_rows_of_its_loads() -> None:
+    problems = [one for path in TABLED for one in load_each(path, [None]) if has_table(one)]
+    assert len(problems) >= 7
+    for problem in problems:
+        solution = Solution(problem).moved([*(problem.numbered or problem.drive.positions)])
+        facts = [drawn(problem, RU), *cycle_statement(solution, RU)]
+        for fact in facts:
+            for rows in nested(fact.data):
+                assert_listed(rows, fact.text)
+        if any("machine.cycle_deg" in fact.data for fact in facts):
+            assert problem.machine is not None  # a machine has a δ, forces do not hang on it
+            facts.append(GivenFact("", {"machine.delta": problem.machine.delta}))
+        again = Solution(rebuilt(facts)).moved(solution.positions.tolist())
+        one, two = (statics_of(of).balance for of in (solution, again))
+        assert two == pytest.approx(one, abs=SAME * np.abs(one).max())
+
+
+def nested(data: Mapping[str, Any]) -> list[list[Any]]:
+    """Return the tables among the data of a fact: rows, those of strokes one after another."""
+    tables = [value for value in data.values() if isinstance(value, list)]
+    return [table for table in tables if table and isinstance(table[0], list)]
+
+
+def assert_listed(rows: Sequence[Any], text: str) -> None:
+    """Every row stands in the text in order: its place, its size; pressures in MPa."""
+    flat = [x for one in rows for x in (one if isinstance(one[0], list) else [one])]
+    pairs = re.findall(r"\((−?[\d,]+);\s(−?[\d,]+)\)", text)
+    said = [[float(x.replace(",", ".").replace("−", "-")) for x in pair] for pair in pairs]
+    scale = 1e-6 if "p, МПа" in text else 1.0
+    assert len(said) == len(flat)
+    assert np.allclose(said, np.array(flat) * [1.0, scale], rtol=1e-4, atol=0.0)

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from functools import cached_property
+from typing import NamedTuple
 
 import numpy as np
 import numpy.typing as npt
@@ -429,20 +430,45 @@ def rubbed_reading(solution: Solution, index: int) -> RubbedReading:
 # Pairs -------------------------------------------------------------------------------------------
 
 
+class PairData(NamedTuple):
+    """What a file gives of the friction of a pair: its name, coefficient, radius of the pin, m."""
+
+    name: str
+    slides: bool
+    f: float
+    radius: float
+
+    @property
+    def rubs(self) -> bool:
+        """Whether it has friction."""
+        return bool(self.f if self.slides else self.f * self.radius)
+
+
+def pair_data(problem: Problem, task: FrictionTask, joint: JointForce) -> PairData:
+    """Return what a file gives of the friction of a pair; a sliding one has no radius."""
+    slides, name = slide_between(problem, joint) is not None, _name(joint)
+    own = task.pairs.get(name, PairFriction())
+    f = own.f if own.f is not None else task.f if slides else task.f_pin
+    radius = task.radius if own.radius is None else own.radius
+    return PairData(name, slides, f, 0.0 if slides else radius)
+
+
+def _name(joint: JointForce) -> str:
+    return pair_name(joint.joint, joint.on, joint.by)
+
+
 def _rubbing(solution: Solution, task: FrictionTask, number: int, joint: JointForce) -> Rubbing:
     problem = solution.problem
-    slide, name = slide_between(problem, joint), pair_name(joint.joint, joint.on, joint.by)
-    own = task.pairs.get(name, PairFriction())
-    f = own.f if own.f is not None else task.f if slide is not None else task.f_pin
+    slide = slide_between(problem, joint)
+    name, _, f, radius = pair_data(problem, task, joint)
     shape = solution.positions.shape
     if slide is None:
         rate = _omega(solution, joint.on) - _omega(solution, joint.by)
         fastest = np.max([np.abs(link.omega) for link in solution.links.values()], axis=0)
-        radius = task.radius if own.radius is None else own.radius
         along, beside = np.zeros(shape, dtype=complex), np.zeros(shape)
     else:
         contact = statics_of(solution).contacts[number]
-        along, radius = contact.along, 0.0
+        along = contact.along
         relative = _velocity(solution, joint.on, joint.at) - _velocity(solution, joint.by, joint.at)
         rate = (along.conjugate() * relative).real
         speeds = [np.abs(point.velocity) for point in solution.points.values()]
@@ -476,7 +502,7 @@ def _refuse_unknown(problem: Problem, task: FrictionTask, joints: Sequence[Joint
     ------
     ProblemError
     """
-    there = [pair_name(joint.joint, joint.on, joint.by) for joint in joints]
+    there = [_name(joint) for joint in joints]
     faults = [
         Fault(
             f"friction.pairs.{segment(name)}",

@@ -10,6 +10,7 @@ from planmethod.mechanism.model import FRAME
 from planmethod.note.document import Formula, Paragraph, Table, table_of_columns
 from planmethod.note.formula import Rich, fraction
 from planmethod.note.narrate.forces.common import ForceContext
+from planmethod.note.narrate.forces.statement import friction_facts
 from planmethod.note.narrate.given import point_name
 from planmethod.plans.forces.polygons import reaction_symbol
 from planmethod.plans.model import PlanKind
@@ -193,18 +194,7 @@ class FrictionTeller:
 
     def given(self) -> list[Rich]:
         """Return the coefficients and radii of the pairs, those alike once."""
-        found: dict[tuple[bool, float, float], list[str]] = {}
-        for pair in self.friction.pairs:
-            key = (pair.slide is not None, pair.f, pair.radius)
-            found.setdefault(key, []).append(f"{point_name(pair.joint)} ({self._dashed(pair)})")
-        return [
-            (self.said.given_sliding if sliding else self.said.given_turning).format(
-                pairs=", ".join(names),
-                f=self.context.short(f),
-                radius=f"{self.context.short(1e3 * radius)} {self.units['mm']}",
-            )
-            for (sliding, f, radius), names in found.items()
-        ]
+        return [fact.text for fact in friction_facts(self.friction.statics, self.context.language)]
 
     def _dashed(self, pair: Rubbing) -> str:
         return f"{pair.on}–{pair.frame if pair.by == FRAME else pair.by}"

@@ -3,19 +3,29 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
 
 from planmethod.note.document import GivenFact
-from planmethod.note.narrate.given import As, given, point_name
+from planmethod.note.narrate.given import NBSP, As, given, point_name
 from planmethod.note.numbers import Notation, with_unit
 from planmethod.note.wording import Language
 from planmethod.plans.forces.loads import Applied, LoadKind
 from planmethod.plans.forces.polygons import ForcePlan, reaction_symbol
 from planmethod.problem.bodies import rotation
-from planmethod.problem.load_records import Against, Couple, Fixed, Load, Over, SizeTable
+from planmethod.problem.load_records import (
+    Against,
+    Couple,
+    Fixed,
+    Interpolation,
+    Load,
+    Over,
+    SizeTable,
+)
 from planmethod.problem.model import Problem
 from planmethod.problem.names import segment
+from planmethod.solved.forces.friction import pair_data
 from planmethod.solved.forces.reading import FAINT_SHARE, ForceReading
-from planmethod.solved.forces.statics import statics_of
+from planmethod.solved.forces.statics import Statics, statics_of
 from planmethod.solved.solution import Solution
 
 
@@ -69,7 +79,7 @@ def statement(reading: ForceReading, words: Language) -> list[GivenFact]:
         where, data = _where(load, number, signed, words)
         data[f"loads[{number}].{key}"] = signed
         facts.append(GivenFact(f"{one.name} = {said} ({where})", data))
-    return [*facts, *_pushed(problem, words)]
+    return [*facts, *_pushed(problem, words), *_in_pairs(reading.statics, words)]
 
 
 def mass_lines(problem: Problem, words: Language) -> list[GivenFact]:
@@ -139,6 +149,52 @@ def _pushed(problem: Problem, words: Language) -> list[GivenFact]:
     return [GivenFact(told, data)]
 
 
+def _in_pairs(statics: Statics, words: Language) -> list[GivenFact]:
+    """Return what is given of the pairs: their friction, the bearings of shafts."""
+    dynamics, say = statics.solution.problem.dynamics, words.say
+    facts = friction_facts(statics, words)
+    for joint, bearing in {} if dynamics is None else dynamics.bearings.items():
+        first, second, plane = (
+            with_unit(say.given(z), say.units["m"]) for z in (*bearing.at, bearing.plane)
+        )
+        told = words.note.given_bearings.format(
+            joint=point_name(joint), first=first, second=second, plane=plane
+        )
+        path = f"bearings.{segment(joint)}"
+        facts.append(GivenFact(told, {f"{path}.at": [*bearing.at], f"{path}.plane": bearing.plane}))
+    return facts
+
+
+def friction_facts(statics: Statics, words: Language) -> list[GivenFact]:
+    """Return the coefficients of friction and the radii of pins, those of pairs alike once."""
+    problem, say = statics.solution.problem, words.say
+    task = None if problem.dynamics is None else problem.dynamics.friction
+    found: dict[tuple[bool, float, float], tuple[list[str], dict[str, object]]] = {}
+    for joint in statics.reactions if task is not None else ():
+        assert task is not None
+        pair = pair_data(problem, task, joint)
+        if not pair.rubs:
+            continue
+        names, data = found.setdefault((pair.slides, pair.f, pair.radius), ([], {}))
+        between = f"{joint.on}–{problem.mechanism.called(joint.by)}"
+        names.append(f"{point_name(joint.joint)} ({between})")
+        path = f'friction.pairs."{pair.name}"'
+        data[f"{path}.f"] = pair.f
+        if not pair.slides:
+            data[f"{path}.radius"] = pair.radius
+    return [
+        GivenFact(
+            (words.friction.given_sliding if slides else words.friction.given_turning).format(
+                pairs=", ".join(names),
+                f=say.short(f),
+                radius=f"{say.short(1e3 * radius)} {say.units['mm']}",
+            ),
+            data,
+        )
+        for (slides, f, radius), (names, data) in found.items()
+    ]
+
+
 def _external(reading: ForceReading) -> list[Applied]:
     loads = (given.applied for given in reading.statics.board.given)
     return [one for one in loads if one.kind is LoadKind.EXTERNAL]
@@ -163,13 +219,19 @@ def cycle_statement(solution: Solution, words: Language) -> list[GivenFact]:
     assert problem.dynamics is not None
     facts = given(problem, words, [float(position) for position in solution.positions])
     facts += mass_lines(problem, words)
-    return [*facts, *load_facts(problem, words), *_pushed(problem, words)]
+    facts += [*load_facts(problem, words), *_pushed(problem, words)]
+    return [*facts, *_in_pairs(statics_of(solution), words)]
 
 
 def load_facts(problem: Problem, words: Language) -> list[GivenFact]:
     """Return the loads of a whole cycle: sizes, or what they are tables of; where they act."""
     loads = () if problem.dynamics is None else problem.dynamics.loads
-    return [_load(problem, load, k, words) for k, load in enumerate(loads)]
+    found = []
+    for k, load in enumerate(loads):
+        found.append(_load(problem, load, k, words))
+        if isinstance(load.size, SizeTable) and load.size.like is None:
+            found.append(_rows(problem, load, k, words))
+    return found
 
 
 def _load(problem: Problem, load: Load | Couple, number: int, words: Language) -> GivenFact:
@@ -186,19 +248,7 @@ def _load(problem: Problem, load: Load | Couple, number: int, words: Language) -
         keys = {f"loads[{number}].like": load.size.like, f"loads[{number}].shift": load.size.shift}
         return GivenFact(f"{like_line(load, words)} ({where})", {**data, **keys})
     largest = max(load.size.values, key=abs)
-    match load.size.over:
-        case Over.PHI:
-            over = f"φ_{{{problem.drive.link}}}"
-        case Over.S:
-            over = "s"
-        case Over.X | Over.Y:
-            assert isinstance(load, Load), "a couple has no point"
-            over = f"{load.size.over.value}_{{{point_name(load.at)}}}"
-        case Over.PATH | Over.STROKES:
-            assert isinstance(load, Load), "a couple has no point"
-            over = f"s_{{{point_name(load.at)}}}"
-        case Over.POSITION:
-            over = words.note.number
+    over = _over(problem, load, words)
     name, index, end = load.name.partition("_{")
     peak = f"{name}_{{{end.removesuffix('}')}{' ' if index else ''}max}}"
     where, data = _where(load, number, largest, words)
@@ -207,6 +257,75 @@ def _load(problem: Problem, load: Load | Couple, number: int, words: Language) -
         name=load.name, over=over, peak=peak, largest=f"{say.short(abs(largest))} {say.units[unit]}"
     )
     return GivenFact(f"{told} ({where}{phase.text})", {**data, **phase.data})
+
+
+def _over(problem: Problem, load: Load | Couple, words: Language) -> str:
+    """Return the letter of what a table is over."""
+    assert isinstance(load.size, SizeTable)
+    match load.size.over:
+        case Over.PHI:
+            return f"φ_{{{problem.drive.link}}}"
+        case Over.S:
+            return "s"
+        case Over.X | Over.Y:
+            assert isinstance(load, Load), "a couple has no point"
+            return f"{load.size.over.value}_{{{point_name(load.at)}}}"
+        case Over.PATH | Over.STROKES:
+            assert isinstance(load, Load), "a couple has no point"
+            return f"s_{{{point_name(load.at)}}}"
+        case Over.POSITION:
+            return str(words.note.number)
+
+
+def _rows(problem: Problem, load: Load | Couple, number: int, words: Language) -> GivenFact:
+    """Return the rows of a table, those of an indicator diagram stroke by stroke, as the file."""
+    say, note, size = words.say, words.note, load.size
+    assert isinstance(size, SizeTable)
+    unit, key = ("N", "force") if isinstance(load, Load) else ("N·m", "couple")
+    path = f"loads[{number}].{key}"
+    over = _over(problem, load, words)
+    if size.over in (Over.PATH, Over.STROKES):
+        over += "/H"
+
+    def listed(rows: Iterable[tuple[float, float]], scale: float = 1.0) -> str:
+        return ", ".join(f"({say.given(x)};{NBSP}{say.given(scale * y)})" for x, y in rows)
+
+    if size.indicator is not None:
+        told = size.indicator
+        strokes = "; ".join(
+            note.load_stroke.format(number=k, rows=listed(rows, 1e-6))
+            for k, rows in enumerate(told.strokes, 1)
+        )
+        square = f"{say.units['m']}^{{2}}"
+        area, other = (with_unit(say.given(x), square) for x in (told.area, told.area_2))
+        template = note.load_indicator_both if told.sides == 2 else note.load_indicator
+        said = template.format(name=load.name, over=over, strokes=strokes, area=area, other=other)
+        data: dict[str, object] = {
+            f"{path}.law": "indicator",
+            f"{path}.area": told.area,
+            f"{path}.strokes": [[[*row] for row in rows] for rows in told.strokes],
+        }
+        if problem.machine is not None and problem.machine.cycle_deg != 360.0:
+            whole = problem.machine.cycle_deg
+            data["machine.cycle_deg"] = whole
+            said += note.load_cycle.format(cycle=with_unit(say.given(whole), say.units["deg"]))
+        if told.sides == 2:
+            data |= {f"{path}.sides": 2, f"{path}.area_2": told.area_2}
+        return GivenFact(said, data)
+    data = {f"{path}.over": size.over.value}
+    rows: list[tuple[float, float]]
+    if size.over is Over.POSITION:
+        rows, data[f"{path}.values"] = [*enumerate(size.values)], [*size.values]
+    else:
+        rows = [*zip(size.at, size.values, strict=True)]
+        data[f"{path}.values"] = [[*row] for row in rows]
+        data[f"{path}.interpolation"] = size.interpolation.value
+    steps = size.interpolation is Interpolation.STEP
+    template = note.load_steps if steps else note.load_rows
+    units = say.units[unit]
+    return GivenFact(
+        template.format(name=load.name, over=over, unit=units, rows=listed(rows)), data
+    )
 
 
 def _phase(load: Load | Couple, number: int, words: Language) -> GivenFact:
