@@ -80,6 +80,10 @@ class ProblemKind(ABC, Generic[P]):
     ) -> list[Drawing]:
         """Return the sheets; ``before`` of the set of ``total`` go before them."""
 
+    def has(self, method: str) -> bool:
+        """Return whether there is, of such problems, what a method of this name returns."""
+        return getattr(type(self), method, None) is not getattr(ProblemKind, method, None)
+
     def live_page(self, problem: P, lang: str) -> str:
         """Return the page that ``live`` writes.
 
@@ -98,7 +102,7 @@ class ProblemKind(ABC, Generic[P]):
         ProblemError
             Such problems have no audit.
         """
-        raise self._without(problem, "audit")
+        raise self._without(problem, "audit of printed values")
 
     def given(self, problem: P, words: Language) -> list[GivenFact]:
         """Return what is given, one fact each; the file can be written again of their data."""

@@ -10,9 +10,9 @@ import io
 import json
 import re
 from collections.abc import Callable
-from contextlib import redirect_stderr, redirect_stdout
+from contextlib import redirect_stderr, redirect_stdout, suppress
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import click
 
@@ -20,6 +20,9 @@ from planmethod.commands.helptext import answering
 from planmethod.commands.watched import run
 from planmethod.errors import Fault, PlanMethodError, ProblemError
 from planmethod.languages import say
+
+if TYPE_CHECKING:
+    from planmethod.solved.part import MechanismPart
 
 Asked = dict[str, Any]
 Found = dict[str, Any]
@@ -32,6 +35,7 @@ def act(asked: Asked, tell: Tell) -> Found:
     """Do what is asked; what is wrong with it is said in what is returned."""
     with answering(asked.get("lang", "ru")):
         try:
+            _refuse_lacking(asked)
             return _cleaned(ACTS[asked["do"]](asked, tell), asked)
         except ProblemError as error:
             return _told(asked, error.faults)
@@ -49,6 +53,37 @@ def act(asked: Asked, tell: Tell) -> Found:
                 error,
             )
             return _told(asked, [Fault("", said)], placed=False)
+
+
+_NO_ANSWERS = "Answers to such problems are not checked. Their numbers stand in the tables."
+_NO_PROJECT = "Note and project are those of a linkage. Of this file there are sheets."
+LACKING = {
+    "live": ("live_page", "Such a problem has no page that moves. See its sheets and tables."),
+    "structure": ("structure_document", "There are no links and joints here, hence no structure."),
+    "assemblies": ("", "Only linkages close in several ways. There is nothing to choose here."),
+    "note": ("", _NO_PROJECT),
+    "project": ("", _NO_PROJECT),
+    **dict.fromkeys(("form", "key", "questions", "verdicts", "checked"), ("figures", _NO_ANSWERS)),
+}
+"""What not every kind of problem has: the method that makes it, and what is said without it."""
+
+
+def _refuse_lacking(asked: Asked) -> None:
+    """Refuse what problems of this kind have not.
+
+    Raises
+    ------
+    PlanMethodError
+    """
+    from planmethod.kinds import kind_of
+
+    method, said = LACKING.get(asked.get("what") or asked["do"], ("", ""))
+    if not said:
+        return
+    with suppress(ProblemError):  # a file that cannot be read is told of where it is read
+        kind = kind_of(_file(asked))
+        if kind is not None and not (method and kind.has(method)):
+            raise PlanMethodError(say(said))
 
 
 def _told(asked: Asked, faults: Any, *, placed: bool = True) -> Found:
@@ -95,19 +130,13 @@ def sketched(asked: Asked, _: Tell) -> Found:
     from planmethod.problem import variant_names
     from planmethod.render.sketch import VIEWS
     from planmethod.render.sketch import sketch as drawn
-    from planmethod.solved.failures import PositionError
 
     path, variant = _file(asked), asked.get("variant")
     kind = kind_of(path)
     if kind is not None:
-        return _other(kind, path, variant)
+        return _other(kind, path, variant, asked["lang"])
     title, part = part_of(path, variant=variant, views=VIEWS)
-    found = _told(asked, part.faults)
-    trouble = part.trouble
-    if trouble is None and part.failure is not None:
-        trouble = PositionError(part.failure)
-    if trouble is not None and not part.faults:
-        found = _told(asked, [Fault("", str(trouble))], placed=False)
+    found, trouble = _told_of(asked, part)
     ways = len(part.assemblies)
     is_there = part.solution is not None or ways or part.fixed
     return found | {
@@ -120,12 +149,27 @@ def sketched(asked: Asked, _: Tell) -> Found:
     }
 
 
-def _other(kind: Any, path: Path, variant: str | None) -> Found:
+def _told_of(asked: Asked, part: MechanismPart) -> tuple[Found, PlanMethodError | None]:
+    """Return what is wrong with the file of a linkage, and why it cannot be solved."""
+    from planmethod.solved.failures import PositionError
+
+    trouble = part.trouble
+    if trouble is None and part.failure is not None:
+        trouble = PositionError(part.failure)
+    if trouble is not None and not part.faults:
+        return _told(asked, [Fault("", str(trouble))], placed=False), trouble
+    return _told(asked, part.faults), trouble
+
+
+def _other(kind: Any, path: Path, variant: str | None, lang: str) -> Found:
     """Return the same of a problem that is no linkage: its scheme, or else its first sheet."""
+    from msgspec.structs import replace
+
     from planmethod.options import drawn_by
     from planmethod.problem import variant_names
 
     problem = kind.load(path, variant)
+    problem = replace(problem, sheet=replace(problem.sheet, lang=lang))
     drawing = kind.scheme(problem)
     if drawing is None:
         drawing = kind.drawings(problem, fields={}, profile=drawn_by(None, None))[0]
@@ -142,7 +186,10 @@ def _svg(drawing: Any) -> str:
 
 
 def assemblies(asked: Asked, _: Tell) -> Found:
-    """Return the ways in which the links close, each with the rules that choose it."""
+    """Return the ways in which the links close, each with the rules that choose it.
+
+    Where the file leaves some of it open, those it leaves; else all, also those it has not chosen.
+    """
     from msgspec.structs import replace
 
     from planmethod.kinds import part_of
@@ -151,10 +198,16 @@ def assemblies(asked: Asked, _: Tell) -> Found:
     from planmethod.render.sketch import sketch as drawn
 
     path = _file(asked)
-    bare = _without_assembly(asked["text"])
-    path.write_bytes(bare.encode("utf-8", "replace"))
-    part = part_of(path, variant=asked.get("variant"), views=WAYS)[1]
+    whole = part = part_of(path, variant=asked.get("variant"), views=WAYS)[1]
+    if not part.assemblies:
+        bare = _without_assembly(asked["text"])
+        path.write_bytes(bare.encode("utf-8", "replace"))
+        part = part_of(path, variant=asked.get("variant"), views=WAYS)[1]
     words = language(asked["lang"])
+    if not part.assemblies:
+        found, trouble = _told_of(asked, whole)
+        if trouble is not None:
+            return found
     return {
         "faults": [],
         "ways": [
@@ -186,7 +239,7 @@ def pictured(asked: Asked, _: Tell) -> Found:
     path = home() / asked["file"]
     kind = kind_of(path)
     if kind is not None:
-        return _other(kind, path, None)
+        return _other(kind, path, None, asked["lang"])
     title, part = part_of(path, variant=asked.get("variant"), views=VIEWS)
     if part.solution is None:
         return {"svg": _svg(drawn(part, title, language(asked["lang"]), []))}

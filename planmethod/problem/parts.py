@@ -198,8 +198,16 @@ _MISSING = {
 }
 
 
+_OTHERS = {
+    "gears": "a gear train",
+    "cam": "a cam mechanism",
+    "meshing": "two wheels in mesh",
+    "point": "a moving point",
+}
+
+
 def _report_no_links(faults: Faults, given: Mapping[str, Any]) -> None:
-    for key, what in (("gears", "a gear train"), ("point", "a moving point")):
+    for key, what in _OTHERS.items():
         if key in given:
             faults.add(
                 "links",

@@ -52,7 +52,7 @@ def at(page: Page, words: str, replaced: str) -> None:
 
 def begin(page: Page, address: str, width: int = 1360, lang: str = "ru") -> None:
     page.open(f"{address}?lang={lang}", width=width, height=900 if width > 600 else 740)
-    page.ask("localStorage.clear()")
+    page.ask("localStorage.clear(); void indexedDB.deleteDatabase('planmethod')")
     page.open(f"{address}?lang={lang}", width=width, height=900 if width > 600 else 740)
     page.said.clear()
     page.wait("document.querySelectorAll('#tasks li').length > 3")

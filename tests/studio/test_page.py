@@ -7,7 +7,7 @@ import re
 import shutil
 import subprocess
 import urllib.request
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
@@ -335,3 +335,328 @@ def test_strangers_have_no_instructors_pages_without_the_token(page: Page) -> No
         page.wait("document.querySelector('#works-of').textContent")
         assert not page.ask("document.querySelector('#desk').hidden")
         assert "token" not in page.ask("location.href")
+
+
+# One text is not another -------------------------------------------------------------------------
+
+
+def open_task(page: Page, name: str) -> None:
+    """Take a task, or a template, by its address."""
+    page.ask(f"location.hash = '#task=' + encodeURIComponent({name!r})")
+    page.wait(f"document.querySelector('#name').value === {name!r}")
+    page.wait(DRAWN)
+
+
+def press(page: Page, key: str, modifiers: int, *, letter: str = "") -> None:
+    """Press a key; ``letter``: what the keyboard of another language has on it."""
+    for kind in ("rawKeyDown", "keyUp"):
+        page.call("Input.dispatchKeyEvent", type=kind, key=letter or key, code=f"Key{key.upper()}",
+                  windowsVirtualKeyCode=ord(key.upper()), modifiers=modifiers)  # fmt: skip
+
+
+def undo(page: Page) -> None:
+    page.ask("studio.typed.view.focus()")
+    press(page, "z", 2)
+
+
+def choose(page: Page, box: str, value: str) -> None:
+    page.ask(
+        f"{{ const box = document.querySelector({box!r}); box.value = {value!r};"
+        " box.dispatchEvent(new Event('change', { bubbles: true })); }"
+    )
+
+
+def give(page: Page, box: str, *files: Path) -> None:
+    """Choose files of this machine."""
+    root = page.call("DOM.getDocument")["root"]["nodeId"]
+    node = page.call("DOM.querySelector", nodeId=root, selector=box)["nodeId"]
+    page.call("DOM.setFileInputFiles", nodeId=node, files=[str(file) for file in files])
+
+
+def mouse(page: Page, place: list[float], clicks: int) -> None:
+    for count in range(1, clicks + 1):
+        for kind in ("mousePressed", "mouseReleased"):
+            page.call("Input.dispatchMouseEvent", type=kind, x=place[0], y=place[1], button="left",
+                      clickCount=count)  # fmt: skip
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return tmp_path_factory.mktemp("desk")
+
+
+@pytest.fixture
+def desk(page: Page, folder: Path, of_folder: str) -> Path:
+    """Show a studio of a folder, with two files in it."""
+    for path in folder.iterdir():
+        path.unlink()
+    for name in ("a", "b"):
+        (folder / f"{name}.toml").write_text(f"title = '{name}'\n")
+    page.open("about:blank")
+    page.open(f"{of_folder}?lang=en", width=1200)
+    page.ask("localStorage.clear()")
+    page.open(f"{of_folder}?lang=en", width=1200)
+    page.wait("document.querySelectorAll('#tasks li').length > 3")
+    page.said.clear()
+    return folder
+
+
+@pytest.fixture(scope="module")
+def of_folder(folder: Path) -> Iterator[str]:
+    with studio(str(folder)) as (address,):
+        yield address
+
+
+def open_file(page: Page, name: str) -> None:
+    choose(page, "#folder", name)
+    page.wait(f"studio.text() === \"title = '{name[0]}'\\n\"")
+
+
+def test_what_is_undone_in_one_file_brings_back_nothing_of_another(page: Page, desk: Path) -> None:
+    open_file(page, "a.toml")
+    open_file(page, "b.toml")
+    undo(page)
+    press(page, "s", 2)
+    page.wait("document.querySelector('#saved').textContent === 'Saved'")
+    assert (desk / "b.toml").read_text() == "title = 'b'\n"
+    # whatever way another text comes
+    at(page, "'b'", "'own'")
+    other = desk / "other.txt"
+    other.write_text("title = 'uploaded'\n")
+    ways: dict[str, Callable[[], object]] = {
+        "title = 'a'\n": lambda: open_file(page, "a.toml"),
+        "uploaded": lambda: give(page, "#opened", other),
+        "Рычажный механизм": lambda: page.ask("location.hash = '#task=linkages-ex3'"),
+        "ex3-variants": lambda: page.ask("location.hash = '#task=linkages-ex3-variants&variant=2'"),
+        "[gears]": lambda: page.ask("location.hash = '#task=planetary-train'"),
+    }
+    for words, come in ways.items():
+        come()
+        page.wait(f"(studio.text() + document.querySelector('#name').value).includes({words!r})")
+        before = page.ask("studio.text()")
+        undo(page)
+        assert page.ask("studio.text()") == page.ask("studio.typed.text()") == before
+    # the page opened again, and the text before had back, with what was done to it
+    page.ask("studio.put('# typed\\n')")
+    page.leave("location.reload()")
+    page.wait("!!globalThis.studio")
+    undo(page)
+    assert page.ask("studio.text()") == "# typed\n"
+    open_file(page, "b.toml")
+    at(page, "'b'", "'mended'")
+    open_file(page, "a.toml")
+    click(page, "#said-do button")
+    assert page.ask("studio.text()") == "title = 'mended'\n"
+    assert text(page, "#saved") == "Not saved to the file"
+    undo(page)
+    assert page.ask("studio.text()") == "title = 'b'\n"
+    press(page, "s", 2)
+    page.wait("document.querySelector('#saved').textContent === 'Saved'")
+    assert [(desk / f"{name}.toml").read_text()[9] for name in "ab"] == ["a", "b"]
+    assert page.said == []
+
+
+def test_a_text_is_saved_to_the_file_that_it_came_from_or_it_is_asked(
+    page: Page, desk: Path
+) -> None:
+    def named(name: str) -> None:
+        page.ask(
+            f"{{ const box = document.querySelector('#name'); box.value = {name!r};"
+            " box.dispatchEvent(new Event('input')); }"
+        )
+
+    def asked(words: str, answer: int) -> None:
+        page.wait(f"document.querySelector('#said').textContent.includes({words!r})")
+        page.ask(f"document.querySelectorAll('#said-do button')[{answer}].click()")
+
+    open_file(page, "a.toml")
+    at(page, "'a'", "'c'")
+    named("b")
+    press(page, "s", 2, letter="ы")
+    asked("The page says b.toml, and the text came from a.toml", 1)
+    asked("There is a file b.toml already", 1)  # that of the file is taken
+    page.wait("studio.text() === \"title = 'b'\\n\"")
+    assert [(desk / f"{name}.toml").read_text()[9] for name in "ab"] == ["a", "b"]
+    named("new")
+    click(page, "#save")
+    asked("the text came from b.toml", 1)
+    wait_until((desk / "new.toml").exists)
+    assert (desk / "new.toml").read_text() == "title = 'b'\n"
+    # an answer to what was asked of a file before is no answer for the file that is here now
+    (desk / "new.toml").write_text("title = 'theirs'\n")
+    at(page, "'b'", "'mine'")
+    click(page, "#save")
+    page.wait("document.querySelectorAll('#said-do button').length === 2")
+    page.ask("globalThis.late = document.querySelector('#said-do button')")
+    open_file(page, "a.toml")
+    page.ask("late.click()")
+    # nor is one of a studio of another folder
+    page.ask(
+        "{ const kept = JSON.parse(localStorage.getItem('planmethod.text'));"
+        " localStorage.setItem('planmethod.text', JSON.stringify({ ...kept, file: 'z.toml' })); }"
+    )
+    page.leave("location.reload()")
+    page.wait("!!globalThis.studio")
+    assert page.ask("document.querySelector('#save').hidden")
+    assert {path.name: path.read_text()[9] for path in desk.iterdir()} == {
+        "a.toml": "a", "b.toml": "b", "new.toml": "t",
+    }  # fmt: skip
+
+
+SHOWN = (
+    "JSON.stringify([...document.querySelectorAll('#work *, #answers *, #group *')]"
+    ".filter(one => !one.closest('#editor')).map(one => [one.tagName, one.id, one.hidden,"
+    " [...one.childNodes].map(node => node.nodeType === 3 ? node.data.trim() : '').join(''),"
+    " one.value, (one.src || '').replace(/blob:.*/, 'blob'), one.alt, one.className]))"
+)
+"""All that is shown of a task."""
+
+
+def filled(page: Page, work: Path) -> None:
+    """Have everything made of a linkage that a page makes."""
+    for view, shown in (
+        ("motion", "#motion iframe"), ("sheets", "#sheet img"), ("tables", "#tables pre"),
+        ("protocol", "#protocol pre"), ("structure", "#structure pre"),
+        ("assemblies", "#ways button"),
+    ):  # fmt: skip
+        click(page, f"#to-{view}")
+        page.wait(
+            f"(one => one && (one.childNodes.length || one.src))(document.querySelector({shown!r}))"
+        )
+    click(page, "[data-what=form]")
+    page.wait("document.querySelector('#files .made a')")
+    click(page, "#ask")
+    page.wait("document.querySelector('#rows tr')")
+    page.ask(
+        "{ const box = document.querySelector('#rows td:nth-of-type(3) input'); box.value = '3,2';"
+        " box.dispatchEvent(new Event('input')); }"
+    )
+    click(page, "#judge")
+    page.wait("document.querySelector('#verdicts iframe')")
+    give(page, "#chosen", work)
+    page.wait("document.querySelector('#works li')")
+    click(page, "#check")
+    page.wait("document.querySelector('#statistics iframe')")
+    click(page, "#key")
+    page.wait("document.querySelector('#desk > .made a')")
+
+
+def test_nothing_that_was_made_for_a_task_is_shown_under_the_next_one(
+    page: Page, address: str, tmp_path: Path
+) -> None:
+    whole = (PROBLEMS / "groups/ex3.csv").read_text("utf-8-sig").splitlines()
+    work = tmp_path / "one.csv"
+    work.write_text("\n".join(whole[:6]).replace("Абрамова Дарья", "Петров П.П."), "utf-8")
+    begin(page, address)
+    open_task(page, "moving-point")
+    fresh = page.ask(SHOWN)
+    open_task(page, "linkages-ex3-variants")
+    filled(page, work)
+    assert page.ask("!!document.querySelector('#page iframe')")  # also of who has initials
+    page.ask(
+        "document.querySelector('#points').value = '0';"
+        "document.querySelector('#by-hand button').click()"
+    )
+    page.wait("document.querySelector('#entered li')")
+    open_task(page, "moving-point")
+    assert page.ask(SHOWN) == fresh
+    # nor that of a variant under another one
+    open_task(page, "linkages-ex3-variants")
+    page.wait("document.querySelectorAll('#variant option').length > 2")
+    click(page, "#to-structure")
+    page.wait("document.querySelector('#structure pre').textContent")
+    choose(page, "#variant", "2")
+    assert text(page, "#structure pre") == ""
+    # works and points are there when their task is, and after the page was opened again
+    page.leave("location.reload()")
+    page.wait("document.querySelector('#works li')?.textContent === 'one.csv'")
+    choose(page, "#variant", "")
+    click(page, "#check")
+    page.wait("document.querySelector('#marks tbody tr')")
+    assert text(page, "#entered li").startswith("Петров П.П.")
+    click(page, "#forget")
+    page.wait("!document.querySelector('#works li')")
+    assert page.said == []
+
+
+def test_an_answer_that_comes_late_is_not_shown_under_the_next_task(
+    page: Page, address: str
+) -> None:
+    begin(page, address)
+    open_task(page, "linkages-ex3")
+    page.ask(
+        "globalThis.held = []; globalThis.real = fetch;"
+        "globalThis.fetch = async (path, more) => {"
+        " const answer = await real(path, more), body = await answer.clone().text();"
+        " if (/api.do/.test(path)) await new Promise(done => held.push(done));"
+        " return new Response(body, answer); }"
+    )
+    click(page, "#to-structure")
+    page.ask("studio.put(studio.text().replace('DE = 0.18', 'DE = 0.19'))")
+    page.wait("held.length === 2")
+    page.ask("globalThis.fetch = real")
+    open_task(page, "moving-point")
+    seen = page.ask(SHOWN)
+    page.ask("held.forEach(done => done()); setTimeout(() => { held = null; }, 200)")
+    page.wait("held === null")
+    assert page.ask(SHOWN) == seen
+    assert page.said == []
+
+
+def test_a_pane_says_what_a_kind_of_problem_has_not(page: Page, address: str) -> None:
+    begin(page, address, lang="en")
+    open_task(page, "moving-point")
+    for view, words in (
+        ("motion", "Such a problem has no page that moves."),
+        ("structure", "There are no links and joints here"),
+        ("assemblies", "Only linkages close in several ways."),
+    ):
+        click(page, f"#to-{view}")
+        page.wait(f"document.querySelector('#{view} .told').textContent.startsWith({words!r})")
+        assert not page.ask(f"!!document.querySelector('#{view} iframe, #{view} button')")
+    click(page, "[data-what=note]")
+    page.wait("document.querySelector('#files .told').textContent.startsWith('Note and project')")
+    assert page.said == []
+
+
+def test_a_double_click_takes_a_whole_number(page: Page, address: str) -> None:
+    begin(page, address)
+    page.ask(
+        "studio.put('AB = 0.1\\nBC = [-12.5, 2.5e-3]\\n[links.12]\\nx = \"2*t-0.25\"\\nB3.x = 1')"
+    )
+    click(page, "#to-work")
+    found = {}
+    for words in ("0.1", "12.5", "2.5e-3", "links", "0.25", "AB"):
+        for place in (0, len(words) - 1):
+            box = page.ask(
+                f"{{ const box = studio.typed.view.coordsAtPos(studio.text().indexOf({words!r}) + "
+                f"{place}, 1); [box.left + 2, (box.top + box.bottom) / 2]; }}"
+            )
+            mouse(page, box, 2)
+            found[words, place] = page.ask(
+                "(({ from, to }) => studio.text().slice(from, to))"
+                "(studio.typed.view.state.selection.main)"
+            )
+    assert {key: value for key, value in found.items() if value != key[0]} == {}
+    page.call("Input.insertText", text="CD")
+    assert page.ask("studio.text()").startswith("CD = 0.1\n")
+
+
+def test_the_assemblies_that_a_file_leaves_open_are_offered(page: Page, address: str) -> None:
+    begin(page, address)
+    open_task(page, "RRR+RRP")
+    rules = "[...document.querySelectorAll('#ways code')].map(one => one.textContent).join()"
+    page.ask("studio.put(studio.text().replace(/^E = .*/m, ''))")
+    page.wait(f'{rules} === \'E = "right of D",E = "left of D"\'')
+    click(page, "#ways button:last-child")
+    page.wait(
+        "document.querySelector('#faults .good') && !document.querySelector('#scheme').hidden"
+    )
+    assert 'B = "above C"' in page.ask("studio.text()")
+    assert 'E = "left of D"' in page.ask("studio.text()")
+    # where nothing is open, all there are; of what is typed while one looks at them
+    click(page, "#to-assemblies")
+    page.wait(f'{rules}.includes(\'B = "above C"; E = "left of D"\')')
+    page.ask("studio.put(studio.text().replace('AB = 0.28', 'AB = 0.9'))")
+    page.wait("document.querySelector('#assemblies .told').textContent.includes('B')")
+    assert page.ask(rules) == text(page, "#ways-told") == ""

@@ -21,7 +21,7 @@ pytest.importorskip("httpx2", reason="starlette's test client needs httpx2")
 from starlette.testclient import TestClient
 
 from planmethod.cli import cli
-from planmethod.commands.studied import act
+from planmethod.commands.studied import LACKING, act
 from planmethod.commands.studio import settings_of
 from planmethod.errors import Fault, ProblemError
 from planmethod.kinds import kind_of, load
@@ -116,6 +116,32 @@ def test_the_scheme_is_that_of_the_command(client: TestClient, tmp_path: Path) -
     found = do(client, "sketched", EX3)
     assert found["faults"] == []
     assert found["svg"] == (tmp_path / "ex3-sketch.svg").read_text("utf-8")
+
+
+def test_a_scheme_has_the_language_of_the_page(client: TestClient) -> None:
+    text = client.get("/api/start/moving-point?lang=en").json()["text"]
+    found = do(client, "sketched", f"{text}\n[sheet]\nlang = 'ru'\n", "en")
+    assert "</svg>" in found["svg"]  # its sheet, which is full of words
+    assert not re.search("[а-яё]{3}", found["svg"])
+
+
+def test_what_a_kind_of_problem_has_not_is_said_in_a_sentence(client: TestClient) -> None:
+    acts = ("assemblies", "questions", "verdicts", "checked")
+    alike = ("note", "project", "assemblies")
+    answers = ("form", "key", "questions", "verdicts", "checked")
+    for name, lacks, has in (
+        ("cam", ("structure", *alike), "live"),
+        ("planetary-train", alike, "structure"),
+        ("meshing", ("live", "structure", *alike, *answers), "tables"),
+        ("moving-point", ("live", "structure", *alike), "questions"),
+    ):
+        text = client.get(f"/api/start/{name}?lang=en").json()["text"]
+        for what in (*lacks, has):
+            asked = {"what": what} if what not in acts else {}
+            found = do(client, what if what in acts else "command", text, "en", **asked)
+            said = [fault["message"] for fault in found.get("faults", ())]
+            assert said == ([] if what == has else [LACKING[what][1]]), (name, what)
+            assert found.get("code", 0) == 0
 
 
 @pytest.mark.usefixtures("russian")

@@ -1,8 +1,8 @@
 // The form of the answers: mm × μ beside the value while one types, the verdicts, the work as JSON.
-import { D, W, byId, download, framed, lettered, long, made, pdfOf } from "./api.js";
+import { D, W, byId, download, forgets, framed, lettered, long, made, pdfOf } from "./api.js";
 
 const AGREE = 0.01;  // as in the form for spreadsheets
-let asked = null, rows = [], scales = {}, home = "";
+let rows = [], scales = {}, home = "";
 
 const read = text => { const value = Number(text.trim().replace("−", "-").replace(",", ".")); return text.trim() && Number.isFinite(value) ? value : null; };
 const said = value => Number(value.toPrecision(4)).toLocaleString(D.lang, { maximumSignificantDigits: 4 });
@@ -10,13 +10,13 @@ const said = value => Number(value.toPrecision(4)).toLocaleString(D.lang, { maxi
 export async function ask(problem) {
   const told = byId("answers").querySelector(".told");
   const found = await long("questions", problem, told);
+  if (found === undefined) return;
   byId("answering").hidden = !found?.rows?.length;
   if (!found?.rows?.length) { told.textContent ||= W.nothing_asked; return; }
-  asked = found;
-  home = `planmethod.answers.${problem.name}.${problem.variant || ""}`;
+  home = `planmethod.answers.${problem.task}.${problem.variant || ""}`;
   const kept = JSON.parse(localStorage.getItem(home) || "{}");
   const box = byId("scales");
-  box.replaceChildren(box.querySelector("legend"));
+  bare(box);
   scales = Object.fromEntries(Object.entries(found.scales).map(([name, label]) => {
     const input = made(lettered(made(box, "label"), `${label} `), "input", "", { inputmode: "decimal", size: 7 });
     return [name, input];
@@ -47,6 +47,15 @@ export async function ask(problem) {
   byId("student").value ||= kept.student || "";
   compare();
 }
+
+const bare = box => box.replaceChildren(box.querySelector("legend"));
+forgets(() => {
+  byId("answering").hidden = true;
+  bare(byId("scales"));
+  rows = [];
+  scales = {};
+  home = "";
+});
 
 const every = () => [
   ...Object.entries(scales),

@@ -20,11 +20,13 @@ export function linked() {  // what the address asks for behind its #; once, so 
 export const first = linked();
 const token = first.get("token") || sessionStorage.getItem("token") || "";
 if (token) sessionStorage.setItem("token", token);
-let session = null;
+let session = null, count = 0;
+export const sessions = () => count;  // so far: a new one has nothing of those before
 
 export function enter() {
   session ??= ask("api/session", { method: "POST", body: JSON.stringify({ token }) }).then(async answer => {
     if (!answer.ok) throw new Error(await answer.text());
+    count++;
     return answer.json();
   }).catch(error => { session = null; throw error; });
   return session;
@@ -80,12 +82,34 @@ async function lines(answer, told) {
   }
 }
 
+// What was made for a task is forgotten when another one is taken, all of it here -----------------
+
+let task = 0;
+const forgetting = [];
+export const forgets = act => { forgetting.push(act); };  // what a module knows of a task beside what it shows
+
+export function forget() {
+  task++;
+  stopping?.abort();
+  empty(document);
+  for (const told of document.querySelectorAll(".told, #done")) told.textContent = "";
+  for (const act of forgetting) act();
+}
+
+export function empty(box) {  // of all that results are put into
+  for (const made of box.querySelectorAll("[data-made]")) made.replaceChildren();
+}
+
+let asked = 0;
+export const latest = () => { const own = ++asked; return () => own === asked; };  // whether no other text was asked for since
+export const current = () => { const own = task; return () => own === task; };  // whether it is still the same task
+
 // One long computation at a time, with its place, its share and a way to stop it ------------------
 
 let stopping = null;
 byId("stop").addEventListener("click", () => stopping?.abort("stop"));
 
-export async function long(act, body, told) {  // null where it is stopped or refused; told: where it is said
+export async function long(act, body, told) {  // null where it is refused, which is said in told; undefined where it is stopped
   stopping?.abort();
   const own = stopping = new AbortController();
   const status = byId("status"), share = byId("share");
@@ -98,12 +122,14 @@ export async function long(act, body, told) {  // null where it is stopped or re
   show({});
   try {
     const found = await compute(act, body, { signal: own.signal, told: show });
+    if (own.signal.aborted) return undefined;  // too late: something else is shown
     const faults = (found.faults || []).map(one => faultText(one));
     told.textContent = [found.refused, found.errors, ...faults].filter(Boolean).join("\n");
     if (!told.textContent) byId("done").textContent = W.done;  // for who hears the page
     return found.refused || faults.length ? null : found;
   } catch (error) {
-    if (!own.signal.aborted) told.textContent = error.message === "Failed to fetch" ? W.gone : error.message;
+    if (own.signal.aborted) return undefined;
+    told.textContent = error.message === "Failed to fetch" ? W.gone : error.message;
     return null;
   } finally {
     if (stopping === own) { stopping = null; status.hidden = true; }
@@ -142,8 +168,7 @@ export function framed(box, address, title, { live = false, pdf = "" } = {}) {  
   frame.title = title;
   frame.setAttribute("sandbox", live ? "allow-scripts" : "");
   shown(frame, address, live);
-  for (const old of box.querySelectorAll("iframe, .own")) old.remove();
-  box.append(frame);
+  box.replaceChildren(frame);
   const own = made(box, "p", "", { class: "own" });
   made(own, "a", W.own_tab, { href: address, target: "_blank", rel: "noopener" });
   if (pdf) { own.append(" · "); made(own, "a", "PDF", { href: pdf, target: "_blank", rel: "noopener" }); }

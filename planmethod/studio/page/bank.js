@@ -1,5 +1,5 @@
 // What there is to start from: the tasks of the textbooks, templates, files.
-import { D, W, byId, made, note, say } from "./api.js";
+import { D, W, byId, latest, made, note, say } from "./api.js";
 import { ask } from "./transport.js";
 
 const STEP = 24;
@@ -49,8 +49,10 @@ function more(take) {
 }
 
 export async function start(name, variant, take) {
+  const isLast = latest();
   const answer = await ask(`api/start/${encodeURIComponent(name)}?lang=${D.lang}&variant=${encodeURIComponent(variant)}`);
   if (!answer.ok) { note(say("no_task", { name })); return; }
   const found = await answer.json();
+  if (!isLast()) return;
   take(variant ? `${found.name}-${variant}` : found.name, found.text);
 }

@@ -83,26 +83,37 @@ function values(path, before, context) {
   return { from: context.pos - typed.length, options: found.map(one => ({ label: text(one), type: "enum" })) };
 }
 
-export function editor(parent, text, changed) {
-  const view = new cm.EditorView({
-    parent,
-    state: cm.EditorState.create({
-      doc: text,
-      extensions: [
-        cm.EditorView.cspNonce.of(D.nonce), cm.lineNumbers(), cm.history(), cm.drawSelection(), cm.highlightActiveLine(),
-        cm.highlightSpecialChars(), cm.bracketMatching(), cm.closeBrackets(), cm.search({ top: true }), cm.lintGutter(),
-        cm.StreamLanguage.define(cm.toml), cm.syntaxHighlighting(inks), cm.autocompletion({ override: [complete] }),
-        cm.EditorView.theme(own), cm.EditorView.lineWrapping,
-        cm.EditorView.contentAttributes.of({ "aria-label": W.editor, spellcheck: "false" }),
-        cm.keymap.of([...cm.closeBracketsKeymap, ...cm.completionKeymap, ...cm.lintKeymap, ...cm.searchKeymap,
-          ...cm.historyKeymap, ...cm.defaultKeymap]),
-        cm.EditorView.updateListener.of(update => { if (update.docChanged) changed(update.state.doc.toString()); }),
-      ],
-    }),
+const WORD = /[^\W\d]\w*|\d+(?:[._]\d+)*(?:e[+-]?\d+)?/gi;
+
+function numbered(state, pos) {  // a double click, and Ctrl with an arrow, take a number whole: 0.1, 2.5e-3
+  const line = state.doc.lineAt(pos);
+  const words = [...line.text.matchAll(WORD)].filter(({ 0: word, index }) => {
+    const from = line.from + index;
+    return from <= pos && pos <= from + word.length;
   });
+  return words.map(([word]) => ({ wordChars: word.replace(/\w/g, "") }));
+}
+
+export function editor(parent, text, changed) {
+  const begun = doc => cm.EditorState.create({
+    doc,
+    extensions: [
+      cm.EditorView.cspNonce.of(D.nonce), cm.lineNumbers(), cm.history(), cm.drawSelection(), cm.highlightActiveLine(),
+      cm.highlightSpecialChars(), cm.bracketMatching(), cm.closeBrackets(), cm.search({ top: true }), cm.lintGutter(),
+      cm.StreamLanguage.define(cm.toml), cm.EditorState.languageData.of(numbered), cm.syntaxHighlighting(inks),
+      cm.autocompletion({ override: [complete] }),
+      cm.EditorView.theme(own), cm.EditorView.lineWrapping,
+      cm.EditorView.contentAttributes.of({ "aria-label": W.editor, spellcheck: "false" }),
+      cm.keymap.of([...cm.closeBracketsKeymap, ...cm.completionKeymap, ...cm.lintKeymap, ...cm.searchKeymap,
+        ...cm.historyKeymap, ...cm.defaultKeymap]),
+      cm.EditorView.updateListener.of(update => { if (update.docChanged) changed(update.state.doc.toString()); }),
+    ],
+  });
+  const view = new cm.EditorView({ parent, state: begun(text) });
   return {
     view,
     text: () => view.state.doc.toString(),
+    open(next, state = begun(next)) { view.setState(state); },  // another text: what was undone in one is not in another
     put(next) { view.dispatch({ changes: { from: 0, to: view.state.doc.length, insert: next } }); },
     faults(found) {
       const doc = view.state.doc, told = found.filter(one => one.line).map(one => {

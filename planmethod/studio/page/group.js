@@ -1,22 +1,41 @@
 // The instructor: works dropped on the page, their marks, what is set by hand, variants and questions.
-import { D, W, byId, call, enter, fileList, framed, lettered, long, made, note, pdfOf, say } from "./api.js";
+import { D, W, byId, call, current, enter, fileList, forgets, framed, lettered, long, made, note, pdfOf, say, sessions } from "./api.js";
+import * as works from "./works.js";
 
-let found = null, byHand = [];
+let found = null, byHand = [], task = "", there = "";  // there: whose works the session has
 const told = byId("group").querySelector(".told");
 
-export async function group(problem) {
+export async function open(name) {  // its works and points, which were kept
+  const isOf = current();
+  task = name;
+  byHand = works.byHand(task);
+  list([]);
+  try {
+    const names = await works.names(task);
+    if (isOf()) list(names);
+  } catch (error) { note(String(error)); }
+}
+
+forgets(() => {
+  found = null;
+  byId("results").hidden = byId("varied").hidden = true;
+  byId("by-hand").reset();
+});
+
+export async function begin(problem) {
   const { trusted } = await enter();
   byId("no-token").hidden = trusted;
   byId("desk").hidden = !trusted;
   byId("works-of").textContent = say("works_of", { title: problem().name });
+  open(problem().task);
   byId("choose").addEventListener("click", () => byId("chosen").click());
-  byId("chosen").addEventListener("change", event => take([...event.target.files]));
+  byId("chosen").addEventListener("change", event => { take([...event.target.files]); event.target.value = ""; });
   const drop = byId("drop");
   for (const [name, is] of [["dragover", true], ["dragleave", false], ["drop", false]]) {
     drop.addEventListener(name, event => { event.preventDefault(); drop.classList.toggle("over", is); });
   }
   drop.addEventListener("drop", event => take([...event.dataTransfer.files]));
-  byId("forget").addEventListener("click", async () => list(await (await call("api/works/all", { method: "DELETE" })).json()));
+  byId("forget").addEventListener("click", async () => { there = ""; await works.clear(task); list(await works.names(task)); });
   byId("check").addEventListener("click", () => check(problem()));
   byId("who").addEventListener("change", student);
   byId("by-hand").addEventListener("submit", event => {
@@ -24,17 +43,37 @@ export async function group(problem) {
     const [who, which, points, remark] = ["who", "which", "points", "remark"].map(id => byId(id).value.trim());
     byHand = byHand.filter(one => one.student !== who || one.id !== which);
     if (points || remark) byHand.push({ student: who, id: which, points, remark });
+    works.keepByHand(task, byHand);
     check(problem());
   });
   byId("vary").addEventListener("submit", event => { event.preventDefault(); vary(problem()); });
   byId("key").addEventListener("click", async () => show(await long("command", { ...problem(), what: "key" }, told)));
 }
 
+const send = (name, file) => call(`api/works/${encodeURIComponent(name)}`, { method: "PUT", body: file });
+const here = () => `${sessions()} ${task}`;
+
 async function take(files) {
+  const isOf = current(), own = task;
+  await sent();
   for (const file of files) {
-    const answer = await call(`api/works/${encodeURIComponent(file.name)}`, { method: "PUT", body: file });
-    if (answer.ok) list(await answer.json()); else note(await answer.text());
+    const answer = isOf() && await send(file.name, file);
+    if (!isOf()) { there = ""; return; }
+    if (!answer.ok) { note(await answer.text()); continue; }
+    await works.add(own, file.name, file);
+    const names = await works.names(own);
+    if (isOf()) list(names);
   }
+}
+
+async function sent() {  // the session has the works of this task and no others
+  if (there === here() && !D.alone) return;  // a Python of the browser that was stopped has none
+  await call("api/works/all", { method: "DELETE" });
+  for (const name of await works.names(task)) {
+    const answer = await send(name, await works.read(task, name));
+    if (!answer.ok) note(await answer.text());
+  }
+  there = here();
 }
 
 function list(names) {
@@ -43,10 +82,16 @@ function list(names) {
 }
 
 async function check(problem) {
-  const answer = await long("checked", { ...problem, by_hand: byHand }, told);
+  let answer, own;
+  do {  // a session that has ended while one was away has left its works behind
+    await sent();
+    own = here();
+    answer = await long("checked", { ...problem, by_hand: byHand }, told);
+  } while (answer !== undefined && own !== here());
+  if (answer === undefined) return;
+  byId("results").hidden = !answer?.marks?.length;
   if (!answer?.marks?.length) return;
   found = answer;
-  byId("results").hidden = false;
   const table = byId("marks"), [head, ...rows] = found.marks;
   table.replaceChildren();
   const top = made(made(table, "thead"), "tr"), body = made(table, "tbody");
@@ -66,6 +111,7 @@ async function check(problem) {
     const item = made(byId("entered"), "li", `${one.student} · ${one.id || W.whole_work} · ${one.points} ${one.remark} `);
     made(item, "button", "✕", { "aria-label": W.forget }).addEventListener("click", () => {
       byHand = byHand.filter(other => other !== one);
+      works.keepByHand(task, byHand);
       check(problem);
     });
   }

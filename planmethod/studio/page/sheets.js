@@ -1,5 +1,5 @@
 // Sheets as pages: turned, zoomed, measured with a ruler.
-import { D, W, byId, lettered, long, made, picture, say } from "./api.js";
+import { D, W, byId, forgets, lettered, long, made, picture, say } from "./api.js";
 
 let pages = [], at = 0, zoom = 0, ends = [], measures = false;
 const paper = byId("paper"), box = byId("sheet"), SVG = "http://www.w3.org/2000/svg";
@@ -7,15 +7,21 @@ const number = (value, digits) => Number(value.toPrecision(digits)).toLocaleStri
 
 export async function draw(asked) {
   const found = await long("sheets", asked, byId("sheets").querySelector(".told"));
-  if (!found?.pages?.length) return;
-  pages = found.pages;
+  if (found === undefined) return found;
+  pages = found?.pages || [];
+  if (!pages.length) { box.replaceChildren(); forget(); return found; }
   at = Math.min(at, pages.length - 1);
   byId("turn").hidden = byId("measuring").hidden = false;
   show();
+  return found;
 }
 
-export const isDrawn = () => pages.length > 0;
-export function forget() { pages = []; box.replaceChildren(); byId("turn").hidden = byId("measuring").hidden = true; }
+function forget() {
+  pages = ends = [];
+  at = 0;
+  byId("turn").hidden = byId("measuring").hidden = true;
+}
+forgets(forget);
 
 function show() {
   const page = pages[at];

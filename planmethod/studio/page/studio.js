@@ -1,17 +1,20 @@
 // The page: rooms, the text and where it is kept, the scheme redrawn while one types.
-import { D, W, byId, call, compute, download, enter, faultText, fileList, first, framed, linked, long, made, note, picture, say, tabs } from "./api.js";
+import { D, W, byId, call, compute, current, download, empty, enter, faultText, fileList, first, forget, forgets, framed, latest, linked, long, made, note,
+  picture, say, tabs } from "./api.js";
 import { ask, handIn, judge } from "./answers.js";
 import { bank, start } from "./bank.js";
 import { editor } from "./editor.js";
-import { group } from "./group.js";
+import * as group from "./group.js";
 import * as sheets from "./sheets.js";
 import { starting } from "./transport.js";
 
 const PAUSE = 250, REST = 900;  // ms without a letter: the scheme; what moves
 const HOME = "planmethod.text";
 const kept = JSON.parse(localStorage.getItem(HOME) || "null") || { name: "problem", text: "", variant: "", file: "", mark: "" };
-const problem = () => ({ name: kept.name, text: kept.text, variant: kept.variant, file: kept.file, layout: layout() });
-let view = "scheme", sketched = {}, stale = new Set(), quietly = false;
+kept.task ??= kept.name;  // under which it was taken, whatever its file is called since
+if (!D.files.includes(kept.file)) kept.file = kept.mark = "";  // of another folder, by another studio at this address
+const problem = () => ({ name: kept.name, text: kept.text, variant: kept.variant, file: kept.file, layout: layout(), task: kept.task });
+let view = "scheme", stale = new Set();
 
 function keep() {
   try { localStorage.setItem(HOME, JSON.stringify(kept)); } catch (error) { note(String(error)); }
@@ -36,25 +39,26 @@ const turnTo = tabs(byId("views"), name => { view = name; refresh(); });
 // The text ----------------------------------------------------------------------------------------
 
 const typed = editor(byId("editor"), kept.text, text => {
-  if (quietly) return;
   kept.text = text;
   keep();
   unsaved();
   soon();
 });
 
-function take(name, text, { file = "", mark = "" } = {}) {  // another text; the one before can be had back
-  const before = { ...kept };
-  Object.assign(kept, { name: name.replace(/\.toml$/, ""), variant: "", file, mark, text });
-  quietly = true;
-  typed.put(text);
-  quietly = false;
+function take(name, text, { file = "", mark = "", saved = null, task, variant = "", state } = {}) {  // another text; the one before can be had back
+  const before = { ...kept, saved: savedText, state: typed.view.state }, plain = name.replace(/\.toml$/, "");
+  Object.assign(kept, { name: plain, task: task ?? plain, variant, file, mark, text });
+  savedText = saved;
+  typed.open(text, state);
   keep();
-  sheets.forget();
-  byId("ways").replaceChildren();
+  forget();
+  byId("sketch").removeAttribute("src");
+  byId("sketch").alt = "";
+  byId("variant-of").hidden = true;
+  byId("variant").replaceChildren();
   byId("name").value = kept.name;
-  byId("answering").hidden = true;
   byId("save").hidden = !kept.file;
+  group.open(kept.task);
   room("work");
   turnTo("scheme");
   unsaved();
@@ -70,59 +74,83 @@ byId("fetch").addEventListener("click", () => download(`${kept.name}.toml`, kept
 byId("open").addEventListener("click", () => byId("opened").click());
 byId("opened").addEventListener("change", async event => {
   const [file] = event.target.files;
-  if (file) take(file.name, await file.text());
+  const isLast = latest(), text = file && await file.text();
+  if (file && isLast()) take(file.name, text);
   event.target.value = "";
 });
-byId("variant").addEventListener("change", event => { kept.variant = event.target.value; keep(); soon(0); });
+byId("variant").addEventListener("change", event => { kept.variant = event.target.value; keep(); forget(); soon(0); });
 
 // A file of this machine: saved on demand, and what another editor does to it is told ---------------
 
-let savedText = null;
+let savedText = null;  // as the file has it
 const unsaved = () => { byId("saved").textContent = kept.file ? kept.text === savedText ? W.saved : W.unsaved : W.kept; };
 
 async function openFile(name) {
-  const answer = await call(`api/file/${encodeURIComponent(name)}`);
+  const isLast = latest(), answer = await call(`api/file/${encodeURIComponent(name)}`);
   if (!answer.ok) return;
   const { text, mark } = await answer.json();
-  savedText = text;
+  if (!isLast()) return;
   if (kept.file === name && kept.text.trim() && kept.text !== text) {  // typed here, not saved yet
+    savedText = text;
     byId("save").hidden = false;
     room("work");
-    if (kept.mark === mark) { unsaved(); soon(0); } else conflict(text, mark);
+    if (kept.mark === mark) { unsaved(); soon(0); } else conflict(name, text, mark);
     return;
   }
-  take(name, text, { file: name, mark });
+  take(name, text, { file: name, mark, saved: text });
 }
 
-const conflict = (text, mark) => note(W.conflict, {
-  [W.keep_mine]: () => { kept.mark = mark; keep(); save(); },
-  [W.take_theirs]: () => { savedText = text; take(kept.file, text, { file: kept.file, mark }); },
-});
+function conflict(file, text, mark) {  // of the text that is here and that of a file: asked while it is here
+  const isOf = current(), own = file === kept.file;
+  const ask = act => () => { if (isOf()) act(); };
+  note(own ? W.conflict : say("file_there", { file }), {
+    [W.keep_mine]: ask(() => write(file, mark)),
+    [W.take_theirs]: ask(() => take(file, text, { file, mark, saved: text })),
+  });
+}
 
-async function save() {
-  if (!kept.file) return;
-  const text = kept.text;
-  const answer = await call(`api/file/${encodeURIComponent(kept.file)}`, { method: "POST", body: JSON.stringify({ text, mark: kept.mark }) });
+function save() {
+  const named = `${kept.name}.toml`, { file, mark } = kept;
+  if (!file) return;
+  if (named === file) { write(file, mark); return; }
+  const isOf = current(), ask = act => () => { if (isOf()) act(); };
+  note(say("other_name", { name: named, file }), {
+    [say("save_to", { name: file })]: ask(() => write(file, mark)),
+    ...(D.one ? {} : { [say("save_to", { name: named })]: ask(() => write(named, "")) }),
+  });
+}
+
+async function write(file, mark) {  // if it is there as this mark says it was seen
+  const isOf = current(), { text } = kept;
+  const answer = await call(`api/file/${encodeURIComponent(file)}`, { method: "POST", body: JSON.stringify({ text, mark }) });
   const told = answer.headers.get("content-type")?.includes("json") ? await answer.json() : { said: await answer.text() };
-  if (answer.ok) { kept.mark = told.mark; savedText = text; keep(); unsaved(); }
-  else if (told.mark) conflict(told.text, told.mark);
+  if (!isOf()) return;
+  if (answer.ok) {
+    Object.assign(kept, { file, mark: told.mark, name: file.replace(/\.toml$/, "") });
+    byId("name").value = kept.name;
+    savedText = text;
+    keep();
+    unsaved();
+  } else if (told.mark) conflict(file, told.text, told.mark);
   else note(told.said);
 }
 byId("save").addEventListener("click", save);
-addEventListener("keydown", event => {
-  if ((event.ctrlKey || event.metaKey) && event.key === "s" && kept.file) { event.preventDefault(); save(); }
+addEventListener("keydown", event => {  // whatever letters its key has
+  if ((event.ctrlKey || event.metaKey) && (event.code === "KeyS" || event.key === "s") && kept.file) { event.preventDefault(); save(); }
 });
 setInterval(async () => {
   if (!kept.file || document.hidden || !byId("note").hidden) return;
-  const answer = await call(`api/file/${encodeURIComponent(kept.file)}?mark`).catch(() => null);
+  const isOf = current(), { file } = kept;
+  const answer = await call(`api/file/${encodeURIComponent(file)}?mark`).catch(() => null);
   if (!answer?.ok || (await answer.json()).mark === kept.mark) return;
-  const { text, mark } = await (await call(`api/file/${encodeURIComponent(kept.file)}`)).json();
-  if (mark !== kept.mark) conflict(text, mark);
+  const { text, mark } = await (await call(`api/file/${encodeURIComponent(file)}`)).json();
+  if (isOf() && mark !== kept.mark) conflict(file, text, mark);
 }, 3000);
 
 // The scheme --------------------------------------------------------------------------------------
 
 let pause = 0, rest = 0, asking = null, again = false;
+forgets(() => { asking = null; again = false; });  // what is asked yet comes too late
 
 function soon(wait = PAUSE) {
   for (const name of ["motion", "sheets", "tables", "protocol", "structure", "assemblies"]) stale.add(name);
@@ -130,7 +158,7 @@ function soon(wait = PAUSE) {
   clearTimeout(pause);
   clearTimeout(rest);
   pause = setTimeout(sketch, wait);
-  if (["motion", "tables", "structure", "protocol"].includes(view)) rest = setTimeout(refresh, REST);
+  if (["motion", "tables", "structure", "protocol", "assemblies"].includes(view)) rest = setTimeout(refresh, REST);
 }
 
 async function sketch() {  // one at work at a time; where it waits yet, what was typed since takes its place
@@ -157,7 +185,6 @@ async function sketch() {  // one at work at a time; where it waits yet, what wa
 }
 
 function show(found) {
-  sketched = found;
   if (found.svg) { picture(byId("sketch"), found.svg); byId("sketch").alt = `${W.scheme}: ${found.title || kept.name}`; }
   typed.faults(found.faults || []);
   const list = byId("faults");
@@ -197,24 +224,28 @@ byId("draw").addEventListener("click", () => sheets.draw(problem()));
 async function refresh() {
   if (!kept.text.trim() || !stale.has(view)) return;
   stale.delete(view);
-  const panel = byId(view), told = panel.querySelector(".told");
-  if (view === "sheets") return void await sheets.draw(problem());
-  if (view === "assemblies") return void await ways();
-  if (view === "motion") {
-    const found = await long("command", { ...problem(), what: "live" }, told);
+  const shown = view, panel = byId(shown), told = panel.querySelector(".told");
+  let found = null;
+  if (shown === "sheets") found = await sheets.draw(problem());
+  if (shown === "assemblies") found = await ways(panel, told);
+  if (shown === "motion") {
+    found = await long("command", { ...problem(), what: "live" }, told);
     const page = found?.files.find(one => one.name.endsWith(".html"));
-    if (page) framed(panel, found.files_at + encodeURI(page.name), W.motion, { live: true });
+    if (page) framed(byId("moving"), found.files_at + encodeURI(page.name), W.motion, { live: true });
+    else if (found !== undefined) empty(panel);
   }
-  if (["tables", "protocol", "structure"].includes(view)) {
-    const found = await long("command", { ...problem(), what: view }, told);
-    if (found) panel.querySelector("pre").textContent = found.output;
+  if (["tables", "protocol", "structure"].includes(shown)) {
+    found = await long("command", { ...problem(), what: shown }, told);
+    if (found !== undefined) panel.querySelector("pre").textContent = found?.output || "";
   }
+  if (found === undefined) stale.add(shown);  // stopped by something else: it is asked again when it is turned to
 }
 
-async function ways() {
-  const box = byId("ways"), found = await long("assemblies", problem(), byId("assemblies").querySelector(".told"));
-  box.replaceChildren();
-  byId("ways-told").textContent = found?.ways?.length > 1 ? W.choose_way : W.one_way;
+async function ways(panel, told) {
+  const box = byId("ways"), found = await long("assemblies", problem(), told);
+  if (found === undefined) return found;
+  empty(panel);
+  if (found) byId("ways-told").textContent = found.ways.length > 1 ? W.choose_way : W.one_way;
   for (const way of found?.ways || []) {
     const rules = Object.entries(way.rules).map(([point, rule]) => `${point} = "${rule}"`);
     const button = made(box, "button", "", { "aria-label": say("way", { rules: rules.join("; ") }) });
@@ -222,6 +253,7 @@ async function ways() {
     made(button, "code", rules.join("; "));
     button.addEventListener("click", () => { typed.put(ruled(kept.text, way.rules)); turnTo("scheme"); });
   }
+  return found;
 }
 
 export function ruled(text, rules) {  // the text with these rules in [assembly]
@@ -275,6 +307,6 @@ enter().then(() => {
   if (first.has("task")) follow(first);
   else if (D.one) openFile(D.files[0]);
   else if (kept.text.trim()) soon(0);
-  group(problem);
+  group.begin(problem);
 }, error => note(error.message));
 bank(take);
