@@ -86,7 +86,7 @@ def animate(
             else:
                 made[path] = film.svg(seconds)
         for path, data in made.items():
-            write(path, data)
+            write(path, data, within=out)
             click.echo(str(path))
 
     finish(each(problems, variant, all_variants, draw, kinds=False))

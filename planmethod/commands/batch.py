@@ -295,7 +295,7 @@ class Manifest:
         self.out, self.path = out, out / MANIFEST
         self.made, self.kept = 0, 0
         self._lines: dict[str, _Line] = {}
-        with contextlib.suppress(FileNotFoundError):
+        if self.path.is_file():
             for line in self.path.read_text("utf-8", errors="replace").splitlines():
                 with contextlib.suppress(ValueError, RecursionError):  # msgspec's are ValueErrors
                     told = convert(json.loads(line), _Line)
@@ -318,13 +318,13 @@ class Manifest:
         from planmethod.render.backends.output import whither, write
 
         for name, data in files.items():
-            write(self.out / name, data)
+            write(self.out / name, data, within=self.out)
             click.echo(str(self.out / name))
         digests = {name: _digest(data) for name, data in files.items()}
         name = stem(order.todo.problem)
         told = _Line(name, key, digests)
         self._lines[name] = told
-        with whither(self.path).open("a", encoding="utf-8") as file:
+        with whither(self.path, within=self.out).open("a", encoding="utf-8") as file:
             file.write("\n" * (not self.made) + _line(told))  # after a line cut short, a new one
         self.made += 1
 
@@ -334,7 +334,7 @@ class Manifest:
             from planmethod.render.backends.output import write
 
             lines = (_line(told) for _, told in sorted(self._lines.items()))
-            write(self.path, "".join(lines).encode())
+            write(self.path, "".join(lines).encode(), within=self.out)
         click.echo(say("{} made, {} there already.", self.made, self.kept))
 
 

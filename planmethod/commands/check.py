@@ -546,7 +546,7 @@ def _write_key(path: Path, keys: list[Key], asked: KeyFiles) -> None:
     name = stem(keys[0].problem) if len(keys) == 1 else path.stem
     for ending, data in key_files(keys, words):
         target = asked.out / f"{name}-key.{ending}"
-        write(target, data)
+        write(target, data, within=asked.out)
         click.echo(str(target))
 
 

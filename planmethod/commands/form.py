@@ -80,7 +80,7 @@ def form(
                 title=problem.title,
                 lang=language_of(problem, lang),
             )
-            write(path, data)
+            write(path, data, within=out)
             click.echo(str(path))
 
     act = partial(asked_of, settings=DEFAULT, lang=None, mistakes=False)

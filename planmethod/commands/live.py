@@ -43,10 +43,10 @@ def live(
         page = out / f"{stem(todo.problem)}-live.html"
         words = language_of(todo.problem, lang)
         if todo.kind is None:
-            put(live_page(todo.linkage, words), str(page))
+            put(live_page(todo.linkage, words), str(page), within=out)
             tell_doubts(todo.linkage)
         else:
-            put(todo.kind.live_page(todo.problem, words), str(page))
+            put(todo.kind.live_page(todo.problem, words), str(page), within=out)
         written.append(page)
 
     code = each(problems, variant, all_variants, write)

@@ -63,7 +63,7 @@ def note(
     project = decided(problem, variant, position, settled)
     options = NoteOptions(settled.fields, template, frame)
     files = note_files(project, f"{stem(project.problem)}-note", options, formats)
-    write_all(out, files)
+    write_all(out, files, within=out)
     for name in files:
         click.echo(str(out / name))
     if shown:

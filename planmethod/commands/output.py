@@ -24,14 +24,14 @@ SPOOLED = 2**20
 """Letters of records that are kept in memory."""
 
 
-def put(text: str, file: str | None) -> None:
-    """Print a text, or write it to a file and say so."""
+def put(text: str, file: str | None, *, within: Path | None = None) -> None:
+    """Print a text, or write it to a file and say so; ``within`` is the folder of ``--out``."""
     if file is None or file == "-":
         click.echo(text, nl=not text.endswith("\n"))
         return
     from planmethod.render.backends.output import write
 
-    write(Path(file), text.encode())
+    write(Path(file), text.encode(), within=within)
     click.echo(file)
 
 
@@ -61,13 +61,13 @@ def refuse_unknown(said: str, name: str, known: Sequence[str], told: str = "") -
         raise UsageError("{}{} Known: {}.", say(said, name), hint, listed)
 
 
-def write_new(path: Path, text: str, *, force: bool) -> None:
+def write_new(path: Path, text: str, *, force: bool, within: Path | None = None) -> None:
     """Write a file to start from, over an existing one by ``force`` only."""
     if path.exists() and not force:
         raise UsageError("{} exists; name another file or give --force", path)
     from planmethod.render.backends.output import write
 
-    write(path, text.encode())
+    write(path, text.encode(), within=within)
     click.echo(str(path))
 
 
@@ -86,7 +86,7 @@ def write_drawings(
 
     files = drawing_files(drawings, stem, formats, dpi=dpi, author=author, dxf_text=dxf_text)
     for name, data in files.items():
-        write(out / name, data)
+        write(out / name, data, within=out)
     paths = [out / name for name in files]
     for path in paths:
         click.echo(str(path))
@@ -136,13 +136,13 @@ def show(path: Path) -> None:
 
 
 def write_set(drawings: Sequence[Drawing], path: Path, *, author: str | None = None) -> None:
-    """Write sheets as the pages of one PDF."""
+    """Write sheets as the pages of one PDF in the folder of ``--out``."""
     from planmethod.render.backends import render_pages
     from planmethod.render.backends.canvas import Options
     from planmethod.render.backends.output import write
 
     options = Options() if author is None else Options(author=author)
-    write(path, render_pages(drawings, options=options))
+    write(path, render_pages(drawings, options=options), within=path.parent)
     click.echo(str(path))
 
 

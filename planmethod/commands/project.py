@@ -139,7 +139,7 @@ def project(
     record = project_record(chosen, made, name)
     files[RECORD] = msgspec.json.format(msgspec.json.encode(record), indent=2) + b"\n"
     folder = out / name
-    write_all(folder, files, gone=_stale(folder, name) - files.keys())
+    write_all(folder, files, gone=_stale(folder, name) - files.keys(), within=out)
     if as_json:
         click.echo(json_text(record))
     else:
@@ -305,8 +305,11 @@ def _named(name: str, error: PlanMethodError) -> PlanMethodError:
 
 def _stale(folder: Path, name: str) -> set[str]:
     """Return the files of an earlier project of the name: what is of other decisions goes."""
+    record = folder / RECORD
+    if not record.is_file():
+        return set()
     try:
-        before = msgspec.json.decode((folder / RECORD).read_bytes())
+        before = msgspec.json.decode(record.read_bytes())
         if before["problem"] != name:
             return set()
         files = {WHOLE, *(file for part in before["parts"] for file in part["files"])}

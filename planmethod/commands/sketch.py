@@ -110,5 +110,5 @@ def _show(picture: Path) -> None:
     from planmethod.render.backends.output import write
 
     page = picture.with_suffix(".html")
-    write(page, PAGE.format(picture=picture.name).encode())
+    write(page, PAGE.format(picture=picture.name).encode(), within=page.parent)
     show(page)

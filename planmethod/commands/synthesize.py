@@ -187,7 +187,10 @@ def synthesize(
     is_file = out is not None and out.suffix == ".toml"
     with aside:
         if out is not None:
-            write_new(out if is_file else out / f"{kind}.toml", text, force=force)
+            if is_file:
+                write_new(out, text, force=force)
+            else:
+                write_new(out / f"{kind}.toml", text, force=force, within=out)
         if drawn:
             from planmethod.synthesis.sheet import synthesis_sheet
 

@@ -145,11 +145,12 @@ def write_studio(
         raise OutputError("{}: this is a file. Name a folder.", folder)
     if folder.is_dir() and any(folder.iterdir()) and not (folder / ARCHIVE).is_file():
         raise OutputError("{}: there are other files. Name a folder that is empty or new.", folder)
-    write(folder / ARCHIVE, archive())
+    write(folder / ARCHIVE, archive(), within=folder)
     for name, data in _files(runtime, layouts, lang):
-        write(folder / name, data)
+        write(folder / name, data, within=folder)
     for task in tasks():
-        write(folder / "picture" / f"{task.name}.svg", pictured(task.file).encode())
+        picture = folder / "picture" / f"{task.name}.svg"
+        write(picture, pictured(task.file).encode(), within=folder)
         done(1)
 
 

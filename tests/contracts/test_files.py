@@ -138,3 +138,51 @@ def test_parts_of_a_key_are_counted_before_anything_is_made_of_them(
 @settings(max_examples=50)
 def test_dots_of_a_text_are_no_parts_of_a_key(before: str, dots: str, shape: str) -> None:
     assert parse(f"{before}\n{shape.format('x' + 40 * dots)}\n", name="x")["a"]
+
+
+# Links --------------------------------------------------------------------------------------------
+
+WRITERS: dict[str, tuple[str, ...]] = {
+    "sheet": ("sheet", str(EX3), "--format", "svg"),
+    "one file": ("sheet", str(EX3), "--one-file", "set.pdf"),
+    "check": ("check", str(EX3), "works.csv"),
+    "key": ("check", "--key", str(EX3)),
+    "project": ("project", "PROJECT", "--parts", "kinematics", "--format", "svg"),
+    "form": ("form", str(EX3)),
+    "live": ("live", str(EX3)),
+    "animate": ("animate", str(EX3), "--format", "svg"),
+    "sketch": ("sketch", str(EX3)),
+    "specimen": ("specimen", "lines"),
+    "batch": ("batch", str(EX3), "--format", "svg"),
+    "structure": ("structure", str(EX3), "--format", "svg"),
+}
+
+
+@pytest.mark.parametrize("name", WRITERS)
+def test_nothing_is_written_where_a_link_leads_out(
+    name: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A folder in it, or a file; the project, which has its own folder, is dear."""
+    monkeypatch.chdir(tmp_path)
+    Path("works.csv").write_text("student;what;value\nA;v_B1;3.2\n")
+    words = [str(path_of("levers/task-13")) if w == "PROJECT" else w for w in WRITERS[name]]
+    assert run(*words, "-o", "out").exit_code in (0, 1)
+    made = sorted(Path("out").rglob("*"))
+    folders = [path for path in made if path.is_dir()]
+    outside = Path("outside")
+    outside.mkdir()
+    files = [path for path in made if path.is_file() and path.name != "overrides.csv"]
+    for number, path in enumerate(folders or files[:1]):
+        is_folder = path.is_dir()
+        out = Path(f"out{number}")
+        link = out / path.relative_to("out")
+        link.parent.mkdir(parents=True)
+        kept = outside / "kept"
+        if not is_folder:
+            kept.write_text("kept")
+        link.symlink_to(outside.resolve() if is_folder else kept.resolve())
+        result = run(*words, "-o", str(out))
+        assert link.is_symlink() == (result.exit_code == 2), result.output
+        assert not link.is_symlink() or "out of the folder" in result.output
+        assert [one.name for one in outside.iterdir()] == ["kept"] * kept.exists()
+        assert is_folder or kept.read_text() == "kept"

@@ -291,7 +291,7 @@ def write_all(
     paths = [folder.write(name, data) for name, data in files.items()]
     if by_hand is not None:
         data, is_own = by_hand
-        write(out / OVERRIDES, data)
+        write(out / OVERRIDES, data, within=out)
         if is_own:
             folder.files[OVERRIDES] = digest_of(data)
         paths.append(out / OVERRIDES)

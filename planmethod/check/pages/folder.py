@@ -59,7 +59,7 @@ class RunFolder:
         OutputError
         """
         path = self.out / name
-        write(path, data)
+        write(path, data, within=self.out)
         self.files[name] = digest_of(data)
         return path
 
@@ -98,7 +98,8 @@ class RunFolder:
 
     def _put_down(self, record: Mapping[str, Any]) -> None:
         text = json.dumps(record, ensure_ascii=False, allow_nan=False, indent=1)
-        write(self.out / RECORD, f"{text}\n".encode("utf-8", "replace"))
+        data = f"{text}\n".encode("utf-8", "replace")
+        write(self.out / RECORD, data, within=self.out)
 
 
 def digest_of(data: bytes) -> str:

@@ -31,7 +31,7 @@ _CAUSES = {
 }
 
 
-def write(path: Path | str, data: bytes) -> None:
+def write(path: Path | str, data: bytes, *, within: Path | None = None) -> None:
     """Write ``data`` to ``path`` whole or not at all, see `opened`.
 
     Raises
@@ -39,11 +39,17 @@ def write(path: Path | str, data: bytes) -> None:
     OutputError
         The file cannot be written; the message says why and what to do.
     """
-    with opened(path) as file:
+    with opened(path, within=within) as file:
         file.write(data)
 
 
-def write_all(folder: Path, files: Mapping[str, bytes], *, gone: Iterable[str] = ()) -> None:
+def write_all(
+    folder: Path,
+    files: Mapping[str, bytes],
+    *,
+    gone: Iterable[str] = (),
+    within: Path | None = None,
+) -> None:
     """Write files into a folder, all of them or none.
 
     They are written into a folder of their own first; what else is there stays.
@@ -54,6 +60,8 @@ def write_all(folder: Path, files: Mapping[str, bytes], *, gone: Iterable[str] =
         By their names in the folder.
     gone : iterable of str
         Names of files of an earlier time that are removed then.
+    within : Path, optional
+        The folder of ``--out``: a link that leads out of it is refused.
 
     Raises
     ------
@@ -61,6 +69,7 @@ def write_all(folder: Path, files: Mapping[str, bytes], *, gone: Iterable[str] =
         One of them cannot be written; the message says why and what to do.
     """
     made = not folder.exists()
+    _stay(folder, within)
     try:
         folder.mkdir(parents=True, exist_ok=True)
         modes = {name: _mode_to_keep(folder / name, folder / name) for name in files}
@@ -85,7 +94,7 @@ def write_all(folder: Path, files: Mapping[str, bytes], *, gone: Iterable[str] =
 
 
 @contextlib.contextmanager
-def opened(path: Path | str) -> Iterator[BinaryIO]:
+def opened(path: Path | str, *, within: Path | None = None) -> Iterator[BinaryIO]:
     """Open a file for bytes that appear at ``path`` whole or not at all.
 
     The bytes go to a temporary file beside ``path``, which takes its place when the block ends: a
@@ -93,12 +102,18 @@ def opened(path: Path | str) -> Iterator[BinaryIO]:
     directories are made; a symbolic link is followed to a file that is there, and refused where
     there is none; an existing file keeps its permissions.
 
+    Parameters
+    ----------
+    within : Path, optional
+        The folder of ``--out``: a link that leads out of it is refused, of a file or of a folder.
+
     Raises
     ------
     OutputError
         The file cannot be written; the message says why and what to do.
     """
     asked = Path(path)
+    _stay(asked, within)
     try:
         # Before links are followed: nothing is made where one of them leads.
         asked.parent.mkdir(parents=True, exist_ok=True)
@@ -120,14 +135,29 @@ def opened(path: Path | str) -> Iterator[BinaryIO]:
         _explain(asked, error)
 
 
-def whither(asked: Path) -> Path:
-    """Return the file that a path leads to.
+def _stay(asked: Path, within: Path | None) -> None:
+    """Refuse a path that links lead out of a folder; the folder itself may be a link."""
+    if within is None:
+        return
+    target, root = Path(os.path.realpath(asked)), Path(os.path.realpath(within))
+    if not target.is_relative_to(root):
+        raise OutputError(
+            "Cannot write {}: a link leads to {}, out of the folder {}. Remove the link.",
+            asked,
+            target,
+            within,
+        )
+
+
+def whither(asked: Path, *, within: Path | None = None) -> Path:
+    """Return the file that a path leads to; ``within`` as in `opened`.
 
     Raises
     ------
     OutputError
-        It is a link to where there is nothing.
+        It is a link to where there is nothing, or out of the folder.
     """
+    _stay(asked, within)
     target = Path(os.path.realpath(asked))
     if asked.is_symlink() and not target.exists():
         raise OutputError(
