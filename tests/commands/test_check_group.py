@@ -293,6 +293,13 @@ def test_a_mark_with_open_answers_is_provisional_until_the_instructor_has_looked
     assert "The instructor has looked: 0.5 of 1 points." in (out / "pages/s.html").read_text()
 
 
+def test_points_of_the_whole_work_decide_all_that_is_open(tmp_path: Path) -> None:
+    path = put(tmp_path, "x.csv", table("x"))
+    hand = put(tmp_path, "hand.csv", "student;id;points\ns;;5\n")
+    result = run(EX3, path, "--json", "--overrides", hand)
+    assert not json.loads(result.stdout)[0]["provisional"] and "Provisional" not in result.stderr
+
+
 def test_an_answer_that_stands_twice_is_decided_once(tmp_path: Path) -> None:
     path = put(tmp_path, "x.csv", "student;what;value\ns;v B;9\ns;v B;8\n")
     hand = put(tmp_path, "hand.csv", "student;id;points\ns;v_B;1\n")
@@ -424,6 +431,7 @@ def test_a_run_that_was_stopped_owns_what_it_wrote(
 
         patch.setattr(files, "student_pdf", second)
         run(EX3, path, "-o", str(out))
+    put(out / "pages", ".planmethod-0a1b2c3d4e5f.tmp", "two")
     assert (out / "pages/one.html").exists() and not (out / "pages/bad.html").exists()
     run(EX3, path, "-o", str(out), "--anonymize")
     assert all(page.stem.startswith("s-") for page in (out / "pages").iterdir())

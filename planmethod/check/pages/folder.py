@@ -16,7 +16,7 @@ from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any
 
-from planmethod.render.backends.output import write
+from planmethod.render.backends.output import UNFINISHED, write
 
 RECORD, OVERRIDES, PAGES = "run.json", "overrides.csv", "pages"
 RECORD_LIMIT = 16 * 2**20
@@ -81,6 +81,11 @@ class RunFolder:
         OutputError
         """
         kept = []
+        if None in self.earlier.values():  # a run was stopped, perhaps in the middle of a file
+            for folder in (self.out, self.out / PAGES):
+                for path in folder.glob(UNFINISHED):
+                    with contextlib.suppress(OSError):
+                        path.unlink()
         for name in self.earlier.keys() - {*self.files, OVERRIDES}:
             path = self.out / name
             there = _digest_at(path)

@@ -13,6 +13,9 @@ from typing import BinaryIO, NoReturn
 from planmethod.errors import OutputError
 from planmethod.languages import say
 
+UNFINISHED = ".planmethod-*.tmp"
+"""What a file is called, or a folder of files, until it is whole; one that was killed leaves it."""
+
 _CAUSES = {
     errno.EACCES: "no permission. Choose another directory with --out, or close the program that "
     "holds the file open",
