@@ -218,14 +218,14 @@ def _tell_provisional(checked: list[CheckedWork], by_hand: Path | None, settings
         if one.is_provisional:
             click.echo(
                 say(
-                    "Provisional: {0}: mark {1}, {2:g} of {3:g} points; {4} answer{4:||s} cannot "
-                    "be read and count as none until {5} has their points.",
+                    "Provisional: {}: mark {}, {:g} of {:g} points. Answers that cannot be read, "
+                    "and count as none until {} has points for them: {}.",
                     one.work.student,
                     mark,
                     one.points,
                     one.of,
-                    len(one.open),
                     by_hand or "overrides.csv",
+                    len(one.open),
                 ),
                 err=True,
             )

@@ -273,7 +273,7 @@ def test_a_mark_with_open_answers_is_provisional_until_the_instructor_has_looked
     page = (out / "pages/s.html").read_text("utf-8")
     assert "Mark: 2 (provisional)" in page and "until then it counts as no answer" in page
     assert book(out)["s"]["Mark"] == "2 (provisional)"
-    assert book(out)["s"]["Feedback"].startswith("provisional: 6 answers")
+    assert book(out)["s"]["Feedback"].startswith("provisional; answers that cannot be read")
     assert b"2 (provisional)" in words_of(out)
     with zipfile.ZipFile(out / "feedback.zip") as archive:
         assert "(provisional)" in archive.read("s/s.html").decode()
