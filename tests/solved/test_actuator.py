@@ -219,6 +219,43 @@ def test_the_cylinder_of_a_scissor_lift(own: bool, rate: int) -> None:
     assert np.isfinite(statics.by_hand.number(statics.driving.balance)).all()
 
 
+def test_a_slider_on_a_guide_of_the_frame_is_no_cylinder() -> None:
+    """It acts on the first link with its end, the rod: the pin carries the load of the slider."""
+    text = """
+[frame]
+O = [0.0, 0.0]
+Q = [1.0, 0.0]
+guides.x-x = { through = "O", angle = 0 }
+[links.1]
+points = ["O", "A"]
+OA = 0.1
+[links.2]
+points = ["A", "B"]
+AB = 0.3
+[links.3]
+points = ["B"]
+slides = { on = "x-x" }
+[driver]
+link = "1"
+QB = 0.65
+v_QB = 0.1
+root = 1
+[assembly]
+B = "right of A"
+[dynamics]
+[[loads]]
+link = "3"
+at = "B"
+force = 1000
+angle = 0
+"""
+    statics = Statics(Solution(pose(loads(text, name="slider"))))
+    forces = {(r.joint, r.on, r.by): r.force[0] for r in statics.reactions}
+    assert statics.balance[0] == pytest.approx(1000.0, rel=1e-12)
+    assert forces["B", "2", "3"] == pytest.approx(1000.0, rel=1e-12)
+    assert abs(forces["A", "2", "1"]) < 1e-9
+
+
 @pytest.mark.parametrize(
     ("table", "path"),
     [
