@@ -22,6 +22,9 @@ TINY = 1e-12
 RIGHT = 1e-9
 """Degrees between an angle and a multiple of the right one that are rounding."""
 
+FLAT = 0.1
+"""Sine of the angle of a triangle below which its sides do not give its corner well."""
+
 FAR = 10.0
 """Distance from the origin, in sizes of a mechanism, from which places are counted from its own."""
 
@@ -292,6 +295,8 @@ class Draft:
             return PointName(point)
         if (arm := self._arm(link, point)) is not None:
             return self._lay_arm(link, arm)
+        if (known := self._corners(link, point)) is not None:
+            return self._strike(link, point, known)
         body = self.problem.bodies[link]
         here = self.placed[link]
         if len(here) > 1 and any(body.points[p] != body.points[here[0]] for p in here):
@@ -327,10 +332,11 @@ class Draft:
 
         What an arm is laid off from comes before its end, in whichever order the file has them.
         """
-        arms = _arms(self.problem.bodies[link])
-        ends = {arm.end for arm in arms}
-        while rest := [p for p in self.problem.bodies[link].points if not self._has(link, p)]:
-            ready = (p for p in rest if self._arm(link, p) is not None)
+        body = self.problem.bodies[link]
+        ends = {arm.end for arm in _arms(body)}
+        ends |= {point for point, form in body.forms.items() if form.kind == "side"}
+        while rest := [p for p in body.points if not self._has(link, p)]:
+            ready = (p for p in rest if self._arm(link, p) or self._corners(link, p))
             plain = (p for p in rest if p not in ends)
             self.locate(link, next(ready, None) or next(plain, rest[0]))
 
@@ -342,6 +348,32 @@ class Draft:
         """Return the arm that a point is the end of, where it can be laid off by now."""
         arms = (arm for arm in _arms(self.problem.bodies[link]) if arm.end == point)
         return next((arm for arm in arms if self._has(link, arm.vertex, *arm.of)), None)
+
+    def _corners(self, link: str, point: str) -> tuple[str, str] | None:
+        """Return the corners of a triangle that give its third one by its sides, if they are there.
+
+        Not of a flat one, in which the arcs only touch.
+        """
+        body = self.problem.bodies[link]
+        for top, form in body.forms.items():
+            if form.kind != "side" or point not in (corners := (*form.line, top)):
+                continue
+            p, q = (one for one in corners if one != point)
+            span, side = (body.points[one] - body.points[p] for one in (q, point))
+            aside = (side * span.conjugate()).imag
+            if self._has(link, p, q) and abs(aside) > FLAT * abs(span) * abs(side):
+                return p, q
+        return None
+
+    def _strike(self, link: str, point: str, known: tuple[str, str]) -> PointName:
+        """Meet arcs with the sides of a triangle about two of its corners; note it as placed."""
+        p, q = known
+        points = self.problem.bodies[link].points
+        aside = ((points[point] - points[p]) * (points[q] - points[p]).conjugate()).imag
+        radii = [self.drawn(self.length(link, one, point)) for one in known]
+        side = Side.LEFT if aside > 0 else Side.RIGHT
+        self.b.meet_circles(point, PointName(p), radii[0], PointName(q), radii[1], side)
+        return self.mark_placed(point)
 
     def _lay_arm(self, link: str, arm: GivenArm) -> PointName:
         """Lay a length off at its given angle; note its end as placed."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import cmath
+import json
 import math
 from pathlib import Path
 
@@ -11,8 +12,9 @@ from click.testing import CliRunner
 
 from planmethod import Solution, load
 from planmethod.cli import cli
-from planmethod.construct.steps import AtAngle, LayOff, PointName
+from planmethod.construct.steps import AtAngle, LayOff, MeetCircles, PointName
 from planmethod.plans import draft
+from planmethod.plans.model import PlanKind
 
 LEVER = """
 frame = {{ O = [0, 0], C = [0.3, 0.12] }}
@@ -91,3 +93,29 @@ def test_the_protocol_tells_an_arm_by_what_is_given(tmp_path: Path) -> None:
     said = " ".join(run.output.split())
     assert "From point C at 100° to CB we lay off CD = l_CD/μ_l = 0.18/0.004 = 45 mm" in said
     assert "(to the left as one looks along CB) and get point D" in said
+
+
+SIDES = 'CB = 0.22\nBD = 0.15\nCD = 0.18\nD.side = "{} of CB"'
+
+
+@pytest.mark.parametrize("points", (["C", "B", "D"], ["D", "C", "B"], ["B", "D", "C"]))
+@pytest.mark.parametrize("way", ("left", "right"))
+@pytest.mark.parametrize("inner", ("B", "D"))
+def test_three_sides_are_two_arcs(points: list[str], way: str, inner: str, tmp_path: Path) -> None:
+    """The corner that is not a pin of the group is struck from both others with their sides."""
+    path = tmp_path / "lever.toml"
+    text = LEVER.format(points=json.dumps(points), sizes=SIDES.format(way), inner=inner)
+    path.write_text(text, "utf-8")
+    solution = Solution(load(path))
+    corner = "D" if inner == "B" else "B"
+    arcs = [s for s in solution.construction.program.steps if isinstance(s, MeetCircles)]
+    (step,) = (arc for arc in arcs if arc.out == corner)
+    sizes = {"C": {"B": 0.22, "D": 0.18}, inner: {"B": 0.15, "D": 0.15}}
+    told = [(step.centre1, step.radius1), (step.centre2, step.radius2)]
+    mu = solution.scales[PlanKind.POSITION].per_mm
+    for centre, radius in told:
+        assert solution.paper.number(radius)[0] * mu == pytest.approx(sizes[centre][step.out])
+    place = {name: point.place[0] for name, point in solution.points.items()}
+    side = ((place["D"] - place["C"]) / (place["B"] - place["C"])).imag
+    assert abs(place["D"] - place["B"]) == pytest.approx(0.15)
+    assert (side > 0) == (way == "left")

@@ -95,7 +95,7 @@ def test_sides_of_a_triangle_move_its_point() -> None:
     ]  # fmt: skip
     assert moved == pytest.approx(np.hypot(*(files[1] - files[0])) / (2 * step), rel=1e-6)
     assert moved > 1.0
-    with pytest.raises(SweepError, match="y_D follows from other numbers of the file"):
+    with pytest.raises(SweepError, match="no parameter y_D to vary"):
         Sweep(problem, varied=["y_D"])
 
 
