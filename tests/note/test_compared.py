@@ -11,7 +11,7 @@ from typing import Any
 from unittest.mock import patch
 
 import pytest
-from cases import each, sampled
+from cases import each, sampled, some
 from click.testing import CliRunner
 from msgspec import Struct
 from worked import PROBLEMS
@@ -196,6 +196,9 @@ def told_of(path: Path, lang: str, told: Told, *lines: str) -> list[str]:
 SAID = sorted([*PROBLEMS.glob("gears/*.toml"), *PROBLEMS.glob("point/*.toml")])
 """Of these a document has differences; of linkages sheets and the note alone."""
 
+LINKAGES = ("linkages", "levers", "machines", "press")
+"""Folders of the problems whose differences stand on sheets and in the note."""
+
 TURN = "0:360:30"
 DRAWN = (  # problem, what draws tables that others do not have
     ("linkages/ex3", "sheet --phi 20,140,260"),
@@ -227,3 +230,17 @@ def test_differences_on_sheets_and_in_notes_follow_from_the_numbers(name: str, l
     told = Told()
     assert told_of(PROBLEMS / f"{name}.toml", "ru", told, line) == []
     assert told.rows > told.dashes + told.lost
+
+
+EVERY = sorted(path for path in PROBLEMS.rglob("*.toml"))
+
+
+@pytest.mark.skipif(some(1, few=0) == 0, reason="takes ten minutes: with --thorough")
+def test_differences_of_every_shipped_problem_follow_from_the_numbers() -> None:
+    told, wrong = Told(), list[str]()
+    for path in EVERY:
+        of_linkage = path.parent.name in LINKAGES
+        lines = ("sheet", "sheet --sigma", "note") if of_linkage else ("sheet", "solve", "protocol")
+        wrong += [f"{path.stem}: {one}" for one in told_of(path, "ru", told, *lines)]
+    assert wrong == []
+    assert told.rows - told.dashes - told.lost > 20 * len(EVERY)
