@@ -53,8 +53,13 @@ class Visitor:
 
     def __init__(self, address: str) -> None:
         self._door = http.client.HTTPConnection(urlsplit(address).netloc, timeout=60)
-        self._door.request("POST", "/api/session", "{}")
-        self._key = json.loads(self._door.getresponse().read())["key"]
+        self._door.request("GET", address)
+        came = self._door.getresponse()
+        came.read()
+        cookie = (came.headers["Set-Cookie"] or "").partition(";")[0]
+        self._heads = {"Content-Type": "application/json", "Cookie": cookie}
+        self._door.request("POST", "/api/session", "{}", self._heads)
+        self._heads["X-Studio"] = json.loads(self._door.getresponse().read())["key"]
 
     def close(self) -> None:
         """Leave."""
@@ -63,7 +68,7 @@ class Visitor:
     def ask(self, do: str, text: str, **more: Any) -> dict[str, Any]:
         """Return the last line of an answer; an empty one where it is refused."""
         told = json.dumps({"text": text, "name": "load", **more})
-        self._door.request("POST", f"/api/do/{do}", told, {"x-studio": self._key})
+        self._door.request("POST", f"/api/do/{do}", told, self._heads)
         answer = self._door.getresponse()
         lines = answer.read().splitlines()
         found: dict[str, Any] = json.loads(lines[-1]) if answer.status == 200 else {}

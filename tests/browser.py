@@ -65,9 +65,10 @@ class Page:
         return told
 
     def open(
-        self, page: Path | str, *, width: int = 1200, height: int = 900, dark: bool = False
-    ) -> None:
-        """Open a file, or an address, in a window of so many pixels."""
+        self, page: Path | str, *, width: int = 1200, height: int = 900, dark: bool = False,
+        leads: bool = False,
+    ) -> None:  # fmt: skip
+        """Open a file, or an address, in a window of so many pixels; one that leads to another."""
         self.call("Emulation.setDeviceMetricsOverride", width=width, height=height,
                   deviceScaleFactor=1, mobile=width < 600)  # fmt: skip
         scheme = {"name": "prefers-color-scheme", "value": "dark" if dark else "light"}
@@ -75,6 +76,9 @@ class Page:
         self._loaded = False
         self.call("Page.navigate", url=page if isinstance(page, str) else page.resolve().as_uri())
         self._until_loaded()
+        if leads:
+            self._loaded = False
+            self._until_loaded()
 
     def leave(self, expression: str) -> None:
         """Do what leads to another page, and go on there: on the way nobody answers."""

@@ -21,6 +21,8 @@ NEEDS = "studio needs starlette and uvicorn: pip install starlette uvicorn"
 PLACES = 128
 """Connections that wait to be taken."""
 
+LEADING = '<meta http-equiv="refresh" content="0; url={}">'
+
 KEPT = 75
 """Seconds that a connection is kept for who thinks between two letters."""
 
@@ -42,7 +44,7 @@ KEPT = 75
     "--time",
     "seconds",
     type=NumberRange(1.0, 600.0),
-    help="Longest computation, s; with --serve 10 when absent.",
+    help="Processor time of one computation, s; with --serve 10 when absent, 120 for a project.",
 )
 @click.option(
     "--jobs", type=click.IntRange(1, 64), help="Processes at work; one for each core when absent."
@@ -145,11 +147,16 @@ def settings_of(
 
     limits = STRANGERS if served else OWN
     if seconds is not None:
-        limits = replace(limits, seconds=seconds)
+        limits = replace(
+            limits,
+            seconds=seconds,
+            slow_seconds=max(seconds, limits.slow_seconds) if served else seconds,
+            trusted_seconds=max(seconds, limits.trusted_seconds) if served else seconds,
+        )
     return StudioSettings(
         limits=limits,
         served=served,
-        token=secrets.token_urlsafe(18) if served else "",
+        token=secrets.token_urlsafe(24),
         processes=jobs or max(2, os.cpu_count() or 1),
         desk=None if file is None else Desk(file.resolve()),
         layouts=tuple(SHIPPED),
@@ -165,6 +172,7 @@ def _serve(settings: StudioSettings, host: str, port: int, shown: bool) -> None:
     import uvicorn
 
     from planmethod.commands.studied import act
+    from planmethod.studio.connections import PatientProtocol
     from planmethod.studio.server import application
 
     for name in ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS"):  # threads would take the memory
@@ -183,19 +191,35 @@ def _serve(settings: StudioSettings, host: str, port: int, shown: bool) -> None:
             error.strerror or error,
         ) from None
     with tempfile.TemporaryDirectory(prefix="planmethod-studio-") as root, listening:
-        address = f"http://{host}:{listening.getsockname()[1]}/"
-        click.echo(say("The studio is at {}  Ctrl+C stops it.", address))
-        if settings.token:
+        address = f"http://{f'[{host}]' if ':' in host else host}:{listening.getsockname()[1]}/"
+        own = f"{address}?token={settings.token}"
+        click.echo(
+            say("The studio is at {}  Ctrl+C stops it.", address if settings.served else own)
+        )
+        if settings.served:
             click.echo(say("Instructor's pages: {}", f"{address}#token={settings.token}"))
         if shown:
-            click.launch(address)
+            click.launch(address if settings.served else str(_leading(Path(root), own)))
         config = uvicorn.Config(
             application(settings, act, Path(root) / "sessions"),
             log_level="warning",
             access_log=False,
             server_header=False,
             backlog=PLACES,
+            http=PatientProtocol,
             timeout_keep_alive=KEPT,
             timeout_graceful_shutdown=2,
         )
         uvicorn.Server(config).run(sockets=[listening])
+
+
+def _leading(folder: Path, address: str) -> Path:
+    """Write a page that leads to an address, and return where it is.
+
+    What a browser is started with every user of the machine can read; this folder its owner alone.
+    """
+    from html import escape
+
+    path = folder / "studio.html"
+    path.write_text(LEADING.format(escape(address)), "utf-8")
+    return path

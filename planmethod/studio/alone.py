@@ -15,6 +15,7 @@ from weakref import finalize
 
 from msgspec import Struct
 
+from planmethod.errors import ArgumentError
 from planmethod.languages import LANGUAGES, say, speaking
 from planmethod.problem import schema_text
 from planmethod.render.sheets.compositions import SHIPPED
@@ -23,10 +24,10 @@ from planmethod.studio.asking import (
     asked_of,
     found_tasks,
     named_work,
-    object_of,
+    request_of,
     start_of,
 )
-from planmethod.studio.limits import OWN
+from planmethod.studio.limits import NO_MEMORY, OWN, TOO_DEEP
 from planmethod.studio.sessions import StudioSession
 
 Answer = tuple[int, bytes]
@@ -78,7 +79,8 @@ class Alone(Struct, weakref=True):
             case ["api", "works", name]:
                 return self._work(method, name, bytes(body), lang)
             case ["files", number, "all.zip"]:
-                return 200, self.session.zipped(number)
+                data = self.session.zipped(number)
+                return (404, b"") if data is None else (200, data)
             case ["files", number, name]:
                 file = self.session.file(number, name)
                 return (404, b"") if file is None else (200, file.read_bytes())
@@ -86,7 +88,11 @@ class Alone(Struct, weakref=True):
 
     def _done(self, do: str, body: bytes, lang: str, tell: Callable[[float], None]) -> Answer:
         session = self.session
-        told = object_of(body) or {}
+        try:
+            with speaking(lang):
+                told = request_of(body)
+        except ArgumentError as error:
+            return 400, str(error).encode()
         asked = asked_of(do, told, lang=lang, layouts=tuple(SHIPPED), works=session.works)
         if asked is None:
             return 404, b""
@@ -94,10 +100,13 @@ class Alone(Struct, weakref=True):
         asked["folder"] = str(folder)
         try:
             found = self.act(asked, tell)
-        except (MemoryError, RecursionError):
+        except (MemoryError, RecursionError) as error:
             with speaking(lang):
-                said = say("This takes more memory than there is for it. Ask for less.")
-            found = {"refused": str(said)}
+                found = {
+                    "refused": str(
+                        say(TOO_DEEP if isinstance(error, RecursionError) else NO_MEMORY)
+                    )
+                }
         return _json({"found": {**found, "files_at": f"files/{number}/"}})
 
     def _work(self, method: str, name: str, data: bytes, lang: str) -> Answer:

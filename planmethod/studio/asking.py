@@ -2,28 +2,112 @@
 
 from __future__ import annotations
 
-import json
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Sequence
 from pathlib import Path
-from typing import Any
+from typing import Annotated, Any
 
+from msgspec import Meta, MsgspecError, Struct
+from msgspec.json import Decoder
 from msgspec.structs import asdict
 
+from planmethod.errors import ArgumentError
 from planmethod.note.wording import language
 from planmethod.problem import FAMILIES, OTHER_FAMILIES, template
 from planmethod.problem.tasks import tasks, text_for
 
 ACTS = ("sketched", "assemblies", "sheets", "command", "questions", "verdicts", "checked", "varied")
+QUICK = ("sketched", "pictured", "questions")
+"""What somebody waits for at each letter."""
+
 TRUSTED = ("checked", "varied")
 """What an instructor asks for alone, where strangers come."""
 
 WHATS = ("tables", "protocol", "structure", "live", "pdf", "dxf", "svg", "note", "project", "form")
 TRUSTED_WHATS = ("key",)
+SLOW = ("note", "project")
+"""What takes minutes of a processor."""
+
 WORKS = (".csv", ".xlsx", ".json", ".toml", ".txt", ".dxf", ".svg")
 """Endings of works."""
 
 MOST_VARIANTS = 60
+DEEPEST = 32
+"""Levels of objects and lists in a work."""
+
+LONGEST_NAME = 200
+"""Bytes of the name of a file: systems take 255."""
+
+
+class StudioRequest(Struct, frozen=True, kw_only=True):
+    """What the page sends (запрос страницы): of another type it is refused.
+
+    Attributes
+    ----------
+    text, name, variant : str or None
+        The problem file, what it is called, and which variant of it is meant.
+    what, layout : str or None
+        Which command, which composition of its sheets.
+    work : dict or None
+        A work, as JSON has it.
+    by_hand : list of dict
+        Points and remarks of the instructor.
+    count, seed : int or None
+        Of variants.
+    token, file, mark, over
+        Of the instructor; of one's own file, and whether another state of it is written over.
+    """
+
+    text: str = ""
+    name: str | None = None
+    variant: str | None = None
+    what: str | None = None
+    layout: str | None = None
+    work: dict[str, Any] | None = None
+    by_hand: Annotated[list[dict[str, str]], Meta(max_length=10_000)] = []
+    count: int | None = None
+    seed: int | None = None
+    moodle: bool = False
+    token: str = ""
+    file: str = ""
+    mark: str = ""
+    over: bool = False
+
+
+_DECODER = Decoder(StudioRequest)
+
+
+def request_of(data: bytes) -> StudioRequest:
+    """Return what is asked, of JSON.
+
+    Raises
+    ------
+    ArgumentError
+        It is no JSON, no object, of another type than the page sends, or nested too deep.
+    """
+    try:
+        found = _DECODER.decode(data or b"{}")
+        deep = _is_deeper(found.work, DEEPEST)
+    except (MsgspecError, ValueError) as error:
+        named = re.search(r"at `\$\.(\w+)", str(error))
+        if named is None:
+            raise ArgumentError("This is no JSON that the page sends. Reload the page.") from None
+        said = "'{}' is of another type than the page sends. Reload the page."
+        raise ArgumentError(said, named[1]) from None
+    except RecursionError:
+        deep = True
+    if deep:
+        raise ArgumentError("This is nested deeper than {} levels. A work has three.", DEEPEST)
+    return found
+
+
+def _is_deeper(value: object, most: int) -> bool:
+    inner: Iterable[object] = ()
+    if isinstance(value, dict):
+        inner = value.values()
+    elif isinstance(value, list):
+        inner = value
+    return any(most == 0 or _is_deeper(one, most - 1) for one in inner)
 
 
 def told_of(lang: str, layouts: Sequence[str], uploads: int) -> dict[str, Any]:
@@ -56,22 +140,13 @@ def start_of(name: str, variant: str | None, lang: str) -> dict[str, str] | None
 def named_work(name: str) -> str | None:
     """Return the plain name of a work that was dropped; None where it is none."""
     plain = Path(name).name
-    is_one = Path(plain).suffix.lower() in WORKS and plain.isprintable() and len(plain) <= 120
-    return plain if is_one else None
-
-
-def object_of(data: bytes) -> dict[str, Any] | None:
-    """Return what is asked, of JSON; None where it is no object."""
-    try:
-        found = json.loads(data or b"{}")
-    except (ValueError, RecursionError):
-        return None
-    return found if isinstance(found, dict) else None
+    is_one = Path(plain).suffix.lower() in WORKS and plain.isprintable()
+    return plain if is_one and len(plain.encode()) <= LONGEST_NAME else None
 
 
 def asked_of(
     do: str,
-    told: Mapping[str, Any],
+    told: StudioRequest,
     *,
     lang: str,
     layouts: Sequence[str],
@@ -89,28 +164,25 @@ def asked_of(
     served : bool
         Strangers come.
     """
-    what, layout, variant = (told.get(key) for key in ("what", "layout", "variant"))
-    if do == "command" and what not in (*WHATS, *TRUSTED_WHATS):
+    if do == "command" and told.what not in (*WHATS, *TRUSTED_WHATS):
         return None
     asked: dict[str, Any] = {
-        "do": do, "what": what, "lang": lang, "served": served,
-        "name": _name(str(told.get("name", ""))), "text": str(told.get("text", "")),
-        "variant": str(variant)[:100] if variant else None,
-        "layout": layout if layout in layouts else None,
+        "do": do, "what": told.what, "lang": lang, "served": served,
+        "name": _name(told.name or ""), "text": told.text,
+        "variant": told.variant[:100] if told.variant else None,
+        "layout": told.layout if told.layout in layouts else None,
     }  # fmt: skip
     if asked["variant"] and asked["variant"].startswith("-"):
         return None
     if do == "verdicts":
-        asked["work"] = told.get("work")
+        asked["work"] = told.work
     if do == "checked":
-        by_hand = told.get("by_hand")
-        rows = by_hand if isinstance(by_hand, list) else []
-        asked["by_hand"] = [row for row in rows if isinstance(row, dict)][:10_000]
+        asked["by_hand"] = told.by_hand
         asked["works"] = sorted(str(path) for path in works.iterdir())
     if do == "varied":
-        asked["count"] = _number(told.get("count"), MOST_VARIANTS)
-        asked["seed"] = _number(told.get("seed"), 1_000_000)
-        asked["moodle"] = told.get("moodle") is True
+        asked["count"] = _number(told.count, MOST_VARIANTS)
+        asked["seed"] = _number(told.seed, 1_000_000)
+        asked["moodle"] = told.moodle
     return asked
 
 
@@ -120,5 +192,5 @@ def _name(text: str) -> str:
     return plain or "problem"
 
 
-def _number(value: object, most: int) -> int:
-    return min(max(value, 1), most) if isinstance(value, int) else 1
+def _number(value: int | None, most: int) -> int:
+    return min(max(value or 1, 1), most)

@@ -7,6 +7,7 @@ import re
 import secrets
 from collections.abc import Mapping
 from functools import cache
+from hashlib import sha256
 from html import escape
 from importlib.resources import files
 from typing import Any
@@ -35,17 +36,27 @@ def asset(name: str) -> tuple[bytes, str] | None:
     return path.read_bytes(), KINDS[name[name.rindex(".") :]]
 
 
-def page_of(lang: str, told: Mapping[str, Any]) -> tuple[str, str]:
+@cache
+def assets_mark() -> str:
+    """Return what tells all files of the page from those of another version."""
+    there = sorted(files("planmethod.studio").joinpath("page").iterdir(), key=lambda one: one.name)
+    return sha256(b"".join(one.read_bytes() for one in there)).hexdigest()[:16]
+
+
+def page_of(lang: str, told: Mapping[str, Any], static: str = "static") -> tuple[str, str]:
     """Return the page in a language, and the word by which its editor may set its style.
 
     Parameters
     ----------
     told : mapping
         What its script reads, plain data.
+    static : str
+        Where its scripts and its style are, below it.
     """
     words, nonce = language(lang).studio["page"], secrets.token_urlsafe(16)
     text = files("planmethod.studio").joinpath("page", "studio.html").read_text("utf-8")
     text = re.sub(r"\{\{(\w+)\}\}", lambda place: escape(words[place[1]]), text)
     data = {**told, "lang": lang, "langs": LANGUAGES, "nonce": nonce, "words": words}
     whole = json.dumps(data, ensure_ascii=False).replace("<", "\\u003c")
-    return text.replace("[[lang]]", lang).replace("[[data]]", whole), nonce
+    text = text.replace("[[static]]", static).replace("[[lang]]", lang)
+    return text.replace("[[data]]", whole), nonce

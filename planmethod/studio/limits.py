@@ -6,14 +6,19 @@ from msgspec import Struct
 
 MB = 1 << 20
 
+NO_MEMORY = "This takes more memory than there is for it. Ask for less."
+TOO_DEEP = "This is nested too deep to be computed. Ask for less."
+"""Why there is nothing, with a server or without."""
+
 
 class StudioLimits(Struct, frozen=True, kw_only=True):
     """How much may be asked (пределы студии).
 
     Attributes
     ----------
-    seconds, trusted_seconds : float
-        Time of one computation; of one that an instructor asks for.
+    seconds, slow_seconds, trusted_seconds : float
+        Time of a processor for one computation; for a note or a project; for what an instructor
+        asks for.
     memory : int or None
         Address space of a process at work, bytes; where the system can bound it.
     text, upload, uploads : int
@@ -22,8 +27,10 @@ class StudioLimits(Struct, frozen=True, kw_only=True):
         Bytes of a file that a computation writes.
     waiting, own : int
         Computations that wait, of all and of one session.
+    works : int
+        How many works a session has.
     sessions : int
-        Sessions at a time.
+        Sessions at a time: for one more the oldest goes that nothing is computed for.
     idle : float
         After so many seconds without a request a session is cleaned away.
     kept : int
@@ -35,11 +42,13 @@ class StudioLimits(Struct, frozen=True, kw_only=True):
     """
 
     seconds: float = 10.0
+    slow_seconds: float = 120.0
     trusted_seconds: float = 120.0
     memory: int | None = 500 * MB
     text: int = 512 * 1024
     upload: int = 5 * MB
     uploads: int = 20 * MB
+    works: int = 2000
     written: int = 64 * MB
     waiting: int = 200
     own: int = 4
@@ -53,7 +62,10 @@ class StudioLimits(Struct, frozen=True, kw_only=True):
 
 
 STRANGERS = StudioLimits()
-OWN = StudioLimits(seconds=600.0, trusted_seconds=600.0, memory=None, idle=1e9, rate=50.0)
+OWN = StudioLimits(
+    seconds=600.0, slow_seconds=600.0, trusted_seconds=600.0, memory=None, idle=24 * 3600.0,
+    rate=50.0,
+)  # fmt: skip
 """On one's own machine: what is too long is stopped by who waits for it."""
 
 

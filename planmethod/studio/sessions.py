@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import io
 import re
 import secrets
@@ -14,6 +15,7 @@ from pathlib import Path
 
 from msgspec import Struct, field
 
+from planmethod.errors import OutputError
 from planmethod.problem.source import SIZE_LIMIT
 from planmethod.render.backends.output import write
 from planmethod.studio.limits import Bucket, StudioLimits
@@ -57,13 +59,26 @@ class StudioSession(Struct):
 
     def file(self, number: str, name: str) -> Path | None:
         """Return a file that computation of a number made; None of any other path."""
-        root = (self.folder / number / "out").resolve()
-        path = (root / name).resolve()
-        return path if path.is_relative_to(root) and path.is_file() else None
+        root = self._made(number)
+        if root is None or "\0" in name:
+            return None
+        with contextlib.suppress(OSError):  # no system has so long a name
+            path = (root / name).resolve()
+            return path if path.is_relative_to(root) and path.is_file() else None
+        return None
 
-    def zipped(self, number: str) -> bytes:
-        """Return the files of a computation as one archive."""
-        made, folder = io.BytesIO(), self.folder / number / "out"
+    def _made(self, number: str) -> Path | None:
+        """Return where the files of a computation are; None where it has none, or there is none."""
+        if re.fullmatch("[1-9][0-9]{0,8}", number) is None:
+            return None
+        root = (self.folder / number / "out").resolve()
+        return root if root.is_dir() else None
+
+    def zipped(self, number: str) -> bytes | None:
+        """Return the files of a computation as one archive; None where there are none."""
+        made, folder = io.BytesIO(), self._made(number)
+        if folder is None:
+            return None
         with zipfile.ZipFile(made, "w", zipfile.ZIP_DEFLATED) as book:
             for path in sorted(folder.rglob("*")):
                 if path.is_file():
@@ -88,15 +103,31 @@ class Sessions:
     def __len__(self) -> int:
         return len(self._found)
 
-    def enter(self, address: str, *, trusted: bool) -> StudioSession | None:
-        """Return a new session; None where there are too many, or too many from an address."""
+    def enter(
+        self, address: str, *, trusted: bool, is_busy: Callable[[str], bool] = lambda key: False
+    ) -> StudioSession | None:
+        """Return a new session; None where there are too many, or too many from an address.
+
+        Who is trusted is let in however many there are.
+
+        Parameters
+        ----------
+        is_busy : callable
+            Tells of the key of a session whether something is computed for it.
+        """
         self.clean()
-        door = self._doors.setdefault(address, Bucket())
         limits, now = self.limits, self.clock()
-        if len(self) >= limits.sessions or not door.takes(
-            now, rate=limits.entries, burst=limits.entered
-        ):
-            return None
+        if not trusted:
+            door = self._doors.setdefault(address, Bucket())
+            if not door.takes(now, rate=limits.entries, burst=limits.entered):
+                return None
+        if len(self) >= limits.sessions:
+            idle = [one for one in self._found.values() if not is_busy(one.key)]
+            idle = [one for one in idle if trusted or not one.trusted]
+            if idle:
+                self._end(min(idle, key=lambda one: one.used))
+            elif not trusted:
+                return None
         key = secrets.token_urlsafe(24)
         folder = self.root / sha256(key.encode()).hexdigest()[:32]
         (folder / "works").mkdir(parents=True)
@@ -114,12 +145,15 @@ class Sessions:
     def clean(self) -> None:
         """Remove what was not used for long."""
         now = self.clock()
-        for key, session in [*self._found.items()]:
+        for session in [*self._found.values()]:
             if now - session.used > self.limits.idle:
-                del self._found[key]
-                shutil.rmtree(session.folder, ignore_errors=True)
+                self._end(session)
         full = self.limits.entered / self.limits.entries
         self._doors = {a: door for a, door in self._doors.items() if now - door.then < full}
+
+    def _end(self, session: StudioSession) -> None:
+        del self._found[session.key]
+        shutil.rmtree(session.folder, ignore_errors=True)
 
 
 class Desk(Struct, frozen=True):
@@ -142,13 +176,24 @@ class Desk(Struct, frozen=True):
         return folder / name if plain and is_one else None
 
     def read(self, path: Path) -> tuple[str, str] | None:
-        """Return the text of a file and its mark; None where there is none."""
-        try:
-            with path.open("rb") as file:
-                data = file.read(SIZE_LIMIT + 1)
-        except OSError:
+        """Return the text of a file and its mark; None where there is none.
+
+        Raises
+        ------
+        OutputError
+            What is there could not be saved again as it was: it is no plain file, too large, or
+            not UTF-8.
+        """
+        if not path.exists():
             return None
-        return data.decode("utf-8-sig", "replace"), mark_of(data)
+        data = (
+            path.read_bytes() if path.is_file() and path.stat().st_size <= SIZE_LIMIT else b"\xff"
+        )
+        try:
+            return data.decode("utf-8-sig"), mark_of(data)
+        except UnicodeDecodeError:
+            said = "{}: the page edits files in UTF-8 of {} KiB at most, and leaves this one alone."
+            raise OutputError(said, path.name, SIZE_LIMIT // 1024) from None
 
     def save(self, path: Path, text: str, seen: str, *, over: bool) -> tuple[str, str] | None:
         """Write a text; return what another editor left there meanwhile instead, None of nothing.
@@ -156,6 +201,7 @@ class Desk(Struct, frozen=True):
         Raises
         ------
         OutputError
+            It cannot be written, or what is there is no such text.
         """
         there = self.read(path)
         if there is not None and there[1] != seen and not over:

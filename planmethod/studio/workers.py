@@ -10,10 +10,11 @@ import signal
 import sys
 import time
 from collections.abc import AsyncGenerator, AsyncIterator, Callable, Mapping
+from enum import IntEnum
 from multiprocessing.connection import Connection
 from typing import Any, TypeAlias
 
-from planmethod.studio.limits import StudioLimits
+from planmethod.studio.limits import NO_MEMORY, TOO_DEEP, StudioLimits
 
 Asked: TypeAlias = dict[str, Any]
 """What is asked of a process: plain data."""
@@ -27,6 +28,9 @@ Tell: TypeAlias = Callable[[float], None]
 Act: TypeAlias = Callable[[Asked, Tell], Found]
 """What a process does; a function of a module."""
 
+ENDING = 10.0
+"""Seconds in which a process that has closed its pipe has ended."""
+
 READY = 60.0
 """Seconds in which a process is ready for work."""
 
@@ -39,6 +43,28 @@ PRELOADED = (
 PAUSE = 0.5
 """Seconds between two looks at the place in the queue."""
 
+WAITED = 20.0
+"""How many times longer than its limit of a processor something may take in all: on a machine
+that has other work, and not where it hangs."""
+
+TOO_LONG = (
+    "This takes more than {:g} s of a processor and is stopped. Ask for fewer positions, or for a "
+    "part of it; or run planmethod on your own machine, where nothing stops it."
+)
+HANGS = "This is not done after {:.0f} s and is stopped: the machine is busy. Try again later."
+ENDED = (
+    "What computed this was ended after {:.0f} s (signal or exit code {}). Try again; "
+    "if it recurs, report the file."
+)
+
+
+class Pace(IntEnum):
+    """How long somebody waits for something (темп): the quicker goes first."""
+
+    QUICK = 0
+    USUAL = 1
+    SLOW = 2
+
 
 # In a process ------------------------------------------------------------------------------------
 
@@ -46,6 +72,8 @@ PAUSE = 0.5
 def work(pipe: Connection, act: Act, memory: int | None, written: int) -> None:
     """Answer what is asked until nobody asks; the first thing is asked of oneself."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
+    if sys.platform != "win32":
+        signal.signal(signal.SIGPROF, signal.SIG_DFL)  # it ends the process
     with contextlib.suppress(Exception):  # whatever fails here is told of what is asked
         act({"do": "warm"}, lambda share: None)
     gc.collect()
@@ -54,14 +82,26 @@ def work(pipe: Connection, act: Act, memory: int | None, written: int) -> None:
     pipe.send(("ready", None))
     with contextlib.suppress(EOFError, OSError):
         while True:
-            asked = pipe.recv()
-            found: Found | None = None
-            with contextlib.suppress(MemoryError, RecursionError):
+            asked, seconds = pipe.recv()
+            spent = ""
+            try:
+                _allow(seconds)
                 found = act(asked, lambda share: pipe.send(("share", share)))
-            if found is None:  # outside, where what the work had is gone
-                pipe.send(("spent", None))
+                _allow(0.0)
+                pipe.send(("done", found))
+            except MemoryError:
+                spent = NO_MEMORY
+            except RecursionError:
+                spent = TOO_DEEP
+            if spent:  # outside, where what the work had is gone
+                pipe.send(("spent", spent))
                 return
-            pipe.send(("done", found))
+
+
+def _allow(seconds: float) -> None:
+    """End this process after so many seconds of a processor, where the system can; 0: do not."""
+    if sys.platform != "win32":
+        signal.setitimer(signal.ITIMER_PROF, seconds)
 
 
 def bound(memory: int | None, written: int) -> None:
@@ -102,20 +142,24 @@ class StudioWorker:
     def run(self, asked: Asked, seconds: float, tell: Tell) -> Found:
         """Have something done, and wait for it; called in a thread.
 
-        What takes longer, or more memory, is refused, and the process is another one then.
+        What takes more seconds of a processor, or more memory, is refused, and the process is
+        another one then.
         """
+        began = time.monotonic()
         try:
             if not self._is_ready:
                 if not self._pipe.poll(READY):
                     return self._again("The computation did not start. Try again.")
                 self._pipe.recv()
                 self._is_ready = True
-            self._pipe.send(asked)
-            end = time.monotonic() + seconds
+            self._pipe.send((asked, seconds))
+            began = time.monotonic()
+            end = began + seconds * (1.0 if sys.platform == "win32" else WAITED)
             while True:
                 if not self._pipe.poll(max(0.0, end - time.monotonic())):
-                    said = "This takes longer than {:g} s and is stopped. Ask for less."
-                    return self._again(said, seconds)
+                    if sys.platform == "win32":  # its own time is what is counted there
+                        return self._again(TOO_LONG, seconds)
+                    return self._again(HANGS, end - began)
                 kind, value = self._pipe.recv()
                 if kind == "share":
                     tell(value)
@@ -123,10 +167,14 @@ class StudioWorker:
                     found: Found = value
                     return found
                 else:
-                    break
-        except (EOFError, OSError):  # it is killed
+                    return self._again(value)
+        except (EOFError, OSError):  # it has ended
             pass
-        return self._again("This takes more memory than there is for it. Ask for less.")
+        self._process.join(ENDING)
+        code = self._process.exitcode
+        if code is not None and sys.platform != "win32" and code == -signal.SIGPROF:
+            return self._again(TOO_LONG, seconds)
+        return self._again(ENDED, time.monotonic() - began, _named(code))
 
     def _again(self, *said: object) -> Found:
         self.stop()
@@ -144,9 +192,15 @@ class StudioWorker:
         self._pipe.close()
 
 
+def _named(code: int | None) -> str:
+    """Return what is known of the end of a process: its signal, or its exit code."""
+    names = {-one.value: one.name for one in signal.Signals}
+    return "?" if code is None else names.get(code, str(code))
+
+
 class _Ticket:
-    def __init__(self, do: str, quick: bool, session: str) -> None:
-        self.do, self.quick, self.session = do, quick, session
+    def __init__(self, do: str, pace: Pace, session: str) -> None:
+        self.do, self.pace, self.session = do, pace, session
         self.given: asyncio.Future[StudioWorker] = asyncio.get_running_loop().create_future()
         self.began = time.monotonic()
 
@@ -154,7 +208,7 @@ class _Ticket:
 class StudioQueue:
     """Computations that wait for a process (очередь расчётов): quick ones first.
 
-    The long ones never take all processes.
+    Those that are not quick never take all processes, and a session has one slow one at work.
 
     Attributes
     ----------
@@ -168,6 +222,7 @@ class StudioQueue:
         self._every = tuple(self._idle)
         self._most_long = max(1, count - 1)
         self._long = 0
+        self._slow: set[str] = set()
         self._waiting: list[_Ticket] = []
         self._own: dict[str, int] = {}
         self.busy = self.done = self.refused = 0
@@ -181,13 +236,17 @@ class StudioQueue:
         """Tell whether one more of a session cannot wait."""
         return self.waiting >= self.limits.waiting or (self._own.get(session, 0) >= self.limits.own)
 
+    def is_asked_by(self, session: str) -> bool:
+        """Tell whether something is at work for a session, or waits."""
+        return session in self._own
+
     def stop(self) -> None:
         """End the processes."""
         for worker in self._every:
             worker.stop()
 
     async def run(
-        self, asked: Asked, *, session: str, quick: bool, seconds: float
+        self, asked: Asked, *, session: str, pace: Pace, seconds: float
     ) -> AsyncGenerator[Mapping[str, Any], None]:
         """Yield what becomes of it: ``place`` in the queue, ``share`` that is done, ``found``.
 
@@ -195,7 +254,7 @@ class StudioQueue:
         A quick one takes the place of an older one of its session that still waits: that one finds
         ``superseded``. With what is found stand the seconds that it ``waited`` and was at work.
         """
-        ticket = _Ticket(asked["do"], quick, session)
+        ticket = _Ticket(asked["do"], pace, session)
         self._own[session] = self._own.get(session, 0) + 1
         self._queue(ticket)
         try:
@@ -236,7 +295,7 @@ class StudioQueue:
             while (share := await shares.get()) is not None:
                 yield {"share": share}
         except BaseException:  # who asked has gone
-            if not future.done() and not ticket.quick:  # a quick one costs less than a process
+            if not future.done() and ticket.pace:  # a quick one costs less than a process
                 worker.interrupt()
             raise
         found = future.result()
@@ -246,16 +305,16 @@ class StudioQueue:
         yield {"found": found, "waited": began - ticket.began, "worked": worked}
 
     def _queue(self, ticket: _Ticket) -> None:
-        """Put it behind the last quick one, or the last of all; or where an older one stood."""
+        """Put it behind the last of its pace, or, a quick one, where an older one stood."""
         for k, older in enumerate(self._waiting):
             same = older.do == ticket.do and older.session == ticket.session
-            if ticket.quick and older.quick and same:
+            if ticket.pace == older.pace == Pace.QUICK and same:
                 self._waiting[k] = ticket
                 older.given.cancel()
                 self._forget(older)
                 return
         self._waiting.append(ticket)
-        self._waiting.sort(key=lambda one: not one.quick)
+        self._waiting.sort(key=lambda one: one.pace)
         self._give()
 
     def _place(self, ticket: _Ticket) -> int:
@@ -263,15 +322,24 @@ class StudioQueue:
 
     def _give(self) -> None:
         for ticket in [*self._waiting]:
-            if self._idle and (ticket.quick or self._long < self._most_long):
+            if self._idle and self._may(ticket):
                 self._waiting.remove(ticket)
-                self._long += not ticket.quick
+                self._long += ticket.pace != Pace.QUICK
+                if ticket.pace == Pace.SLOW:
+                    self._slow.add(ticket.session)
                 self.busy += 1
                 ticket.given.set_result(self._idle.pop())
 
+    def _may(self, ticket: _Ticket) -> bool:
+        if ticket.pace == Pace.SLOW and ticket.session in self._slow:
+            return False
+        return ticket.pace == Pace.QUICK or self._long < self._most_long
+
     def _free(self, ticket: _Ticket, worker: StudioWorker) -> None:
         self._idle.append(worker)
-        self._long -= not ticket.quick
+        self._long -= ticket.pace != Pace.QUICK
+        if ticket.pace == Pace.SLOW:
+            self._slow.discard(ticket.session)
         self.busy -= 1
         self._forget(ticket)
         self._give()

@@ -20,16 +20,41 @@ DRAWN = (
 
 @contextlib.contextmanager
 def studio(*args: str) -> Iterator[list[str]]:
-    """Start a studio at a free port; its address, and the instructor's where it is served."""
+    """Start a studio at a free port; its address, and the instructor's where it is served.
+
+    The address has no token: `come_in` gives its cookie to a browser.
+    """
     command = [sys.executable, "-m", "planmethod", "studio", "--port", "0", "--lang", "en", *args]
     with subprocess.Popen(command, stdout=subprocess.PIPE, text=True, cwd=ROOT) as running:
         assert running.stdout is not None
         lines = [running.stdout.readline() for _ in range(1 + ("--serve" in args))]
         try:
-            yield [re.findall(r"http://\S+", line)[0] for line in lines]
+            found = [re.findall(r"http://\S+", line)[0] for line in lines]
+            addresses = [found[0].partition("?")[0], *found[1:]]
+            PRINTED[addresses[0]] = found[0]
+            yield addresses
         finally:
             running.terminate()
             running.wait()
+
+
+PRINTED: dict[str, str] = {}
+"""Addresses as they were printed, with the token, by those without it."""
+
+
+def come_in(page: Page, address: str, width: int = 1200, height: int = 900) -> None:
+    """Open the address that was printed; it leads to the one without the token."""
+    page.open(PRINTED[address], leads=True, width=width, height=height)
+
+
+def fetched(page: Page, link: str) -> bytes:
+    """Return what a link of the page leads to."""
+    page.ask(
+        f"globalThis.got = ''; fetch({link!r}).then(one => one.arrayBuffer()).then(found =>"
+        " { got = [...new Uint8Array(found)].map(one => one.toString(16).padStart(2, '0')).join('')"
+        "; })"
+    )
+    return bytes.fromhex(page.wait("globalThis.got"))
 
 
 def click(page: Page, name: str) -> None:
@@ -51,7 +76,7 @@ def at(page: Page, words: str, replaced: str) -> None:
 
 
 def begin(page: Page, address: str, width: int = 1360, lang: str = "ru") -> None:
-    page.open(f"{address}?lang={lang}", width=width, height=900 if width > 600 else 740)
+    come_in(page, address, width=width, height=900 if width > 600 else 740)
     page.ask("localStorage.clear(); void indexedDB.deleteDatabase('planmethod')")
     page.open(f"{address}?lang={lang}", width=width, height=900 if width > 600 else 740)
     page.said.clear()

@@ -6,13 +6,12 @@ import base64
 import re
 import shutil
 import subprocess
-import urllib.request
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
 from browser import PROGRAM, Page, browsing
-from studying import DRAWN, at, begin, click, studio, take, text, works
+from studying import DRAWN, at, begin, click, come_in, fetched, studio, take, text, works
 from waiting import wait_until
 from worked import PROBLEMS
 
@@ -50,8 +49,7 @@ def test_a_student_comes_from_an_empty_page_to_a_pdf(page: Page, address: str) -
     click(page, "#to-files")
     click(page, "[data-what=pdf]")
     link = page.wait("document.querySelector('#files .made a')?.href")
-    with urllib.request.urlopen(link) as answer:
-        assert answer.read(5) == b"%PDF-"
+    assert fetched(page, link).startswith(b"%PDF-")
     # what was typed is there when the page is opened again
     page.ask("studio.put(studio.text() + '# kept\\n')")
     page.open(f"{address}?lang=en", width=1360)
@@ -150,8 +148,8 @@ def test_answers_are_compared_while_one_types_and_judged(page: Page, address: st
     assert page.ask(shown.format("#rows th")) and page.ask(shown.format("#verdicts .own"))
     assert not page.ask(shown.format("#verdicts iframe"))
     page.call("Emulation.setEmulatedMedia", media="")
-    with urllib.request.urlopen(page.ask("document.querySelector('.own a + a').href")) as answer:
-        assert answer.read(5) == b"%PDF-"
+    link = page.ask("document.querySelector('.own a + a').href")
+    assert fetched(page, link).startswith(b"%PDF-")
     assert page.said == []
 
 
@@ -189,8 +187,8 @@ def test_the_page_opens_of_a_student_with_points_in_the_name(
     click(page, "#check")
     page.wait("document.querySelector('#page iframe')")
     assert page.ask("document.querySelector('#who').value") == "Петров П.П."
-    with urllib.request.urlopen(page.ask("document.querySelector('#page .own a').href")) as answer:
-        assert "Петров П.П." in answer.read().decode()
+    link = page.ask("document.querySelector('#page .own a').href")
+    assert "Петров П.П." in fetched(page, link).decode()
     assert page.said == []
 
 
@@ -307,6 +305,7 @@ def test_a_file_is_saved_and_another_editor_is_told_of(page: Page, tmp_path: Pat
     file = tmp_path / "my.toml"
     file.write_text("title = 'a'\n")
     with studio(str(file)) as (address,):
+        come_in(page, address)
         page.open(f"{address}?lang=en", width=1000)
         page.wait("studio.text().includes('title')")
         at(page, "'a'", "'b'")
@@ -392,6 +391,7 @@ def desk(page: Page, folder: Path, of_folder: str) -> Path:
         path.unlink()
     for name in ("a", "b"):
         (folder / f"{name}.toml").write_text(f"title = '{name}'\n")
+    come_in(page, of_folder)
     page.open("about:blank")
     page.open(f"{of_folder}?lang=en", width=1200)
     page.ask("localStorage.clear()")

@@ -13,6 +13,7 @@ from typing import Any
 import pytest
 from cases import each
 from click.testing import CliRunner
+from visiting import enter, visiting
 from worked import PROBLEMS, ROOT
 
 pytest.importorskip("starlette", reason="the studio's extra is not installed")
@@ -28,7 +29,6 @@ from planmethod.kinds import kind_of, load
 from planmethod.note.wording import language
 from planmethod.problem.tasks import tasks
 from planmethod.studio.places import place_of
-from planmethod.studio.server import application
 
 EX3 = (PROBLEMS / "linkages/ex3.toml").read_text("utf-8")
 FAULTY = sorted((ROOT / "tests/problem/faulty").glob("*.toml"))
@@ -38,8 +38,8 @@ FAULTY = sorted((ROOT / "tests/problem/faulty").glob("*.toml"))
 def client(tmp_path_factory: pytest.TempPathFactory) -> Iterator[TestClient]:
     settings = settings_of(None, False, None, 2)
     root = tmp_path_factory.mktemp("studio") / "sessions"
-    with TestClient(application(settings, act, root)) as client:
-        client.headers["x-studio"] = client.post("/api/session", json={}).json()["key"]
+    with visiting(settings, act, root) as client:
+        client.headers |= enter(client)
         yield client
 
 

@@ -1,0 +1,83 @@
+"""Connections of the studio: who does not finish what he asks, or takes no answer, is cut off."""
+
+from __future__ import annotations
+
+import asyncio
+
+import h11
+from uvicorn.protocols.http.h11_impl import H11Protocol
+
+SLOW = 15.0
+"""Seconds that a request may take."""
+
+RATE = 1024
+"""Bytes of a request that give it one second more."""
+
+UNREAD = 60.0
+"""Seconds in which who gets an answer takes some of it: the system keeps megabytes by itself."""
+
+
+class PatientProtocol(H11Protocol):
+    """HTTP with an end to patience (соединение): a request that goes on is never cut off."""
+
+    _end: float | None = None
+    _looking: asyncio.TimerHandle | None = None
+    _unread: asyncio.TimerHandle | None = None
+
+    def connection_made(self, transport: asyncio.Transport) -> None:  # type: ignore[override]
+        """Wait for a request from now on."""
+        super().connection_made(transport)
+        self._wait(0)
+
+    def connection_lost(self, exc: Exception | None) -> None:
+        """Wait no more."""
+        self._be_content()
+        self.resume_writing()
+        super().connection_lost(exc)
+
+    def data_received(self, data: bytes) -> None:
+        """Take a part of a request, and wait for the rest."""
+        super().data_received(data)
+        if self.conn.their_state in (h11.IDLE, h11.SEND_BODY):
+            self._wait(len(data))
+        else:
+            self._be_content()
+
+    def pause_writing(self) -> None:
+        """Look whether somebody reads."""
+        super().pause_writing()
+        self._look_at_reader(self.transport.get_write_buffer_size())
+
+    def resume_writing(self) -> None:
+        """Go on with who reads."""
+        super().resume_writing()
+        if self._unread is not None:
+            self._unread.cancel()
+            self._unread = None
+
+    def _wait(self, come: int) -> None:
+        if self._end is None:
+            self._end = self.loop.time() + SLOW
+            self._look()
+        else:
+            self._end += come / RATE
+
+    def _look(self) -> None:
+        assert self._end is not None
+        if self.loop.time() < self._end:
+            self._looking = self.loop.call_at(self._end, self._look)
+        else:
+            self.transport.abort()
+
+    def _look_at_reader(self, before: int) -> None:
+        left = self.transport.get_write_buffer_size()
+        if self._unread is not None and left >= before:
+            self.transport.abort()
+        else:
+            self._unread = self.loop.call_later(UNREAD, self._look_at_reader, left)
+
+    def _be_content(self) -> None:
+        self._end = None
+        if self._looking is not None:
+            self._looking.cancel()
+            self._looking = None

@@ -1,0 +1,159 @@
+"""Who is let in to the studio, and which pages of elsewhere are not (вход)."""
+
+from __future__ import annotations
+
+import hmac
+from urllib.parse import urlencode, urlsplit
+
+from starlette.exceptions import HTTPException
+from starlette.requests import Request
+from starlette.responses import PlainTextResponse, Response
+from starlette.types import ASGIApp, Message, Receive, Scope, Send
+
+from planmethod.languages import LANGUAGES, say, speaking
+
+OWN_HOSTS = ("127.0.0.1", "localhost", "::1")
+"""Names of one's own machine: no page of elsewhere comes under one of them."""
+
+PRINTED = "Open the address that planmethod studio printed when it started: it lets nobody else in."
+INSTRUCTORS = "This is the instructor's: open the link that was printed at the start."
+
+_SAID = {
+    401: "This session has ended. Reload the page.",
+    403: INSTRUCTORS,
+    404: "There is nothing at this address.",
+    405: "This address is not asked in this way.",
+}
+"""What is said where a status says all."""
+
+_SAFE = {
+    "x-content-type-options": "nosniff",
+    "referrer-policy": "no-referrer",
+    "cross-origin-resource-policy": "same-origin",
+}
+
+
+def lang_of(request: Request) -> str:
+    """Return the language of a request: what it names, else what its browser speaks."""
+    asked = request.query_params.get("lang", "")
+    spoken = (asked, *request.headers.get("accept-language", "").split(","))
+    codes = (one.split(";")[0].strip().split("-")[0].lower() for one in spoken)
+    return next((code for code in codes if code in LANGUAGES), LANGUAGES[0])
+
+
+def refused(request: Request, status: int, said: str, *facts: object) -> Response:
+    """Return the answer to what is not done: one sentence, in the language of a request."""
+    with speaking(lang_of(request)):
+        return PlainTextResponse(say(said, *facts), status, {"Cache-Control": "no-store"})
+
+
+class StudioRefusal(HTTPException):
+    """What is asked is not done (отказ): a sentence, and its facts; that of the status if none."""
+
+    def __init__(self, status: int, said: str = "", *facts: object) -> None:
+        super().__init__(status, said or _SAID[status])
+        self.facts = facts
+
+
+def refused_by(request: Request, error: Exception) -> Response:
+    """Return the answer to what a route refuses, or cannot do."""
+    if isinstance(error, StudioRefusal):
+        return refused(request, error.status_code, error.detail, *error.facts)
+    if isinstance(error, HTTPException):  # where there is no such route
+        return refused(request, error.status_code, _SAID[error.status_code])
+    why = error.strerror if isinstance(error, OSError) else None
+    return refused(request, 507, "The server cannot write its files: {}.", why or error)
+
+
+class Door:
+    """Lets in who has the token, and no request that another site makes (вход).
+
+    Parameters
+    ----------
+    token : str or None
+        What the address has, and a cookie after it; None where strangers come.
+    """
+
+    def __init__(self, app: ASGIApp, *, token: str | None) -> None:
+        self.app, self.token = app, token
+
+    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
+        """Answer, or let the studio answer."""
+        if scope["type"] != "http":
+            await self.app(scope, receive, send)
+            return
+
+        async def safely(message: Message) -> None:
+            if message["type"] == "http.response.start":
+                safe = [(key.encode(), value.encode()) for key, value in _SAFE.items()]
+                message["headers"] = [*message.get("headers", ()), *safe]
+            await send(message)
+
+        await (self._answer(Request(scope)) or self.app)(scope, receive, safely)
+
+    def _answer(self, request: Request) -> Response | None:
+        """Return what is said in place of the studio's answer; None where it may give its own."""
+        if self.token is not None:
+            if _own(request)[0] not in OWN_HOSTS:
+                return refused(
+                    request, 403, "This studio answers at 127.0.0.1 and localhost alone."
+                )
+            if request.scope["path"] == "/" and "token" in request.query_params:
+                return self._let_in(request)
+            if not self._is(request.cookies.get(_cookie(request), "")):
+                return refused(request, 403, PRINTED)
+        if request.method not in ("GET", "HEAD"):
+            if _is_foreign(request):
+                return refused(request, 403, "Another site asks for this. Open the studio itself.")
+            kind = request.headers.get("content-type", "").partition(";")[0].strip().lower()
+            if request.method == "POST" and kind != "application/json":
+                return refused(request, 415, "What is sent here is JSON (Content-Type).")
+        return None
+
+    def _is(self, given: str) -> bool:
+        return bool(self.token) and hmac.compare_digest(given.encode(), str(self.token).encode())
+
+    def _let_in(self, request: Request) -> Response:
+        """Give the cookie, and have the browser go on without the token in its address.
+
+        A redirect would not do: where a file or another site has led here, its next request has no
+        strict cookie; one that this page makes has.
+        """
+        if not self._is(request.query_params["token"]):
+            return refused(request, 403, PRINTED)
+        more = [(key, value) for key, value in request.query_params.multi_items() if key != "token"]
+        onward = f"/?{urlencode(more)}" if more else "/"
+        headers = {"Refresh": f"0; url={onward}", "Cache-Control": "no-store"}
+        answer = Response(headers=headers, media_type="text/html")
+        answer.set_cookie(_cookie(request), str(self.token), httponly=True, samesite="strict")
+        return answer
+
+
+def _cookie(request: Request) -> str:
+    """Return the name of the cookie: browsers do not tell the ports of a host apart."""
+    return f"planmethod-{_own(request)[1] or 80}"
+
+
+def _own(request: Request) -> tuple[str | None, int | None]:
+    """Return the host and the port that the browser knows the studio by."""
+    return _place(f"//{request.headers.get('host', '')}")
+
+
+def _place(address: str) -> tuple[str | None, int | None]:
+    """Return the host and the port of an address; None where it is none."""
+    try:
+        parts = urlsplit(address)
+        return parts.hostname, parts.port
+    except ValueError:
+        return None, None
+
+
+def _is_foreign(request: Request) -> bool:
+    """Tell whether a page of elsewhere asks: by what the browser says of it, else by its origin.
+
+    Behind a server that speaks TLS the host may have another name than for the browser.
+    """
+    site, origin = (request.headers.get(name) for name in ("sec-fetch-site", "origin"))
+    if site is not None:
+        return site != "same-origin"
+    return origin is not None and _place(origin) != _own(request)
