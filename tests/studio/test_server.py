@@ -107,6 +107,38 @@ def test_the_bundle_names_its_licences(client: TestClient) -> None:
     assert told.count("Permission is hereby granted") >= len(asked)
 
 
+@pytest.mark.parametrize(
+    "address",
+    ["/", "/api/tasks", "/api/schema", "/api/start/linkages-ex3", "/static/codemirror.js",
+     "/picture/linkages-ex3.svg"],
+)  # fmt: skip
+def test_text_is_compressed_and_comes_once(client: TestClient, address: str) -> None:
+    plain = client.get(address, headers={"accept-encoding": "identity"})
+    packed = client.get(address, headers={"accept-encoding": "gzip"})
+    assert "content-encoding" not in plain.headers
+    assert packed.headers["content-encoding"] == "gzip"
+    assert "accept-encoding" in packed.headers["vary"].lower()
+    assert int(packed.headers["content-length"]) < len(plain.content) / 2
+    if address == "/":  # it has a word of its own each time
+        assert packed.headers["cache-control"] == "no-store"
+        return
+    assert packed.content == plain.content
+    again = client.get(address, headers={"if-none-match": packed.headers["etag"]})
+    assert (again.status_code, again.content) == (304, b"")
+
+
+def test_scripts_and_style_are_kept_for_ever_at_an_address_of_their_version(
+    client: TestClient,
+) -> None:
+    found = re.findall(r'(?:src|href)="(static/\w{16}/[\w.]+)"', client.get("/").text)
+    assert [one.rpartition("/")[2] for one in found] == ["studio.css", "studio.js"]
+    for address in (*found, found[1].replace("studio.js", "codemirror.js")):
+        answer = client.get(f"/{address}")
+        assert answer.headers["cache-control"] == "public, max-age=31536000, immutable"
+    assert client.get(f"/{found[0].replace('static/', 'static/0')}").status_code == 404
+    assert client.get("/static/studio.js").headers["cache-control"] == "no-cache"
+
+
 # The same code -----------------------------------------------------------------------------------
 
 
