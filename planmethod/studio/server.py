@@ -23,7 +23,7 @@ from starlette.responses import FileResponse, JSONResponse, Response, StreamingR
 from starlette.routing import Route
 
 from planmethod.errors import ArgumentError, OutputError
-from planmethod.languages import LANGUAGES, say, speaking
+from planmethod.languages import say, speaking
 from planmethod.problem import schema_text
 from planmethod.problem.tasks import tasks
 from planmethod.studio.asking import (
@@ -140,7 +140,7 @@ class _Studio:
         self.settings, self.limits, self.act, self.root = settings, settings.limits, act, root
         self.sessions = Sessions(root, self.limits)
         self._tasks = {task.name: task for task in tasks()}
-        self._pictures: dict[str, str] = {}
+        self._pictures: dict[tuple[str, str], str] = {}
 
     @contextlib.asynccontextmanager
     async def living(self, _: Starlette) -> AsyncIterator[None]:
@@ -213,12 +213,13 @@ class _Studio:
         return _marked(request, _json(found), "application/json")
 
     async def picture(self, request: Request) -> Response:
-        """Give the picture of a shipped task, drawn once."""
+        """Give the picture of a shipped task in a language, drawn once."""
         task = self._tasks.get(request.path_params["name"])
         if task is None:
             raise StudioRefusal(404)
-        if task.name not in self._pictures:
-            asked = {"do": "pictured", "file": task.file, "lang": LANGUAGES[0]}
+        of = task.name, lang_of(request)
+        if of not in self._pictures:
+            asked = {"do": "pictured", "file": task.file, "lang": of[1]}
             if self.queue.waiting > self.limits.waiting // 2:
                 raise StudioRefusal(503, FULL)
             drawn = ""
@@ -228,10 +229,8 @@ class _Studio:
                 drawn = told.get("found", {}).get("svg", "")
             if not drawn:
                 raise StudioRefusal(503, FULL)
-            self._pictures[task.name] = drawn
-        answer = _marked(
-            request, self._pictures[task.name].encode(), "image/svg+xml", "max-age=86400"
-        )
+            self._pictures[of] = drawn
+        answer = _marked(request, self._pictures[of].encode(), "image/svg+xml", "max-age=86400")
         answer.headers["Content-Security-Policy"] = _FILE
         return answer
 

@@ -225,9 +225,17 @@ def test_a_project_tells_how_far_it_is_and_is_one_archive(client: TestClient) ->
     assert whole.content[:2] == b"PK"
 
 
+def test_a_picture_of_the_bank_has_the_language_of_the_page(client: TestClient) -> None:
+    drawn = {lang: client.get(f"/picture/cams-flat.svg?lang={lang}").text for lang in ("ru", "en")}
+    assert drawn["ru"] != drawn["en"]
+
+
 @each("task", [*{task.kind: task for task in tasks()}.values()])
 def test_every_kind_of_task_is_drawn(client: TestClient, task: Any) -> None:
-    assert client.get(f"/picture/{task.name}.svg").text.startswith("<?xml")
+    for lang in ("ru", "en"):
+        drawn = client.get(f"/picture/{task.name}.svg?lang={lang}").text
+        assert drawn.startswith("<?xml")
+        assert client.get(f"/picture/{task.name}.svg?lang={lang}").text == drawn
     found = do(client, "sketched", client.get(f"/api/start/{task.name}").json()["text"])
     assert found["faults"] == []
     assert found["svg"].startswith("<?xml")

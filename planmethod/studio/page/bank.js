@@ -28,7 +28,7 @@ async function find(take) {
 function more(take) {
   for (const task of tasks.slice(shown, shown + STEP)) {
     const item = made(byId("tasks"), "li");
-    made(item, "img", "", { src: `picture/${encodeURIComponent(task.name)}.svg`, loading: "lazy",
+    made(item, "img", "", { src: `picture/${encodeURIComponent(task.name)}.svg?lang=${D.lang}`, loading: "lazy",
       alt: say("shown_as", { name: task.name }) });
     made(item, "b", task.title);
     made(item, "span", `${task.name}${task.groups.length ? ` · ${task.groups.join("+")}` : ""}`, { class: "hint" });

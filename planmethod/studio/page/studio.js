@@ -87,7 +87,7 @@ const unsaved = () => { byId("saved").textContent = kept.file ? kept.text === sa
 
 async function openFile(name) {
   const isLast = latest(), answer = await call(`api/file/${encodeURIComponent(name)}`);
-  if (!answer.ok) return;
+  if (!answer.ok) { if (isLast()) note(await answer.text()); return; }
   const { text, mark } = await answer.json();
   if (!isLast()) return;
   if (kept.file === name && kept.text.trim() && kept.text !== text) {  // typed here, not saved yet
