@@ -10,13 +10,25 @@ INTERRUPTED = 130
 """Exit code of a command that was stopped by Ctrl+C."""
 
 
+def _end(number: int, _frame: object) -> None:
+    """End as if the command had ended: what waits in a folder of its own goes, and helpers do."""
+    import signal
+
+    signal.signal(number, signal.SIG_IGN)
+    raise SystemExit(128 + number)
+
+
 def main() -> None:
     """Run the command line in a process of its own; Ctrl+C ends it with one line at any time."""
+    import signal
+
+    for name in ("SIGTERM", "SIGHUP"):  # Windows has no SIGHUP
+        number = getattr(signal, name, None)
+        if number is not None and signal.getsignal(number) is signal.SIG_DFL:  # nohup ignores it
+            signal.signal(number, _end)
     try:
         _run()
     except KeyboardInterrupt:
-        import signal
-
         signal.signal(signal.SIGINT, signal.SIG_IGN)
         from planmethod.languages import say, speaking, spoken_to
 

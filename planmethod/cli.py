@@ -167,10 +167,12 @@ def _run() -> None:
         )
         click.echo(told, err=True)
         sys.exit(ExitCode.USAGE)
-    except OSError as error:
-        click.echo(say("Error: cannot write the output: {}.", error.strerror or error), err=True)
-        sys.exit(ExitCode.USAGE)
     except Exception as error:  # the last safety net
+        from planmethod.render.backends.output import cause_of, unwritten
+
+        if (cause := unwritten(error)) is not None:
+            click.echo(say("Error: cannot write the output: {}.", cause_of(cause)), err=True)
+            sys.exit(ExitCode.USAGE)
         click.echo(
             say(
                 "Error: planmethod failed inside ({}: {}). Please report the problem file "

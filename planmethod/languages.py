@@ -88,14 +88,17 @@ def say(sentence: str, *facts: object, **named: object) -> str:
     return _Said(text)
 
 
-HIDDEN = "[\0-\x08\x0b-\x1f\x7f-\x9f\u061c\u202a-\u202e\u2066-\u2069\ud800-\udfff]"
-"""What no text of a stranger has on a terminal, or in a file: orders, turned lines, halves."""
+HIDDEN = (
+    "[\0-\x08\x0b-\x1f\x7f-\x9f\xad\u034f\u061c\u115f\u1160\u17b4\u17b5\u180b-\u180f\u200b-\u200f"
+    "\u2028-\u202e\u2060-\u206f\u3164\ud800-\udfff\ufe00-\ufe0f\ufeff\uffa0\ufff0-\ufffb"
+    "\U0001bca0-\U0001bca3\U0001d173-\U0001d17a\U000e0000-\U000e0fff]"
+)
+"""What no text of a stranger has on a terminal, or in a file: orders, turned lines, halves, and
+letters without a width, of which two texts differ that look alike."""
 
 
 def visible(text: str) -> str:
     """Return a text with a sign in place of what would not be seen, but would be done."""
-    if text.isprintable():
-        return text
     return re.sub(HIDDEN, "\ufffd", text)
 
 

@@ -69,11 +69,13 @@ LATE_OF = {
     "planmethod.moving.protocol": "what is drawn",
     "planmethod.moving.sheet": "what is drawn",
     "planmethod.note.wording": "words of drafting errors",
+    "planmethod.render.backends.output": "why nothing can be written",
     "planmethod.gears.involute.sheet": "the sheet of a meshing, what solves it has no pens",
     # Third parties that take long to import; a mistake in a file is rare.
     "csv": "variants in a table",
     "decimal": "numbers that a file has as text",
     "difflib": "hints",
+    "fcntl": "the lock of a server; some systems have none",
     "importlib.resources": "templates",
     "json": "messages that are not in English",
     "locale": "the language of a system without variables for it",

@@ -167,13 +167,13 @@ def _serve(settings: StudioSettings, host: str, port: int, shown: bool) -> None:
     """Listen until somebody stops it."""
     import os
     import socket
-    import tempfile
 
     import uvicorn
 
     from planmethod.commands.studied import act
     from planmethod.studio.connections import PatientProtocol
     from planmethod.studio.server import application
+    from planmethod.studio.sessions import served_folder
 
     for name in ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS"):  # threads would take the memory
         os.environ.setdefault(name, "1")
@@ -190,7 +190,7 @@ def _serve(settings: StudioSettings, host: str, port: int, shown: bool) -> None:
             host,
             error.strerror or error,
         ) from None
-    with tempfile.TemporaryDirectory(prefix="planmethod-studio-") as root, listening:
+    with served_folder() as root, listening:
         address = f"http://{f'[{host}]' if ':' in host else host}:{listening.getsockname()[1]}/"
         own = f"{address}?token={settings.token}"
         click.echo(
@@ -199,9 +199,9 @@ def _serve(settings: StudioSettings, host: str, port: int, shown: bool) -> None:
         if settings.served:
             click.echo(say("Instructor's pages: {}", f"{address}#token={settings.token}"))
         if shown:
-            click.launch(address if settings.served else str(_leading(Path(root), own)))
+            click.launch(address if settings.served else str(_leading(root, own)))
         config = uvicorn.Config(
-            application(settings, act, Path(root) / "sessions"),
+            application(settings, act, root / "sessions"),
             log_level="warning",
             access_log=False,
             server_header=False,

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import io
 import re
+import stat
 from collections.abc import Iterator, Mapping
 from itertools import pairwise
 from pathlib import Path
@@ -290,12 +291,15 @@ def with_table(faults: Faults, table: Mapping[str, Any], folder: Path | None) ->
             "variants", say("expected the name of a CSV file, got '{}'", short(name)), example
         )
         return {**table, "variants": {}}
+    data = b""
     try:
-        with path.open("rb") as stream:
-            data = stream.read(TABLE_LIMIT + 1)
+        if not stat.S_ISREG(path.stat().st_mode):
+            faults.add("variants", say("{} is not an ordinary file", name), example)
+        else:
+            with path.open("rb") as stream:
+                data = stream.read(TABLE_LIMIT + 1)
     except OSError as error:
         faults.add("variants", say("{} cannot be read: {}", name, error.strerror), example)
-        data = b""
     if len(data) > TABLE_LIMIT:
         faults.add("variants", say("{} is larger than {} bytes", name, TABLE_LIMIT))
         data = b""

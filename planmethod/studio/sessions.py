@@ -4,12 +4,17 @@ from __future__ import annotations
 
 import contextlib
 import io
+import os
 import re
 import secrets
 import shutil
+import stat
+import sys
+import tempfile
 import time
 import zipfile
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from hashlib import sha256
 from pathlib import Path
 
@@ -154,6 +159,52 @@ class Sessions:
     def _end(self, session: StudioSession) -> None:
         del self._found[session.key]
         shutil.rmtree(session.folder, ignore_errors=True)
+
+
+PREFIX = "planmethod-studio-"
+LOCK = "lock"
+"""File in the folder of a server that it holds as long as it lives."""
+
+
+@contextmanager
+def served_folder() -> Iterator[Path]:
+    """Give the folder of a server; those that servers have left that were killed are removed.
+
+    A folder is ours to remove if its lock is the user's own and nobody holds it: the system lets go
+    of it when a server ends, however that happens.
+    """
+    parent = Path(tempfile.gettempdir())
+    for folder in parent.glob(f"{PREFIX}*"):
+        with contextlib.suppress(OSError), _held(folder / LOCK, new=False) as is_held:
+            if is_held and not folder.is_symlink():
+                shutil.rmtree(folder, ignore_errors=True)
+    with (
+        tempfile.TemporaryDirectory(prefix=PREFIX) as name,
+        _held(Path(name) / LOCK, new=True),
+    ):
+        yield Path(name)
+
+
+@contextmanager
+def _held(path: Path, *, new: bool) -> Iterator[bool]:
+    """Hold a lock if nobody else does; where the system has none, nobody can tell."""
+    if sys.platform == "win32":
+        yield False
+        return
+    import fcntl
+
+    flags = os.O_RDWR | os.O_NOFOLLOW | (os.O_CREAT | os.O_EXCL if new else os.O_NONBLOCK)
+    number = os.open(path, flags, 0o600)
+    try:
+        found = os.fstat(number)
+        is_ours = stat.S_ISREG(found.st_mode) and found.st_uid == os.getuid()
+        try:
+            fcntl.flock(number, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except OSError:
+            is_ours = False
+        yield is_ours
+    finally:
+        os.close(number)
 
 
 class Desk(Struct, frozen=True):

@@ -2,6 +2,13 @@
 
 from __future__ import annotations
 
+import os
+import re
+import signal
+import socket
+import subprocess
+import sys
+import tempfile
 from collections.abc import Sequence
 from decimal import Decimal
 from pathlib import Path
@@ -14,8 +21,11 @@ from worked import path_of
 
 from planmethod.cli import cli
 from planmethod.errors import ProblemError
+from planmethod.languages import visible
 from planmethod.problem.formula import EXPONENT_LIMIT, read_decimal
 from planmethod.problem.source import DEPTH_LIMIT, parse
+from planmethod.render.backends.output import cause_of, unwritten
+from planmethod.studio.sessions import LOCK, PREFIX, served_folder
 
 EX3 = path_of("linkages/ex3")
 EX3_TEXT = EX3.read_text("utf-8")
@@ -186,3 +196,173 @@ def test_nothing_is_written_where_a_link_leads_out(
         assert not link.is_symlink() or "out of the folder" in result.output
         assert [one.name for one in outside.iterdir()] == ["kept"] * kept.exists()
         assert is_folder or kept.read_text() == "kept"
+
+
+# What is no file ----------------------------------------------------------------------------------
+
+READ: tuple[tuple[str, ...], ...] = (
+    ("solve", "ODD"), ("sheet", "ODD"), ("structure", "ODD"), ("variants", "ODD"), ("lint", "ODD"),
+    ("audit", "ODD"), ("solve", "of_table.toml"), ("sheet", str(EX3), "--layout", "ODD"),
+    ("sheet", str(EX3), "--settings", "ODD"), ("check", str(EX3), "ODD"),
+    ("check", str(EX3), "w.csv", "--overrides", "ODD"),
+    ("check", str(EX3), "w.csv", "--settings", "ODD"), ("form", str(EX3), "--names", "ODD"),
+    ("variants", str(EX3), "--settings", "ODD"),
+    ("note", str(path_of("levers/task-13")), "--template", "ODD"),
+)  # fmt: skip
+
+
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="no pipes with a name here")
+@pytest.mark.parametrize("odd", ["pipe", "device", "socket", "folder"])
+def test_what_is_no_file_is_refused_at_once(
+    odd: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A pipe that nobody writes into is waited for without end, a device has no end."""
+    monkeypatch.chdir(tmp_path)
+    for name in ("odd", "v.csv"):
+        if odd == "pipe":
+            os.mkfifo(name)
+        elif odd == "device":
+            Path(name).symlink_to("/dev/zero")
+        elif odd == "socket":
+            with socket.socket(socket.AF_UNIX) as made:
+                made.bind(name)
+        else:
+            Path(name).mkdir()
+    Path("w.csv").write_text("student;what;value\nA;v_B1;3.2\n")
+    Path("of_table.toml").write_text('variants = "v.csv"\n' + EX3_TEXT)
+
+    def fail(*_: object) -> None:
+        raise AssertionError
+
+    before = signal.signal(signal.SIGALRM, fail)
+    signal.setitimer(signal.ITIMER_REAL, 60)  # ends a test that waits
+    try:
+        for words in READ:
+            if (words[0], odd) in (("solve", "folder"), ("check", "folder")):
+                continue
+            result = run(*["odd" if word == "ODD" else word for word in words])
+            assert result.exit_code in (2, 3), (words, result.output)
+            assert "planmethod failed" not in result.output
+    finally:
+        signal.setitimer(signal.ITIMER_REAL, 0)
+        signal.signal(signal.SIGALRM, before)
+
+
+# Texts --------------------------------------------------------------------------------------------
+
+BRACES = "План {v} {0} {} }{ {{x}}"
+
+
+def test_braces_of_a_text_are_text_on_every_page(tmp_path: Path) -> None:
+    path, works = tmp_path / "b.toml", tmp_path / "w.csv"
+    path.write_text(re.sub("title = .*", f"title = '{BRACES}'", EX3_TEXT, count=1), "utf-8")
+    works.write_text(f"student;what;value\n{BRACES};v_B1;3.2\nB {{v}};v_B1;{{0}}\n", "utf-8")
+    out = ("-o", str(tmp_path / "out"))
+    for words in (
+        ("solve", str(path)), ("protocol", str(path)), ("structure", str(path)),
+        ("check", "--key", str(path), *out), ("check", str(path), str(works), *out),
+        ("form", str(path), *out), ("sheet", str(path), *out, "--format", "svg"),
+        ("live", str(path), *out), ("sketch", str(path), *out),
+    ):  # fmt: skip
+        result = run(*words)
+        assert result.exit_code in (0, 1), (words, result.output)
+    assert run("solve", str(path)).output.startswith(BRACES)
+    assert f"Key: {BRACES}" in run("check", "--key", str(path), *out).output
+    pages = [page.read_text("utf-8") for page in (tmp_path / "out" / "pages").glob("*.html")]
+    assert len(pages) == 2 and all(BRACES in page for page in pages)
+    assert any("B {v}" in page for page in pages)
+
+
+@pytest.mark.parametrize(
+    "sign",
+    [*"\u202e\u2066\u200b\u200d\u2060\ufeff\xad\U000e0041\u3164\ufe0f"],
+)
+def test_a_letter_that_is_not_seen_is_in_no_title_and_shown_elsewhere(
+    sign: str, tmp_path: Path
+) -> None:
+    path, works = tmp_path / "b.toml", tmp_path / "w.csv"
+    path.write_text(re.sub("title = .*", f'title = "a{sign}b"', EX3_TEXT, count=1), "utf-8")
+    assert f"U+{ord(sign):04X}" in refuses("solve", path, code=3)
+    assert visible(f"a{sign}b") == "a\ufffdb"
+    works.write_text(f"student;what;value\nA{sign}B;v_B1;3.2\n", "utf-8")
+    run("check", str(EX3), str(works), "-o", str(tmp_path / "out"))
+    for file in (tmp_path / "out").rglob("*"):
+        assert sign not in file.name
+        if file.suffix in (".html", ".csv", ".json"):
+            assert sign not in file.read_text("utf-8-sig")
+
+
+# Signals ------------------------------------------------------------------------------------------
+
+
+@pytest.mark.skipif(os.name != "posix", reason="signals of POSIX")
+def test_a_command_that_is_ended_leaves_no_folder_and_no_part_of_a_file(tmp_path: Path) -> None:
+    waits = tmp_path / "tmp"
+    waits.mkdir()
+    written = str(tmp_path / "out" / "a")
+    code = (
+        "import sys, tempfile, time\n"
+        "from pathlib import Path\n"
+        "from planmethod import __main__, cli\n"
+        "from planmethod.render.backends.output import opened\n"
+        "def work():\n"
+        f"    with tempfile.TemporaryDirectory(dir={str(waits)!r}), opened({written!r}) as f:\n"
+        "        f.write(b'x'); print('at work', flush=True); time.sleep(60)\n"
+        "cli.main = work\n"
+        "__main__.main()\n"
+    )
+    for name in ("SIGTERM", "SIGHUP"):
+        number = getattr(signal, name)
+        with subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE) as command:
+            assert command.stdout is not None
+            assert command.stdout.readline() == b"at work\n"
+            command.send_signal(number)
+            assert command.wait(30) == 128 + number
+        assert not [*waits.iterdir(), *(tmp_path / "out").iterdir()]
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="locks of POSIX")
+def test_a_server_clears_folders_of_dead_ones_alone(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))
+    dead, other = tmp_path / f"{PREFIX}dead", tmp_path / f"{PREFIX}other"
+    for folder in (dead, other):
+        (folder / "sessions").mkdir(parents=True)
+    (dead / LOCK).write_bytes(b"")
+    (tmp_path / "mine").mkdir()
+    (tmp_path / "mine" / LOCK).write_bytes(b"")
+    (tmp_path / f"{PREFIX}link").symlink_to(tmp_path / "mine")
+    with served_folder() as first:
+        assert first.is_dir() and not dead.exists() and other.exists()
+        with served_folder() as second:
+            assert first.is_dir() and second.is_dir()
+    assert sorted(path.name for path in tmp_path.iterdir()) == [
+        "mine", f"{PREFIX}link", f"{PREFIX}other",
+    ]  # fmt: skip
+    assert (tmp_path / "mine" / LOCK).exists()
+
+
+# Full disks ---------------------------------------------------------------------------------------
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="limits of POSIX")
+def test_a_limit_of_the_size_of_files_is_told_as_a_full_disk_is(tmp_path: Path) -> None:
+    """Also where a library writes into a folder of the system for a while."""
+    works = tmp_path / "w.csv"
+    works.write_text("student;what;value\nA;v_B1;3.2\n")
+    words = ["--lang", "en", "check", str(EX3), str(works), "-o", str(tmp_path / "out")]
+    code = (
+        "import resource, sys\n"
+        "resource.setrlimit(resource.RLIMIT_FSIZE, (3000, 3000))\n"
+        "from planmethod.__main__ import main\n"
+        "main()\n"
+    )
+    done = subprocess.run([sys.executable, "-c", code, *words], capture_output=True, timeout=60)
+    assert done.returncode == 2, done.stderr
+    assert b"Cannot write" in done.stderr or b"cannot write the output" in done.stderr
+    assert b"larger than the system lets" in done.stderr
+    error = type("SerialisationError", (Exception,), {})("IO_ENOSPC")
+    found = unwritten(error)
+    assert found is not None and "no space left" in cause_of(found)
+    assert unwritten(ValueError("IO_ENOSPC")) is None

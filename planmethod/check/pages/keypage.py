@@ -23,6 +23,7 @@ from planmethod.note.document import (
     Title,
     table_of_columns,
 )
+from planmethod.note.formula import Rich, escape
 from planmethod.note.plaintext import plain_text
 from planmethod.note.wording import Language, Words
 from planmethod.note.writers.pdf import pdf_document
@@ -67,12 +68,12 @@ class KeyPage(Struct, frozen=True):
         return Speech(self.words)
 
     @property
-    def title(self) -> str:
+    def title(self) -> Rich:
         """Heading, with the variant where there is one alone."""
         problem = self.keys[0].problem
-        title = f"{self.say.title}: {problem.title or problem.name}"
+        title = f"{self.say.title}: {escape(problem.title or problem.name)}"
         if len(self.keys) == 1 and self.keys[0].variant:
-            title += f". {self.say.variant.format(variant=self.keys[0].variant)}"
+            title += f". {self.say.variant.format(variant=escape(self.keys[0].variant))}"
         return title
 
     def rows(self) -> list[KeyRow]:

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import csv
 import io
+import stat
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import TypeVar
@@ -158,6 +159,8 @@ def _rows(path: Path) -> tuple[list[list[str]], str]:
     OverridesError
     """
     try:
+        if not stat.S_ISREG(path.stat().st_mode):
+            raise OverridesError("{}: this is not a file. Name another with --overrides.", path)
         with path.open("rb") as file:
             data = file.read(MOST_BYTES + 1)
     except FileNotFoundError:

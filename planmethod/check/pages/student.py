@@ -23,6 +23,7 @@ from planmethod.note.document import (
     Table,
     Title,
 )
+from planmethod.note.formula import escape
 from planmethod.note.plaintext import plain_text
 from planmethod.note.wording import Language, Words
 from planmethod.note.writers.html import html_document
@@ -203,7 +204,7 @@ def student_page(
         tolerance = say.undecided if checked.open else say.no_values
     return Page(
         title=say.title,
-        subtitle=problem.title or problem.name,
+        subtitle=escape(problem.title or problem.name),
         facts=tuple(facts),
         counted=say.counted.format(right=right, count=len(checked.answers)),
         remarks=tuple(remarks.sentences()),

@@ -25,6 +25,8 @@ _CAUSES = {
     "with --out",
     errno.EDQUOT: "the disk quota is used up. Free some space, or choose another directory "
     "with --out",
+    errno.EFBIG: "the file is larger than the system lets this user write. Raise the limit "
+    "(ulimit -f), or ask for less",
     errno.ENAMETOOLONG: "the name is too long. Choose a shorter one",
     errno.ENOTDIR: "a part of the path is a file, not a directory. Choose another directory "
     "with --out",
@@ -190,5 +192,22 @@ def _mode_to_keep(target: Path, asked: Path) -> int | None:
 
 
 def _explain(path: Path, error: OSError) -> NoReturn:
-    cause = _CAUSES.get(error.errno or 0, say("{}. Check the path", error.strerror or error))
-    raise OutputError("Cannot write {}: {}.", path, cause) from error
+    raise OutputError("Cannot write {}: {}.", path, cause_of(error)) from error
+
+
+def cause_of(error: OSError) -> str:
+    """Return why a file cannot be written, and what to do, without the last point."""
+    other = say("{}. Check the path", error.strerror or error)
+    return say(_CAUSES[error.errno]) if error.errno in _CAUSES else other
+
+
+def unwritten(error: Exception) -> OSError | None:
+    """Return what of the system stands behind an error of a library that writes; None of others.
+
+    What writes XML by libxml2 (a workbook, into a folder of the system for a while) has its words.
+    """
+    if isinstance(error, OSError):
+        return error
+    name = str(error).removeprefix("IO_")
+    number = getattr(errno, name, None) if type(error).__name__ == "SerialisationError" else None
+    return None if number is None else OSError(number, os.strerror(number))
