@@ -254,7 +254,10 @@ class Machine(Struct, frozen=True):
     ] = Quadrature.MIDDLE
     method: Annotated[
         FlywheelMethod,
-        WordKey('`"wittenbauer"`: tangents of slopes 1 ± δ; `"mertsalov"`: of slope 1'),
+        WordKey(
+            '`"wittenbauer"`: tangents of slopes 1 ± δ to the energy-mass diagram; `"mertsalov"`: '
+            "the energy T_II of the links at the mean speed is taken from ΔT"
+        ),
     ] = FlywheelMethod.WITTENBAUER
     start_deg: Annotated[
         float | None,

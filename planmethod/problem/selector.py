@@ -124,6 +124,7 @@ MACHINE: Mapping[str, int] = {
     "machine psi_max": 0,
     "machine psi_min": 0,
     "machine KL": 0,
+    "machine AB": 0,
     "machine J_f": 0,
     "machine D": 0,
     "machine m": 0,

@@ -34,6 +34,7 @@ from planmethod.note.writers.plain import plain_document
 from planmethod.plans.legend import QuantityKind
 from planmethod.plans.model import RATES
 from planmethod.problem.load_records import SizeTable
+from planmethod.problem.machine_records import FlywheelMethod
 from planmethod.project.model import PartName, Project
 from planmethod.project.notes import NoteOptions, note_files
 from planmethod.project.numbers import numbers_workbook
@@ -41,6 +42,7 @@ from planmethod.project.report import note_document
 from planmethod.project.report.conclusion import conclusion
 from planmethod.project.report.context import Report
 from planmethod.project.report.figures import LETTER, WIDTH, FittedView
+from planmethod.project.report.flywheel import flywheel_chapter
 from planmethod.project.report.gears import train_chapter
 from planmethod.project.settle import settle
 from planmethod.project.sheets import part_drawings, sheet_list
@@ -318,6 +320,20 @@ def test_strokes_and_scales_are_those_of_the_project() -> None:
         r"План (?:скоростей|ускорений).* строим в масштабе μ_([va]) = ([0-9,]+)", text
     )
     assert dict(plans) == {x: say.given(getattr(project.scales, f"mu_{x}")) for x in "va"}
+
+
+def test_by_mertsalov_the_chapter_of_the_flywheel_says_nothing_of_tangents() -> None:
+    problem = load(FILES["engine"])
+    assert problem.machine is not None
+    machine = replace(problem.machine, method=FlywheelMethod.MERTSALOV)
+    project = settle(replace(problem, machine=machine), FILES["engine"])
+    for lang, steps in (("ru", ("наивысшая точка A", "Вычитая")), ("en", ("highest point A",
+                        "Subtracting"))):  # fmt: skip
+        chapter = " ".join(map(repr, flywheel_chapter(Report(project, language(lang)))))
+        for word in (*steps, "T_{II}", "ΔT_{I}", "μ_{T}·AB"):
+            assert word.lower() in chapter.lower(), word
+        for word in ("касательн", "tangent", "энергомасс", "energy-mass", "KL", "ψ"):
+            assert word not in chapter, word
 
 
 def test_the_flywheel_is_that_of_the_diagrams_in_the_formula_and_in_the_conclusion() -> None:

@@ -8,7 +8,8 @@ import numpy as np
 import pytest
 from cases import each, thinned
 from click.testing import CliRunner
-from worked import ROOT, drawn_sheets, path_of
+from msgspec.structs import replace
+from worked import ROOT, drawn_sheets, path_of, problem_of
 
 from planmethod.cli import cli
 from planmethod.construct.drafting import PROFILES
@@ -16,8 +17,10 @@ from planmethod.errors import ExitCode
 from planmethod.kinds import load
 from planmethod.note.narrate.machine import MachineTeller
 from planmethod.note.wording import language
+from planmethod.problem.machine_records import FlywheelMethod
 from planmethod.render.ink.drawing import Disc, Drawing, Pen, Stroke, Text
 from planmethod.render.pictures.flywheel import construction_picture
+from planmethod.render.sheets.kinematics import kinematics_sheets
 from planmethod.solved.machine.drawing import NEAREST_POLE, TALLEST, drawing_of
 from planmethod.solved.machine.flywheel import Flywheel
 
@@ -47,6 +50,46 @@ def test_the_points_lie_where_the_scales_put_them() -> None:
     left = spans["H"].end
     for k, work in enumerate(wanted["A"]):
         assert np.min(np.abs((points - left).real - 20.0 * k)) < 0.02, work
+
+
+OF_TANGENTS = ("касательн", "tangent", "энергомасс", "energy-mass", "KL", "ψ")
+
+
+@each("name, lang", [("press/flywheel", "ru"), ("machines/compressor", "en")])
+def test_by_mertsalov_the_sheet_has_three_curves_of_energy_and_their_segment(
+    name: str, lang: str
+) -> None:
+    problem = problem_of(name)
+    assert problem.machine is not None
+    machine = replace(problem.machine, method=FlywheelMethod.MERTSALOV)
+    problem = replace(problem, machine=machine, sheet=replace(problem.sheet, lang=lang))
+    (drawn,) = kinematics_sheets(problem, layout="flywheel")
+    drawing = drawing_of(Flywheel(problem), PROFILES["board"])
+    wheel, points, work = drawing.flywheel, drawing.points, drawing.scales.work
+    second = 0.5 * wheel.middle_speed**2 * points.inertia
+    for key, energy in (("T", points.gain), ("T_II", second), ("T_I", points.gain - second)):
+        (curve,) = (item.points for item in drawn.items
+                    if isinstance(item, Stroke) and item.tag == f"diagram curve {key}")  # fmt: skip
+        pieces = (len(curve) - 1) // drawing.count  # of a smooth line between two positions
+        got = np.array(curve[::pieces]) - curve[0]
+        wanted = np.linspace(0.0, drawing.length, drawing.count + 1)
+        assert np.allclose(got, wanted + 1j * (energy - energy[0]) / work, rtol=0.0, atol=1e-6), key
+    (view,) = (view for view in drawn.views if view.kind == "flywheel")
+    spans = {span.name: span for span in view.spans}
+    assert set(spans) == {"AB", "H"}
+    length = drawing.inertia * wheel.machine.delta * wheel.middle_speed**2 / work
+    assert spans["AB"].length == pytest.approx(length, abs=1e-6)
+    ends = {item.tag: item.centre for item in drawn.items
+            if isinstance(item, Disc) and item.tag in ("A", "B")}  # fmt: skip
+    assert ends["A"] == pytest.approx(spans["AB"].end)
+    assert ends["B"].imag == pytest.approx(spans["AB"].start.imag)
+    tell = MachineTeller(drawing, language(lang))
+    sheet = [item.text for item in drawn.items if isinstance(item, Text)]
+    heads = [head for head, _, _ in tell.columns()]
+    for told in (sheet, heads, [*tell.formulas(), *tell.conclusions()], tell.steps()):
+        text = " ".join(told)
+        assert "II" in text
+        assert not [word for word in OF_TANGENTS if word in text], text
 
 
 @each("name", thinned(FILES, 3))

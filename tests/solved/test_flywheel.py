@@ -6,14 +6,17 @@ import json
 from functools import cache
 from itertools import pairwise
 from math import pi
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 from cases import each
 from click.testing import CliRunner
+from msgspec.structs import replace
 from worked import ROOT, path_of
 
+from planmethod import kinds
 from planmethod.cli import cli
 from planmethod.construct.drafting import PROFILES
 from planmethod.errors import ProblemError
@@ -21,9 +24,10 @@ from planmethod.note.audit.audit import AuditVerdict, audit
 from planmethod.note.audit.machine import chain
 from planmethod.note.narrate.machine import MachineTeller
 from planmethod.note.narrate.reduction import ReductionTeller
+from planmethod.note.records.machine import machine_record
 from planmethod.note.wording import language
 from planmethod.problem import load, loads
-from planmethod.problem.machine_records import Quadrature
+from planmethod.problem.machine_records import FlywheelMethod, Quadrature
 from planmethod.solved.machine.drawing import FlywheelDrawing, split
 from planmethod.solved.machine.flywheel import Flywheel
 
@@ -129,6 +133,69 @@ def test_the_construction_is_that_of_the_sheet_and_its_error_is_split(count: int
     )
     # 0.25 mm of both touching points and 0.25 mm of reading are some 2 % of KL, and more is carried
     assert 0.02 < drawing.sigma / drawing.inertia < 0.1
+
+
+def drawn_by_mertsalov(path: Path) -> FlywheelDrawing:
+    problem = kinds.load(path)
+    assert problem.machine is not None
+    machine = replace(problem.machine, method=FlywheelMethod.MERTSALOV)
+    return FlywheelDrawing(Flywheel(replace(problem, machine=machine)), PROFILES["board"])
+
+
+@each("path", ["problems/press/flywheel", "problems/machines/compressor",
+               "tests/data/turn/crusher"])  # fmt: skip
+def test_by_mertsalov_the_flywheel_has_what_is_left_of_the_energy(path: str) -> None:
+    """Of the crusher T_II is 900 J and more: its axis does not begin at zero."""
+    drawing = drawn_by_mertsalov(ROOT / f"{path}.toml")
+    wheel = drawing.flywheel
+    points, made, exact = drawing.points, drawing.made, drawing.exact
+    second = 0.5 * wheel.middle_speed**2 * points.inertia
+    first, work = points.gain - second, drawing.scales.work
+    wanted = float(np.ptp(first[:-1])) / (wheel.machine.delta * wheel.middle_speed**2)
+    assert near(drawing.inertia, wanted, 1e-12)
+    assert near(drawing.inertia, points.tangents.inertia, 1e-12)
+    start = drawing.second_start
+    assert (start > 0.0) is path.endswith("crusher")
+    for names, axes, energy in ((made.second, "T_II", second - start),
+                                (made.curve, "T_I", first + start)):  # fmt: skip
+        foot = complex(exact.point(made.axes[axes].origin)[0])
+        got = [complex(exact.point(name)[0]) - foot for name in names]
+        assert np.allclose(np.imag(got), energy / work, rtol=0.0, atol=1e-9)
+        assert np.allclose(np.real(got), np.linspace(0.0, drawing.length, drawing.count + 1))
+
+
+def test_by_mertsalov_the_record_and_the_split_are_of_his_construction() -> None:
+    drawing = drawn_by_mertsalov(path_of("press/flywheel"))
+    wheel = drawing.flywheel
+    parts = split(drawing)
+    assert parts.slopes == 0.0 and parts.method != 0.0
+    assert near(
+        parts.method + parts.positions + parts.pencil, drawing.read_inertia - wheel.exact.inertia
+    )
+    assert 0.005 < drawing.sigma / drawing.inertia < 0.1
+    record = machine_record(wheel, PROFILES["board"])
+    assert near(record["A_mm"] - record["B_mm"], record["AB_mm"])
+    assert not {"KL_mm", "K_mm", "psi_max_deg"} & record.keys()
+    rows, half = record["positions"], wheel.middle_speed**2 / 2.0
+    assert all(near(row["T_II"], half * row["J"]) for row in rows)
+    assert all(near(row["dT_I"], row["dT"] - row["T_II"]) for row in rows)
+
+
+def test_what_a_source_by_mertsalov_prints_is_compared_with_his_construction() -> None:
+    text = path_of("press/flywheel").read_text("utf-8").replace("machine KL", "machine AB")
+    problem = loads(text.replace("[machine]", '[machine]\nmethod = "mertsalov"', 1), name="printed")
+    drawing = FlywheelDrawing(Flywheel(problem), PROFILES["board"])
+    found = {item.published.what: item for item in audit(problem)}
+    segment = float(drawing.exact.number(drawing.made.segment)[0])
+    assert near(found["machine AB"].exact or 0.0, segment)
+    assert [what for what, item in found.items() if item.why] == [
+        what for what in found if what.startswith("machine psi")
+    ]
+    steps = dict(chain(problem))
+    assert [name for name in steps if "mertsalov" in name] == [
+        "printed_mertsalov", "tables_mertsalov", "exact_mertsalov"
+    ]  # fmt: skip
+    assert near(steps["curve"], CASES["rod/table/true"]["J_f"]["mertsalov"])
 
 
 def test_an_indicator_gives_the_work_of_its_area() -> None:

@@ -6,7 +6,7 @@ import numpy as np
 from msgspec.structs import replace
 
 from planmethod.note.numbers import is_nothing
-from planmethod.problem.machine_records import Quadrature, WeightSigns
+from planmethod.problem.machine_records import FlywheelMethod, Quadrature, WeightSigns
 from planmethod.problem.model import Problem
 from planmethod.problem.selector import Selector
 from planmethod.solved.machine.drawing import drawing_of
@@ -30,9 +30,10 @@ def machine_value(solution: Solution, selector: Selector) -> tuple[float, float 
     drawing, kind = drawing_of(flywheel, solution.profile), selector.kind.partition(" ")[2]
     if selector.names:
         return _in_position(flywheel, kind, selector.names), None
-    if kind == "KL":
+    segment = drawing.made.segment
+    if kind == segment:
         readings = drawing.exact, drawing.by_hand
-        exact, read = (float(reading.number(drawing.made.KL)[0]) for reading in readings)
+        exact, read = (float(reading.number(segment)[0]) for reading in readings)
         return exact, read
     if kind == "J_f":
         return flywheel.exact.inertia, drawing.read_inertia
@@ -42,9 +43,9 @@ def machine_value(solution: Solution, selector: Selector) -> tuple[float, float 
         "delta": flywheel.machine.delta,
         "mu_phi": drawing.scales.phi,
         "mu_A": drawing.scales.work,
-        "psi_max": drawing.psi[0],
-        "psi_min": drawing.psi[1],
     }
+    if not drawing.by_mertsalov:
+        values |= {"psi_max": drawing.psi[0], "psi_min": drawing.psi[1]}
     sizes = size_of(flywheel.machine.wheel, flywheel.exact.inertia, flywheel.middle_speed)
     if sizes is not None:
         values |= {"D": sizes.diameter, "m": sizes.mass, "b": sizes.width}
@@ -92,6 +93,7 @@ def chain(problem: Problem) -> list[tuple[str, float]]:
     speed = printed.get("machine omega", source.middle_speed)
     delta = printed.get("machine delta", machine.delta)
     exact = true.reduced(count).inertia
+    mertsalov = machine.method is FlywheelMethod.MERTSALOV
 
     def polygon(column: np.ndarray[tuple[int, ...], np.dtype[np.float64]]) -> float:
         """Return the flywheel of printed moments by trapezoids, with the printed numbers."""
@@ -101,24 +103,26 @@ def chain(problem: Problem) -> list[tuple[str, float]]:
         turned = np.asarray(step * np.arange(count + 1), dtype=float)
         gain = true.sign * (work[-1] / true.cycle * turned - work)
         around = np.append(column, column[0])
-        return touching(turned, gain, around, (1.0 + delta, 1.0 - delta), speed, delta).inertia
+        slopes = (1.0, 1.0) if mertsalov else (1.0 + delta, 1.0 - delta)
+        return touching(turned, gain, around, slopes, speed, delta).inertia
 
     def by_points(wheel: Flywheel, number: int) -> float:
-        slopes = 1.0 + machine.delta, 1.0 - machine.delta
+        slopes = wheel.usual_slopes
         return wheel.by_points(number, Quadrature.TRAPEZOID, slopes).tangents.inertia
 
-    found = []
-    if {"machine KL", "machine mu_A"} <= printed.keys():
-        cut = printed["machine KL"] * printed["machine mu_A"]
-        found.append(("printed", cut / (speed**2 * delta)))
-    usual = true.tangents(1.0 + machine.delta, 1.0 - machine.delta, true.middle_speed)
+    found, by = [], "_mertsalov" if mertsalov else ""
+    segment = "machine AB" if mertsalov else "machine KL"
+    if {segment, "machine mu_A"} <= printed.keys():
+        cut = printed[segment] * printed["machine mu_A"]
+        found.append((f"printed{by}", cut / (speed**2 * delta)))
+    usual = true.tangents(*true.usual_slopes, true.middle_speed)
     return [
         *found,
-        ("tables", polygon(np.array(inertias))),
+        (f"tables{by}", polygon(np.array(inertias))),
         ("inertia", polygon(exact)),
         ("moments", by_points(source, count)),
         ("signs", by_points(true, count)),
         ("positions", by_points(true, 2 * count)),
         ("curve", usual.inertia),
-        ("exact", true.exact.inertia),
+        (f"exact{by}", true.exact.inertia),
     ]

@@ -120,6 +120,10 @@ class MachineTeller:
 
     # Construction ----------------------------------------------------------------------------
 
+    def by_method(self, key: str, **places: str) -> str:
+        """Return what a key of the catalogue says of the file's method."""
+        return str(self.said[key][self.flywheel.machine.method.value]).format(**places)
+
     def steps(self) -> list[str]:
         """Return the sentences of the construction, in order."""
         drawing, machine, mm = self.drawing, self.flywheel.machine, self.unit("mm")
@@ -144,22 +148,31 @@ class MachineTeller:
             "psi_min": self._angle(drawing.psi[1]),
             "top": round(tangents.at_max / step),
             "bottom": round(tangents.at_min / step),
-            "KL": f"{self.say.ruled(self.KL)} {mm}",
+            "segment": f"{self.say.ruled(self.segment)} {mm}",
+            "T_II": self.letter("second energy"),
+            "T_I": self.letter("first energy"),
         }
-        return [sentence.format(**places) for sentence in self.said["steps"]]
+        if drawing.by_mertsalov:
+            numbers = self.flywheel.turn.numbers(drawing.count)
+            ends = (round(at / step) for at in (tangents.at_max, tangents.at_min))
+            places["highest"], places["lowest"] = (numbers[k] for k in ends)
+            places["ordinate"] = self.sought_formulas()[1]
+        said = self.said["steps"]
+        sentences = (*said["all"], *said[machine.method.value])
+        return [sentence.format(**places) for sentence in sentences]
 
     @property
-    def KL(self) -> float:  # noqa: N802 - the letters of the textbook
-        """KL as it is measured, mm."""
-        return float(self.drawing.by_hand.number(self.drawing.made.KL)[0])
+    def segment(self) -> float:
+        """KL or AB as it is measured, mm."""
+        return float(self.drawing.by_hand.number(self.drawing.made.segment)[0])
 
     def _angle(self, value: float) -> str:
         return self.say.number(f"{value:.2f}")
 
-    def formulas(self) -> list[str]:
-        """Return scales, angles and the flywheel by the construction, with numbers."""
+    def scale_formulas(self) -> list[str]:
+        """Return the scales with numbers."""
         drawing, say = self.drawing, self.say
-        scales, mm, omega = drawing.scales, self.unit("mm"), self.letter("mean speed")
+        scales, mm = drawing.scales, self.unit("mm")
         turn, pole = degrees(self.flywheel.cycle), say.given(half_up(drawing.pole, 2))
         angles = [
             self._value("φ", degrees(scales.phi), "deg"), self._value("φ", scales.phi, "rad"),
@@ -179,27 +192,66 @@ class MachineTeller:
                 f"μ_{{A}} = μ_{{T}} = μ_{{M}}·H_{{A}}·μ_{{φ}} = {parts.format(pole + '·')} = "
                 + self._value("A", scales.work, "J")
             )
-        slopes = self.flywheel.usual_slopes
-        for name, slope, psi in zip(("max", "min"), slopes, drawing.psi, strict=True):
-            factor = {True: "·(1 + δ)", False: "·(1 − δ)"}[slope > 1.0] if slope != 1.0 else ""
-            tangent = say.found(float(np.tan(np.radians(psi))))
-            sought = formula.fraction(f"μ_{{J}}·{omega}^{{2}}{factor}", "2μ_{T}")
+        return lines
+
+    def sought_formulas(self) -> list[str]:
+        """Return the angles of the tangents, or T_II with its ordinates and dT_I, with numbers."""
+        omega = self.letter("mean speed")
+        if self.drawing.by_mertsalov:
+            return self._energies(omega)
+        lines = []
+        for name, factor, psi in zip(("max", "min"), "+−", self.drawing.psi, strict=True):
+            tangent = self.say.found(float(np.tan(np.radians(psi))))
+            sought = formula.fraction(f"μ_{{J}}·{omega}^{{2}}·(1 {factor} δ)", "2μ_{T}")
             lines.append(
                 f"tg ψ_{{{name}}} = {sought} = {tangent}, ψ_{{{name}}} = {self._angle(psi)}°"
             )
-        exact = float(drawing.exact.number(drawing.made.KL)[0])
-        told = f"KL = {say.ruled(self.KL)} {mm}"
+        return lines
+
+    def _energies(self, omega: str) -> list[str]:
+        J, say, mm = self.letter("reduced inertia"), self.say, self.unit("mm")  # noqa: N806
+        first, second = self.letter("first energy"), self.letter("second energy")
+        work, start = self.drawing.scales.work, self.drawing.second_start
+        speed = say.found(self.flywheel.middle_speed)
+        shown = say.given(float(f"{work:.4g}"))
+        above = "" if not start else " − T_{0}"
+        begins = f", T_{{0}} = {say.short(start, 4)} {self.unit('J')}" if start else ""
+        per_unit = say.found(self.flywheel.middle_speed**2 / (2.0 * work))
+        factor = formula.fraction(f"{speed}^{{2}}", f"2·{shown}")
+        less = f" − {say.short(start / work, 4)}" if start else ""
+        return [
+            f"{second} = {formula.fraction(f'{J}·{omega}^{{2}}', '2')}{begins}",
+            f"y_{{II}} = {formula.fraction(f'{second}{above}', 'μ_{T}')} = {factor}·{J}{less} = "
+            f"{per_unit}·{J}{less}, {mm}",
+            f"{first} = {self.letter('energy gain')} − {second}",
+        ]
+
+    def formulas(self) -> list[str]:
+        """Return scales, angles or energies and the flywheel by the construction, with numbers."""
+        drawing, say, made = self.drawing, self.say, self.drawing.made
+        lines = [*self.scale_formulas(), *self.sought_formulas()]
+        exact = float(drawing.exact.number(made.segment)[0])
+        told = f"{made.segment} = {say.ruled(self.segment)} {self.unit('mm')}"
         lines.append(self.said.read.format(text=told, exact=say.number(f"{exact:.2f}")))
+        if drawing.by_mertsalov:
+            lines.append(self.largest_change())
         lines.append(
             self.said.construction.format(
                 symbol=self.letter("flywheel"),
-                omega=omega,
+                segment=made.segment,
+                omega=self.letter("mean speed"),
                 value=say.found(drawing.read_inertia),
                 sigma=say.short(drawing.sigma, 2),
                 unit=self.unit("kg·m²"),
             )
         )
         return lines
+
+    def largest_change(self) -> str:
+        """Return the largest change of the flywheel's energy, of AB as it is measured."""
+        value = self.say.found(self.drawing.scales.work * self.segment)
+        symbol = self.letter("largest first energy")
+        return f"{symbol} = μ_{{T}}·{self.drawing.made.segment} = {value} {self.unit('J')}"
 
     def conclusions(self) -> list[str]:
         """Return the exact flywheel, what the construction is off by, and the check."""
@@ -208,17 +260,22 @@ class MachineTeller:
         delta = say.number(f"{flywheel.delta_reached:.6f}")
         if exact <= 0.0:
             return [said.not_needed.format(delta=delta)]
-        lines = [
-            said.exact.format(symbol=self.letter("flywheel"), value=say.found(exact), unit=unit)
-        ]
+        letters = {
+            "symbol": self.letter("flywheel"),
+            "omega": self.letter("mean speed"),
+            "T_II": self.letter("second energy"),
+            "T_I": self.letter("first energy"),
+        }
+        lines = [self.by_method("exact", value=say.found(exact), unit=unit, **letters)]
         parts = split(self.drawing)
 
         def percent(value: float) -> str:
             return say.number(f"{100.0 * value / exact:+.2f}")
 
-        told = [said.slopes.format(value=percent(parts.slopes))]
-        if parts.method:
-            told.append(said.method.format(value=percent(parts.method)))
+        if self.drawing.by_mertsalov:
+            told = [said.method.format(value=percent(parts.method), **letters)]
+        else:
+            told = [said.slopes.format(value=percent(parts.slopes))]
         told.append(said.positions.format(count=self.drawing.count, value=percent(parts.positions)))
         told.append(said.pencil.format(value=percent(parts.pencil)))
         whole = self.drawing.read_inertia - exact
@@ -287,6 +344,13 @@ class MachineTeller:
             told = [say.number(text) for text in alike(clean.tolist(), digits)]
             return head, say.in_head(unit), told
 
+        energies = []
+        if self.drawing.by_mertsalov:
+            second = flywheel.links_energy(rows.inertia)
+            energies = [
+                column(self.letter("second energy"), second, "J"),
+                column(self.letter("first energy"), rows.gain - second, "J"),
+            ]
         return [
             (self.words.note.number, "", [str(k) for k in range(len(order))]),
             (
@@ -299,6 +363,7 @@ class MachineTeller:
             column(self.work, rows.work, "J"),
             column(self.letter("energy gain"), rows.gain, "J"),
             column(self.letter("reduced inertia"), rows.inertia, "kg·m²"),
+            *energies,
             column("dJ/dφ", rows.slope, "kg·m²"),
             column("ω", rows.omega, "1/s", 5),
             column("ε", rows.epsilon, "1/s²"),

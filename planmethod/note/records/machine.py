@@ -48,8 +48,10 @@ def machine_record(flywheel: Flywheel, profile: Profile) -> dict[str, Any]:
         "T_links": {link: half * share for link, share in rows.parts.links.items()},
     }
     columns |= {"M_weights": rows.parts.weights, "T": half * rows.inertia}
-    made, power = drawing.made, machine_power(flywheel)
-    corner = drawing.exact.point(made.axes["E"].origin)[0]
+    if drawing.by_mertsalov:
+        second = flywheel.links_energy(rows.inertia)
+        columns |= {"T_II": second, "dT_I": rows.gain - second}
+    power = machine_power(flywheel)
     return {
         "delta": machine.delta,
         "mean": machine.mean.value,
@@ -89,11 +91,7 @@ def machine_record(flywheel: Flywheel, profile: Profile) -> dict[str, Any]:
         "omega_max": _extreme(flywheel, highest),
         "omega_min": _extreme(flywheel, lowest),
         "delta_reached": plain(flywheel.delta_reached),
-        "psi_max_deg": plain(drawing.psi[0]),
-        "psi_min_deg": plain(drawing.psi[1]),
-        "KL_mm": plain(drawing.exact.number(made.KL)[0]),
-        "K_mm": plain((drawing.exact.point(made.upper)[0] - corner).imag),
-        "L_mm": plain((drawing.exact.point(made.lower)[0] - corner).imag),
+        **_segment(drawing),
         "scales": {
             "mu_phi": plain(drawing.scales.phi),
             "mu_M": plain(drawing.scales.moment),
@@ -123,6 +121,19 @@ def machine_record(flywheel: Flywheel, profile: Profile) -> dict[str, Any]:
             },
         },
         **run_up_record(flywheel),
+    }
+
+
+def _segment(drawing: FlywheelDrawing) -> dict[str, float]:
+    """Return the segment that the flywheel is found by, and its ends over the axis, mm."""
+    made, exact = drawing.made, drawing.exact
+    corner = exact.point(made.axes["T_I" if drawing.by_mertsalov else "E"].origin)[0]
+    angles = {} if drawing.by_mertsalov else {"max": drawing.psi[0], "min": drawing.psi[1]}
+    ends = zip(made.letters, (made.upper, made.lower), strict=True)
+    return {
+        **{f"psi_{name}_deg": plain(psi) for name, psi in angles.items()},
+        f"{made.segment}_mm": plain(exact.number(made.segment)[0]),
+        **{f"{letter}_mm": plain((exact.point(end)[0] - corner).imag) for letter, end in ends},
     }
 
 

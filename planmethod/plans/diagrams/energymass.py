@@ -6,6 +6,10 @@ projected on a line at 45 degrees and so turned by 90: uprights from there meet 
 energies in the points of the energy-mass diagram. Two tangents to it, at psi_max and psi_min, cut
 off KL on the axis of energies: J_f = mu_T·KL/(omega²·delta).
 
+By Mertsalov no energy-mass diagram is drawn. The energy T_II = omega²·J/2 of all links at the mean
+speed is plotted at the scale of the energies and taken from dT, position by position: the rest,
+dT_I, is the flywheel's. AB, from its lowest point to its highest, stands for KL.
+
 Source: курсовое проектирование по ТММ, section 3 of the press coursework; Wittenbauer's method.
 """
 
@@ -39,11 +43,13 @@ class EnergyMassData(Struct, frozen=True):
     mu_M, mu_T, mu_J : float
         N·m, J and kg·m² per mm.
     psi : (float, float), degrees
-        Angles of the tangents, of the upper and of the lower one.
+        Angles of the tangents, of the upper and of the lower one; not drawn by Mertsalov.
     touched : (int, int)
-        Positions in which they touch.
+        Positions in which they touch; the highest and the lowest of dT_I by Mertsalov.
     speed, delta : float, 1/s
         Mean speed and irregularity.
+    second : sequence of float, J
+        By Mertsalov, T_II in the same positions, above what its axis begins with; else none.
     """
 
     moments: Sequence[float]
@@ -60,6 +66,7 @@ class EnergyMassData(Struct, frozen=True):
     touched: tuple[int, int]
     speed: float
     delta: float
+    second: Sequence[float] = ()
 
 
 class Places(Struct, frozen=True):
@@ -70,6 +77,8 @@ class Places(Struct, frozen=True):
     energy: complex = 0j
     inertia: complex = 0j
     mass: complex = 0j  # below the origin of the energy-mass diagram, on the level of the inertia
+    second: complex = 0j  # of T_II
+    first: complex = 0j  # of dT_I
 
 
 class EnergyMass(Struct, frozen=True):
@@ -81,14 +90,14 @@ class EnergyMass(Struct, frozen=True):
     data : mapping
         Of the program: points in mm, numbers in their units.
     axes : mapping of str to DiagramAxes
-        ``M``, ``A``, ``T``, ``J``; ``E`` of the energy-mass diagram.
-    moments, middles, work, energies, inertias, turned, curve : tuple of PointName
-        Points of the diagrams; ``turned`` those on the line at 45 degrees, ``curve`` the points of
-        the energy-mass diagram.
+        ``M``, ``A``, ``T``, ``J``; ``E`` of the energy-mass diagram, or ``T_II`` and ``T_I``.
+    moments, middles, work, energies, inertias, turned, second, curve : tuple of PointName
+        Points of the diagrams; ``turned`` those on the line at 45 degrees, ``second`` those of
+        T_II, ``curve`` the points of the energy-mass diagram or of dT_I.
     pole, upper, lower : PointName
-        Pole, K and L.
-    KL, J_f : NumberName
-        mm and kg·m².
+        Pole, K and L or A and B.
+    segment, J_f : NumberName
+        KL or AB, mm, and kg·m².
     """
 
     program: Program
@@ -100,12 +109,30 @@ class EnergyMass(Struct, frozen=True):
     energies: tuple[PointName, ...]
     inertias: tuple[PointName, ...]
     turned: tuple[PointName, ...]
+    second: tuple[PointName, ...]
     curve: tuple[PointName, ...]
     pole: PointName
     upper: PointName
     lower: PointName
-    KL: NumberName
+    segment: NumberName
     J_f: NumberName
+
+    @property
+    def letters(self) -> tuple[str, str]:
+        """Letters of the ends of the segment, the upper one first."""
+        return self.segment[0], self.segment[1]
+
+
+class _Found(Struct, frozen=True):
+    """What a method draws of energies and inertias: attributes as `EnergyMass` has them."""
+
+    axes: Mapping[str, DiagramAxes]
+    turned: Sequence[PointName]
+    second: Sequence[PointName]
+    curve: Sequence[PointName]
+    upper: PointName
+    lower: PointName
+    segment: NumberName
 
 
 def build(of: EnergyMassData, places: Places) -> EnergyMass:
@@ -119,22 +146,13 @@ def build(of: EnergyMassData, places: Places) -> EnergyMass:
         for name, value in (("mu_M", of.mu_M), ("mu_J", of.mu_J), ("mu_T", of.mu_T))
     )
 
-    def plotted(
-        letter: str, axes: DiagramAxes, xs: Sequence[float], values: Sequence[float], mu: NumberName
-    ) -> list[PointName]:
-        points = []
-        for k, (x, value) in enumerate(zip(xs, values, strict=True)):
-            size = b.compute(f"y {letter}{k}", (board.known(f"{letter}{k}", value), 1), (mu, -1))
-            points.append(board.plot(f"{letter} {k}", axes, x, size))
-        return points
-
     over_M = board.axes("M", places.moment)
-    moments = plotted("M", over_M, at, of.moments, mu_M)
+    moments = _plotted(board, "M", over_M, at, of.moments, mu_M)
     middles: list[PointName] = []
     curve = moments
     if of.way is Integration.MIDDLE:
         half = [x + step / 2.0 for x in at[:-1]]
-        curve = middles = plotted("M'", over_M, half, of.middles, mu_M)
+        curve = middles = _plotted(board, "M'", over_M, half, of.middles, mu_M)
     pole = board.pole(over_M, of.pole)
     over_A = board.axes("A", places.work)
     work = integrate(board, curve, over_M, over_A, at, pole=pole, way=of.way)
@@ -152,12 +170,64 @@ def build(of: EnergyMassData, places: Places) -> EnergyMass:
         energies.append(b.carry(f"T {k}", foot, tail, head))
 
     over_J = board.axes("J", places.inertia)
-    inertias = plotted("J", over_J, at, of.inertias, mu_J)
+    inertias = _plotted(board, "J", over_J, at, of.inertias, mu_J)
+    if of.second:
+        found = _by_differences(board, of, places, over_T, at, energies, mu_T)
+    else:
+        found = _by_tangents(board, of, places, over_T, over_J, energies, inertias)
+    omega, delta = board.known("omega", of.speed), board.known("delta", of.delta)
+    wheel = b.compute("J_f", (found.segment, 1), (mu_T, 1), (omega, -2), (delta, -1))
+    return EnergyMass(
+        b.program(),
+        board.data,
+        {"M": over_M, "A": over_A, "T": over_T, "J": over_J, **found.axes},
+        tuple(moments),
+        tuple(middles),
+        tuple(work),
+        tuple(energies),
+        tuple(inertias),
+        tuple(found.turned),
+        tuple(found.second),
+        tuple(found.curve),
+        pole,
+        found.upper,
+        found.lower,
+        found.segment,
+        wheel,
+    )
+
+
+def _plotted(
+    board: DiagramBoard,
+    letter: str,
+    axes: DiagramAxes,
+    xs: Sequence[float],
+    values: Sequence[float],
+    mu: NumberName,
+) -> list[PointName]:
+    points = []
+    for k, (x, value) in enumerate(zip(xs, values, strict=True)):
+        size = board.b.compute(f"y {letter}{k}", (board.known(f"{letter}{k}", value), 1), (mu, -1))
+        points.append(board.plot(f"{letter} {k}", axes, x, size))
+    return points
+
+
+def _by_tangents(
+    board: DiagramBoard,
+    of: EnergyMassData,
+    places: Places,
+    over_T: DiagramAxes,
+    over_J: DiagramAxes,
+    energies: Sequence[PointName],
+    inertias: Sequence[PointName],
+) -> _Found:
+    """Draw the energy-mass diagram and its tangents (Wittenbauer)."""
+    b = board.b
     axes_E = board.axes("E", complex(places.mass.real, places.energy.imag))
     corner = board.given("45", places.mass)
     diagonal = b.at_angle(corner, None, board.known("45 deg", 45.0))
     turned, mass = [], []
-    for k in range(count):
+    for k in range(len(energies) - 1):
         spot = b.meet_lines(f"45 {k}", b.parallel(inertias[k], over_J.across), diagonal)
         turned.append(spot)
         upright = b.parallel(spot, axes_E.up)
@@ -169,22 +239,28 @@ def build(of: EnergyMassData, places: Places) -> EnergyMass:
         tangent = b.at_angle(mass[k], axes_E.across, board.known(f"psi_{name}", psi))
         ends.append(b.meet_lines(letter, tangent, axes_E.up))
     kl = b.measure_along("KL", ends[1], ends[0], axes_E.up)
-    omega, delta = board.known("omega", of.speed), board.known("delta", of.delta)
-    found = b.compute("J_f", (kl, 1), (mu_T, 1), (omega, -2), (delta, -1))
-    return EnergyMass(
-        b.program(),
-        board.data,
-        {"M": over_M, "A": over_A, "T": over_T, "J": over_J, "E": axes_E},
-        tuple(moments),
-        tuple(middles),
-        tuple(work),
-        tuple(energies),
-        tuple(inertias),
-        tuple(turned),
-        tuple(mass),
-        pole,
-        ends[0],
-        ends[1],
-        kl,
-        found,
-    )
+    return _Found({"E": axes_E}, turned, (), mass, ends[0], ends[1], kl)
+
+
+def _by_differences(
+    board: DiagramBoard,
+    of: EnergyMassData,
+    places: Places,
+    over_T: DiagramAxes,
+    at: Sequence[float],
+    energies: Sequence[PointName],
+    mu_T: NumberName,
+) -> _Found:
+    """Draw T_II and what is left of dT without it (Mertsalov)."""
+    b = board.b
+    over_II, over_I = board.axes("T_II", places.second), board.axes("T_I", places.first)
+    second = _plotted(board, "T_II", over_II, at, of.second, mu_T)
+    rest = []
+    for k, x in enumerate(at):
+        spot = board.abscissa(over_I, x)
+        if 0 < k < len(at) - 1:  # at its ends dT is nothing
+            spot = b.carry(f"T_I + T_II {k}", spot, board.abscissa(over_T, x), energies[k])
+        rest.append(b.carry(f"T_I {k}", spot, second[k], board.abscissa(over_II, x)))
+    highest, lowest = (rest[k] for k in of.touched)
+    ab = b.measure_along("AB", lowest, highest, over_I.up)
+    return _Found({"T_II": over_II, "T_I": over_I}, (), second, rest, highest, lowest, ab)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from itertools import takewhile
 
 from planmethod.note.document import Chapter, Node, Part, Table, table_of_quantities
 from planmethod.note.formula import Rich, escape, fraction
@@ -114,51 +113,62 @@ def _diagrams(report: Report, tell: MachineTeller, said: Words) -> Iterator[Node
             pole=with_unit(say.given(half_up(drawing.pole, 2)), report.unit("mm")),
         )
     )
-    scaled = list(takewhile(_is_no_angle, tell.formulas()))
-    for k, text in enumerate(scaled, 1):
-        yield displayed(f"{text}{'.' if k == len(scaled) else ','}")
+    yield from _listed(tell.scale_formulas())
     constant = float(drawing.points.work[-1]) / tell.flywheel.cycle
     yield sentences(
         said.constant.format(
             value=report.quantity(constant, "N·m"),
             **{key: letters[key] for key in ("A", "A_const", "M_const")},
         ),
-        said.energy.format(mu_J=tell.scale("J", scales.inertia, "kg·m²"), J=letters["J"]),
+        _by_method(said, tell, "energy").format(
+            mu_J=tell.scale("J", scales.inertia, "kg·m²"), J=letters["J"], **_energies(tell)
+        ),
     )
     yield figure(
         lambda letter: construction_picture(drawing, tell, letter),
-        said.figure.format(),
+        _by_method(said, tell, "figure").format(**_energies(tell)),
         "machine_diagrams",
         height=190.0,
     )
 
 
-def _is_no_angle(formula: Rich) -> bool:
-    return not formula.startswith("tg")
+def _by_method(said: Words, tell: MachineTeller, key: str) -> str:
+    return str(said[key][tell.flywheel.machine.method.value])
+
+
+def _energies(tell: MachineTeller) -> dict[str, str]:
+    return {"T_II": tell.letter("second energy"), "T_I": tell.letter("first energy")}
+
+
+def _listed(formulas: list[Rich]) -> Iterator[Node]:
+    """Yield formulas that follow each other in a sentence."""
+    for k, text in enumerate(formulas, 1):
+        yield displayed(f"{text}{'.' if k == len(formulas) else ','}")
 
 
 def _inertia(report: Report, tell: MachineTeller, said: Words) -> Iterator[Node]:
     drawing, flywheel, say = tell.drawing, tell.flywheel, report.say
     points, step = drawing.points.tangents, flywheel.cycle / drawing.count
-    slopes = flywheel.usual_slopes
-    yield sentences((said.tangents_one if slopes[0] == slopes[1] else said.tangents).format())
-    tangents = dict.fromkeys(text for text in tell.formulas() if not _is_no_angle(text))
-    for k, text in enumerate(tangents, 1):
-        yield displayed(f"{text}{'.' if k == len(tangents) else ','}")
-    exact = float(drawing.exact.number(drawing.made.KL)[0])
+    yield sentences(_by_method(said, tell, "sought").format())
+    yield from _listed(tell.sought_formulas())
+    segment = drawing.made.segment
+    exact = float(drawing.exact.number(segment)[0])
     yield sentences(
-        said.cut.format(
+        _by_method(said, tell, "cut").format(
             top=round(points.at_max / step),
             bottom=round(points.at_min / step),
-            KL=report.mm(tell.KL),
+            segment=report.mm(tell.segment),
             exact=f"{say.number(f'{exact:.2f}')} {report.unit('mm')}",
+            **_energies(tell),
         )
     )
+    if drawing.by_mertsalov:
+        yield displayed(f"{tell.largest_change()},")
     symbol, omega = tell.letter("flywheel"), tell.letter("mean speed")
     speed = say.found(flywheel.middle_speed)
-    letters = fraction("μ_{T}·KL", f"{omega}^{{2}}·δ")
+    letters = fraction(f"μ_{{T}}·{segment}", f"{omega}^{{2}}·δ")
     numbers = fraction(
-        f"{say.found(drawing.scales.work)}·{say.ruled(tell.KL)}",
+        f"{say.found(drawing.scales.work)}·{say.ruled(tell.segment)}",
         f"{speed}^{{2}}·{say.given(flywheel.machine.delta)}",
     )
     value = report.quantity(drawing.read_inertia, "kg·m²")
@@ -188,11 +198,14 @@ def _checked(report: Report, tell: MachineTeller, said: Words) -> Iterator[Rich]
 
     causes = {name: getattr(parts, name) for name in ("slopes", "method", "positions", "pencil")}
     told = [
-        str(said["parts"][name]).format(value=percent(value), count=tell.drawing.count)
+        str(said["parts"][name]).format(
+            value=percent(value), count=tell.drawing.count, **_energies(tell)
+        )
         for name, value in causes.items()
         if abs(value) > SMALL * exact
     ]
-    yield said.exact.format(
+    yield _by_method(said, tell, "exact").format(
+        **_energies(tell),
         symbol=tell.letter("flywheel"),
         value=f"{say.found(exact)} {unit}",
         whole=percent(tell.drawing.read_inertia - exact),

@@ -53,8 +53,12 @@ class _Sketch:
         feet = {key: self.at(axes.origin) for key, axes in made.axes.items()}
         units = {"M": tell.moment + f", {tell.unit('N·m')}", "A": f"A, {tell.unit('J')}",
                  "T": f"{tell.letter('energy gain')}, {tell.unit('J')}",
-                 "J": f"{tell.letter('reduced inertia')}, {tell.unit('kg·m²')}"}  # fmt: skip
+                 "J": f"{tell.letter('reduced inertia')}, {tell.unit('kg·m²')}",
+                 "T_II": f"{tell.letter('second energy')}, {tell.unit('J')}",
+                 "T_I": f"{tell.letter('first energy')}, {tell.unit('J')}"}  # fmt: skip
         points = {"M": made.moments, "A": made.work, "T": made.energies, "J": made.inertias}
+        if self.drawing.by_mertsalov:
+            points |= {"T_II": made.second, "T_I": made.curve}
         for key, names in points.items():
             ordinates = [z.imag - feet[key].imag for z in self.places(names)]
             if key == "M":
@@ -63,9 +67,14 @@ class _Sketch:
             self._numbers(key, feet[key], ordinates)
         self._moment(feet["M"])
         self._work(feet["A"])
-        self._energies(feet["T"])
-        self._inertia(feet)
-        self._energy_mass(feet["E"])
+        self._ordinates("T", made.energies[1:-1], made.energies, feet["T"])
+        if self.drawing.by_mertsalov:
+            for key in ("J", "T_II", "T_I"):
+                self._ordinates(key, points[key], points[key], feet[key])
+            self._differences(feet)
+        else:
+            self._inertia(feet)
+            self._energy_mass(feet["E"])
         return lettered(self.items, self.labels)
 
     # Parts -----------------------------------------------------------------------------------
@@ -196,12 +205,33 @@ class _Sketch:
             side = 1j if places[k].imag > level.imag else -1j
             self._label(f"{number}''", places[k], side, f"A {number}")
 
-    def _energies(self, foot: complex) -> None:
-        places = self.places(self.made.energies)
-        self._curve([_smooth(places)], "T")
+    def _ordinates(
+        self, key: str, upright: Sequence[PointName], names: Sequence[PointName], foot: complex
+    ) -> None:
+        """Draw a smooth curve through points, with the ordinates of some of them."""
+        places = self.places(names)
+        self._curve([_smooth(places)], key)
         self._dots(places)
-        for place in places[1:-1]:
+        for place in self.places(upright):
             self._thin(complex(place.real, foot.imag), place)
+
+    def _differences(self, feet: dict[str, complex]) -> None:
+        """Mark the highest and the lowest point of dT_I, and AB between their levels."""
+        made, foot = self.made, feet["T_I"]
+        ends = self.at(made.upper), self.at(made.lower)
+        right = foot.real + self.drawing.length + 2.0 * _BEYOND
+        for letter, end, side in zip(made.letters, ends, (1j, -1j), strict=True):
+            self._thin(end, complex(right + 2.0, end.imag))
+            self.items.append(Disc(end, 1.5 * _POINT, Ink.BLACK, letter))
+            self._label(letter, end, side, letter, large=True)
+        high, low = (complex(right, end.imag) for end in ends)
+        self._thin(low, high)
+        self.items += [*arrowhead(high, 1j, length=3.0), *arrowhead(low, -1j, length=3.0)]
+        self._label(made.segment, (high + low) / 2, 1.0, made.segment, large=True)
+        start = self.drawing.second_start
+        for key, energy in (("T_II", start), ("T_I", -start)) if start else ():
+            told = f"{self.tell.say.short(energy, 4)} {self.tell.unit('J')}"
+            self._label(told, feet[key], -1.0, f"start of {key}")
 
     def _inertia(self, feet: dict[str, complex]) -> None:
         made = self.made

@@ -81,20 +81,24 @@ def calculation_block(solution: Solution, indices: Sequence[int], manner: Manner
 
 
 class _DiagramsViewed(Viewed, frozen=True):
-    """The diagrams of the construction, with KL and the pole distance as measured segments."""
+    """The diagrams of the construction, with KL or AB and the pole distance as measured segments.
+
+    ``corner`` is the place of the point that is marked with the letter ``mark``.
+    """
 
     ends: tuple[tuple[str, complex, complex], ...]
     corner: complex
+    mark: str
 
     def spans(self, items: Sequence[Item], corner: complex) -> Iterable[Span]:
-        """Return KL and H."""
-        marks = [item.centre for item in items if isinstance(item, Disc) and item.tag == "K"]
+        """Return KL or AB, and H."""
+        marks = [item.centre for item in items if isinstance(item, Disc) and item.tag == self.mark]
         for by in (mark - self.corner for mark in marks[:1]):
             yield from (Span(name, None, tail + by, head + by) for name, tail, head in self.ends)
 
 
 def diagrams_view(solution: Solution, indices: Sequence[int], manner: Manner) -> Viewed:
-    """Return moment, work, energy, inertia and energy-mass as they are constructed."""
+    """Return moment, work, energy, inertia and what the method draws of them, as constructed."""
     drawing, tell = _drawing(solution), _teller(solution, manner)
     picture = construction_picture(drawing, tell, manner.letter)
     scales, made = drawing.scales, drawing.made
@@ -107,12 +111,14 @@ def diagrams_view(solution: Solution, indices: Sequence[int], manner: Manner) ->
             tell.scale("J", scales.inertia, "kg·m²"),
         )
     )
-    block = named(picture, manner.entry.title or tell.said.diagrams, [told], manner)
+    block = named(picture, manner.entry.title or tell.by_method("diagrams"), [told], manner)
     ends = [drawing.exact.point(name)[0] for name in (made.upper, made.lower, made.pole)]
     upper, lower, pole = (complex(end) for end in ends)
     foot = complex(drawing.exact.point(made.axes["M"].origin)[0])
-    spans = (("KL", lower, upper), ("H", pole, foot))
-    return _DiagramsViewed(block, "flywheel", Scale("mu_M", scales.moment, "N·m"), spans, upper)
+    level = complex(upper.real, lower.imag)  # of A and B along the axis, as KL is
+    spans = ((str(made.segment), level, upper), ("H", pole, foot))
+    scale, mark = Scale("mu_M", scales.moment, "N·m"), made.letters[0]
+    return _DiagramsViewed(block, "flywheel", scale, spans, upper, mark)
 
 
 # Further diagrams --------------------------------------------------------------------------------

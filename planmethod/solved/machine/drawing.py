@@ -20,7 +20,7 @@ from planmethod.problem.machine_records import FlywheelMethod, Quadrature
 from planmethod.solved.errors.drawing import Drafted, DrawnKind, DrawnQuantity, number
 from planmethod.solved.errors.spread import Errors
 from planmethod.solved.machine.flywheel import Flywheel, Points
-from planmethod.solved.reading import Reading, remembered
+from planmethod.solved.reading import Reading, Reals, remembered
 
 MOST_M, MOST_J = 85.0, 70.0
 """Longest ordinates of the moment and of the inertia where the program chooses a scale, mm."""
@@ -38,8 +38,12 @@ POLE = 30.0
 NEAREST_POLE = 14.0
 """Least pole distance by which a flat energy-mass curve becomes higher, mm."""
 
+LONG = 50.0
+"""Length that all ordinates of T_II may have; longer ones begin at a round energy, mm."""
+
 _GAP = 24.0  # between two diagrams above each other, mm
 _BESIDE = 52.0  # from the last position to the axis of the energies of the energy-mass diagram, mm
+_BETWEEN = 30.0  # from the last position to the axis of a diagram of the same abscissae, mm
 
 
 class MachineScales(Struct, frozen=True):
@@ -80,13 +84,30 @@ class FlywheelDrawing:
         while machine.mu_M is None and self.height > MOST_HIGH:
             moment = series_near(1.1 * moment, up=True)
             self.scales = self._scales(phi, moment, inertia)
-        if machine.mu_J is None:
+        if machine.mu_J is None and not self.by_mertsalov:
             self._widen()
         if machine.pole_mm is None:
             self._heighten()
         self.pole = machine.pole_mm or self.scales.work / (moment * phi)
         half = self.scales.inertia * flywheel.middle_speed**2 / (2.0 * self.scales.work)
         self.psi = degrees(atan(half * slopes[0])), degrees(atan(half * slopes[1]))
+
+    @property
+    def by_mertsalov(self) -> bool:
+        """Whether dT without T_II is drawn, and no tangents to an energy-mass diagram."""
+        return self.flywheel.machine.method is FlywheelMethod.MERTSALOV
+
+    @property
+    def second_start(self) -> float:
+        """Energy that the axis of T_II begins with, J: none unless all its ordinates are long."""
+        work = self.scales.work
+        least = float(np.min(self.flywheel.links_energy(self.points.inertia))) / work
+        return 10.0 * work * (least // 10.0 - 1.0) if least > LONG else 0.0
+
+    @property
+    def second(self) -> Reals:
+        """T_II in the positions above what its axis begins with, J, ndarray of shape (n + 1,)."""
+        return self.flywheel.links_energy(self.points.inertia) - self.second_start
 
     def _widen(self) -> None:
         """Enlarge the inertia where its curve is narrow, as far as there is room."""
@@ -100,10 +121,12 @@ class FlywheelDrawing:
         self.scales = first
 
     def _heighten(self) -> None:
-        """Enlarge the work where the energy-mass curve is flat, as far as there is room."""
-        first = self.scales
+        """Enlarge the work where the curve of the method is flat, as far as there is room."""
+        first, energy = self.scales, self.points.gain
+        if self.by_mertsalov:
+            energy = energy - self.second
         work = next_scale(first.work, finer=True)
-        if float(np.ptp(self.points.gain)) / first.work >= LOOP:
+        if float(np.ptp(energy)) / first.work >= LOOP:
             return
         self.scales = replace(first, work=work)
         if self.height > TALLEST or work / (first.moment * first.phi) < NEAREST_POLE:
@@ -140,19 +163,27 @@ class FlywheelDrawing:
             (top, bottom),
             self.flywheel.middle_speed,
             machine.delta,
+            self.second.tolist() if self.by_mertsalov else (),
         )
         return build(given, self.places)
 
     def _reaches(self) -> list[tuple[float, float]]:
-        """Return the lowest and the highest of inertia, energy, work and moment, mm."""
+        """Return the lowest and the highest ordinates of the rows of diagrams, mm, from below.
+
+        Of inertia, energy, work and moment; by Mertsalov of energy and dT_I, of work and T_II, of
+        moment and inertia.
+        """
         points, scales = self.points, self.scales
-        cut = [points.tangents.upper, points.tangents.lower]
-        several = (
-            points.inertia / scales.inertia,
-            np.append(points.gain, cut) / scales.work,
-            points.work / scales.work,
-            self.flywheel.sign * np.append(points.ordinates, points.middles) / scales.moment,
-        )
+        inertia, energy = points.inertia / scales.inertia, points.gain / scales.work
+        work = points.work / scales.work
+        moment = self.flywheel.sign * np.append(points.ordinates, points.middles) / scales.moment
+        if self.by_mertsalov:
+            second = self.second / scales.work
+            beside = ((energy, energy - second), (work, second), (moment, inertia))
+            several = [np.concatenate(row) for row in beside]
+        else:
+            cut = np.array([points.tangents.upper, points.tangents.lower]) / scales.work
+            several = [inertia, np.append(energy, cut), work, moment]
         return [(min(float(np.min(y)), 0.0), max(float(np.max(y)), 0.0)) for y in several]
 
     @property
@@ -162,11 +193,18 @@ class FlywheelDrawing:
 
     @cached_property
     def places(self) -> Places:
-        """Origins of the diagrams: one above the other, the energy-mass one to the right."""
+        """Origins of the diagrams: one above the other, the energy-mass one to the right.
+
+        By Mertsalov inertia, T_II and dT_I stand to the right of moment, work and energy.
+        """
         origins, at = [], 0.0
         for low, high in self._reaches():
             origins.append(complex(0.0, at - low))
             at += high - low + _GAP
+        if self.by_mertsalov:
+            energy, work, moment = origins
+            first, second, inertia = (origin + self.length + _BETWEEN for origin in origins)
+            return Places(moment, work, energy, inertia, second=second, first=first)
         inertia, energy, work, moment = origins
         right = self.length + _BESIDE
         return Places(moment, work, energy, inertia, complex(right, inertia.imag))
@@ -184,11 +222,11 @@ class FlywheelDrawing:
 
     @cached_property
     def errors(self) -> Errors:
-        """How far KL, mm, and J_f, kg·m², may be off: labels ``KL`` and ``J_f``."""
+        """How far KL or AB, mm, and J_f, kg·m², may be off: labels ``KL`` or ``AB``, ``J_f``."""
         made = self.made
         items = tuple(
             DrawnQuantity(name, (name,), number(name), DrawnKind.NUMBER)
-            for name in (made.KL, made.J_f)
+            for name in (made.segment, made.J_f)
         )
         free = frozenset(str(axes.origin) for axes in made.axes.values())
         drawn = Drafted(made.program, lambda _: dict(made.data), 1, self.profile, free, items, ())
@@ -235,9 +273,9 @@ class Split(Struct, frozen=True):
     Attributes
     ----------
     slopes : float
-        Of slopes 1 ± delta for (1 ± delta/2)².
+        Of slopes 1 ± delta for (1 ± delta/2)²; 0 of Mertsalov's.
     method : float
-        Of one slope for both tangents (Mertsalov); 0 of Wittenbauer's.
+        Of the mean speed in T_II for the greatest and the least (Mertsalov); 0 of Wittenbauer's.
     positions : float
         Of so many positions for all.
     pencil : float
@@ -253,15 +291,12 @@ class Split(Struct, frozen=True):
 
 def split(drawing: FlywheelDrawing) -> Split:
     """Tell what the construction is off by, and by what (разложить расхождение)."""
-    wheel, delta = drawing.flywheel, drawing.flywheel.machine.delta
-    speed = wheel.middle_speed
-    exact = wheel.exact.inertia
-    usual = wheel.tangents(1.0 + delta, 1.0 - delta, speed).inertia
-    whole = wheel.tangents(*wheel.usual_slopes, speed).inertia
-    mertsalov = wheel.machine.method is FlywheelMethod.MERTSALOV
+    wheel = drawing.flywheel
+    whole = wheel.tangents(*wheel.usual_slopes, wheel.middle_speed).inertia
+    off = whole - wheel.exact.inertia
     return Split(
-        usual - exact,
-        whole - usual if mertsalov else 0.0,
+        0.0 if drawing.by_mertsalov else off,
+        off if drawing.by_mertsalov else 0.0,
         drawing.inertia - whole,
         drawing.read_inertia - drawing.inertia,
         drawing.sigma,

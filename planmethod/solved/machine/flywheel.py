@@ -193,10 +193,17 @@ class Flywheel(Remembering):
 
     @property
     def usual_slopes(self) -> tuple[float, float]:
-        """Slopes that the method of the file draws, over omega²/2."""
+        """Slopes that the method of the file draws, over omega²/2.
+
+        Both are 1 by Mertsalov, whose T_II has the mean speed in all positions.
+        """
         if self.machine.method is FlywheelMethod.MERTSALOV:
             return 1.0, 1.0
         return 1.0 + self.machine.delta, 1.0 - self.machine.delta
+
+    def links_energy(self, inertia: Reals) -> Reals:
+        """Return T_II, the energy of the links at the mean speed, of their reduced inertia, J."""
+        return self.middle_speed**2 / 2.0 * inertia
 
     @cached_property
     def middle_speed(self) -> float:
