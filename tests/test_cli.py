@@ -319,8 +319,8 @@ def test_other_positions(phi: str, wanted: list[float]) -> None:
         ("30:30:10", "'30:30:10' gives 0 positions"),
         ("0:1e8:1", "gives 100000000 positions"),
         ("0:600000:1,0:600000:1", "more than 1000000 positions"),
-        ("nan", "'nan' is out of range"),
-        ("inf", "'inf' is out of range"),
+        ("nan", "'nan' is neither a number nor from:to:step"),
+        ("inf", "'inf' is neither a number nor from:to:step"),
         ("1e12", "'1e12' is out of range"),
         ("20°", "'20°' is neither a number nor"),
     ],
@@ -767,7 +767,7 @@ def test_a_full_device_is_told() -> None:
             check=False,
         )
     assert result.returncode == 2
-    assert result.stderr.startswith("Error: cannot write the output: No space left")
+    assert result.stderr.startswith("Error: cannot write the output: no space left")
 
 
 def test_variants_in_one_csv_tell_themselves_apart() -> None:
