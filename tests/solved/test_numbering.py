@@ -153,6 +153,20 @@ def test_positions_are_numbered_against_the_crank_where_the_file_says_so() -> No
         assert (phi[number] - position) % 360.0 == pytest.approx(0.0, abs=1e-9) or number == 0
 
 
+@pytest.mark.parametrize("method", ["wittenbauer", "mertsalov"])
+def test_the_points_a_flywheel_is_found_by_have_the_numbers_of_the_sheet(method: str) -> None:
+    machine = ("[machine]", f'[machine]\nmethod = "{method}"')
+    against = ('zero = "extreme"', 'zero = "extreme"\ndirection = "cw"')
+    wheels = (Flywheel(read(without_phi(SHAPER), machine, *more)) for more in ((), (against,)))
+    ahead, back = (
+        MachineTeller(drawing_of(wheel, PROFILES["board"]), language("en")) for wheel in wheels
+    )
+    assert any(ahead.found_in)
+    assert back.found_in == tuple(-number % 12 for number in ahead.found_in)
+    for number in back.found_in:
+        assert f"{number})" in back.steps()[-1]
+
+
 def test_protocol_counts_positions_from_0(tmp_path: object) -> None:
     path = str(FILES / "shaper.toml")
     run = CliRunner().invoke(cli, ["protocol", path, "--position", "11", "--lang", "en"])

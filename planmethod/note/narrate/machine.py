@@ -127,8 +127,7 @@ class MachineTeller:
     def steps(self) -> list[str]:
         """Return the sentences of the construction, in order."""
         drawing, machine, mm = self.drawing, self.flywheel.machine, self.unit("mm")
-        scales, tangents = drawing.scales, drawing.points.tangents
-        step = self.flywheel.cycle / drawing.count
+        scales, (top, bottom) = drawing.scales, self.found_in
         middle = machine.ordinates is Quadrature.MIDDLE
         constant = float(drawing.points.work[-1]) / self.flywheel.cycle
         places = {
@@ -146,20 +145,24 @@ class MachineTeller:
             "constant": f"{self.say.found(constant)} {self.unit('N·m')}",
             "psi_max": self._angle(drawing.psi[0]),
             "psi_min": self._angle(drawing.psi[1]),
-            "top": round(tangents.at_max / step),
-            "bottom": round(tangents.at_min / step),
+            "top": top,
+            "bottom": bottom,
             "segment": f"{self.say.ruled(self.segment)} {mm}",
             "T_II": self.letter("second energy"),
             "T_I": self.letter("first energy"),
         }
         if drawing.by_mertsalov:
-            numbers = self.flywheel.turn.numbers(drawing.count)
-            ends = (round(at / step) for at in (tangents.at_max, tangents.at_min))
-            places["highest"], places["lowest"] = (numbers[k] for k in ends)
             places["ordinate"] = self.sought_formulas()[1]
         said = self.said["steps"]
         sentences = (*said["all"], *said[machine.method.value])
         return [sentence.format(**places) for sentence in sentences]
+
+    @property
+    def found_in(self) -> tuple[int, int]:
+        """Numbers of the positions in which the tangents touch, or A and B are."""
+        drawing, numbers = self.drawing, self.flywheel.turn.numbers(self.drawing.count)
+        step, tangents = self.flywheel.cycle / drawing.count, drawing.points.tangents
+        return numbers[round(tangents.at_max / step)], numbers[round(tangents.at_min / step)]
 
     @property
     def segment(self) -> float:

@@ -148,15 +148,15 @@ def _listed(formulas: list[Rich]) -> Iterator[Node]:
 
 def _inertia(report: Report, tell: MachineTeller, said: Words) -> Iterator[Node]:
     drawing, flywheel, say = tell.drawing, tell.flywheel, report.say
-    points, step = drawing.points.tangents, flywheel.cycle / drawing.count
+    top, bottom = tell.found_in
     yield sentences(_by_method(said, tell, "sought").format())
     yield from _listed(tell.sought_formulas())
     segment = drawing.made.segment
     exact = float(drawing.exact.number(segment)[0])
     yield sentences(
         _by_method(said, tell, "cut").format(
-            top=round(points.at_max / step),
-            bottom=round(points.at_min / step),
+            top=top,
+            bottom=bottom,
             segment=report.mm(tell.segment),
             exact=f"{say.number(f'{exact:.2f}')} {report.unit('mm')}",
             **_energies(tell),
