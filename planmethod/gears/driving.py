@@ -35,18 +35,23 @@ class TrainOutput(Geared, frozen=True, kw_only=True):
     def given(self, words: Language) -> list[GivenFact]:
         """Return the facts of a statement that the train is given by, and which body of it drives.
 
-        Wheels have numbers as links have: a speed ω is told to be that of a wheel.
+        Wheels have numbers as links have: speeds, and what is fixed, are told to be of the train.
         """
-        facts = given(solve_motion(GearProblem(name="", train=self.train)), words)
-        if self.train.unit == "omega":
-            of_wheel = words.gears["sheet"]["of_wheel"]
-            own = {f"gears.omega.{segment(label)}": label for label, _ in self.inputs}
-            facts = [
-                replace(fact, text=of_wheel.format(label=own[key], speed=fact.text.split(" = ")[1]))
-                if (key := next(iter(fact.data), "")) in own
-                else fact
-                for fact in facts
-            ]
+        sheet, letter = words.gears["sheet"], "n" if self.train.unit == "n" else "ω"
+        wheels = {
+            f"gears.{self.train.unit}.{segment(label)}": label
+            for label, _ in self.inputs
+            if label.isdigit()
+        }
+        facts = []
+        for fact in given(solve_motion(GearProblem(name="", train=self.train)), words):
+            key, text = next(iter(fact.data), ""), fact.text
+            if key in wheels:
+                speed = text.split(" = ")[1]
+                text = sheet["of_wheel"].format(letter=letter, label=wheels[key], speed=speed)
+            elif key == "gears.fixed":
+                text = sheet["fixed"]["of_train"].format(labels=", ".join(sorted(self.train.fixed)))
+            facts.append(replace(fact, text=text))
         return facts
 
 
