@@ -298,6 +298,20 @@ def test_files_that_the_text_speaks_of_exist(document: Path) -> None:
             assert (ROOT / "planmethod" / span).exists(), span
 
 
+def test_every_promise_has_a_test() -> None:
+    """What docs/security.md promises is held by tests that are there, in the last cell of a row."""
+    page = (ROOT / "docs/security.md").read_text("utf-8")
+    table = page.partition("## What is promised")[2].partition("\n## ")[0]
+    rows = [line for line in table.splitlines() if line.startswith("| ")][2:]
+    assert len(rows) > 20
+    for row in rows:
+        file, found = "", []
+        for told, name in re.findall(r"`(tests/[\w/]+\.py)?::(\w+)`", row.rpartition(" | ")[2]):
+            file = told or file
+            found.append(f"def {name}(" in (ROOT / file).read_text("utf-8"))
+        assert found and all(found), row
+
+
 def test_the_house_is_as_the_linter_holds_it() -> None:
     contracts = tomllib.loads(text_of("pyproject.toml"))["tool"]["importlinter"]["contracts"]
     rows = first_cells("CONTRIBUTING.md", r"`((?:benchmarks|planmethod)/[\w./]*)`")
