@@ -224,7 +224,7 @@ REFUSED = {
     "slotted --K_v -1 --centres 1": (2, "Give 1 or more"),
     "slotted --K_v 3.5 --centres 0.4 --stroke 0.3 --rod 0.05": (4, "longer than 0.0544084"),
     "slotted --K_v 1.2 --swing 30 --centres 1": (2, "Given:"),
-    "slotted --K_v nan --centres 1": (2, "out of range"),
+    "slotted --K_v nan --centres 1": (2, "is not a number"),
     "slotted --K_v 1.2 --centres 1 --beta 3": (2, "not --beta"),
     "sloted --K_v 1.2": (2, "did you mean 'slotted'"),
     "slider-crank --stroke 0.2 --K_v 1": (4, "Give --stroke and --lambda"),
