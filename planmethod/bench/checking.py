@@ -324,7 +324,7 @@ def speed(problem: Problem) -> Speed:
     def with_pages() -> None:
         again = Task(Solution(problem))
         checked = [check(again, work) for work in group]
-        keys = {again.variant: key_of_task(again, items)}
+        keys = {again.variant: key_of_task(task, items)}  # that knows what the works answer
         with tempfile.TemporaryDirectory() as folder:
             write_all(Path(folder), checked, keys, DEFAULT, [], "ru")
 
