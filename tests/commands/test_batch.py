@@ -121,7 +121,7 @@ def test_a_manifest_that_is_a_link_makes_no_file_elsewhere(desk: Path) -> None:
     Path("out").mkdir(exist_ok=True)
     Path("out", batch.MANIFEST).symlink_to(desk / "elsewhere")
     result = CliRunner().invoke(cli, ["batch", "ex3.toml", "--variant", "v0", "--lang", "en"])
-    assert (result.exit_code, "it is a link to" in result.output) == (2, True), result.output
+    assert (result.exit_code, "a link leads to" in result.output) == (2, True), result.output
     assert not (desk / "elsewhere").exists()
 
 
