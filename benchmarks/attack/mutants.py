@@ -217,6 +217,11 @@ def _workbook(rows: Sequence[Sequence[str]], luck: random.Random) -> bytes:
         parts["xl/big.dat"] = b" " * (20 * 2**20)
     if luck.random() < 0.1:
         _share(parts, luck.choice((2, 30, 400)), luck.choice((1, 200)))
+    return _zipped(parts, luck)
+
+
+def _zipped(parts: dict[str, bytes], luck: random.Random) -> bytes:
+    """Return an archive of parts, sometimes with bytes of its own changed."""
     stream = io.BytesIO()
     with zipfile.ZipFile(stream, "w", zipfile.ZIP_DEFLATED) as archive:
         for one, data in parts.items():
@@ -348,9 +353,7 @@ def template(luck: random.Random) -> bytes:
     """Return a template of Word that something was done to."""
     parts = dict(_template())
     for _ in range(luck.choice((1, 1, 2, 4))):
-        spoilt = luck.choice(
-            [*parts, "word/document.xml", "word/styles.xml", "[Content_Types].xml"]
-        )
+        spoilt = luck.choice([*parts, *_MAIN])
         if spoilt not in parts:
             continue
         text = parts[spoilt]
@@ -367,17 +370,7 @@ def template(luck: random.Random) -> bytes:
                     rb'"\d+"', lambda _, v=values: b'"%s"' % v, text, count=luck.choice((0, 1, 9))
                 )
             case 4:
-                name = luck.choice(
-                    (
-                        b"w:sectPr",
-                        b"w:body",
-                        b"w:pgSz",
-                        b"w:style",
-                        b"Override",
-                        b"Default",
-                        b"Relationship",
-                    )
-                )
+                name = luck.choice(_ELEMENTS)
                 parts[spoilt] = re.sub(
                     rb"<%s[ >/].*?(?:/>|</%s>)" % (name, name), b"", text, flags=re.DOTALL
                 )
@@ -390,12 +383,7 @@ def template(luck: random.Random) -> bytes:
                 parts[
                     luck.choice(("../out.txt", "/x", "word/" + "a" * 300, "word/media/image1.png"))
                 ] = text * 9
-    stream = io.BytesIO()
-    with zipfile.ZipFile(stream, "w", zipfile.ZIP_DEFLATED) as archive:
-        for one, data in parts.items():
-            archive.writestr(one, data)
-    data = stream.getvalue()
-    return _bytes(data, luck) if luck.random() < 0.1 else data
+    return _zipped(parts, luck)
 
 
 # Others ------------------------------------------------------------------------------------------

@@ -136,7 +136,7 @@ class Calculation(Task):
             raise ProblemError(problem.name, [fault])
         self.declared = tuple(self._stated(at, one) for at, one in enumerate(problem.answers))
 
-    def beside(self) -> Calculation:
+    def for_one_work(self) -> Calculation:
         """Return the same task for one work: what it answers unasked is asked of nobody else."""
         other = copy.copy(self)
         other._found = dict(self._found)
@@ -262,7 +262,7 @@ class Calculation(Task):
     def asked_of(self, other: Task, mine: Sheet) -> Sheet | None:
         """Return the numbers of another variant with what is asked here; None if none is there."""
         assert isinstance(other, Calculation) and isinstance(mine, CalculationSheet)
-        their = other.beside()
+        their = other.for_one_work()
         for name, at, drawn, turns in self._found:
             if at == mine.position and their._question(name, at, drawn=drawn, turns=turns) is None:
                 return None

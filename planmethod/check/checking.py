@@ -45,7 +45,7 @@ def check(task: Task, work: Work) -> CheckedWork:
 
     What nobody asked is judged, and counts neither for nor against.
     """
-    task = task.beside()
+    task = task.for_one_work()
     asked = asked_of_drawing(task) if work.drawn else task.usual()
     measured = {item.name: item for item in asked} if work.drawn else {}
     names = {(item.name, item.position) for item in asked}

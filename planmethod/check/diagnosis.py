@@ -144,7 +144,7 @@ def _whole(
     fits = _fits(task, sheet, found, wrong, facts, own)
     best = fits[0] if fits else None
     if best is None or not best.likely or best.explanation.code == "P1":
-        others = _of_others(task, sheet, found, own.share)
+        others = _fits_of_variants(task, sheet, found, own.share)
         fits = sorted([*fits, *others], key=lambda fit: fit.score)
         best = fits[0] if fits else None
     if best is not None and not best.likely:  # a number that nobody explains is still gone on with
@@ -243,16 +243,18 @@ def _share(one: Examined) -> float:
     return max(one.limit.tolerance(one.step), one.limit.spread) / abs(one.limit.exact)
 
 
-def _of_others(task: Task, sheet: Sheet, found: list[Examined], share: float) -> Iterator[Fit]:
+def _fits_of_variants(
+    task: Task, sheet: Sheet, examined: list[Examined], tolerance_share: float
+) -> Iterator[Fit]:
     """Yield how the numbers of the other variants fit, read as the program of each calls them."""
     explained = task.explanations(sheet)
     for variant, theirs in task.theirs(sheet):
         asked = {question.id: question for question in theirs.asked}
         there = [
             replace(one, item=replace(one.item, question=asked[one.item.question.id]))
-            for one in found
+            for one in examined
         ]
-        own = OwnNumbers(put_in(theirs, there), put_in(theirs, there, values=True), share)
+        own = OwnNumbers(put_in(theirs, there), put_in(theirs, there, values=True), tolerance_share)
         made = Explanation("P2", variant, theirs.exact, theirs.trace, theirs, prior=COPIED)
         yield explained.fit(made, facts_of(theirs, there, task.settings.k), own)
 

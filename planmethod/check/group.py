@@ -191,7 +191,7 @@ def keys_of(variants: Variants, checked: Sequence[CheckedWork]) -> dict[str | No
     names = dict.fromkeys(work.variant for work in checked)
     for name in (name for name in names if name is None or name in variants.names):
         try:
-            task = variants.task(name).beside()
+            task = variants.task(name).for_one_work()
         except PlanMethodError:
             continue  # said of its works
         items = {(item.id, item.position): item for item in task.usual()}

@@ -216,7 +216,7 @@ class Task:
             other._sheets[key] = of_first.alike(other._questions[position], scales)
         return other
 
-    def beside(self) -> Task:
+    def for_one_work(self) -> Task:
         """Return the same task for one work: what it answers unasked is asked of nobody else."""
         other = copy.copy(self)
         other._asked = {position: dict(asked) for position, asked in self._asked.items()}
@@ -453,7 +453,7 @@ class Task:
 
     def asked_of(self, other: Task, mine: Sheet) -> Sheet | None:
         """Return the sheet of another variant with what is asked here; None if it has not all."""
-        position, their = mine.questions.position, other.beside()
+        position, their = mine.questions.position, other.for_one_work()
         try:
             questions = other.questions(position)
             theirs = [questions.again(question) for question in mine.asked]

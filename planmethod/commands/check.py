@@ -464,7 +464,7 @@ def _write_results(
         click.echo(str(path))
     for student, failure in written.failures:
         click.echo(say("No page: {}: {}. See run.json.", student, failure.said), err=True)
-    for path in written.kept:
+    for path in written.changed_files:
         told = "Warning: {} was changed after an earlier run wrote it, and stays."
         click.echo(say(told, path), err=True)
     return bool(written.failures)

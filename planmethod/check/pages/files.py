@@ -216,14 +216,14 @@ class GroupFiles(Struct, frozen=True):
         The page of each student who has one, HTML.
     failures : tuple of (str, CheckFailure)
         Students whose page could not be made, and why.
-    kept : tuple of Path
+    changed_files : tuple of Path
         Files of an earlier run that somebody has changed since: they stay.
     """
 
     paths: tuple[Path, ...]
     pages: dict[str, Path]
     failures: tuple[tuple[str, CheckFailure], ...]
-    kept: tuple[Path, ...]
+    changed_files: tuple[Path, ...]
 
 
 Table: TypeAlias = Callable[[Sequence[str], Sequence[Path]], bytes]
@@ -284,10 +284,10 @@ def write_all(
         title = next((key.problem.title for key in keys.values()), "")
         files["group.html"] = group_html(group, checked, title, words).encode()
     folder, pages = RunFolder(out), StudentPages(keys, settings, words)
-    by_hand = overrides_file(out / OVERRIDES, checked, own=folder.owns(OVERRIDES))
+    by_hand = overrides_file(out / OVERRIDES, checked, is_ours=folder.owns(OVERRIDES))
     names = file_names([work.work.student for work in checked])
     endings = [f"{PAGES}/{name}.{ending}" for name in names for ending in ("html", "pdf")]
-    folder.begin([*files, *endings, *tables])
+    folder.record_names([*files, *endings, *tables])
     paths = [folder.write(name, data) for name, data in files.items()]
     if by_hand is not None:
         data, is_own = by_hand

@@ -42,14 +42,14 @@ class RunFolder:
         self.out, self.earlier = out, _earlier(out / RECORD)
         self.files: dict[str, str] = {}
 
-    def begin(self, names: Iterable[str]) -> None:
+    def record_names(self, names: Iterable[str]) -> None:
         """Put on record what is about to be written: it is owned also if the run is stopped.
 
         Raises
         ------
         OutputError
         """
-        self._put_down({"schema": 1, "files": {**self.earlier, **dict.fromkeys(names)}})
+        self._write_record({"schema": 1, "files": {**self.earlier, **dict.fromkeys(names)}})
 
     def write(self, name: str, data: bytes) -> Path:
         """Write a file, whole or not at all, and return where it is.
@@ -98,10 +98,10 @@ class RunFolder:
                 kept.append(path)
         with contextlib.suppress(OSError):
             (self.out / PAGES).rmdir()  # only where it is empty
-        self._put_down({**record, "files": self.files})
+        self._write_record({**record, "files": self.files})
         return sorted(kept)
 
-    def _put_down(self, record: Mapping[str, Any]) -> None:
+    def _write_record(self, record: Mapping[str, Any]) -> None:
         text = json.dumps(record, ensure_ascii=False, allow_nan=False, indent=1)
         data = f"{text}\n".encode("utf-8", "replace")
         write(self.out / RECORD, data, within=self.out)

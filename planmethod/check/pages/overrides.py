@@ -22,10 +22,10 @@ from planmethod.problem.formula import read_decimal
 from planmethod.problem.source import table_text
 
 COLUMNS = ("student", "id", "points", "remark")
-TOLD = ("of", "written", "where")
+INFORMATION_COLUMNS = ("of", "written", "where")
 """Further columns of the file that a run writes: they tell of an open answer, and are not read."""
 
-HEAD = (*COLUMNS, *TOLD)
+HEAD = (*COLUMNS, *INFORMATION_COLUMNS)
 MOST_BYTES = 1_000_000
 MOST_ROWS = 10_000
 T = TypeVar("T", CheckedWork, Judged)
@@ -84,7 +84,7 @@ def students_of(path: Path) -> frozenset[str]:
 
 
 def overrides_file(
-    path: Path, works: Sequence[CheckedWork], *, own: bool
+    path: Path, works: Sequence[CheckedWork], *, is_ours: bool
 ) -> tuple[bytes, bool] | None:
     """Return a file of overrides with a row for every open answer, to be filled in.
 
@@ -98,7 +98,7 @@ def overrides_file(
     ------
     OverridesError
     """
-    is_own = own or not path.exists()
+    is_own = is_ours or not path.exists()
     rows, mark = ([list(HEAD)], ";") if is_own else _rows(path)
     head = [cell.strip().lower() for cell in rows[0]] if rows else []
     if not {"student", "id", "points"} <= set(head):

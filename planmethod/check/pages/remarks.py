@@ -45,7 +45,7 @@ class Remarks(Struct, frozen=True):
         said: Words = self.speech.say["student"]
         return said
 
-    def _told(self, name: str) -> str:
+    def _wording(self, name: str) -> str:
         """Return a sentence with the right value in it, or that which goes without."""
         said: str = self.say[name] if self.values else self.say["without"][name]
         return said
@@ -82,7 +82,7 @@ class Remarks(Struct, frozen=True):
                 continue
             lines.setdefault(
                 (key.segment, key.scale),
-                self._told("redraw_line").format(
+                self._wording("redraw_line").format(
                     segment=segment_letters(key.segment),
                     plan=self.say["plan_names"][plan.value],
                     right=self.speech.mm(key.mm),
@@ -138,7 +138,9 @@ class Remarks(Struct, frozen=True):
 
     def _not_known(self, judged: Judged) -> str:
         if judged.miscomputed and judged.local is not None:
-            return self._told("recompute").format(local=self.speech.close_to(judged.local, judged))
+            return self._wording("recompute").format(
+                local=self.speech.close_to(judged.local, judged)
+            )
         if judged.key is None or judged.key.mm is None or not judged.key.segment:
             return self.say.unknown_computed
         return self.say.unknown.format(segment=segment_letters(judged.key.segment))
@@ -209,11 +211,11 @@ class Remarks(Struct, frozen=True):
             places |= {"own": speech.own(judged), "right": speech.right(key, judged.tolerance)}
             local = None if judged.local is None else speech.close_to(judged.local, judged)
             if judged.verdict is Verdict.NEAR:
-                yield self._told("near").format(**places, points=self._lost(judged))
+                yield self._wording("near").format(**places, points=self._lost(judged))
             elif judged.verdict is Verdict.INCONSISTENT and local:
                 yield say.inconsistent.format(**places, local=local)
             if judged.sense_right is False and self._fits(judged) and not self._is_root(judged):
-                yield self._told("sense").format(**places | {"right": self._sense(key.sense)})
+                yield self._wording("sense").format(**places | {"right": self._sense(key.sense)})
             if judged.slip:
                 yield self._slipped(judged)
             if judged.remark:
@@ -285,7 +287,7 @@ class Remarks(Struct, frozen=True):
     def _compared(self, judged: Judged) -> str:
         if judged.key is None:
             return self.speech.symbol(judged)
-        return self._told("compared").format(
+        return self._wording("compared").format(
             answer=self.speech.symbol(judged),
             own=self.speech.own(judged) or "—",
             right=self.speech.right(judged.key, judged.tolerance),

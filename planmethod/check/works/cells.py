@@ -89,7 +89,7 @@ _BLANKS = (
 BLANKS = frozenset(map(key, _BLANKS.split(", ")))
 """What stands where nothing is answered, by `key`."""
 
-NOTHING = f"{DASHES}-_?.…/ \t\u00a0"
+BLANK_SIGNS = f"{DASHES}-_?.…/ \t\u00a0"
 """Signs that say nothing where they stand alone."""
 
 POINT = frozenset(("точка", "point"))
@@ -124,7 +124,7 @@ class Cell(Struct, frozen=True):
     @property
     def is_blank(self) -> bool:
         """Whether it says nothing; a nought says something."""
-        return self.why is None and (not self.text.strip(NOTHING) or key(self.text) in BLANKS)
+        return self.why is None and (not self.text.strip(BLANK_SIGNS) or key(self.text) in BLANKS)
 
 
 BLANK = Cell()
