@@ -14,6 +14,7 @@ import numpy as np
 import openpyxl
 import pytest
 from cases import each
+from evaluated import count_equations_that_hold
 from msgspec.structs import replace
 from worked import ROOT, path_of
 
@@ -31,7 +32,7 @@ from planmethod.note.narrate.steps import calculation
 from planmethod.note.plaintext import plain_text
 from planmethod.note.wording import LANGUAGES, Language, language
 from planmethod.note.writers.plain import plain_document
-from planmethod.plans.legend import QuantityKind
+from planmethod.plans.legend import MOTION_KINDS, QuantityKind
 from planmethod.plans.model import RATES
 from planmethod.problem.load_records import SizeTable
 from planmethod.problem.machine_records import FlywheelMethod
@@ -223,37 +224,47 @@ def test_numbers_and_their_units_are_not_parted(name: str) -> None:
 
 # Numbers -----------------------------------------------------------------------------------------
 
-RESULT = re.compile(r"= ([0-9−][0-9,·^{}−]* (?:м/с(?:\^\{2\})?|мм|с\^\{−[12]\}))")
-NUMERIC = re.compile(r"[0-9.()+\-*/ ]+")
-
-
-def value_of(side: str) -> float | None:
-    """Return what a side of a formula comes to; None where there are letters in it."""
-    plain = re.sub(r"\^\{([0-9]+)\}", r"**\1", side.replace("·10^{−", "*10^{-"))
-    plain = plain.replace("·", "*").replace("−", "-").replace(",", ".").replace("°", "")
-    plain = (
-        re.sub(r"\s*(?:мм|м/с|м|кг|Н|с|рад|Дж|\((?!\d)|%).*$", "", plain)
-        if "*" not in plain
-        else plain
-    )
-    if not NUMERIC.fullmatch(plain) or not re.search(r"\d", plain):
-        return None
-    return float(eval(plain, {"__builtins__": {}}))
-
 
 @pytest.mark.parametrize("name", FILES)
 def test_the_numbers_of_every_formula_come_to_its_result(name: str) -> None:
     checked = 0
     for node in note_of(name).nodes:
-        if not isinstance(node, document.Formula) or " рад/мм" in node.text.replace("\u00a0", " "):
-            continue  # a scale of angles has degrees, and radians after them
-        found = node.text.partition(", принимаем ")[0]  # what is taken is a standard size near it
-        sides = inlined(found.rstrip(".,;")).split(" = ")
-        values = [value for side in sides if (value := value_of(side)) is not None]
-        for one, other in pairwise(values):
-            assert one == pytest.approx(other, rel=3e-3, abs=1e-9), node.text
-            checked += 1
+        # What is taken is a standard size near what is found.
+        text = str(getattr(node, "text", "")).partition(", принимаем ")[0]
+        checked += count_equations_that_hold([text])
     assert checked > 15
+
+
+@pytest.mark.parametrize("name", ["homework", "forces"])
+def test_the_matrix_of_constraints_has_six_columns_for_each_moving_link(name: str) -> None:
+    """And as many rows as the pairs take away: both are terms of the formula above it."""
+    told = " ".join(inlined(text) for text in texts(note_of(name))).replace("\u00a0", " ")
+    count = re.search(r"= 6·(\d+)((?: − \d·\d+)+) = 1\b", told)
+    matrix = re.search(r"имеет (\d+) строк\w* и (\d+) столбц\w*, её ранг .*? равен (\d+)", told)
+    assert count is not None and matrix is not None
+    links = int(count[1])
+    assert links == len(project_of(name).loaded.problem.mechanism.links)
+    taken = sum(int(one) * int(two) for one, two in re.findall(r"(\d)·(\d+)", count[2]))
+    assert [int(one) for one in matrix.groups()] == [taken, 6 * links, taken]
+
+
+def test_the_strokes_in_the_conclusion_make_one_turn_and_k_v_is_working_over_idle() -> None:
+    for lang, said in (
+        ("ru", r"Рабочий ход занимает ([\d,]+)°, холостой – ([\d,]+)°.*?K_{v} = ([\d,]+\d)"),
+        (
+            "en",
+            r"working stroke takes ([\d.]+)° and the idle stroke ([\d.]+)°.*?K_{v} = ([\d.]+\d)",
+        ),
+    ):
+        told = " ".join(texts(note_of("shaper", lang))).replace("\u00a0", " ")
+        found = re.search(said, told)
+        assert found is not None
+        working, idle, ratio = (float(one.replace(",", ".")) for one in found.groups())
+        assert working + idle == pytest.approx(360.0, abs=0.011)
+        assert ratio == pytest.approx(working / idle, abs=6e-4)
+        strokes = project_of("shaper").strokes
+        assert strokes is not None
+        assert working == pytest.approx(strokes.working_deg, abs=0.006)
 
 
 @pytest.mark.parametrize("name", FILES)
@@ -286,6 +297,80 @@ def test_the_comparison_has_the_values_of_solve(name: str) -> None:
             assert read == say.found(float(solution.read_off(quantity.label)[0]))
             seen += 1
     assert seen > 2
+
+
+def cells_of(table: document.Table) -> list[dict[str, str]]:
+    """Return the rows of a table by heads, with points for commas."""
+    return [
+        dict(
+            zip(
+                table.head,
+                (inlined(c).replace(",", ".").replace("−", "-") for c in row),
+                strict=True,
+            )
+        )
+        for row in table.rows
+    ]
+
+
+def half_a_digit(cell: str) -> float:
+    """Return half of the last decimal place of a number."""
+    return 0.5001 * 10.0 ** -len(cell.partition(".")[2])
+
+
+@pytest.mark.parametrize("name", FILES)
+def test_differences_of_tables_are_what_the_plans_give_less_what_is_exact(name: str) -> None:
+    count = 0
+    for key in ("compared", "reactions", "train_results"):
+        table = tables_of(name).get(key)
+        for row in cells_of(table) if table is not None else []:
+            read, exact = (
+                next((float(row[h]) for h in row if h.startswith(said)), 0.0)
+                for said in (("По плану", "По картине"), "Точно")
+            )
+            for head, value in (
+                ("Δ", read - exact),
+                ("Δ, %", 100.0 * (read / exact - 1.0) if exact else 0.0),
+            ):
+                if (cell := row.get(head, "—")) != "—":
+                    finer = 6e-4 * (abs(read) if head == "Δ" else 100.0)  # of four digits
+                    room = half_a_digit(cell) + finer
+                    assert float(cell) == pytest.approx(value, abs=room), (key, row)
+                    count += abs(value) > room
+    assert count > 2
+
+
+@pytest.mark.parametrize("name", ["shaper", "engine", "rubbing"])
+def test_the_largest_differences_are_those_of_the_position_that_is_named(name: str) -> None:
+    every = project_of(name).solution
+    quantities = {one.symbol: one for one in told(every, *MOTION_KINDS)}
+    rows = cells_of(tables_of(name)["largest"])
+    for row in rows:
+        symbol, _, _ = row["Величина"].partition(". ")
+        quantity = quantities[symbol]
+        exact = every.exact(quantity)
+        off = np.abs(every.read_off(quantity.label) - exact)
+        assert int(row["Положение"]) == int(np.nanargmax(off)), symbol
+        for head, value in (
+            ("Наибольшее значение", np.nanmax(np.abs(exact))),
+            ("Δ_{max}", np.nanmax(off)),
+            ("Δ_{max}, %", 100.0 * np.nanmax(off) / np.nanmax(np.abs(exact))),
+        ):
+            room = half_a_digit(row[head]) + 1e-3 * value
+            assert float(row[head]) == pytest.approx(float(value), abs=room), (symbol, head)
+    assert len({row["Положение"] for row in rows}) > 1
+
+
+@pytest.mark.parametrize("name", ["shaper", "engine"])
+def test_the_error_of_the_flywheel_is_what_is_drawn_less_what_is_exact(name: str) -> None:
+    said = " ".join(texts(note_of(name))).replace(",", ".").replace("−", "-").replace("\u00a0", " ")
+    exact = re.search(r": J_{м} = ([\d.]+) кг·м\^\{2\}. Значение. найденное построением. "
+                      r"отличается от него на ([-+\d.]+) %", said)  # fmt: skip
+    drawn = re.search(r"нужен маховик с моментом инерции J_{м} = ([\d.]+) кг", said)
+    assert exact is not None and drawn is not None
+    off = 100.0 * (float(drawn[1]) / float(exact[1]) - 1.0)
+    assert float(exact[2]) == pytest.approx(off, abs=0.15)
+    assert abs(off) > 1.0
 
 
 def test_the_tables_of_all_positions_have_what_the_plans_give() -> None:

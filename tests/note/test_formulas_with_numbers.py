@@ -1,0 +1,43 @@
+"""Every formula of a protocol with numbers comes to what stands after it, in all kinds."""
+
+from __future__ import annotations
+
+from cases import each
+from evaluated import count_equations_that_hold, texts_of
+from worked import path_of
+
+from planmethod.kinds import kind_of, load
+from planmethod.note.document import Document
+from planmethod.note.protocol import protocol_document
+from planmethod.note.wording import Language, language
+from planmethod.options import drawn_by
+from planmethod.solved.solution import Solution
+
+FILES = (  # of each section of a protocol one, with how many of its formulas have numbers
+    ("press/flywheel", 75, "ru"),
+    ("machines/rubbing-crank", 70, "en"),
+    ("machines/balanced-crank", 45, "ru"),
+    ("linkages/triad", 80, "en"),
+    ("gears/planetary-k10", 25, "ru"),
+    ("gears/gears-ex1", 9, "en"),
+    ("meshing/z12-30", 40, "ru"),
+    ("point/polar-slider", 12, "en"),
+)
+
+
+def documents_of(name: str, words: Language) -> list[Document]:
+    """Return the protocol of a file and, of other kinds than linkages, its solution."""
+    path = path_of(name)
+    kind = kind_of(path)
+    if kind is None:
+        return [protocol_document(Solution(load(path)), words)]
+    problem = kind.load(path, None)
+    protocol = kind.protocol_document(problem, words, drawn_by(None, None))
+    return [kind.solved_document(problem, words), protocol]
+
+
+@each("name, least, lang", FILES)
+def test_the_numbers_of_every_formula_come_to_its_result(name: str, least: int, lang: str) -> None:
+    documents = documents_of(name, language(lang))
+    texts = (text for document in documents for text in texts_of(document))
+    assert count_equations_that_hold(texts) >= least
