@@ -1,7 +1,7 @@
 """Answers that are computed, not drawn: trains and moving points (проверка расчётных задач).
 
-They are judged, passed on and written as those of plans. A value is exact but for its rounding;
-what is asked, or told, in millimetres of a picture has the errors of drawing.
+They are graded, propagated and formatted like those of plans. A value is exact up to rounding;
+a quantity requested, or given, in millimetres of a picture has drafting errors.
 """
 
 from __future__ import annotations
@@ -39,19 +39,19 @@ from planmethod.problem.selector import Selector
 from planmethod.solved.selectors.steps import NoValue, NoValueError
 
 READ = "read"
-"""Kind of what is read off a picture."""
+"""Kind of a value read from a picture."""
 
 COUNTED = 0.3
-"""How far a count may be off: nobody writes a half."""
+"""Permitted error of a count: students do not write a half."""
 
 COARSE = 0.01
-"""Share of a number that its last digit is worth from which it is no sign of another variant."""
+"""Relative weight of the last digit from which a number cannot indicate another variant."""
 
 _NOTHING = Trace({}, {})
 
 
 class CalculationSheet(Sheet):
-    """What is asked of one position of a problem that is computed."""
+    """Requested quantities of one position of a computed problem."""
 
     def __init__(
         self, figures: Figures, position: int, asked: Iterable[Question], by: Profile
@@ -91,11 +91,11 @@ class CalculationSheet(Sheet):
         return mm if math.isfinite(mm) else None
 
     def sigma(self, question: Question, *, length: bool = False) -> float:
-        """Return one sigma of what is read; 0 of what is computed."""
+        """Return one sigma of a reading; 0 for a computed value."""
         return self._drawn(question)[1]
 
     def vector(self, question: Question, trace: Trace | None = None) -> complex | None:
-        """Return nothing: no answer is a vector."""
+        """Return None: no answer is a vector."""
         return None
 
     @property
@@ -110,7 +110,7 @@ class Calculation(Task):
     Raises
     ------
     ProblemError
-        It cannot be solved, or asks for what has no value.
+        It cannot be solved, or requests a quantity without a value.
     """
 
     def __init__(
@@ -137,7 +137,7 @@ class Calculation(Task):
         self.declared = tuple(self._stated(at, one) for at, one in enumerate(problem.answers))
 
     def for_one_work(self) -> Calculation:
-        """Return the same task for one work: what it answers unasked is asked of nobody else."""
+        """Return a copy of the task for one submission: its extra answers do not affect others."""
         other = copy.copy(self)
         other._found = dict(self._found)
         return other
@@ -184,7 +184,7 @@ class Calculation(Task):
         return TaskItem(name, question, position, fixed=fixed, label=name, name=name)
 
     def usual(self, position: int | None = None) -> tuple[TaskItem, ...]:
-        """Return what is asked: what the file asks, else the usual quantities of a position."""
+        """Return the requested items: those of the file, or the usual quantities of a position."""
         if self.declared:
             return self.declared
         position = position or 0
@@ -197,7 +197,7 @@ class Calculation(Task):
         return self.figures.count
 
     def find(self, written: WrittenAnswer) -> TaskItem:
-        """Return what an answer is of; one told in millimetres is read off the picture.
+        """Return the item of an answer; an answer in millimetres is read from the picture.
 
         Raises
         ------
@@ -223,7 +223,7 @@ class Calculation(Task):
         per = ratio(written, item.question.unit)
         if per is None:
             return refused(Unread.OTHER, written.unit, written.where, base=written)
-        per = 1.0 if item.question.is_mm else per  # the judge makes millimetres himself
+        per = 1.0 if item.question.is_mm else per  # grading handles millimetres
         value, sense = written.value, written.sense
         if value is not None and sense is not None and sense.turns:
             value = math.copysign(value, 1.0 if sense.value == "ccw" else -1.0)
@@ -239,7 +239,7 @@ class Calculation(Task):
         *,
         drawn: str = "",
     ) -> CalculationSheet:
-        """Return the numbers of a position, with all that was asked so far."""
+        """Return the numbers of a position, with all quantities requested so far."""
         profile = self.profile(ruler, drawn=drawn)
         asked = {q.id: q for (_, at, *_), q in self._found.items() if at == position}
         key = (position, profile, tuple(asked))
@@ -260,7 +260,7 @@ class Calculation(Task):
         return found
 
     def asked_of(self, other: Task, mine: Sheet) -> Sheet | None:
-        """Return the numbers of another variant with what is asked here; None if none is there."""
+        """Return another variant's numbers for the same quantities; None if one is missing."""
         assert isinstance(other, Calculation) and isinstance(mine, CalculationSheet)
         their = other.for_one_work()
         for name, at, drawn, turns in self._found:
@@ -275,7 +275,7 @@ class Calculation(Task):
     # Judging ---------------------------------------------------------------------------------
 
     def judge(self, sheet: CalculationSheet, found: list[Examined]) -> list[Diagnosis]:
-        """Give every answer its verdict, and name what is wrong."""
+        """Give every answer its verdict, and name the mistakes."""
         self._replay(sheet, found)
         decide(sheet, found, self.settings.near)
         diagnoses: list[Diagnosis] = []
@@ -287,7 +287,7 @@ class Calculation(Task):
             return []
         tried = [*self.named(sheet), *self._copied(sheet)]
         for one in left:
-            # No factor makes nought.
+            # No factor gives zero.
             for code, factor in _slips(one.item.question.unit) if one.value else ():
                 given = {**sheet.exact, one.item.question.id: one.limit.exact * factor}
                 tried.append(Explanation(code, "", given, _NOTHING, sheet))
@@ -313,7 +313,7 @@ class Calculation(Task):
         return diagnoses
 
     def _replay(self, sheet: CalculationSheet, found: list[Examined]) -> None:
-        """Find what comes out of his own answers for others."""
+        """Find the values that follow from the student's own answers."""
         for one in found:
             slack = self.settings.k * one.limit.sigma + one.limit.least + one.step / 2
             one.slip = one.told is not None and abs(abs(one.value) - abs(one.told)) > slack
@@ -352,7 +352,7 @@ def _slips(unit: str) -> Iterator[tuple[str, float]]:
 
 
 def _gives(explanation: Explanation, one: Examined) -> bool:
-    """Tell whether an explanation gives a wrong answer."""
+    """Return whether an explanation gives a wrong answer."""
     given = explanation.values[one.item.question.id]
     if not math.isfinite(given) or abs(given - one.limit.exact) <= one.limit.tolerance():
         return False
@@ -364,7 +364,7 @@ def _gives(explanation: Explanation, one: Examined) -> bool:
 
 
 def _contradicted(explanation: Explanation, found: list[Examined]) -> bool:
-    """Tell whether somebody with that mistake could not have all his right answers."""
+    """Return whether a student with this mistake could not have all these right answers."""
     for one in found:
         given = explanation.values[one.item.question.id]
         off = distance(one.item, given, one.limit.exact, signed=one.signed)

@@ -1,4 +1,4 @@
-"""Checking of a work: from what is written to verdicts, diagnosis and points (проверка работы)."""
+"""Checking of a submission: from answers to verdicts, diagnosis, points (проверка работы)."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ TOO_NEAR = 1e-4
 def check(task: Task, work: Work) -> CheckedWork:
     """Judge a work: a pure function of a task and what was written.
 
-    What nobody asked is judged, and counts neither for nor against.
+    Answers that were not requested are graded, but do not affect the points.
     """
     task = task.for_one_work()
     asked = asked_of_drawing(task) if work.drawn else task.usual()
@@ -90,7 +90,7 @@ def check(task: Task, work: Work) -> CheckedWork:
         for one in ready:
             number = numbers[id(one.written)]
             told = _judged(task, sheet, one)
-            # Of a drawing nothing is computed: what does not follow is to be drawn anew.
+            # A drawing has no computed values: a segment that does not follow must be redrawn.
             again = told.miscomputed and not work.drawn
             judged[number] = replace(told, written=work.answers[number], miscomputed=again)
         examined += ready
@@ -119,7 +119,7 @@ def check(task: Task, work: Work) -> CheckedWork:
 
 
 def _each_once(answers: Iterable[Judged]) -> Iterator[Judged]:
-    """Yield the answers; one that cannot be read counts for nothing beside one that can."""
+    """Yield the answers; an unreadable one does not count if there is a readable one."""
     told = list(answers)
     read = {
         (one.key.id, one.key.position)
@@ -135,7 +135,7 @@ def _each_once(answers: Iterable[Judged]) -> Iterator[Judged]:
 
 
 def unknown_variant(work: Work) -> CheckedWork:
-    """Return a work of a variant that the problem has not: nothing of it can be judged."""
+    """Return a submission of an unknown variant: none of its answers can be graded."""
     answers = tuple(
         Judged(written.id or written.what, Verdict.UNREADABLE, written=written)
         for written in work.answers
@@ -158,7 +158,7 @@ def failure_of(error: Exception) -> CheckFailure:
 def _scales(
     task: Task, work: Work, here: Sequence[tuple[WrittenAnswer, TaskItem]], position: int
 ) -> dict[str, float]:
-    """Return his scales; one that he does not tell is found from a value beside its millimetres."""
+    """Return the student's scales; a missing one is derived from a value and its millimetres."""
     scales = {name: mu for name, mu in work.scales.items() if name in SCALED}
     if isinstance(task, Calculation):
         return scales
@@ -187,7 +187,7 @@ def _judged(task: Task, sheet: Sheet, one: Examined) -> Judged:
     item, settings = one.item, task.settings
     entry = replace(
         entry_of(task, item, one.limit),
-        mm=sheet.length(item.question),  # on his plan
+        mm=sheet.length(item.question),  # on the student's plan
         per=item.per(sheet.scales),
     )
     share = share_of(one, settings)
@@ -218,7 +218,7 @@ def share_of(one: Examined, settings: Settings) -> float:
         Verdict.INCONSISTENT: settings.inconsistent_share,
         Verdict.UNSEEN: settings.unseen_share,
     }
-    asked = one.item.asks_sense and not one.limit.zero and one.value  # nought turns no way
+    asked = one.item.asks_sense and not one.limit.zero and one.value  # zero has no sense
     if one.verdict is Verdict.WRONG:
         # The sense is an answer of its own: wrong, it leaves the number its points.
         if one.sense_right is False and (one.right or one.follows):
@@ -231,7 +231,7 @@ def share_of(one: Examined, settings: Settings) -> float:
 
 
 def _suspicious(found: Sequence[Examined]) -> bool:
-    """Tell whether answers are nearer to the exact values than a hand ever draws."""
+    """Return whether answers are nearer to the exact values than a hand ever draws."""
     seen = [
         one
         for one in found

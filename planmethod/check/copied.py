@@ -20,19 +20,19 @@ FEW = 2
 """Answers that must be off before another variant is thought of."""
 
 MOST = 0.75
-"""Share of the answers that tell two variants apart which those of the other one must give."""
+"""Minimum fraction of the distinguishing answers that must match the other variant."""
 
 USUAL = math.log(9.0)
 """Wrong numbers are between a third and three times of the right one, anywhere."""
 
 BY_CHANCE = 0.005
-"""How rarely the answers of another variant may come by chance, to be called so."""
+"""Maximum chance of a coincidental match for calling the answers another variant's."""
 
 LEAST_SHARE = 0.3
 """A small number of another variant is drawn no better than a third of the right one."""
 
 ALIKE = 0.01
-"""How rarely two works of a whole group may be so near each other by chance."""
+"""Maximum chance, over a whole group, that two submissions are this close by coincidence."""
 
 STROKES = 4
 """Readings by which two works are compared, at least."""
@@ -41,14 +41,14 @@ BOUND = 4.0
 """Sigmas beyond which a reading is a mistake, not the pencil: mistakes may be made by two."""
 
 HAND = 0.15
-"""Nobody errs less than this share of what the profile says: that is how far works differ."""
+"""Minimum drafting error of any student, as a fraction of the profile's."""
 
 
 def copied(task: Task, sheet: Sheet, found: list[Examined]) -> Explanation | None:
     """Return that the numbers are those of another variant; None where they are not surely.
 
-    What they give is compared as it was written, and nothing follows from anything: who copies
-    has all plans of the other variant, wherever one's own numbers would lead.
+    The predicted values are compared as written, without propagation: a copying student has
+    all plans of the other variant, wherever their own numbers would lead.
     """
     if sum(not one.right for one in found) < FEW:
         return None
@@ -62,7 +62,7 @@ def copied(task: Task, sheet: Sheet, found: list[Examined]) -> Explanation | Non
             continue
         rivals = (e for e in named if not (e.code == "P1" and e.change and e.change.data))
         if any(all(_gives(one, rival.values) for one in hits) for rival in rivals):
-            continue  # a mistake in his own variant does as well; another angle is the other one
+            continue  # a mistake in their own variant fits too; another angle is the other variant
         free = [one for one in hits if not (one.follows and one.parents)]
         chance = math.fsum(math.log(min(1.0, _chance(one, theirs.exact))) for one in free)
         off = math.fsum(_off(one, theirs.exact) for one in hits) / len(hits)
@@ -110,7 +110,7 @@ def _chance(one: Examined, values: Mapping[str, float]) -> float:
 
 
 def compared(works: Iterable[CheckedWork]) -> list[CheckedWork]:
-    """Return works with those told whose readings are nearer to theirs than two pencils come.
+    """Return submissions, marking those whose readings agree better than two drawings can.
 
     Every stroke errs by itself. What is left of a reading when the earlier numbers are given is
     the fingerprint of a hand: that of two honest works of one task differ by √2 of a sigma.
@@ -151,7 +151,7 @@ def _agreements(one: CheckedWork, two: CheckedWork, hand: float) -> Iterator[flo
 
 
 def _hand(checked: CheckedWork) -> float:
-    """Return how well somebody draws, as a share of what the profile says."""
+    """Return a student's drafting error as a fraction of the profile's."""
     found = [stroke.off for stroke in checked.strokes.values() if abs(stroke.off) <= BOUND]
     rms = math.sqrt(math.fsum(off**2 for off in found) / len(found)) if found else 1.0
     return min(1.0, max(HAND, rms))

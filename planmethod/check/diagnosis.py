@@ -37,7 +37,7 @@ EXACT = 0.15
 """Nobody is believed to err less than this share of the errors of a careful drawing."""
 
 CLEARLY = 6.0
-"""How much better the best explanation must be than the next one to be named."""
+"""Score by which the best explanation must beat the next one to be named."""
 
 TRIED = 6
 """Named explanations that are compared."""
@@ -46,32 +46,32 @@ PAIRED = 20
 """Mistakes of which any two are tried together."""
 
 FEW_CODES = 3
-"""Mistakes of which one may be told as "one of": of more a student learns nothing."""
+"""Maximum number of mistakes reported as "one of": more would not help the student."""
 
 OFF = 9.0
 """Sigmas squared from which an answer is surely not what a mistake gives."""
 
 CLOSE = 15.0
-"""How much worse one may be than the best, to be compared with the errors of its own plans."""
+"""Maximum score gap to the best explanation for a comparison with the errors of its own plans."""
 
 MANY = 2
-"""So many wrong numbers that some of them are like something by chance."""
+"""Number of wrong answers from which some resemble a known mistake by chance."""
 
 COPIED = 25.0
-"""How common the numbers of another variant are where they fit: few mistakes give just these."""
+"""Prior of another variant's numbers where they fit: few mistakes give just these."""
 
 ALONE = 0.05
-"""How far off a slip may be where nothing else on the sheet tells of it, a share of the number."""
+"""Maximum relative error of a slip that is not confirmed by anything else on the sheet."""
 
 UNNAMED = 15.0
-"""How common a number is that is wrong and nobody knows why, beside one mistake at one place.
+"""Prior of a wrong number of unknown cause, relative to one mistake at one place.
 
 Some seventy mistakes can be made on a sheet: one of them comes near almost any single number.
 """
 
 
 def diagnose(task: Task, sheet: Sheet, found: list[Examined]) -> list[Diagnosis]:
-    """Name what is wrong with a sheet, and pass on what follows from it.
+    """Name the mistakes of a sheet, and propagate their consequences.
 
     The verdicts of the answers that follow from a recognised mistake become `Verdict.INHERITED`.
     """
@@ -107,7 +107,7 @@ def _or_driver(told: Diagnosis, named: Sequence[Explanation], facts: list[Fact])
 
 
 def _explains(sheet: Sheet, wrong: list[Examined], explanation: Explanation) -> bool:
-    """Tell whether a mistake changes a wrong answer at all, its number or its sense."""
+    """Return whether a mistake changes a wrong answer at all, its number or its sense."""
     for one in wrong:
         given, right = (e[one.item.question.id] for e in (explanation.values, sheet.exact))
         turned = one.sense_right is False and given * right <= 0
@@ -147,7 +147,7 @@ def _whole(
         others = _fits_of_variants(task, sheet, found, own.share)
         fits = sorted([*fits, *others], key=lambda fit: fit.score)
         best = fits[0] if fits else None
-    if best is not None and not best.likely:  # a number that nobody explains is still gone on with
+    if best is not None and not best.likely:  # an unexplained number is still propagated
         likely = (fit for fit in fits if fit.likely and fit.score < fits[0].score + CLEARLY)
         best = next((fit for fit in likely if not fit.explanation.code), None)
         return None if best is None else [best]
@@ -177,7 +177,7 @@ def _fits(
         close = [fit.explanation for fit in rough if fit.score <= most]
         fits += [explained.fit(e, facts, own, closely=True) for e in close]
     for one in judged:
-        code = "slip" if one.slip else ""  # his millimetres tell it; else nobody knows which
+        code = "slip" if one.slip else ""  # shown by their millimetres; else unknown
         made = put_explanation(sheet, one, code, "", one.value, UNNAMED, free=True)
         fits.append(explained.fit(made, facts, own))
     return _different(sorted(fits, key=lambda fit: fit.score), facts)
@@ -207,7 +207,7 @@ def _different(fits: list[Fit], facts: list[Fact]) -> list[Fit]:
 
 
 def _same(one: Mapping[str, float], two: Mapping[str, float], facts: list[Fact]) -> bool:
-    """Tell whether two explanations give the same answers."""
+    """Return whether two explanations give the same answers."""
     return all(
         abs(fact.of(one[fact.id]) - fact.of(two[fact.id])) <= fact.least * 0.5
         and (not fact.turn or one[fact.id] * two[fact.id] >= 0)
@@ -333,7 +333,7 @@ def _two(
 def _unexplained(
     explained: Explanations, explanation: Explanation, facts: list[Fact], own: OwnNumbers
 ) -> set[str]:
-    """Return what is surely off, or turned, where a mistake is made."""
+    """Return the ids of answers that are surely off, or reversed, with a mistake."""
     return {
         fact.id
         for fact in facts
@@ -343,7 +343,7 @@ def _unexplained(
 
 
 def _unnamed(sheet: Sheet, fact: Fact) -> float:
-    """Return what a number costs that is wrong and nobody knows why."""
+    """Return the cost of a wrong number of unknown cause."""
     size = max(abs(fact.value), abs(sheet.exact[fact.id]), fact.least)
     return 2 * math.log(size * WIDE) + ONE_MISTAKE - 2 * math.log(UNNAMED)
 
@@ -391,18 +391,18 @@ def _one_by_one(
 
 
 def _turned(one: Examined) -> bool:
-    """Tell whether nothing but the sense of an answer is wrong."""
+    """Return whether only the sense of an answer is wrong."""
     size = one.right or one.near
-    if one.item.question.sign is not Sign.TURN:  # else his own numbers give him that sense too
+    if one.item.question.sign is not Sign.TURN:  # else their own numbers give that sense too
         size = size or bool(one.follows)
     return one.sense_right is False and size
 
 
 def _alone(sheet: Sheet, one: Examined, *, many: bool, lone: bool) -> Diagnosis:
-    """Return what can be said of one number by itself; of one of many only what is sure.
+    """Return the diagnosis of a single number; of one among many only if it is certain.
 
-    Some segment of a plan is about as long as almost any number, and some factor makes it of the
-    right one: beside other wrong numbers only his own, or his millimetres, tell it surely.
+    Some segment of a plan is about as long as almost any number, and some factor relates it to the
+    right one: among other wrong numbers only the student's own values, or millimetres, are proof.
     """
     roots = (one.item.id,)
     if _turned(one):

@@ -29,7 +29,7 @@ from planmethod.construct.steps import Name, NumberName
 from planmethod.plans.model import MOTION
 
 DIGITS = 3
-"""Significant digits of what is written; one more behind a leading 1, as on a slide rule."""
+"""Significant digits of a written value; one more after a leading 1, as on a slide rule."""
 
 WRONG_SCALE = 1.25
 """A plan drawn to another scale than it is read by: 1:4 for 1:5."""
@@ -53,14 +53,14 @@ def drawn_works(
     ----------
     task : Task
     change : Change, optional
-        Mistake that all of them have; none when absent.
+        Mistake that all of them have. Default: none.
     count, seed : int
     items : sequence of TaskItem, optional
-        Of one position; what is asked of the first one when absent.
+        Items of one position. Default: the requested items of the first one.
     scales : mapping of str to float, optional
         The student's own.
     mm : bool
-        Whether lengths on the plan stand beside the values.
+        Whether lengths on the plan are written next to the values.
 
     Returns
     -------
@@ -123,7 +123,7 @@ def _column(
 
 
 def _ways(item: TaskItem, trace: Trace, count: int) -> list[Sense | None]:
-    """Return the senses that are told; None where none is asked."""
+    """Return the stated senses; None where none is requested."""
     question = item.question
     if not item.asks_sense:
         return [None] * count

@@ -1,8 +1,8 @@
 """Which mistake gives a student's numbers: explanations and how well each fits (диагностика).
 
-An explanation predicts every answer of a sheet: the program with a mistake in it, or the right one
-with one number put in that is somehow wrong. They are compared by the likelihood of what was
-written, with the errors of drawing and reading, so that a vague explanation does not win by luck.
+An explanation predicts every answer of a sheet: by the program with a mistake in it, or by the
+right one with one wrong number substituted. Explanations are compared by the likelihood of the
+written answers, with drafting and reading errors, so a vague explanation does not win by luck.
 """
 
 from __future__ import annotations
@@ -24,24 +24,24 @@ from planmethod.construct.program import Program
 from planmethod.construct.steps import Name, NumberName
 
 WIDE = math.log(1e4)
-"""Range of what a slip can make of a number, as the logarithm of a ratio."""
+"""Range of the factors that a slip can multiply a number by, as the logarithm of a ratio."""
 
 LEAST_SHARE = 0.3
 """An answer that a mistake makes small is drawn no better than a third of the right one."""
 
 SHARED = 2.0
-"""How many answers feel one stroke, on the average: its error is counted in each of them."""
+"""Average number of answers affected by one stroke: its error is counted in each of them."""
 
 FAR = 30.0
 """Sigmas squared beyond which it does not matter how far off an answer is."""
 
 KEPT = 500
-"""Slips whose plans are kept for those who make them again."""
+"""Maximum number of slips whose plans are cached."""
 
 ONE_MISTAKE = 2 * math.log(20.0)
 
 MISREAD_SENSE = 14.0
-"""What a sense told the other way costs: one in a thousand is a slip of the pen."""
+"""Cost of a reversed sense: one in a thousand is a slip of the pen."""
 
 
 class Fact(Struct, frozen=True):
@@ -51,22 +51,22 @@ class Fact(Struct, frozen=True):
     ----------
     id : str
     value : float
-        Size, or with its sign where he tells it.
+        Size, or signed value if the student gives a sign.
     signed : bool
     step : float
         Unit of the last digit.
     least : float
-        Sigma that nothing written by hand is better than.
+        Lower bound of sigma for any value written by hand.
     slot : NumberName or None
-        Number of the program that the answer stands for; None of what nothing follows from.
+        Number of the program that the answer determines; None if no value follows from it.
     per_slot : float
         What it counts in the unit of the answer.
     name : NumberName or None
         Number that is the answer itself.
     turn : float
-        1 counter-clockwise, -1 clockwise, where he tells a sense of turning; else 0.
+        1 counter-clockwise, -1 clockwise, if the student states a sense of rotation; else 0.
     sense : callable or None
-        Tells whether the sense that he wrote is right on a sheet; None where it cannot be said.
+        Returns whether the stated sense is right on a sheet; None if undecidable.
     """
 
     id: str
@@ -81,7 +81,7 @@ class Fact(Struct, frozen=True):
     sense: Callable[[Trace], bool | None] | None = None
 
     def of(self, value: float) -> float:
-        """Return a value as it is compared with his."""
+        """Return a value in the form in which it is compared with the student's."""
         return value if self.signed else abs(value)
 
 
@@ -92,10 +92,10 @@ class OwnNumbers(Struct, frozen=True):
     ----------
     all : Own
     values : Own
-        Only those that are answers, not lengths at his scale.
+        Only answers, without lengths at the student's scale.
     share : float
-        How exact his right answers are, as a share of what his hand is believed to err: who draws
-        with a program, or computes, tells more by every number.
+        Error of the right answers, as a fraction of the expected drafting error: for students who
+        draw with a program, or compute, each number is stronger evidence.
     """
 
     all: Own
@@ -104,12 +104,12 @@ class OwnNumbers(Struct, frozen=True):
 
 
 class Explanation(Struct, frozen=True, eq=False):
-    """What may have been done, and what it gives (объяснение).
+    """A possible cause of the answers, with its predictions (объяснение).
 
     Attributes
     ----------
     code : str
-        Empty of a number that is wrong and nobody knows why.
+        Empty for a wrong number of unknown cause.
     where : str
     values : mapping of str to float
         Every answer.
@@ -123,7 +123,7 @@ class Explanation(Struct, frozen=True, eq=False):
     slip : str
         Question whose number alone is otherwise: what it was read off stays as it is.
     fixed : str
-        Question whose answer it tells whatever goes before it.
+        Question whose predicted answer does not depend on earlier answers.
     sigma : float or None
         Error of that answer, where it is not that of the right one in proportion.
     prior : float
@@ -147,7 +147,7 @@ class Explanation(Struct, frozen=True, eq=False):
 
 
 class Fit(Struct, frozen=True):
-    """How well an explanation fits.
+    """Goodness of fit of an explanation.
 
     Attributes
     ----------
@@ -165,7 +165,7 @@ class Fit(Struct, frozen=True):
 
     @property
     def likely(self) -> bool:
-        """Whether so bad a fit comes by chance more than once in a hundred times."""
+        """True if a fit this bad occurs by chance more than once in a hundred times."""
         return exceeds(self.chi2 / SHARED, self.count) > 0.01
 
 
@@ -179,7 +179,7 @@ def exceeds(chi2: float, count: int) -> float:
 
 
 class Explanations:
-    """All named explanations of one sheet, worked out once for all who drew it."""
+    """All named explanations of one sheet, computed once for all students."""
 
     def __init__(self, sheet: Sheet) -> None:
         self.sheet = sheet
@@ -192,7 +192,7 @@ class Explanations:
 
     @property
     def named(self) -> list[Explanation]:
-        """Mistakes of the program, each with what it gives."""
+        """Mistakes of the program, each with its predictions."""
         if self._named is None:
             self._named = [*self._evaluated(changes(self.scene))]
         return self._named
@@ -204,7 +204,7 @@ class Explanations:
                 yield made
 
     def of_change(self, change: Change) -> Explanation | None:
-        """Return what a mistake gives; None where nothing can be drawn with it."""
+        """Return the predictions of a mistake; None if it cannot be drawn."""
         sheet = self.sheet
         program = change.program(sheet.program)
         trace = sheet.read(program, change.data)
@@ -238,7 +238,7 @@ class Explanations:
         return self.of_change(both)
 
     def of_slip(self, change: Change, question: str, item: str) -> Explanation | None:
-        """Return what a mistake in one number gives; worked out once for all who make it."""
+        """Return the predictions of a mistake in one number; they are cached."""
         key = (change.code, change.where, item, *change.steps.values(), change.prior)
         if key not in self._slips:
             if len(self._slips) >= KEPT:
@@ -261,7 +261,7 @@ class Explanations:
         return np.where(np.isfinite(found), found, 0.0)
 
     def nearest(self, facts: Sequence[Fact], count: int) -> list[Explanation]:
-        """Return the named explanations that come nearest; what is far off counts no more."""
+        """Return the named explanations closest to the answers; large deviations are capped."""
         rows = {question.id: row for row, question in enumerate(self.sheet.asked)}
         chosen = [rows[fact.id] for fact in facts]
         if not self.named or not chosen:
@@ -292,8 +292,8 @@ class Explanations:
     ) -> Fit:
         """Return how well an explanation fits what was written.
 
-        Every answer is judged by what comes out of the earlier ones with the mistake in the plans:
-        so their likelihoods multiply, and what is computed from them is exact.
+        Every answer is compared with the value derived from the earlier ones, with the mistake in
+        the plans: so their likelihoods multiply, and values computed from them are exact.
 
         Parameters
         ----------
@@ -359,7 +359,7 @@ class Explanations:
         return self._came[key]
 
     def _left(self, explanation: Explanation, own: Own) -> Local:
-        """Return what is left open when his numbers are given, on the plans with the mistake."""
+        """Return the errors left by the student's numbers, on the plans with the mistake."""
         change, sheet = explanation.change, explanation.sheet
         if change is None:
             return sheet.local(own)

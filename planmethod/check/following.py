@@ -1,4 +1,4 @@
-"""What follows from a recognised mistake: it is counted once, where it begins (что следует)."""
+"""Consequences of a recognised mistake: it is counted once, where it begins (что следует)."""
 
 from __future__ import annotations
 
@@ -18,11 +18,11 @@ from planmethod.construct.steps import Name, PointName, makes, operands
 from planmethod.plans.model import FACTS
 
 CLOSING = ("at", "epsilon", "vs")
-"""What closes a plan: its error is that of the longer vectors, however short it comes out."""
+"""Closing vectors of a plan: their error is that of the longer vectors, however short they are."""
 
 
 def passed_on(task: Task, sheet: Sheet, found: list[Examined], fits: Sequence[Fit]) -> Diagnosis:
-    """Return the diagnosis of a whole sheet, with what follows from its mistake inherited."""
+    """Return the diagnosis of a whole sheet; consequences of its mistake become inherited."""
     best = fits[0].explanation
     codes = tuple(dict.fromkeys(fit.explanation.code for fit in fits))
     sure = len(codes) == 1 and bool(codes[0])
@@ -39,14 +39,14 @@ def passed_on(task: Task, sheet: Sheet, found: list[Examined], fits: Sequence[Fi
     for one in found:
         if one is root or one.verdict is not Verdict.WRONG or best.code == "P2":
             continue
-        if best.free and not usable(root):  # nobody can draw on with that
+        if best.free and not usable(root):  # the plans cannot be continued with that value
             continue
         for made in given:
             moved = not idle(sheet, one, made) or _vector_turned(one)
             if moved and follows(one, made, task.settings.near):
                 one.verdict, one.source = Verdict.INHERITED, root.item.id
     repoint(found)
-    if "" in codes:  # nothing is better than that it is just wrong
+    if "" in codes:  # the best explanation is an unknown cause
         codes = () if fits[0].explanation.code == "" else tuple(c for c in codes if c)
         sure = False
     roots = [root.item.id, *(one.item.id for one in wrong if one.verdict is Verdict.WRONG)]
@@ -55,7 +55,7 @@ def passed_on(task: Task, sheet: Sheet, found: list[Examined], fits: Sequence[Fi
 
 
 def _with_own(explanation: Explanation, root: Examined) -> Explanation:
-    """Return an explanation with the number that he wrote: that is what he goes on with."""
+    """Return an explanation with the number that the student wrote and continued with."""
     name = root.item.question.id
     own = math.copysign(root.value, explanation.values[name])
     values = {**explanation.values, name: own}
@@ -63,9 +63,9 @@ def _with_own(explanation: Explanation, root: Examined) -> Explanation:
 
 
 def _disinherit(found: list[Examined]) -> None:
-    """Let the numbers of another variant earn what is right for one's own, and nothing else."""
+    """Keep credit for another variant's numbers only where they are right for the student's own."""
     for one in found:
-        one.follows, one.source = False, ""  # that they agree with one another is no work of his
+        one.follows, one.source = False, ""  # their mutual consistency earns no credit
         lost = (Verdict.INHERITED, Verdict.UNSEEN, Verdict.NEAR)
         if one.verdict in lost and not (one.right and one.sense_right is not False):
             one.verdict = Verdict.WRONG
@@ -88,7 +88,7 @@ def _places(explanation: Explanation) -> dict[str, complex]:
 
 
 def follows(one: Examined, explanation: Explanation, near: float) -> bool:
-    """Tell whether an answer is what an explanation gives."""
+    """Return whether an answer is what an explanation gives."""
     given = explanation.values[one.item.question.id]
     exact = abs(one.limit.exact)
     least = 1.0 if one.item.question.selector.kind in CLOSING else 0.3
@@ -101,7 +101,7 @@ def follows(one: Examined, explanation: Explanation, near: float) -> bool:
 
 
 def repoint(found: list[Examined]) -> None:
-    """Let what follows an answer that itself follows another one follow that."""
+    """Redirect every source to the first answer of its chain."""
     by_id = {one.item.id: one for one in found}
     for one in found:
         while one.source and by_id[one.source].source:
@@ -131,7 +131,7 @@ def _last_point(sheet: Sheet, name: Name) -> int:
 
 
 def idle(sheet: Sheet, one: Examined, explanation: Explanation) -> bool:
-    """Tell whether an explanation leaves an answer as it is, its size and its sense."""
+    """Return whether an explanation leaves an answer as it is, its size and its sense."""
     given, exact = explanation.values[one.item.question.id], sheet.exact[one.item.question.id]
     sign = one.item.question.sign
     told = one.signed if sign is Sign.TURN else sign is Sign.STRICT

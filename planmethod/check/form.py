@@ -26,14 +26,14 @@ _SHOWN = (
     "name", "title", "sheet", "stamp", "published", "source", "variants", "variant",
     "source_file", "given",
 )  # fmt: skip
-"""What of a problem does not change what the answers are."""
+"""Parts of a problem that do not affect the answers."""
 
 _AGREE = 0.01
-"""Share of the value by which mm × μ may differ from it before the form says so."""
+"""Relative difference of mm × μ and the value above which the form reports a mismatch."""
 
 
 def fingerprint_of(problem: KindProblem) -> str:
-    """Return what tells problems apart: SHA-256 of all of it that the answers depend on.
+    """Return the fingerprint of a problem: SHA-256 of everything that the answers depend on.
 
     Comments and the order of the file, its titles and published values make no difference.
     """
@@ -65,12 +65,12 @@ def form_of(
 ) -> bytes:
     """Return the form as XLSX: locked but for the answers, with lists of senses and units.
 
-    Of the entries nothing is written but what is asked. The same arguments give the same bytes.
+    The right values of the entries are not written. The same arguments give the same bytes.
 
     Parameters
     ----------
     student : str
-        Name to stand in the head; his to write when empty.
+        Name in the head; the student fills it in if empty.
     """
     import openpyxl
 
@@ -90,7 +90,7 @@ def form_of(
     sheet.sheet_properties.pageSetUpPr = openpyxl.worksheet.properties.PageSetupProperties(
         fitToPage=True
     )
-    sheet.column_dimensions["B"].hidden = True  # the letters stand in the next one
+    sheet.column_dimensions["B"].hidden = True  # the letters are in the next one
     sheet.protection.sheet = True
     sheet.protection.formatColumns = False
     book.properties.creator = "planmethod"
@@ -129,7 +129,7 @@ def _write_head(
     student: str,
     title: str,
 ) -> dict[str, str]:
-    """Write who he is and his scales; return the cells of the scales."""
+    """Write the fields for the student and their scales; return the cells of the scales."""
     from openpyxl.styles import Font
 
     _write(sheet["A1"], title or words.title)
@@ -195,7 +195,7 @@ def _write_rows(
         scale = scales.get(one.scale)
         if scale:
             sheet.cell(row, 5, f'=IF({scale}="","",{scale})')
-            # The first unit stands for SI where a unit is none of the list.
+            # The first unit means SI if a unit is not in the list.
             worth = f"F{row}*IFERROR(VLOOKUP(G{row},{META}!$D:$E,2,FALSE),1)"
             sheet.cell(
                 row,
@@ -208,7 +208,7 @@ def _write_rows(
 
 
 class FormRow(Struct, frozen=True):
-    """One answer that is asked for, without what it is (строка бланка).
+    """One requested answer, without its value (строка бланка).
 
     Attributes
     ----------
@@ -216,11 +216,11 @@ class FormRow(Struct, frozen=True):
     mm : bool
         Whether a segment is measured for it.
     unit : str
-        In which it is asked; ``units``: which may stand there.
+        Unit in which it is requested; ``units``: the permitted ones.
     senses : mapping of str to str
-        Those that may stand there, by their codes; none where none is asked.
+        Permitted senses, by their codes; empty if none is requested.
     scale : str
-        Whose product with the segment it is, ``mu_v``; empty where it is none.
+        Scale whose product with the segment is the value, ``mu_v``; empty if there is none.
     position : int
     """
 
@@ -241,7 +241,7 @@ def offered_units(entries: Sequence[KeyEntry], words: Words) -> list[str]:
 
 
 def asked_rows(entries: Sequence[KeyEntry], words: Words) -> tuple[FormRow, ...]:
-    """Return what a form asks for; of the entries nothing but that."""
+    """Return the rows of a form, without the values of the entries."""
     units = offered_units(entries, words)
     return tuple(_asked_row(entry, units, words) for entry in entries)
 
@@ -265,13 +265,13 @@ def _asked_row(entry: KeyEntry, units: Sequence[str], words: Words) -> FormRow:
 
 
 def unit_factor(unit: str) -> float | None:
-    """Return how many SI units a unit is; None of what is none."""
+    """Return the size of a unit in SI; None if it is not a unit."""
     found = read_unit(unit)
     return found.factor if found else None
 
 
 _TURNING = ("1/s", "1/s²", "N·m")
-"""Units of what turns one way or the other."""
+"""Units of quantities with a sense of rotation."""
 
 
 def _open(cell: Any) -> None:

@@ -45,7 +45,7 @@ def key_of_problem(kind: ProblemKind[Any] | None, problem: KindProblem, settings
 def task_of_problem(
     kind: ProblemKind[Any] | None, problem: KindProblem, settings: Settings
 ) -> Task:
-    """Return a problem with all that is asked of it; its kind is None for a linkage."""
+    """Return a problem with its requested items; its kind is None for a linkage."""
     if kind is None:
         return Task(_verified(Solution(cast("Problem", problem))), settings)
     return Calculation(kind, problem, settings)
@@ -78,7 +78,7 @@ class Variants:
         self._forms = {plain(name): name for name in self.names}
 
     def task(self, name: str | None) -> Task:
-        """Return the task of a variant; of the file itself when there is none.
+        """Return the task of a variant, or of the file itself.
 
         Raises
         ------
@@ -96,7 +96,7 @@ class Variants:
         return self._tasks[name]
 
     def ahead(self, names: Iterable[str | None]) -> None:
-        """Solve some variants together, as far as they are drawn and asked alike."""
+        """Solve several variants in one batch, if their plans and requested items are the same."""
         if kind_of(self.path) is not None:
             return
         problems = []
@@ -104,7 +104,7 @@ class Variants:
             if name not in self._tasks:
                 with suppress(PlanMethodError):  # it says why when it is needed
                     problems.append(load(self.path, variant=name))
-        with suppress(Exception):  # each is solved alone then, and what fails is told of its works
+        with suppress(Exception):  # then each is solved alone; faults go to its submissions
             for batch, _ in in_batches(problems, PROFILES["board"]):
                 for task in batch_tasks(batch, self.settings, self._all):
                     self._tasks[task.variant] = task
@@ -138,7 +138,7 @@ class CheckedGroup(Struct, frozen=True):
 
 
 def check_works(variants: Variants, works: Sequence[Work]) -> Iterator[CheckedWork]:
-    """Yield the works, each checked by its own variant, whoever else is in the group.
+    """Yield the submissions, each checked by its own variant, independently of the others.
 
     A work that fails, or whose variant cannot be solved, is not marked, and says why in `failure`.
 
@@ -174,7 +174,7 @@ def _checked(variants: Variants, work: Work, name: str | None) -> CheckedWork:
         return unmarked(work, name, CheckFailure(str(error).rstrip(".")))
     except MemoryError:
         raise
-    except Exception as error:  # a fault of ours: the others are marked
+    except Exception as error:  # an internal error: the others are still graded
         return unmarked(work, name, failure_of(error))
 
 
@@ -205,7 +205,7 @@ def keys_of(variants: Variants, checked: Sequence[CheckedWork]) -> dict[str | No
                         (item.name, item.position), replace(item, id=item.name, points=0.0)
                     )
         for asked in (tuple(items.values()), task.usual()):
-            with suppress(Exception):  # what somebody answers unasked stops nobody's page
+            with suppress(Exception):  # extra answers must not block any page
                 found[name] = key_of_task(task, asked)
                 break
     return found

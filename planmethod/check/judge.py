@@ -1,7 +1,7 @@
-"""Verdicts: against the exact value, and against what follows from a student's own numbers.
+"""Verdicts: against the exact value, and against the values derived from a student's own numbers.
 
-A right answer that does not follow from his wrong ones is told apart from one that does, and a
-wrong one that follows from an earlier one is not held against him twice.
+A right answer that does not follow from the student's wrong ones is distinguished from one that
+does, and a wrong one that follows from an earlier one is not penalised twice.
 """
 
 from __future__ import annotations
@@ -34,10 +34,10 @@ DRAWN = 0.004
 """Share of a number that is drawn which its sigma is at least."""
 
 ARM = 0.015
-"""The same of ω and ε, for which nothing but the arm is measured."""
+"""The same of ω and ε, for which only the arm is measured."""
 
 ASTRAY = 45.0
-"""Degrees from which a vector goes another way, not only aslant."""
+"""Angle in degrees from which a vector counts as differently directed."""
 
 MILLIMETRES = ("mm", "мм")
 
@@ -51,19 +51,19 @@ class Examined(Struct):
     written : WrittenAnswer
     limit : Tolerance
     value : float
-        SI, with a sign where he tells one.
+        SI, signed if the student gives a sign.
     signed : bool
-        Whether the sign is his.
+        Whether the sign is the student's.
     step : float
         Unit of its last digit, SI.
     mm : float or None
-        Length of its segment on his plan.
+        Length of its segment on the student's plan.
     foreign : str
-        Letters of another segment of the plan than that of the answer, if his mm are of such a one.
+        Letters of another segment of the plan than the answer's, if the student's mm belong to it.
     told : float or None
-        What his millimetres make at his scale, where he gives both.
+        Value of the student's millimetres at the student's scale, if both are given.
     slot : NumberName or None
-        Number of the program that he puts his own in place of first.
+        First number of the program that the student's own number replaces.
     per_slot : float
         What that number counts in the unit of the answer.
     """
@@ -97,12 +97,12 @@ class Examined(Struct):
 
     @property
     def off(self) -> float:
-        """How far it is off the exact value."""
+        """Distance from the exact value."""
         return distance(self.item, self.value, self.limit.exact, signed=self.signed)
 
     @property
     def miscomputed(self) -> bool:
-        """Whether it is another size than his own numbers make, with nothing drawn in between."""
+        """True if the value differs from its computation from the student's own numbers."""
         if self.local is None or self.local_tolerance is None or not self.computed:
             return False
         return self.contradicts and abs(abs(self.value) - abs(self.local)) > self.local_tolerance
@@ -116,12 +116,12 @@ def distance(item: TaskItem, value: float, other: float, *, signed: bool) -> flo
         case Sign.STRICT:
             return abs(value - other)
         case Sign.TURN if signed:
-            return abs(abs(value) - abs(other))  # the sense is judged by itself
+            return abs(abs(value) - abs(other))  # the sense is graded separately
     return abs(abs(value) - abs(other))
 
 
 class UnusableError(Exception):
-    """An answer cannot be judged; the message is for him who wrote it."""
+    """An answer cannot be graded; the message is for the student."""
 
 
 def examine(task: Task, sheet: Sheet, item: TaskItem, written: WrittenAnswer) -> Examined:
@@ -165,7 +165,7 @@ def examine(task: Task, sheet: Sheet, item: TaskItem, written: WrittenAnswer) ->
 
 
 def _foreign(sheet: Sheet, item: TaskItem, written: WrittenAnswer) -> str:
-    """Return the letters of the segment that he read, if it is not that of the answer."""
+    """Return the letters of the segment that the student read, if it is not the answer's."""
     question = item.question
     if not written.segment or question.plan is None or question.length is None:
         return ""
@@ -189,7 +189,7 @@ def _in_mm(sheet: Sheet, item: TaskItem, written: WrittenAnswer) -> tuple[float,
 
 
 def _told(sheet: Sheet, item: TaskItem, mm: float) -> float | None:
-    """Return what a length on his plan makes of the answer; None where only he knows."""
+    """Return the answer's value from a length on the student's plan; None if it is undetermined."""
     question = item.question
     plan = question.plan
     if plan is None or question.selector.kind in RATES or question.unit != FACTS[plan].unit:
@@ -199,7 +199,7 @@ def _told(sheet: Sheet, item: TaskItem, mm: float) -> float | None:
 
 
 def _sense(sheet: Sheet, found: Examined) -> bool | None:
-    """Tell whether the sense is right that he tells; None where he tells none."""
+    """Return whether the stated sense is right; None if none is stated."""
     question, sense = found.item.question, found.written.sense
     if found.limit.zero or question.sign in (Sign.STRICT, Sign.ANGLE):
         return None
@@ -214,12 +214,12 @@ def _sense(sheet: Sheet, found: Examined) -> bool | None:
 
 
 def put_in(sheet: Sheet, found: list[Examined], *, values: bool = False) -> Own:
-    """Return a student's own numbers by what they stand for in the program.
+    """Return a student's own numbers by the program's numbers that they replace.
 
     Parameters
     ----------
     values : bool
-        Only what he says that segments stand for, and not how long they then are at his scale.
+        Only the stated values of segments, without their lengths at the student's scale.
     """
     own: dict[NumberName, tuple[float, bool]] = {}
 
@@ -230,7 +230,7 @@ def put_in(sheet: Sheet, found: list[Examined], *, values: bool = False) -> Own:
     for one in found:
         question = one.item.question
         name, length = question.name, question.length
-        if name is None or (one.limit.zero and one.right):  # too short to be read, it tells nothing
+        if name is None or (one.limit.zero and one.right):  # too short to be read: no information
             continue
         one.slot, one.per_slot = slot_of(sheet, one)
         if one.slot != name and not values:
@@ -245,7 +245,7 @@ def put_in(sheet: Sheet, found: list[Examined], *, values: bool = False) -> Own:
 
 
 def slot_of(sheet: Sheet, one: Examined) -> tuple[NumberName | None, float]:
-    """Return the first number of the program that an answer stands for, and what it counts."""
+    """Return the first number of the program that an answer determines, and its value per unit."""
     question = one.item.question
     name, length = question.name, question.length
     direct = name != length and question.selector.kind not in RATES
@@ -302,7 +302,7 @@ def replay(task: Task, sheet: Sheet, found: list[Examined]) -> None:
         sigma = left.sigma[slot] * one.per_slot * grown
         spread = settings.k * sigma
         if spread > settings.cap * abs(local) and not one.limit.zero:
-            continue  # his plan cannot tell
+            continue  # the student's plan cannot show it
         least = max(settings.floor_share * abs(local), one.limit.per_mm * settings.floor_mm / 2)
         tolerance = max(math.hypot(spread, one.step / 2) + rounding, least)
         one.local, one.local_tolerance = local, tolerance
@@ -317,7 +317,7 @@ def replay(task: Task, sheet: Sheet, found: list[Examined]) -> None:
 
 
 def _stroke(one: Examined, local: float, sigma: float) -> PencilTrace | None:
-    """Return what the pencil left in a reading; None of what is computed, or is nothing."""
+    """Return the drafting error left in a reading; None for a computed or zero value."""
     if sigma < DRAWN * abs(local) or not sigma or one.limit.zero:
         return None
     apart = abs(one.value) - abs(local) if not one.signed else one.value - local
@@ -328,7 +328,7 @@ def _stroke(one: Examined, local: float, sigma: float) -> PencilTrace | None:
 
 
 def usable(one: Examined) -> bool:
-    """Tell whether other answers can follow from a wrong one."""
+    """Return whether other answers can follow from a wrong one."""
     exact, value = abs(one.limit.exact), abs(one.value)
     return exact > 0 and exact / USABLE <= value <= exact * USABLE
 
@@ -393,7 +393,7 @@ def _verdict(one: Examined, wrong: list[Examined], unseen: list[Examined], near:
         return Verdict.INCONSISTENT if wrong and one.contradicts else Verdict.OK
     if inherits:
         return Verdict.INHERITED
-    if one.limit.zero and one.follows and sense:  # as his own plan has it; the right one hides it
+    if one.limit.zero and one.follows and sense:  # as on their own plan; the right one hides it
         return Verdict.UNSEEN
     if one.near and sense and not one.slip:
         return Verdict.NEAR
@@ -445,7 +445,7 @@ def facts_of(sheet: Sheet, found: list[Examined], k: float) -> list[Fact]:
 
 
 def _directed(sheet: Sheet, one: Examined, degrees: float, trace: Trace) -> bool | None:
-    """Tell whether a vector of a sheet goes about the way that he tells as an angle."""
+    """Return whether a vector of a sheet agrees with the direction angle of the student."""
     vector = sheet.vector(one.item.question, trace)
     if vector is None or not abs(vector) > 0:
         return None

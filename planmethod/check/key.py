@@ -44,7 +44,7 @@ class Key(Struct, frozen=True):
 
 
 def key_of(solution: Solution, settings: Settings = DEFAULT) -> Key:
-    """Return the key of a solution: of what its problem asks, else of the usual quantities."""
+    """Return the key of a solution: for the requested or the usual quantities."""
     return key_of_task(Task(solution, settings))
 
 
@@ -58,14 +58,14 @@ def key_of_task(
     *,
     named: Callable[[Sheet], Iterable[Shown]] | None = None,
 ) -> Key:
-    """Return the key of some of what is asked of a variant; of all when absent.
+    """Return the key of some items of a variant. Default: all items.
 
     ``named`` returns the mistakes of a sheet, where they are known already.
     """
     named = partial(_named, task) if named is None else named
     chosen = tuple(task.whole() if items is None else items)
     entries: dict[tuple[int, str], KeyEntry] = {}
-    unseen: set[tuple[str, str]] | None = None  # mistakes and places that nothing shows
+    unseen: set[tuple[str, str]] | None = None  # mistakes and places that no answer shows
     every: dict[tuple[str, str], None] = {}
     alike: dict[tuple[str, str], None] = {}
     scales: dict[str, float] = {}
@@ -148,7 +148,7 @@ class _Seer(NamedTuple):
         return cls(item.id, item.question.id, limit.exact, bound, limit.zero, item.asks_sense)
 
     def shows(self, value: float) -> bool:
-        """Tell whether the answer with a mistake is surely off."""
+        """Return whether the answer with a mistake is surely off."""
         beyond = abs(abs(value) - abs(self.exact)) > self.bound
         return not self.zero and (beyond or (self.turned and value * self.exact < 0))
 
@@ -192,7 +192,7 @@ def entry_of(
 
 
 def drawn_symbol(task: Task, question: Question) -> str:
-    """Return the symbol of the vector that a quantity is, as the sheet names it; else nothing.
+    """Return the vector symbol of a quantity, as on the sheet; empty if it is not a vector.
 
     The letters of a department, ``v_B3B2``, may be others: works are read with both.
     """

@@ -1,4 +1,4 @@
-"""How people write the letters of quantities: ``VB₃``, ``ω_3``, ``a_n ED`` (обозначения).
+"""Spellings of the letters of quantities: ``VB₃``, ``ω_3``, ``a_n ED`` (обозначения).
 
 Forms are compared after all that is only a way of writing is taken away: case of the first letter,
 underscores, spaces, subscripts, and letters of another alphabet that look the same.
@@ -19,7 +19,7 @@ DROPPED = str.maketrans("", "", " _{}^()|,.·-–—/'′’*\\$\u00a0\u202f")
 
 
 def plain(text: str) -> str:
-    """Return what is left of letters when all that is only a way of writing is taken away."""
+    """Return the letters without all differences of spelling."""
     folded = unicodedata.normalize("NFKC", text).translate(DROPPED)
     folded = "".join(LOOKALIKES.get(c, c) for c in folded)
     folded = "".join(GREEK.get(c, c) for c in folded)

@@ -1,4 +1,4 @@
-"""Settings of a department: how strictly it judges, points and marks (настройки кафедры)."""
+"""Settings of a department: strictness of grading, points and marks (настройки кафедры)."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ POLICIES = ("construction", "department", "wider", "stricter")
 """Whose tolerance counts: the drawing's, the flat one, the wider of them, the stricter."""
 
 VALUES = ("always", "decided", "never")
-"""When a student's page shows the right values: always; once nothing on it is open; never."""
+"""When a student's page shows the right values: always; once no answer is open; never."""
 
 MARK_LIMIT = 20
 _TINY = 1e-9
@@ -38,7 +38,7 @@ class SettingsError(ProblemError):
 
 
 class Settings(Struct, frozen=True):
-    """How a department judges answers (настройки кафедры).
+    """Grading settings of a department (настройки кафедры).
 
     Attributes
     ----------
@@ -52,11 +52,11 @@ class Settings(Struct, frozen=True):
     floor_share : float
         The same as a share of the value.
     near : float
-        Up to so many tolerances an answer is near.
+        Number of tolerances up to which an answer is near.
     near_share, inherited_share, inconsistent_share, unseen_share : float
         Share of its points that an answer gets with such a verdict.
     sense_share : float
-        Share of the points of an answer that its sense is worth, where it is asked.
+        Fraction of an answer's points that its sense is worth, if it is requested.
     department : float
         The department's flat tolerance, a share of the value.
     policy : str

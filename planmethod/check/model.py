@@ -1,7 +1,7 @@
-"""What is asked, what a student wrote, and what is said of it (вопросы, работы, заключения).
+"""Questions, written answers and results of checking (вопросы, работы, заключения).
 
 Numbers are in SI (degrees for angles), lengths on a plan in millimetres. Checking is a pure
-function of a key and a work: nothing here reads a file or draws.
+function of a key and a submission: this module does not read files or draw.
 """
 
 from __future__ import annotations
@@ -24,19 +24,19 @@ class Sense(Enum):
 
     @property
     def turns(self) -> bool:
-        """Whether it is a sense of turning."""
+        """True for a sense of rotation."""
         return self in (Sense.CCW, Sense.CW)
 
 
 class Verdict(Enum):
-    """How an answer is judged (заключение об ответе)."""
+    """Verdict on an answer (заключение об ответе)."""
 
     OK = "ok"
     NEAR = "near"  # a little beyond the tolerance
     INHERITED = "inherited"  # wrong, but it follows from an earlier wrong answer
     WRONG = "wrong"
-    INCONSISTENT = "inconsistent"  # right, but not from his own numbers
-    UNSEEN = "unseen"  # the drawing cannot show it: not judged against the exact value
+    INCONSISTENT = "inconsistent"  # right, but not from the student's own numbers
+    UNSEEN = "unseen"  # not shown by the drawing: not graded against the exact value
     BLANK = "blank"
     UNREADABLE = "unreadable"
 
@@ -50,12 +50,12 @@ class Unread(Enum):
     SENSE = "sense"
     POSITION = "position"
     DATE = "date"  # the spreadsheet program made a date of a number
-    FORMULA = "formula"  # one that nobody has computed
+    FORMULA = "formula"  # one without a computed value
     TWICE = "twice"  # written before, and otherwise
     QUANTITY = "quantity"  # a value without the quantity that it is of
     SCALE = "scale"
     STUDENT = "student"  # a row without a student
-    COLUMN = "column"  # a column with a head that nobody knows
+    COLUMN = "column"  # a column with an unknown head
     KEY = "key"  # the same of a key in JSON or TOML
     FIELDS = "fields"  # a row with more fields than there are heads
     ROW = "row"  # a row of the form that is gone
@@ -66,26 +66,26 @@ class Unread(Enum):
     DOUBT = "doubt"  # a letter that may as well name another vertex
     VERTEX = "vertex"  # a vertex without a letter
     OPEN = "open"  # lines that should meet at a letter do not
-    TURNED = "turned"  # a plan that stands turned as a whole
+    TURNED = "turned"  # a plan that is rotated as a whole
 
 
 class WrittenAnswer(Struct, frozen=True):
-    """One answer as it stands in a work (записанный ответ).
+    """One answer as written in a submission (записанный ответ).
 
     Attributes
     ----------
     what : str
-        Words of ``[published]`` ("v B3"); empty when ``id`` alone tells what it is.
+        Words of ``[published]`` ("v B3"); empty if ``id`` alone identifies the answer.
     id : str
-        As ``--ask`` or ``[[answers]]`` names it ("v_B3"); empty when ``what`` alone tells it.
+        As in ``--ask`` or ``[[answers]]`` ("v_B3"); empty if ``what`` alone identifies it.
     value : float or None
-        SI, degrees of angles, with the sign as written; None when there is none.
+        SI, degrees for angles, with the sign as written; None if there is none.
     unit : str
         As it was written; empty when none was: SI.
     step : float
         Unit of the last digit of ``value`` as written, SI: 0.01 of 2.35 m/s; 0 where unknown.
     mm : float or None
-        Segment of his own plan, mm.
+        Segment of the student's own plan, mm.
     mm_step : float
         Unit of the last digit of ``mm``.
     segment : str
@@ -94,13 +94,13 @@ class WrittenAnswer(Struct, frozen=True):
     position : int or None
         Position of the driver, from 0; None for the only one, or the one of ``[[answers]]``.
     where : str
-        Cell or row that it stands in: ``Ответы!D12``, ``group.csv:14``, ``answers[3]``.
+        Its cell or row: ``Ответы!D12``, ``group.csv:14``, ``answers[3]``.
     unreadable : str
         Why it cannot be read, with the text; empty when it can.
     raw : str
         Value as it was written: "1,2·10^3".
     why : Unread or None
-        What kind of fault ``unreadable`` tells of, for pages in other languages: its words take
+        Kind of fault that ``unreadable`` describes, for pages in other languages: its message takes
         ``fault``.
     fault : str
         Text that cannot be read.
@@ -124,7 +124,7 @@ class WrittenAnswer(Struct, frozen=True):
 
     @property
     def is_blank(self) -> bool:
-        """Whether nothing is answered."""
+        """True for an unanswered question."""
         return self.value is None and self.mm is None and not self.unreadable
 
 
@@ -134,26 +134,26 @@ class Work(Struct, frozen=True):
     Attributes
     ----------
     student : str
-        Number or name; what tells him from the others.
+        Number or name that identifies the student.
     answers : tuple of WrittenAnswer
     variant : str or None
     scales : mapping of str to float
         His own scales, unit per mm: ``mu_l`` (m/mm), ``mu_v``, ``mu_a``, ``mu_F``.
     ruler_mm : float or None
-        Step to which he reads lengths.
+        Step to which the student reads lengths.
     problem : str
-        Problem file that he names; empty when he names none.
+        Problem file that the student names; empty if none.
     where : str
         File that it was read from.
     remarks : tuple of WrittenAnswer
-        What could not be read and is no answer: a scale, a row without a student.
+        Unreadable entries that are not answers: a scale, a row without a student.
     fingerprint : str
         Of the problem that the form was made for, see `planmethod.check.form.fingerprint_of`; empty
         of other works.
     drawn : str
         Of a drawing that was measured: the profile of the hand that drew it; empty of other works.
     failure : str
-        Why it cannot be read as a whole, one of several in a file; empty of what was read.
+        Why one of several submissions in a file cannot be read at all; empty if it was read.
     """
 
     student: str
@@ -170,7 +170,7 @@ class Work(Struct, frozen=True):
 
 
 class KeyEntry(Struct, frozen=True):
-    """What one answer should be (строка ключа).
+    """The right answer to one question (строка ключа).
 
     Attributes
     ----------
@@ -183,27 +183,27 @@ class KeyEntry(Struct, frozen=True):
     unit : str
         SI; ``deg`` of angles, ``mm`` of lengths on a plan.
     asked : str
-        Unit in which the task asks it, as the file has it; empty for ``unit``.
+        Unit requested by the task, as in the file; empty for ``unit``.
     per : float
-        What one of ``asked`` is of ``unit``: pages tell values in the unit that is asked.
+        Size of one ``asked`` in ``unit``: pages show values in the requested unit.
     exact : float
         With its sign if it has one.
     sigma : float
-        One standard deviation of drafting; 0 where nothing is drawn.
+        One standard deviation of drafting; 0 for a computed quantity.
     tolerance : float
-        How far an answer may be off, before the rounding of what is written.
+        Permitted deviation of an answer, before the rounding of the written value.
     seen : bool
         False where the drawing cannot show it: the tolerance is above the cap.
     zero : bool
-        Too short to be measured: any answer within the tolerance of nothing is right.
+        Too short to be measured: any answer within the tolerance of zero is right.
     mm : float or None
         Length of its segment on the plan, mm.
     scale : str
-        Scale of that plan: ``mu_v``; empty when there is none.
+        Scale of that plan: ``mu_v``; empty if there is none.
     segment : str
         Letters of that segment: ``p-b3``.
     sense : Sense or None
-        Which way it points or turns; None where it has none or nobody can see it.
+        Direction or sense of rotation; None if it has none or it cannot be seen.
     asks_sense : bool
         Whether the sense is part of the answer.
     points : float
@@ -212,7 +212,7 @@ class KeyEntry(Struct, frozen=True):
     hidden : tuple of str
         Codes of mistakes that this answer cannot show.
     signed : bool
-        Whether the sign belongs to the number; of a size it tells nothing and is not shown.
+        Whether the sign belongs to the number; the sign of a size has no meaning and is not shown.
     what : str
         The quantity in words of ``[published]``: ``v B3``.
     """
@@ -248,29 +248,29 @@ class Judged(Struct, frozen=True):
     id : str
     verdict : Verdict
     key : KeyEntry or None
-        None for what nobody knows or can compute: it is unreadable.
+        None for an unknown quantity, or one that cannot be computed: the answer is unreadable.
     written : WrittenAnswer or None
         None for an answer that is missing.
     value : float or None
-        What he wrote, SI; from his millimetres and scale where he wrote no value.
+        Written value, SI; computed from the student's millimetres and scale if there is none.
     tolerance : float or None
-        With the rounding of what he wrote.
+        Includes the rounding of the written value.
     follows : str
         Answer that this one follows.
     local : float or None
-        What comes out of his own earlier numbers; None where none goes into it.
+        Value derived from the student's own earlier numbers; None if it uses none.
     local_tolerance : float or None
     sense_right : bool or None
-        None where it is not asked, not given or not to be seen.
+        None if the sense is not requested, not stated or not visible.
     slip : bool
-        His value is not his millimetres times his scale.
+        The value is not the student's millimetres times the student's scale.
     points, of : float
     remark : str
         Of the instructor, by hand.
     by_hand : bool
         Whether the instructor set the points.
     miscomputed : bool
-        His own numbers make another value, and nothing is drawn in between.
+        The student's own numbers give another value, with nothing drawn in between.
     """
 
     id: str
@@ -297,7 +297,7 @@ class Judged(Struct, frozen=True):
 
     @property
     def is_open(self) -> bool:
-        """Whether it cannot be read and the instructor has not looked: no answer until then."""
+        """True if it is unreadable and not yet reviewed: until then it does not count."""
         return self.verdict is Verdict.UNREADABLE and not self.by_hand
 
 
@@ -307,7 +307,7 @@ class Diagnosis(Struct, frozen=True):
     Attributes
     ----------
     codes : tuple of str
-        One code where it is sure; those between which nothing decides; none: not recognised.
+        One code if it is certain; several if undecided; none if not recognised.
     sure : bool
     roots : tuple of str
         Answers where it begins.
@@ -316,8 +316,8 @@ class Diagnosis(Struct, frozen=True):
     values : mapping of str to float
         What the mistake gives for each answer, SI.
     places : mapping of str to complex
-        Points of the velocity and acceleration plans that have the mistake, by their names in the
-        program (``v:B3``), m/s and m/s², as the program has them; empty where nobody made them.
+        Points of the velocity and acceleration plans with the mistake, by their names in the
+        program (``v:B3``), m/s and m/s², as in the program; empty if they were not computed.
     """
 
     codes: tuple[str, ...]
@@ -329,7 +329,7 @@ class Diagnosis(Struct, frozen=True):
 
 
 class PencilTrace(Struct, frozen=True):
-    """What the pencil left in one reading, when the earlier numbers are given (след карандаша).
+    """Drafting error of one reading, given the earlier numbers (след карандаша).
 
     Attributes
     ----------
@@ -360,12 +360,12 @@ class CheckFailure(Struct, frozen=True):
 
 
 class CheckedWork(Struct, frozen=True):
-    """One work, judged (проверенная работа).
+    """One graded submission (проверенная работа).
 
     Attributes
     ----------
     failure : CheckFailure or None
-        Why it is not marked; None of a work that was judged.
+        Why it is not marked; None for a graded submission.
     strokes : mapping of (str, int) to PencilTrace
         By answer and position: the fingerprint of a hand.
     alike : tuple of str
@@ -393,10 +393,10 @@ class CheckedWork(Struct, frozen=True):
 
     @property
     def open(self) -> tuple[Judged, ...]:
-        """Answers that the instructor has to look at; none where he set the points of the whole."""
+        """Answers that the instructor has to review; none if the total points were set by hand."""
         return () if self.by_hand else tuple(one for one in self.answers if one.is_open)
 
     @property
     def is_provisional(self) -> bool:
-        """Whether the mark may still change: it is given, and an answer is open."""
+        """True if the mark may still change: there is one, and an answer is open."""
         return bool(self.of and self.open)

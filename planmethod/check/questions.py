@@ -1,4 +1,4 @@
-"""What can be asked of a problem, found in the program of its plans (вопросы и шаги построения)."""
+"""Questions of a problem, found in the program of its plans (вопросы и шаги построения)."""
 
 from __future__ import annotations
 
@@ -30,10 +30,10 @@ DRIVES = ("balance", "lever")
 
 
 class Sign(Enum):
-    """What the sign of an answer tells."""
+    """Meaning of the sign of an answer."""
 
-    SIZE = "size"  # nothing: it is a magnitude
-    TURN = "turn"  # the sense, which may be told beside it instead
+    SIZE = "size"  # no meaning: it is a magnitude
+    TURN = "turn"  # the sense, which may be stated separately instead
     STRICT = "strict"  # it belongs to the number
     ANGLE = "angle"  # degrees, whole turns do not count
 
@@ -45,7 +45,7 @@ class Question(Struct, frozen=True):
     ----------
     selector : Selector
     id : str
-        What it is called where nobody names it otherwise: ``v_B3``.
+        Default name: ``v_B3``.
     symbol : str
         Rich text: ``v_{B3}``.
     unit : str
@@ -55,7 +55,7 @@ class Question(Struct, frozen=True):
         The quantity from a trace, with its sign.
     needs : tuple of Name
     name : NumberName or None
-        Number of the program that it is; None of an angle, which nothing goes on from.
+        Number of the program; None for an angle, from which no value follows.
     plan : PlanKind or None
     length : NumberName or None
         Length of its segment, mm.
@@ -80,17 +80,17 @@ class Question(Struct, frozen=True):
 
     @property
     def is_mm(self) -> bool:
-        """Whether it is itself a length on a plan."""
+        """True for a length on a plan."""
         return self.unit == "mm"
 
     @property
     def scale(self) -> str:
-        """Scale of its plan: ``mu_v``; empty where there is none."""
+        """Scale of its plan: ``mu_v``; empty if there is none."""
         return "" if self.plan is None else FACTS[self.plan].scale
 
 
 class Questions:
-    """Finds quantities of a solution in one position, and grows the program by what they need.
+    """Find quantities of a solution in one position, and extend the program by the required steps.
 
     Parameters
     ----------
@@ -121,7 +121,7 @@ class Questions:
 
     @property
     def selecting(self) -> SelectorSteps:
-        """The construction with the steps of all that was asked so far."""
+        """The construction with the steps of all quantities requested so far."""
         return self._selecting
 
     def question(self, selector: Selector) -> Question:
@@ -148,7 +148,7 @@ class Questions:
         return found if found.id == question.id else self.direction(found)
 
     def usual(self) -> Iterator[Selector]:
-        """Yield what is asked where nothing is said: velocities, accelerations, ω, ε, forces."""
+        """Yield the default quantities: velocities, accelerations, ω, ε, forces."""
         construction, kin = self.construction, self.construction.kinematics
         # Nothing, and the given ones.
         told = {self._selecting.zero, *self.construction.draft.numbers}
@@ -193,7 +193,7 @@ class Questions:
             yield relative.name, (label(relative.of, place), label(relative.to, place))
 
     def links(self) -> dict[str, dict[str, bool]]:
-        """Return the points of the links by their letters, and which of them stand still."""
+        """Return the points of the links by their letters, and whether each is fixed."""
         bodies, velocity = self.solution.problem.bodies, self.construction.kinematics.velocity
         frame = bodies[FRAME].points
         found = {
@@ -242,7 +242,7 @@ class Questions:
             return self._force(selector)
         for known, plan, ends in self.vectors():
             values = self._segments(plan).values
-            if known == selector and ends in values:  # as the plan has it, not computed anew
+            if known == selector and ends in values:  # as on the plan, not computed again
                 return self._number(selector, values[ends], Sign.SIZE, plan, ends)
         if kind == "vs":
             name = self._selecting.relative("v", *selector.names)

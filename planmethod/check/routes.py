@@ -24,7 +24,7 @@ ROUTES: Mapping[str, tuple[Powers, ...]] = {
     "at": ({"epsilon": 1},),  # ε·l
     "epsilon": ({"at": 1},),  # a^τ/l
     "a": ({"a'": 1},),  # a'·l/l'
-    "a=an": ({"v": 2}, {"omega": 2}, {"v": 1, "omega": 1}, {"an": 1}),  # nothing but aⁿ
+    "a=an": ({"v": 2}, {"omega": 2}, {"v": 1, "omega": 1}, {"an": 1}),  # only aⁿ
     "ak": ({"omega": 1, "vs": 1},),  # 2·ω·v_r
     "v_q": ({"v": 1},),  # v/ω₁
     "u": ({"omega": 1},),  # ω/ω₁
@@ -38,7 +38,7 @@ not follow from accelerations.
 Answer = TypeVar("Answer")
 
 Role = tuple[str, str, tuple[str, ...]]
-"""Kind, link, arm; no arm of what belongs to a link."""
+"""Kind, link, arm; empty arm for a quantity of a link."""
 
 
 def follow_routes(sheet: Sheet, found: list[Examined], floor: float) -> None:
@@ -86,7 +86,7 @@ def _try(one: Examined, powers: list[tuple[Examined, int]], floor: float) -> Non
 
 
 def _would_circle(one: Examined, powers: list[tuple[Examined, int]], found: list[Examined]) -> bool:
-    """Tell whether an answer would follow from what itself follows from it."""
+    """Return whether an answer would follow from its own consequence."""
     by_id = {other.item.id: other for other in found}
     todo, seen = [parent for parent, _ in powers], set[str]()
     while todo:
@@ -126,7 +126,7 @@ def ways(
 
 
 def _all_normal(sheet: Sheet, link: str) -> bool:
-    """Tell whether the acceleration of a point of a link is but normal: ε is nothing."""
+    """Return whether the acceleration of a link's points is purely normal: ε is zero."""
     kin = sheet.questions.construction.kinematics
     return link not in kin.epsilon and not sheet.questions.solution.problem.drive.acceleration
 

@@ -1,7 +1,7 @@
-"""One sheet of plans with all that is asked of it: exact, with its errors, and replayed (лист).
+"""One sheet of plans with its requested quantities: exact, with errors, and replayed (лист).
 
-A sheet is one position of a problem at the scales of whoever draws it. A student's own numbers are
-put into its program (replay), so that what follows from them is found as the plans find it.
+A sheet is one position of a problem at the scales of the student, or of the key. A student's own
+numbers are substituted in its program (replay), so their consequences are found as on the plans.
 """
 
 from __future__ import annotations
@@ -46,7 +46,7 @@ def scalar(value: Number) -> float:
 
 
 Own: TypeAlias = Mapping[NumberName, tuple[float, bool]]
-"""A student's own numbers, by what they stand for; whether the sign of each is his own."""
+"""A student's own numbers, by the program's numbers that they replace; whether each is signed."""
 
 
 def point(value: Number) -> complex:
@@ -55,7 +55,7 @@ def point(value: Number) -> complex:
 
 
 class Local(Struct, frozen=True):
-    """What a set of numbers leaves open of those that follow from it, to first order.
+    """Remaining errors of the quantities derived from a set of given numbers, to first order.
 
     Attributes
     ----------
@@ -70,7 +70,7 @@ class Local(Struct, frozen=True):
 
 
 class Sheet:
-    """Plans of one position at given scales, and what is asked of them.
+    """Plans of one position at given scales, and the requested quantities.
 
     Attributes
     ----------
@@ -107,7 +107,7 @@ class Sheet:
         self._local: dict[frozenset[Name], Local] = {}
 
     def alike(self, questions: Questions, scales: Mapping[str, float]) -> Sheet:
-        """Return a sheet of another variant, on which the same is asked and drawn."""
+        """Return the sheet of another variant with the same requested quantities and steps."""
         other = copy.copy(self)
         kept = {"asked", "profile", "program", "order", "made"}
         vars(other).clear()
@@ -130,7 +130,7 @@ class Sheet:
 
     @cached_property
     def free(self) -> frozenset[str]:
-        """Poles and first points of the plans, which may stand anywhere."""
+        """Poles and first points of the plans, whose position is arbitrary."""
         questions = self.questions
         free = {str(plan.pole) for plan in questions.construction.plans}
         if questions.statics is not None:
@@ -216,7 +216,8 @@ class Sheet:
         Parameters
         ----------
         own : mapping
-            Number and whether its sign is his own; else it has that of what comes out.
+            Number and whether its sign is the student's; else it takes the sign of the derived
+            value.
         program, data : Program, mapping
             With a mistake; data in place of the right ones.
         """
@@ -251,7 +252,7 @@ class Sheet:
         return {name: Single().lift(value) for name, value in self.data.items()}
 
     def local(self, names: Iterable[NumberName]) -> Local:
-        """Return what is left open when some numbers are given: sigmas and slopes between them."""
+        """Return the errors left when some numbers are given: sigmas and slopes."""
         given = frozenset[Name](names)
         if given not in self._local:
             self._local[given] = self.localised(given, self.program, self.data)
@@ -289,7 +290,7 @@ def drafted_of(
     data: Callable[[npt.NDArray[np.intp]], dict[str, Number]],
     count: int,
 ) -> Drafted:
-    """Return what is taken off a sheet, or off sheets of many variants that are drawn alike."""
+    """Return the measured quantities of a sheet, or of sheets with the same steps."""
     items: list[DrawnQuantity] = []
     for q in sheet.asked:
         kind = KINDS.get(q.sign, DrawnKind.NUMBER)
@@ -333,7 +334,7 @@ def _size_of(name: NumberName, trace: Trace) -> Number:
 WAYS = {Sense.RIGHT: 1 + 0j, Sense.UP: 1j, Sense.LEFT: -1 + 0j, Sense.DOWN: -1j}
 
 ASLANT = 0.26
-"""Share of a vector along a way, sin 15°, below which nobody says that it points there."""
+"""Fraction of a vector along a direction, sin 15°, below which it does not point that way."""
 
 
 def sense_of(sheet: Sheet, question: Question) -> Sense | None:
@@ -350,9 +351,9 @@ def sense_of(sheet: Sheet, question: Question) -> Sense | None:
 def is_right(
     sheet: Sheet, question: Question, told: Sense, trace: Trace | None = None
 ) -> bool | None:
-    """Tell whether a sense is right on a sheet; None where that cannot be said.
+    """Return whether a sense is right on a sheet; None if it cannot be decided.
 
-    A vector that goes aslant points both ways that its components have.
+    A vector at an angle points in both directions of its components.
     """
     if question.sign is Sign.TURN and _turns(question):
         value = scalar(question.take(trace or sheet.trace))

@@ -30,15 +30,15 @@ PLACES = (10.0, 0.1, 100.0, 0.01, 1e4, 1e-4)
 CLOSE = 0.03
 
 READ = 0.15
-"""How far off another segment may be read, a share of it: how likely that is, its errors tell."""
+"""Maximum relative error of misreading another segment; its likelihood follows from its errors."""
 
 
 ONE_END = 4.0
-"""How common it is to read the whole for its last part, beside any other segment."""
+"""Prior of reading a whole segment for its last part, relative to any other segment."""
 
 
 class Slip(NamedTuple):
-    """What may have been done with one number (описка).
+    """A possible slip in one number (описка).
 
     Attributes
     ----------
@@ -47,8 +47,8 @@ class Slip(NamedTuple):
         The number then, SI.
     prior : float
     of : float
-        What it is made of: the right value, or that of his own earlier numbers; 0 of one that is
-        made of nothing.
+        The base value: the right one, or that from the student's own earlier numbers; 0 if the slip
+        has no base value.
     segment : NumberName or None
         Segment that is read in place of the right one.
     """
@@ -61,7 +61,7 @@ class Slip(NamedTuple):
     segment: NumberName | None = None
 
     def change(self, sheet: Sheet, one: Examined) -> Change | None:
-        """Return it as a mistake of the program; None where nothing there computes the number."""
+        """Return it as a mistake of the program; None if no step there computes the number."""
         question = one.item.question
         step = None if question.name is None else sheet.made.get(question.name)
         if not isinstance(step, Compute) or not self.of:
@@ -89,7 +89,7 @@ def read_in_place(
 def slips(sheet: Sheet, one: Examined) -> Iterator[Slip]:
     """Yield what may have been done with one number."""
     base = one.limit.exact if one.local is None else one.local
-    if one.told:  # his own millimetres tell it better than anything
+    if one.told:  # their own millimetres are the best evidence
         base = math.copysign(one.told, base)
     if not base or not one.value:
         return
@@ -123,7 +123,7 @@ def slips(sheet: Sheet, one: Examined) -> Iterator[Slip]:
 
 
 OPERATIONS = {"omega": ("v", "/"), "epsilon": ("a^{τ}", "/"), "v": ("ω", "·")}
-"""What is multiplied with an arm, or divided by it: the letter, and the right operation."""
+"""Quantity multiplied or divided by an arm: its letter, and the right operation."""
 
 
 def _operations(sheet: Sheet, one: Examined) -> Iterator[tuple[str, float]]:
@@ -148,7 +148,7 @@ def _operations(sheet: Sheet, one: Examined) -> Iterator[tuple[str, float]]:
 
 
 def _swaps(one: Examined) -> Iterator[float]:
-    """Yield his number with two neighbouring digits swapped back, SI."""
+    """Yield the student's number with two neighbouring digits swapped back, SI."""
     written, value = one.written.raw, one.written.value
     digits = [m.start() for m in re.finditer(r"\d", written)]
     if not value or not written or len(digits) > 8:
@@ -167,7 +167,7 @@ def _swaps(one: Examined) -> Iterator[float]:
 
 
 def _scales(sheet: Sheet, one: Examined, base: float) -> Iterator[Slip]:
-    """Yield a value that his own millimetres make at another scale."""
+    """Yield the value of the student's own millimetres at another scale."""
     question, mm = one.item.question, one.mm
     if not mm or question.is_mm or question.plan not in MOTION or one.told is None:
         return
@@ -222,7 +222,7 @@ def _wholes(sheet: Sheet, question: Question) -> Iterator[tuple[str, float, Numb
 def put_explanation(
     sheet: Sheet, one: Examined, code: str, where: str, value: float, prior: float, *, free: bool
 ) -> Explanation:
-    """Return that one number is otherwise; what follows from it is found by `completed`."""
+    """Return an explanation by one changed number; its consequences are found by `completed`."""
     question = one.item.question
     return Explanation(
         code,

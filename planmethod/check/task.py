@@ -1,4 +1,4 @@
-"""A problem with all that is asked of it, solved once for everybody who answers (задание)."""
+"""A problem with its requested items, solved once for all students (задание)."""
 
 from __future__ import annotations
 
@@ -129,7 +129,7 @@ def _forms(questions: Questions) -> Iterator[tuple[str, Selector]]:
 
 
 class TaskItem(Struct, frozen=True):
-    """One thing that is asked, or that somebody answers without being asked (пункт задания).
+    """One item, requested or answered without a request (пункт задания).
 
     Attributes
     ----------
@@ -143,9 +143,9 @@ class TaskItem(Struct, frozen=True):
     label : str
         How the department writes it.
     name : str
-        The same for all who are asked, however they call it.
+        The same for all students, however they call it.
     unit : str
-        Unit in which it is asked: that of numbers without one; empty for that of the key.
+        Requested unit, also of numbers without one; empty for that of the key.
     """
 
     id: str
@@ -175,12 +175,12 @@ class Task:
     solution : Solution
     settings : Settings
     others : callable, optional
-        Returns the other variants: whose numbers somebody may have answered with.
+        Returns the other variants, whose numbers may have been copied.
 
     Attributes
     ----------
     declared : tuple of TaskItem
-        What ``[[answers]]`` asks; empty where the file asks nothing.
+        Items of ``[[answers]]``; empty if the file has none.
     """
 
     def __init__(
@@ -217,7 +217,7 @@ class Task:
         return other
 
     def for_one_work(self) -> Task:
-        """Return the same task for one work: what it answers unasked is asked of nobody else."""
+        """Return a copy of the task for one submission: its extra answers do not affect others."""
         other = copy.copy(self)
         other._asked = {position: dict(asked) for position, asked in self._asked.items()}
         return other
@@ -263,12 +263,12 @@ class Task:
             yield turned
 
     def unit_of(self, asked: AskedAnswer, question: Question) -> str:
-        """Return the unit in which an answer is asked.
+        """Return the unit in which an answer is requested.
 
         Raises
         ------
         ProblemError
-            It is no unit, or one of another quantity.
+            It is not a unit, or belongs to another quantity.
         """
         if asked.unit and ratio_of(asked.unit, question.unit) is None:
             said = say(
@@ -297,7 +297,7 @@ class Task:
     # Questions -------------------------------------------------------------------------------
 
     def questions(self, position: int) -> Questions:
-        """Return what can be asked of a position.
+        """Return the possible questions of a position.
 
         Raises
         ------
@@ -320,7 +320,7 @@ class Task:
         return self._asked.setdefault(position, {}).setdefault(question.id, question)
 
     def usual(self, position: int | None = None) -> tuple[TaskItem, ...]:
-        """Return what is asked: what the file asks, else the usual quantities of a position."""
+        """Return the requested items: those of the file, or the usual quantities of a position."""
         if self.declared:
             return self.declared
         position = self.first if position is None else position
@@ -332,7 +332,7 @@ class Task:
         )
 
     def whole(self) -> tuple[TaskItem, ...]:
-        """Return all that is asked: what the file asks, else the usual quantities everywhere."""
+        """Return all requested items: those of the file, or the usual quantities everywhere."""
         asked = map(self.usual, range(self.count))
         return self.declared or tuple(chain.from_iterable(asked))
 
@@ -342,7 +342,7 @@ class Task:
         Raises
         ------
         NoValueError
-            When nobody knows such a quantity.
+            The quantity is unknown.
         """
         if (declared := self.stated(written)) is not None:
             return declared
@@ -378,7 +378,7 @@ class Task:
             return questions.direction(questions.question(forms.find(vector)))
 
     def stated(self, written: WrittenAnswer) -> TaskItem | None:
-        """Return what an answer is of among what the file asks."""
+        """Return the item of an answer among those of the file."""
         for text in filter(None, (written.id, written.what)):
             item = self._forms.get(text) or self._forms.get(plain(text))
             if item is not None and written.position in (None, item.position):
@@ -386,7 +386,7 @@ class Task:
         return None
 
     def written(self, item: TaskItem, written: WrittenAnswer) -> WrittenAnswer:
-        """Return an answer as it is judged: a bare number is in the unit that is asked."""
+        """Return an answer as it is graded: a number without a unit is in the requested unit."""
         if written.value is not None and ratio(written, item.question.unit) is None:
             return refused(Unread.OTHER, written.unit, written.where, base=written)
         unit = read_unit(item.unit) if item.unit and not written.unit else None
@@ -408,7 +408,7 @@ class Task:
         return {**scales, **{name: own[name] for name in scales if name in own}}
 
     def profile(self, ruler: float | None, *, drawn: str = "") -> Profile:
-        """Return how well a sheet is drawn whose maker reads to a step of his own, mm.
+        """Return the drafting profile of a sheet, with the reading step of its author, mm.
 
         Parameters
         ----------
@@ -428,7 +428,7 @@ class Task:
         *,
         drawn: str = "",
     ) -> Sheet:
-        """Return the sheet of a position at somebody's scales, with all that was asked so far."""
+        """Return the sheet of a position at given scales, with all quantities requested so far."""
         scales = self.scales(own or {}, position)
         asked = self._asked.get(position, {})
         profile = self.profile(ruler, drawn=drawn)
@@ -445,14 +445,14 @@ class Task:
         return position, tuple(sorted(scales.items())), profile, tuple(asked)
 
     def theirs(self, sheet: Sheet) -> Iterator[tuple[str, Sheet]]:
-        """Yield the other variants that have all that is asked on a sheet, at its scales."""
+        """Yield the other variants with all requested quantities of a sheet, at its scales."""
         for other in self.others():
             their = self.asked_of(other, sheet)
             if their is not None:
                 yield other.variant or "", their
 
     def asked_of(self, other: Task, mine: Sheet) -> Sheet | None:
-        """Return the sheet of another variant with what is asked here; None if it has not all."""
+        """Return another variant's sheet with the same quantities; None if one is missing."""
         position, their = mine.questions.position, other.for_one_work()
         try:
             questions = other.questions(position)
@@ -463,7 +463,7 @@ class Task:
         return their.sheet(position, mine.scales)
 
     def named(self, sheet: Sheet) -> list[Explanation]:
-        """Return the mistakes of a sheet that have a name, each with what it gives."""
+        """Return the named mistakes of a sheet, each with its predictions."""
         return self.explanations(sheet).named
 
     def explanations(self, sheet: Sheet) -> Explanations:

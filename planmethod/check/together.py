@@ -1,7 +1,7 @@
 """Keys of many variants worked out together (ключи многих вариантов сразу).
 
-What is asked, the steps that give it and the mistakes that can be made are those of one variant;
-the numbers of all are columns of one reading. Each variant then tells its key from its own rows.
+The requested items, their steps and the possible mistakes are those of one variant; the numbers
+of all are columns of one reading. Each variant then builds its key from its own rows.
 """
 
 from __future__ import annotations
@@ -32,9 +32,9 @@ Columns = dict[str, Number]
 def batch_tasks(
     batch: Batch, settings: Settings, others: Callable[[], Iterable[Task]] | None = None
 ) -> list[Task]:
-    """Return the tasks of variants with the numbers of all that is asked, none where they differ.
+    """Return the tasks of variants with all requested numbers; none if the variants differ.
 
-    They differ where one is asked otherwise, or where what is asked needs numbers of its own.
+    They differ in their requests, or if a request needs numbers of its own.
     """
     if len({_asking(problem) for problem in batch.problems}) > 1:
         return []
@@ -50,7 +50,7 @@ def batch_tasks(
 
 
 def batch_keys(batch: Batch, settings: Settings) -> list[Key]:
-    """Return the keys of variants that are asked alike; none where they are not."""
+    """Return the keys of variants with the same requests; none if they differ."""
     tasks = batch_tasks(batch, settings)
     if not tasks:
         return []
@@ -72,7 +72,7 @@ def batch_named(
 
 
 def keys_together(problems: Sequence[Problem], settings: Settings) -> dict[int, Key]:
-    """Return the keys of linkages that are drawn and asked alike, by their numbers."""
+    """Return the keys of linkages with the same steps and requests, by their numbers."""
     found: dict[int, Key] = {}
     for batch, members in in_batches(problems, PROFILES["board"]):
         found.update(zip(members, batch_keys(batch, settings), strict=False))  # all, or none
@@ -80,7 +80,7 @@ def keys_together(problems: Sequence[Problem], settings: Settings) -> dict[int, 
 
 
 def _asking(problem: Problem) -> tuple[object, ...]:
-    """Return what a problem asks for, and of how many positions."""
+    """Return the requests of a problem, and its number of positions."""
     return problem.answers, len(problem.drive.positions), problem.calculated
 
 
@@ -111,8 +111,8 @@ class _Rows:
     def named(self, of: Collection[int] | None = None) -> list[list[Shown]]:
         """Return what every mistake with a name gives on every sheet, in order.
 
-        A mistake is drawn once on all sheets that have the same steps of it. Where only some of
-        them are asked for, the others have none.
+        A mistake is drawn once on all sheets with the same steps of it. If only some of
+        them are requested, the others have none.
         """
         alike: dict[tuple[object, ...], list[tuple[int, int, Change]]] = {}
         told: list[list[Shown | None]] = []
@@ -130,7 +130,7 @@ class _Rows:
         return [[shown for shown in own if shown is not None] for own in told]
 
     def _shown(self, members: Sequence[tuple[int, Change]]) -> Iterator[Shown | None]:
-        """Yield what a mistake gives on some sheets; None where nothing can be drawn with it."""
+        """Yield the predictions of a mistake on some sheets; None if it cannot be drawn."""
         rows = np.array([number for number, _ in members])
         first = members[0][1]
         data = at_positions(self.data, rows)

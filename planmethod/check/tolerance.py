@@ -1,4 +1,4 @@
-"""How far an answer may be off: from the construction, with a floor and a cap (допуск ответа)."""
+"""Tolerance of an answer: from the construction, with a floor and a cap (допуск ответа)."""
 
 from __future__ import annotations
 
@@ -18,11 +18,11 @@ SHORT = 3.0
 """Sigmas below which a quantity is too short to be measured."""
 
 FOLDED = 1.7
-"""Lengths about nothing have no sign: the middle 68 % of them lie closer than their errors do."""
+"""Factor for lengths about zero, which have no sign: the middle 68 % of them are closer."""
 
 
 class Tolerance(Struct, frozen=True):
-    """How far an answer may be off (допуск).
+    """Permitted deviation of an answer (допуск).
 
     Attributes
     ----------
@@ -57,7 +57,7 @@ class Tolerance(Struct, frozen=True):
         return own if self.zero else min(own, self.most)
 
     def allows(self, off: float, size: float, step: float = 0.0, times: float = 1.0) -> bool:
-        """Tell whether an answer of a size is near enough; of nothing, whatever is as short."""
+        """Return whether an answer is close enough; for zero, also one of that size."""
         tolerance = self.tolerance(step) * times
         return off <= tolerance * (1 + 1e-9) or (self.zero and size <= tolerance)
 
@@ -70,12 +70,12 @@ def limit_of(
     Parameters
     ----------
     fixed : float or None
-        Share of the answer that the task itself allows; then nothing else counts.
+        Fraction of the answer that the task itself permits; it overrides all else.
     """
     exact, sigma = sheet.exact[question.id], sheet.sigma(question)
     length, size = sheet.length(question), abs(exact)
     per_mm = 1.0 if question.is_mm else sheet.scales.get(question.scale, 0.0)
-    if question.selector.kind in RATES:  # of one that is nothing, as if of a long link
+    if question.selector.kind in RATES:  # a zero one counts as that of a long link
         per_mm = size / length if length else _rate_per_mm(sheet, question)
     spread = settings.k * sigma
     turned = question.sign is Sign.ANGLE

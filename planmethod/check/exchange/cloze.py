@@ -37,10 +37,10 @@ class QuizQuestion(Struct, frozen=True):
     given : tuple of GivenFact
         What is given.
     scales : mapping of str to float
-        Of the plans, unit per mm; empty where nothing is drawn.
+        Scales of the plans, unit per mm; empty if no plans are drawn.
     parts : tuple of QuizPart
     picture : bytes
-        The scheme as PNG; empty where there is none.
+        The scheme as PNG; empty if there is none.
     """
 
     title: str
@@ -183,7 +183,7 @@ def escaped(text: str) -> str:
 
 
 def _safe(text: str) -> str:
-    """Return HTML outside the gaps: what somebody else wrote opens none."""
+    """Return HTML outside the gaps: escaped so that foreign text cannot open a gap."""
     return text.replace("{", "&#123;").replace("}", "&#125;")
 
 

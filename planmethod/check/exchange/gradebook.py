@@ -26,9 +26,9 @@ def gradebook_csv(
     Parameters
     ----------
     marks : sequence of str
-        Of the works, one each, as they are told.
+        Displayed marks of the submissions, one each.
     addresses : mapping of str to str
-        E-mail by student: what a gradebook knows him by; empty for none.
+        E-mail by student: the gradebook's key of a student; empty for none.
     """
     say: Words = words.check["exchange"]
     heads = dict(say["gradebook"])

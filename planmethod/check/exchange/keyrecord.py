@@ -11,7 +11,7 @@ from planmethod.note.numbers import finite_or_none
 
 
 def key_record(key: Key) -> dict[str, Any]:
-    """Return the key of one variant as plain data: SI, degrees, mm; None for what there is not."""
+    """Return the key of one variant as plain data: SI, degrees, mm; None for missing values."""
     return {
         "problem": key.problem.name,
         "variant": key.variant,

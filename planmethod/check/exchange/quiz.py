@@ -1,7 +1,7 @@
-"""What a learning management system asks of a variant, and what it accepts (вопросы для СДО).
+"""Questions and accepted answers of a variant for a learning management system (вопросы для СДО).
 
-Such a system compares numbers with intervals and knows nothing of a student's own earlier ones: a
-part has the tolerance of the construction, and the values that named mistakes give.
+Such a system compares numbers with intervals and ignores a student's own earlier values: a part
+has the tolerance of the construction, and the values that named mistakes give.
 """
 
 from __future__ import annotations
@@ -24,13 +24,13 @@ MOST = 12
 """Wrong values of a part that are named; the usual ones first."""
 
 APART = 2.0
-"""Tolerances within which a mistake cannot be told from the right answer."""
+"""Tolerances within which a mistake cannot be distinguished from the right answer."""
 
 WIDEST = 0.1
 """Share of a wrong value that half of its interval is at most."""
 
 LEAST_SHARE = 0.3
-"""What a mistake makes small is drawn no better than a third of the right one."""
+"""Minimum error scale of a value that a mistake makes small, relative to the right one."""
 
 TURNS, WAYS = (Sense.CCW, Sense.CW), (Sense.UP, Sense.DOWN, Sense.LEFT, Sense.RIGHT)
 
@@ -41,7 +41,7 @@ class Alternative(Struct, frozen=True):
     Attributes
     ----------
     value : float
-        In the unit that is asked.
+        Value in the requested unit.
     margin : float
         Half of the interval.
     share : float
@@ -57,7 +57,7 @@ class Alternative(Struct, frozen=True):
 
 
 class Choice(Struct, frozen=True):
-    """A sense that may be chosen: its words, whether it is right, what is said of it (выбор)."""
+    """A sense to choose from: its text, correctness and feedback (выбор)."""
 
     sense: Sense
     text: str
@@ -85,7 +85,7 @@ class QuizPart(Struct, frozen=True):
 
 
 def quiz_of(task: Task, words: Language) -> list[QuizPart]:
-    """Return the parts of what is asked of a variant, in the order in which it is asked."""
+    """Return the parts of the requested items of a variant, in the requested order."""
     parts: list[QuizPart] = []
     for item in task.whole():
         sheet = task.sheet(item.position)
@@ -95,7 +95,7 @@ def quiz_of(task: Task, words: Language) -> list[QuizPart]:
 
 
 class GapName(Struct, frozen=True):
-    """What a gap is of: an item of the task, its position, and whether its sense (пропуск)."""
+    """Name of a gap: an item of the task, its position, and whether it is the sense (пропуск)."""
 
     id: str
     position: int
@@ -116,7 +116,7 @@ def gaps_of(task: Task) -> list[GapName]:
 
 
 def has_sense(item: TaskItem, limit: Tolerance) -> bool:
-    """Tell whether the sense of an answer can be asked."""
+    """Return whether the sense of an answer can be requested."""
     return item.asks_sense and not limit.zero and bool(limit.exact)
 
 
@@ -139,7 +139,7 @@ class _Asked(Struct, frozen=True):
     words: Language
 
     def parts(self) -> Iterator[QuizPart]:
-        """Yield the part of the number, and that of the sense where it is asked."""
+        """Yield the part of the number, and that of the sense if it is requested."""
         entry = entry_of(self.task, self.item, self.limit)
         numbers = QuizPart(entry, entry.points, tuple(self._alternatives(entry)))
         share, choices = self.task.settings.sense_share, tuple(self._choices(entry))
@@ -197,7 +197,7 @@ class _Asked(Struct, frozen=True):
                 yield one.code, value if strict else abs(value)
 
     def _told(self, codes: Sequence[str]) -> str:
-        """Return what is said of a value that mistakes give."""
+        """Return the feedback for a value that mistakes give."""
         say, mistakes = self.words.check["student"], self.words.check["mistakes"]
         known = [mistakes[code] for code in codes if code in mistakes]
         if not known:
@@ -222,7 +222,7 @@ class _Asked(Struct, frozen=True):
             elif (told := is_right(self.sheet, question, sense)) is not None:
                 right = told
             else:
-                right = entry.sense is not None  # nobody can say that it is wrong
+                right = entry.sense is not None  # it cannot be proved wrong
             sign, name = self.words.check["senses"][sense.value]
             turned = "" if right or not turns else self._told(self._reversing())
             yield Choice(sense, f"{sign} {name}", right, turned)

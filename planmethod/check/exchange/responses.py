@@ -1,7 +1,7 @@
 """Answers as a learning management system exports them (ответы из СДО).
 
 Moodle's report of responses has a row for each attempt and a column for each question, ``Ответ 1``;
-of a question with embedded answers all gaps stand in one cell: ``часть 1: 2,24; часть 2: 15,5``.
+a question with embedded answers has all gaps in one cell: ``часть 1: 2,24; часть 2: 15,5``.
 """
 
 from __future__ import annotations
@@ -27,13 +27,13 @@ from planmethod.problem.source import parse, read_source
 _NUMBERED = re.compile(r"([^\W\d]{1,40})\s{0,4}\d+")
 _GAP = re.compile(r"(?:^|;\s*)[^\W\d]+ (\d+):[ ]?(.*?)(?=;\s*[^\W\d]+ \d+:|$)", re.DOTALL)
 GAPS = "parts"
-"""What a column is told to be in which all gaps of a question stand."""
+"""Type of a column that has all gaps of a question."""
 
 FIELDS = ("student", "email", "variant", "question", GAPS, "-")
-"""What a column may be beside a quantity; ``question`` is a text that names the variant."""
+"""Types of a column other than a quantity; ``question`` is a text that names the variant."""
 
 CELL_LIMIT = 20_000
-"""Characters of a cell that are looked at: all gaps of a question stand in one."""
+"""Maximum number of characters read from a cell: all gaps of a question may be in one."""
 
 Gaps = Callable[[str | None], Sequence[GapName]]
 """The gaps of a variant."""
@@ -54,17 +54,17 @@ class Responses(Struct, frozen=True):
 
 
 def is_export(path: Path) -> bool:
-    """Tell whether a file is an export of responses: a CSV with columns such as ``Ответ 1``."""
+    """Return whether a file is an export of responses: a CSV with columns such as ``Ответ 1``."""
     if path.suffix.lower() not in (".csv", ".tsv", ".txt"):
         return False
     try:
         return _head(csv_rows(read_bytes(path), path), {}) is not None
     except WorksError:
-        return False  # the reader of works tells what is wrong
+        return False  # the reader of submissions reports the fault
 
 
 def read_columns(told: Iterable[str]) -> dict[str, str]:
-    """Return what columns are told to be: ``Ответ 1=v_B3``, or a TOML file with such keys.
+    """Return the column definitions: ``Ответ 1=v_B3``, or a TOML file with such keys.
 
     Raises
     ------
@@ -101,8 +101,8 @@ def read_responses(
     Parameters
     ----------
     columns : mapping of str to str
-        What columns are, by their heads: a quantity as in a wide table ("v_B3, мм"), or one of
-        `FIELDS`. Of the others those are known that Moodle has.
+        Column types by their heads: a quantity as in a wide table ("v_B3, мм"), or one of
+        `FIELDS`. Moodle's own columns need no definition.
     names : sequence of str
         Variants of the problem.
     gaps : callable
@@ -111,7 +111,7 @@ def read_responses(
     Raises
     ------
     WorksError
-        Columns are told that the file has not, or nothing says what its answers are of.
+        A defined column is missing in the file, or the answers of the file are not identified.
     """
     rows = csv_rows(read_bytes(path), path, CELL_LIMIT)
     at = _head(rows, columns)
@@ -156,7 +156,7 @@ def _told(row: Row) -> str:
 
 
 def _column(text: str, told: Mapping[str, str]) -> Head:
-    """Return what stands in a column; an empty head of what is not looked at."""
+    """Return the type of a column; an empty head for an ignored one."""
     what = told.get(key(text))
     if what is not None:
         return Head(what) if what in FIELDS else read_quantity(what)
@@ -168,7 +168,7 @@ def _column(text: str, told: Mapping[str, str]) -> Head:
 
 
 def _numbered(text: str) -> str:
-    """Return what a head with a number is; nothing for any other."""
+    """Return the type of a numbered head; an empty string for any other."""
     match = _NUMBERED.fullmatch(text.strip())
     return NUMBERED.get(match[1].casefold(), "") if match else ""
 
@@ -227,7 +227,7 @@ class _Export:
         return None
 
     def _put_gaps(self, draft: WorkDraft, cells: Sequence[Cell]) -> None:
-        """Take the columns that no map tells: gaps in one cell, or a column for each."""
+        """Read the columns without a definition: gaps in one cell, or a column for each."""
         if not cells:
             return
         known = draft.variant if draft.variant in self.names else None

@@ -1,4 +1,4 @@
-"""A variant as a question: what is given, the scheme, what is asked (вариант как вопрос)."""
+"""A variant as a question: its data, the scheme, the requested items (вариант как вопрос)."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a drawing answers: the segments of plans, each by its length and its direction."""
+"""Questions that a drawing answers: the segments of plans, each by its length and direction."""
 
 from __future__ import annotations
 
@@ -14,9 +14,9 @@ SHORT_MM = 1.0
 
 
 def asked_of_drawing(task: Task) -> tuple[TaskItem, ...]:
-    """Return what is asked of a task that the plans of one position show.
+    """Return the items of a task that the plans of one position show.
 
-    The direction of a vector is an answer of its own; what is computed, ω and ε, no drawing shows.
+    The direction of a vector is a separate answer; computed ω and ε are not on a drawing.
     """
     found: dict[str, TaskItem] = {}
     share, questions = task.settings.sense_share, task.questions(task.first)

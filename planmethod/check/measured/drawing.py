@@ -1,4 +1,4 @@
-"""What of a drawing is looked at: straight lines, inscriptions, marks; in mm, y up (чертёж)."""
+"""Elements read from a drawing: straight lines, inscriptions, marks; in mm, y up (чертёж)."""
 
 from __future__ import annotations
 
@@ -18,14 +18,14 @@ HANDS = {".dxf": "cad", ".svg": "board"}
 """By which profile files of an ending are drawn: on our own sheets a hand reads its ruler."""
 
 STRAIGHT = 1e-4
-"""How far a polyline that goes straight on may bend, radians."""
+"""Maximum bend of a polyline that counts as straight, radians."""
 
 REACH_LIMIT = 1e6
 """Nothing on a sheet is further away than a kilometre, mm."""
 
 
 def is_drawing(path: Path) -> bool:
-    """Tell whether a file is a drawing, by its ending."""
+    """Return whether a file is a drawing, by its ending."""
     return path.suffix.lower() in HANDS
 
 
@@ -48,7 +48,7 @@ class DrawnLine(Struct, frozen=True):
 
     @property
     def length(self) -> float:
-        """How long it is, mm."""
+        """Length, mm."""
         return abs(self.end - self.start)
 
 
@@ -114,7 +114,7 @@ class MeasuredDrawing(Struct):
             self.lines.append(DrawnLine(start, end, layer, colour))
 
     def text(self, text: str, at: complex, wide: float, high: float) -> None:
-        """Take an inscription; blank ones say nothing.
+        """Add an inscription; blank ones are ignored.
 
         Raises
         ------
@@ -135,11 +135,11 @@ class MeasuredDrawing(Struct):
 
 
 def _goes_on(one: complex, two: complex, three: complex) -> bool:
-    """Tell whether a line goes straight on."""
+    """Return whether a line goes straight on."""
     way = (three - two) / (two - one)
     return way.real > 0 and abs(way.imag) < STRAIGHT * way.real
 
 
 def _is_near(*places: complex) -> bool:
-    """Tell whether places are numbers, and on a sheet."""
-    return all(abs(place) < REACH_LIMIT for place in places)  # NaN is less than nothing
+    """Return whether places are numbers, and on a sheet."""
+    return all(abs(place) < REACH_LIMIT for place in places)  # False for NaN

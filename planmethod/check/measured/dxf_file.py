@@ -1,7 +1,7 @@
 """Drawings as CAD programs write them: DXF (чтение DXF).
 
-Blocks are taken apart, with what stands in their layer 0 in that of the insertion, as CAD programs
-show it. Letters that our own sheets draw as blocks of strokes are put together again.
+Blocks are exploded; entities in their layer 0 take the layer of the insertion, as in CAD
+programs. Letters that planmethod's own sheets draw as blocks of strokes are joined again.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ SIZE_LIMIT = 8 * 1024 * 1024
 ENTITIES_LIMIT = 200_000
 DEPTH_LIMIT = 8
 BULGED = 1e-6
-"""An arc of a polyline is no straight line."""
+"""Minimum bulge of a polyline segment that is an arc."""
 
 MARK_MM = 3.0
 """Radius of the largest circle that marks a point."""
@@ -41,7 +41,7 @@ _ARROWS = ("ARROW", "_OPEN", "_CLOSED", "_DOT")
 
 
 class _Letters(Struct):
-    """A run of letters that stand as blocks side by side."""
+    """A run of letters that are adjacent blocks."""
 
     text: str
     start: complex
@@ -50,7 +50,7 @@ class _Letters(Struct):
     along: complex
 
     def takes(self, at: complex, high: float, along: complex) -> bool:
-        """Tell whether a letter stands behind these."""
+        """Return whether a letter continues this run."""
         step = (at - self.last) * along.conjugate()
         tall = max(high, self.high)
         return (
@@ -109,13 +109,13 @@ class _Reader:
         self.run: _Letters | None = None
 
     def read(self) -> MeasuredDrawing:
-        """Return what is in the model space."""
+        """Return the contents of the model space."""
         try:
             for entity in self.document.modelspace():
                 self._take(entity, "0", BY_LAYER, 0)
         except WorksError:
             raise
-        except Exception as error:  # as above: what an entity lacks tells itself in many ways
+        except Exception as error:  # as above: incomplete entities raise many kinds of exception
             raise WorksError(
                 "{}: this is no DXF that can be read: {}.", self.path, _told(error)
             ) from None

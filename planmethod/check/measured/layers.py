@@ -1,4 +1,4 @@
-"""Which plan stands on which layer, or in which colour (слои и цвета)."""
+"""Layers and colours of the plans (слои и цвета)."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from planmethod.problem.names import fold
 from planmethod.render.backends.layers import FIGURES, VECTORS
 
 PLANS = "plans"
-"""Both plans stand there; the letter of the pole tells which."""
+"""Value for a layer with both plans; the letter of the pole distinguishes them."""
 
 COLOURS = {
     "red": 1, "yellow": 2, "green": 3, "cyan": 4, "blue": 5, "magenta": 6, "white": 7,
@@ -28,7 +28,7 @@ _WORDS = {
     ),
     PLANS: ("plans", "планы", VECTORS, FIGURES),
 }  # fmt: skip
-"""What layers are called, without being told."""
+"""Names of layers that are recognised by default."""
 
 
 def _key(text: str) -> str:
@@ -43,7 +43,7 @@ _COLOUR = tuple(map(_key, ("color", "colour", "цвет")))
 
 
 def read_layers(told: Iterable[str]) -> dict[str, str]:
-    """Return which plan stands on layers and in colours: ``PLAN_V=velocity``, ``red=velocity``.
+    """Return the plan of each layer and colour: ``PLAN_V=velocity``, ``red=velocity``.
 
     Raises
     ------

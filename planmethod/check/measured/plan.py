@@ -37,7 +37,7 @@ from planmethod.construct.steps import PointName
 from planmethod.plans.model import FACTS, RATES, PlanKind, Vector, pole_letter
 
 STEP_MM = 0.01
-"""What a drawing is measured to, mm."""
+"""Resolution of a measured drawing, mm."""
 
 PLAN_LINES = 400
 """Lines of both plans, those of arrowheads among them; a plan of a triad has some forty."""
@@ -49,7 +49,7 @@ SAME_DEG = 2.0
 TURNED_DEG = 5.0
 LEAST_MM = 5.0
 DETAIL_MM = 20.0
-"""How far the scale of an enlarged detail stands from it."""
+"""Maximum distance between an enlarged detail and its scale, mm."""
 
 WHOLE = 3
 """Vectors that must be turned alike, not shorter than that."""
@@ -90,7 +90,7 @@ def read_drawing(path: Path, layers: Mapping[str, str], task: Task) -> Work:
     Parameters
     ----------
     layers : mapping of str to str
-        Which plan stands on a layer, or in a colour; see `planmethod.check.measured.layers`.
+        Plan of each layer or colour; see `planmethod.check.measured.layers`.
     task : Task
         Of the variant that is drawn.
 
@@ -114,7 +114,7 @@ def read_drawing(path: Path, layers: Mapping[str, str], task: Task) -> Work:
 
 
 def _read_scales(draft: WorkDraft, texts: Sequence[DrawnLetters]) -> None:
-    """Take the scales that the drawing tells: ``μ_v = 0,05 (м/с)/мм``."""
+    """Read the scales written on the drawing: ``μ_v = 0,05 (м/с)/мм``."""
     for text in texts:
         name, equal, value = text.text.partition("=")
         scale = scale_name(name) if equal else ""
@@ -183,7 +183,7 @@ def _plans(
 def _without_details(
     parts: Sequence[list[DrawnLine]], texts: Sequence[DrawnLetters]
 ) -> list[list[DrawnLine]]:
-    """Return parts without what is around a point, drawn larger: ``Б (10:1)`` stands next to it."""
+    """Return parts without the enlarged details, marked by a text like ``Б (10:1)``."""
     left = list(parts)
     for text in texts:
         if re.search(r"\(\d{1,3}:1\)", text.text):

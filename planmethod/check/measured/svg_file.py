@@ -17,7 +17,7 @@ from planmethod.render.ink.drawing import Pen
 
 SIZE_LIMIT = 8 * 1024 * 1024
 TIP_MM = 8.0
-"""How far a thick line may end before the tip of its arrow."""
+"""Maximum gap between the end of a thick line and the tip of its arrow, mm."""
 
 CAPITAL = 0.7
 """Height of the letters of a text, a share of the size of its font."""
@@ -36,7 +36,7 @@ def read_svg(path: Path) -> MeasuredDrawing:
     Raises
     ------
     WorksError
-        It is no SVG, or none of ours.
+        It is not an SVG, or not from planmethod.
     """
     data = read_bytes(path, SIZE_LIMIT)
     parser = etree.XMLParser(resolve_entities=False, no_network=True, huge_tree=False)

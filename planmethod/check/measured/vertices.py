@@ -1,4 +1,4 @@
-"""Which vertex of a plan is meant by which letter: by how near they stand (буквы у вершин)."""
+"""Assignment of letters to the vertices of a plan, by distance (буквы у вершин)."""
 
 from __future__ import annotations
 
@@ -14,22 +14,22 @@ SNAP_MM = 0.3
 """Ends of lines nearer than this are one vertex."""
 
 NEAR_MM, NEAR_HEIGHTS = 5.0, 4.0
-"""How far a letter may stand from its vertex: millimetres, or heights of the letter if more."""
+"""Maximum distance of a letter from its vertex: millimetres, or heights of the letter if more."""
 
 STRAIGHT = 2e-3
-"""How far a line that goes on may bend, radians."""
+"""Maximum bend between lines that continue each other, radians."""
 
 BARB_MM, BARB_SINE = 6.0, 0.6
 """The strokes of an arrowhead: how long, and how far they open."""
 
 BESIDE = 0.1
-"""What the distance to the middle of a letter counts beside that to its room."""
+"""Weight of the distance to the middle of a letter, relative to that to its box."""
 
 JOINED = 4.0
-"""What it counts, mm, that two letters are joined by a line as the vectors of the plan are."""
+"""Bonus, mm, for two letters joined by a line like the vectors of the plan."""
 
 DOUBT = 0.5
-"""Letters that would stand elsewhere as well, to this, mm, name no vertex."""
+"""Cost difference of two placements, mm, below which a letter is ambiguous."""
 
 ROUNDS = 100
 
@@ -53,7 +53,7 @@ class Vertices(Struct):
         Vertices without a letter that have this one next to them: where a line ends that does not
         meet the others.
     lone : list of int
-        Vertices that no letter stands by.
+        Vertices without a nearby letter.
     inner : set of int
         Vertices from which a line goes straight on.
     doubtful : list of str
@@ -103,7 +103,7 @@ def _from(line: DrawnLine, place: complex) -> complex | None:
 
 
 def _joins(line: DrawnLine, ends: Sequence[complex]) -> bool:
-    """Tell whether a line closes the triangle of an arrowhead."""
+    """Return whether a line closes the triangle of an arrowhead."""
     own = (line.start, line.end)
     return all(min(abs(end - place) for place in own) < SNAP_MM for end in ends)
 
@@ -148,7 +148,7 @@ def _lengthen(found: Vertices) -> None:
 
 
 class _Placing:
-    """Which inscription stands by which vertex: near it, and joined as the plan has it."""
+    """Placement of inscriptions at vertices: by distance, and by the lines of the plan."""
 
     def __init__(
         self,
@@ -180,7 +180,7 @@ class _Placing:
             self.at = least[1]
 
     def doubtful(self) -> set[int]:
-        """Return the inscriptions that would stand elsewhere nearly as well."""
+        """Return the inscriptions for which another placement is nearly as good."""
         found: set[int] = set()
         for at in self._others():
             if self._worse(at)[0] < DOUBT:
@@ -219,8 +219,8 @@ def letter(
 ) -> Vertices:
     """Give vertices their letters.
 
-    A letter that finds its vertex taken stands there too if that one is as near; vertices that are
-    left are told by the letter next to them.
+    A letter whose vertex is taken is added there if it is nearly as close; the remaining vertices
+    are identified by the nearest letter.
 
     Parameters
     ----------

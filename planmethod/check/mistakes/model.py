@@ -1,4 +1,4 @@
-"""What a mistake is: other steps in the place of some, other data (ошибка как замена шагов)."""
+"""Model of a mistake: replaced steps, replaced data (ошибка как замена шагов)."""
 
 from __future__ import annotations
 
@@ -37,13 +37,13 @@ class Change(Struct, frozen=True):
     where : str
         Link, point or pair, as people write it.
     steps : mapping of Name to tuple of Step
-        What stands in the place of a step.
+        Steps that replace a step.
     data : mapping of str to float
         Data in place of the given ones, or of new steps.
     prior : float
         How common it is beside other mistakes; 1 of the usual ones.
     of_scale : bool
-        Whether it is made with a scale: what he read is then not his value over the scale.
+        Whether the mistake is in a scale: then the student's reading is not value over scale.
     """
 
     code: str

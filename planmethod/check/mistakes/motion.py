@@ -29,7 +29,7 @@ def _along_the_link(scene: MistakeContext, plan: PlanKind, code: str) -> Iterato
 
 
 def _is_ray(scene: MistakeContext, step: steps.Perpendicular, turning: Turning) -> bool:
-    """Tell whether a perpendicular is the line across a link that its turning is read along."""
+    """Return whether a perpendicular is the line across a link that its turning is read along."""
     line = scene.made[step.to]
     ends = {turning.joint, turning.place}
     return (
@@ -54,7 +54,7 @@ def driver_reversed(scene: MistakeContext) -> Iterator[Change]:
     drive = scene.problem.drive
     name = NumberName(drive.coordinate.rates[0])
     if name in scene.made and (rate := scene.exact(name)):
-        # That one sense is wrong says nothing yet of the driver.
+        # One wrong sense alone does not indicate the driver.
         yield Change("V2", drive.link, data={name: -rate}, prior=0.04)
 
 
@@ -191,7 +191,7 @@ def coriolis_of_absolute(scene: MistakeContext) -> Iterator[Change]:
 
 
 def coriolis_of_crank(scene: MistakeContext) -> Iterator[Change]:
-    """A5: ω of the crank in place of that of the slotted link, with its sense or without it."""
+    """A5: ω of the crank in place of the slotted link's, with its sense or without it."""
     drive = scene.problem.drive
     rate = scene.kin.omega.get(drive.link)
     for relative, step in _turned(scene):
@@ -208,7 +208,7 @@ def coriolis_for_nothing(scene: MistakeContext) -> Iterator[Change]:
         start, head = relative.a_start, relative.a_head
         if start is None or start != relative.a_turned or relative.to in scene.kin.omega:
             continue
-        if relative.speed not in scene.made:  # nothing that is asked needs it
+        if relative.speed not in scene.made:  # not needed for any requested item
             continue
         for line in scene.steps:
             if not isinstance(line, steps.Parallel) or line.through != start:
@@ -260,7 +260,7 @@ def normal_by_factor(scene: MistakeContext) -> Iterator[Change]:
 
 
 def normal_by_wrong_formula(scene: MistakeContext) -> Iterator[Change]:
-    """N3: aⁿ = ω²/l, ω·l, v·l, v²·l, v/l, or with another ω; hardly any only if asked."""
+    """N3: aⁿ = ω²/l, ω·l, v·l, v²·l, v/l, or with another ω; negligible ones only if requested."""
     asked = {question.name for question in scene.sheet.asked}
     for where, step, _ in _normals(scene):
         rate, length = step.powers[0][0], step.powers[1:]

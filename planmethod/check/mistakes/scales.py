@@ -20,7 +20,7 @@ READ = (steps.Measure, steps.MeasureAlong)
 
 
 def _readings(scene: MistakeContext, plan: PlanKind) -> Iterator[steps.Compute]:
-    """Yield the steps that turn a length found on a plan into what it stands for."""
+    """Yield the steps that convert a length on a plan into a value."""
     for name in dict.fromkeys(scene.segments(plan).values.values()):
         step = scene.compute(name)
         if step is not None and (NumberName(FACTS[plan].scale), 1) in step.powers:
@@ -143,7 +143,7 @@ def other_assembly(scene: MistakeContext) -> Iterator[Change]:
 
 
 def _is_arm(scene: MistakeContext, step: steps.LayOff) -> bool:
-    """Tell whether a joint of a link is laid off from its pivot by the line of its guide."""
+    """Return whether a joint of a link is laid off from its pivot by the line of its guide."""
     line = scene.made.get(step.along)
     guided = isinstance(line, steps.Parallel | steps.AtAngle) and line.to is not None
     bodies = scene.problem.bodies.values()

@@ -1,1 +1,1 @@
-"""What checking writes: the key, tables of results, a page for each student (ключ и листы)."""
+"""Output of checking: the key, tables of results, a page for each student (ключ и листы)."""

@@ -15,11 +15,11 @@ from planmethod.note.numbers import trimmed
 from planmethod.note.wording import Language, Words
 
 _FAINT = 1e-6
-"""Share of a difference below which an exact value is nothing: no per cent of it is told."""
+"""Fraction of a difference below which an exact value is zero: no percentage is shown."""
 
 
 def compared_document(checked: Sequence[CheckedWork], words: Language) -> Document:
-    """Return tables, one for each work: his value, the exact one, how far apart."""
+    """Return tables, one for each submission: student's value, exact value, difference."""
     return Document.of(_nodes(checked, words))
 
 
@@ -54,7 +54,7 @@ def _cells(judged: Judged, speech: Speech) -> Iterator[str]:
 
 
 ASIDE = (Unread.COLUMN, Unread.KEY, Unread.VERTEX, Unread.OPEN, Unread.TURNED)
-"""What is told of, but loses no answer: a column that nobody knows, a vertex without a letter."""
+"""Reported faults that do not cost an answer: an unknown column, a vertex without a letter."""
 
 
 def unread_lines(checked: Sequence[CheckedWork], words: Language) -> Iterator[tuple[str, bool]]:

@@ -193,7 +193,7 @@ def marks_of(works: Sequence[CheckedWork], settings: Settings) -> list[str]:
 
 
 def told_marks(works: Sequence[CheckedWork], marks: Sequence[str], words: Language) -> list[str]:
-    """Return marks as they are told: one that may still change says so, none says so, too."""
+    """Return the displayed marks, with notes for provisional and missing ones."""
     say: Words = words.check["results"]
     return [
         say.provisional.format(mark=mark)
@@ -206,18 +206,18 @@ def told_marks(works: Sequence[CheckedWork], marks: Sequence[str], words: Langua
 
 
 class GroupFiles(Struct, frozen=True):
-    """What came of writing a group (файлы группы).
+    """Results of writing a group (файлы группы).
 
     Attributes
     ----------
     paths : tuple of Path
         In the order in which they were written.
     pages : dict of str to Path
-        The page of each student who has one, HTML.
+        HTML page of each student with one.
     failures : tuple of (str, CheckFailure)
         Students whose page could not be made, and why.
     changed_files : tuple of Path
-        Files of an earlier run that somebody has changed since: they stay.
+        Files of an earlier run that were edited since: they are kept.
     """
 
     paths: tuple[Path, ...]
@@ -227,7 +227,7 @@ class GroupFiles(Struct, frozen=True):
 
 
 Table: TypeAlias = Callable[[Sequence[str], Sequence[Path]], bytes]
-"""Makes a further file of the marks as they are told, and of the pages."""
+"""Function that builds a further file from the displayed marks and the pages."""
 
 
 def write_all(
@@ -253,7 +253,7 @@ def write_all(
     out : Path
         Folder of the files; the pages go to ``pages`` in it.
     checked : sequence of CheckedWork
-        With the overrides, and with the names hidden if they shall be.
+        Submissions with the overrides, and with the names hidden if requested.
     keys : mapping
         By the variant of a work; a work without a key has no page.
     inputs : sequence of Path
@@ -265,7 +265,7 @@ def write_all(
     tables : mapping of str to Table
         Further files by their names.
     done : callable
-        Is told of every work whose pages are written.
+        Called after the pages of each submission are written.
 
     Raises
     ------
@@ -302,7 +302,7 @@ def write_all(
             written = pages.of(work, mark)
         except MemoryError:
             raise
-        except Exception as error:  # a fault of ours: the others get theirs
+        except Exception as error:  # an internal error: the others get their pages
             failures.append((work.work.student, failure_of(error)))
             written = {}
         for ending, data in written.items():
@@ -330,9 +330,9 @@ class StudentPages:
         self._solved: dict[str | None, Solution | KindProblem] = {}
 
     def of(self, work: CheckedWork, mark: str) -> dict[str, bytes]:
-        """Return the page of a work by its endings; none of what is not marked."""
+        """Return the page of a submission by file extension; none if it is not marked."""
         key = self.keys.get(work.variant)
-        if key is None or work.failure is not None:  # the tables tell it
+        if key is None or work.failure is not None:  # reported in the tables
             return {}
         if work.variant not in self._solved:
             problem = key.problem

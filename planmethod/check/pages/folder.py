@@ -1,8 +1,8 @@
 """The folder of a run of ``check``: what it writes there is on record, and goes when it is old.
 
-A run owns what it wrote. The next one takes away what it no longer writes: pages of students who
-are in the group no more, names where names are hidden. What somebody else put there, or changed,
-stays.
+A run owns the files that it wrote. The next run deletes those that it no longer writes: pages of
+students who left the group, names that are now hidden. Files that somebody else created, or
+changed, are kept.
 """
 
 from __future__ import annotations
@@ -27,15 +27,15 @@ _OURS = rf"(?:{PAGES}/)?[^/\\]{{1,255}}"
 
 
 class RunFolder:
-    """Where a run writes, and what an earlier one wrote there (папка проверки).
+    """Output folder of a run, with the files of an earlier one (папка проверки).
 
     Attributes
     ----------
     earlier : dict of str to (str or None)
-        Digests of what earlier runs wrote, by names in the folder; None of what one was about to
-        write when it was stopped.
+        Digests of files of earlier runs, by name in the folder; None for a file that a run was
+        about to write when it was stopped.
     files : dict of str to str
-        The same of what this run has written.
+        Digests of the files of this run.
     """
 
     def __init__(self, out: Path) -> None:
@@ -43,7 +43,7 @@ class RunFolder:
         self.files: dict[str, str] = {}
 
     def record_names(self, names: Iterable[str]) -> None:
-        """Put on record what is about to be written: it is owned also if the run is stopped.
+        """Record the names of the files to be written: they are owned even if the run is stopped.
 
         Raises
         ------
@@ -64,17 +64,17 @@ class RunFolder:
         return path
 
     def owns(self, name: str) -> bool:
-        """Tell whether a file is there as an earlier run wrote it."""
+        """Return whether a file is there as an earlier run wrote it."""
         found = self.earlier.get(name)
         return found is not None and found == _digest_at(self.out / name)
 
     def finish(self, record: Mapping[str, Any]) -> list[Path]:
-        """Take away what is no longer written, and put the run on record.
+        """Delete the files that are no longer written, and record the run.
 
         Returns
         -------
         list of Path
-            What an earlier run wrote and somebody has changed since: it stays.
+            Files of an earlier run that were edited since: they are kept.
 
         Raises
         ------
@@ -90,7 +90,7 @@ class RunFolder:
             path = self.out / name
             there = _digest_at(path)
             if there is None or (PAGES in name and path.parent.is_symlink()):
-                continue  # it is gone, or no file, or stands in a folder that is elsewhere
+                continue  # it is missing, not a file, or in a folder that is elsewhere
             if self.earlier[name] in (None, there):
                 with contextlib.suppress(OSError):
                     path.unlink()
@@ -108,12 +108,12 @@ class RunFolder:
 
 
 def digest_of(data: bytes) -> str:
-    """Return the digest of what is in a file."""
+    """Return the digest of a file's contents."""
     return hashlib.sha256(data).hexdigest()
 
 
 def _earlier(path: Path) -> dict[str, str | None]:
-    """Return the files of an earlier run by its record; none of what is no such record."""
+    """Return the files in the record of an earlier run; none if it is not such a record."""
     try:
         if not stat.S_ISREG(path.lstat().st_mode) or path.stat().st_size > RECORD_LIMIT:
             return {}
@@ -130,7 +130,7 @@ def _earlier(path: Path) -> dict[str, str | None]:
 
 
 def _digest_at(path: Path) -> str | None:
-    """Return the digest of a file; None where there is no plain one."""
+    """Return the digest of a file; None without a plain file."""
     try:
         if not stat.S_ISREG(path.lstat().st_mode):
             return None

@@ -29,7 +29,7 @@ LETTERS, BAR, STEP, LONGEST, EDGE = 3.5, 2.5, 6.5, 90.0, 2.0
 """Height of letters, of a bar, from bar to bar, the longest bar, white round all, mm."""
 
 COMMONEST = 10
-"""Mistakes that are told, the commonest first."""
+"""Maximum number of mistakes shown, the commonest first."""
 
 
 def group_html(
@@ -99,7 +99,7 @@ def percent(share: float, words: Language) -> str:
 
 
 def number(value: float | None, words: Language) -> str:
-    """Return a number to two digits; a dash where there is none."""
+    """Return a number to two digits; a dash for None."""
     return "—" if value is None else words.say.number(f"{value:.2f}")
 
 
@@ -109,9 +109,9 @@ def bars(rows: Sequence[tuple[str, float, str]], *, whole: float | None = None) 
     Parameters
     ----------
     rows : sequence of (str, float, str)
-        Letters on the left as rich text, length, and what is told on the right.
+        Letters on the left as rich text, length, and text on the right.
     whole : float, optional
-        What the longest bar stands for; the largest of the rows when absent.
+        Value of the longest bar. Default: the largest of the rows.
     """
     most = whole or max((length for _, length, _ in rows), default=0.0) or 1.0
     left = [typeset(text, LETTERS) for text, _, _ in rows]

@@ -32,7 +32,7 @@ from planmethod.plans.model import FACTS
 from planmethod.render.backends.pdf import registered
 
 UNSEEN = "*"
-"""Sign of an answer that the drawing does not show, where there is no room for words."""
+"""Sign of an answer that the drawing does not show, in cells too small for words."""
 
 
 class KeyRow(Struct, frozen=True):
@@ -64,7 +64,7 @@ class KeyPage(Struct, frozen=True):
 
     @property
     def speech(self) -> Speech:
-        """How numbers are told."""
+        """Formatter of the numbers."""
         return Speech(self.words)
 
     @property
@@ -87,7 +87,7 @@ class KeyPage(Struct, frozen=True):
     def scales(self) -> str:
         """Return the scales as a sentence, rich text: variants that have the same ones together.
 
-        Empty where nothing is drawn.
+        Empty for a problem without plans.
         """
         if not any(key.scales for key in self.keys):
             return ""
@@ -165,7 +165,7 @@ class KeyPage(Struct, frozen=True):
         return ", ".join(lead) or "—"
 
     def columns(self) -> list[KeyEntry]:
-        """Return the answers, one entry for each label, in the order in which they are asked."""
+        """Return the answers, one entry for each label, in the requested order."""
         found: dict[str, KeyEntry] = {}
         for row in self.rows():
             for label, entry in row.entries.items():
@@ -174,12 +174,12 @@ class KeyPage(Struct, frozen=True):
 
     @property
     def has_unseen(self) -> bool:
-        """Whether there is an answer that the drawing does not show."""
+        """True if the drawing does not show one of the answers."""
         return any(not entry.seen for key in self.keys for entry in key.entries)
 
     @property
     def is_single(self) -> bool:
-        """Whether there is one variant in one position."""
+        """True for one variant in one position."""
         return len(self.rows()) == 1
 
 

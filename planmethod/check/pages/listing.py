@@ -21,7 +21,7 @@ _FORMULA = "=+-@\t\r"
 
 
 def record(checked: CheckedWork) -> dict[str, Any]:
-    """Return a judged work as plain data: SI, full precision, None for what there is not."""
+    """Return a graded submission as plain data: SI, full precision, None for missing values."""
     return {
         "student": checked.work.student,
         "variant": checked.variant,

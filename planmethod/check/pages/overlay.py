@@ -24,13 +24,13 @@ MARGIN = 3.0
 """Room around everything, mm."""
 
 LARGEST = 2.5
-"""A segment that is longer than so many true plans is not drawn: it would leave nothing to see."""
+"""Length limit of a drawn segment, in sizes of the true plan: longer ones would dwarf it."""
 
 
 class Own(Struct, frozen=True):
     """A segment as the student has it, mm of the drawing (отрезок студента).
 
-    ``number`` is that of its answer in the table, None of what belongs to a mistake's plan alone.
+    ``number`` is that of its answer in the table, None for a vector of a mistake's plan only.
     """
 
     tail: complex
@@ -40,7 +40,7 @@ class Own(Struct, frozen=True):
 
     @property
     def label_at(self) -> complex:
-        """Where its number stands: on the line, nearer to the head."""
+        """Position of its number: on the line, nearer to the head."""
         return self.tail + 0.62 * (self.head - self.tail)
 
     def items(self) -> list[Item]:
@@ -137,7 +137,7 @@ def _overlay(
     drawing, pole = true_plan(solution, kind, index)
     at = plan_places(solution, kind, index)
     if max(abs(p - q) for p in at.values() for q in at.values()) < 1.0:
-        return None  # nothing moves there
+        return None  # no motion there
     mistaken = next((d for d in checked.diagnosis if d.sure and d.codes and d.places), None)
     scale = solution.own_scale(kind, index)
     wrong_at = _moved(solution, kind, at, scale.per_mm, mistaken)
@@ -190,7 +190,7 @@ def _widened(bounds: Bounds, sheet: Bounds) -> Bounds:
 def _ends(
     judged: Judged, kind: PlanKind, letters: Mapping[str, PointName]
 ) -> tuple[PointName, PointName] | None:
-    """Return the ends of the segment that an answer is itself; None where it is none of a plan.
+    """Return the ends of the segment that an answer measures directly; None if there is none.
 
     A number that follows from a segment (ω from v) is not as long as the student's segment.
     """
@@ -219,7 +219,7 @@ def _moved(
     moved = {p: (found[str(p)] - start) / per_mm for p in at if str(p) in found}
     size = max(abs(place) for place in at.values())
     apart = [abs(place - at[point]) for point, place in moved.items()]
-    # Not a number, or nothing to be seen, or far beyond the paper: the true plan alone is shown.
+    # NaN, an invisible difference, or one far beyond the paper: only the true plan is shown.
     return moved if all(0.0 <= gap < LARGEST * size for gap in apart) and max(apart) > 0.5 else None
 
 

@@ -28,7 +28,7 @@ STYLE = """
 .tag{fill:#fff;stroke:#c0271b;stroke-width:.3}.number{font:600 4px sans-serif;fill:#c0271b;
 text-anchor:middle;dominant-baseline:central}
 """
-"""How plans look on a page of HTML."""
+"""Style of plans on an HTML page."""
 
 RIGHT, OFF = "#1f5fbf", "#c0271b"
 DASHES = (2.4, 1.2)
@@ -81,7 +81,7 @@ class OverlayView(Struct, frozen=True):
 
 @remembered
 def true_svg(solution: Solution, kind: PlanKind, index: int) -> str:
-    """Return what is inside the SVG of a plan alone."""
+    """Return the contents of the SVG of a plan alone."""
     text = backends.render(true_plan(solution, kind, index)[0], "svg").decode("utf-8")
     start = text.index(">", text.index("<svg")) + 1
     return text[start : text.rindex("</svg>")]

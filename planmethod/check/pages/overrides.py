@@ -23,7 +23,7 @@ from planmethod.problem.source import table_text
 
 COLUMNS = ("student", "id", "points", "remark")
 INFORMATION_COLUMNS = ("of", "written", "where")
-"""Further columns of the file that a run writes: they tell of an open answer, and are not read."""
+"""Further columns of a file written by a run: they describe an open answer, and are not read."""
 
 HEAD = (*COLUMNS, *INFORMATION_COLUMNS)
 MOST_BYTES = 1_000_000
@@ -38,7 +38,7 @@ class OverridesError(PlanMethodError):
 
 
 class Override(Struct, frozen=True):
-    """What was set by hand for one answer, or for a whole work (правка).
+    """Points or a remark set by hand for one answer, or for a whole submission (правка).
 
     Attributes
     ----------
@@ -60,7 +60,7 @@ class Override(Struct, frozen=True):
 
 
 def read_overrides(path: Path) -> tuple[Override, ...]:
-    """Read a file of overrides; nothing where there is none.
+    """Read a file of overrides; return none if the file does not exist.
 
     Raises
     ------
@@ -91,8 +91,8 @@ def overrides_file(
     Returns
     -------
     (bytes, bool) or None
-        The file, and whether it is a run's own: nothing that the instructor wrote is in it. None
-        where it stays as it is.
+        The file, and whether the run owns it, without any text of the instructor. None
+        if it is unchanged.
 
     Raises
     ------
@@ -221,7 +221,7 @@ def _bare(text: str) -> str:
 def overridden(
     works: Sequence[CheckedWork], overrides: Sequence[Override]
 ) -> tuple[list[CheckedWork], tuple[str, ...]]:
-    """Return the works with what was set by hand, and the rows that fit no work or answer."""
+    """Return the submissions with the overrides, and the rows without a submission or answer."""
     used: set[str] = set()
     changed = []
     for checked in works:
@@ -240,7 +240,7 @@ def overridden(
 def _answers(
     answers: Sequence[Judged], own: Sequence[Override], used: set[str]
 ) -> tuple[Judged, ...]:
-    """Return answers with what was set by hand; one that stands twice is decided once."""
+    """Return answers with the overrides; a duplicate answer is decided once."""
     found = list(answers)
     for override in (override for override in own if override.id):
         same = [n for n, judged in enumerate(found) if judged.id == override.id]

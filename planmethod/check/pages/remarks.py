@@ -1,4 +1,4 @@
-"""What a student is told, sentence by sentence, the beginning of the trouble first (замечания)."""
+"""Remarks for a student, sentence by sentence, starting with the first mistake (замечания)."""
 
 from __future__ import annotations
 
@@ -26,11 +26,11 @@ class Remarks(Struct, frozen=True):
     speech : Speech
     checked : CheckedWork
     scales : mapping of str to float
-        Those of the key, where the student names none of his own.
+        Scales of the key, used if the student states none.
     hidden : tuple of str
         Codes of the mistakes that none of the answers can show.
     values : bool
-        Whether the right values are told.
+        Whether the right values are shown.
     """
 
     speech: Speech
@@ -63,7 +63,7 @@ class Remarks(Struct, frozen=True):
             yield self.say.hidden.format(names="; ".join(names))
 
     def redraw(self) -> list[str]:
-        """Return the segments to be drawn anew: those that mistakes begin at, else wrong ones."""
+        """Return the segments to redraw: those where mistakes begin, else the wrong ones."""
         drawn = [d for d in self.checked.diagnosis if not d.codes or {*d.codes} - ON_PAPER]
         roots = [judged for d in drawn for judged in self._known(d.roots)]
         if self.checked.diagnosis and not roots:
@@ -77,7 +77,7 @@ class Remarks(Struct, frozen=True):
             if judged.slip or judged.miscomputed:  # the segment is another matter
                 continue
             plan = PLANS.get(key.scale)
-            # A number that follows from a segment does not tell that the segment is wrong.
+            # A number derived from a segment does not show that the segment is wrong.
             if plan is None or key.unit not in (FACTS[plan].unit, "mm") or self._fits(judged):
                 continue
             lines.setdefault(
@@ -100,9 +100,9 @@ class Remarks(Struct, frozen=True):
                 continue
             first, others = roots[0], roots[1:]
             if diagnosis.codes == ("slip",) and first.slip and not others:
-                continue  # said with his own numbers
+                continue  # included in the remark on the student's own numbers
             parts = [self._compared(first), self._why(diagnosis, first)]
-            if others:  # of which the same is said
+            if others:  # the same remark applies to them
                 parts.append(self.say.also.format(answers=self._listed(others)))
             yield " ".join(filter(None, parts))
 
@@ -111,7 +111,7 @@ class Remarks(Struct, frozen=True):
         if not words:
             return self._not_known(root)
         if diagnosis.codes == ("slip",) and not diagnosis.where:
-            return ""  # said with his own numbers
+            return ""  # included in the remark on the student's own numbers
         if not diagnosis.sure or len(words) > 1:
             names = "; ".join(word.name for word in words)
             end = self.say.one_of_end.format(answer=self.speech.symbol(root))
@@ -162,7 +162,7 @@ class Remarks(Struct, frozen=True):
             yield self.say.follow.format(answers=self._listed(follow))
 
     def _is_consequence(self, judged: Judged) -> bool:
-        """Tell whether a mistake that has a name gives this answer, too."""
+        """Return whether a mistake that has a name gives this answer, too."""
         if judged.value is None:
             return False
         return any(
@@ -308,12 +308,12 @@ class Remarks(Struct, frozen=True):
 
 
 def what_stands(written: WrittenAnswer) -> str:
-    """Return what cannot be read, as it stands there."""
+    """Return the unreadable text as it was written."""
     return quoted(written.raw or written.fault or written.unreadable)
 
 
 def lacks_sense(judged: Judged) -> bool:
-    """Tell whether the sense that is asked of an answer is missing, and costs points."""
+    """Return whether the requested sense of an answer is missing, at the cost of points."""
     key, written = judged.key, judged.written
     if key is None or written is None or not key.asks_sense or judged.by_hand:
         return False

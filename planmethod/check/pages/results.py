@@ -47,7 +47,7 @@ def results_xlsx(
     settings : mapping
         What the last sheet shows: settings of the run and its files.
     group : GroupStatistics, optional
-        What a sheet of its own shows, with pictures; none when absent.
+        Statistics for a separate sheet, with charts. Default: none.
     """
     say: Words = words.check["results"]
     first, second, third, fourth = say["sheets"]

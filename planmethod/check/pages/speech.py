@@ -13,32 +13,32 @@ from planmethod.note.wording import Language, Words
 from planmethod.note.writers.html import clean
 
 LONGEST = 60
-"""Letters of what somebody else wrote that are repeated; the rest is cut."""
+"""Maximum number of characters quoted from foreign text; the rest is cut."""
 
 
 def quoted(text: str) -> str:
-    """Return what somebody else wrote as rich text, cut to a length that fits into a sentence."""
+    """Return foreign text as rich text, cut to a length that fits into a sentence."""
     shown = clean(text).strip()
     return escape(shown if len(shown) <= LONGEST else f"{shown[: LONGEST - 1]}…")
 
 
 def told(value: float, key: KeyEntry) -> float:
-    """Return a value of an answer as it is told: of a size without its sign."""
+    """Return the displayed value of an answer: a size without its sign."""
     return value if key.signed else abs(value)
 
 
 def shows_turn(key: KeyEntry) -> bool:
-    """Tell whether an arrow of turning stands in place of the sign."""
+    """Return whether an arrow of rotation replaces the sign."""
     return key.asks_sense and key.sense is not None and key.sense.turns
 
 
 def unsigned(key: KeyEntry) -> float:
-    """Return the exact value, without its sign where an arrow of turning stands beside it."""
+    """Return the exact value, unsigned if an arrow of rotation is next to it."""
     return abs(key.exact) if key.sense is not None and key.sense.turns else key.exact
 
 
 class Speech(Struct, frozen=True):
-    """How answers are told in a language."""
+    """Formatting of answers in a language."""
 
     words: Language
 
@@ -52,11 +52,11 @@ class Speech(Struct, frozen=True):
         return quoted(judged.id) if judged.key is None else self.letters(judged.key)
 
     def letters(self, key: KeyEntry) -> str:
-        """Return the letters of what is asked."""
+        """Return the letters of a requested quantity."""
         return self.words.say.symbol(key.symbol)
 
     def unit(self, key: KeyEntry) -> str:
-        """Return the unit of what is asked; empty where it has none."""
+        """Return the unit of a requested quantity; empty if it has none."""
         if key.asked:
             return key.asked
         return "" if key.unit == "1" else self.words.say.units.get(key.unit, key.unit)
@@ -74,11 +74,11 @@ class Speech(Struct, frozen=True):
         return self.words.say.number(trimmed(value, 4))
 
     def sense(self, sense: Sense | None) -> str:
-        """Return the sign of a sense; empty where there is none."""
+        """Return the sign of a sense; empty if there is none."""
         return "" if sense is None else self.say["senses"][sense.value][0]
 
     def with_unit(self, number: str, key: KeyEntry) -> str:
-        """Return a number with the unit of what is asked."""
+        """Return a number with the requested unit."""
         unit = self.unit(key)
         return number + unit if unit == "°" else f"{number}{NO_BREAK}{unit}" if unit else number
 
@@ -92,7 +92,7 @@ class Speech(Struct, frozen=True):
     def value(self, key: KeyEntry) -> str:
         """Return the exact value with its tolerance, up to the last digit of it.
 
-        The sense of what turns stands beside it, in one way: as an arrow.
+        The sense of rotation is shown next to it, always as an arrow.
         """
         return self._within(unsigned(key), key, key.tolerance)
 
@@ -101,7 +101,7 @@ class Speech(Struct, frozen=True):
         return f"{number}{NO_BREAK}±{NO_BREAK}{self.error(tolerance / key.per)}"
 
     def si(self, value: float, key: KeyEntry) -> str:
-        """Return a number of SI as a student would write it, with the unit of what is asked."""
+        """Return a number of SI as a student would write it, with the requested unit."""
         return self.with_unit(self.number(value / key.per), key)
 
     def rounded(self, value: float, tolerance: float) -> str:
@@ -124,7 +124,7 @@ class Speech(Struct, frozen=True):
         return self._pointed(self.si(told(value, key), key), sense)
 
     def close_to(self, value: float, judged: Judged) -> str:
-        """Return another value of an answer, to the digits that can be told apart."""
+        """Return another value of an answer, to the significant digits."""
         key = judged.key
         if key is None:
             return self.number(value)

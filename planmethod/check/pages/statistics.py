@@ -1,4 +1,4 @@
-"""What a group's marks tell of it and of the questions (статистика группы)."""
+"""Statistics of a group's marks and of the questions (статистика группы)."""
 
 from __future__ import annotations
 
@@ -11,21 +11,21 @@ from msgspec import Struct
 from planmethod.check.model import CheckedWork
 
 LEAST = 3
-"""Works from which on a correlation is told."""
+"""Minimum number of submissions for a correlation."""
 
 WEAK = 0.2
-"""Discrimination below which a question hardly tells the strong from the weak."""
+"""Discrimination below which a question does not separate strong students from weak ones."""
 
 
 class QuestionStatistics(Struct, frozen=True):
-    """How a group answered one question (статистика вопроса).
+    """Results of a group for one question (статистика вопроса).
 
     Attributes
     ----------
     label, symbol : str
         Letters as plain text, and as rich text.
     asked : int
-        Works that it is judged in.
+        Number of submissions in which it is graded.
     share : float
         Mean share of its points, 0 to 1: the smaller, the harder.
     discrimination : float or None
@@ -50,7 +50,7 @@ class GroupStatistics(Struct, frozen=True):
     shares : tuple of float
         Of the points of each work, 0 to 1.
     questions : tuple of QuestionStatistics
-        In the order in which they are asked.
+        In the requested order.
     provisional : int
         How many marks may still change.
     """
@@ -72,19 +72,19 @@ class GroupStatistics(Struct, frozen=True):
 
     @property
     def deviation(self) -> float:
-        """Standard deviation of the shares of the group, which is no sample."""
+        """Standard deviation of the group's fractions (of a population, not a sample)."""
         return statistics.pstdev(self.shares)
 
 
 def statistics_of(
     works: Sequence[CheckedWork], marks: Sequence[str], scale: Sequence[str]
 ) -> GroupStatistics | None:
-    """Return the statistics of a group; None of fewer than two works that were judged.
+    """Return the statistics of a group; None for fewer than two graded submissions.
 
     Parameters
     ----------
     marks : sequence of str
-        Of the works, one each; empty of a work that was not judged.
+        Marks of the submissions, one each; empty for one that is not graded.
     scale : sequence of str
         All marks that there are, the best first.
     """

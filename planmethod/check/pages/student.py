@@ -1,4 +1,4 @@
-"""The page of one student: what stands on it, whatever it is written in (лист студента)."""
+"""The page of one student: its contents, independent of the format (лист студента)."""
 
 from __future__ import annotations
 
@@ -40,10 +40,10 @@ GAP = 4.0
 """Between plans side by side, mm."""
 
 RIGHT_VALUES = (3, 4)
-"""Columns of the answers where the right values stand."""
+"""Columns of the answers with the right values."""
 
 SMALLEST = 0.42
-"""Plans that would be shrunk further stand one under the other."""
+"""Scale factor below which plans are placed one under the other."""
 
 
 class AnswerLine(Struct, frozen=True):
@@ -54,7 +54,7 @@ class AnswerLine(Struct, frozen=True):
 
 
 class Page(Struct, frozen=True):
-    """What a student gets, rich text.
+    """Contents of a student's page, rich text.
 
     Attributes
     ----------
@@ -68,10 +68,10 @@ class Page(Struct, frozen=True):
     captions : tuple of str
         Of the plans, one each.
     legend, tolerance : str
-        Tolerance: what is said beneath the answers.
+        Tolerance: the text beneath the answers.
     lang : str
     values : bool
-        Whether the right values stand there.
+        Whether the right values are shown.
     """
 
     title: str
@@ -91,7 +91,7 @@ class Page(Struct, frozen=True):
     def shares(self) -> list[float]:
         """Return by how much each plan is shrunk.
 
-        They stand side by side, shrunk alike, or one under the other where that were too small.
+        They are side by side, equally reduced, or one under the other if that were too small.
         """
         width, height = PAPER
         sizes = [plan.size for plan in self.plans]
@@ -172,7 +172,7 @@ def student_page(
     Parameters
     ----------
     solved : Solution or KindProblem
-        A problem without plans is told without them.
+        For a problem without plans the page has none.
     scales : mapping of str to float
         Those of the key, unit per mm.
     mark : str
@@ -180,7 +180,7 @@ def student_page(
     hidden : tuple of str
         Codes of the mistakes that none of the answers can show.
     values : bool
-        Whether the right values, and the true plans, stand there.
+        Whether the right values, and the true plans, are shown.
     """
     speech = Speech(words)
     say: Words = words.check["student"]

@@ -29,7 +29,7 @@ _OLD_EXCEL = b"\xd0\xcf\x11\xe0"
 def read_works(path: Path) -> list[Work]:
     """Read the works of a file: one student or a group; docs/works.md says which forms there are.
 
-    Nothing in a file is executed, and sizes are bounded. What cannot be read in an answer stands in
+    Files are never executed, and sizes are bounded. An unreadable part of an answer is reported in
     the answer, with its cell.
 
     Raises

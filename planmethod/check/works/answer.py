@@ -1,4 +1,4 @@
-"""One answer: from the texts of its cells to what they say (один ответ)."""
+"""One answer: from the texts of its cells to their meaning (один ответ)."""
 
 from __future__ import annotations
 
@@ -30,21 +30,21 @@ class NotReadError(Exception):
 
 
 def read_answer(cells: Mapping[str, Cell], *, where: str = "") -> WrittenAnswer:
-    """Return an answer; what cannot be read is told by the first cell at fault.
+    """Return an answer; if it is unreadable, the first faulty cell is reported.
 
     Parameters
     ----------
     cells : mapping of str to Cell
         By the names of fields: what, id, value, unit, mm, segment, sense, position.
     where : str
-        Where it stands, if its cells do not tell.
+        Its location, if its cells have none.
     """
     what, name = "", found(cells, "id").text
     if named := found(cells, "what").text:
         what, other = read_name(named)
         name = name or other
     shown = found(cells, "value", "mm", "sense")
-    # The unit as written stays also where nothing is written beside it: the answer is blank.
+    # The unit is kept even without a value: the answer is blank.
     answer = WrittenAnswer(
         what=what,
         id=name,
@@ -54,7 +54,7 @@ def read_answer(cells: Mapping[str, Cell], *, where: str = "") -> WrittenAnswer:
         raw=found(cells, "value").text,
     )
     try:
-        # What counts first is read first: a fault leaves what stands before it.
+        # The most important is read first: a fault keeps what is already read.
         answer = replace(answer, position=_position(found(cells, "position")))
         value, mm = found(cells, "value"), found(cells, "mm")
         said = None
@@ -78,7 +78,7 @@ def read_answer(cells: Mapping[str, Cell], *, where: str = "") -> WrittenAnswer:
 
 
 def read_scaled(cell: Cell, unit: Cell) -> Scaled:
-    """Return a number with its unit, which stands behind it or in a cell of its own.
+    """Return a number with its unit, which follows it or has a separate cell.
 
     Raises
     ------

@@ -1,4 +1,4 @@
-"""What stands in a file, before it is understood: texts and where they stand (клетки)."""
+"""Contents of a file before interpretation: texts and their locations (клетки)."""
 
 from __future__ import annotations
 
@@ -50,7 +50,7 @@ HEADS: Mapping[str, str] = {
 NUMBERED: Mapping[str, str] = {
     "ответ": "answer", "response": "answer", "вопрос": "question", "question": "question",
 }  # fmt: skip
-"""What a head with a number is in an export of a learning management system: ``Ответ 1``."""
+"""Meaning of a numbered head in an export of a learning management system: ``Ответ 1``."""
 
 MAILS = frozenset(
     ("адресэлектроннойпочты", "электроннаяпочта", "почта", "emailaddress", "email", "mail")
@@ -58,7 +58,7 @@ MAILS = frozenset(
 """Heads of e-mails in such an export, by `key`."""
 
 MM = frozenset(("мм", "mm"))
-"""What a head ends with when millimetres of the plan stand below it."""
+"""Endings of a head of millimetres of the plan."""
 
 _SENSES = {
     Sense.CCW: "ccw, ↺, ⟲, counterclockwise, anticlockwise, против часовой стрелки, против, "
@@ -87,10 +87,10 @@ _BLANKS = (
 )
 
 BLANKS = frozenset(map(key, _BLANKS.split(", ")))
-"""What stands where nothing is answered, by `key`."""
+"""Texts that mean no answer, by `key`."""
 
 BLANK_SIGNS = f"{DASHES}-_?.…/ \t\u00a0"
-"""Signs that say nothing where they stand alone."""
+"""Signs that mean no answer if alone."""
 
 POINT = frozenset(("точка", "point"))
 """First word of a row that says what a point of the problem is called in this work."""
@@ -106,14 +106,14 @@ TEXT_LIMIT = 200
 
 
 class Cell(Struct, frozen=True):
-    """A text and where it stands (клетка).
+    """A text and its location (клетка).
 
     Attributes
     ----------
     merged : str
         Text of the cell that this empty one is merged with.
     why : Unread or None
-        Why there is no text although something stands there.
+        Why the text cannot be read.
     """
 
     text: str = ""
@@ -123,7 +123,7 @@ class Cell(Struct, frozen=True):
 
     @property
     def is_blank(self) -> bool:
-        """Whether it says nothing; a nought says something."""
+        """True if it has no content; a zero is content."""
         return self.why is None and (not self.text.strip(BLANK_SIGNS) or key(self.text) in BLANKS)
 
 

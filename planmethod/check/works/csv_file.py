@@ -32,7 +32,7 @@ def read_csv(data: bytes, path: Path) -> list[Work]:
     Raises
     ------
     WorksError
-        It is no text, has no head, or is too long.
+        It is not a text, has no head, or is too long.
     """
     rows = csv_rows(data, path)
     gathering = Gathering(str(path))
@@ -47,12 +47,12 @@ def read_csv(data: bytes, path: Path) -> list[Work]:
 
 
 def csv_rows(data: bytes, path: Path, limit: int = TEXT_LIMIT) -> list[Row]:
-    """Return the rows of a CSV file, each cell with its place and so many of its characters.
+    """Return the rows of a CSV file, each cell with its location and limited in length.
 
     Raises
     ------
     WorksError
-        It is no text, or too long.
+        It is not a text, or too long.
     """
     text = decoded(data, path)
     first, _, rest = text.partition("\n")

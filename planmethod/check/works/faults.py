@@ -1,4 +1,4 @@
-"""What is wrong with a file of works as a whole, and its bytes within bounds."""
+"""Faults of a submission file as a whole, and bounded reading of its bytes."""
 
 from __future__ import annotations
 
@@ -17,12 +17,12 @@ class WorksError(PlanMethodError):
 
 
 def read_bytes(path: Path, limit: int = SIZE_LIMIT) -> bytes:
-    """Return what is in a file.
+    """Return the contents of a file.
 
     Raises
     ------
     WorksError
-        It is none, cannot be read, or is too large.
+        It does not exist, cannot be read, or is too large.
     """
     try:
         if not stat.S_ISREG(path.stat().st_mode):

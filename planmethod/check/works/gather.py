@@ -1,4 +1,4 @@
-"""Answers put together by student: scales, what is written twice, remarks (сборка работ)."""
+"""Answers collected by student: scales, duplicates, remarks (сборка работ)."""
 
 from __future__ import annotations
 
@@ -35,13 +35,13 @@ _KEPT = ("what", "id", "position", "where")
 
 
 def is_of(unit: str, scale: str) -> bool:
-    """Whether what is measured on a plan of this scale has this unit."""
+    """Return whether quantities measured on a plan of this scale have this unit."""
     found = read_unit(unit)
     return found is not None and found.dimension == _OF_SCALES.get(scale)
 
 
 def scale_name(text: str) -> str:
-    """Return the scale that a text names, ``mu_v``, or nothing: ``μᵥ``, ``mu v``, ``μ_v``."""
+    """Return the scale that a text names, ``mu_v``, or empty: ``μᵥ``, ``mu v``, ``μ_v``."""
     match = re.match(_SCALE, fold(text.strip().casefold().replace("ᵥ", "v").replace("ₐ", "a")))
     return "" if match is None else f"mu_{'l' if match[1] == 's' else match[1]}".replace("f", "F")
 
@@ -63,11 +63,11 @@ class WorkDraft(Struct):
     """Points of the problem by the names that they have in this work."""
 
     def remark(self, why: Unread, text: str, where: str) -> None:
-        """Note what cannot be read."""
+        """Record an unreadable entry."""
         self.remarks.append(refused(why, text, where))
 
     def put(self, answer: WrittenAnswer) -> None:
-        """Take an answer; what is written before, and otherwise, is not read again."""
+        """Add an answer; a contradictory duplicate is not read."""
         name = (answer.what, key(answer.id), answer.position)
         if not answer.what and not answer.id:
             if answer.unreadable:
@@ -86,7 +86,7 @@ class WorkDraft(Struct):
             self.twice.append(refused(Unread.TWICE, text, answer.where, base=answer))
 
     def put_scale(self, name: str, cell: Cell, unit: str) -> None:
-        """Take one of his scales, in SI per millimetre; also ``1:2`` of lengths."""
+        """Set one of the student's scales, in SI per millimetre; also ``1:2`` for lengths."""
         if cell.is_blank:
             return
         ratio = re.match(_RATIO, cell.text) if name == "mu_l" and cell.why is None else None
@@ -108,17 +108,17 @@ class WorkDraft(Struct):
             self.remark(Unread.TWICE, f"{name} = {cell.text}", cell.where)
 
     def put_row_scale(self, quantity: str, cell: Cell) -> None:
-        """Take the scale that stands beside an answer: that of the plan of the quantity."""
+        """Set the scale written next to an answer: that of the quantity's plan."""
         name = _OF_LETTERS.get(fold(quantity)[:1].casefold(), "")
         if cell.why is Unread.FORMULA:
-            return  # that of the form repeats what stands above the head
+            return  # the form's formula repeats the scale above the head
         if name:
             self.put_scale(name, cell, "")
         else:
             self.remark(Unread.SCALE, cell.text, cell.where)
 
     def put_field(self, name: str, cell: Cell) -> None:
-        """Take his variant, the problem, or the step of his ruler."""
+        """Set the student's variant, the problem, or the step of the ruler."""
         if cell.is_blank:
             return
         if cell.why:
@@ -163,7 +163,7 @@ class WorkDraft(Struct):
 
 
 class Gathering:
-    """Works of a file by student, in the order in which they stand there (работы группы)."""
+    """Submissions of a file by student, in the order of the file (работы группы)."""
 
     def __init__(self, where: str) -> None:
         self.where = where
@@ -171,7 +171,7 @@ class Gathering:
         self.remarks: list[WrittenAnswer] = []
 
     def note(self, why: Unread, text: str, where: str) -> None:
-        """Note what cannot be read and belongs to no student."""
+        """Record an unreadable entry without a student."""
         if len(self.remarks) < ANSWER_LIMIT:
             self.remarks.append(refused(why, text, where))
 
@@ -210,7 +210,7 @@ def _per_mm(scale: str, unit: str) -> float:
 
 
 def _called(text: str, names: Mapping[str, str], *, skip: int = 0) -> str:
-    """Return a text with other names of points, from behind so many of its words."""
+    """Return a text with the names of points replaced, after skipping some of its words."""
     words = re.split(_WORD, text)
     for number in range(2 * skip, len(words), 2):
         if match := re.fullmatch(_POINT, words[number]):

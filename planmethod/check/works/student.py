@@ -87,7 +87,7 @@ def read_toml(data: bytes, path: Path) -> list[Work]:
 
 
 def _work(whole: Any, path: Path, before: str) -> Work:
-    """Return the work that an object says; ``before`` is where it stands."""
+    """Return the submission of an object; ``before`` is its location."""
     where = f"{path}: {before.rstrip('.')}".rstrip(": ")
     if not isinstance(whole, Mapping) or "answers" not in whole:
         raise WorksError('{}: expected an object with "student" and "answers".', where)
@@ -138,7 +138,7 @@ def _note_unknown(
 
 
 def _cell(value: Any, where: str = "") -> Cell:
-    """Return what a value says; a number in full digits, nothing for null."""
+    """Return the text of a value; a number in full digits, empty for null."""
     if value is None:
         return Cell("", where)
     plain = isinstance(value, str | int | float) and not isinstance(value, bool)

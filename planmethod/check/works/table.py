@@ -17,10 +17,10 @@ from planmethod.problem.units import read_unit
 
 ROW_LIMIT, COLUMN_LIMIT = 20_000, 400
 CELL_LIMIT = 200_000
-"""Of all sheets of a file; a group of thirty has a thousand."""
+"""Limit over all sheets of a file; a group of thirty has a thousand."""
 
 ASPECTS = ("value", "mm", "sense", "unit", "segment")
-"""What of an answer may stand in a column of its own."""
+"""Aspects of an answer that may have a separate column."""
 
 _PLAN_LENGTHS = ("length", "segment", "arm", "shift")
 _LAST_WORD = r"(.*\S)\s+(\S+)\Z"
@@ -28,12 +28,12 @@ _QUANTITY = "[A-Za-zΑ-ωϕ]"
 
 
 class Head(Struct, frozen=True):
-    """What stands in a column (столбец).
+    """Type of a column (столбец).
 
     Attributes
     ----------
     field : str
-        One of the fields of `HEADS`; empty for what nobody knows.
+        One of the fields of `HEADS`; empty if unknown.
     name : str
         Quantity, of which ``field`` is an aspect; or scale, where ``field`` is ``scale``.
     unit : str
@@ -62,7 +62,7 @@ def read_head(text: str) -> Head:
 
 @lru_cache(maxsize=4096)
 def read_quantity(text: str) -> Head:
-    """Return the quantity of a column and what of it stands there: ``v_B3 (мм)``, ``v_B3, м/с``."""
+    """Return the quantity and aspect of a column: ``v_B3 (мм)``, ``v_B3, м/с``."""
     if read_name(text)[0]:
         return Head("value", text)
     match = re.match(_LAST_WORD, text)
@@ -78,14 +78,14 @@ def read_quantity(text: str) -> Head:
 
 
 def read_aspect(text: str) -> str:
-    """Return the aspect of an answer that a word names, or nothing."""
+    """Return the aspect of an answer that a word names, or an empty string."""
     field = HEADS.get(key(text), "")
     return field if field in ASPECTS else ""
 
 
 def _of_aspect(name: str, aspect: str) -> Head:
     if aspect == "mm" and read_name(name)[0].split(" ")[0] in _PLAN_LENGTHS:
-        return Head("value", name, "mm")  # what is asked is itself a length on a plan
+        return Head("value", name, "mm")  # the requested quantity is itself a length on a plan
     return Head(aspect, name)
 
 
@@ -105,7 +105,7 @@ HEAD_ROWS = 20
 Row = Sequence[Cell]
 
 _WHO = ("student", "number", "variant")
-"""Heads of who it is, in the order in which they count."""
+"""Fields that identify the student, in order of priority."""
 
 _ABOVE = ("student", "variant", "problem", "ruler_mm")
 _MERGED = (*_WHO, "problem", "position", "what", "id")
@@ -163,7 +163,7 @@ def read_table(rows: Sequence[Row], gathering: Gathering, title: str, *, closed:
 
 
 def _known_once(gathering: Gathering, before: Sequence[Head], head: Head, cell: Cell) -> Head:
-    """Return the head of a column; what nobody knows, or stands there twice, is told."""
+    """Return the head of a column; an unknown or duplicate one is reported."""
     same = any(one.field == head.field and not one.name for one in before)
     twice = same and not head.name and head.field not in (*_WHO, "note", "")
     if cell.text and (twice or not head.field):
@@ -209,7 +209,7 @@ def _is_wide(row: Row) -> bool:
 
 
 def _above(rows: Sequence[Row]) -> dict[str, tuple[Cell, str]]:
-    """Return what stands above the head and holds for all: by field or scale, with its unit."""
+    """Return the shared values above the head, by field or scale, with their units."""
     told: dict[str, tuple[Cell, str]] = {}
     for row in rows:
         name, unit = "", ""
@@ -236,11 +236,11 @@ def _share(draft: WorkDraft, shared: Mapping[str, tuple[Cell, str]]) -> None:
 def _wide_heads(
     row: Row, heads: Sequence[Head], below: Sequence[Row]
 ) -> tuple[list[Head], Sequence[Row]]:
-    """Return what stands in the columns of a wide table, whose head may have a second row."""
+    """Return the column types of a wide table, whose head may have a second row."""
     under: Sequence[Cell] = below[0] if below else ()
     said = [cell.text for cell in under if cell.text]
     two = bool(said) and all(read_aspect(text) or read_unit(text) for text in said)
-    # A student may be called as a unit is, but not above his name.
+    # A name may look like a unit, but a second head row is empty in that column.
     who = [cell.text for head, cell in zip(heads, under, strict=False) if head.field in _WHO]
     two = two and not any(who)
     found_heads: list[Head] = []

@@ -18,7 +18,7 @@ def ratio(answer: WrittenAnswer, unit: str) -> float | None:
     Returns
     -------
     float or None
-        None where his unit is of another quantity: m/s of an acceleration.
+        None if the unit belongs to another quantity: m/s for an acceleration.
     """
     wanted = read_unit(unit)
     if not answer.unit or wanted is None:
@@ -32,7 +32,7 @@ POWER_LIMIT = 40
 
 
 class Number(Struct, frozen=True):
-    """A number, and what stands behind it (число).
+    """A number and the text after it (число).
 
     Attributes
     ----------
@@ -60,10 +60,10 @@ _NUMBER = (
 
 
 def read_number(text: str) -> Number | None:
-    """Return the number that a text begins with; None if it is none, or not surely one.
+    """Return the number at the beginning of a text; None if there is none or it is ambiguous.
 
-    One comma or point is the decimal sign: ``1,234`` is 1.234. Of several the last is, if it
-    stands once; else all part thousands.
+    A single comma or point is the decimal sign: ``1,234`` is 1.234. Among several, the last one is,
+    if it occurs once; else all of them separate thousands.
 
     Examples
     --------

@@ -40,9 +40,9 @@ DEPTH_LIMIT = 64
 OTHERS_LIMIT = 60_000
 """Elements of XML that are not of cells: styles, notes, rules."""
 TAG_LIMIT = 64 * 1024
-"""Letters of a tag or a remark; who reads by pieces reads a long one anew with each."""
+"""Maximum length of a tag or comment; a parser fed by pieces reads a long one again with each."""
 UNKNOWN = (18, 19)
-"""What expat says of letters that it does not know, and another parser may."""
+"""Error codes of expat for an unknown encoding, which another parser may know."""
 
 META = "_meta"
 """Hidden sheet of the form."""
@@ -59,7 +59,7 @@ def read_xlsx(data: bytes, path: Path) -> list[Work]:
     Raises
     ------
     WorksError
-        It is no workbook, none of its sheets has a head, or it is too large.
+        It is not a workbook, none of its sheets has a head, or it is too large.
     """
     _check_size(data, path)
     gathering = Gathering(str(path))
@@ -130,7 +130,7 @@ class _Counts:
         self.path, self.depth, self.cells, self.others = path, 0, 0, 0
 
     def count(self, part: IO[bytes]) -> None:
-        """Count a part; what is no XML, nobody reads."""
+        """Count a part; parts that are not XML are not read."""
         parser, self.depth = ParserCreate(), 0
         parser.StartElementHandler, parser.EndElementHandler = self._start, self._end
         parser.EntityDeclHandler = self._refuse
@@ -138,7 +138,7 @@ class _Counts:
         parser.ProcessingInstructionHandler = self._weigh
         try:
             with contextlib.suppress(zlib.error):
-                parser.Parse(part.read(), True)  # by pieces a long tag is read anew
+                parser.Parse(part.read(), True)  # by pieces a long tag is read again
         except ExpatError as error:
             if error.code in UNKNOWN:
                 self._refuse()
@@ -218,7 +218,7 @@ def _opened(data: bytes, path: Path) -> Any:
 
 
 class _Whole(Struct):
-    """What is counted over all sheets of a workbook (квоты книги).
+    """Totals over all sheets of a workbook (квоты книги).
 
     Attributes
     ----------
@@ -284,7 +284,7 @@ def _rows(book: Any, sheet: Any, path: Path, whole: _Whole) -> Iterator[Row]:
 
 
 class _Structure(Struct):
-    """What a sheet has beside the values of its cells (строение листа).
+    """Properties of a sheet other than the values of its cells (строение листа).
 
     Attributes
     ----------
@@ -306,7 +306,7 @@ class _Structure(Struct):
 
 
 class _Reader:
-    """Reads the XML of a sheet without keeping it: where there are values, what is merged."""
+    """Read the XML of a sheet without storing it: the extent of values, merged cells."""
 
     def __init__(self, path: Path, title: str, whole: _Whole) -> None:
         self.there = _Structure()
@@ -388,7 +388,7 @@ class _Reader:
 
 
 def _text(cell: Any) -> tuple[str, Unread | None]:
-    """Return what a cell shows; a number in full digits, with the noughts that its format shows."""
+    """Return the displayed text of a cell; a number in full digits, with its format's zeros."""
     value = cell.value
     if value is None:
         return "", None
@@ -407,7 +407,7 @@ def _text(cell: Any) -> tuple[str, Unread | None]:
 
 
 def _compare(gathering: Gathering, meta: dict[str, list[str]]) -> None:
-    """Take what a form says of itself; a row of it that is gone is told."""
+    """Read the metadata of a form; missing rows are reported."""
     for draft in gathering.drafts.values():
         draft.problem = "".join(meta.get("problem", ()))
         draft.variant = "".join(meta.get("variant", ())) or draft.variant
