@@ -1,4 +1,4 @@
-"""The studio where there is no server: what its routes do, in a Python of the browser."""
+"""The studio without a server: the same routes, in a Python of the browser."""
 
 from __future__ import annotations
 
@@ -35,8 +35,8 @@ Answer = tuple[int, bytes]
 
 
 def begun(act: Callable[[dict[str, Any], Callable[[float], None]], dict[str, Any]]) -> Alone:
-    """Return what answers the page; ``act`` does what is asked. Its folder goes with it."""
-    for name in ("termios", "tty"):  # click's bar imports them for nothing; a browser has none
+    """Return the responder of the page; ``act`` computes. Its folder is deleted with it."""
+    for name in ("termios", "tty"):  # click's bar imports them needlessly; a browser has none
         sys.modules.setdefault(name, ModuleType(name))
     session = StudioSession("", Path(mkdtemp(prefix="planmethod-studio-")), True, 0.0)
     session.works.mkdir()
@@ -46,7 +46,7 @@ def begun(act: Callable[[dict[str, Any], Callable[[float], None]], dict[str, Any
 
 
 class Alone(Struct, weakref=True):
-    """Answers the addresses of the server to the one who has the page (студия без сервера)."""
+    """Answers the addresses of the server to the page's only user (студия без сервера)."""
 
     act: Callable[[dict[str, Any], Callable[[float], None]], dict[str, Any]]
     session: StudioSession
@@ -59,7 +59,7 @@ class Alone(Struct, weakref=True):
         Parameters
         ----------
         address : str
-            Path with what is behind its ``?``, as the page asks for it.
+            Path with its query string, as requested by the page.
         tell : callable
             Gets the share that is done, 0 to 1.
         """

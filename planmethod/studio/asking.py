@@ -1,4 +1,4 @@
-"""What can be asked for, with a server or without, and what there is to start from (запросы)."""
+"""Possible requests, with a server or without, and starting files (запросы)."""
 
 from __future__ import annotations
 
@@ -18,15 +18,15 @@ from planmethod.problem.tasks import tasks, text_for
 
 ACTS = ("sketched", "assemblies", "sheets", "command", "questions", "verdicts", "checked", "varied")
 QUICK = ("sketched", "pictured", "questions")
-"""What somebody waits for at each letter."""
+"""Computations that run at each keystroke."""
 
 TRUSTED = ("checked", "varied")
-"""What an instructor asks for alone, where strangers come."""
+"""Computations for instructors only, on a public server."""
 
 WHATS = ("tables", "protocol", "structure", "live", "pdf", "dxf", "svg", "note", "project", "form")
 TRUSTED_WHATS = ("key",)
 SLOW = ("note", "project")
-"""What takes minutes of a processor."""
+"""Commands that take minutes of processor time."""
 
 WORKS = (".csv", ".xlsx", ".json", ".toml", ".txt", ".dxf", ".svg")
 """Endings of works."""
@@ -40,7 +40,7 @@ LONGEST_NAME = 200
 
 
 class StudioRequest(Struct, frozen=True, kw_only=True):
-    """What the page sends (запрос страницы): of another type it is refused.
+    """Request from the page (запрос страницы); other types are rejected.
 
     Attributes
     ----------
@@ -78,7 +78,7 @@ _DECODER = Decoder(StudioRequest)
 
 
 def request_of(data: bytes) -> StudioRequest:
-    """Return what is asked, of JSON.
+    """Return the request in JSON data.
 
     Raises
     ------
@@ -111,7 +111,7 @@ def _is_deeper(value: object, most: int) -> bool:
 
 
 def told_of(lang: str, layouts: Sequence[str], uploads: int) -> dict[str, Any]:
-    """Return what the page is told in a language, wherever it is served from."""
+    """Return the data of the page in a language, wherever it is served from."""
     families = {name: language(lang).families[name] for name in (*FAMILIES, *OTHER_FAMILIES)}
     return {
         "served": False, "files": (), "one": False, "layouts": layouts, "families": families,
@@ -138,7 +138,7 @@ def start_of(name: str, variant: str | None, lang: str) -> dict[str, str] | None
 
 
 def named_work(name: str) -> str | None:
-    """Return the plain name of a work that was dropped; None where it is none."""
+    """Return the plain name of an uploaded submission; None if it is not one."""
     plain = Path(name).name
     is_one = Path(plain).suffix.lower() in WORKS and plain.isprintable()
     return plain if is_one and len(plain.encode()) <= LONGEST_NAME else None
@@ -153,7 +153,7 @@ def asked_of(
     works: Path,
     served: bool = False,
 ) -> dict[str, Any] | None:
-    """Return what a process is asked: of a stranger's words those that are known; None of others.
+    """Return the job for a process, with validated parts of the request; None for unknown ones.
 
     Parameters
     ----------
@@ -187,7 +187,7 @@ def asked_of(
 
 
 def _name(text: str) -> str:
-    """Return what a file is called, of what somebody typed."""
+    """Return a file name made from typed text."""
     plain = re.sub(r"[^\w-]+", "-", Path(text).stem).strip("-_")[:60]
     return plain or "problem"
 

@@ -1,4 +1,4 @@
-"""Connections of the studio: who does not finish what he asks, or takes no answer, is cut off."""
+"""Connections of the studio: clients that do not send or read in time are cut off."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ RATE = 1024
 """Bytes of a request that give it one second more."""
 
 UNREAD = 60.0
-"""Seconds in which who gets an answer takes some of it: the system keeps megabytes by itself."""
+"""Seconds in which a client must read part of an answer: the system buffers megabytes itself."""
 
 
 class PatientProtocol(H11Protocol):
@@ -44,12 +44,12 @@ class PatientProtocol(H11Protocol):
             self._be_content()
 
     def pause_writing(self) -> None:
-        """Look whether somebody reads."""
+        """Check whether the client reads."""
         super().pause_writing()
         self._look_at_reader(self.transport.get_write_buffer_size())
 
     def resume_writing(self) -> None:
-        """Go on with who reads."""
+        """Continue with a client that reads."""
         super().resume_writing()
         if self._unread is not None:
             self._unread.cancel()

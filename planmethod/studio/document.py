@@ -20,14 +20,14 @@ POLICY = (
     "img-src 'self' blob: data:; connect-src 'self'; frame-src 'self'; base-uri 'none'; "
     "form-action 'none'; frame-ancestors 'none'"
 )
-"""What the page may do: run its own scripts and talk to its own host."""
+"""Permissions of the page: to run its own scripts and talk to its own host."""
 
 KINDS = {".js": "text/javascript", ".css": "text/css", ".txt": "text/plain; charset=utf-8"}
 
 
 @cache
 def asset(name: str) -> tuple[bytes, str] | None:
-    """Return a file of the page and its type; None where there is none of that name."""
+    """Return a file of the page and its type; None if there is no such file."""
     if re.fullmatch(r"[\w-]+\.(?:js|css|txt)", name) is None:
         return None
     path = files("planmethod.studio").joinpath("page", name)
@@ -38,7 +38,7 @@ def asset(name: str) -> tuple[bytes, str] | None:
 
 @cache
 def assets_mark() -> str:
-    """Return what tells all files of the page from those of another version."""
+    """Return the fingerprint of all files of the page, which distinguishes versions."""
     there = sorted(files("planmethod.studio").joinpath("page").iterdir(), key=lambda one: one.name)
     return sha256(b"".join(one.read_bytes() for one in there)).hexdigest()[:16]
 

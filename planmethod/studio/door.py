@@ -24,7 +24,7 @@ _SAID = {
     404: "There is nothing at this address.",
     405: "This address is not asked in this way.",
 }
-"""What is said where a status says all."""
+"""Default messages by status."""
 
 _SAFE = {
     "x-content-type-options": "nosniff",
@@ -42,13 +42,13 @@ def lang_of(request: Request) -> str:
 
 
 def refused(request: Request, status: int, said: str, *facts: object) -> Response:
-    """Return the answer to what is not done: one sentence, in the language of a request."""
+    """Return a rejection: one sentence, in the language of a request."""
     with speaking(lang_of(request)):
         return PlainTextResponse(say(said, *facts), status, {"Cache-Control": "no-store"})
 
 
 class StudioRefusal(HTTPException):
-    """What is asked is not done (отказ): a sentence, and its facts; that of the status if none."""
+    """A rejected request (отказ): a sentence, and its facts; the status's own one by default."""
 
     def __init__(self, status: int, said: str = "", *facts: object) -> None:
         super().__init__(status, said or _SAID[status])
@@ -56,7 +56,7 @@ class StudioRefusal(HTTPException):
 
 
 def refused_by(request: Request, error: Exception) -> Response:
-    """Return the answer to what a route refuses, or cannot do."""
+    """Return the response to an error or rejection in a route."""
     if isinstance(error, StudioRefusal):
         return refused(request, error.status_code, error.detail, *error.facts)
     if isinstance(error, HTTPException):  # where there is no such route
@@ -66,7 +66,7 @@ def refused_by(request: Request, error: Exception) -> Response:
 
 
 class Door:
-    """Lets in who has the token, and no request that another site makes (вход).
+    """Admits requests with the token, and none that another site makes (вход).
 
     Parameters
     ----------
@@ -92,7 +92,7 @@ class Door:
         await (self._answer(Request(scope)) or self.app)(scope, receive, safely)
 
     def _answer(self, request: Request) -> Response | None:
-        """Return what is said in place of the studio's answer; None where it may give its own."""
+        """Return the response that replaces the studio's own; None if there is none."""
         if self.token is not None:
             if _own(request)[0] not in OWN_HOSTS:
                 return refused(
@@ -130,7 +130,7 @@ class Door:
 
 
 def _cookie(request: Request) -> str:
-    """Return the name of the cookie: browsers do not tell the ports of a host apart."""
+    """Return the name of the cookie: browsers do not distinguish the ports of a host."""
     return f"planmethod-{_own(request)[1] or 80}"
 
 
@@ -140,7 +140,7 @@ def _own(request: Request) -> tuple[str | None, int | None]:
 
 
 def _place(address: str) -> tuple[str | None, int | None]:
-    """Return the host and the port of an address; None where it is none."""
+    """Return the host and the port of an address; None for an invalid one."""
     try:
         parts = urlsplit(address)
         return parts.hostname, parts.port
@@ -149,7 +149,7 @@ def _place(address: str) -> tuple[str | None, int | None]:
 
 
 def _is_foreign(request: Request) -> bool:
-    """Tell whether a page of elsewhere asks: by what the browser says of it, else by its origin.
+    """Return whether another site makes the request, by the browser's header, else by its origin.
 
     Behind a server that speaks TLS the host may have another name than for the browser.
     """

@@ -1,4 +1,4 @@
-"""Limits of what a stranger may ask of the server (пределы)."""
+"""Limits of requests to the server (пределы)."""
 
 from __future__ import annotations
 
@@ -8,21 +8,21 @@ MB = 1 << 20
 
 NO_MEMORY = "This takes more memory than there is for it. Ask for less."
 TOO_DEEP = "This is nested too deep to be computed. Ask for less."
-"""Why there is nothing, with a server or without."""
+"""Reasons for a missing result, with a server or without."""
 
 
 class StudioLimits(Struct, frozen=True, kw_only=True):
-    """How much may be asked (пределы студии).
+    """Limits of requests (пределы студии).
 
     Attributes
     ----------
     seconds, slow_seconds, trusted_seconds : float
-        Time of a processor for one computation; for a note or a project; for what an instructor
-        asks for.
+        Processor time for one computation; for a note or a project; for a request of an
+        instructor.
     memory : int or None
         Address space of a process at work, bytes; where the system can bound it.
     text, upload, uploads : int
-        Bytes of a problem file with what is asked of it, of one work, of all works of a session.
+        Bytes of a problem file with its request, of one submission, of all those of a session.
     written : int
         Bytes of a file that a computation writes.
     waiting, own : int
@@ -30,9 +30,9 @@ class StudioLimits(Struct, frozen=True, kw_only=True):
     works : int
         How many works a session has.
     sessions : int
-        Sessions at a time: for one more the oldest goes that nothing is computed for.
+        Concurrent sessions: a new one replaces the oldest that has no computation.
     idle : float
-        After so many seconds without a request a session is cleaned away.
+        Seconds without a request after which a session is deleted.
     kept : int
         Computations of a session whose files are kept.
     rate, burst : float
@@ -66,11 +66,11 @@ OWN = StudioLimits(
     seconds=600.0, slow_seconds=600.0, trusted_seconds=600.0, memory=None, idle=24 * 3600.0,
     rate=50.0,
 )  # fmt: skip
-"""On one's own machine: what is too long is stopped by who waits for it."""
+"""On one's own machine: its user stops what takes too long."""
 
 
 class Bucket(Struct):
-    """Leaky bucket: so many at once, so many a second in the long run (частота запросов)."""
+    """Leaky bucket: a limited burst, and a limited rate in the long run (частота запросов)."""
 
     level: float = 0.0
     then: float = 0.0

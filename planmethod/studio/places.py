@@ -1,4 +1,4 @@
-"""Where in the text of a problem file a fault stands (место ошибки)."""
+"""Location of a fault in the text of a problem file (место ошибки)."""
 
 from __future__ import annotations
 
@@ -14,9 +14,9 @@ _PART = re.compile(r"""[\w-]+|"[^"]*"|'[^']*'""")
 
 
 def place_of(text: str, fault: Fault) -> tuple[int, int] | None:
-    """Return the line and the column of a fault, both from 1; None where nothing tells.
+    """Return the line and the column of a fault, both from 1; None if unknown.
 
-    A syntax error names them; another fault names a key, which stands where most of its parts do.
+    A syntax error states them; another fault names a key, found by its longest matching path.
     """
     numbers = re.fullmatch(r"\D*(\d+)\D+(\d+)\D*", fault.path)
     if numbers is not None and " " in fault.path:

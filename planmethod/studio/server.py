@@ -57,13 +57,13 @@ _KINDS = {
     ".csv": "text/csv; charset=utf-8", ".json": "application/json",
 }  # fmt: skip
 _PACKED = (*DEFAULT_EXCLUDED_CONTENT_TYPES, "application/pdf", "application/octet-stream")
-"""What compression makes no smaller."""
+"""Types of content that compression does not reduce."""
 
 _FOR_EVER = "public, max-age=31536000, immutable"
 
 
 class StudioSettings(Struct, frozen=True, kw_only=True):
-    """How the studio is started (настройки студии).
+    """Settings of the studio (настройки студии).
 
     Attributes
     ----------
@@ -91,7 +91,7 @@ def application(settings: StudioSettings, act: Act, root: Path) -> Starlette:
     Parameters
     ----------
     act : callable
-        What a process does with what is asked of it.
+        Computes a job in a process.
     root : Path
         Folder of the sessions; it is removed at the end.
     """
@@ -186,7 +186,7 @@ class _Studio:
         return _marked(request, *found, "no-cache" if mark is None else _FOR_EVER)
 
     async def health(self, _: Request) -> Response:
-        """Tell how the server does; of nobody's files."""
+        """Report the state of the server, without anything about files."""
         queue = self.queue
         return JSONResponse(
             {"ok": True, "sessions": len(self.sessions), "waiting": queue.waiting,
@@ -196,7 +196,7 @@ class _Studio:
     # What there is to start from -----------------------------------------------------------------
 
     async def schema(self, request: Request) -> Response:
-        """Give the schema of problem files, with what keys mean in a language."""
+        """Give the schema of problem files, with the descriptions of keys in a language."""
         return _marked(request, schema_text(lang_of(request)).encode(), "application/json")
 
     async def tasks(self, request: Request) -> Response:
@@ -326,7 +326,7 @@ class _Studio:
     # Computations --------------------------------------------------------------------------------
 
     async def do(self, request: Request) -> Response:
-        """Have something computed: lines of JSON tell its place, its share, what is found."""
+        """Run a computation: lines of JSON give its queue place, progress, result."""
         session, do = self._session(request), request.path_params["do"]
         if do not in ACTS:
             raise StudioRefusal(404)
@@ -423,7 +423,7 @@ def _json(found: object) -> bytes:
 
 
 def _marked(request: Request, data: bytes, kind: str, kept: str = "no-cache") -> Response:
-    """Return an answer that a browser keeps, and asks for again by its mark."""
+    """Return a response that a browser caches, and revalidates by its mark."""
     mark = f'"{sha256(data).hexdigest()[:16]}"'
     headers = {"ETag": mark, "Cache-Control": kept}
     if request.headers.get("if-none-match") == mark:

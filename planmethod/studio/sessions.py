@@ -1,4 +1,4 @@
-"""Folders by session, nobody's but who has the key; and the file that is edited (сеансы)."""
+"""Folders of sessions, accessible only with the key; and the edited file (сеансы)."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ from planmethod.studio.limits import Bucket, StudioLimits
 
 
 class StudioSession(Struct):
-    """Who has one page open (сеанс).
+    """One open page (сеанс).
 
     Attributes
     ----------
@@ -37,7 +37,7 @@ class StudioSession(Struct):
     trusted : bool
         An instructor's.
     used : float
-        When something was asked the last time, s.
+        Time of the last request, s.
     count : int
         Computations so far.
     """
@@ -73,7 +73,7 @@ class StudioSession(Struct):
         return None
 
     def _made(self, number: str) -> Path | None:
-        """Return where the files of a computation are; None where it has none, or there is none."""
+        """Return the output folder of a computation; None if it has none, or does not exist."""
         if re.fullmatch("[1-9][0-9]{0,8}", number) is None:
             return None
         root = (self.folder / number / "out").resolve()
@@ -170,8 +170,8 @@ LOCK = "lock"
 def served_folder() -> Iterator[Path]:
     """Give the folder of a server; those that servers have left that were killed are removed.
 
-    A folder is ours to remove if its lock is the user's own and nobody holds it: the system lets go
-    of it when a server ends, however that happens.
+    A folder may be removed if its lock is the user's own and not held: the system releases it
+    when a server ends, however that happens.
     """
     parent = Path(tempfile.gettempdir())
     for folder in parent.glob(f"{PREFIX}*"):
@@ -187,7 +187,7 @@ def served_folder() -> Iterator[Path]:
 
 @contextmanager
 def _held(path: Path, *, new: bool) -> Iterator[bool]:
-    """Hold a lock if nobody else does; where the system has none, nobody can tell."""
+    """Hold a lock if it is free; yield False if the system has no locks."""
     if sys.platform == "win32":
         yield False
         return
@@ -220,19 +220,19 @@ class Desk(Struct, frozen=True):
         return [self.path.name]
 
     def at(self, name: str) -> Path | None:
-        """Return the path of a name; None where it is no plain name of a problem file."""
+        """Return the path of a name; None if it is not a plain name of a problem file."""
         folder = self.path if self.path.is_dir() else self.path.parent
         is_one = self.path.is_dir() or name == self.path.name
         plain = re.fullmatch(r"[^/\\:\0]{1,200}\.toml", name) and not name.startswith(".")
         return folder / name if plain and is_one else None
 
     def read(self, path: Path) -> tuple[str, str] | None:
-        """Return the text of a file and its mark; None where there is none.
+        """Return the text of a file and its mark; None if it does not exist.
 
         Raises
         ------
         OutputError
-            What is there could not be saved again as it was: it is no plain file, too large, or
+            The file could not be saved again unchanged: it is not a plain file, too large, or
             not UTF-8.
         """
         if not path.exists():
@@ -247,12 +247,12 @@ class Desk(Struct, frozen=True):
             raise OutputError(said, path.name, SIZE_LIMIT // 1024) from None
 
     def save(self, path: Path, text: str, seen: str, *, over: bool) -> tuple[str, str] | None:
-        """Write a text; return what another editor left there meanwhile instead, None of nothing.
+        """Write a text; on a conflict, return the other editor's version instead.
 
         Raises
         ------
         OutputError
-            It cannot be written, or what is there is no such text.
+            It cannot be written, or the existing file is not such a text.
         """
         there = self.read(path)
         if there is not None and there[1] != seen and not over:
@@ -262,5 +262,5 @@ class Desk(Struct, frozen=True):
 
 
 def mark_of(data: bytes) -> str:
-    """Return what tells two states of a file apart."""
+    """Return the fingerprint of a file's contents."""
     return sha256(data).hexdigest()[:16]

@@ -17,16 +17,16 @@ from typing import Any, TypeAlias
 from planmethod.studio.limits import NO_MEMORY, TOO_DEEP, StudioLimits
 
 Asked: TypeAlias = dict[str, Any]
-"""What is asked of a process: plain data."""
+"""Job for a process: plain data."""
 
 Found: TypeAlias = dict[str, Any]
-"""What it answers: plain data; ``refused``: the sentence, with its facts, why there is nothing."""
+"""Result of a job: plain data; ``refused``: the sentence with its facts, if it failed."""
 
 Tell: TypeAlias = Callable[[float], None]
 """Gets the share that is done, 0 to 1."""
 
 Act: TypeAlias = Callable[[Asked, Tell], Found]
-"""What a process does; a function of a module."""
+"""Computes a job in a process; a function of a module."""
 
 ENDING = 10.0
 """Seconds in which a process that has closed its pipe has ended."""
@@ -44,8 +44,8 @@ PAUSE = 0.5
 """Seconds between two looks at the place in the queue."""
 
 WAITED = 20.0
-"""How many times longer than its limit of a processor something may take in all: on a machine
-that has other work, and not where it hangs."""
+"""Maximum ratio of elapsed time to the limit of processor time, on a machine with other work:
+beyond it the process counts as hanging."""
 
 TOO_LONG = (
     "This takes more than {:g} s of a processor and is stopped. Ask for fewer positions, or for a "
@@ -59,7 +59,7 @@ ENDED = (
 
 
 class Pace(IntEnum):
-    """How long somebody waits for something (темп): the quicker goes first."""
+    """Expected duration of a computation (темп): the quicker goes first."""
 
     QUICK = 0
     USUAL = 1
@@ -70,11 +70,11 @@ class Pace(IntEnum):
 
 
 def work(pipe: Connection, act: Act, memory: int | None, written: int) -> None:
-    """Answer what is asked until nobody asks; the first thing is asked of oneself."""
+    """Run jobs until the pipe is closed; the first one is a warm-up."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     if sys.platform != "win32":
         signal.signal(signal.SIGPROF, signal.SIG_DFL)  # it ends the process
-    with contextlib.suppress(Exception):  # whatever fails here is told of what is asked
+    with contextlib.suppress(Exception):  # faults are reported with the actual jobs
         act({"do": "warm"}, lambda share: None)
     gc.collect()
     gc.freeze()  # what every computation has is not looked through again and again
@@ -99,7 +99,7 @@ def work(pipe: Connection, act: Act, memory: int | None, written: int) -> None:
 
 
 def _allow(seconds: float) -> None:
-    """End this process after so many seconds of a processor, where the system can; 0: do not."""
+    """End this process after a number of seconds of processor time, if possible; 0: never."""
     if sys.platform != "win32":
         signal.setitimer(signal.ITIMER_PROF, seconds)
 
@@ -157,7 +157,7 @@ class StudioWorker:
             end = began + seconds * (1.0 if sys.platform == "win32" else WAITED)
             while True:
                 if not self._pipe.poll(max(0.0, end - time.monotonic())):
-                    if sys.platform == "win32":  # its own time is what is counted there
+                    if sys.platform == "win32":  # there elapsed time is counted
                         return self._again(TOO_LONG, seconds)
                     return self._again(HANGS, end - began)
                 kind, value = self._pipe.recv()
@@ -182,7 +182,7 @@ class StudioWorker:
         return {"refused": said}
 
     def interrupt(self) -> None:
-        """End what it does; who waits for it gets a refusal."""
+        """End its computation; the waiting client gets a rejection."""
         self._process.kill()
 
     def stop(self) -> None:
@@ -193,7 +193,7 @@ class StudioWorker:
 
 
 def _named(code: int | None) -> str:
-    """Return what is known of the end of a process: its signal, or its exit code."""
+    """Return the cause of a process's end: its signal, or its exit code."""
     names = {-one.value: one.name for one in signal.Signals}
     return "?" if code is None else names.get(code, str(code))
 
@@ -229,15 +229,15 @@ class StudioQueue:
 
     @property
     def waiting(self) -> int:
-        """How many wait."""
+        """Number of waiting computations."""
         return len(self._waiting)
 
     def is_full_for(self, session: str) -> bool:
-        """Tell whether one more of a session cannot wait."""
+        """Return whether one more of a session cannot wait."""
         return self.waiting >= self.limits.waiting or (self._own.get(session, 0) >= self.limits.own)
 
     def is_asked_by(self, session: str) -> bool:
-        """Tell whether something is at work for a session, or waits."""
+        """Return whether something is at work for a session, or waits."""
         return session in self._own
 
     def stop(self) -> None:
@@ -250,9 +250,9 @@ class StudioQueue:
     ) -> AsyncGenerator[Mapping[str, Any], None]:
         """Yield what becomes of it: ``place`` in the queue, ``share`` that is done, ``found``.
 
-        The first thing comes at once: then it stands in the queue, and leaves it with its reader.
-        A quick one takes the place of an older one of its session that still waits: that one finds
-        ``superseded``. With what is found stand the seconds that it ``waited`` and was at work.
+        The first item comes at once: then the job is queued, and leaves the queue with its reader.
+        A quick job replaces an older waiting one of its session, which yields ``superseded``.
+        With ``found`` come the seconds that it ``waited`` and ``worked``.
         """
         ticket = _Ticket(asked["do"], pace, session)
         self._own[session] = self._own.get(session, 0) + 1
@@ -265,7 +265,7 @@ class StudioQueue:
                 yield {"found": {"superseded": True}}
                 return
             yield {"place": 0}
-        except BaseException:  # who asked has gone
+        except BaseException:  # the client has gone
             self._leave(ticket)
             raise
         async for told in self._at_work(ticket, asked, seconds):
@@ -286,7 +286,7 @@ class StudioQueue:
 
         future = asyncio.ensure_future(asyncio.to_thread(act))
 
-        def free(_: object) -> None:  # also where nobody waits for the answer any more
+        def free(_: object) -> None:  # also without a waiting client
             shares.put_nowait(None)
             self._free(ticket, worker)
 
@@ -294,7 +294,7 @@ class StudioQueue:
         try:
             while (share := await shares.get()) is not None:
                 yield {"share": share}
-        except BaseException:  # who asked has gone
+        except BaseException:  # the client has gone
             if not future.done() and ticket.pace:  # a quick one costs less than a process
                 worker.interrupt()
             raise
@@ -305,7 +305,7 @@ class StudioQueue:
         yield {"found": found, "waited": began - ticket.began, "worked": worked}
 
     def _queue(self, ticket: _Ticket) -> None:
-        """Put it behind the last of its pace, or, a quick one, where an older one stood."""
+        """Add it after the last of its pace, or replace an older quick one."""
         for k, older in enumerate(self._waiting):
             same = older.do == ticket.do and older.session == ticket.session
             if ticket.pace == older.pace == Pace.QUICK and same:

@@ -24,23 +24,23 @@ from planmethod.studio.document import page_of
 from planmethod.studio.limits import OWN
 
 VERSION = "314.0.7"
-"""Of Pyodide: the first whose index has the versions of libraries that the project asks for."""
+"""Version of Pyodide: the first whose index has the library versions of the project."""
 
 OFFICIAL = "https://cdn.jsdelivr.net/pyodide/v{}/full/"
 
 LOCK = "pyodide-lock.json"
 CORE = ("pyodide.mjs", "pyodide.asm.mjs", "pyodide.asm.wasm", "python_stdlib.zip", LOCK)
-"""What ``npm pack pyodide`` has of the runtime."""
+"""Files of the runtime in ``npm pack pyodide``."""
 
 LOADED = ("numpy", "shapely", "matplotlib", "lxml", "msgspec")
-"""Libraries of machine code, each with what it needs: from the index of the runtime."""
+"""Libraries with machine code, with their dependencies: from the index of the runtime."""
 
 PACKED = (
     "click", "svgwrite", "openpyxl", "et_xmlfile", "python-docx", "typing_extensions", "reportlab",
     "charset-normalizer", "chardet", "mpmath", "ezdxf",
 )  # fmt: skip
-"""Libraries that are Python alone: those that are installed go into the archive. Of the two that
-guess an encoding reportlab brings one or the other."""
+"""Pure Python libraries: the installed ones go into the archive. Of the two that guess
+encodings, reportlab brings one."""
 
 ARCHIVE = "planmethod.zip"
 
@@ -53,7 +53,7 @@ POLICY = (
 
 
 class Runtime(Struct, frozen=True):
-    """Where the page takes Pyodide from (среда выполнения).
+    """Source of Pyodide for the page (среда выполнения).
 
     Attributes
     ----------
@@ -82,7 +82,7 @@ def runtime_of(asked: str | None) -> Runtime:
     Raises
     ------
     LookupError
-        The folder has no core; it names what is missing.
+        The folder has no core; the message names the missing files.
     """
     if asked is None or urlsplit(asked).scheme in ("http", "https"):
         address = OFFICIAL.format(VERSION) if asked is None else asked.rstrip("/") + "/"
@@ -101,7 +101,7 @@ def runtime_of(asked: str | None) -> Runtime:
 
 
 def _wheels(lock: Mapping[str, Any]) -> tuple[str, ...]:
-    """Return the files of the libraries and of what they need."""
+    """Return the files of the libraries and of their dependencies."""
     names, found = [*LOADED], dict[str, str]()
     while names:
         package = lock["packages"][names.pop()]
@@ -134,7 +134,7 @@ def write_studio(
     lang : str
         Language of ``index.html``; the page of another one is called by its code.
     done : callable
-        Is told of every picture.
+        Called after every picture.
 
     Raises
     ------
@@ -155,7 +155,7 @@ def write_studio(
 
 
 def _files(runtime: Runtime, layouts: tuple[str, ...], lang: str) -> Iterator[tuple[str, bytes]]:
-    """Yield the files and what is in them, without the pictures."""
+    """Yield the files and their contents, without the pictures."""
     pages = {one: "index.html" if one == lang else f"{one}.html" for one in LANGUAGES}
     alone = {"core": runtime.core, "packages": runtime.packages, "names": LOADED, "site": ARCHIVE}
     hosts = "".join(f" {at}" for at in runtime.hosts)
