@@ -1,1 +1,1 @@
-"""Variants of a task found by the program: numbers varied, judged, chosen (варианты задания)."""
+"""Generated variants of a task: numbers varied, evaluated, chosen (варианты задания)."""

@@ -17,7 +17,7 @@ from planmethod.problem.source import parse, read_source
 from planmethod.varying.varied import VaryingError
 
 Overrides = Mapping[str, Any]
-"""What a variant lays over the file, by dotted key."""
+"""Overrides of the file in a variant, by dotted key."""
 
 
 class VariantCandidates:
@@ -52,7 +52,7 @@ class VariantCandidates:
             )
 
     def read(self, variants: Mapping[str, Overrides]) -> Iterator[KindProblem | PlanMethodError]:
-        """Yield the problem of every variant, or what is wrong with it; none is the file itself."""
+        """Yield the problem of every variant, or its error; without variants, the file itself."""
         with tempfile.TemporaryDirectory() as folder:
             path = Path(folder) / self.path.name
             path.write_text(self.with_variants(variants), encoding="utf-8")

@@ -1,4 +1,4 @@
-"""Variants chosen among candidates: no two alike, all mistakes told in each (выбор вариантов)."""
+"""Variants chosen from candidates: distinct, each distinguishing all mistakes (выбор вариантов)."""
 
 from __future__ import annotations
 
@@ -22,26 +22,26 @@ from planmethod.varying.teeth import WHEEL, coaxial, coaxial_rows, label_of
 from planmethod.varying.varied import Lots, VariedKey, asked, overrides, usual, with_followers
 
 ROUND = 60
-"""VariantCandidates that are judged together."""
+"""Number of candidates that are evaluated together."""
 
 PER_VARIANT = 300
-"""Most candidates for each variant that is wanted, where nothing is said."""
+"""Default maximum of candidates for each requested variant."""
 
 APART = 0.6
-"""Share of the points that a copied variant shall lose, at least."""
+"""Minimum fraction of the points that a copied variant loses."""
 
 FAMILY = 0.5
-"""A mistake that so many of the good candidates tell is to be told in each variant."""
+"""Fraction of good candidates distinguishing a mistake from which every variant must."""
 
 TRIED_FIRST = 8
 """VariantCandidates from which the family is known."""
 
 WORTH = {Refusal.SHORT: 0.01, Refusal.UNSEEN: 0.05, Refusal.HIDDEN: 0.2}
-"""What a candidate that was refused is worth, beside one that was not."""
+"""Weight of a rejected candidate, relative to an accepted one."""
 
 
 class ChosenVariant(Struct, frozen=True):
-    """A variant of the table: what it lays over the file, and what its answers do not tell.
+    """A variant of the table: its overrides of the file, and the mistakes it does not distinguish.
 
     Attributes
     ----------
@@ -49,7 +49,7 @@ class ChosenVariant(Struct, frozen=True):
     own : mapping of str to value
         By dotted key.
     untold : tuple of (str, str)
-        Mistakes that can be made and that its answers do not tell from others: code and place.
+        Possible mistakes that its answers do not distinguish from others: code and place.
     """
 
     name: str
@@ -58,7 +58,7 @@ class ChosenVariant(Struct, frozen=True):
 
 
 class VariantChoice(Struct):
-    """What was found (подобранные варианты).
+    """Results of the search (подобранные варианты).
 
     Attributes
     ----------
@@ -67,9 +67,9 @@ class VariantChoice(Struct):
         Variants that were wanted, candidates that were looked at.
     keys : tuple of VariedKey
     refused : Counter
-        VariantCandidates by why they were thrown away, and by what of them.
+        Number of rejected candidates by reason and item.
     family : int
-        How many mistakes every variant tells.
+        Number of mistakes that every variant distinguishes.
     least : float
         Smallest share of the points that a copy of one variant loses in another one.
     excused : tuple of (str, str)
@@ -127,7 +127,7 @@ def choose(
     Raises
     ------
     PlanMethodError
-        The file is faulty, or what is asked is no number of it.
+        The file is faulty, or a requested key is not a number of it.
     """
     source = VariantCandidates(path, kind_of(path))
     table = source.table
@@ -217,7 +217,7 @@ class _Pool:
         self._off: dict[tuple[int, int], float] = {}
 
     def worth(self, one: JudgedVariant) -> float:
-        """Return what a candidate is worth: less where it does not tell what the family tells."""
+        """Return the weight of a candidate: less if it does not distinguish the whole family."""
         return WORTH[Refusal.HIDDEN] if self.family - one.told else 1.0
 
     def add(self, one: _Judged) -> None:
@@ -225,7 +225,7 @@ class _Pool:
 
     @property
     def family(self) -> frozenset[Place]:
-        """Mistakes that are to be told in each variant."""
+        """Mistakes that each variant must distinguish."""
         told = Counter(place for one in self.all for place in one.judged.told)
         least = max(1.0, FAMILY * len(self.all))
         return frozenset(place for place, count in told.items() if count >= least)
@@ -243,7 +243,7 @@ class _Pool:
         ]
 
     def choose(self, *, strict: bool) -> None:
-        """Choose variants anew, the earliest first: such as tell all, else those that tell most."""
+        """Choose variants again, the earliest first: with all mistakes distinguished, or most."""
         if len(self.all) < TRIED_FIRST and strict:
             return
         family, among = self.family, self.among if self.all else []

@@ -1,4 +1,4 @@
-"""Candidates judged: long enough, read well enough, mistakes told (годность варианта)."""
+"""Evaluation of candidates: lengths, readability, distinguished mistakes (годность варианта)."""
 
 from __future__ import annotations
 
@@ -49,14 +49,14 @@ class JudgedVariant(Struct, frozen=True, eq=False):
     exact, allowed : mapping of str to float
         Answers and how far each may be off, by id.
     signed : frozenset of str
-        Answers whose sense is asked, too.
+        Answers whose sense is also requested.
     points : mapping of str to float
     told : frozenset of (str, str)
-        Mistakes that its answers tell from all others.
+        Mistakes that its answers distinguish from all others.
     made : frozenset of (str, str)
         Mistakes that can be made.
     scales : mapping of str to float
-        Scales of the plans as the file would have them; empty of what is computed.
+        Scales of the plans in the convention of the file; empty for a computed task.
     """
 
     exact: Mapping[str, float]
@@ -192,7 +192,7 @@ class Judge:
     def _told(
         self, task: Task, limits: Mapping[str, Tolerance], named: Mapping[int, Sequence[Shown]]
     ) -> JudgedVariant:
-        """Return a candidate that is not refused, with what its mistakes give by position."""
+        """Return an accepted candidate, with the predictions of its mistakes by position."""
         items = task.whole()
         told, made = distinct(items, limits, named)
         return JudgedVariant(
@@ -206,7 +206,7 @@ class Judge:
         )
 
     def _look_at(self, main: KindProblem) -> None:
-        """Learn from the file itself what is asked, and which answers are nothing in it."""
+        """Learn from the file itself the requested items, and which of its answers are zero."""
         try:
             if self.kind is not None:
                 task: Task = Calculation(self.kind, main, self.settings)
@@ -230,7 +230,7 @@ def name_of(item: TaskItem) -> str:
 
 
 def has_sign(item: TaskItem) -> bool:
-    """Tell whether the sign of an answer counts."""
+    """Return whether the sign of an answer counts."""
     return item.asks_sense or item.question.sign is Sign.STRICT
 
 
@@ -273,10 +273,10 @@ def distinct(
     limits: Mapping[str, Tolerance],
     named: Mapping[int, Sequence[Shown]],
 ) -> tuple[frozenset[Place], frozenset[Place]]:
-    """Return the mistakes that answers tell from the right ones and from all others, and all.
+    """Return the mistakes that answers distinguish from right ones and all others, and all.
 
-    Two are told apart where an answer of the one is off by more than its tolerance from that of
-    the other: larger of what a mistake makes larger. ``named`` has them by position.
+    Two are distinguished if some answer of one differs from the other's by more than its tolerance,
+    enlarged if the mistake makes it larger. ``named`` has them by position.
     """
     told: set[Place] = set()
     made: set[Place] = set()
@@ -293,7 +293,7 @@ def distinct(
 def _apart(
     items: Sequence[TaskItem], limits: Sequence[Tolerance], named: Sequence[Shown]
 ) -> npt.NDArray[np.bool_]:
-    """Return which mistakes are like nothing else, shape (mistakes,)."""
+    """Return which mistakes are unlike all others, shape (mistakes,)."""
     right = np.array([limit.exact for limit in limits])
     given = np.array([[values[item.question.id] for item in items] for *_, values in named])
     table = np.vstack([right, given.reshape(-1, len(items))])

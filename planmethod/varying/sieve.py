@@ -27,20 +27,20 @@ MARGIN = 0.1
 """Least margin of a step: of two lines the sine of their angle, of arcs its square."""
 
 LEAST_MM = 5.0
-"""Least length of an asked segment on the sheet."""
+"""Minimum length of a requested segment on the sheet, mm."""
 
 WORST = 0.1
-"""Largest σ of an asked answer as a share of it: beyond, a ruler does not stand the position."""
+"""Maximum relative σ of a requested answer: beyond, a ruler is not accurate enough."""
 
 LOOSELY = 1.25
-"""So many times larger a σ is let through here: where first order does not hold it is smaller."""
+"""Factor of the σ permitted here: where first order does not hold, the true one is smaller."""
 
 Asked = tuple[Selector, int, str]
 """A quantity, its position, and what it is called."""
 
 
 class Refusal(Enum):
-    """Why a candidate is thrown away (причина отказа)."""
+    """Reason for rejecting a candidate (причина отказа)."""
 
     FAULTY = "faulty"
     COAXIAL = "coaxial"
@@ -57,7 +57,7 @@ class Refusal(Enum):
 
 
 class Refused(Struct, frozen=True):
-    """A candidate that is no variant: why, and what of it."""
+    """A rejected candidate: the reason, and the item at fault."""
 
     why: Refusal
     what: str = ""
@@ -83,12 +83,12 @@ class Sifted(Struct, frozen=True, eq=False):
 def sifted(problems: Sequence[Problem], wanted: Sequence[Asked], settings: Settings) -> Sifted:
     """Return which linkages may be variants; most are read together.
 
-    Loads and what is asked of a cycle do not move a linkage: it is sifted without them.
+    Loads and requests of a cycle do not move a linkage: it is screened without them.
 
     Parameters
     ----------
     wanted : sequence of (Selector, int, str)
-        What is asked, as far as it moves.
+        Requested quantities that move.
     """
     profile, found = PROFILES[settings.profile], Sifted()
     bare = [_bare(problem) for problem in problems]

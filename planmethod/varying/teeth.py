@@ -21,8 +21,8 @@ Solved = tuple[str, Row]
 def coaxial_rows(motion: TrainMotion, varied: Sequence[str]) -> list[Solved]:
     """Return the equations that varied wheels have to keep, each solved for one of them.
 
-    An equation with a wheel whose teeth the reader finds itself is none: it follows. Nor is one
-    with wheels whose shifts set the distance of their axes.
+    An equation with a wheel whose teeth the reader determines is skipped: it follows. So is one
+    with wheels whose shifts set the centre distance.
 
     Parameters
     ----------
@@ -47,7 +47,7 @@ def coaxial_rows(motion: TrainMotion, varied: Sequence[str]) -> list[Solved]:
 
 
 def _solved(rows: list[Row], sizes: Mapping[str, Fraction]) -> list[Solved]:
-    """Solve equations for wheels that stand in no other one, the largest first."""
+    """Solve equations for wheels that are in no other one, the largest first."""
     done: list[Solved] = []
     for row in rows:
         for main, other in done:

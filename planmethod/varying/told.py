@@ -1,4 +1,4 @@
-"""What is told of a choice of variants: what was varied, thrown away and why (отчёт о подборе)."""
+"""Report on a choice of variants: varied numbers, rejections, reasons (отчёт о подборе)."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What is varied of a file: its numbers, and the round values each may take (что варьируется)."""
+"""Varied numbers of a file, and the round values of each (что варьируется)."""
 
 from __future__ import annotations
 
@@ -41,11 +41,11 @@ FORMULAS = ("x", "y", "r", "phi", "s", "theta")
 """Keys of ``[point]`` whose numbers are varied."""
 
 _LITERAL = r"(?<![\w.^*])(?<!\^[-+(])(\d++(?:\.\d*+)?|\.\d++)(?![\w.])"
-"""A number of a formula that is no exponent."""
+"""A number of a formula, without exponents."""
 
 
 class VaryingError(PlanMethodError):
-    """What was asked to be varied cannot be."""
+    """A key cannot be varied as requested."""
 
     exit_code = ExitCode.USAGE
 
@@ -64,7 +64,7 @@ class VariedKey(Struct, frozen=True):
     part : int or None
         Which coordinate of a point, or number of a formula, it is.
     of : str
-        Key of the length in whose proportion it is; empty of what is drawn by lot.
+        Key of the length in whose proportion it is; empty for a randomly drawn number.
     """
 
     name: str
@@ -75,12 +75,12 @@ class VariedKey(Struct, frozen=True):
 
     @property
     def shown(self) -> str:
-        """How it is written after ``--vary``."""
+        """Its spelling after ``--vary``."""
         return self.name if self.part is None else f"{self.name}[{self.part}]"
 
 
 def at(table: Mapping[str, Any], name: str) -> Any:
-    """Return what a table has at a dotted key; None where it has nothing."""
+    """Return the value of a table at a dotted key; None if it has none."""
     found: Any = table
     for part in name.split("."):
         if isinstance(found, list):
@@ -96,7 +96,7 @@ def at(table: Mapping[str, Any], name: str) -> Any:
 
 
 def usual(table: Mapping[str, Any], spread: float) -> list[VariedKey]:
-    """Return what is varied where nothing is said.
+    """Return the numbers that are varied by default.
 
     Of a linkage lengths of links, the place and the speed of the driver, loads; of a train the
     wheels and the speeds; of a moving point the numbers of its formulas.
@@ -151,7 +151,7 @@ def asked(table: Mapping[str, Any], text: str, spread: float) -> list[VariedKey]
     Raises
     ------
     VaryingError
-        A key is no number of the file, or has no round values.
+        A key is not a number of the file, or has no round values.
     """
     found = []
     for told in filter(None, (part.strip() for part in text.split(","))):
@@ -228,7 +228,7 @@ def _between(one: VariedKey, low: float, high: float) -> tuple[float, ...]:
     if one.name.startswith("gears.wheels."):  # radii: sums of them must be equal
         return tuple(_multiples(_step(one.base), low, high))
     if one.name.startswith("point.") and one.part is not None and one.base == int(one.base):
-        least = min(2, one.base)  # 1*t and t/1 are no formulas of a textbook
+        least = min(2, one.base)  # 1*t and t/1 are not textbook formulas
         own = tuple(_multiples(1, max(least, low), high))
         return own if len(own) > 2 else tuple(_multiples(1, max(least, one.base - 1), one.base + 2))
     if low <= 0 <= high:
@@ -270,7 +270,7 @@ def _of_series(series: Sequence[float], low: float, high: float) -> Iterator[flo
 
 
 def with_followers(table: Mapping[str, Any], chosen: Sequence[VariedKey]) -> list[VariedKey]:
-    """Return what is varied, and the points on links whose lengths are: they keep their share."""
+    """Return the varied numbers, and the points on varied links, which keep their proportion."""
     names, found = {one.name for one in chosen}, list(chosen)
     for link, body in _below(table, "links"):
         for point, place in _below({"": body}, ""):
@@ -313,7 +313,7 @@ class Lots:
         return {**found, **own}
 
     def learn(self, found: Mapping[VariedKey, float], worth: float) -> None:
-        """Take to heart how a candidate did: 1 a variant, 0 nothing."""
+        """Record the result of a candidate: 1 for a variant, 0 for a worthless one."""
         for one in self.free:
             if found[one] in one.values:
                 at = one.values.index(found[one])
