@@ -39,7 +39,7 @@ ALIKE = 1e-3
 """Answers of two mistakes that differ by no more of themselves are the same when written."""
 
 FEW = 3
-"""Mistakes of which a student can find his own: "one of" more says nothing."""
+"""Maximum number of mistakes offered to a student as "one of"."""
 
 OFF = (Verdict.WRONG, Verdict.NEAR, Verdict.INHERITED, Verdict.INCONSISTENT)
 
@@ -57,7 +57,7 @@ class Honest(Struct):
     named : int
         Works in which a mistake is named.
     flat, flat_hurt : dict of float to int
-        The same of a flat tolerance, of answers that are not nothing.
+        The same for a flat tolerance, on nonzero answers.
     """
 
     problem: str
@@ -73,12 +73,12 @@ class Honest(Struct):
 
 
 class Detected(Struct):
-    """One mistake in one problem: how many works have it, and what is said of them.
+    """One mistake in one problem: its submissions, and the results of checking them.
 
     Attributes
     ----------
     works : int
-        Not counting places where the key says that nothing shows it.
+        Without places where the key says that no answer shows it.
     seen : int
         Works in which an answer is faulted.
     named, among, unknown, misnamed : int
@@ -128,7 +128,7 @@ def family_of(task: Task) -> str:
 
 
 def first_items(task: Task) -> list[TaskItem]:
-    """Return what is asked of the first position that anything is asked of."""
+    """Return the requested items of the first position that has any."""
     items = task.usual()
     return [item for item in items if item.position == items[0].position]
 
@@ -155,7 +155,7 @@ def honest(task: Task, count: int) -> Honest:
 
 
 def _is_beyond(answer: Judged, share: float) -> bool:
-    """Tell whether a flat tolerance rejects an answer; of nothing it says nothing."""
+    """Return whether a flat tolerance rejects an answer; False for a zero one."""
     key, value = answer.key, answer.value
     if key is None or value is None or key.zero:
         return False
@@ -163,7 +163,7 @@ def _is_beyond(answer: Judged, share: float) -> bool:
 
 
 def all_honest(problems: Sequence[Problem], count: int) -> list[Honest]:
-    """Check honest works of every problem, drawn and judged by every profile."""
+    """Check faultless submissions of every problem, drawn and graded by every profile."""
     return [honest(task, count) for name in PROFILES for task in tasks_of(problems, name)]
 
 
@@ -181,7 +181,7 @@ def places_of(task: Task, key: Key) -> Iterator[Change]:
 
 
 def given_by(task: Task, items: Sequence[TaskItem]) -> Iterator[tuple[Change, list[float]]]:
-    """Yield every mistake with what it gives, sizes without a sign."""
+    """Yield every mistake with its predictions, sizes unsigned."""
     sheet = task.sheet(items[0].position)
     for change in planted(sheet, items):
         explanation = task.explanations(sheet).of_change(change)
@@ -204,7 +204,7 @@ def twins(
     codes = {one.code for one, values in given if np.allclose(values, mine, rtol=ALIKE)}
     turned = sum(a * b < 0 for a, b in zip(mine, right, strict=True))
     if turned == 1 and np.allclose(np.abs(mine), np.abs(right), rtol=ALIKE):
-        codes.add("sign")  # one sense is otherwise, and nothing else
+        codes.add("sign")  # only one sense differs
     return codes
 
 
@@ -224,14 +224,14 @@ def of_other(
 
 
 def shows(entry: KeyEntry, value: float) -> bool:
-    """Tell whether an answer with a mistake is beyond what a pencil does, as the key has it."""
+    """Return whether an answer with a mistake is beyond what a pencil does, as the key has it."""
     off = abs(abs(value) - abs(entry.exact))
     turned = entry.asks_sense and value * entry.exact < 0
     return not entry.zero and (off > max(DEFAULT.k * entry.sigma, entry.tolerance) or turned)
 
 
 def detection(task: Task, count: int) -> list[Detected]:
-    """Plant every mistake in some works, and hear what is said of them."""
+    """Plant every mistake in some submissions, and count the diagnoses."""
     found: dict[str, Detected] = {}
     items = first_items(task)
     key, given = key_of_task(task, items), [*given_by(task, items)]
@@ -289,13 +289,13 @@ class Speed(Struct, frozen=True):
     Attributes
     ----------
     first : float
-        Problem solved, tolerances found, one work with a mistake judged and explained.
+        Problem solved, tolerances found, one submission with a mistake graded and explained.
     honest, mistaken : float
         A further work without a mistake, and with one.
     key : float
         The key of a solved problem.
     group : float
-        Works of a group, every other one with a mistake, judged, with their tables and pages.
+        Group graded, every other submission with a mistake, including tables and pages.
     """
 
     problem: str

@@ -48,10 +48,10 @@ PAIRS = 12
 """Pairs of mistakes that are planted in a problem, chosen at random."""
 
 APART = 3
-"""Answers that surely differ from what either of two mistakes gives alone."""
+"""Minimum number of answers that surely differ from the predictions of either mistake alone."""
 
 FACTORS = (0.7, 1.4)
-"""What a number is multiplied by that is wrong for no known reason."""
+"""Factors of a number that is wrong for no known reason."""
 
 PLACE = 10.0
 """A decimal place lost in a computed number."""
@@ -130,7 +130,7 @@ def _pairs(
 
 
 def _apart(key: Key, items: Sequence[TaskItem], one: Explanation, two: Explanation) -> bool:
-    """Tell whether some answers are surely others."""
+    """Return whether some answers are surely others."""
     differ = (
         shows(replace(entry, exact=two.values[item.question.id]), one.values[item.question.id])
         for entry, item in zip(key.entries, items, strict=True)
@@ -149,7 +149,7 @@ def _count_two(row: Detected, checked: CheckedWork, first: set[str], second: set
 
 
 def by_plans(task: Task, count: int) -> Inherited:
-    """Let every number that is asked be wrong once, and the plans go on with it."""
+    """Make every requested number wrong once, and let the plans continue with it."""
     row = Inherited(family_of(task), called(task), "plans")
     items = first_items(task)
     key, sheet = key_of_task(task, items), task.sheet(items[0].position)
@@ -222,7 +222,7 @@ def _put(answer: WrittenAnswer, value: float) -> WrittenAnswer:
 def computed_works(
     task: Calculation, values: Mapping[str, float], count: int, seed: int
 ) -> Iterator[Work]:
-    """Yield works of somebody who computed some values, and rounds to three digits or four."""
+    """Yield submissions with some computed values, rounded to three digits or four."""
     random = np.random.default_rng(seed)
     for number in range(1, count + 1):
         answers = []
@@ -315,7 +315,7 @@ def computed_inherited(task: Calculation, count: int) -> Inherited:
 
 
 class Confusion(Struct, frozen=True):
-    """What is said of works of all kinds (таблица путаницы).
+    """Results of checking submissions of all kinds (таблица путаницы).
 
     Attributes
     ----------

@@ -29,7 +29,7 @@ RULERS = (0.1, 0.5, 1.0)
 
 
 class Calculus(Struct, frozen=True):
-    """Errors of graphical calculus with so many positions, mm of the diagrams.
+    """Errors of graphical calculus with a number of positions, mm of the diagrams.
 
     ``v`` and ``a`` by chords, ``s`` integrated from exact velocities by middle ordinates;
     ``moved``: by how much a ruler moves v and a, at the most, for each of `RULERS`.
@@ -43,7 +43,7 @@ class Calculus(Struct, frozen=True):
 
 
 def turn_for(problem: Problem) -> Turn | None:
-    """Return the turn of a problem; None where the crank does not turn fully, or nothing turns."""
+    """Return the cycle of a problem; None without a fully rotating crank."""
     if not problem.drive.goes_round:
         return None
     turn = Turn(Solution(problem))
@@ -51,7 +51,7 @@ def turn_for(problem: Problem) -> Turn | None:
 
 
 def calculus(turn: Turn, count: int) -> Calculus:
-    """Measure what graphical differentiation and integration err with so many positions."""
+    """Measure the errors of graphical differentiation and integration for a number of positions."""
     diagrams, way = Diagrams(turn, count), Differentiation.CHORDS
     found = deviations(diagrams, [way])
     s = Deviation.of(diagrams.integrated(), diagrams.exact(diagrams.shares)[0])
@@ -73,7 +73,7 @@ def _diagrams(turn: Turn, count: int) -> None:
 
 
 def costs(problem: Problem) -> list[tuple[str, int, float]]:
-    """Return seconds of a cycle: what is told of a turn, diagrams, exact positions."""
+    """Return times of a cycle, s: its characteristics, diagrams, exact positions."""
     turn = Turn(Solution(problem))
     facts = clock(lambda: Turn(Solution(problem)).pressure, least=3).median
     found = [("range, extremes, pressure angle", 1, facts)]
@@ -86,7 +86,7 @@ def costs(problem: Problem) -> list[tuple[str, int, float]]:
 
 
 WAYS = tuple((way, method) for method in ("wittenbauer", "mertsalov") for way in Quadrature)
-"""How the work is integrated, and which tangents are drawn."""
+"""Methods: how the work is integrated, and which tangents are drawn."""
 
 
 class Constructed(Struct, frozen=True):
@@ -100,7 +100,7 @@ class Constructed(Struct, frozen=True):
 
 
 def constructed(wheel: Flywheel) -> list[Constructed]:
-    """Measure the constructions by so many positions, and on the whole curves."""
+    """Measure the constructions by numbers of positions, and on the whole curves."""
     delta, exact = wheel.machine.delta, wheel.exact.inertia
     slopes = {"wittenbauer": (1.0 + delta, 1.0 - delta), "mertsalov": (1.0, 1.0)}
 

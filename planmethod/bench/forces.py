@@ -23,7 +23,7 @@ from planmethod.solved.solution import EVERY, UNIT_SCALES, Solution
 Array = npt.NDArray[Any]
 
 JUDGED = 12
-"""Positions of a batch that the referee judges, evenly spread."""
+"""Positions of a batch checked in high precision, evenly spread."""
 
 DRAWS = 4000
 SEED = 11
@@ -50,7 +50,7 @@ def error_of(statics: Statics, found: Sequence[Array]) -> float:
 
 
 def _judged(statics: Statics, digits: int, index: int = 0) -> list[Number]:
-    """Return the forces of a position as a referee of so many digits has them."""
+    """Return the forces of a position in multiprecision arithmetic with a number of digits."""
     referee = Precise(digits)
     data = statics.data(SI, EVERY)
     at = {name: value[index] if np.ndim(value) else value for name, value in data.items()}
@@ -88,7 +88,7 @@ def readings(problem: Problem, counts: Sequence[int]) -> list[ReadSpeed]:
 
 
 def _of_one(problem: Problem) -> list[ReadSpeed]:
-    """Time what is read in one position: planning, referee, hand."""
+    """Time the readings of one position: planning, high precision, ruler."""
     position = problem.drive.positions[0]
     solution = Solution(problem, positions=[position])
     statics, name = statics_of(solution), problem.name

@@ -30,7 +30,7 @@ def table(header: Sequence[str], rows: Iterable[Sequence[str]]) -> Table:
 
 
 def span(seconds: float) -> str:
-    """Return a time with three digits and its unit; a dash where there is none."""
+    """Return a time with three digits and its unit; a dash for NaN."""
     if math.isnan(seconds):
         return "—"
     for factor, unit in ((1.0, "s"), (1e3, "ms"), (1e6, "µs")):
@@ -40,7 +40,7 @@ def span(seconds: float) -> str:
 
 
 def number(value: float) -> str:
-    """Return an error with two digits; a dash where there is none."""
+    """Return an error with two digits; a dash for NaN."""
     return "—" if math.isnan(value) else "0" if value == 0 else f"{value:.1e}"
 
 
@@ -93,7 +93,7 @@ def forces_section(
     Parameters
     ----------
     more : str
-        What else is to be said of the readings.
+        Addition to the sentence on the readings.
     """
     rows = [
         (
@@ -163,7 +163,7 @@ def _percent(part: float, whole: float) -> str:
 
 
 def honest_table(found: Sequence[checking.Honest]) -> Table:
-    """Return whom the checking faults for nothing, beside flat tolerances on the same works."""
+    """Return the rates of false alarms, next to flat tolerances on the same submissions."""
     rows = [
         (
             f"{one.problem}, {one.profile}",
@@ -192,7 +192,7 @@ def _codes(found: Sequence[checking.Detected]) -> list[str]:
 
 
 def mistakes_table(found: Sequence[checking.Detected]) -> Table:
-    """Return what is said of planted mistakes, over all problems together."""
+    """Return the detection of planted mistakes, over all problems together."""
     rows = []
     for code in [*_codes(found), ""]:
         of = [one for one in found if code in ("", one.code)]
@@ -314,14 +314,14 @@ def checking_section(
     works: int = WORKS,
     computed: Sequence[confusion.Computed] = (),
 ) -> Table:
-    """Return how checking judges works that a pencil has drawn, and what was computed.
+    """Return the results of checking simulated submissions, drawn and computed.
 
     Parameters
     ----------
     works : int
         Honest ones of each problem and profile; with each mistake at each place a tenth of them.
     computed : sequence of Computed
-        Problems that are no linkages, with their kinds.
+        Problems other than linkages, with their kinds.
     """
     mistaken = max(1, works // 10)
     confused = confusion.confused(problems, computed, works)
@@ -391,7 +391,7 @@ def _speed(problems: Sequence[Problem]) -> Table:
 
 
 def _forces(problems: Sequence[Problem]) -> Table:
-    """Return the section on problems with loads; there is none without them."""
+    """Return the section on problems with loads; empty if none has loads."""
     loaded = [problem for problem in problems if problem.dynamics is not None]
     found = [one for problem in loaded for one in forces.readings(problem, COUNTS)]
     lever = [forces.discrepancy(problem) for problem in loaded]
@@ -399,7 +399,7 @@ def _forces(problems: Sequence[Problem]) -> Table:
 
 
 def _cycle(problems: Sequence[Problem]) -> Table:
-    """Return the section on turns of a crank; there is none where no crank turns fully."""
+    """Return the section on cycles of a crank; empty if no crank rotates fully."""
     rows, said, cost = [], [], []
     for problem in problems:
         turn = cycle.turn_for(problem)
@@ -438,7 +438,7 @@ def _cycle(problems: Sequence[Problem]) -> Table:
 
 
 def machine_section(problems: Sequence[Problem]) -> Table:
-    """Return the section on flywheels; there is none where no problem has ``[machine]``."""
+    """Return the section on flywheels; empty if no problem has ``[machine]``."""
     rows, cost = [], []
     for problem in problems:
         if problem.machine is None:
@@ -476,4 +476,4 @@ SECTIONS: dict[str, Callable[[Sequence[Problem]], Table]] = {
     "machine": machine_section,
     "checking": checking_section,
 }
-"""What is measured of problems, by the name of the section."""
+"""Sections of measurements by their names."""

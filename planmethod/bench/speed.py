@@ -66,7 +66,7 @@ def clock_all(acts: Sequence[Callable[[], object]], *, rounds: int = 9) -> list[
 Array = npt.NDArray[Any]
 
 JUDGED = 60
-"""Positions of a batch that the referee judges, evenly spread."""
+"""Positions of a batch checked in high precision, evenly spread."""
 
 RIGHT = 60
 """Digits of the referee that the errors are counted from."""
@@ -78,7 +78,7 @@ class ReadSpeed(Struct, frozen=True):
     Attributes
     ----------
     error : float
-        Largest error of a row in units of the row's own largest value; NaN where nothing judges.
+        Largest error of a row in units of the row's own largest value; NaN if not checked.
     """
 
     name: str
@@ -122,7 +122,7 @@ def places(problem: Problem, count: int) -> Array:
 
 
 def spread(count: int, judged: int = JUDGED) -> Array:
-    """Return which positions of a batch the referee judges."""
+    """Return the positions of a batch to check in high precision."""
     return np.unique(np.linspace(0, count - 1, min(count, judged)).astype(int))
 
 
@@ -153,7 +153,7 @@ def right_rows(problem: Problem, asked: Sequence[str], positions: Array) -> Arra
 
 
 def everything(problem: Problem) -> list[str]:
-    """Return what a sweep may be asked for, directions as unit vectors."""
+    """Return all quantities of a sweep, directions as unit vectors."""
     whole = quantities_of(Solution(problem).construction)
     return [r.label for r in whole.all if r.kind is not QuantityKind.DIRECTION]
 
@@ -283,7 +283,7 @@ def _exact(value: Number) -> Number:
 
 
 def _hand_error(solution: Solution) -> float:
-    """Return the largest error of what the hand finds in units of the largest of its kind."""
+    """Return the largest error of the ruler readings in units of the largest of its kind."""
     worst = 0.0
     for letter, part in (("v", "velocity"), ("a", "acceleration")):
         exact = {name: abs(getattr(m, part)[0]) for name, m in solution.points.items()}
