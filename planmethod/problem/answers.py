@@ -1,4 +1,4 @@
-"""``[[answers]]`` of a problem file: what students are asked for (вопросы)."""
+"""``[[answers]]`` of a problem file: questions to students (вопросы)."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ _REACTION_RE = r"[FM]_(?P<joint>[^_/]+)_(?P<on>[^_/]+)/(?P<by>[^_/]+)\Z"
 _BALANCING = {"dr": "balance", "lever": "lever"}
 _TRANSFERS = ("v_q_", "a_q_", "epsilon_q_")
 _TAKEN = ("mu_l", "mu_v", "mu_a", "mu_F", "ruler_mm")
-"""What a row of a group's table is called that is no answer."""
+"""Names in a row of a group's table that are not answers."""
 
 _TURNS = frozenset({"omega", "epsilon", "M", "inertia couple"})
 _VECTORS = frozenset(
@@ -44,7 +44,7 @@ _NO_SEGMENT = frozenset({*_TURNS, "phi", "angle F", "angle inertia", "angle load
 
 
 class AnswerScope(Struct, frozen=True):
-    """What answers may name.
+    """Names that answers may use.
 
     Attributes
     ----------
@@ -65,7 +65,7 @@ class AnswerScope(Struct, frozen=True):
 
     @property
     def names(self) -> tuple[object, ...]:
-        """What of all this answers are read by: names, how many positions, what balances."""
+        """Facts that answers depend on: names, number of positions, balancing quantity."""
         slides = tuple((s.slider, s.host, s.pin, s.through) for s in self.slides.values())
         drive, dynamics = self.drive, self.dynamics
         driven = drive and (len(drive.positions), drive.balancing.turns)
@@ -104,7 +104,7 @@ def words_of(name: str, slides: Iterable[Slide]) -> str:
 
 
 def _sliding(slides: Iterable[Slide]) -> dict[str, tuple[str, ...]]:
-    """Return the points that slide on each other, by what their quantities are of: ``B3/2``.
+    """Return the points that slide on each other, by the subject of their quantities: ``B3/2``.
 
     On the frame it is one point.
     """
@@ -121,16 +121,16 @@ def _sliding(slides: Iterable[Slide]) -> dict[str, tuple[str, ...]]:
 
 
 class Plain(Struct, frozen=True):
-    """What answers may name of a problem that is computed without plans.
+    """Names that answers may use in a problem that is computed without plans.
 
     Attributes
     ----------
     fault : callable
-        Says why a quantity cannot be asked for; empty where it can.
+        Returns why a quantity is unavailable; empty where it is available.
     turns : callable
         Whether a quantity has a sense of turning.
     hint : str
-        Names that there are.
+        Hint with the known names.
     positions : int
     """
 
@@ -255,7 +255,7 @@ def _read_answer(
 def _read_what(
     faults: Faults, path: str, name: str, words: str, scene: AnswerScope
 ) -> Selector | None:
-    """Check a quantity, and the joint of a reaction, which its words do not name."""
+    """Check a quantity, and the joint of a reaction, which its words do not contain."""
     if name in scene.points:
         faults.add(
             path,
@@ -326,9 +326,9 @@ def _read_letters(faults: Faults, path: str, value: object) -> tuple[str, ...]:
 def _read_sense(
     faults: Faults, path: str, value: object, what: str, own: AskedSense | None
 ) -> AskedSense | None:
-    """Read as what a sense is asked; ``true`` is as what the quantity has it.
+    """Read the form of a sense; ``true`` is the form of the quantity.
 
-    ``what`` is empty of a quantity that nobody knows.
+    ``what`` is empty for an unknown quantity.
     """
     if value is False:
         return None

@@ -1,4 +1,4 @@
-"""From lengths, sides and angles to the points of a link in its own axes."""
+"""Placement of the points of a link in its own axes, from lengths, sides and angles."""
 
 from __future__ import annotations
 
@@ -140,7 +140,7 @@ class _Placement:
                 return
 
     def _lay_along(self, pending: list[str]) -> bool:
-        """Lay one length of a slider along its axis, when nothing else places the point."""
+        """Place a point of a slider along its axis by one length, if nothing else does."""
         for point in pending:
             known = self._distances(point)
             if point not in self.link.forms and known:
@@ -199,7 +199,7 @@ class _Placement:
                 known = [length for at, length in self._distances(point) if at == vertex]
                 if point not in line or not known or start is None or end is None or start == end:
                     continue
-                if form is not None:  # a side tells which way the angle opens
+                if form is not None:  # a side determines the sense of the angle
                     degrees = abs(degrees) if form.left else -abs(degrees)
                 sense = 1.0 if line[1] == point else -1.0
                 turned = _unit(end - start) * rotation(degrees)
@@ -294,7 +294,7 @@ class _Placement:
                 )
 
     def _report_one_length(self, point: str, bases: list[str], start: str, length: Length) -> None:
-        """Note a point with one length, which most often lies on the line of two others."""
+        """Note a point with one length, which usually is on the line of two others."""
         said = say("point {} is not placed: {} alone is given", point, length.key)
         more = next((base for base in bases if base != start), None)
         hint = say("Add a second distance.")

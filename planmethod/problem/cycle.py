@@ -1,4 +1,4 @@
-"""The cycle that is looked at (цикл движения): ``[cycle]``."""
+"""The analysed cycle of motion (цикл движения): ``[cycle]``."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ MOST_LISTED = 36
 
 
 def cycle_count(given: Mapping[str, Any]) -> int:
-    """Return how many positions the cycle of a file has as far as it can be read; 0 without any.
+    """Return the number of positions of the cycle of a file, as far as it can be read; 0 if none.
 
     Parameters
     ----------
@@ -50,7 +50,7 @@ def cycle_count(given: Mapping[str, Any]) -> int:
 
 
 def _driver_count(given: Mapping[str, Any]) -> int | None:
-    """Return how many positions of a full turn the driver of a file lists; None of others."""
+    """Return the number of positions if the driver of a file lists a full turn, else None."""
     driver = given.get("driver")
     phi = driver.get("phi") if isinstance(driver, Mapping) else None
     if not isinstance(phi, Mapping) or phi.keys() != {"from", "count"}:
@@ -75,7 +75,7 @@ def read_cycle(
     bodies, slides : mapping
         As far as the file has them.
     drive, machine : Drive or None, Machine or None
-        None where it has a fault of its own; what a machine tells alone holds for the cycle.
+        None where it has a fault of its own; data that only a machine has apply to the cycle.
     count : int
         Positions of the cycle (`cycle_count`).
     """
@@ -109,7 +109,7 @@ def read_cycle(
 
 
 def _check_working(faults: Faults, found: Mapping[str, Any], slides: Mapping[str, Slide]) -> None:
-    """Refuse a sense of turning of an output that slides."""
+    """Reject a sense of rotation of an output that slides."""
     sense, output = found.get("working"), found.get("output")
     slides_on = output in slides or any(slide.pin == output for slide in slides.values())
     if sense in (StrokeSense.CCW, StrokeSense.CW) and slides_on:
@@ -118,7 +118,7 @@ def _check_working(faults: Faults, found: Mapping[str, Any], slides: Mapping[str
 
 
 def _of_machine(faults: Faults, found: Mapping[str, Any], machine: Machine) -> dict[str, Any]:
-    """Return what ``[machine]`` alone says of the positions; what both say must agree."""
+    """Return the data of the positions that only ``[machine]`` has; data in both must agree."""
     told: dict[str, Any] = {}
     turns = round(machine.cycle_deg / 360.0)
     start, count = machine.start_deg, machine.told_count
@@ -140,7 +140,7 @@ def _of_machine(faults: Faults, found: Mapping[str, Any], machine: Machine) -> d
 
 
 def report_start(faults: Faults, zero: float, start: float) -> None:
-    """Note a fault where a machine starts in another position than the cycle."""
+    """Note a fault if a machine starts in another position than the cycle."""
     if abs((start - zero + 180.0) % 360.0 - 180.0) > SAME_DEG:
         hint = "The positions are those of [cycle]: delete phi_0 of [machine]."
         message = say("{:g} deg, and position 0 of [cycle] is at {:.2f} deg", start, zero)
@@ -218,7 +218,7 @@ def _read_graphs(
     slides: Mapping[str, Slide],
     drive: Drive | None,
 ) -> tuple[str, ...]:
-    """Read the quantities whose graphs are asked for."""
+    """Read the quantities of the requested graphs."""
     if not isinstance(value, list) or not 1 <= len(value) <= _MOST_GRAPHS:
         example = 'graphs = ["v_q_C", "u_31", "x_C"]'
         faults.expected(path, say("a list of quantities, 1 to {} of them", _MOST_GRAPHS), value,

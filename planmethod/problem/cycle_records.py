@@ -1,4 +1,4 @@
-"""What is asked of the cycle of a crank, and decided of a project, put into plain records."""
+"""Plain records of the requests for the cycle of a crank and of the decisions of a project."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ class StrokeSense(Enum):
 
 
 class Differentiation(Enum):
-    """How a diagram is differentiated on paper (графическое дифференцирование)."""
+    """Method of graphical differentiation of a diagram (графическое дифференцирование)."""
 
     CHORDS = "chords"
     TANGENTS = "tangents"
@@ -67,7 +67,7 @@ class PoleDistances(Struct, frozen=True):
 
 
 class CycleTask(Struct, frozen=True):
-    """What is asked of the cycle of a crank (цикл движения): ``[cycle]``."""
+    """Requests for the cycle of a crank (цикл движения): ``[cycle]``."""
 
     output: Annotated[
         str | None,
@@ -153,7 +153,7 @@ PROJECT_PARTS = (
 
 
 class ProjectTask(Struct, frozen=True):
-    """What is decided of a project (курсовой проект): ``[project]``."""
+    """Decisions of a project (курсовой проект): ``[project]``."""
 
     calculated: Annotated[
         int | None,

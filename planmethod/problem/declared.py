@@ -1,4 +1,4 @@
-"""How the keys of flat tables are declared (описание ключей): the record of a table says it all.
+"""Declaration of the keys of flat tables (описание ключей) by the record of a table.
 
 A field of such a record is annotated with a key: ``Annotated[float, NumberKey("mass", ...)]``.
 The reader of the table (`planmethod.problem.flat`), its keys (`planmethod.problem.keys`), its part
@@ -21,7 +21,7 @@ LENGTH_HINT = "Check the unit: the file is in SI units and degrees."
 
 
 class DeclaredKey(Struct, frozen=True, kw_only=True):
-    """What keys of every type have.
+    """Common attributes of keys of every type.
 
     Attributes
     ----------
@@ -29,11 +29,11 @@ class DeclaredKey(Struct, frozen=True, kw_only=True):
         Name in the file; empty where it is that of the field.
     required : bool
     missing : str
-        What to do where the file lacks a required key.
+        Hint where the file lacks a required key.
     more : str
-        What follows in the reference behind unit, bounds and default, with its punctuation.
+        Text of the reference after unit, bounds and default, with its punctuation.
     absent : str
-        What holds without the key, in words; empty where the default of the field says it.
+        Default in words; empty where it is the default of the field.
     """
 
     name: str = ""
@@ -49,13 +49,13 @@ class NumberKey(DeclaredKey, frozen=True):
     Attributes
     ----------
     what : str
-        What is expected, without its unit: ``a density``.
+        Expected value, without its unit: ``a density``.
     unit : str
         Empty of a number without dimension.
     positive : bool
         Zero and negative numbers are reported as such, before the bounds are looked at.
     hint : str
-        What to do about a number out of bounds.
+        Hint for a number out of bounds.
     """
 
     sentence: str
@@ -68,12 +68,12 @@ class NumberKey(DeclaredKey, frozen=True):
 
     @property
     def expected(self) -> str:
-        """What is expected, with its unit."""
+        """Expected value, with its unit."""
         return f"{self.what} in {self.unit}" if self.unit else self.what
 
     @property
     def unbounded(self) -> bool:
-        """Whether the upper bound only keeps out what is no quantity of a machine."""
+        """True if the upper bound only rejects values that are impossible in a machine."""
         return self.high >= 1e9
 
 
@@ -98,7 +98,7 @@ class FlagKey(DeclaredKey, frozen=True):
 
 
 class TextKey(DeclaredKey, frozen=True):
-    """A line of text of at most so many characters."""
+    """A line of text of at most ``limit`` characters."""
 
     sentence: str
     limit: int
@@ -118,7 +118,7 @@ class ChoiceKey(DeclaredKey, frozen=True):
 
 
 class OwnKey(DeclaredKey, frozen=True):
-    """A value that its table reads in its own way."""
+    """A value with a reader of its own in its table."""
 
     sentence: str
 
@@ -134,7 +134,7 @@ class FlatField(Struct, frozen=True):
     Attributes
     ----------
     field, name : str
-        What the record and the file call it.
+        Its names in the record and in the file.
     key : FlatKey
     kind : type
         Type of the value.

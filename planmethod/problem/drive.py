@@ -42,8 +42,8 @@ def read_drive(
 ) -> Drive | None:
     """Read ``[driver]``; ``hosts`` maps each slider to its host, ``leading`` its train or cam.
 
-    ``numbered`` is the number of positions of ``[cycle]``: of a crank they outrank several that
-    the driver lists, and stand for what is left out.
+    ``numbered`` is the number of positions of ``[cycle]``: of a crank they override several that
+    the driver lists, and replace missing ones.
     """
     before = len(faults)
     given = fields.read_table(faults, "driver", table, '[driver] link = "1", phi = 20, omega = 50')
@@ -131,7 +131,7 @@ def _split(leading: Geared | Lifted) -> tuple[Geared | None, Lifted | None]:
 
 
 def _check_follower(faults: Faults, given: Table, led: Lifted | None, *, crank: bool) -> None:
-    """Note what keeps a cam's follower from driving: its kind, several places."""
+    """Note why a cam's follower cannot drive: its kind, or several positions."""
     key = "phi" if crank else "s"
     if led is not None and led.turns is not crank:
         what = "a translating follower moves a slider, an oscillating one a crank"
@@ -165,7 +165,7 @@ def _read_link(faults: Faults, given: Table, links: Mapping[str, LinkText]) -> L
 
 
 def _check_crank_axis(faults: Faults, link: LinkText, pivot: str) -> None:
-    """Refuse a crank whose own axis, which phi turns, does not start at the pivot."""
+    """Reject a crank whose own axis, which phi turns, does not start at the pivot."""
     if not link.lengths or link.slides is not None:
         return
     first = link.lengths[0]
@@ -219,7 +219,7 @@ def _read_position(faults: Faults, path: str, value: object, key: str) -> float 
 
 
 def too_many(faults: Faults, path: str, count: int) -> bool:
-    """Whether there are more positions than a file may have; a fault."""
+    """Return whether there are more positions than a file may have, noting the fault."""
     if count <= keys.POSITION_LIMIT:
         return False
     shown = f"{count}" if count < 10**9 else "over a billion"

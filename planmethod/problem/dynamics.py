@@ -51,7 +51,7 @@ def read_dynamics(
     fixed : collection of str
         Points of the frame.
     drive : Drive or None
-        None when it could not be read: then nothing is asked of it.
+        None when it could not be read: then it is not checked.
     machine : Machine or None
         After whose cycle tables over phi repeat.
 

@@ -15,7 +15,7 @@ FAMILIES = (
     "moving-guide", "whitworth", "toggle-press", "v-engine", "oscillating-cylinder",
     "pantograph", "watt", "stephenson", *MACHINES, "project",
 )  # fmt: skip
-"""Names of those of linkages; what they are stands in `planmethod.note.wording`."""
+"""Names of those of linkages; their meanings are in `planmethod.note.wording`."""
 
 OTHER_FAMILIES = (
     "ordinary-train",
@@ -68,7 +68,7 @@ def _translated(text: str, lang: str) -> str:
 
 
 def schema_text(lang: str) -> str:
-    """Return the JSON Schema of problem files, with what keys mean in a language (схема файла)."""
+    """Return the JSON Schema of problem files, with descriptions in a language (схема файла)."""
     from importlib.resources import files
 
     name = "schema.json" if lang == "en" else f"schema.{lang}.json"

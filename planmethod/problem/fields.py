@@ -44,7 +44,7 @@ class Faults:
     unit : str
         Unit of the lengths of the file, a key of `UNITS`.
     stated : dict of str to str
-        Arithmetic that stands for a number, as written, by path.
+        Arithmetic in place of a number, as written, by path.
     vanished : dict of str to float
         Numbers that are read as zero, by path: speeds, forces and the like, of which that matters.
     """
@@ -80,11 +80,11 @@ class Faults:
             self._found.append(fault)
 
     def expected(self, path: str, what: str, value: object, hint: str = "") -> None:
-        """Note that something else stands where ``what`` is expected."""
+        """Note that ``what`` was expected instead of a value."""
         self.add(path, say("expected {}, got {}", what, show(value)), hint)
 
     def beyond(self, path: str, said: str, count: int, limit: int) -> bool:
-        """Note that there are too many, ``{} links, the limit is {}``; tell whether there are."""
+        """Note an exceeded limit, ``{} links, the limit is {}``; return whether it is exceeded."""
         if count > limit:
             self.add(path, say(said, count, limit))
         return count > limit
@@ -116,7 +116,7 @@ def show(value: object) -> str:
 
 
 def is_number(value: object) -> TypeGuard[int | float]:
-    """Whether a TOML value is a number (a boolean is not)."""
+    """Return whether a TOML value is a number (a boolean is not)."""
     return isinstance(value, int | float) and not isinstance(value, bool)
 
 
@@ -146,7 +146,7 @@ def read_number(
     positive : bool
         Zero and negative numbers are then reported as such, before the bounds are looked at.
     offset : bool
-        It is a coordinate or an angle: what is nearly zero is zero, and nothing is told of it.
+        Whether it is a coordinate or an angle: a nearly zero value becomes zero without a note.
     hint : str
         What to do about a number that is out of bounds.
     """
@@ -195,7 +195,7 @@ def read_measured(faults: Faults, path: str, value: object, what: str) -> float 
     Returns
     -------
     float or None
-        None of what is no text of a number and a unit; NaN after noting a fault.
+        None if it is not a text of a number and a unit; NaN after noting a fault.
     """
     told = measured(value) if isinstance(value, str) else None
     if told is None:
@@ -219,7 +219,7 @@ def read_measured(faults: Faults, path: str, value: object, what: str) -> float 
 
 
 def is_plain(text: str) -> bool:
-    """Tell whether a text is a number as it is, and no arithmetic."""
+    """Return whether a text is a plain number, not arithmetic."""
     return re.fullmatch(r"[-+−]?\d+(?:[.,]\d+)?", text) is not None
 
 
@@ -266,7 +266,7 @@ _SAID: Mapping[str, Mapping[str, str]] = {
         "place": "[x, y] in millimetres",
     },
 }
-"""What is expected of a length, by the unit of the file."""
+"""Expected values of lengths, by the unit of the file."""
 
 
 def read_length(faults: Faults, path: str, value: object) -> float | None:
@@ -402,7 +402,7 @@ def report_unknown(
 def require_turning(
     faults: Faults, path: str, drive: Drive | None, slides: str, stands: str
 ) -> None:
-    """Note that a table is of a crank that turns, with the hint for what the driver is instead."""
+    """Note that a table needs a rotating crank, with a hint for the actual driver."""
     if drive is not None and drive.followed is not None:
         what = "a cam's follower moves link {}, which does not turn all round"
         faults.add(path, say(what, drive.link), slides)
@@ -466,7 +466,7 @@ def read_point_name(faults: Faults, path: str, value: object) -> str | None:
 
 
 Owner: TypeAlias = str | Callable[[], str]
-"""Whose points they are; said when a fault is told, since few files have one."""
+"""Owner of the points; its name is computed only for a fault, since few files have one."""
 
 
 def _no_point(owner: Owner, name: str) -> str:

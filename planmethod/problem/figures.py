@@ -1,4 +1,4 @@
-"""Numbers that are computed without plans, as checking asks for them (расчётные величины)."""
+"""Numbers that are computed without plans, for checking (расчётные величины)."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ Taken = Callable[[str, int], float | None]
 
 
 class AnswerValue(Struct, frozen=True):
-    """What an answer should be (величина).
+    """Correct value of an answer (величина).
 
     Attributes
     ----------
@@ -49,12 +49,12 @@ class Mistaken(NamedTuple):
 
 
 class Figures(Protocol):
-    """All that can be asked of a problem that is computed.
+    """Quantities of a computed problem for questions.
 
     Attributes
     ----------
     names : tuple of str
-        What is asked where the file has no ``[[answers]]``.
+        Questions of a file without ``[[answers]]``.
     count : int
         Number of positions.
     """
@@ -63,13 +63,13 @@ class Figures(Protocol):
     count: int
 
     def figure(self, name: str, position: int) -> AnswerValue | None:
-        """Return a quantity; None where there is none, or it has no value."""
+        """Return a quantity; None if it is unknown or has no value."""
 
     def read_off(self, name: str, position: int, profile: Profile) -> tuple[float, float] | None:
-        """Return its segment on the drawing, mm, and one sigma of what it is read as."""
+        """Return its segment on the drawing, mm, and one sigma of its reading."""
 
     def mistaken(self) -> Iterator[Mistaken]:
         """Yield the usual mistakes."""
 
     def followed(self, name: str, own: Mapping[str, float]) -> Iterator[tuple[float, str]]:
-        """Yield what a quantity is by other answers of the same position, and by which."""
+        """Yield values of a quantity from other answers of the same position, with their names."""

@@ -1,4 +1,4 @@
-"""Read flat tables by what is declared of their keys (`planmethod.problem.declared`)."""
+"""Read flat tables by the declarations of their keys (`planmethod.problem.declared`)."""
 
 from __future__ import annotations
 
@@ -43,12 +43,12 @@ def read_flat(
     Parameters
     ----------
     record : type
-        Its fields say what keys the table has, and what they are (`declared`).
+        Its fields declare the keys of the table (`declared`).
     own : mapping of str to callable, optional
-        Readers of keys that the table reads in its own way; the values of others of these are
-        returned as they are.
+        Readers of the table's custom keys; values of custom keys without a reader are returned
+        unchanged.
     without : collection of str
-        Keys of the record that this table has not.
+        Keys of the record that this table does not have.
     example : str
         Shown where a required key is missing that has no hint of its own.
 
@@ -130,7 +130,7 @@ def read_choice(faults: Faults, path: str, value: object, known: Collection[str]
 
 
 def chosen(text: str, known: Collection[str]) -> str | None:
-    """Return which of a few words a text is, in either alphabet and case, or None.
+    """Return the word that a text matches, in either alphabet and case, or None.
 
     Type Б of the lettering is called B in Latin letters.
 

@@ -23,7 +23,7 @@ _NAME_RE = r"(?:[^_^{}\\]|[_^](?:[^_^{}\\]|\{[^_^{}\\]+\}))+\Z"
 
 
 class LoadScope(Struct, frozen=True):
-    """What masses and loads may name.
+    """Names that masses and loads may use.
 
     Attributes
     ----------
@@ -34,7 +34,7 @@ class LoadScope(Struct, frozen=True):
     drive : Drive or None
         None when it could not be read.
     cycle : float, degrees
-        A table over phi repeats after so many.
+        Period of a table over phi.
     """
 
     links: Mapping[str, LinkText]
@@ -43,7 +43,7 @@ class LoadScope(Struct, frozen=True):
     cycle: float = TURN
 
     def find_link(self, faults: Faults, path: str, value: object, verb: str) -> LinkText | None:
-        """Return a moving link by its name; ``verb`` says what such links do."""
+        """Return a moving link by its name; ``verb`` names their action in messages."""
         if not isinstance(value, str):
             hint = say('Write link = "{}".', value) if type(value) is int else ""
             faults.expected(path, "the name of a link", value, hint)
@@ -92,7 +92,7 @@ def read_loads(faults: Faults, value: object, scene: LoadScope) -> tuple[Load | 
         if load is not None:
             found[index] = load
             taken.add(load.name)
-    # a name whose load has a fault is no unknown one
+    # the name of a faulty load is not unknown
     known: dict[str, object] = {name: None for name in names if name is not None}
     known |= {load.name: load.size for load in found.values()}
     for index, load in found.items():
@@ -104,7 +104,7 @@ def read_loads(faults: Faults, value: object, scene: LoadScope) -> tuple[Load | 
 
 
 def _read_names(faults: Faults, bodies: Iterable[Table]) -> list[str | None]:
-    """Names that the file gives, which must differ."""
+    """Read the names in the file, which must differ."""
     names: list[str | None] = []
     for index, body in enumerate(bodies):
         path, name = f"loads[{index}].name", None
@@ -127,7 +127,7 @@ def _read_names(faults: Faults, bodies: Iterable[Table]) -> list[str | None]:
 
 
 def _default_name(letter: str, link: str, taken: Collection[str]) -> str:
-    """First free name of a load: ``F_{5}``, ``F_{5}'``, ``F_{5}''``, ``F_{5}^{(3)}``."""
+    """Return the first free name of a load: ``F_{5}``, ``F_{5}'``, ``F_{5}''``, ``F_{5}^{(3)}``."""
     stem = f"{letter}_{{{link}}}"
     for count in range(len(taken) + 1):
         name = stem + ("'" * count if count < 3 else f"^{{({count})}}")

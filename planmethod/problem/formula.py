@@ -1,4 +1,4 @@
-"""Formulas and arithmetic of problem files: a grammar of their own, nothing is executed (формулы).
+"""Formulas and arithmetic of problem files: a grammar without code execution (формулы).
 
 .. code-block:: text
 
@@ -72,7 +72,7 @@ _INSTEAD: Mapping[str, str] = MappingProxyType(
 
 
 class FormulaKind(Enum):
-    """What one operation of a formula does (вид действия)."""
+    """Kind of an operation of a formula (вид действия)."""
 
     NUMBER = "number"
     TIME = "t"
@@ -89,7 +89,7 @@ class FormulaKind(Enum):
 class Operation(Struct, frozen=True):
     """One operation, which takes its operands from the results before it (действие).
 
-    ``is_exact`` tells of a number whether float64 has it as it is written: 0.5, not 0.1.
+    ``is_exact``: whether float64 represents the number exactly: 0.5, not 0.1.
     """
 
     kind: FormulaKind
@@ -118,8 +118,8 @@ def read_decimal(text: str) -> Decimal | None:
     Returns
     -------
     Decimal or None
-        None of what is no number, or has a power of ten beyond `EXPONENT_LIMIT`: the numbers of
-        Python that are exact have as many digits as it says, or do not take it.
+        None if it is not a number, or its power of ten exceeds `EXPONENT_LIMIT`: Python's exact
+        numbers would need that many digits, or reject it.
     """
     from decimal import Decimal
 
@@ -130,7 +130,7 @@ def read_decimal(text: str) -> Decimal | None:
 
 
 def is_exact(text: str) -> bool:
-    """Tell whether float64 has a number as it is written in decimal."""
+    """Return whether float64 represents a decimal number exactly."""
     from decimal import Decimal
 
     number = read_decimal(text)
@@ -166,7 +166,7 @@ def work_out(text: str) -> float:
 
 
 def _carried_out(operation: Operation, stack: list[float]) -> float:
-    """Return the result of an operation; its operands are taken off the stack."""
+    """Return the result of an operation; pop its operands off the stack."""
     match operation.kind:
         case FormulaKind.NUMBER | FormulaKind.CONSTANT:
             return operation.value
@@ -188,7 +188,7 @@ def _carried_out(operation: Operation, stack: list[float]) -> float:
 
 
 class Parser:
-    """Recursive descent with bounded depth; what is read becomes a row of operations.
+    """Recursive descent with bounded depth; the text becomes a row of operations.
 
     ``printed``: arithmetic as a textbook prints it, without time.
     """
@@ -200,7 +200,7 @@ class Parser:
         self.made: list[Operation] = []
 
     def parse(self) -> list[Operation]:
-        """Return the operations in the order in which they are carried out."""
+        """Return the operations in order of execution."""
         if len(self.tokens) == 1:
             raise FormulaError("the formula is empty", 'For example: "4*t*(1 + t/2)".')
         self._sum()
@@ -212,7 +212,7 @@ class Parser:
         return self.made
 
     def _bare(self) -> FormulaError:
-        """Return the fault of what stands where an operator is expected."""
+        """Return the fault of a missing operator."""
         (_, before, _), (_, text, where) = self.tokens[self.at - 1 : self.at + 1]
         said = say("character {}: expected an operator before '{}'", where, text)
         if text.startswith("."):

@@ -1,4 +1,4 @@
-"""What can be shown over the turn: quantities of points and links by label (графики).
+"""Quantities of points and links that have graphs over the turn, by label (графики).
 
 The labels are those of ``--ask``, and components: ``x_C``, ``phi_3``, ``v_q_C``, ``v_qx_C``,
 ``u_31``, ``omega_3``, ``ay_D``.
@@ -31,7 +31,7 @@ class GraphQuantity(Struct, frozen=True):
     kind : str
         A key of `OF_POINTS` or of `OF_LINKS`.
     axis : str
-        ``x``, ``y`` of a component; empty of a size, and of what is a number.
+        ``x``, ``y`` of a component; empty for a magnitude, and for a scalar.
     of : str
         The point, or the link.
     symbol : str
@@ -51,14 +51,14 @@ class GraphQuantity(Struct, frozen=True):
 
     @property
     def family(self) -> str:
-        """What stands on one diagram: coordinates together, else what has the same letters."""
+        """Key of its diagram: coordinates share one, others one for each letter."""
         return "x" if self.kind == "y" else self.kind
 
 
 def graph_quantities(
     points: Iterable[str], links: Collection[str], crank: str
 ) -> dict[str, GraphQuantity]:
-    """Return every quantity that can be asked for over the turn, by its label.
+    """Return every quantity that has a graph over the turn, by its label.
 
     Parameters
     ----------
@@ -86,6 +86,6 @@ def graph_quantities(
 
 
 def ratio_of(link: str, crank: str, links: Collection[str]) -> str:
-    """Return how a ratio is indexed: ``21``; ``12/1`` where that would be read otherwise."""
+    """Return the index of a ratio: ``21``; ``12/1`` where that is ambiguous."""
     plain = f"{link}{crank}"
     return plain if len(plain) == 2 and plain not in links else f"{link}/{crank}"

@@ -1,4 +1,4 @@
-"""What problem files of every kind state, and the flat tables of gears: plain records."""
+"""Plain records of the data common to all problem files, and of the flat tables of gears."""
 
 from __future__ import annotations
 
@@ -71,7 +71,7 @@ TITLE_FORMS = ("1", "1+2a", "2", "2a")
 """Forms of the title block: of every sheet, or of the first and of the later ones."""
 
 LETTERINGS = ("A", "A-upright", "B", "B-upright")
-"""Types of the lettering of GOST 2.304, slanted where nothing else is said."""
+"""Types of the lettering of GOST 2.304, slanted by default."""
 
 
 class Published(Struct, frozen=True):
@@ -102,7 +102,7 @@ class Published(Struct, frozen=True):
 
 
 class AnswerForm(Enum):
-    """In what an answer is given (вид ответа)."""
+    """Form of an answer (вид ответа)."""
 
     VALUE = "value"
     MM = "mm"  # millimetres of the student's own plan
@@ -110,7 +110,7 @@ class AnswerForm(Enum):
 
 
 class AskedSense(Enum):
-    """As what the sense of an answer is asked (направление)."""
+    """Form in which the sense of an answer is required (направление)."""
 
     TURN = "turn"  # ↺ or ↻
     DIRECTION = "direction"  # left, right, up or down
@@ -118,7 +118,7 @@ class AskedSense(Enum):
 
 
 class AskedAnswer(Struct, frozen=True):
-    """What students are asked for (вопрос); ``what`` is in the words of ``[published]``."""
+    """Question to students (вопрос); ``what`` is in the words of ``[published]``."""
 
     id: Annotated[
         str,
@@ -202,11 +202,11 @@ class AskedAnswer(Struct, frozen=True):
 
 
 NOTATIONS = ("p5 p4", "p1 p2", "pn pv")
-"""How the numbers of lower and higher pairs are lettered; of the last one a language has words."""
+"""Letters of the numbers of lower and higher pairs; languages have words for the last one."""
 
 
 class SheetSettings(Struct, frozen=True):
-    """How the sheets are to be made up (оформление листов): ``[sheet]``; None: not given."""
+    """Settings of the sheets (оформление листов): ``[sheet]``; None: not given."""
 
     paper: Annotated[str | None, OwnKey('format: `"A3"`, `"A4x3"`, `"A3:portrait"`')] = None
     form: Annotated[
@@ -239,24 +239,24 @@ class SheetSettings(Struct, frozen=True):
     ] = None
 
     def over(self, lower: SheetSettings) -> SheetSettings:
-        """Return these settings, and those of ``lower`` where these say nothing."""
+        """Return these settings, with those of ``lower`` for missing ones."""
         given = {name: value for name, value in asdict(self).items() if value is not None}
         return replace(lower, **given)
 
 
 SEVERAL = "one of several"
-"""What ``reading`` says of a scheme that is one of several which fit the data of a lost figure."""
+"""Value of ``reading`` for a scheme that is one of several matching the data of a lost figure."""
 
 
 class KindProblem(Struct, frozen=True, kw_only=True):
-    """What is read of a problem of any kind (задача).
+    """Data of a problem of any kind (задача).
 
     Attributes
     ----------
     name : str
         Stem of the file.
     source_file : str
-        The file as it was asked for, which messages name; the name where there is none.
+        The file as it was given, for messages; the name where there is none.
     reading : str
         `SEVERAL`, or empty where the scheme is that of the task.
     other_readings : tuple of str
@@ -266,7 +266,7 @@ class KindProblem(Struct, frozen=True, kw_only=True):
     stamp_in : mapping of str to mapping
         Those that a language has instead, by its name.
     answers : tuple of AskedAnswer
-        What students are asked for, in the order of the file; empty where it does not say.
+        Questions to students, in the order of the file; empty where it has none.
     variants : tuple of str
         Names of the variants that the file has.
     variant : str or None
@@ -294,7 +294,7 @@ class KindProblem(Struct, frozen=True, kw_only=True):
 
 
 def reading_record(problem: KindProblem) -> dict[str, object]:
-    """Return what records say of the reading of a lost figure; nothing where there is one."""
+    """Return the record entries on a lost figure's readings; empty if the figure exists."""
     if not problem.reading:
         return {}
     return {"reading": problem.reading, "other_readings": list(problem.other_readings)}

@@ -157,7 +157,7 @@ class _Reader:
         return None
 
     def _free(self, roller: str) -> str:
-        """Return the first number after those of the links that nothing has."""
+        """Return the first free number after those of the links."""
         taken = {*self.links, *self.rollers, roller, self.frame.number}
         numbers = [int(name) for name in taken if name.isdecimal()]
         return str(max(numbers, default=0) + 1)

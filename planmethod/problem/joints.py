@@ -1,4 +1,4 @@
-"""What is joined to what: the mechanism behind the points and slides, and its cross checks."""
+"""Joints of the links: the mechanism behind the points and slides, and its cross checks."""
 
 from __future__ import annotations
 
@@ -170,7 +170,7 @@ def _check_coincident(
 
 
 def _check_letters(faults: Faults, points: Iterable[str]) -> None:
-    """Refuse points that differ only in case: on the plans both have the same small letter."""
+    """Reject points that differ only in case: on the plans both have the same small letter."""
     seen: dict[str, str] = {}
     for point in points:
         twin = seen.setdefault(point.casefold(), point)

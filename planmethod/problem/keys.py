@@ -71,19 +71,19 @@ POINT_FORMS = {
     "from": ("from", "at", "across"),
     "vertex": ("vertex", "ray", "angle", "distance"),
 }
-"""The key that tells how a third point is given, and the keys that go with it."""
+"""Keys of the form of a third point, each with the keys that belong to it."""
 POINT = tuple(dict.fromkeys(key for form in POINT_FORMS.values() for key in form))
 CRANK = ("phi", "omega", "n", "train", "epsilon", "cam")
 SLIDER = ("s", "v", "a", "cam")
 POSED = ("x", "y", "phi")
-"""Keys of the driver that tell a position by the output, each with a name: ``x_B``, ``phi_3``."""
+"""Keys of the driver that give a position by the output, each with a name: ``x_B``, ``phi_3``."""
 GOING = {
     "x": ("right", "left"),
     "y": ("up", "down"),
     "phi": ("ccw", "cw"),
     "stroke": ("forth", "back"),
 }
-"""Which way the output goes: forward of its coordinate, and back."""
+"""Directions of the output: forward along its coordinate, and back."""
 EXTREMES = ("left", "right", "upper", "lower")
 PLACES = ("phi", "s", "stroke", "at")
 DRIVER = ("link", *dict.fromkeys((*CRANK, *SLIDER)), "stroke", "at", "root")
@@ -98,7 +98,7 @@ CONFIG = ("stamp", "sheet")
 INDICATOR = ("strokes", "area", "sides", "area_2", "like", "shift")
 """Keys of a table that is an indicator diagram."""
 LIKE = ("like", "shift")
-"""Those of one that is another piston's, later."""
+"""Keys of a diagram that is another piston's, later."""
 TABLE = ("law", "over", "values", "interpolation", *INDICATOR)
 MOTOR_FORMS = {
     "kloss": (("M_max", "s_k", "n_sync"), ("P_nom", "n_nom", "n_sync", "lambda")),

@@ -61,8 +61,8 @@ class LinkText(Struct):
     sound : bool
         False once a fault has been noted in the link.
     whole : bool
-        False when its points or its slide could not be read: then nothing follows from what it
-        seems to be joined to.
+        False when its points or its slide could not be read: then its joints are not
+        used.
     faulty : set of str
         Points whose tables could not be read.
     arc : tuple of two str, or None
@@ -85,7 +85,7 @@ class LinkText(Struct):
 
     @property
     def path(self) -> str:
-        """Dotted path of the link, or of what it was made of."""
+        """Dotted path of the link, or of its source in the file."""
         return self.where or f"links.{segment(self.name)}"
 
     def lengths_of(self, point: str) -> list[Length]:
@@ -177,7 +177,7 @@ def _read_link(faults: Faults, path: str, name: str, table: Table) -> LinkText:
 
 
 def _read_arc(faults: Faults, path: str, link: LinkText) -> None:
-    """Read a slide along a circle: its stone moves as a link of that radius about its centre."""
+    """Read a slide along a circle: its block moves as a link of that radius about its centre."""
     before = len(faults)
     given = fields.read_keys(faults, path, link.slides or {}, keys.SLIDES)
     link.slides = None
@@ -206,7 +206,7 @@ def _read_arc(faults: Faults, path: str, link: LinkText) -> None:
 
 
 def check_arcs(faults: Faults, links: Mapping[str, LinkText], fixed: Collection[str]) -> None:
-    """Refuse a circular slot whose centre is no point of the link that has it."""
+    """Reject a circular slot whose centre is not a point of its link."""
     for link in links.values():
         host, centre = link.arc or (FRAME, "")
         known = fixed if host == FRAME else links[host].points if host in links else None
@@ -320,7 +320,7 @@ def _read_angles(faults: Faults, path: str, value: object, link: LinkText) -> No
 
 
 def _hint_for_slot(link: LinkText, lines: Sequence[tuple[str, ...]], value: object) -> str | None:
-    """Return how a slot's line is told that the file names by the pin of the stone in it."""
+    """Return the hint for a slot whose line the file names by the pin of its sliding block."""
     own = link.points[:2]
     for (slot, arm), sign in (((lines[0], lines[1]), -1), ((lines[1], lines[0]), 1)):
         ends = [point for point in slot if point in link.points]

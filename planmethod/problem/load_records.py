@@ -42,7 +42,7 @@ class Mass(Struct, frozen=True):
 
 
 class Over(Enum):
-    """What a table of a force or couple is over (аргумент таблицы)."""
+    """Argument of the table of a force or couple (аргумент таблицы)."""
 
     PHI = "phi"  # angle of the driving crank, degrees, periodic
     S = "s"  # place of the driving slider, m
@@ -63,7 +63,7 @@ class LoadLaw(Enum):
 
 
 class Interpolation(Enum):
-    """How a table is read between its rows (интерполяция)."""
+    """Interpolation between the rows of a table (интерполяция)."""
 
     LINEAR = "linear"
     STEP = "step"  # a row holds until the next one
@@ -101,7 +101,7 @@ class SizeTable(Struct, frozen=True):
         As many as ``at``, or as the positions of the file.
     interpolation : Interpolation
     turn : float, degrees
-        A table over phi repeats after so many.
+        Period of a table over phi.
     like : str or None
         Of an indicator: the load whose diagram it is too, of another piston.
     shift : float, degrees
@@ -147,7 +147,7 @@ class TurningSense(Enum):
 
 
 class Phase(Struct, frozen=True):
-    """When a load acts (фаза действия нагрузки): where all that is given holds."""
+    """Phase in which a load acts (фаза действия нагрузки): all given conditions hold."""
 
     phi: Annotated[
         tuple[tuple[float, float], ...],
@@ -267,7 +267,7 @@ class Couple(Struct, frozen=True):
 
 
 class BalancingForceTask(Struct, frozen=True):
-    """What ``[balancing_force]`` asks (уравновешивающая сила): a force at a point of the crank."""
+    """Task of ``[balancing_force]`` (уравновешивающая сила): a force at a point of the crank."""
 
     at: Annotated[
         str, OwnKey("point of the crank where the force acts (точка приложения)", required=True)
@@ -297,7 +297,7 @@ class PairFriction(Struct, frozen=True):
 
 
 class FrictionTask(Struct, frozen=True):
-    """What ``[friction]`` tells (трение в кинематических парах)."""
+    """Data of ``[friction]`` (трение в кинематических парах)."""
 
     f: Annotated[
         float,
@@ -340,13 +340,13 @@ class BearingTable(Struct, frozen=True):
 
     @property
     def shares(self) -> tuple[float, float]:
-        """What of a force in the plane each bearing takes; negative where it acts back."""
+        """Fractions of an in-plane force on the two bearings; negative where it acts back."""
         first, second = self.at
         return (second - self.plane) / (second - first), (self.plane - first) / (second - first)
 
 
 class Dynamics(Struct, frozen=True):
-    """What the force analysis knows beside the motion (исходные данные силового расчёта).
+    """Data of the force analysis besides the motion (исходные данные силового расчёта).
 
     Attributes
     ----------

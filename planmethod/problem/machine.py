@@ -1,4 +1,4 @@
-"""``[machine]`` of a problem file: what the choice of a flywheel needs (маховик)."""
+"""``[machine]`` of a problem file: data for the choice of a flywheel (маховик)."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ def read_machine(faults: Faults, given: Mapping[str, Any], drive: Drive | None) 
     given : mapping
         The whole file.
     drive : Drive or None
-        None when it could not be read: then nothing is asked of it.
+        None when it could not be read: then it is not checked.
 
     Returns
     -------
@@ -78,7 +78,7 @@ def _read_cycle(faults: Faults, path: str, value: object) -> float | None:
 
 
 def _read_delta(faults: Faults, path: str, given: object) -> float | None:
-    """Read the irregularity: a number, or a fraction such as ``"1/18"``."""
+    """Read the coefficient of speed fluctuation: a number, or a fraction such as ``"1/18"``."""
     value = given
     if isinstance(value, str):
         top, slash, bottom = value.partition("/")
@@ -163,7 +163,7 @@ def _line(faults: Faults, path: str, given: LineTable, ratio: float) -> Motor | 
 
 
 def _nominal_slip(faults: Faults, path: str, nominal: float, idle: float) -> float:
-    """Return the slip of the nominal point, which must drive; 1 where there is none."""
+    """Return the slip of the nominal point, which must drive. Default: 1."""
     slip = 1.0 - nominal / idle
     if slip <= 0.0:
         hint = say("Expected less than {:g} rev/min.", idle)

@@ -18,35 +18,35 @@ from planmethod.problem.declared import (
 
 
 class MeanSpeed(Enum):
-    """What the mean speed of a machine is (средняя угловая скорость)."""
+    """Definition of the mean speed of a machine (средняя угловая скорость)."""
 
     HALF_SUM = "half-sum"  # of the largest and the least
     TIME = "time"
 
 
 class ConstantMoment(Enum):
-    """Which reduced moment does not change (постоянный приведённый момент)."""
+    """The constant reduced moment (постоянный приведённый момент)."""
 
     DRIVING = "driving"
     RESISTING = "resisting"
 
 
 class WeightSigns(Enum):
-    """How weights are added to the loads (знаки сил тяжести)."""
+    """Signs of weights among the loads (знаки сил тяжести)."""
 
     TRUE = "true"
     SOURCE = "source"  # with the other sign, as a coursework may have it
 
 
 class Quadrature(Enum):
-    """By what the work under a curve is measured (способ интегрирования)."""
+    """Rule of integration for the work under a curve (способ интегрирования)."""
 
     MIDDLE = "middle"
     TRAPEZOID = "trapezoid"
 
 
 class FlywheelMethod(Enum):
-    """How the flywheel is found of the diagrams (метод определения момента инерции маховика)."""
+    """Method of finding the flywheel's inertia (метод определения момента инерции маховика)."""
 
     WITTENBAUER = "wittenbauer"
     MERTSALOV = "mertsalov"
@@ -60,7 +60,7 @@ class WheelShape(Enum):
 
 
 class FlywheelTask(Struct, frozen=True):
-    """What the flywheel is to be like (исходные данные маховика)."""
+    """Specification of the flywheel (исходные данные маховика)."""
 
     shape: Annotated[WheelShape, WordKey('`"disc"` or `"rim"`')] = WheelShape.DISC
     density: Annotated[
@@ -152,7 +152,7 @@ class Motor(Struct, frozen=True):
     Attributes
     ----------
     idle : float, 1/s
-        Speed of the crank at which there is no moment: synchronous, or of idle running.
+        Speed of the crank at zero moment: synchronous, or idling.
     moment : float, N·m
         The greatest one of Kloss's formula; of a straight line the moment at rest.
     critical_slip : float or None
@@ -173,7 +173,7 @@ class Motor(Struct, frozen=True):
 
 
 class Machine(Struct, frozen=True):
-    """What the choice of a flywheel knows beside masses and loads (исходные данные маховика)."""
+    """Data for the flywheel besides masses and loads (исходные данные маховика)."""
 
     delta: Annotated[
         float,
@@ -291,14 +291,14 @@ class Machine(Struct, frozen=True):
 
 
 class Weighing(Enum):
-    """How much counterweights balance (полное или частичное уравновешивание)."""
+    """Extent of balancing by counterweights (полное или частичное уравновешивание)."""
 
     FULL = "full"
     PARTIAL = "partial"  # by the crank's counterweight alone
 
 
 class CounterweightTask(Struct, frozen=True):
-    """What ``[balancing]`` asks (статическое уравновешивание)."""
+    """Task of ``[balancing]`` (статическое уравновешивание)."""
 
     method: Annotated[
         Weighing, WordKey('`"full"`, or `"partial"`: by the crank\'s counterweight alone')

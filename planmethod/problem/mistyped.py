@@ -1,4 +1,4 @@
-"""What is meant by a line or a value that cannot be read: the hint is to write it so (описки)."""
+"""Likely meanings of lines and values that cannot be read, as hints (описки)."""
 
 from __future__ import annotations
 
@@ -44,14 +44,14 @@ INSTEAD = {
 
 
 def line_hint(what: str, lines: Sequence[str], number: int, column: int) -> str:
-    """Guess the likely cause of a syntax error, and say what to write.
+    """Guess the likely cause of a syntax error, and return a hint.
 
     Parameters
     ----------
     what : str
-        What TOML says of it, in English.
+        Message of the TOML parser, in English.
     number, column : int
-        Where it stands, from 1.
+        Its place, from 1.
     """
     line = lines[number - 1] if number <= len(lines) else ""
     code = line.split("#", 1)[0].strip()
@@ -90,7 +90,7 @@ def line_hint(what: str, lines: Sequence[str], number: int, column: int) -> str:
 
 
 def _key_hint(code: str) -> str:
-    """Return what to do about a key, or the name of a table, that has other than Latin letters."""
+    """Return the hint for a key, or the name of a table, with non-Latin letters."""
     header = re.match(r"\[+([^\]\"']*)\]*", code)
     key = (header[1] if header else re.split("[=:]", code, maxsplit=1)[0]).strip()
     if re.search(r"\w\s+\w", key) and key.casefold() not in typed():
@@ -111,7 +111,7 @@ def _key_hint(code: str) -> str:
 
 
 def _repaired(code: str) -> str:
-    """Return a line of TOML that a line was meant to be; empty where none is found."""
+    """Return the intended line of TOML; empty if none is found."""
     for pattern, put in _REPAIRS:
         code = re.sub(pattern, put, code).strip()
     try:
@@ -127,7 +127,7 @@ def _repaired(code: str) -> str:
 
 
 def value_hint(value: object) -> str:
-    """Return what to write in place of a text where numbers are expected, or nothing."""
+    """Return a hint for a text where numbers are expected; empty if none."""
     if not isinstance(value, str):
         return ""
     text = value.strip(" °[]()").replace("−", "-")

@@ -1,4 +1,4 @@
-"""What a problem file says, checked and put into plain records (SI units).
+"""Checked content of a problem file as plain records (SI units).
 
 Lengths are metres. Angles are degrees, as in the file, wherever a protractor would lay them off:
 then quadrants stay exact; the arithmetic of a reading turns them into directions.
@@ -47,7 +47,7 @@ class Body(Struct, frozen=True):
     angles : mapping of str to float, degrees
         Angles of the link by their letters: ``AOD``; of two lines ``ABCD``.
     arc : str or None
-        Centre of the circular slot whose stone the link stands for (дуговая направляющая).
+        Centre of the circular slot whose sliding block the link replaces (дуговая направляющая).
     """
 
     points: Mapping[str, complex]
@@ -58,7 +58,7 @@ class Body(Struct, frozen=True):
 
 
 class PointForm(Struct, frozen=True):
-    """How a third point is given (способ задания точки).
+    """Form in which a third point is given (способ задания точки).
 
     ``kind`` is ``side``, ``on``, ``from`` or ``vertex``; ``line`` is the directed line it speaks
     of, ``point`` its point; lengths in metres, ``angle`` in degrees.
@@ -112,7 +112,7 @@ class Slide(Struct, frozen=True):
 
 
 class Where(Enum):
-    """How an assembly rule tells the two closings of a group apart."""
+    """Relation by which an assembly rule distinguishes the two assemblies of a group."""
 
     RIGHT = "right"
     LEFT = "left"
@@ -131,10 +131,10 @@ class Rule(Struct, frozen=True):
 
     ``right|left|above|below`` compare with one point (``refs`` has one name), ``left of`` and
     ``right of`` with a directed line (two names), ``near`` with a place ``at`` in metres;
-    ``towards`` and ``away from`` (one name) tell which way from its group's outer joint on the same
-    link the point lies: a bar goes on through its block, or ends before it;
-    ``parallel`` asks for a parallelogram. A rule that is ``continuous`` is true of the first
-    position; in the others the motion goes on from there, through change points too.
+    ``towards`` and ``away from`` (one name) give the direction of the point from its group's outer
+    joint on the same link: a bar extends through its block, or ends before it;
+    ``parallel`` requires a parallelogram. A ``continuous`` rule applies to the first position; in
+    the others the motion continues from there, through change points too.
     """
 
     point: str
@@ -145,11 +145,11 @@ class Rule(Struct, frozen=True):
 
 
 class Coordinate(Struct, frozen=True):
-    """What tells where the driver stands (обобщённая координата): ``phi``, deg or ``s``, m.
+    """Generalized coordinate of the driver (обобщённая координата): ``phi``, deg or ``s``, m.
 
     Of a cam's follower it is the angle of the cam, ``cam``, deg. Records name it by ``column``;
-    ``symbol`` is rich text; ``rates`` are the velocity and the acceleration in a program. After a
-    ``turn``, which is infinite of a slider, it stands as before.
+    ``symbol`` is rich text; ``rates`` are the velocity and the acceleration in a program. ``turn``
+    is its period, infinite for a slider.
     """
 
     name: str
@@ -160,7 +160,7 @@ class Coordinate(Struct, frozen=True):
     turn: float
 
     def apart(self, one: float, two: float) -> float:
-        """Return how far apart two positions are, within a turn."""
+        """Return the distance of two positions, within a turn."""
         way, turn = one - two, self.turn
         return abs(way) if isinf(turn) else abs((way + turn / 2) % turn - turn / 2)
 
@@ -172,10 +172,10 @@ class Coordinate(Struct, frozen=True):
 
 
 class BalancingQuantity(Struct, frozen=True):
-    """What balances the driver (уравновешивающий момент, уравновешивающая сила).
+    """Balancing quantity of the driver (уравновешивающий момент, уравновешивающая сила).
 
-    Records name it by ``quantity``, sentences by ``said``; ``symbol`` stands for its letters, which
-    a language has.
+    Records name it by ``quantity``, sentences by ``said``; ``symbol`` is the key of its letters in
+    a language.
     """
 
     said: str
@@ -218,9 +218,9 @@ class Geared(Struct, frozen=True):
     efficiency: float | None = None
 
     def given(self, words: Any) -> Sequence[Any]:
-        """Return the facts of a statement that the train is given by, in a language (`Language`).
+        """Return the given facts of the train, in a language (`Language`).
 
-        What has a train (`gears/driving.py`) knows them.
+        The subclass of a train (`gears/driving.py`) has them.
         """
         return ()
 
@@ -228,8 +228,8 @@ class Geared(Struct, frozen=True):
 class LawPiece(NamedTuple):
     """A smooth part of a follower's law (участок закона движения).
 
-    The way is ``powers[0] + powers[1]·x + … + size·sin(rate·x + phase)``, m or rad, x being the
-    angle of the cam from ``start``, rad.
+    The displacement is ``powers[0] + powers[1]·x + … + size·sin(rate·x + phase)``, m or rad; x is
+    the angle of the cam from ``start``, rad.
     """
 
     start: float
@@ -249,9 +249,9 @@ class Lifted(Struct, frozen=True):
     n : float, rev/min
         Of the cam, counter-clockwise positive.
     pieces : tuple of LawPiece
-        Its way over a turn of the cam, from the start of the rise in the sense of the cam.
+        Its displacement over a turn of the cam, from the start of the rise in the sense of the cam.
     lowest : float
-        Where the link is while the follower is lowest, m or degrees.
+        Position of the link while the follower is lowest, m or degrees.
     """
 
     turns: bool
@@ -260,15 +260,15 @@ class Lifted(Struct, frozen=True):
     lowest: float = 0.0
 
     def given(self, words: Any) -> Sequence[Any]:
-        """Return the facts of a statement that the cam is given by, in a language (`Language`).
+        """Return the given facts of the cam, in a language (`Language`).
 
-        What has a cam (`cams/driving.py`) knows them.
+        The subclass of a cam (`cams/driving.py`) has them.
         """
         return ()
 
 
 class PosedBy(Enum):
-    """What tells a position of the mechanism beside the driver's own coordinate."""
+    """Quantity that gives a position of the mechanism in place of the driver's coordinate."""
 
     X = "x"
     Y = "y"
@@ -281,7 +281,7 @@ class PosedBy(Enum):
 
 
 class Posed(Struct, frozen=True):
-    """Positions that the output tells (положения, заданные выходным звеном).
+    """Positions given by the output (положения, заданные выходным звеном).
 
     Attributes
     ----------
@@ -293,11 +293,11 @@ class Posed(Struct, frozen=True):
         Coordinates and lengths, m; angles, degrees; shares of the stroke from position zero of the
         cycle; or degrees of the crank after an extreme.
     extremes : tuple of str
-        Which extreme each is counted from: ``left``, ``right``, ``upper``, ``lower``, ``other``, or
+        Extreme that each is counted from: ``left``, ``right``, ``upper``, ``lower``, ``other``, or
         nothing for that of position zero; or the point and the line that it is on, ``B on OC``.
     going : str
-        Which of several positions is meant: that in which the output goes ``right``, ``ccw``,
-        ``forth`` ...; empty where the file does not say it.
+        Choice among several positions: that in which the output moves ``right``, ``ccw``,
+        ``forth`` ...; empty where the file does not give it.
     near : float or None
         That nearest to this position of the driver, degrees or m.
     number : int
@@ -317,7 +317,7 @@ class Posed(Struct, frozen=True):
 
     @property
     def key(self) -> str:
-        """Its key in ``[driver]``."""
+        """Key in ``[driver]``."""
         if self.by is PosedBy.LENGTH:
             return self.of
         if self.by is PosedBy.LINE:
@@ -328,14 +328,14 @@ class Posed(Struct, frozen=True):
 
 
 SAME_DEG = 0.1
-"""Degrees within which two positions that a file gives are one: it has them rounded."""
+"""Degrees within which two positions of a file are equal, as it has them rounded."""
 
 ANYWHERE = tuple(10.0 * number for number in range(36))
-"""Positions of a crank of which none is meant, degrees: the first that can be assembled counts."""
+"""Arbitrary positions of a crank, degrees: the first that can be assembled is used."""
 
 
 class Drive(Struct, frozen=True):
-    """Law of motion of the driving link (начальное звено) in the positions asked for.
+    """Law of motion of the driving link (начальное звено) in the requested positions.
 
     Attributes
     ----------
@@ -344,9 +344,9 @@ class Drive(Struct, frozen=True):
         Fixed point that a crank turns about; None for a driving slider.
     positions : tuple of float
         phi of the crank's own axis, degrees; or s of the slider's pin along its guide from the
-        guide's base point, m. Of a cam's follower the angles of the cam, degrees.
+        guide's base point, m. For a cam's follower the angles of the cam, degrees.
     rate, acceleration : float
-        omega, 1/s and epsilon, 1/s² (counter-clockwise positive); or v, m/s and a, m/s². Of a
+        omega, 1/s and epsilon, 1/s² (counter-clockwise positive); or v, m/s and a, m/s². For a
         cam's follower those of the cam in its sense: the link's own are in
         `planmethod.solved.driving`.
     geared : Geared or None
@@ -354,14 +354,15 @@ class Drive(Struct, frozen=True):
     turns : float or None, rev/min
         Rotational speed, where the file gives that.
     posed : Posed or None
-        What tells the positions, where it is not the driver's coordinate: `positions` follow.
+        Quantity that gives the positions in place of the driver's coordinate; it determines
+        `positions`.
     judged : tuple of float
-        Positions in which the rules of assembly are judged, where ``[cycle]`` tells the positions:
-        those that the file lists, else `ANYWHERE`; empty where they are the positions themselves.
+        Positions in which the assembly rules are checked, where ``[cycle]`` gives the positions:
+        those that the file lists, else `ANYWHERE`; empty where they are `positions`.
     pushed : BalancingForceTask or None
         The force at a point of a crank that balances it, in place of a couple.
     followed : Lifted or None
-        The cam's follower that it is, or is moved by.
+        The cam's follower that is the driving link, or moves it.
     """
 
     link: str
@@ -383,7 +384,7 @@ class Drive(Struct, frozen=True):
 
     @property
     def goes_round(self) -> bool:
-        """Whether its positions are angles of a turn: of a crank, or of the cam that moves it."""
+        """True if its positions are angles of a turn, of a crank or of the cam that moves it."""
         return self.is_crank or self.followed is not None
 
     @property
@@ -395,33 +396,33 @@ class Drive(Struct, frozen=True):
 
     @property
     def stands(self) -> bool:
-        """Whether the file gives it no speed; that of an actuator is its own."""
+        """True if its speed is zero or missing; for an actuator, the actuator's."""
         acted = self.posed if self.actuator is not None else None
         return not (self.rate if acted is None else acted.rates[0])
 
     @property
     def mover(self) -> str:
-        """Whose turn its positions are of, a key of sentences: ``crank`` or ``cam``."""
+        """Body whose turn its positions are in, a key of sentences: ``crank`` or ``cam``."""
         return "crank" if self.followed is None else "cam"
 
     @property
     def revolves(self) -> bool:
-        """Whether it is a crank that can turn all round, and not one that a follower swings."""
+        """True if it is a crank that can rotate fully, not one that a follower swings."""
         return self.is_crank and self.followed is None
 
     @property
     def accelerates(self) -> bool:
-        """Whether its link has an acceleration, in some positions at least."""
+        """True if its link accelerates in at least one position."""
         return self.acceleration != 0 or self.followed is not None
 
     @property
     def given(self) -> tuple[str, str, str]:
-        """What a program calls place, rate and acceleration of its link."""
+        """Names of position, rate and acceleration of its link in a program."""
         return ("phi" if self.is_crank else "s", *self.coordinate.rates)
 
     @property
     def coordinate(self) -> Coordinate:
-        """What its positions are values of."""
+        """Coordinate of its positions."""
         rates = (f"omega_{self.link}", f"epsilon_{self.link}") if self.is_crank else ("v", "a")
         if self.followed is not None:
             return Coordinate("cam", "deg", "cam_deg", "φ", rates, 360.0)
@@ -431,7 +432,7 @@ class Drive(Struct, frozen=True):
 
     @property
     def balancing(self) -> BalancingQuantity:
-        """What balances it."""
+        """Quantity that balances it."""
         if self.actuator is not None:
             return THRUST
         if not self.is_crank:
@@ -447,11 +448,11 @@ class Convention(Enum):
 
 
 class Scales(Struct, frozen=True):
-    """Scales asked for in the file; None where the program chooses.
+    """Scales given in the file; None where the program chooses.
 
     ``mu_l, mu_v, mu_a, mu_F`` are always stored as unit per millimetre, whichever convention the
-    file and the sheet use. Where they are ``decided``, for all that is handed in, no sheet leaves
-    them: it takes larger paper, or more sheets.
+    file and the sheet use. Where they are ``decided``, for all documents, every sheet keeps them:
+    it uses larger paper, or more sheets.
     """
 
     convention: Annotated[
@@ -490,23 +491,23 @@ class Scales(Struct, frozen=True):
 
     @property
     def freed(self) -> Scales:
-        """Those without the scales of the plans, which may be too fine for other positions."""
+        """The scales without those of the plans, which may be too fine for other positions."""
         return self if self.decided else replace(self, mu_v=None, mu_a=None)
 
     @property
     def in_mm_per_unit(self) -> bool:
-        """Whether round numbers are those in mm per unit."""
+        """True if the scales in mm per unit are the round numbers."""
         return self.convention is Convention.MM_PER_UNIT
 
 
 def _is_pair(name: str) -> bool:
-    """Tell whether a guide's name has the form that a reader knows: ``x-x``."""
+    """Return whether a guide's name has the usual form: ``x-x``."""
     half = len(name) // 2
     return half > 0 and name[half] in "-–" and name[:half] == name[half + 1 :]
 
 
 class GivenTable(dict[str, Any]):
-    """What TOML made of a file: problems that say the same are equal, however it is written."""
+    """Parsed TOML of a file, ignored when problems are compared for equality."""
 
     def __eq__(self, other: object) -> bool:
         return isinstance(other, GivenTable)
@@ -581,9 +582,9 @@ class Problem(KindProblem, frozen=True, kw_only=True):
         return 1 if self.machine is None else round(self.machine.cycle_deg / 360.0)
 
     def shown(self, position: float) -> float:
-        """Return a driver position as documents write it: a numbered one is within a turn.
+        """Return a driver position as in documents: a numbered one is within a turn.
 
-        Which turn of two it is, the number of the position tells.
+        The number of the position shows which of two turns it is in.
         """
         if not self.goes_round:  # over a range angles are as its limits are
             return position
@@ -591,20 +592,20 @@ class Problem(KindProblem, frozen=True, kw_only=True):
 
     @property
     def goes_round(self) -> bool:
-        """Whether the numbered positions go all round the cycle, which may be of some turns."""
+        """True if the numbered positions cover the whole cycle, which may have several turns."""
         step = abs(self.numbered[1] - self.numbered[0]) if self.numbered else 0.0
         turns = max(round(step * len(self.numbered) / 360.0), 1)
         return abs(step * len(self.numbered) - 360.0 * turns) <= SAME_DEG
 
     def counted(self, position: float) -> float | None:
-        """Return how many positions after position 0 a place of two turns is; None of one turn."""
+        """Return the count of positions from position 0 to a place of two turns; None for one."""
         if self.turns == 1 or not self.goes_round:
             return None
         whole = (position - self.numbered[0]) / (self.numbered[1] - self.numbered[0])
         return whole % len(self.numbered)
 
     def guide_name(self, label: str) -> str:
-        """Return how documents call a guide of the frame: ``x-x``, ``y-y`` (направляющая).
+        """Return the name of a guide of the frame in documents: ``x-x``, ``y-y`` (направляющая).
 
         A name of that form is the reader's already. Another one, ``g5``, is a key of the file: the
         guide takes the first pair of letters that is free, ``y-y`` first where it is upright.
@@ -624,7 +625,7 @@ class Problem(KindProblem, frozen=True, kw_only=True):
 
     @property
     def centres(self) -> frozenset[str]:
-        """Centres of mass: those of [dynamics], and points S, S1, S2 ... that are no joints."""
+        """Centres of mass: those of [dynamics], and points S, S1, S2 ... that are not joints."""
         masses = self.dynamics.masses.values() if self.dynamics is not None else ()
         joints = {joint.point for joint in self.mechanism.revolutes}
         joints |= {slide.pin for slide in self.slides.values()}
@@ -638,7 +639,7 @@ class Problem(KindProblem, frozen=True, kw_only=True):
         return frozenset(found - joints - {*self.bodies[FRAME].points})
 
     def is_block(self, slide: Slide) -> bool:
-        """Tell whether the host of a slide is a block through which the slider, a bar, passes."""
+        """Return whether the host of a slide is a block through which the slider, a bar, passes."""
         return (
             slide.host != FRAME
             and len(self.bodies[slide.host].points) == 1

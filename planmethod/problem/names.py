@@ -1,4 +1,4 @@
-"""Names of points, links, guides and variants: what they may be, and what is mistaken for them.
+"""Names of points, links, guides and variants: allowed forms, and common mistakes.
 
 Point names are a Latin (or unmistakably Greek) letter with digits and primes, so a pair of names
 written together (``AB``, ``O3A``, ``CS3``) splits in one way only.
@@ -50,7 +50,7 @@ def told_length(metres: float, unit: str, digits: int = 4) -> str:
 
 
 def told_place(place: complex, unit: str) -> str:
-    """Return a place in the unit of its file, as the file has it: ``310, 120``."""
+    """Return coordinates in the unit of its file, as in the file: ``310, 120``."""
     z = place * UNITS[unit]
     return f"{z.real:.4g}, {z.imag:.4g}"
 
@@ -73,7 +73,7 @@ def _letter(c: str) -> str:
 
 
 def describe_lookalikes(text: str) -> str:
-    """Say which letters of a name are not Latin: the message of a fault."""
+    """Return the message that names the non-Latin letters of a name."""
     letters = lookalikes(text)
     first = letters[0]
     digit = LOOKALIKES[first].isdigit()
@@ -84,7 +84,7 @@ def describe_lookalikes(text: str) -> str:
 
 
 def is_point_name(text: str) -> bool:
-    """Whether a text (already folded) may name a point."""
+    """Return whether a text (already folded) may name a point."""
     return len(text) <= POINT_NAME_LIMIT and re.match(_POINT_RE, text) is not None
 
 
@@ -130,12 +130,12 @@ def angle_lines(letters: str) -> tuple[tuple[str, str], tuple[str, str]] | None:
 
 
 def is_label(text: str) -> bool:
-    """Whether a text may name a link, a guide or a variant: letters and digits of any alphabet."""
+    """Return whether a text may name a link, guide or variant: letters and digits, any alphabet."""
     return 0 < len(text) <= NAME_LIMIT and re.match(_LABEL_RE, text) is not None
 
 
 def looks_latin(text: str) -> bool:
-    """Whether a name would be Latin throughout but for look-alikes: ``2а``, ``у-у``.
+    """Return whether a name would be Latin throughout but for look-alikes: ``2а``, ``у-у``.
 
     A word such as ``шатун`` has letters that cannot be taken for Latin ones and is left alone.
     """
@@ -143,7 +143,7 @@ def looks_latin(text: str) -> bool:
 
 
 def near(name: str, known: Iterable[str]) -> str | None:
-    """Nearest of the known names, or None when none is near (ближайшее имя)."""
+    """Return the nearest of the known names, or None when none is close (ближайшее имя)."""
     from difflib import get_close_matches
 
     choices = list(dict.fromkeys(known))
@@ -201,7 +201,7 @@ def joined(*parts: str) -> str:
 
 
 def pair_name(joint: str, one: str, other: str) -> str:
-    """Return what a kinematic pair is called: by its joint and its links, the frame last.
+    """Return the name of a kinematic pair: its joint and its links, the frame last.
 
     Examples
     --------

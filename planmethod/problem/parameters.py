@@ -1,4 +1,4 @@
-"""Numbers of a file that may be varied: what they are called, and the file with others (параметры).
+"""Numbers of a file that may be varied: their names, and the file with new values (параметры).
 
 A number that follows from others, the height of a triangle of three sides, is none of them: it is
 had by reading the file again.
@@ -30,7 +30,7 @@ _TOLD = (
 """Tables on which no number of a plan depends at unit scales."""
 
 _KEPT = ("drive", "assembly", "dynamics", "machine", "cycle")
-"""Parts of a problem that stay as they are where they were replaced after it was read."""
+"""Parts of a problem that are kept where they were replaced after it was read."""
 
 
 class Parameter(Struct, frozen=True):
@@ -41,7 +41,7 @@ class Parameter(Struct, frozen=True):
     name : str
         ``l_AB``, ``x_D``, ``angle_x-x``, ``omega_1``.
     key : tuple of str or int
-        Where it stands in the file; places in lists are numbers from 0.
+        Its place in the file; places in lists are numbers from 0.
     value : float
         SI and degrees.
     per : float
@@ -55,7 +55,7 @@ class Parameter(Struct, frozen=True):
 
     @property
     def dotted(self) -> str:
-        """Its key as files write it: ``links.2.D.at``, ``frame.C[1]``, ``loads.0.force``."""
+        """Key as in files: ``links.2.D.at``, ``frame.C[1]``, ``loads.0.force``."""
         if self.key[0] == "loads":
             return ".".join(map(str, self.key))
         told = ".".join(segment(part) for part in self.key if isinstance(part, str))
@@ -78,7 +78,7 @@ class Parameters:
     problem : Problem
         As it was read. Rates, loads and rules that were replaced in it afterwards stay.
     pose : callable
-        Finds the positions that the output tells.
+        Finds the positions that the output determines.
 
     Attributes
     ----------
@@ -111,7 +111,7 @@ class Parameters:
         return self.by_name.get(name, self._left_out.get(name))
 
     def check(self, chosen: Sequence[Parameter]) -> None:
-        """Refuse numbers of a part of the problem that is not as the file has it.
+        """Reject numbers of a part of the problem that is not as the file has it.
 
         Raises
         ------
@@ -126,7 +126,7 @@ class Parameters:
     def read(self, values: Mapping[Parameter, float]) -> Problem:
         """Return the problem of the same file with other numbers, SI and degrees.
 
-        Its positions are those of the problem, unless the output tells them.
+        Its positions are those of the problem, unless the output determines them.
 
         Raises
         ------
@@ -164,7 +164,7 @@ class Parameters:
 
 
 def _put(table: dict[str, Any], key: Key, value: float) -> None:
-    """Put a number into a table, each table and list on the way being copied."""
+    """Set a number in a table, copying each container on its path."""
     level: Any = table
     for part in key[:-1]:
         below = level[part]
@@ -256,7 +256,7 @@ def _of_point(
     """Yield the numbers that place a third point of a link.
 
     Along and across the own axis, from where it begins, they are ``x_D`` and ``y_D``; else the
-    point or the line that they are counted from is told as well.
+    point or the line that they are counted from is named as well.
     """
     if "vertex" in form:
         yield from read.angle(f"angle_{point}", (*key, "angle"), form["angle"])

@@ -27,7 +27,7 @@ from planmethod.problem.slides import FrameText, find_host, order_hosts, read_fr
 TrainReader: TypeAlias = Callable[
     [Faults, Mapping[str, Any], Mapping[str, Any]], Geared | Lifted | None
 ]
-"""What reads ``[gears]`` or ``[cam]`` for the driver: faults, the file, ``[driver]``."""
+"""Reader of ``[gears]`` or ``[cam]`` for the driver: faults, the file, ``[driver]``."""
 
 
 def read_parts(
@@ -250,7 +250,7 @@ def _drivers(given: Mapping[str, Any]) -> list[Mapping[str, Any]]:
 def _refuse_drivers(
     faults: Faults, drivers: Sequence[Mapping[str, Any]], mechanism: Mechanism | None
 ) -> None:
-    """Say why several drivers are refused: what they are, and how many the mechanism needs."""
+    """Note why several drivers are rejected: their names, and the number the mechanism needs."""
     count, names = len(drivers), listed(str(one.get("link", "?")) for one in drivers)
     message = say("{} drivers are given: links {}", count, names)
     hint = "Plans are made of mechanisms with one: keep one, and join the others to it."

@@ -1,4 +1,4 @@
-"""Read how a third point of a link is given: on a side, along a line, from a point, by an angle."""
+"""Reading of a third point of a link: on a side, along a line, from a point, by an angle."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Positions told by the output: ``x_B``, ``phi_3``, ``phi_2_3``, a share of the stroke, ..."""
+"""Positions given by the output: ``x_B``, ``phi_3``, ``phi_2_3``, a stroke fraction, ..."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ _WAYS = '"extreme", "other extreme", "left extreme", "extreme left + 30", "B on 
 
 
 def is_posed(key: str) -> bool:
-    """Whether a key of the driver tells a position by a point or a link: ``x_B``, ``phi_3``."""
+    """Return whether a driver key gives a position by a point or a link: ``x_B``, ``phi_3``."""
     kind, line, name = key.partition("_")
     if not line:
         return is_length(key)
@@ -36,17 +36,17 @@ def is_posed(key: str) -> bool:
 
 
 def is_length(key: str) -> bool:
-    """Whether a key of the driver is the length of an actuator: ``DE``."""
+    """Return whether a key of the driver is the length of an actuator: ``DE``."""
     return key[:1].isupper() and split_pair(key) is not None
 
 
 def is_rate(key: str) -> bool:
-    """Whether a key of the driver is a rate of an actuator: ``v_DE``, ``a_DE``."""
+    """Return whether a key of the driver is a rate of an actuator: ``v_DE``, ``a_DE``."""
     return key[:2] in ("v_", "a_") and split_pair(key[2:]) is not None
 
 
 def is_place(key: str) -> bool:
-    """Whether a key of the driver tells where it stands: of such keys one replaces the others."""
+    """Return whether a driver key gives its position: such a key replaces the others."""
     return key in keys.PLACES or (is_posed(key) and not is_rate(key))
 
 
@@ -59,7 +59,7 @@ def read_posed(
     *,
     crank: bool,
 ) -> Posed | None:
-    """Read what tells the positions, where that is not the driver's own coordinate.
+    """Read the quantity that gives the positions in place of the driver's coordinate.
 
     None where there is no such key, or after a fault.
     """
@@ -206,7 +206,7 @@ def _read_actuator(
 
 
 def _read_extreme(faults: Faults, path: str, value: object) -> tuple[str, float] | None:
-    """Read ``extreme left + 30``: which extreme, and how far after it, degrees."""
+    """Read ``extreme left + 30``: the extreme, and the angle after it, degrees."""
     match = re.match(_AT, " ".join(value.split())) if isinstance(value, str) else None
     if match is None or (match[1] and match[2]):
         faults.expected(path, "an extreme position", value, say("Known: {}.", _WAYS))
@@ -227,7 +227,7 @@ def _read_extreme(faults: Faults, path: str, value: object) -> tuple[str, float]
 def _read_root(
     faults: Faults, kind: str, value: object, *, crank: bool
 ) -> tuple[str, float | None, int]:
-    """Read which of several positions is meant: ``going right``, ``near 40``, or its number."""
+    """Read the choice among several positions: ``going right``, ``near 40``, or its number."""
     if value is None or kind == "at":
         return "", None, 0
     if isinstance(value, int) and not isinstance(value, bool) and value > 0:

@@ -1,4 +1,4 @@
-"""What is decided of a course project (курсовой проект): ``[project]``."""
+"""Decisions of a course project (курсовой проект): ``[project]``."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ def read_project(faults: Faults, table: object) -> ProjectTask | None:
 
 
 def _read_beside(faults: Faults, path: str, value: object) -> str | None:
-    """Read the name of a problem file that lies beside this one."""
+    """Read the name of a problem file in the same folder."""
     if isinstance(value, str) and PurePath(value).name == value and value.endswith(".toml"):
         return value
     told = short(value) if isinstance(value, str) else value

@@ -34,7 +34,7 @@ def load(
     variant : str, optional
         Name of a ``[variants]`` table to lay over the main part.
     train : callable, optional
-        Reads the train that drives the crank (`planmethod.kinds`); without it there is none.
+        Reads the train that drives the crank (`planmethod.kinds`). Default: no train.
 
     Raises
     ------
@@ -64,9 +64,9 @@ def load_each(
 
 
 def _from_file(path: Path) -> tuple[Mapping[str, Any], Variants, Faults]:
-    """Return the table of a file, its variants, which may lie in a table beside it, and faults.
+    """Return the table of a file, its variants, which may be in a separate table file, and faults.
 
-    A file that is asked for variant by variant is looked through once.
+    A file that is loaded variant by variant is parsed once.
     """
     text = read_source(path)
     beside = isinstance(parse(text, name=str(path)).get("variants"), str)
@@ -79,7 +79,7 @@ def _from_file(path: Path) -> tuple[Mapping[str, Any], Variants, Faults]:
 def _looked_through(
     text: str, path: Path, _lang: str
 ) -> tuple[Mapping[str, Any], Variants, Faults]:
-    """Return what `_from_file` does; faults are said in a language."""
+    """Return the result of `_from_file`, with faults in a language."""
     faults = Faults()
     table = with_table(faults, parse(text, name=str(path)), path.parent)
     return table, read_variants(faults, table), faults
@@ -132,7 +132,7 @@ def _laid_over(
 def loads(
     text: str, *, name: str, variant: str | None = None, train: TrainReader | None = None
 ) -> Problem:
-    """Read a problem from a text; ``name`` stands for the stem of the file."""
+    """Read a problem from a text; ``name`` replaces the stem of the file name."""
     table = parse(text, name=name)
     return read_parsed(table, source=name, name=name, variant=variant, train=train)
 
@@ -160,7 +160,7 @@ def read_parsed(
     variant: str | None = None,
     train: TrainReader | None = None,
 ) -> Problem:
-    """Read a problem from what TOML made of its text.
+    """Read a problem from its parsed TOML.
 
     Parameters
     ----------

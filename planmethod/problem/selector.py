@@ -30,8 +30,8 @@ class Selector(Struct, frozen=True):
         A key of `QUANTITIES` or of `FORCES`.
     names : tuple of str
         Points, or one link; the pole of a plan is ``p``. Coincident points have the number of
-        their link: ``B3`` is the point of link 3 under the pin B. Of a force: what the
-        `NameRole` of each says.
+        their link: ``B3`` is the point of link 3 under the pin B. For a force: by the
+        `NameRole` of each.
     over : Selector or None
         Divisor of a quotient such as ``vx D / omega 1``.
     """
@@ -78,7 +78,7 @@ POLE = "p"
 
 
 class NameRole(Enum):
-    """What a name of a force stands for."""
+    """Role of a name of a force."""
 
     LINK = "link"
     BODY = "body"  # a link, or the frame
@@ -222,13 +222,13 @@ def _must_differ(selector: Selector) -> list[tuple[str, ...]]:
 
 
 def roles(selector: Selector) -> list[tuple[str, NameRole]]:
-    """Return the names of a force, and what each stands for."""
+    """Return the names of a force, and their roles."""
     form = next(form for form in FORCES[selector.kind] if len(form) == len(selector.names))
     return list(zip(selector.names, form, strict=True))
 
 
 def is_force(selector: Selector) -> bool:
-    """Whether a quantity, or what it is divided by, is of the force analysis."""
+    """Return whether a quantity, or its divisor, is of the force analysis."""
     own = selector.kind in FORCES or selector.kind in MACHINE
     return own or (selector.over is not None and is_force(selector.over))
 
@@ -306,7 +306,7 @@ def read_published(
 
 
 def read_position(faults: Faults, path: str, value: object, positions: int) -> int | None:
-    """Read which position of the driver is meant, from 0; ``positions`` is 0 when not known."""
+    """Read the number of a driver position, from 0; ``positions`` is 0 when not known."""
     if value is None:
         return None
     if not isinstance(value, int) or isinstance(value, bool) or value < 0:

@@ -36,7 +36,7 @@ _READINGS_LIMIT = 10
 
 
 def read_head(faults: Faults, given: Mapping[str, Any]) -> dict[str, Any]:
-    """Read what files of every kind begin with: title, source, title block, make-up of sheets."""
+    """Read the common head of all files: title, source, title block, sheet settings."""
     return {
         **{key: _read_heading(faults, given, key) for key in ("title", "source")},
         **_read_reading(faults, given),
@@ -50,7 +50,7 @@ def _read_heading(faults: Faults, given: Mapping[str, Any], key: str) -> str:
 
 
 def _read_reading(faults: Faults, given: Mapping[str, Any]) -> dict[str, Any]:
-    """Read whether the scheme is one of several that fit the data, and what the others are."""
+    """Read whether the scheme is one of several matching the data, and the others."""
     if "reading" not in given:
         if "other_readings" in given:
             hint = say('Write reading = "{}".', SEVERAL)
@@ -106,7 +106,7 @@ _NONE = SheetSettings()
 
 
 def _without_astray(faults: Faults, path: str, table: object, other: str, example: str) -> Table:
-    """Return a table without the keys that stand in the other one, each of which is a fault."""
+    """Return a table without the keys that belong to the other one, each of which is a fault."""
     entries = read_table(faults, path, table, example)
     if not entries:
         return {}
@@ -138,14 +138,14 @@ VARIABLE = "PLANMETHOD_CONFIG"
 
 
 class Config(Struct, frozen=True):
-    """What a config file says (настройки)."""
+    """Content of a config file (настройки)."""
 
     stamp: Mapping[str, str] = field(default_factory=dict)
     sheet: SheetSettings = field(default_factory=SheetSettings)
 
 
 def usual_place(environ: Mapping[str, str] = os.environ, platform: str = sys.platform) -> Path:
-    """Return where the config file is unless told otherwise; it need not exist."""
+    """Return the default path of the config file, which need not exist."""
     if platform == "win32":
         folder = environ.get("APPDATA", "")
         base = Path(folder) if folder else Path.home() / "AppData" / "Roaming"

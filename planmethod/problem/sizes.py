@@ -24,13 +24,13 @@ from planmethod.problem.model import Drive
 from planmethod.problem.names import indexed, listed
 
 TURN = 360.0
-"""A table over phi repeats after so many degrees."""
+"""Period of a table over phi, degrees."""
 
 _TABLE = '{ over = "phi", values = [[0, 0], [90, 730]], interpolation = "linear" }'
 _PHASES = 'phases = { phi = [90, 270] } or phases = { moving = "down" }'
 
 _OVERS = tuple(over.value for over in Over if over is not Over.STROKES)
-"""What a file may give a table over; the strokes are those of an indicator."""
+"""Arguments of a table that a file may give; the strokes are those of an indicator."""
 
 Spans = tuple[tuple[float, float], ...]
 
@@ -52,7 +52,7 @@ def read_size(
     Parameters
     ----------
     turn : float, degrees
-        A table over phi repeats after so many.
+        Period of a table over phi.
     """
     if isinstance(value, dict):
         return _read_table(faults, path, value, drive, turn, couple=couple)
@@ -111,7 +111,7 @@ _LAWS = {
     LoadLaw.PATH: {"over": "path", "interpolation": "linear"},
     LoadLaw.STEPS: {"over": "phi", "interpolation": "step"},
 }
-"""What a law says where the file does not."""
+"""Defaults of a law."""
 
 
 def _check_piston(faults: Faults, path: str, drive: Drive | None, *, couple: bool) -> None:
@@ -243,7 +243,7 @@ def _read_indicator(
 
 
 def _both_sides(own: SizeTable, share: float, count: int) -> SizeTable:
-    """Return the force on a piston of which the other side is one stroke ahead."""
+    """Return the force on a piston whose other side is one stroke ahead."""
     shifted = [(at - 1.0) % count for at in own.at]
     nodes = sorted({*own.at, *shifted, 0.0, float(count)})
     at: list[float] = []
@@ -259,7 +259,7 @@ def _both_sides(own: SizeTable, share: float, count: int) -> SizeTable:
 
 
 def _limit(table: SizeTable, at: float, after: bool) -> float:
-    """Return what a table with jumps comes to just before an abscissa, or just after it."""
+    """Return the limit of a table with jumps just before an abscissa, or just after it."""
     find = bisect_right if after else bisect_left
     high = find(table.at, at)
     if high == 0 or high == len(table.at):
@@ -397,7 +397,7 @@ def _read_share(faults: Faults, path: str, value: object) -> float | None:
 def _check_order(
     faults: Faults, path: str, rows: list[tuple[float, float]], over: Over, turn: float
 ) -> bool:
-    """Whether the rows increase, and lie within a turn where they repeat."""
+    """Return whether the rows increase, and are within a turn where they repeat."""
     jumps = over is Over.PATH  # two rows of one abscissa, no more
     for index, ((one, _), (two, _)) in enumerate(pairwise(rows), 1):
         if two > one or (jumps and two == one and (index < 2 or rows[index - 2][0] < one)):

@@ -229,7 +229,7 @@ def _read_along(
     body: Body,
     owner: Callable[[], str],
 ) -> tuple[str, str] | None:
-    """Read the two points of a line; the pin of the stone itself is told to be none of them."""
+    """Read the two points of a line; the pin of the sliding block itself is rejected."""
     pair = split_pair(value) if isinstance(value, str) else None
     points = list(body.points)
     if pair is None or pin not in pair or pin in points or len(points) < 2:

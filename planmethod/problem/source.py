@@ -1,4 +1,4 @@
-"""From a file or a text to the table that TOML makes of it, within bounds."""
+"""Parsing of a file or a text to a TOML table, within bounds."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from planmethod.problem.names import listed, near
 SIZE_LIMIT = 256 * 1024
 TABLE_LIMIT = 1024 * 1024
 LINE_LIMIT = 8192
-"""Longest line, in characters; numbers of a list may stand in a longer one."""
+"""Longest line, in characters; lists of numbers may be in a longer one."""
 
 _BETWEEN_RE = r"[ \t\[\]]{0,99}"
 _ITEM_RE = rf"{_BETWEEN_RE}[-+0-9.eE_]{{1,40}}{_BETWEEN_RE}"
@@ -104,7 +104,7 @@ def table_text(data: bytes) -> str:
 
 @lru_cache(maxsize=2)
 def parse(text: str, *, name: str) -> Mapping[str, Any]:
-    """Parse TOML within bounds; the same text gives the same table, which nobody changes.
+    """Parse TOML within bounds; the same text gives the same table, which must not be changed.
 
     Raises
     ------
@@ -131,7 +131,7 @@ def parse(text: str, *, name: str) -> Mapping[str, Any]:
 
 
 def _bounded(text: str, name: str) -> None:
-    """Refuse what no parser, and no pattern, shall see."""
+    """Reject text that is unsafe for the parser and the patterns."""
     for number, line in enumerate(text.split("\n"), 1):
         if len(line) > LINE_LIMIT and not re.fullmatch(_NUMBERS_RE, line):
             raise _fail(
@@ -189,7 +189,7 @@ def _nearby(path: Path) -> str:
 
 
 def _depth_exceeds(table: Mapping[str, Any], limit: int) -> bool:
-    """Whether values are nested deeper than a limit; a loop, since a stranger chose how deep."""
+    """Return whether values are nested deeper than a limit; a loop, as the input is untrusted."""
     level: list[Any] = [table]
     for _ in range(limit + 1):
         level = [

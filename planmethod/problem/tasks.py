@@ -35,7 +35,7 @@ class ShippedTask(Struct, frozen=True):
     file : str
         Path below the folder of the problems.
     kind : str
-        ``linkage``, or the table that tells the kind.
+        ``linkage``, or the table of the kind.
     title, source : str
     groups : tuple of str
         Signatures of the Assur groups of a linkage in the order of kinematic analysis.
@@ -65,13 +65,13 @@ class ShippedTask(Struct, frozen=True):
         return (home() / self.file).read_text(encoding="utf-8")
 
     def says(self, words: str) -> bool:
-        """Tell whether every word is in the name, the title, the source or a comment."""
+        """Return whether every word is in the name, the title, the source or a comment."""
         comments = re.findall(r"#(.*)", self.text)
         said = _folded(" ".join((self.name, self.title, self.source, *comments)))
         return all(word in said for word in _folded(words).split())
 
     def has(self, groups: tuple[str, ...]) -> bool:
-        """Tell whether the linkage has these groups one after the other."""
+        """Return whether the linkage has these groups one after the other."""
         starts = range(len(self.groups) - len(groups) + 1)
         return any(self.groups[k : k + len(groups)] == groups for k in starts)
 
@@ -126,7 +126,7 @@ def text_for(task: ShippedTask, variant: str | None) -> str:
 
 
 class _Table(Struct):
-    """A table of a file as text: comments over it, the header with what follows, and its name.
+    """A table of a file as text: comments over it, the header with its lines, and its name.
 
     The first one has no header; of an array of tables each is called by its number too.
     """
@@ -162,7 +162,7 @@ def _tables(text: str) -> list[_Table]:
 
 
 def _put(tables: list[_Table], path: tuple[str, ...], value: object) -> None:
-    """Write a value at a path: over the one that stands there, or as a line of its table."""
+    """Write a value at a path: over the existing one, or as a new line of its table."""
     whole = ".".join(path)
     tables[:] = [t for t in tables if not f"{t.name}.".startswith(f"{whole}.")]
     for depth in range(len(path) - 1, -1, -1):
@@ -186,7 +186,7 @@ def _put(tables: list[_Table], path: tuple[str, ...], value: object) -> None:
 
 
 def _entry(lines: list[str], start: int) -> tuple[int, str]:
-    """Return where an entry that starts on a line ends, and the remark on its last line."""
+    """Return the end of an entry that starts on a line, and the remark on its last line."""
     end, whole = start, ""
     while True:
         whole, end = f"{whole}{lines[end]}\n", end + 1

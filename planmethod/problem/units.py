@@ -73,7 +73,7 @@ _SIGNS = str.maketrans({"⋅": "*", "·": "*", "∙": "*", "•": "*", "×": "*"
 
 
 def _plain(text: str) -> str:
-    """Return a unit without what may be written in several ways."""
+    """Return the normalized spelling of a unit."""
     text = unicodedata.normalize("NFKC", text.casefold().replace("º", "°")).replace("**", "")
     text = re.sub(r"[\s^{}]", "", text.translate(_SIGNS))
     return re.sub(r"\.(?=\W|$)", "", text).replace(".", "*").translate(_LOOKALIKES)
@@ -84,7 +84,7 @@ _TOKEN = r"([^\W\d_]+|°)(-?\d)?|([*/()])|(1)(?=/)"
 
 
 class _NoUnitError(Exception):
-    """A text is no unit."""
+    """A text is not a unit."""
 
 
 @lru_cache(maxsize=1024)
@@ -109,7 +109,7 @@ def read_unit(text: str) -> MeasurementUnit | None:
 
 
 def _tokens(plain: str) -> Iterator[tuple[str, int]]:
-    """Yield the names of a unit with their powers, and what stands between them."""
+    """Yield the names of a unit with their powers, and the signs between them."""
     pattern = re.compile(_TOKEN)
     at = 0
     while at < len(plain):
@@ -148,7 +148,7 @@ def _product(tokens: Iterator[tuple[str, int]], *, inside: bool) -> tuple[float,
 
 
 def ratio_of(unit: str, other: str) -> float | None:
-    """Return how many of another unit a unit is; None if they are not of one quantity."""
+    """Return the ratio of a unit to another one; None if their quantities differ."""
     one, two = read_unit(unit), read_unit(other)
     if one is None or two is None or one.dimension != two.dimension:
         return None
@@ -165,7 +165,7 @@ _EXPECTED: Mapping[str, str] = {
     "degrees": "°",
     "rev/min": "rpm",
 }
-"""How sentences call units that readers of other texts know by a symbol."""
+"""Names of units in sentences; other texts use their symbols."""
 
 DIMENSIONS: Mapping[Dimension, str] = {
     (1, 0, 0, 0): "a length",
@@ -183,7 +183,7 @@ DIMENSIONS: Mapping[Dimension, str] = {
     _MASS: "a mass",
     (1, 2, 1, 0): "a moment of inertia",
 }
-"""What quantities of a dimension are called."""
+"""Names of the quantities of a dimension."""
 
 
 class MeasuredNumber(Struct, frozen=True):
@@ -201,14 +201,14 @@ class MeasuredNumber(Struct, frozen=True):
 
     @property
     def of(self) -> MeasurementUnit:
-        """What the unit is."""
+        """Properties of the unit."""
         found = read_unit(self.unit)
         assert found is not None
         return found
 
     @property
     def quantity(self) -> str:
-        """What it is a unit of."""
+        """Name of its quantity."""
         return say(DIMENSIONS.get(self.of.dimension, "another quantity"))
 
     def in_unit(self, unit: str) -> float | None:
@@ -235,7 +235,7 @@ def _rounded(value: float) -> float:
 
 
 def _is_bare(unit: str) -> bool:
-    """Tell whether a unit is a second alone: ``1/s``, ``с⁻¹``."""
+    """Return whether a unit is one per second: ``1/s``, ``с⁻¹``."""
     try:
         return _product(_tokens(_plain(unit)), inside=False)[:2] == (1.0, (0, -1, 0, 0))
     except _NoUnitError:
@@ -243,7 +243,7 @@ def _is_bare(unit: str) -> bool:
 
 
 def measured(text: str) -> MeasuredNumber | None:
-    """Return a text as a number and its unit, None where it is not that: ``4 in``, ``2·0,11 м``.
+    """Return a text as a number and its unit, or None: ``4 in``, ``2·0,11 м``.
 
     Examples
     --------
@@ -272,7 +272,7 @@ _MEASURED_LIMIT = 80
 
 
 def expected_unit(what: str) -> str:
-    """Return the unit that a sentence of what is expected ends with, empty of none.
+    """Return the unit at the end of a sentence on an expected value; empty if none.
 
     Examples
     --------

@@ -12,14 +12,14 @@ from planmethod.problem.model import ANYWHERE, SAME_DEG, Problem
 from planmethod.problem.names import told_length
 
 LONGEST, SHORTEST = 20.0, 0.0005
-"""Lengths of links beyond which metres are hardly meant, m."""
+"""Lengths of links beyond which metres are unlikely, m."""
 
 FASTEST = 10_000.0
-"""Speed of a crank beyond which 1/s or rev/min is hardly meant, rev/min."""
+"""Speed of a crank beyond which 1/s or rev/min is unlikely, rev/min."""
 
 
 def unlikely(problem: Problem) -> Iterator[str]:
-    """Yield what is probably not meant in a problem, with its numbers and what may be meant."""
+    """Yield unlikely data of a problem, with the numbers and the likely intention."""
     lengths = [(link, key, value) for link, key, value in problem.lengths if value > 0]
     longest = max(lengths, key=lambda one: one[2], default=None)
     if longest is not None and not SHORTEST <= longest[2] <= LONGEST:
@@ -42,7 +42,7 @@ def unlikely(problem: Problem) -> Iterator[str]:
 
 
 def _weightless(problem: Problem) -> Iterator[str]:
-    """Yield that forces are asked for, and nothing or a link that is listed has no inertia."""
+    """Yield warnings of a force analysis with no inertia at all, or with massless listed links."""
     dynamics = problem.dynamics
     if dynamics is None:
         return
@@ -59,7 +59,7 @@ def _weightless(problem: Problem) -> Iterator[str]:
 
 
 def _outranked(problem: Problem) -> Iterator[str]:
-    """Yield what the driver lists beside ``[cycle]``, whose positions are others."""
+    """Yield a warning of listed driver positions that ``[cycle]`` overrides."""
     listed, numbered = problem.drive.judged, problem.numbered
     if numbered and problem.drive.posed is None and len(problem.drive.positions) == 1:
         yield from _numberless(problem, problem.drive.positions[0])

@@ -39,7 +39,7 @@ from planmethod.problem.source import TABLE_LIMIT, table_text
 KeyPath = tuple[str, ...]
 
 _HOLDERS = (Mapping, list)
-"""What a path may lead through: a table, the loads or the answers."""
+"""Containers in a path: a table, the loads or the answers."""
 
 _MOTION = ("frame", "links", "driver", "assembly", *keys.OF_KINDS)
 """Tables on which all published values depend."""
@@ -95,7 +95,7 @@ def _overrides(
 
 
 def _is_leaf(path: KeyPath) -> bool:
-    """Whether a table at this path is one value: spans, places, sizes and phases of loads."""
+    """Return whether a table at this path is one value: a span, place, size or phase of loads."""
     if path[:1] in (("loads",), ("answers",)):
         return len(path) == 3
     return path[:-1] in (("driver",), ("point",)) or (path[:1] == ("assembly",) and len(path) > 1)
@@ -159,7 +159,7 @@ def _known_under(path: KeyPath) -> tuple[str, ...]:
 
 
 def _may_add(path: KeyPath) -> bool:
-    """Whether a name of the file's own may be added at this path: a point, a length, a rule."""
+    """Return whether a user-defined name may be added at this path: a point, a length, a rule."""
     parent, key = path[:-1], fold(path[-1])
     if len(parent) == 2 and parent[0] == "links":
         return is_point_name(key) or split_pair(key) is not None
@@ -228,14 +228,14 @@ def apply_variant(table: Mapping[str, Any], overrides: Mapping[KeyPath, Any]) ->
 
 
 def _instead(one: str, other: str) -> bool:
-    """Whether a key of the driver replaces another one: its speed, where it stands."""
+    """Return whether a key of the driver replaces another one, of its speed or position."""
     if one in TURNING:
         return other in TURNING
     return is_place(one) and (is_place(other) or other == "root")
 
 
 def _of_forces(entry: object) -> bool:
-    """Whether a published value is of the force analysis; one that is faulty is not."""
+    """Return whether a published value is of the force analysis; one that is faulty is not."""
     what = entry.get("what") if isinstance(entry, Mapping) else None
     try:
         return isinstance(what, str) and bool(what) and is_force(parse_selector(what))
@@ -244,7 +244,7 @@ def _of_forces(entry: object) -> bool:
 
 
 def _opened(level: Any, part: str, after: str) -> Any:
-    """Replace what stands under a part of a path by a copy of its own, and return the copy.
+    """Replace the container at a part of a path by a copy, and return the copy.
 
     What cannot hold the part after it is replaced by an empty table.
     """
@@ -274,7 +274,7 @@ _GREEK = str.maketrans(
 
 
 def with_table(faults: Faults, table: Mapping[str, Any], folder: Path | None) -> Mapping[str, Any]:
-    """Return what TOML made of a file, with the variants of the table that it names.
+    """Return the TOML of a file, with the variants of the table that it names.
 
     Parameters
     ----------
@@ -382,7 +382,7 @@ def key_of(table: Mapping[str, Any], written: str) -> tuple[str | None, Mapping[
 def _column(
     faults: Faults, table: Mapping[str, Any], head: str, name: str
 ) -> tuple[str, float] | None:
-    """Return the dotted key of a column, and by what its numbers are multiplied."""
+    """Return the dotted key of a column, and the factor of its numbers."""
     match = re.match(_HEAD, re.sub(_BETWEEN, r"\1\2", head))
     written = match["name"].rstrip() if match else head
     key, names = key_of(table, written)
@@ -401,18 +401,18 @@ def _column(
 
 
 def _is_length(key: str) -> bool:
-    """Whether a key stands for a length of the file."""
+    """Return whether a key is a length of the file."""
     parts = key.split(".")
     return parts[0] == "frame" or (parts[0] == "links" and "angle" not in parts) or parts[-1] == "s"
 
 
 def _plain(name: str) -> str:
-    """Return a name of the "Дано" as it is looked for: ``φ_{1}`` and ``phi1`` are one."""
+    """Return a name of the "Дано" in normal form: ``φ_{1}`` and ``phi1`` are equal."""
     return fold(name.replace(" ", "").translate(_GREEK))
 
 
 def _names(table: Mapping[str, Any]) -> Iterator[tuple[str, str]]:
-    """Yield what "Дано" calls the numbers of a file, and their dotted keys."""
+    """Yield the names of the numbers of a file in "Дано", and their dotted keys."""
     driver = table.get("driver")
     if isinstance(driver, Mapping):
         link = driver.get("link", "")
