@@ -1,4 +1,4 @@
-"""What is asked of the sheets: options over the problem file over the user's config file."""
+"""Sheet settings: options override the problem file, which overrides the user's config file."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ P = TypeVar("P", bound="KindProblem")
 
 
 class PaperRequest(Struct, frozen=True):
-    """What the command line asks of paper and title block (заказанное оформление).
+    """Paper and title block requested by the command line (заказанное оформление).
 
     Attributes
     ----------
@@ -48,7 +48,7 @@ class PaperRequest(Struct, frozen=True):
         return cast("str | None", self.sheet["lang"])
 
     def settle(self) -> Settled:
-        """Read the config file, and return what is asked of the sheets of every problem.
+        """Read the config file, and return the settings of the sheets of every problem.
 
         The texts of the options are left to the sheets, as they outrank even computed numbers.
 
@@ -77,7 +77,7 @@ class PaperRequest(Struct, frozen=True):
 
 
 class Settled(Struct, frozen=True):
-    """What is asked of the sheets of every problem.
+    """Settings of the sheets of every problem.
 
     Attributes
     ----------
@@ -153,7 +153,7 @@ def read_fields(
         if not sign or not key:
             raise BadParameter("{!r} is not key=text, such as author=Иванов", field)
         fields[key] = text
-        text.encode()  # a text that is not UTF-8 is told as of any word of the command line
+        text.encode()  # a text that is not UTF-8 is reported as any other argument
         read_text(faults, key, text, limit=STAMP_LIMIT)
     if faults.found:
         raise click.BadParameter(" ".join(map(str, faults.found)))

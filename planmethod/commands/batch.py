@@ -52,35 +52,35 @@ if TYPE_CHECKING:
 NEEDS = "--scheduler needs dask: pip install 'dask[distributed]'"
 
 MANIFEST = "batch.jsonl"
-"""What was made and of what, in the folder of the files: a line for each variant."""
+"""Record of the files made and of their inputs, in their folder: a line for each variant."""
 
 PATIENCE = 30
 """For a scheduler and the first of its workers, s."""
 
 AHEAD = 2
-"""Shares of the variants for each thread of the cluster that are sent ahead."""
+"""Chunks of variants that are sent ahead to each thread of the cluster."""
 
 
 _Order: TypeAlias = "tuple[VariantOrder, str]"
-"""An order, and what tells whether files are made of the same."""
+"""An order, and the hash of its inputs."""
 
 _ONE = threading.Lock()
-"""Held by the thread of a worker that is at work: what is printed is of the whole process."""
+"""Lock of the working thread of a worker: printed output belongs to the whole process."""
 
 
 class VariantOrder(Struct, frozen=True):
-    """What a process is asked to make of one variant (заказ); nothing in it names a file here.
+    """Order for the files of one variant (заказ); it names no file of this machine.
 
     Attributes
     ----------
     todo : Todo
         The problem.
     sheets : SheetOptions, optional
-        What is asked of its sheets; no sheets when absent.
+        Options of its sheets. Default: no sheets.
     layout : bytes, optional
-        Text of the file that says what is on the sheets.
+        Text of the layout file of the sheets.
     settings : Settings, optional
-        Of the key; no key when absent.
+        Of the key. Default: no key.
     lang : str
         Language of messages.
     """
@@ -101,12 +101,12 @@ def made(order: VariantOrder) -> Outcome[dict[str, bytes]]:
 
 
 def made_together(orders: Sequence[VariantOrder]) -> list[Outcome[dict[str, bytes]]]:
-    """Make the files of a share of the orders: called on the machines of the cluster."""
+    """Make the files of a chunk of orders: called on the machines of the cluster."""
     return [made(order) for order in orders]
 
 
 def made_share(orders: Sequence[VariantOrder]) -> list[Outcome[dict[str, bytes]]]:
-    """Make the files of a share of the orders: called in the processes of this machine."""
+    """Make the files of a chunk of orders: called in the processes of this machine."""
     from planmethod.commands.processes import captured
 
     return [captured(partial(made_here, order)) for order in orders]
@@ -142,7 +142,7 @@ def _files(order: VariantOrder, folder: Path) -> dict[str, bytes]:
 
 
 def installed() -> str:
-    """Return the version of the package: asked of the machines of the cluster."""
+    """Return the version of the package on a machine of the cluster."""
     from importlib.metadata import version
 
     return version("planmethod")
@@ -214,7 +214,7 @@ def batch(
     if scheduler is not None and jobs > 1:
         raise UsageError("--jobs is of this machine; --scheduler has workers of its own")
     if layout is not None:
-        composition(layout)  # its faults are told once, before any problem is drawn
+        composition(layout)  # its faults are reported once, before any problem is drawn
     settled = asked.settle()
     options = SheetOptions(
         settled=replace(settled, config=Config()),  # it is laid over the problems here
@@ -268,7 +268,7 @@ def batch(
 
 
 def _hash(order: VariantOrder) -> str:
-    """Return what tells whether files are made of the same."""
+    """Return the hash of the inputs of files."""
     from planmethod.problem.source import read_source
 
     one, problem, options, phi = order.todo, order.todo.problem, order.sheets, None
@@ -286,9 +286,9 @@ def _hash(order: VariantOrder) -> str:
 
 
 class Manifest:
-    """What a folder has, and of what it was made (ведомость): one line of JSON for each variant.
+    """Files of a folder and their inputs (ведомость): one line of JSON for each variant.
 
-    A line is added when its files are written; a line cut short by the end of a run is no line.
+    A line is added when its files are written; a line cut off by the end of a run is ignored.
     """
 
     def __init__(self, out: Path) -> None:
@@ -302,7 +302,7 @@ class Manifest:
                     self._lines[told.problem] = told
 
     def has(self, order: VariantOrder, key: str) -> bool:
-        """Tell whether the files of an order are there as they were made."""
+        """Return whether the files of an order are there as they were made."""
         told = self._lines.get(stem(order.todo.problem))
         if told is None or told.key != key:
             return False
@@ -339,7 +339,7 @@ class Manifest:
 
 
 class _Line(Struct, frozen=True):
-    """What a line of the manifest says of a variant."""
+    """Line of the manifest: the record of a variant."""
 
     problem: str
     key: str
@@ -357,7 +357,7 @@ def _digest(data: bytes) -> str:
 
 
 def _shared(orders: list[_Order], manifest: Manifest, jobs: int) -> Iterator[Callable[[], None]]:
-    """Yield what takes in each order, made in processes of this machine: none of them listens."""
+    """Yield a callable for each order, made in processes of this machine, without a scheduler."""
     wanted = [order for order, key in orders if not manifest.has(order, key)]
     outcomes = _in_shares(wanted, jobs)
     for order, key in orders:
@@ -371,7 +371,7 @@ def _shared(orders: list[_Order], manifest: Manifest, jobs: int) -> Iterator[Cal
 def _in_shares(
     orders: Sequence[VariantOrder], jobs: int
 ) -> Iterator[Outcome[dict[str, bytes]] | None]:
-    """Yield what comes of every order; of a share whose process was killed each is made alone."""
+    """Yield the outcome of every order; a chunk whose process was killed is retried one by one."""
     from planmethod.commands.processes import in_processes, shares
 
     parts = shares(orders, jobs, AT_ONCE_DRAWN)
@@ -402,7 +402,7 @@ def _cluster(scheduler: str) -> Iterator[Client]:
 
     from distributed import Client
 
-    logging.getLogger("distributed").setLevel(logging.CRITICAL)  # what matters is said here
+    logging.getLogger("distributed").setLevel(logging.CRITICAL)  # its errors are reported here
     with contextlib.ExitStack() as open_ones:
         try:
             client = open_ones.enter_context(Client(scheduler, timeout=PATIENCE))
@@ -467,9 +467,9 @@ def _sent(client: Client, orders: list[_Order], manifest: Manifest) -> Iterator[
 def _taken(
     client: Client, future: Future, number: int, order: VariantOrder, key: str, manifest: Manifest
 ) -> None:
-    """Wait for a share of the orders and put the files of one down.
+    """Wait for a chunk of orders and record the files of one.
 
-    Where the workers that took the share were killed each order is sent alone.
+    If the workers of the chunk were killed, each order is sent alone.
     """
     from concurrent.futures import CancelledError
 

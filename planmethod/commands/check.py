@@ -196,7 +196,7 @@ def check(
 
 
 def _refuse_names(path: Path, hidden: Mapping[str, str]) -> None:
-    """Refuse to hide names beside a file of the instructor's that has them."""
+    """Reject to hide names beside a file of the instructor's that has them."""
     from planmethod.check.pages.folder import RunFolder
     from planmethod.check.pages.overrides import students_of
 
@@ -211,7 +211,7 @@ def _refuse_names(path: Path, hidden: Mapping[str, str]) -> None:
 
 
 def _tell_provisional(checked: list[CheckedWork], by_hand: Path | None, settings: Settings) -> None:
-    """Tell which marks may still change, and what decides."""
+    """Report the grades that may still change, and the reason."""
     from planmethod.check.pages.files import marks_of
 
     for one, mark in zip(checked, marks_of(checked, settings), strict=True):
@@ -232,7 +232,7 @@ def _tell_provisional(checked: list[CheckedWork], by_hand: Path | None, settings
 
 
 def _unread_tables(works: list[Work]) -> Iterator[str]:
-    """Yield a line on each file of which no answer was read, with the columns it has."""
+    """Yield a line on each file without readable answers, with the columns it has."""
     from planmethod.check.model import Unread
 
     files: dict[str, list[Work]] = {}
@@ -298,7 +298,7 @@ def _read(
             fail(error)
         except (PlanMethodError, click.ClickException, MemoryError):
             raise
-        except Exception as error:  # a fault of ours: the other files are read
+        except Exception as error:  # an internal error: the other files are read
             unread[path], code = failure_of(error), ExitCode.USAGE
             click.echo(say("Error: {}: {}", path, unread[path].said), err=True)
         else:
@@ -313,7 +313,7 @@ def _read(
 def _read_file(
     variants: Variants, path: Path, told: dict[str, str], drawn: dict[str, str]
 ) -> tuple[list[Work], dict[str, str] | None]:
-    """Read the works of a file; of an export also how the system knows the students, else None."""
+    """Read the submissions of a file, and of an export the students' addresses, else None."""
     from planmethod.check.exchange.quiz import gaps_of
     from planmethod.check.exchange.responses import is_export, read_responses
     from planmethod.check.measured.drawing import is_drawing
@@ -373,7 +373,7 @@ def _in_processes(variants: Variants, works: list[Work], jobs: int) -> Iterator[
 
 
 def _killed(work: Work) -> CheckedWork:
-    """Return a work of which every process was killed."""
+    """Return the failed result of a submission whose processes were all killed."""
     from planmethod.check.checking import unmarked
     from planmethod.check.model import CheckFailure
 
@@ -471,7 +471,7 @@ def _write_results(
 
 
 class KeyFiles(Struct, frozen=True):
-    """Where keys are written, and as what (файлы ключа)."""
+    """Files and formats of keys (файлы ключа)."""
 
     out: Path
     lang: str
@@ -553,7 +553,7 @@ def _write_key(path: Path, keys: list[Key], asked: KeyFiles) -> None:
 def asked_of(todo: Todo, settings: Settings, lang: str | None, *, mistakes: bool = True) -> Asked:
     """Return the key of a problem of any kind, and its question in a language.
 
-    Without ``mistakes`` it tells none: to find them is half of the work.
+    Without ``mistakes`` it has none, which saves half of the time.
     """
     from planmethod.check.group import task_of_problem
     from planmethod.check.key import key_of_task
@@ -571,7 +571,7 @@ def asked_of(todo: Todo, settings: Settings, lang: str | None, *, mistakes: bool
 
 
 def keys_ahead(todo: Sequence[Todo], settings: Settings) -> dict[int, Asked]:
-    """Return the keys of linkages that are asked alike, by their numbers."""
+    """Return the keys of linkages with the same questions, by their numbers."""
     from planmethod.check.together import keys_together
 
     keys = of_linkages(todo, lambda problems: keys_together(problems, settings))

@@ -1,4 +1,4 @@
-"""What ``solve --compare`` prints: a student's own numbers beside the exact ones."""
+"""Output of ``solve --compare``: a student's own numbers beside the exact ones."""
 
 from __future__ import annotations
 

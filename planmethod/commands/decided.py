@@ -1,4 +1,4 @@
-"""What is decided of a project that a command is given: read, settled, looked over."""
+"""Project of a command: its file is read, its decisions are made and checked."""
 
 from __future__ import annotations
 
@@ -34,19 +34,19 @@ def note_options(command: F) -> F:
 
 
 def decided(path: Path, variant: str | None, position: int | None, settled: Settled) -> Project:
-    """Return the project of a file, with what the command line asks of its sheets.
+    """Return the project of a file, with the sheet options of the command line.
 
     Parameters
     ----------
     position : int or None
-        Number of the calculated position, where the command line tells it.
+        Number of the calculated position, if the command line has it.
 
     Raises
     ------
     PlanMethodError
         The file is faulty, or the mechanism cannot be assembled in a position.
     click.UsageError
-        It is no linkage.
+        It is not a linkage.
     """
     from planmethod.kinds import kind_of
     from planmethod.problem.cycle_records import ProjectTask

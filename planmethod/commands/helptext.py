@@ -1,4 +1,4 @@
-"""Help and errors of the command line in the language that is spoken; their words are click's own.
+"""Help and errors of the command line in the current language; their wording is click's own.
 
 Click looks its sentences up by `gettext`, in the domain that the program names: here in
 ``LC_MESSAGES/click.mo`` of a language, which ``make messages`` makes of ``click.po``. Help of
@@ -19,12 +19,12 @@ import click
 from planmethod.languages import WORDING, say, speaking, translated
 
 DOMAIN = "click"
-"""Domain of `gettext` in which the sentences of click stand."""
+"""Domain of `gettext` of the sentences of click."""
 
 
 @contextmanager
 def answering(lang: str) -> Iterator[None]:
-    """Speak a language for a while, and have click speak it."""
+    """Use a language for a while, and have click use it."""
     domain, asked = gettext.textdomain(), os.environ.get("LANGUAGE")
     gettext.bindtextdomain(DOMAIN, str(WORDING))
     gettext.textdomain(DOMAIN)
@@ -41,7 +41,7 @@ def answering(lang: str) -> Iterator[None]:
 
 
 class Spoken(click.Command):
-    """Command whose help is in the language that is spoken."""
+    """Command whose help is in the current language."""
 
     def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
         """Read the arguments, short options by their long names.
@@ -58,7 +58,7 @@ class Spoken(click.Command):
         return super().parse_args(ctx, words)
 
     def _refuse_repeated(self, ctx: click.Context, words: list[str]) -> None:
-        """Refuse an option of one value that is given twice; click takes the last silently."""
+        """Reject an option of one value that is given twice; click takes the last silently."""
         single = {
             param.name: param
             for param in self.params
@@ -93,7 +93,7 @@ class Spoken(click.Command):
         return super(Spoken, told).get_help(ctx)
 
     def collect_usage_pieces(self, ctx: click.Context) -> list[str]:
-        """Return what follows the command where it is told how to call it."""
+        """Return the text after the command in its usage line."""
         return [translated(piece) for piece in super().collect_usage_pieces(ctx)]
 
     def _translated(self) -> Spoken:

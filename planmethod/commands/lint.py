@@ -39,7 +39,7 @@ if TYPE_CHECKING:
 
 
 class LintOptions(Struct, frozen=True, kw_only=True):
-    """Which sheets are looked over, and how it is told; the options of the command."""
+    """Sheets to inspect and form of the report; the options of the command."""
 
     settled: Settled
     phi: Positions | None
@@ -100,7 +100,7 @@ def lint(
             "--structure has none"
         )
     if layout is not None:
-        composition(layout)  # its faults are told once, before any problem is drawn
+        composition(layout)  # its faults are reported once, before any problem is drawn
     options = LintOptions(
         settled=asked.settle(),
         phi=phi,
@@ -125,7 +125,7 @@ def lint(
 
 
 def look(todo: Todo, options: LintOptions) -> tuple[dict[str, Any] | None, int]:
-    """Look the sheets of a problem over; return the record, if it is asked, and what is marked."""
+    """Inspect the sheets of a problem; return the record, if requested, and the error count."""
     from planmethod.render.control.remarks import Severity
     from planmethod.render.sheets.control_report import control_record, control_text, counted
 
@@ -142,7 +142,7 @@ def look(todo: Todo, options: LintOptions) -> tuple[dict[str, Any] | None, int]:
 
 
 def _looked_over(todo: Todo, options: LintOptions) -> tuple[str, list[Controlled]]:
-    """Return what the sheets of a problem show, and the sheets with what is remarked."""
+    """Return the kind of the sheets of a problem, and the sheets with their remarks."""
     from planmethod.render.sheets.controlled import (
         controlled_kinematics,
         controlled_structure,
@@ -165,7 +165,7 @@ def _looked_over(todo: Todo, options: LintOptions) -> tuple[str, list[Controlled
     if options.structural:
         return "structure", controlled_structure(todo.linkage, fields=fields)
     linkage = todo.linkage
-    if phi is not None:  # what a project decided is of its own positions
+    if phi is not None:  # a project's decisions apply to its own positions
         linkage = replace(linkage, calculated=None)
     return "kinematics", controlled_kinematics(
         linkage,
@@ -179,9 +179,9 @@ def _looked_over(todo: Todo, options: LintOptions) -> tuple[str, list[Controlled
 
 
 def _is_project(linkage: Problem) -> bool:
-    """Whether a file asks for a project, or has parts of one beside its linkage.
+    """Return whether a file has [project], or parts of a project beside its linkage.
 
-    A cam that drives the linkage is no part of a project.
+    A cam that drives the linkage is not such a part.
     """
     from planmethod.kinds import PROJECT_KINDS
 

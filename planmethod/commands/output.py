@@ -25,7 +25,7 @@ SPOOLED = 2**20
 
 
 def put(text: str, file: str | None, *, within: Path | None = None) -> None:
-    """Print a text, or write it to a file and say so; ``within`` is the folder of ``--out``."""
+    """Print a text, or write it to a file and print the name; ``within`` is ``--out``."""
     if file is None or file == "-":
         click.echo(text, nl=not text.endswith("\n"))
         return
@@ -50,7 +50,7 @@ def put_parts(parts: Iterable[str], file: str) -> None:
 
 
 def refuse_unknown(said: str, name: str, known: Sequence[str], told: str = "") -> None:
-    """Refuse a name (``no layout {!r}``), and tell the nearest; ``told`` if they are too many."""
+    """Reject a name (``no layout {!r}``) with the nearest one; ``told`` replaces a long list."""
     if name not in known:
         from difflib import get_close_matches
 
@@ -125,7 +125,7 @@ def drawing_files(
 
 
 def show(path: Path) -> None:
-    """Open a written file in the system's program for it, once in a run; say so where none does."""
+    """Open a written file in its default program, once in a run; report if none does."""
     opened = click.get_current_context().meta.setdefault("planmethod.opened", set())
     if path in opened:
         return
@@ -180,7 +180,7 @@ class JsonTexts:
         self._count += 1
 
     def tell(self) -> None:
-        """Print the only record, or the list of several; nothing where there is none."""
+        """Print the only record, or the list of several, if any."""
         if not self._count:
             return
         several = self._count > 1
@@ -192,13 +192,13 @@ class JsonTexts:
 
 
 def is_narrow() -> bool:
-    """Tell whether the terminal's encoding has only some of the letters."""
+    """Return whether the terminal's encoding has only some of the letters."""
     encoding = getattr(sys.stdout, "encoding", None)  # there may be no terminal at all
     return not (encoding or "").lower().startswith("utf")
 
 
 def is_terminal(stream: object) -> bool:
-    """Tell whether somebody watches a stream; a closed one is None."""
+    """Return whether a stream is a terminal; a closed one is None."""
     return stream is not None and bool(getattr(stream, "isatty", bool)())
 
 

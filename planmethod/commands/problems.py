@@ -1,4 +1,4 @@
-"""Problem files that a command is given: read, acted on, and what is said when one fails."""
+"""Problem files of a command: reading them, acting on them, and reporting failures."""
 
 from __future__ import annotations
 
@@ -61,7 +61,7 @@ MANY = 6
 
 
 def fail(error: PlanMethodError, names: Sequence[str] = ()) -> None:
-    """Say what went wrong, and with which of several problems: see `named`."""
+    """Print an error, with the name of its problem: see `named`."""
     click.echo(say("Error: {}", named(str(error), names)), err=True)
 
 
@@ -74,13 +74,13 @@ def named(told: str, names: Sequence[str]) -> str:
 
 
 def names_of(path: Path, name: str, variant: str | None) -> Sequence[str]:
-    """Return what a problem may be called in a message; a variant is not called as its file."""
+    """Return the names of a problem in messages; a variant's name differs from its file's."""
     return (str(path), name) if variant is None else (f"{name}-{variant}",)
 
 
 @contextmanager
 def of_file(path: Path, name: str) -> Iterator[None]:
-    """Have what is found late of a problem told of its file, as all other faults are."""
+    """Name the file in errors that are found late, as in all other faults."""
     try:
         yield
     except ProblemError as error:
@@ -111,9 +111,9 @@ def guarded(command: F) -> F:
 def load(
     path: Path, variant: str | None, all_variants: bool, *, drawn: bool = True
 ) -> list[Problem]:
-    """Read a problem file: one problem, or one for each variant; that of a project is settled.
+    """Read a problem file: one problem, or one for each variant, with its project's decisions.
 
-    Scales are decided by laying sheet 1 out: what is not ``drawn`` has only the positions.
+    Sheet 1 is laid out to decide the scales; without ``drawn`` only the positions are decided.
     """
     found = []
     for problem in _read(path, variant, all_variants):
@@ -123,13 +123,13 @@ def load(
             with of_file(path, problem.name):
                 problem = settled(problem) if drawn else in_positions(problem)
         found.append(problem)
-    if found and found[0].project is None:  # who writes [project] knows what it is for
+    if found and found[0].project is None:  # an author of [project] knows its use
         tell_left_out(found[0])
     return found
 
 
 def load_unsettled(path: Path, variant: str | None) -> Problem:
-    """Read a problem file as it stands."""
+    """Read a problem file unchanged."""
     (problem,) = _read(path, variant, all_variants=False)
     return problem
 
@@ -169,7 +169,7 @@ def _tell_working(problem: Problem) -> None:
 
 
 def tell_left_out(problem: Problem) -> None:
-    """Tell of the tables of a linkage's file that are of other kinds of problem, and not used."""
+    """Warn of tables of other kinds of problem in a linkage's file, which are not used."""
     for table in problem.tables:
         if table == "point":
             warn(problem, "[point] is left out; give it a file of its own.")
@@ -180,7 +180,7 @@ def tell_left_out(problem: Problem) -> None:
 def _load_other(
     kind: ProblemKind[Any], path: Path, variant: str | None, all_variants: bool
 ) -> list[KindProblem]:
-    """Read the same of a problem that is no linkage."""
+    """Read problems of another kind likewise."""
     return [kind.load(path, name) for name in variants_of(path, variant, all_variants)]
 
 
@@ -213,17 +213,17 @@ def each(
         Acts on one problem. Where there are jobs it is pickled: a function of a module, its
         arguments in `functools.partial`.
     kinds : bool
-        Whether problems that are no linkages are wanted, too; else they are faulty.
+        Whether problems of other kinds are accepted, too; else they are faulty.
     jobs : int
-        Processes at work; what is printed there is printed here, in order, so the outcome is the
+        Number of processes; their output is printed here, in order, so that the outcome is the
         same.
     take : callable, optional
-        Gets what was returned for every problem, in order.
+        Receives the result of every problem, in order.
     ahead : callable, optional
-        Acts on several problems at once, as far as it can: returns what it finds by their numbers.
+        Batch worker: acts on several problems at once and returns ``{index: result}``.
         The others are acted on one by one.
     drawn : bool
-        Whether scales of a project matter, which take a second to decide.
+        Whether the scales of a project are needed, which take a second to decide.
 
     Returns
     -------
@@ -232,18 +232,18 @@ def each(
     """
 
     def steps(todo: list[Todo]) -> Iterator[Callable[[], T | None]]:
-        # Problems that are called alike write the same files: the last one wins, as in one process.
+        # Problems of the same name write the same files: the last one wins, as in one process.
         if jobs == 1 or len({stem(one.problem) for one in todo}) < max(2, len(todo)):
             if len(todo) > AT_ONCE:
-                gc.freeze()  # what was read stays to the end, and is not looked through
+                gc.freeze()  # problems live to the end: do not scan them
             for start in range(0, len(todo), AT_ONCE):
                 block = todo[start : start + AT_ONCE]
-                with unsearched():  # what is made of a block stays to its end
+                with unsearched():  # results of a block live to its end
                     found = ahead(block) if ahead is not None and len(block) > 1 else {}
                 for k, one in enumerate(block):
                     yield partial(found.pop, k) if k in found else partial(act, one)
                 if len(todo) > AT_ONCE:
-                    gc.collect()  # solutions know themselves: a block of them is 100 MB
+                    gc.collect()  # solutions have cycles: a block of them is 100 MB
         else:
             yield from _shared(act, ahead, todo, jobs)
 
@@ -253,7 +253,7 @@ def each(
 def of_linkages(
     todo: Sequence[Todo], made: Callable[[list[Problem]], Mapping[int, T]]
 ) -> dict[int, T]:
-    """Return what is made of the linkages among problems together, by their numbers."""
+    """Return the results of the linkages among problems, made together, by index."""
     linkages = [k for k, one in enumerate(todo) if one.kind is None]
     if not linkages:
         return {}
@@ -262,7 +262,7 @@ def of_linkages(
 
 @contextmanager
 def unsearched() -> Iterator[None]:
-    """Have nothing looked through for what is of no use: what is made here is needed for long."""
+    """Pause the garbage collector."""
     was = gc.isenabled()
     gc.disable()
     try:
@@ -282,14 +282,14 @@ def through(
     take: Callable[[T], object] | None = None,
     drawn: bool = True,
 ) -> ExitCode:
-    """Read all problems and take the steps, one for each problem; what fails is reported.
+    """Read all problems and run the steps, one for each problem; failures are reported.
 
     Parameters
     ----------
     steps : callable
-        Returns for the problems what is to be called in turn.
+        Returns the callables to run in turn for the problems.
     kinds : bool
-        Whether problems that are no linkages are wanted, too.
+        Whether problems of other kinds are accepted, too.
     """
     from planmethod.kinds import kind_of
 
@@ -336,15 +336,15 @@ def through(
 
 
 Ahead: TypeAlias = Callable[[Sequence[Todo]], dict[int, Any]]
-"""Acts on several problems at once, as far as it can: see `each`."""
+"""Batch worker: acts on several problems at once; see `each`."""
 
 
 def _shared(
     act: Callable[[Todo], T], ahead: Ahead | None, todo: list[Todo], jobs: int
 ) -> Iterator[Callable[[], T | None]]:
-    """Yield what gives the result of every problem: shares of them go to several processes.
+    """Yield a callable for the result of every problem; chunks of them go to several processes.
 
-    Of a share whose process was killed each problem is acted on alone.
+    The problems of a chunk whose process was killed are retried one by one.
     """
     from planmethod.commands.processes import in_processes, shares
 
@@ -363,7 +363,7 @@ def _shared(
 def _acted_on(
     part: Sequence[Todo], act: Callable[[Todo], T], ahead: Ahead | None
 ) -> list[Outcome[T]]:
-    """Act on a share of the problems, on those that can be together at once."""
+    """Act on a chunk of problems, together where possible."""
     from planmethod.commands.processes import Outcome, captured
 
     with unsearched():
@@ -375,7 +375,7 @@ def _acted_on(
 
 
 def refuse_killed(one: Todo) -> NoReturn:
-    """Tell that every process that took a problem was killed.
+    """Raise the error that every process of a problem was killed.
 
     Raises
     ------
@@ -395,7 +395,7 @@ def finish(code: ExitCode) -> None:
 
 
 def refuse_plans(kind: ProblemKind[Any], **options: object) -> None:
-    """Refuse options that only the plans of linkages have.
+    """Reject options that only the plans of linkages have.
 
     Raises
     ------
@@ -413,12 +413,12 @@ def refuse_plans(kind: ProblemKind[Any], **options: object) -> None:
 
 
 def no_position(number: int, problem: KindProblem, count: int) -> UsageError:
-    """Return the error of a position that a problem has not."""
+    """Return the error of a position that a problem does not have."""
     return UsageError("--position {}: the last of {} is {}", number, called(problem), count - 1)
 
 
 def watched(steps: Iterable[T], length: int) -> Iterator[T]:
-    """Yield what is to do, on a terminal with a bar when they are many (about a second of work)."""
+    """Yield the steps, with a progress bar on a terminal if they take about a second."""
     if length < MANY or not is_terminal(sys.stderr):
         yield from steps
         return
@@ -427,31 +427,31 @@ def watched(steps: Iterable[T], length: int) -> Iterator[T]:
 
 
 def stem(problem: KindProblem) -> str:
-    """Return what the files of a problem are called."""
+    """Return the base name of the files of a problem."""
     return problem.name if problem.variant is None else f"{problem.name}-{problem.variant}"
 
 
 def called(problem: KindProblem) -> str:
-    """Return what a message calls a problem: its file, or the file's name with the variant."""
+    """Return the name of a problem in messages: its file, or the file's name with the variant."""
     return problem.source_file if problem.variant is None else stem(problem)
 
 
 def language_of(problem: KindProblem, named: str | None) -> str:
-    """Return the language in which to write of a problem.
+    """Return the output language of a problem.
 
-    That which the user names, else that of ``[sheet]``, else that of messages.
+    The user's choice, else that of ``[sheet]``, else that of messages.
     """
     return named or problem.sheet.lang or spoken()
 
 
 def language_of_file(path: Path, named: str | None) -> str:
-    """Return the language in which to write of a problem file that may have faults."""
+    """Return the output language of a problem file that may have faults."""
     from planmethod.languages import known_language
     from planmethod.problem.source import parse, read_source
 
     if named is not None:
         return named
-    with contextlib.suppress(PlanMethodError):  # said where the file is read as a problem
+    with contextlib.suppress(PlanMethodError):  # reported where the file is read as a problem
         sheet = parse(read_source(path), name=str(path)).get("sheet")
         if isinstance(sheet, dict):
             return known_language(str(sheet.get("lang", ""))) or spoken()
@@ -459,7 +459,7 @@ def language_of_file(path: Path, named: str | None) -> str:
 
 
 def warn(problem: Problem, said: object) -> None:
-    """Say what a user should know of a problem's results: a sentence, or a record of one."""
+    """Print a warning about a problem's results: a sentence, or a record of one."""
     click.echo(say("Warning: {}: {}", called(problem), said), err=True)
 
 
@@ -473,7 +473,7 @@ def tell_wheel(wheel: Flywheel) -> None:
 
 
 def tell_changes(problem: Problem, phi: Positions | None) -> None:
-    """Tell of change points between the positions of a problem that is solved elsewhere."""
+    """Warn of change points between the positions of a problem that is solved elsewhere."""
     from planmethod.solved.selfcheck import changed_branches
     from planmethod.solved.solution import Solution
 
@@ -485,9 +485,9 @@ def tell_changes(problem: Problem, phi: Positions | None) -> None:
 def tell_doubts(
     problem: Problem, positions: Sequence[float] | None = None, *, forces: bool = True
 ) -> None:
-    """Tell of positions of a problem that is solved elsewhere, where results have few digits.
+    """Warn of positions with few digits, for a problem that is solved elsewhere.
 
-    What is impossible, or refused, is told where it is solved.
+    Impossible or rejected positions are reported where it is solved.
     """
     from planmethod.solved.selfcheck import warnings
     from planmethod.solved.solution import Solution
@@ -506,14 +506,14 @@ def solution_of(
     forces: bool = False,
     machine: bool = False,
 ) -> Solution:
-    """Solve a problem, check the solution, and report the doubts about it.
+    """Solve a problem, check the solution, and print its warnings.
 
     Parameters
     ----------
     hand : Profile
-        Who draws the plans.
+        Accuracy of drawing the plans.
     hint : str
-        What else can be asked where one of several positions is refused.
+        Alternative to suggest where one of several positions is rejected.
     forces : bool
         The forces must exist, too, where there are loads.
     machine : bool

@@ -24,7 +24,7 @@ from planmethod.errors import PlanMethodError
 from planmethod.languages import say, spoken
 
 SHARES = 4
-"""Shares of the work for each process."""
+"""Chunks of the work for each process."""
 
 T = TypeVar("T")
 R = TypeVar("R")
@@ -34,7 +34,7 @@ MOST = 61
 
 
 class Outcome(Struct, Generic[R], frozen=True):
-    """What came of one item in another process.
+    """Outcome of one item in another process.
 
     Attributes
     ----------
@@ -50,7 +50,7 @@ class Outcome(Struct, Generic[R], frozen=True):
     error: Exception | None = None
 
     def result(self) -> R | None:
-        """Print what was printed there, and return the value or raise the error."""
+        """Print the captured output, and return the value or raise the error."""
         click.echo(self.errors, nl=False, err=True)
         click.echo(self.output, nl=False)
         if self.error is not None:
@@ -59,7 +59,7 @@ class Outcome(Struct, Generic[R], frozen=True):
 
 
 def captured(work: Callable[[], R]) -> Outcome[R]:
-    """Return what comes of some work, and what it prints; errors as those that can be pickled."""
+    """Return the outcome and the output of some work, with picklable errors."""
     output, errors = io.StringIO(), io.StringIO()
     value: R | None = None
     error: Exception | None = None
@@ -108,7 +108,7 @@ def _work(act: Callable[[T], R], item: T, lang: str) -> Outcome[R]:
 
 
 def shares(items: Sequence[T], jobs: int, most: int) -> list[Sequence[T]]:
-    """Return items in shares of ``most`` at most; several for each process, so that none waits."""
+    """Return items in chunks of at most ``most``; several for each process, so that none waits."""
     size = max(1, min(most, -(-len(items) // (SHARES * jobs))))
     return [items[start : start + size] for start in range(0, len(items), size)]
 
@@ -119,10 +119,10 @@ def shares(items: Sequence[T], jobs: int, most: int) -> list[Sequence[T]]:
 def in_processes(
     act: Callable[[T], R], items: Sequence[T], jobs: int
 ) -> Iterator[Outcome[R] | None]:
-    """Yield what comes of every item in one of several processes, in order.
+    """Yield the outcome of every item in one of several processes, in order.
 
-    Where a process is killed, the first item that is not done is begun again by a process that has
-    nothing else; if that is killed, too, None stands in its place.
+    If a process is killed, its first unfinished item is retried in a process of its own; if that
+    is killed, too, its outcome is None.
 
     Parameters
     ----------
@@ -161,7 +161,7 @@ def in_processes(
 
 @contextmanager
 def _pool(jobs: int) -> Iterator[ProcessPoolExecutor]:
-    """Give processes at work; they are ended at once where their giver ends early."""
+    """Provide worker processes; end them at once if the block ends early."""
     before = multiprocessing.active_children()
     pool = ProcessPoolExecutor(min(jobs, MOST), initializer=_start)
     try:

@@ -50,7 +50,7 @@ class MadePart(Struct, frozen=True):
 
 
 class WritingTask(Struct, frozen=True):
-    """What is written: the sheets of a part, all sheets, the note with their list, the numbers."""
+    """Output to write: the sheets of a part, all sheets, the note with their list, the numbers."""
 
     name: str
     stem: str = ""
@@ -59,7 +59,7 @@ class WritingTask(Struct, frozen=True):
 
 
 class SheetFormats(Struct, frozen=True):
-    """How sheets are written: formats, author, resolution."""
+    """Formats of sheets, with author and resolution."""
 
     formats: tuple[str, ...]
     author: str | None
@@ -150,7 +150,7 @@ def project(
         show(folder / next(file for file in pages if file in files))
 
 
-# What is asked -----------------------------------------------------------------------------------
+# Request --------------------------------------------------------------------------------------
 
 
 def _wanted(chosen: Project, parts: Sequence[str] | None) -> tuple[str, ...]:
@@ -182,8 +182,8 @@ def _made(
 ) -> tuple[list[PartFiles], Files]:
     """Make the parts, and return their files and all files by name.
 
-    All sheets are drawn, whichever are wanted: they are numbered as one set. One that is not wanted
-    and cannot be drawn stops no other, and is not counted.
+    All sheets are drawn, whichever are requested: they are numbered as one set. An unrequested one
+    that cannot be drawn does not stop the others, and is not counted.
     """
     from planmethod.project.model import PartName
     from planmethod.project.record import PartFiles
@@ -270,7 +270,7 @@ def _ordered(named: Sequence[PartFiles], files: Files) -> Files:
 def _shared(
     act: Callable[[Any], tuple[str, MadePart]], tasks: Sequence[Any], jobs: int
 ) -> Iterator[tuple[str, MadePart]]:
-    """Yield what comes of every task, done in so many processes; a failure names its part."""
+    """Yield the outcome of every task from ``jobs`` processes; a failure names its part."""
     from planmethod.commands.processes import in_processes
 
     several = jobs > 1 and len(tasks) > 1
@@ -304,7 +304,7 @@ def _named(name: str, error: PlanMethodError) -> PlanMethodError:
 
 
 def _stale(folder: Path, name: str) -> set[str]:
-    """Return the files of an earlier project of the name: what is of other decisions goes."""
+    """Return the files of an earlier project of the name, to be removed."""
     record = folder / RECORD
     if not record.is_file():
         return set()

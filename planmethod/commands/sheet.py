@@ -56,7 +56,7 @@ if TYPE_CHECKING:
 
 
 class SheetOptions(Struct, frozen=True, kw_only=True):
-    """What is asked of the sheets of every problem; the options of the command."""
+    """Settings of the sheets of every problem; the options of the command."""
 
     settled: Settled
     phi: Positions | None
@@ -76,7 +76,7 @@ class SheetOptions(Struct, frozen=True, kw_only=True):
 
 
 MOST_SHEETS = 6
-"""Sheets of one problem that nobody is asked about."""
+"""Maximum number of sheets of one problem without confirmation."""
 
 
 def read_name(ctx: click.Context, param: click.Parameter, value: str | None) -> str | None:
@@ -92,7 +92,7 @@ def compacted(problem: Problem, positions: Sequence[float] | None) -> Problem:
     Raises
     ------
     LayoutError
-        More positions are asked than small paper has room for.
+        There are more positions than fit on small paper.
     """
     from planmethod.problem.model import Scales
     from planmethod.solved.room import FEW
@@ -174,7 +174,7 @@ def sheet(
         layout = "compact"
     layout = "graphs" if ask and layout is None else layout
     if layout is not None:
-        made = composition(layout)  # its faults are told once, before any problem is drawn
+        made = composition(layout)  # its faults are reported once, before any problem is drawn
         if ask and not any(entry.kind == "graphs" for entry in made.blocks):
             raise UsageError(
                 "--ask: layout {} has no block of kind graphs. Leave --layout out, or add one.",
@@ -237,14 +237,14 @@ def draw(todo: Todo, options: SheetOptions) -> Path:
 
 
 def settled_for(todo: Todo, options: SheetOptions) -> Todo:
-    """Return a problem with all that is asked of its sheets."""
+    """Return a problem with all settings of its sheets; print its warnings."""
     todo = replace(todo, problem=options.settled.over(todo.problem))
     if todo.kind is not None:
         return todo
     if todo.linkage.project is not None and options.layout is None:
         tell_left_out(todo.linkage)
     if options.phi is not None or options.position is not None:
-        # What a project decided is of its own positions.
+        # The decisions of a project apply to its own positions.
         todo = replace(todo, problem=replace(todo.linkage, calculated=options.position))
     tell_changes(todo.linkage, options.phi)
     drawn = _drawn_positions(todo.linkage, options)
@@ -307,7 +307,7 @@ def _tell_positions(problem: Problem, layout: str) -> None:
 
 
 def _has_forces(layout: str | None) -> bool:
-    """Whether the sheets show forces, or what they make."""
+    """Return whether the sheets show forces, or results of them."""
     from planmethod.render.sheets.blocks import has_forces
     from planmethod.render.sheets.composition.reader import composition
 
@@ -317,7 +317,7 @@ def _has_forces(layout: str | None) -> bool:
 
 
 def _has_flywheel(layout: str | None) -> bool:
-    """Whether the sheets show the sizes of a flywheel."""
+    """Return whether the sheets show the sizes of a flywheel."""
     from planmethod.render.sheets.composition.reader import composition
 
     return layout is not None and any(
@@ -379,7 +379,7 @@ def _write(
 ) -> list[Path]:
     """Write the sheets of a problem, drawn now if they are not drawn yet; return the files."""
     formats = list(formats)
-    # What a CAD program measures is drawn as such programs draw, if nobody wants another hand.
+    # DXF, for CAD programs, has their accuracy, unless another one is requested.
     cad = None
     if "dxf" in formats and options.profile is None and options.ruler is None:
         cad = drawn_by(None, None, usual="cad")

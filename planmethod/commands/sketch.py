@@ -31,7 +31,7 @@ PAGE = (
     '<!DOCTYPE html><meta charset="utf-8"><meta http-equiv="refresh" content="1">'
     '<img src="{picture}" alt="" style="width:100%">\n'
 )
-"""What shows a picture that is drawn again and again."""
+"""Page that shows a picture which is redrawn again and again."""
 
 
 @click.command(cls=Spoken)
@@ -77,7 +77,7 @@ def _stem(path: Path, variant: str | None) -> str:
 def _draw(
     path: Path, variant: str | None, out: Path, formats: tuple[str, ...], lang: str | None
 ) -> PlanMethodError | None:
-    """Draw the sketch of a file; return what is wrong with the file."""
+    """Draw the sketch of a file; return the faults of the file."""
     from planmethod.kinds import kind_of, part_of
 
     kind = kind_of(path)
@@ -106,7 +106,7 @@ def _draw(
 
 
 def _show(picture: Path) -> None:
-    """Open a page that shows a picture anew every second: ``--watch`` draws it again."""
+    """Open a page that reloads a picture every second, as ``--watch`` redraws it."""
     from planmethod.render.backends.output import write
 
     page = picture.with_suffix(".html")

@@ -67,14 +67,14 @@ if TYPE_CHECKING:
 
 
 class SolveOptions(Struct, frozen=True, kw_only=True):
-    """What is computed of every problem, and in which form; the options of the command.
+    """Results to compute and their form; the options of the command.
 
     Attributes
     ----------
     csv, npz, covariance : bool
         Whether a file or a table of that kind is made of all problems.
     apart : bool
-        Whether it is computed in another process.
+        Whether the work is done in another process.
     """
 
     phi: Positions | None
@@ -94,11 +94,11 @@ class SolveOptions(Struct, frozen=True, kw_only=True):
 
     @property
     def hand(self) -> tuple[str | None, float | None]:
-        """Profile and ruler of who draws."""
+        """Drafting profile and ruler."""
         return self.profile, self.ruler
 
     def of_linkages(self) -> dict[str, bool]:
-        """Return which options that only linkages have are given."""
+        """Return the given options that only linkages have."""
         return {
             "--csv": self.csv,
             "--npz": self.npz,
@@ -301,7 +301,7 @@ def compute(
 
 
 def _ahead(options: SolveOptions) -> Callable[[Sequence[Todo]], dict[int, Any]] | None:
-    """Return what solves many problems together; None where each is to be solved alone."""
+    """Return the batch solver of many problems; None where each is to be solved alone."""
     moved = options.phi is not None or options.referee is not None or options.partial
     if moved or options.ask is not None or not (options.as_json or options.npz or options.csv):
         return None
@@ -309,7 +309,7 @@ def _ahead(options: SolveOptions) -> Callable[[Sequence[Todo]], dict[int, Any]] 
 
 
 def _made(options: SolveOptions, batch: Batch) -> Iterator[Any]:
-    """Return the numbers of a batch in the form that is asked."""
+    """Return the numbers of a batch in the requested form."""
     if options.as_json:
         from planmethod.note.records.solution import batch_records
 
@@ -324,7 +324,7 @@ def _made(options: SolveOptions, batch: Batch) -> Iterator[Any]:
 
 
 def _together(todo: Sequence[Todo], options: SolveOptions) -> dict[int, Any]:
-    """Return what is made of linkages that are solved together, by their numbers."""
+    """Return the output of linkages that are solved together, by index."""
 
     def solved(problems: list[Problem]) -> dict[int, Any]:
         from planmethod.solved.many.variants import in_batches
@@ -417,7 +417,7 @@ def _partial(problem: Problem, options: SolveOptions, hand: Profile) -> dict[str
 
 
 def _parts_beside(problem: Problem) -> list[tuple[KindProblem, ProblemKind[Any]]]:
-    """Return the wheels, the meshing and the cam of a project, whose numbers are told, too."""
+    """Return the wheels, the meshing and the cam of a project, which have numbers, too."""
     if problem.project is None:
         return []
     from planmethod.project.settle import settle
@@ -427,21 +427,21 @@ def _parts_beside(problem: Problem) -> list[tuple[KindProblem, ProblemKind[Any]]
 
 
 def _beside(problem: Problem, options: SolveOptions) -> dict[str, Any]:
-    """Return the records of the parts of a project that are no linkage, by their tables."""
+    """Return the records of the other parts of a project than its linkage, by table."""
     lang = language_of(problem, options.lang)
     found = {kind.table: kind.record(part, lang) for part, kind in _parts_beside(problem)}
     return {"parts": found} if found else {}
 
 
 def _is_short(problem: Problem) -> bool:
-    """Tell whether a problem has so few positions that it may be solved among others."""
+    """Return whether a problem has few enough positions to be solved in a batch."""
     from planmethod.solved.solution import FEW_ROWS
 
     return len(problem.drive.positions) <= FEW_ROWS
 
 
 def _whole(problem: Problem, options: SolveOptions, hand: Profile) -> Solution:
-    """Return the solution that is told; of one position alone it has the scales of all."""
+    """Return the solution to print; for a single position it has the scales of all."""
     solution = solution_of(problem, options.phi, hand, hint=HINT, forces=True, machine=True)
     number, positions = options.position, solution.positions
     if number is None:
@@ -461,7 +461,7 @@ def _need_mpmath() -> None:
 def _refuse_contradictions(
     as_json: bool, csv_file: str | None, npz_file: str | None, ask: tuple[str, ...] | None
 ) -> None:
-    """Refuse options that do not go together, and outputs that would overwrite a problem."""
+    """Reject contradictory options, and outputs that would overwrite a problem."""
     forms = {"--json": as_json, "--csv": csv_file is not None, "--npz": npz_file is not None}
     given = [name for name, is_given in forms.items() if is_given]
     if len(given) > 1:

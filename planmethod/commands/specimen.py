@@ -18,7 +18,7 @@ from planmethod.options import BadParameter, dxf_text_option, format_option, lan
 def read_specimens(
     ctx: click.Context, param: click.Parameter, value: tuple[str, ...]
 ) -> tuple[str, ...]:
-    """Return the names of the specimen sheets asked for; all of them when none is given."""
+    """Return the names of the requested specimen sheets. Default: all of them."""
     from planmethod.render.sheets.specimen import SPECIMENS
 
     names = tuple(dict.fromkeys(name.strip().lower() for name in value))

@@ -1,7 +1,7 @@
-"""What the studio asks for, done in a process of its own: the commands as they are (работа студии).
+"""Worker side of the studio, which runs the commands in a separate process (работа студии).
 
-Every function gets what is asked as plain data and returns plain data; files go into the folder of
-what is asked, which the server chose.
+Every function gets its request as plain data and returns plain data; files go into the folder of
+the request, which the server chose.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ OUT = "out"
 
 
 def act(asked: Asked, tell: Tell) -> Found:
-    """Do what is asked; what is wrong with it is said in what is returned."""
+    """Process a request; its errors are in the response."""
     with answering(asked.get("lang", "ru")):
         try:
             _refuse_lacking(asked)
@@ -65,11 +65,11 @@ LACKING = {
     "project": ("", _NO_PROJECT),
     **dict.fromkeys(("form", "key", "questions", "verdicts", "checked"), ("figures", _NO_ANSWERS)),
 }
-"""What not every kind of problem has: the method that makes it, and what is said without it."""
+"""Features that some kinds of problem lack: their method, and the message when it is missing."""
 
 
 def _refuse_lacking(asked: Asked) -> None:
-    """Refuse what problems of this kind have not.
+    """Reject a feature that this kind of problem lacks.
 
     Raises
     ------
@@ -80,7 +80,7 @@ def _refuse_lacking(asked: Asked) -> None:
     method, said = LACKING.get(asked.get("what") or asked["do"], ("", ""))
     if not said:
         return
-    with suppress(ProblemError):  # a file that cannot be read is told of where it is read
+    with suppress(ProblemError):  # an unreadable file is reported where it is read
         kind = kind_of(_file(asked))
         if kind is not None and not (method and kind.has(method)):
             raise PlanMethodError(say(said))
@@ -100,7 +100,7 @@ def _told(asked: Asked, faults: Any, *, placed: bool = True) -> Found:
 
 
 def _cleaned(found: Found, asked: Asked) -> Found:
-    """Return what was found without where the server keeps files."""
+    """Return a response without the server's folders."""
     if "folder" not in asked:
         return found
     home = re.escape(str(Path(asked["folder"]).parent))
@@ -114,7 +114,7 @@ def _cleaned(found: Found, asked: Asked) -> Found:
 
 
 def _file(asked: Asked) -> Path:
-    """Write the problem file that was typed, and return where it is."""
+    """Write the typed problem file, and return its path."""
     path = Path(asked["folder"]) / f"{asked['name']}.toml"
     path.write_bytes(asked["text"].encode("utf-8", "replace"))
     return path
@@ -150,7 +150,7 @@ def sketched(asked: Asked, _: Tell) -> Found:
 
 
 def _told_of(asked: Asked, part: MechanismPart) -> tuple[Found, PlanMethodError | None]:
-    """Return what is wrong with the file of a linkage, and why it cannot be solved."""
+    """Return the faults of a linkage's file, and the reason why it cannot be solved."""
     from planmethod.solved.failures import PositionError
 
     trouble = part.trouble
@@ -162,7 +162,7 @@ def _told_of(asked: Asked, part: MechanismPart) -> tuple[Found, PlanMethodError 
 
 
 def _other(kind: Any, path: Path, variant: str | None, lang: str) -> Found:
-    """Return the same of a problem that is no linkage: its scheme, or else its first sheet."""
+    """Return the same for a problem of another kind: its scheme, or else its first sheet."""
     from msgspec.structs import replace
 
     from planmethod.options import drawn_by
@@ -186,9 +186,9 @@ def _svg(drawing: Any) -> str:
 
 
 def assemblies(asked: Asked, _: Tell) -> Found:
-    """Return the ways in which the links close, each with the rules that choose it.
+    """Return the assembly configurations, each with the rules that choose it.
 
-    Where the file leaves some of it open, those it leaves; else all, also those it has not chosen.
+    If the file leaves several of them, those; else all, including those it excludes.
     """
     from msgspec.structs import replace
 
@@ -229,7 +229,7 @@ def _without_assembly(text: str) -> str:
 
 
 def pictured(asked: Asked, _: Tell) -> Found:
-    """Return the picture of a shipped task: its scheme, without what is asked."""
+    """Return the picture of a shipped task: its scheme, without results."""
     from planmethod.kinds import kind_of, part_of
     from planmethod.note.wording import language
     from planmethod.problem.tasks import home
@@ -250,7 +250,7 @@ def pictured(asked: Asked, _: Tell) -> Found:
 
 
 def sheets(asked: Asked, _: Tell) -> Found:
-    """Draw the sheets, and return them with what a ruler wants to know of their views."""
+    """Draw the sheets, and return them with the data that the ruler needs of their views."""
     from planmethod.commands.asked import PaperRequest
     from planmethod.commands.problems import each
     from planmethod.commands.sheet import SheetOptions, drawn_for, settled_for
@@ -312,12 +312,12 @@ def _listed(folder: Path) -> list[dict[str, Any]]:
 
 
 def _paper(asked: Asked) -> list[str]:
-    """Return the options of sheets: what the server's own config file says is no stranger's."""
+    """Return the options of sheets; the server's config file is not for remote users."""
     return ["--no-config"] if asked["served"] else []
 
 
 def _args(asked: Asked) -> dict[str, list[str]]:
-    """Return the command lines that can be asked for, without the problem and the folder."""
+    """Return the available command lines, without the problem and the folder."""
     layout = ["--layout", asked["layout"]] if asked.get("layout") else []
     lang = ["--lang", asked["lang"]]
     paper = [*_paper(asked), *lang]
@@ -355,7 +355,7 @@ def command(asked: Asked, tell: Tell) -> Found:
 
 
 def questions(asked: Asked, _: Tell) -> Found:
-    """Return what is asked for, and none of the answers."""
+    """Return the questions without the answers."""
     from planmethod.check.form import asked_rows, unit_factor
     from planmethod.check.group import key_of_problem
     from planmethod.check.marks import DEFAULT
@@ -389,7 +389,7 @@ def questions(asked: Asked, _: Tell) -> Found:
 
 
 def verdicts(asked: Asked, tell: Tell) -> Found:
-    """Judge one work, as the student's own page has it."""
+    """Grade one submission, as on the student's page."""
     path, folder = _file(asked), Path(asked["folder"])
     work = folder / "work.json"
     work.write_text(json.dumps(asked["work"], ensure_ascii=False), encoding="utf-8")
@@ -405,7 +405,7 @@ def verdicts(asked: Asked, tell: Tell) -> Found:
 
 
 def checked(asked: Asked, tell: Tell) -> Found:
-    """Check the works that were dropped, with the points that were set by hand."""
+    """Check the uploaded submissions, with the manually set scores."""
     from planmethod.check.pages.listing import safe
     from planmethod.check.pages.overrides import COLUMNS
 
@@ -428,7 +428,7 @@ def checked(asked: Asked, tell: Tell) -> Found:
 
 
 def _pages(record: Path) -> dict[str, str]:
-    """Return the page of each student by the record of a run: a name does not tell its file."""
+    """Return the page of each student by the record of a run, as names do not determine it."""
     return json.loads(record.read_bytes()).get("pages", {}) if record.exists() else {}
 
 
@@ -471,7 +471,7 @@ def varied(asked: Asked, tell: Tell) -> Found:
 
 
 def warm(_: Asked, tell: Tell) -> Found:
-    """Draw a shipped task, so that what is read once is read."""
+    """Draw a shipped task, to load the modules and tables."""
     from tempfile import TemporaryDirectory
 
     from planmethod.problem.tasks import tasks
@@ -490,4 +490,4 @@ ACTS: dict[str, Callable[[Asked, Tell], Found]] = {
         sketched, assemblies, pictured, sheets, command, questions, verdicts, checked, varied, warm,
     )
 }  # fmt: skip
-"""What can be asked for, by name."""
+"""Requests by name."""

@@ -24,7 +24,7 @@ PLACES = 128
 LEADING = '<meta http-equiv="refresh" content="0; url={}">'
 
 KEPT = 75
-"""Seconds that a connection is kept for who thinks between two letters."""
+"""Seconds that an idle connection is kept open while a user is typing."""
 
 
 @click.command(cls=Spoken)
@@ -136,7 +136,7 @@ def _write(folder: Path, runtime: str | None, lang: str) -> None:
 def settings_of(
     file: Path | None, served: bool, seconds: float | None, jobs: int | None
 ) -> StudioSettings:
-    """Return how the studio is started."""
+    """Return the settings with which the studio is started."""
     import os
     import secrets
 

@@ -1,4 +1,4 @@
-"""What ``solve`` makes of many positions: tables, sweeps and their files (таблицы и массивы)."""
+"""Output of ``solve`` for many positions: tables, sweeps and their files (таблицы и массивы)."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ LONG_TEXT, LONG_ARRAYS = 2_000_000, 50_000_000
 
 
 def positions_asked(problem: Problem, phi: Positions | None) -> Positions:
-    """Return the positions that ``--phi`` asks for, rad, or those of the problem."""
+    """Return the positions of ``--phi``, rad, or those of the problem."""
     import numpy as np
 
     return np.array(problem.drive.positions) if phi is None else phi
@@ -60,7 +60,7 @@ def table_of(
 
 
 def looked_at(problem: Problem, phi: Positions | None, *, partial: bool) -> Gaps:
-    """Look at all positions that are asked, tell what is to be known of them, return the gaps."""
+    """Examine all requested positions, print their warnings, and return the gaps."""
     from planmethod.solved.many.positions import examine
 
     tell_changes(problem, phi)
@@ -73,7 +73,7 @@ def looked_at(problem: Problem, phi: Positions | None, *, partial: bool) -> Gaps
 def _tell(
     problem: Problem, positions: Positions, gaps: Gaps, doubts: tuple[object, ...], partial: bool
 ) -> None:
-    """Refuse or report positions without results; report the doubts about the others."""
+    """Reject or report positions without results; report the warnings of the others."""
     if gaps.count and not partial:
         from planmethod.solved.selfcheck import without_dead
         from planmethod.solved.solution import Solution
@@ -101,7 +101,7 @@ def write_text(tables: list[SpreadsheetRows], file: str) -> None:
 def swept(
     problem: Problem, phi: Positions | None, ask: tuple[str, ...] | None, partial: bool
 ) -> GappedSweep:
-    """Return the sweep of what is asked; positions without results are refused or told."""
+    """Return the sweep of the requested results; positions without any are rejected or reported."""
     from planmethod.solved.many.gaps import GappedSweep
     from planmethod.solved.quantities import UnknownQuantityError
 
@@ -114,7 +114,7 @@ def swept(
 
 
 def refuse_long(rows: int) -> None:
-    """Refuse a table that nobody reads."""
+    """Reject a table that is too long for the terminal."""
     if rows > MOST_SHOWN:
         raise UsageError(
             "a table of {} rows is not for reading: give --csv FILE or --npz FILE", rows
@@ -122,7 +122,7 @@ def refuse_long(rows: int) -> None:
 
 
 def refuse_huge(made: GappedSweep) -> None:
-    """Refuse more numbers than memory has room for."""
+    """Reject more numbers than fit into memory."""
     numbers = len(made.names) * len(made.positions)
     if numbers > MOST_NUMBERS:
         most = MOST_NUMBERS // len(made.names)
@@ -161,7 +161,7 @@ def write_arrays_file(sweeps: list[GappedSweep | SolvedArrays], file: str) -> No
 
 
 def _prefixes(problems: list[Problem]) -> list[str]:
-    """Return what the names of every problem's arrays begin with."""
+    """Return the name prefixes of every problem's arrays."""
     if len(problems) == 1:
         return [""]
     one_file = len({problem.name for problem in problems}) == 1

@@ -33,7 +33,7 @@ LEAST, MOST = 1e-6, 1e4
 
 
 def _number(text: str) -> float:
-    """Return a number of an option; a decimal comma cannot be told from the next number."""
+    """Return a number of an option; a decimal comma would be ambiguous with a separator."""
     from planmethod.problem.formula import read_decimal
 
     number = read_decimal(text)
@@ -182,7 +182,7 @@ def synthesize(
     drawing = Drawn(made, drawn_by(profile, ruler))
     source = click.get_current_context().get_parameter_source("formats")
     drawn = drawn or source is not ParameterSource.DEFAULT
-    # With --json what is printed is one object; the names of files then stand aside.
+    # With --json the output is one object; file names go to the error stream.
     aside = contextlib.redirect_stdout(sys.stderr) if as_json else contextlib.nullcontext()
     is_file = out is not None and out.suffix == ".toml"
     with aside:
@@ -222,7 +222,7 @@ def synthesize(
 
 
 def _command(kind: str, asked: Mapping[str, Any]) -> str:
-    """Return the command line that asks for the same, as the source of the problem file."""
+    """Return the equivalent command line, as the source of the problem file."""
     parts = ["planmethod", "synthesize", kind]
     for name, value in asked.items():
         if isinstance(value, tuple):

@@ -24,12 +24,12 @@ PAUSE = 0.15
 def watch_option(*, draws: bool = False) -> Callable[[F], F]:
     """Add ``--watch`` to a command whose files are its argument ``problems``.
 
-    What is wrong with a file is said as without it, and the next saving waited for; Ctrl+C ends.
+    Errors of a file are printed as usual, and the next saving is awaited; Ctrl+C ends.
 
     Parameters
     ----------
     draws : bool
-        What is wrong stands in place of the sheet, too.
+        Whether the errors are also drawn in place of the sheet.
     """
 
     def add(command: F) -> F:
@@ -43,7 +43,7 @@ def watch_option(*, draws: bool = False) -> Callable[[F], F]:
                 try:
                     with contextlib.redirect_stderr(said):
                         command(*args, problems=problems, **kwargs)
-                except SystemExit:  # the next saving may mend what is wrong
+                except SystemExit:  # the next saving may fix the error
                     if draws:
                         _put_notice(said.getvalue(), problems, **kwargs)
                 click.echo(said.getvalue(), nl=False, err=True)
@@ -67,7 +67,7 @@ def _put_notice(
     one_file: str | None = None,
     **_: object,
 ) -> None:
-    """Write what is wrong in place of the sheet of the only problem."""
+    """Write the errors in place of the sheet of the only problem."""
     if len(problems) > 1 or one_file is not None:
         return
     from planmethod.render.sketch import notice
@@ -77,7 +77,7 @@ def _put_notice(
 
 
 def stamps(paths: Iterable[Path]) -> list[tuple[int, int] | None]:
-    """Return when files were written and how long they are; None of what is not there."""
+    """Return times and sizes of files; None for a missing one."""
     found: list[tuple[int, int] | None] = []
     for path in paths:
         try:

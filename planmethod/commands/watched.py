@@ -1,4 +1,4 @@
-"""A command run as the command line does, its output kept, its progress told (запуск команды)."""
+"""Run of a command as by the command line, with captured output and progress (запуск команды)."""
 
 from __future__ import annotations
 
@@ -14,22 +14,22 @@ if TYPE_CHECKING:
 _BAR = re.compile(r"planmethod\s+\[[^\]\r\n]*+\]\s+(\d++)%[^\r\n]*")
 _ORDERS = re.compile(r"\x1b\[[?\d;]*[a-zA-Z]")
 MOST_TEXT = 400_000
-"""Letters that are kept of what a command prints."""
+"""Maximum number of characters that are kept of a command's output."""
 
 
 class _Watched(io.StringIO):
-    """Standard error of a command that shows its progress: the bar is told, not kept."""
+    """Standard error of a command with a progress bar, which is reported, not kept."""
 
     def __init__(self, tell: Callable[[float], None]) -> None:
         super().__init__()
         self._told = tell
 
     def isatty(self) -> bool:
-        """Say that somebody watches."""
+        """Return True, as for a terminal."""
         return True
 
     def write(self, text: str) -> int:
-        """Tell how far the bar is; keep all else."""
+        """Report the progress of the bar; keep all other text."""
         text = _ORDERS.sub("", text)
         for share in _BAR.findall(text):
             self._told(int(share) / 100)
@@ -38,7 +38,7 @@ class _Watched(io.StringIO):
 
 
 def run(name: str, *args: str, tell: Callable[[float], None]) -> dict[str, Any]:
-    """Run a command as the command line does; return what it printed and its exit code."""
+    """Run a command as the command line does; return its output and exit code."""
     command = getattr(import_module(f"planmethod.commands.{name}"), name)
     printed, errors, code = io.StringIO(), _Watched(tell), 0
     with redirect_stdout(printed), redirect_stderr(errors):
